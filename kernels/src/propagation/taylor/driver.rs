@@ -11,10 +11,9 @@ use super::jet::expand;
 use super::lanes::{RunCallback, RunLanes};
 use super::period_folding::{PeriodFolding, folded_lanes, is_due};
 use super::period_search::{period, return_time};
-use super::points::{StepSeries, Until};
+use super::points::{StepSeries, TakenStep, Until};
 use super::thrust::Push;
 use super::workspace::Workspace;
-use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ANGLE, Gyrostat, WITH_THRUST};
 use crate::math::sums::{fast_two_sum, two_sum};
 use crate::math::{Mask, Real};
@@ -124,8 +123,9 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         let left = (vectors.length - vectors.time) - vectors.time_low;
         let continues = zero.lt(left);
         let covered = R::select(finite, R::select(continues, time, infinite), -infinite);
+        let taken = TakenStep { constants, begin, order, length, push };
         while self.lanes.vectors.next_point.lt(covered).any() {
-            self.observe(&constants, (&begin, order), (length, &push), covered);
+            self.observe(&taken, covered);
         }
 
         let back = self.lanes.detector.passes(omega);
@@ -138,19 +138,11 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
 
     /// Evaluates the next observation point of every lane that has one before `covered`.
     #[inline(always)]
-    fn observe(
-        &mut self,
-        constants: &Constants<R>,
-        (begin, order): (&[R; N], usize),
-        (length, push): (R, &Push<R>),
-        covered: R,
-    ) {
+    fn observe(&mut self, step: &TakenStep<R, N>, covered: R) {
         let RunLanes { vectors, work, .. } = &mut self.lanes;
         let due = vectors.next_point.lt(covered);
         let Workspace { ring, quadrature, .. } = &mut **work;
-        let segment = ring.last();
-        let per_unit = vectors.per_unit;
-        let mut series = StepSeries { segment, order, quadrature, length, push, constants, begin, per_unit };
+        let mut series = StepSeries { segment: ring.last(), step, quadrature, per_unit: vectors.per_unit };
         let rows = series.components::<FORCED>(vectors.next_point, due);
         self.lanes.write_points(&rows, due);
     }

@@ -12,19 +12,25 @@ use crate::math::Real;
 use crate::math::lanes::WIDEST;
 use crate::run::{Grid, Trajectory};
 
+/// A step that was taken.
+pub(super) struct TakenStep<R, const N: usize> {
+    /// The constants at its start.
+    pub constants: Constants<R>,
+    /// The state at its start.
+    pub begin: [R; N],
+    /// The order of its series.
+    pub order: usize,
+    /// Its length, units.
+    pub length: R,
+    /// What the thrust adds over it.
+    pub push: Push<R>,
+}
+
 /// A step whose points are evaluated.
 pub(super) struct StepSeries<'a, R, const N: usize, const J: usize> {
     pub segment: &'a Segment<R, J>,
-    /// The order of its series.
-    pub order: usize,
+    pub step: &'a TakenStep<R, N>,
     pub quadrature: &'a mut Quadrature<R>,
-    /// Its length, and what the thrust adds over it.
-    pub length: R,
-    pub push: &'a Push<R>,
-    /// The constants at the start of the step.
-    pub constants: &'a Constants<R>,
-    /// The state there.
-    pub begin: &'a [R; N],
     /// One over the unit of time, 1/s.
     pub per_unit: R,
 }
@@ -34,8 +40,9 @@ impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
     #[inline(always)]
     pub(super) fn components<const FORCED: bool>(&mut self, at: R, due: R::Mask) -> [[f64; WIDEST]; N] {
         let zero = at.zero();
-        let segment = self.segment;
-        let jet = &segment.jet[..=self.order];
+        let StepSeries { segment, step, .. } = *self;
+        let TakenStep { constants, begin, order, length, push } = step;
+        let jet = &segment.jet[..=*order];
         let x = R::select(due, (at - segment.start) - segment.start_low, zero);
         let [found] = values(jet, [x]);
         let mut all = [zero; N];
@@ -45,14 +52,10 @@ impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
             for i in 0..3 {
                 turned[i] -= jet[0][ANGLE + i];
             }
-            let push = if N < WITH_THRUST {
-                *self.push
-            } else {
-                self.quadrature.until(self.constants, jet, (self.length, self.push), x)
-            };
-            let growth = push.growth(self.constants, self.begin, turned, x);
+            let push = if N < WITH_THRUST { *push } else { self.quadrature.until(constants, jet, (*length, push), x) };
+            let growth = push.growth(constants, begin, turned, x);
             for i in J..N {
-                all[i] = self.begin[i] + growth[i];
+                all[i] = begin[i] + growth[i];
             }
         }
         let factors = si_factors::<R, N>(self.per_unit);

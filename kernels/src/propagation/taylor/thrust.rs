@@ -138,6 +138,7 @@ fn push<R: Real, const J: usize>(
     for ((node, _), q) in nodes.iter().zip(&mut *attitudes) {
         *q = attitude(jet, length.splat(*node).mul_add(length, from));
     }
+    // one after the other: the registers hold ten sums of two vectors, and not twenty
     let (mut turned, mut moment) = (AttitudeProducts::none(zero), AttitudeProducts::none(zero));
     for ((_, weight), q) in nodes.iter().zip(&*attitudes) {
         turned.add(zero.splat(*weight), q);
