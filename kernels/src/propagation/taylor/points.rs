@@ -59,11 +59,11 @@ impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
             }
         }
         let factors = si_factors::<R, N>(self.per_unit);
-        core::array::from_fn(|i| {
-            let mut row = [0.0; WIDEST];
-            (all[i] * factors[i]).write(&mut row);
-            row
-        })
+        let mut rows = [[0.0; WIDEST]; N];
+        for i in 0..N {
+            (all[i] * factors[i]).write(&mut rows[i]);
+        }
+        rows
     }
 }
 

@@ -118,8 +118,7 @@ impl StepRule {
             let shorter = (slowest - growth).abs().mul_add(number(-AN_OCTAVE), number(EQUAL_TIMES)).larger(number(0.0));
             slowest = slowest.smaller(growth) - shorter;
         }
-        let step = |log: R| exp2_rough(log.smaller(number(30.0)).larger(number(-900.0)));
-        let (of_rate, of_turn) = (step(radius + number(self.log_safety)), step(slowest));
+        let (of_rate, of_turn) = (clamped_exp2(radius + number(self.log_safety)), clamped_exp2(slowest));
         of_rate.smaller(of_turn / number(self.share).mul_add(of_turn / of_rate, number(1.0)))
     }
 
@@ -132,6 +131,12 @@ impl StepRule {
 /// The order of Jorba & Zou (2005), section 3.1.
 fn optimal_order(tolerance: f64) -> usize {
     (1.0 - 0.5 * libm::log(tolerance)).ceil().max(3.0) as usize
+}
+
+/// 2^`log`, between 2^-900 and 2^30.
+#[inline(always)]
+fn clamped_exp2<R: Real>(log: R) -> R {
+    exp2_rough(log.smaller(log.splat(30.0)).larger(log.splat(-900.0)))
 }
 
 /// |omega|^2 of one order of a jet.

@@ -16,7 +16,7 @@ use crate::dynamics::gyrostat::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, THRUST_WORK, WITH_THRUST,
 };
 use crate::math::Real;
-use crate::math::vector::{dot, product};
+use crate::math::vector::{dot, product, scaled};
 
 /// Error of the quadrature, as a share of the tolerance.
 const SHARE: f64 = 0.1;
@@ -91,6 +91,7 @@ impl<R: Real> Quadrature<R> {
 
 impl<R: Real> Push<R> {
     /// No thrust.
+    #[inline(always)]
     pub fn none(zero: R) -> Self {
         Push { impulse: [zero; 3], path: [zero; 3], angular: [zero; 3] }
     }
@@ -147,11 +148,10 @@ fn push<R: Real, const J: usize>(
         moment.add(zero.splat(weight * (1.0 - node)), q);
     }
     let (turned, moment) = (turned.dcm(), moment.dcm());
-    let scaled = |v: [R; 3], factor: R| [v[0] * factor, v[1] * factor, v[2] * factor];
     Push {
-        impulse: scaled(product(turned, constants.force), length),
-        path: scaled(product(moment, constants.force), length * length),
-        angular: scaled(product(turned, constants.torque), length),
+        impulse: scaled(length, product(turned, constants.force)),
+        path: scaled(length * length, product(moment, constants.force)),
+        angular: scaled(length, product(turned, constants.torque)),
     }
 }
 
@@ -166,6 +166,7 @@ struct AttitudeProducts<R> {
 }
 
 impl<R: Real> AttitudeProducts<R> {
+    #[inline(always)]
     fn none(zero: R) -> Self {
         AttitudeProducts { squares: [zero; 4], scalar: [zero; 3], vector: [zero; 3] }
     }

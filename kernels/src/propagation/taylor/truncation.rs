@@ -68,9 +68,12 @@ impl<R: Real> Truncation<R> {
     pub(super) fn add<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
         let order = self.order;
         let power = raised_to(length, order - 1);
-        self.rate += length.splat(self.all) * (power * left_out(jet, order, length, size));
+        let [third, second, before, last] = [&jet[order - 3], &jet[order - 2], &jet[order - 1], &jet[order]];
+        let rates = [size(third), size(second), size(before), size(last)];
+        self.rate += length.splat(self.all) * (power * left_out(rates, length));
         self.turn += if N >= WITH_ATTITUDE {
-            length.splat(2.0) * (power * left_out(jet, order, length, turn))
+            let turns = [turn(third), turn(second), turn(before), turn(last)];
+            length.splat(2.0) * (power * left_out(turns, length))
         } else {
             length.splat(self.factor) * raised_to(length.splat(0.5) * (size(&jet[0]) * length), order + 1)
         };
@@ -108,16 +111,20 @@ impl TruncationSums {
     }
 }
 
-/// The first term left out of the series `jet` of order `order` in a step of length `length`, over `length` to the power `order` - 1;
-/// `size` is that of a coefficient.
+/// The first term left out of a series of order p in a step of length `length`, over `length` to the power p - 1; `sizes` are those of the coefficients
+/// p - 3 to p.
 #[inline(always)]
-fn left_out<R: Real, const N: usize>(jet: &[[R; N]], order: usize, length: R, size: impl Fn(&[R; N]) -> R) -> R {
-    let (tiny, square) = (length.splat(f64::MIN_POSITIVE), length * length);
-    // the share that a term is of the one two orders before
-    let share = |term: R, before: R| (term * square / before.larger(tiny)).smaller(length.splat(1.0));
-    let (last, before) = (size(&jet[order]), size(&jet[order - 1]));
-    let from_last = last * length * share(last, size(&jet[order - 2])).sqrt();
-    from_last.larger(before * share(before, size(&jet[order - 3])))
+fn left_out<R: Real>(sizes: [R; 4], length: R) -> R {
+    let [third, second, before, last] = sizes;
+    let square = length * length;
+    let from_last = last * length * share(last * square, second).sqrt();
+    from_last.larger(before * share(before * square, third))
+}
+
+/// The share that `term` is of `of`, at most one.
+#[inline(always)]
+fn share<R: Real>(term: R, of: R) -> R {
+    (term / of.larger(of.splat(f64::MIN_POSITIVE))).smaller(of.splat(1.0))
 }
 
 /// |omega| of one order of a series.
