@@ -290,7 +290,7 @@ fn taylor(criterion: &mut Criterion) {
         for tolerance in [1e-6, 1e-10, 1e-13, 1e-16] {
             let grid = Grid::uniform(plan.grid.duration(), 2);
             let mut engine = engine(isa, (Method::Taylor, tolerance), grid, blocks, &scenes[0]);
-            let order = StepRule::new(tolerance).order as u64;
+            let order = StepRule::in_f64(tolerance).order as u64;
             group.throughput(Throughput::Elements(steps(&mut *engine, &scenes) * flops_of_step(order)));
             measure(&mut group, format!("{}/{tolerance:e}", isa.name()), &mut *engine, &scenes);
         }

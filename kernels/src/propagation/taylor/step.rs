@@ -40,8 +40,8 @@ pub struct StepRule {
 const BELOW_ROUNDING: f64 = 1.0 / 4096.0;
 /// The orders that go with it. Larger steps than these add more rounding, and the margin is larger than the attitude's own term.
 const MORE_BELOW_ROUNDING: usize = 2;
-/// Orders beyond that of Jorba & Zou. The forced scene of `benches/peers/run.sh` takes 112 steps at 1e-4 instead of 295, and 0.68 of the time;
-/// 128 at 1e-10 instead of 199, and 0.95. At equal errors, two orders less or more cost 2 to 10% more.
+/// Orders beyond that of Jorba & Zou. The forced scene of `benches/peers/run.sh` takes 112 steps at 1e-4 instead of 295, and 0.57 of the time;
+/// 128 at 1e-10 instead of 199, and 0.85. Orders 2, 6 and 8 beyond are within the noise of 4, or slower.
 const MORE_ORDERS: usize = 4;
 /// How much of the majorant's reciprocal radius counts: with it the attitude's error is at most four tolerances in the file of `spindrift
 /// new` (12 to 44 without the term), and one in `detumble` (17 to 40).
