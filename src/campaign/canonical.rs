@@ -149,6 +149,12 @@ impl Plan {
         lines.keys_of("[initial]", Table::Initial, 0, &self.nominal);
         if self.nominal.environment.acts() {
             lines.keys_of("[environment]", Table::Environment, 0, &self.nominal);
+            if self.nominal.environment.gravity_gradient {
+                lines.key("gravity_gradient", true);
+            }
+        }
+        if self.nominal.orbit.is_some() {
+            lines.keys_of("[orbit]", Table::Orbit, 0, &self.nominal);
         }
         for arc in 0..self.nominal.actuation.len() {
             let command = &self.nominal.actuation[arc];

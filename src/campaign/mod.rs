@@ -43,6 +43,7 @@ pub mod draw;
 mod draw_tables;
 pub mod excerpt;
 pub mod find;
+pub mod forces;
 pub mod input_file;
 mod keys;
 pub mod limits;

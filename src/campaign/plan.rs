@@ -9,6 +9,7 @@ use super::compression::Compression;
 use super::description;
 use super::document::Document;
 use super::draw_tables::DrawTables;
+use super::forces;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
 use super::problem::{CampaignError, Problem};
 use super::retention::Retention;
@@ -292,9 +293,12 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         );
     }
 
-    if let Err(errors) = Scene::resolve(&spec.scene) {
-        let found = errors.into_iter().map(|e| (e.key.into_owned(), Some(e.value), e.allowed, e.remedy.to_owned()));
-        document.add_from_below(found.collect());
+    match Scene::resolve(&spec.scene) {
+        Ok(scene) => forces::check(&scene, method, document),
+        Err(errors) => {
+            let found = errors.into_iter().map(|e| (e.key.into_owned(), Some(e.value), e.allowed, e.remedy.to_owned()));
+            document.add_from_below(found.collect());
+        }
     }
 
     let drawn = DrawTables::of(spec.dispersions, spec.correlations, spec.derivations);

@@ -10,8 +10,8 @@ use crate::scene::body::MAX_PARTS;
 use crate::scene::schema::Limit;
 use crate::scene::table::Table;
 use crate::scene::{
-    ActuationInput, ControlInput, DebrisInput, MAX_THRUSTERS, MAX_WHEELS, Name, PartInput, PartShape, SceneInput,
-    ThrusterInput, WheelInput, WheelMode,
+    ActuationInput, ControlInput, DebrisInput, MAX_THRUSTERS, MAX_WHEELS, Name, OrbitInput, PartInput, PartShape,
+    SceneInput, ThrusterInput, WheelInput, WheelMode,
 };
 use std::collections::HashSet;
 
@@ -50,7 +50,14 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     section.finish();
     let mut section = root.section("environment");
     read_keys(&mut section, Table::Environment, 0, &mut scene);
+    scene.environment.gravity_gradient = section.flag("gravity_gradient").unwrap_or(false);
     section.finish();
+    let mut section = root.section("orbit");
+    if section.is_present() {
+        scene.orbit = Some(OrbitInput::DEFAULT);
+        read_keys(&mut section, Table::Orbit, 0, &mut scene);
+        section.finish();
+    }
     if root.has("actuators") && !root.has("actuation") {
         let remedy = "delete this table, or add [[actuation]] tables";
         root.refuse("actuators", "left out where there is no [[actuation]]", remedy);

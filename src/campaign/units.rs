@@ -28,6 +28,7 @@ const UNITS: &[(&str, &str, f64, f64)] = &[
     ("cm/s", "m/s", 1.0, 1e2),
     ("km/s", "m/s", 1e3, 1.0),
     ("km/h", "m/s", 1.0, 3.6),
+    ("km^3/s^2", "m^3/s^2", 1e9, 1.0),
     ("g", "kg", 1.0, 1e3),
     ("t", "kg", 1e3, 1.0),
     ("g/cm^3", "kg/m^3", 1e3, 1.0),
@@ -96,7 +97,8 @@ pub(super) fn known(unit: &str) -> Option<&'static str> {
 
 /// The unit at the end of a key; `1` where there is none.
 pub(super) fn in_name(key: &str) -> &'static str {
-    const ENDINGS: [(&str, &str); 18] = [
+    const ENDINGS: [(&str, &str); 19] = [
+        ("_m3_s2", "m^3/s^2"),
         ("_rad_s_sqrt_s", "rad/s/sqrt(s)"),
         ("_rad_sqrt_s", "rad/sqrt(s)"),
         ("_m_s_sqrt_s", "m/s/sqrt(s)"),

@@ -2,14 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::campaign::forces::allowed_methods;
 use crate::cli::arguments::PrecisionOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::refuse_inputs;
 use crate::cli::screen;
 use crate::cli::workload::Workload;
+use crate::dynamics::effects::ForceModel;
 use crate::ensemble::Ensemble;
 use crate::ensemble::precision::{Limits, Precision, States};
 use crate::ensemble::runner::start_threads;
+use crate::ensemble::settings::nominal;
 use crate::propagation::Method;
 use crate::report::precision_figure::precision_figure;
 use crate::report::precision_text;
@@ -25,7 +28,15 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
     let (plan, files) = plan_and_files(&options.file, options.changed.overrides())?;
     let isa = isa()?;
     start_threads().map_err(|error| Failure::Files(format!("cannot start the threads: {error}")))?;
-    let methods = options.methods.clone().unwrap_or_else(|| Method::ALL.to_vec());
+    let model = ForceModel::of(&nominal(&plan));
+    let methods = options
+        .methods
+        .clone()
+        .unwrap_or_else(|| Method::ALL.into_iter().filter(|method| method.integrates(model)).collect());
+    if let Some((method, allowed)) = methods.iter().find_map(|method| Some((method, allowed_methods(*method, model)?)))
+    {
+        return Err(Failure::Input(format!("--methods: {} must be {allowed}", method.name())));
+    }
     let mut tolerances = options.tolerances.clone().unwrap_or_else(default_tolerances);
     tolerances.sort_by(|a, b| b.total_cmp(a));
     tolerances.dedup();

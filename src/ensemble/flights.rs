@@ -3,6 +3,7 @@
 use crate::campaign::Plan;
 use crate::control::{LawContext, LawRuns};
 use crate::dynamics::actuation::Laws;
+use crate::dynamics::effects::beside_arcs;
 use crate::ensemble::settings::{nominal, propagator};
 use crate::math::Isa;
 use crate::observables::nominal_attitude::NominalAttitude;
@@ -11,7 +12,7 @@ use crate::propagation::engine::CompletionCallback;
 use crate::propagation::{CompletedRun, Engine};
 use crate::run::{Grid, StateField, StateFields, Status, Telemetry};
 use crate::sampling::SampleId;
-use crate::scene::{Arc, ControlInput, EnvironmentInput, Scene};
+use crate::scene::{Arc, ControlInput, Scene};
 
 /// What the law of a run depends on beside its scene.
 #[derive(Clone, Debug)]
@@ -107,11 +108,12 @@ pub fn observe(
     }
 }
 
-/// The scene whose schedule is what a run of `scene` under a law has flown, environment included: its open loop is that run, bit for bit.
+/// The scene whose schedule is what a run of `scene` under a law has flown, constant effects included: its open loop is that run, bit for
+/// bit. Effects that change within an arc act on it as on the run.
 pub fn replayed(scene: &Scene, arcs: &[Arc]) -> Scene {
     Scene {
         schedule: arcs.to_vec(),
-        environment: EnvironmentInput::DEFAULT,
+        environment: beside_arcs(scene.environment),
         commands_thrust: true,
         commands_torque: true,
         ..scene.clone()

@@ -11,9 +11,11 @@
 
 use crate::support::draws;
 use crate::support::observed::request;
+use crate::support::orbits::tumbling;
 use crate::support::plans;
 use crate::support::runs::{adaptive, fixed};
 use crate::support::scenes::{Kind, Uniform, mixed, of_most_wheels, random, set_wheel_rates, speed_held};
+use spindrift::dynamics::effects::ForceModel;
 use spindrift::math::Isa;
 use spindrift::math::symmetric::principal_axes;
 use spindrift::observables::{Group, Observer};
@@ -204,7 +206,7 @@ fn found_of(
 ) -> Vec<Found> {
     let widest = of_most_wheels(&family.scenes);
     let groups = [Group::EnergyConservation, Group::MomentumConservation, Group::Numerics].into_iter().collect();
-    let (wheels, forced) = (widest.mass.wheels.len(), !family.scenes[0].schedule.is_empty());
+    let (wheels, forced) = (widest.mass.wheels.len(), is_forced(&family.scenes[0]));
     let request = request(groups, wheels, family.is_debris, forced, method == Method::NullSpace);
     let blocks = request.fields().union(compared(family.is_debris));
     let plan = PropagationSettings::new(method, control, family.grid.clone(), blocks, widest);
@@ -236,6 +238,11 @@ fn found_of(
         }
     });
     list.into_iter().flatten().collect()
+}
+
+/// Whether anything acts on a scene.
+fn is_forced(scene: &Scene) -> bool {
+    !scene.schedule.is_empty() || ForceModel::of(scene) != ForceModel::NONE
 }
 
 fn quantile(values: &[f64], p: f64) -> f64 {
@@ -279,15 +286,23 @@ fn measured(count: u64) -> Vec<Measured> {
         held(count),
         Family::new("mixed, forced", Grid::uniform(10.0, 101), mixed(count, true, 10.0)),
         boxes(2 * count),
+        Family::new("gravity gradient", Grid::uniform(12_000.0, 201), tumbling(count, 71, [0.0, 20.0])),
     ];
     let mut all = Vec::new();
     for method in Method::ALL {
         for family in &families {
+            if !method.integrates(ForceModel::of(&family.scenes[0])) {
+                continue;
+            }
             for (setting, control) in settings(method) {
+                // an orbit has a thousand times the time of a second's turn
+                let is_slow = family.grid.duration() > 1000.0;
+                let control =
+                    Control { step: control.step.map(|step| if is_slow { 1e3 * step } else { step }), ..control };
                 if method == Method::NullSpace && (setting < 1e-7 || family.name == "mixed, forced") && count < 100 {
                     continue; // minutes, for what the long version tests
                 }
-                let is_long = family.grid.duration() > 30.0 && setting < 2e-3;
+                let is_long = family.grid.duration() > 30.0 && !is_slow && setting < 2e-3;
                 if method == Method::Gyrostat(Integrator::GaussLegendre) && is_long && count < 100 {
                     continue; // 60,000 implicit steps a run, which the long version has
                 }

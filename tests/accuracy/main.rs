@@ -20,6 +20,7 @@ mod golden_truth;
 mod many_wheels;
 mod null_space;
 mod null_space_matrices;
+mod orbits;
 mod order_runge_kutta;
 mod outcomes_runge_kutta;
 mod periodic;

@@ -84,6 +84,12 @@ fn each_row_of_the_schema_holds_its_limit() {
             if parameter.value(&plan.nominal, 0).is_none() || is_inertial && relative.contains(&parameter.facts().key) {
                 continue;
             }
+            // where the spacecraft is follows from its orbit
+            if plan.nominal.orbit.is_some()
+                && ["initial.position_m", "initial.velocity_m_s"].contains(&&*parameter.name())
+            {
+                continue;
+            }
             for (values, passes) in ends(parameter.facts().limit, parameter.width()) {
                 let mut other = plan.clone();
                 values.iter().enumerate().for_each(|(i, x)| parameter.set(&mut other.nominal, i, *x));

@@ -114,6 +114,25 @@ mass_kg = 1.0
 angular_velocity_rad_s = [0, 0, 1]
 "#;
 
+/// On an orbit.
+const ORBIT: &str = r#"[campaign]
+name = "bad"
+samples = 10
+seed = 1
+duration_s = 10.0
+[integrator]
+method = "dop853"
+[body]
+mass_kg = 10
+inertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]
+[initial]
+angular_velocity_rad_s = [0, 0, 1]
+[environment]
+gravity_gradient = true
+[orbit]
+semi_major_axis_m = 7e6
+"#;
+
 /// A valid file without dispersions, of 22 lines: tables are added from line 23 on.
 fn plain() -> String {
     let head = &HEAD[..HEAD.find("[integrator]").expect("the method")];
@@ -150,6 +169,7 @@ fn each_kind_of_refusal_gives_line_key_value_range_and_remedy() {
                 "campaign" => good(),
                 "direct" => DIRECT.to_owned(),
                 "parts" => PARTS.to_owned(),
+                "orbit" => ORBIT.to_owned(),
                 _ => plain(),
             };
             read(&base).unwrap_or_else(|error| panic!("{name}: {error}"));

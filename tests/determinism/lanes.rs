@@ -1,8 +1,10 @@
 //! The bits of a run depend on nothing else: not on other runs, order, lane or instruction set. Golden hashes lock them.
 
+use crate::support::orbits::tumbling;
 use crate::support::runs::{Bits, METHODS, Run, adaptive, control_of, everything, hash, propagate_on};
 use crate::support::scenes::{many_wheels, mixed, mixed_kind};
 use rayon::prelude::*;
+use spindrift::dynamics::effects::ForceModel;
 use spindrift::math::Isa;
 use spindrift::ode::{Control, Integrator};
 use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
@@ -91,6 +93,24 @@ fn many_wheels_among_any_runs() {
         let horizon = if *method == Method::NullSpace { 1.0 } else { HORIZON };
         equal_among_runs_of(horizon, *method, *control, &scenes);
     });
+}
+
+/// The same under the gravity gradient, beside a constant torque and without it.
+#[test]
+fn orbits_among_any_runs() {
+    let scenes = |forced: bool| -> Vec<Scene> {
+        let torque = |mut scene: Scene| {
+            scene.environment.body_torque_n_m = forced.then_some([1e-4, 2e-4, -1e-4]);
+            scene
+        };
+        tumbling(13, 41, [0.2, 10.0]).into_iter().map(torque).collect()
+    };
+    METHODS.par_iter().filter(|(method, _)| method.integrates(ForceModel::of(&scenes(true)[0]))).for_each(
+        |(method, control)| {
+            let control = Control { step: control.step.map(|_| 10.0), ..*control };
+            equal_among_runs_of(6000.0, *method, control, &scenes);
+        },
+    );
 }
 
 /// Law: with a limit of steps that only some runs meet, only these rows fail.

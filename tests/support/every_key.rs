@@ -270,7 +270,26 @@ pub fn every_scene() -> Vec<String> {
         with(&moments[0].replace(".0", "00.0"), "", &format!("mass_kg = 3.0\n{tensor}")),
         with(&moments[1].replace(".0", "00.0"), "", &format!("mass_kg = 3.0\n{}", moments[0])),
         with("", "", &format!("mass_kg = 3.0\n{}", moments[1])).replace(RELATIVE_DEBRIS, INERTIAL_DEBRIS),
+        on_orbit("position_m = [7e6, 1e5, 2e5]\nvelocity_m_s = [10, 7.4e3, -3e2]"),
+        on_orbit(
+            "semi_major_axis_m = 9e6\neccentricity = 0.0\ninclination_rad = 0.9\nascending_node_rad = 2.0\n\
+             argument_of_periapsis_rad = -0.7\ntrue_anomaly_rad = 1.1",
+        ),
     ]
+}
+
+/// A body on an orbit with these keys, above a point, under the effects of the environment.
+fn on_orbit(keys: &str) -> String {
+    format!(
+        "[campaign]\nname = \"orbit\"\nsamples = 10\nseed = 1\nduration_s = 100.0\n\
+         [body]\nmass_kg = 10\nincludes_wheels = false\ninertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]\n\
+         [[wheels]]\nname = \"w1\"\naxis = [0, 0, 1]\nposition_m = [0, 0, 0]\nradius_m = 0.1\nlength_m = 0.05\ndensity_kg_m3 = 100\n\
+         [[actuation]]\nname = \"burn\"\nstart_s = 0.0\nend_s = 3.0\ntorque_n_m = {{ w1 = 0.001 }}\n\
+         [[actuation]]\nname = \"later\"\nstart_s = 4.0\nend_s = 6.0\ntorque_n_m = {{ w1 = 0.002 }}\n\
+         [initial]\nangular_velocity_rad_s = [0, 0, 0.001]\n\
+         [environment]\nbody_torque_n_m = [0, 0.001, 0]\ngravity_gradient = true\n\
+         [orbit]\nbody_radius_m = 0\n{keys}\n"
+    )
 }
 
 /// Files with a control loop each: every estimator, modulation, sensor, law, target and maneuver, with each of the keys that they declare.

@@ -10,6 +10,7 @@ pub mod feedback;
 pub mod golden;
 pub mod invariants;
 pub mod observed;
+pub mod orbits;
 pub mod parquet_tables;
 pub mod plans;
 pub mod runs;

@@ -1,14 +1,14 @@
-//! The arc that a run flies next: by the schedule of its scene, or by a law, and the environment.
+//! The arc that a run flies next: by the schedule of its scene, or by a law, and the effects that are constant over an arc.
 
 use super::actuation::{ActuationLaw, BodyState, OpenLoop, WheelState};
-use super::environment::with_environment;
+use super::effects::with_constant_effects;
 use crate::scene::{Arc, Scene, WheelMode};
 
 /// The arc of the schedule of `scene` at `time`.
 #[inline]
 pub fn scheduled_arc(scene: &Scene, time: f64, duration: f64) -> Arc {
     let applied = OpenLoop { schedule: &scene.schedule }.at(time);
-    Arc::new(time, with_environment(scene, time, applied), duration)
+    Arc::new(time, with_constant_effects(scene, applied), duration)
 }
 
 /// The arc that a run of `scene` flies from `time` on: that of its schedule, or what its `law` answers to the `state` there.
@@ -49,7 +49,7 @@ pub fn law_arc(
             *torque = 0.0;
         }
     }
-    Arc::new(time, with_environment(scene, time, applied), duration)
+    Arc::new(time, with_constant_effects(scene, applied), duration)
 }
 
 #[cfg(test)]

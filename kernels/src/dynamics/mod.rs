@@ -4,7 +4,8 @@
 //! - [`applied`]: the arc that a run flies next.
 //! - [`arc_record`]: the arcs that a run has flown.
 //! - [`debris`]: the free body beside the spacecraft.
-//! - [`environment`]: torques of the environment.
+//! - [`effects`]: what acts beside the actuators. [`orbit`]: motion on a two-body orbit in closed form;
+//!   [`orbit_series`]: its Taylor series.
 //! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and further components where a scene needs them.
 //! - [`null_space`]: Berdoz's 62-state null-space form.
 
@@ -12,6 +13,8 @@ pub mod actuation;
 pub mod applied;
 pub mod arc_record;
 pub mod debris;
-pub mod environment;
+pub mod effects;
 pub mod gyrostat;
 pub mod null_space;
+pub mod orbit;
+pub mod orbit_series;

@@ -1,10 +1,10 @@
 //! [`Acting`]: when anything acts on a run, and how much torque that is at most.
 
 use crate::dynamics::arc_record::ArcRecord;
-use crate::dynamics::environment::with_environment;
+use crate::dynamics::effects::{largest_changing_torque, largest_constant_torque};
 use crate::math::Real;
 use crate::math::vector::dot;
-use crate::scene::{Actuation, Arc, Scene};
+use crate::scene::{Arc, Scene};
 
 /// What acts on a run.
 #[derive(Clone, Copy)]
@@ -18,7 +18,7 @@ pub(super) struct Acting<'a> {
 enum Arcs<'a> {
     /// Those of a schedule, which may have gaps; the environment acts beside them.
     Scheduled(&'a [Arc]),
-    /// Those flown, without a gap; they contain the torque of the environment.
+    /// Those flown, without a gap; they contain the effects that are constant over an arc.
     Flown(&'a ArcRecord),
 }
 
@@ -28,7 +28,7 @@ impl<'a> Acting<'a> {
         Acting { scene, arcs: Arcs::Scheduled(&scene.schedule) }
     }
 
-    /// The arcs that a run of `scene` has flown, which contain its environment.
+    /// The arcs that a run of `scene` has flown, which contain its constant effects.
     pub(super) fn flown(scene: &'a Scene, arcs: &'a ArcRecord) -> Self {
         Acting { scene, arcs: Arcs::Flown(arcs) }
     }
@@ -66,26 +66,26 @@ impl<'a> Acting<'a> {
         }
     }
 
-    /// Upper bound of the torque on the body, N m: the magnitudes of thrusters, motors, environment and the arcs' own torque on
+    /// Upper bound of the torque on the body, N m: the magnitudes of thrusters, motors, effects and the arcs' own torque on
     /// the body added.
     #[inline(always)]
     pub(super) fn largest_torque(&self) -> f64 {
+        let changing = largest_changing_torque(self.scene);
         match self.arcs {
             Arcs::Scheduled(arcs) => {
-                let torque = with_environment(self.scene, 0.0, Actuation::none(f64::INFINITY)).body_torque;
-                let environment = dot(torque, torque).sqrt();
-                arcs.iter().fold(environment, |largest, arc| largest.larger(self.torque(arc, environment)))
+                let effects = largest_constant_torque(self.scene) + changing;
+                arcs.iter().fold(effects, |largest, arc| largest.larger(self.torque(arc, effects)))
             }
-            Arcs::Flown(arcs) => arcs.iter().fold(0.0, |largest, arc| largest.larger(self.torque(&arc, 0.0))),
+            Arcs::Flown(arcs) => arcs.iter().fold(changing, |largest, arc| largest.larger(self.torque(&arc, changing))),
         }
     }
 
-    /// That in `arc`, beside `environment`.
-    fn torque(&self, arc: &Arc, environment: f64) -> f64 {
+    /// That in `arc`, beside `effects`.
+    fn torque(&self, arc: &Arc, effects: f64) -> f64 {
         let applied = &arc.applied;
         let thrust = self.scene.thruster_torque_s(applied.thrust);
         let thrust = dot(thrust, thrust).sqrt();
-        let actuators = applied.motor_torque.iter().fold(thrust, |sum, torque| sum + torque.abs()) + environment;
+        let actuators = applied.motor_torque.iter().fold(thrust, |sum, torque| sum + torque.abs()) + effects;
         actuators + dot(applied.body_torque, applied.body_torque).sqrt()
     }
 }

@@ -38,6 +38,7 @@ use fearless_simd::Simd;
 
 use super::acting::Acting;
 use super::error_sums::{Here, Sums};
+use super::gradient_growth;
 use super::rotor::{Body, adjugate};
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{constant, constant_matrix, cross, difference, dot, product, scaled, sum};
@@ -155,7 +156,16 @@ impl Conditioning {
         local: &LocalErrors,
     ) -> ErrorEstimate {
         let body = Body::of(acting, table, times[filled - 1]);
-        self.estimate_of(simd, &body, Some(acting), table, times, filled, local)
+        let found = self.estimate_of(simd, &body, Some(acting), table, times, filled, local);
+        let exponent = gradient_growth::exponent(acting.scene(), table, times, filled);
+        if exponent == 0.0 {
+            return found;
+        }
+        let growth = if exponent < LARGEST_EXPONENT { libm::exp(exponent) } else { MOST };
+        ErrorEstimate {
+            error: lesser(found.error * growth, LOST),
+            amplification: lesser(found.amplification * growth, MOST),
+        }
     }
 
     /// The estimate for the debris, whose inertia is `inertia`; the rest as in [`Conditioning::estimate`].

@@ -30,6 +30,7 @@ mod energies;
 mod error_sums;
 pub mod exchange;
 mod finished_run;
+mod gradient_growth;
 pub mod group;
 pub mod headlines;
 mod inputs;

@@ -2,6 +2,7 @@
 
 use crate::dynamics::actuation::Laws;
 use crate::dynamics::arc_record::ArcRecord;
+use crate::dynamics::effects::ForceModel;
 use crate::run::{Outcome, StateTable};
 use crate::scene::Scene;
 
@@ -14,8 +15,8 @@ pub struct CompletedRun<'a> {
     pub table: &'a StateTable,
     /// How the run ended.
     pub outcome: &'a Outcome,
-    /// The arcs that were flown, in order, from time zero without a gap, with the torques of the environment. As the schedule of a scene
-    /// without environment they give the same run.
+    /// The arcs that were flown, in order, from time zero without a gap, with the effects that are constant over an arc. As the schedule of a
+    /// scene with the other effects alone ([`crate::dynamics::effects::beside_arcs`]) they give the same run.
     pub arcs: &'a ArcRecord,
 }
 
@@ -24,6 +25,9 @@ pub type CompletionCallback<'a> = dyn FnMut(CompletedRun<'_>) + 'a;
 
 /// The memory and code of a method for one worker and one instruction set.
 pub trait Engine: Send {
+    /// Whether the engine integrates every effect of `model`. Without a default: an engine says so for each effect.
+    fn integrates(&self, model: ForceModel) -> bool;
+
     /// Runs every scene once by the schedule of its own and passes it to `finish`, in the order in which the runs end; results depend
     /// on the scene alone.
     fn propagate(&mut self, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {

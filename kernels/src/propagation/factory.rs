@@ -2,6 +2,8 @@
 //!
 //! A separate file, because the engines know the settings, and the settings do not know the engines.
 
+use core::marker::PhantomData;
+
 use fearless_simd::Simd;
 
 use super::engine::Engine;
@@ -10,6 +12,7 @@ use super::null_space_engine::{ALL_WHEELS, NullSpaceEngine, TWO_WHEELS};
 use super::runge_kutta_engine::RungeKuttaEngine;
 use super::settings::PropagationSettings;
 use super::taylor::engine::TaylorEngine;
+use crate::dynamics::effects::within_arcs::{NoEffects, OnOrbit, WithinArcs};
 use crate::dynamics::gyrostat::{RATES_ONLY, WITH_ANGLES, WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST};
 use crate::math::isa::{NarrowWork, WideWork};
 use crate::math::{Isa, Lanes, Real};
@@ -19,12 +22,17 @@ use crate::scene::MAX_WHEELS;
 
 impl PropagationSettings {
     /// The engine for one worker on the instruction set `isa`.
+    ///
+    /// # Panics
+    /// Where the method does not integrate an effect of the scenes ([`Method::integrates`]).
     pub fn engine(&self, isa: Isa) -> Box<dyn Engine> {
-        match self.method {
+        let engine = match self.method {
             Method::Auto | Method::Taylor => isa.run_wide(BuildTaylor(self)),
             Method::Gyrostat(integrator) => isa.run_narrow(BuildGyrostat(self, integrator)),
             Method::NullSpace => isa.run_narrow(BuildNullSpace(self)),
-        }
+        };
+        assert!(engine.integrates(self.forces), "{} leaves out an effect of {:?}", self.method.name(), self.forces);
+        engine
     }
 }
 
@@ -78,16 +86,24 @@ impl NarrowWork for BuildNullSpace<'_> {
 ///
 /// A forced run integrates at least what motors need: fewer kernels to compile, and hardly slower.
 fn taylor<S: Simd, R: Real + Send + 'static>(simd: S, zero: R, settings: &PropagationSettings) -> Box<dyn Engine> {
+    if settings.changes_within_arcs() {
+        // all integrals by series
+        return Box::new(TaylorEngine::<S, R, OnOrbit<R>, WITH_THRUST, WITH_THRUST, true>::new(simd, zero, settings));
+    }
     match (settings.components(), settings.thrust || settings.motors) {
-        (RATES_ONLY, false) => Box::new(TaylorEngine::<S, R, RATES_ONLY, RATES_ONLY, false>::new(simd, zero, settings)),
+        (RATES_ONLY, false) => {
+            Box::new(TaylorEngine::<S, R, NoEffects, RATES_ONLY, RATES_ONLY, false>::new(simd, zero, settings))
+        }
         (WITH_ATTITUDE, false) => {
-            Box::new(TaylorEngine::<S, R, WITH_ATTITUDE, WITH_ATTITUDE, false>::new(simd, zero, settings))
+            Box::new(TaylorEngine::<S, R, NoEffects, WITH_ATTITUDE, WITH_ATTITUDE, false>::new(simd, zero, settings))
         }
         (WITH_ANGLES, false) => {
-            Box::new(TaylorEngine::<S, R, WITH_ANGLES, WITH_ANGLES, false>::new(simd, zero, settings))
+            Box::new(TaylorEngine::<S, R, NoEffects, WITH_ANGLES, WITH_ANGLES, false>::new(simd, zero, settings))
         }
-        (WITH_THRUST, _) => Box::new(TaylorEngine::<S, R, WITH_THRUST, WITH_ANGLES, true>::new(simd, zero, settings)),
-        _ => Box::new(TaylorEngine::<S, R, WITH_MOTORS, WITH_ANGLES, true>::new(simd, zero, settings)),
+        (WITH_THRUST, _) => {
+            Box::new(TaylorEngine::<S, R, NoEffects, WITH_THRUST, WITH_ANGLES, true>::new(simd, zero, settings))
+        }
+        _ => Box::new(TaylorEngine::<S, R, NoEffects, WITH_MOTORS, WITH_ANGLES, true>::new(simd, zero, settings)),
     }
 }
 
@@ -98,27 +114,36 @@ fn gyrostat<S: Simd, R: Real + Send + 'static>(
     BuildGyrostat(settings, integrator): BuildGyrostat<'_>,
 ) -> Box<dyn Engine> {
     match integrator {
+        _ if settings.changes_within_arcs() => {
+            integrator.visit(OnGyrostats { simd, zero, settings, effects: PhantomData::<OnOrbit<R>> })
+        }
         // Only Dormand-Prince has a separate kernel for scenes without actuation: every kernel costs compile time, and the other
         // integrators are for comparison.
         Integrator::DormandPrince if !(settings.thrust || settings.motors) => {
-            Box::new(RungeKuttaEngine::<S, R, _, WITH_ANGLES>::new(simd, zero, Adaptive(DormandPrince), settings))
+            Box::new(RungeKuttaEngine::<S, R, _, NoEffects, WITH_ANGLES>::new(
+                simd,
+                zero,
+                Adaptive(DormandPrince),
+                settings,
+            ))
         }
-        _ => integrator.visit(OnGyrostats { simd, zero, settings }),
+        _ => integrator.visit(OnGyrostats { simd, zero, settings, effects: PhantomData::<NoEffects> }),
     }
 }
 
-/// Makes the engine of an integrator's method.
-struct OnGyrostats<'a, S, R> {
+/// Makes the engine of an integrator's method, under the effects `E`.
+struct OnGyrostats<'a, S, R, E> {
     simd: S,
     zero: R,
     settings: &'a PropagationSettings,
+    effects: PhantomData<E>,
 }
 
-impl<S: Simd, R: Real + Send + 'static> Visitor for OnGyrostats<'_, S, R> {
+impl<S: Simd, R: Real + Send + 'static, E: WithinArcs<R> + Send + 'static> Visitor for OnGyrostats<'_, S, R, E> {
     type Output = Box<dyn Engine>;
 
     fn visit<M: ode::LaneMethod + Send + 'static>(self, method: M) -> Box<dyn Engine> {
-        let OnGyrostats { simd, zero, settings } = self;
-        Box::new(RungeKuttaEngine::<S, R, M, WITH_THRUST>::new(simd, zero, method, settings))
+        let OnGyrostats { simd, zero, settings, .. } = self;
+        Box::new(RungeKuttaEngine::<S, R, M, E, WITH_THRUST>::new(simd, zero, method, settings))
     }
 }

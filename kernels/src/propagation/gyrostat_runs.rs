@@ -1,28 +1,37 @@
 //! [`GyrostatRuns`]: gyrostats in lanes, for Runge-Kutta methods.
 
 use super::arc_source::ArcSource;
+use crate::dynamics::effects::within_arcs::WithinArcs;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE, WITH_THRUST};
 use crate::math::Real;
 use crate::math::lanes::WIDTH;
-use crate::math::vector::{dot, norm};
+use crate::math::vector::{dot, norm, sum};
 use crate::ode::{Runs, System, Tolerance};
 
-/// Runs of the gyrostat's first `N` components, one per lane.
-pub struct GyrostatRuns<'a, R> {
+/// Runs of the gyrostat's first `N` components, one per lane, under the effects `E`.
+pub struct GyrostatRuns<'a, R, E> {
     runs: &'a mut [Gyrostat<f64>],
     arcs: ArcSource<'a>,
     constants: Constants<R>,
+    effects: E,
     /// The run in each lane.
     run_in_lane: [usize; WIDTH],
     /// Time scale of the run in each lane as a rate, rad/s: smaller rates are compared with it.
     scale: R,
 }
 
-impl<'a, R: Real> GyrostatRuns<'a, R> {
+impl<'a, R: Real, E: WithinArcs<R>> GyrostatRuns<'a, R, E> {
     /// The given runs, before their first arcs, which come from `arcs`; `zero` determines the number of lanes.
     pub fn new(zero: R, runs: &'a mut [Gyrostat<f64>], arcs: ArcSource<'a>) -> Self {
-        GyrostatRuns { runs, arcs, constants: Constants::zero(zero), run_in_lane: [0; WIDTH], scale: zero.splat(1.0) }
+        GyrostatRuns {
+            runs,
+            arcs,
+            constants: Constants::zero(zero),
+            effects: E::none(zero),
+            run_in_lane: [0; WIDTH],
+            scale: zero.splat(1.0),
+        }
     }
 
     /// Run `run`, with the arcs flown so far.
@@ -31,10 +40,15 @@ impl<'a, R: Real> GyrostatRuns<'a, R> {
     }
 }
 
-impl<R: Real, const N: usize> System<R, N> for GyrostatRuns<'_, R> {
+impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_, R, E> {
     #[inline(always)]
     fn derivative(&self, time: R, state: &[R; N]) -> [R; N] {
-        self.constants.derivative(time, state)
+        let mut torque = self.constants.torque;
+        if E::ACT {
+            let q_eb = [state[ATTITUDE], state[ATTITUDE + 1], state[ATTITUDE + 2], state[ATTITUDE + 3]];
+            torque = sum(torque, self.effects.torque(time, q_eb));
+        }
+        self.constants.derivative(time, state, torque)
     }
 
     /// The largest component of the rate's error against |omega| (at least the run's own time scale, times
@@ -66,7 +80,7 @@ impl<R: Real, const N: usize> System<R, N> for GyrostatRuns<'_, R> {
     }
 }
 
-impl<R: Real, const N: usize> Runs<R, N> for GyrostatRuns<'_, R> {
+impl<R: Real, E: WithinArcs<R>, const N: usize> Runs<R, N> for GyrostatRuns<'_, R, E> {
     fn count(&self) -> usize {
         self.runs.len()
     }
@@ -75,6 +89,7 @@ impl<R: Real, const N: usize> Runs<R, N> for GyrostatRuns<'_, R> {
         self.run_in_lane[lane] = run;
         let run = &self.runs[run];
         self.constants.set_run(lane, run, 1.0);
+        self.effects.set_lane(lane, run);
         let mut state = [0.0; N];
         state[OMEGA..OMEGA + 3].copy_from_slice(&run.omega_b);
         if N >= WITH_ATTITUDE {

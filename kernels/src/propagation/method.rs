@@ -1,5 +1,7 @@
 //! [`Method`]: the integration methods and their names in campaign files.
 
+use super::integrated_effects::{by_null_space, by_runge_kutta, by_taylor};
+use crate::dynamics::effects::ForceModel;
 use crate::ode::Integrator;
 
 /// A formulation of the equations of motion together with an integration method.
@@ -42,6 +44,27 @@ impl Method {
     /// The method called `name`.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|method| method.name() == name)
+    }
+
+    /// Whether the engine of the method integrates every effect of `model`.
+    pub fn integrates(self, model: ForceModel) -> bool {
+        match self {
+            Method::Auto => self.chosen(model) != self || model.effects().all(by_taylor),
+            Method::Taylor => model.effects().all(by_taylor),
+            Method::Gyrostat(_) => model.effects().all(by_runge_kutta),
+            Method::NullSpace => model.effects().all(by_null_space),
+        }
+    }
+
+    /// The method that is used under the effects of `model`: of `auto`, which is a Taylor method, the fastest other one where Taylor series leave an
+    /// effect out; any other as it is.
+    #[must_use]
+    pub fn chosen(self, model: ForceModel) -> Method {
+        if self != Method::Auto || model.effects().all(by_taylor) {
+            return self;
+        }
+        let others = [Integrator::Dop853, Integrator::DormandPrince].map(Method::Gyrostat);
+        others.into_iter().find(|method| method.integrates(model)).unwrap_or(self)
     }
 
     /// Whether the method takes steps of a fixed length (`integrator.step_s`) instead of following the tolerance.

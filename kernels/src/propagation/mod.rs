@@ -6,6 +6,7 @@
 //! - [`PropagationSettings`]: what is decided once per plan; `factory` makes an [`Engine`] of them.
 //! - [`taylor`]: Taylor series with periodic folding, and the double-double reference solution.
 //! - [`runge_kutta_engine`]: Runge-Kutta methods on the gyrostat. [`null_space_engine`]: Berdoz's formulation.
+//! - [`integrated_effects`]: which effects each of them integrates.
 //! - [`arc_source`]: the arcs of constant actuation. [`gyrostat_batch`]: what all methods on the gyrostat share. [`trajectory_recorder`]: from integrators to trajectories.
 //! - [`local_error`], [`series_remainder`]: the errors of the steps of a run.
 
@@ -14,6 +15,7 @@ pub mod engine;
 mod factory;
 pub mod gyrostat_batch;
 pub mod gyrostat_runs;
+pub mod integrated_effects;
 pub mod local_error;
 pub mod method;
 pub mod null_space_engine;

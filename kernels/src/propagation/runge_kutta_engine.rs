@@ -1,24 +1,29 @@
 //! Runge-Kutta methods on the gyrostat, as an [`Engine`].
 
+use core::marker::PhantomData;
+
 use fearless_simd::Simd;
 
 use super::arc_source::ArcSource;
 use super::engine::{CompletionCallback, Engine};
 use super::gyrostat_batch::{DebrisRuns, GyrostatBatch};
 use super::gyrostat_runs::GyrostatRuns;
+use super::integrated_effects;
 use super::local_error::in_units;
 use super::series_remainder::Remainders;
 use super::settings::PropagationSettings;
 use super::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use crate::dynamics::actuation::Laws;
+use crate::dynamics::effects::ForceModel;
+use crate::dynamics::effects::within_arcs::WithinArcs;
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::math::Real;
 use crate::ode::{Control, ErrorModel, LaneMethod, integrate};
 use crate::run::{Grid, LocalErrors, Outcome, Trajectory};
 use crate::scene::Scene;
 
-/// One worker's memory.
-pub struct RungeKuttaEngine<S, R, M, const N: usize> {
+/// One worker's memory, for runs under the effects `E`.
+pub struct RungeKuttaEngine<S, R, M, E, const N: usize> {
     simd: S,
     zero: R,
     method: M,
@@ -26,9 +31,10 @@ pub struct RungeKuttaEngine<S, R, M, const N: usize> {
     batch: GyrostatBatch,
     lanes: Vec<LaneTrajectory>,
     remainders: Option<Remainders>,
+    effects: PhantomData<E>,
 }
 
-impl<S: Simd, R: Real, M: LaneMethod, const N: usize> RungeKuttaEngine<S, R, M, N> {
+impl<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize> RungeKuttaEngine<S, R, M, E, N> {
     /// Memory for runs with `settings`; `zero` determines the number of lanes.
     pub fn new(simd: S, zero: R, method: M, settings: &PropagationSettings) -> Self {
         let points = settings.grid.points();
@@ -43,18 +49,19 @@ impl<S: Simd, R: Real, M: LaneMethod, const N: usize> RungeKuttaEngine<S, R, M, 
                 ErrorModel::Remainder(remainder) => Some(Remainders::new(remainder)),
                 ErrorModel::Estimated(_) => None,
             },
+            effects: PhantomData,
         }
     }
 
     #[inline(always)]
     fn run(&mut self, mut laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
-        let Self { simd, zero, method, settings, batch, lanes, remainders } = self;
+        let Self { simd, zero, method, settings, batch, lanes, remainders, .. } = self;
         settings.check_laws(&laws);
         let (grid, control) = (&settings.grid, &settings.control);
         let duration = grid.duration();
         let threshold = control.tolerance.absolute / control.tolerance.relative;
-        let mut integrate = |runs: &mut GyrostatRuns<'_, R>, finish: &mut RunCallback<'_, R>| {
-            integrate_on::<S, R, M, N>((*simd, *zero, *method), runs, (grid, control), lanes, finish);
+        let mut integrate = |runs: &mut GyrostatRuns<'_, R, E>, finish: &mut RunCallback<'_, R, E>| {
+            integrate_on::<S, R, M, E, N>((*simd, *zero, *method), runs, (grid, control), lanes, finish);
         };
         if let Some(DebrisRuns { runs, trajectories, outcomes }) = batch.load_debris(scenes) {
             // the debris is a gyrostat without wheels; only its attitude is needed, but one kernel for both compiles faster
@@ -94,18 +101,18 @@ fn errors_of(
 }
 
 /// Receives a run that has ended: the runs, its index, its components at the observation points, its outcome.
-type RunCallback<'a, R> = dyn FnMut(&GyrostatRuns<'_, R>, usize, &Trajectory, &Outcome) + 'a;
+type RunCallback<'a, R, E> = dyn FnMut(&GyrostatRuns<'_, R, E>, usize, &Trajectory, &Outcome) + 'a;
 
 /// The integration, compiled for its instruction set. Not inlined: so it is compiled once for spacecraft and debris.
 #[inline(never)]
-fn integrate_on<S: Simd, R: Real, M: LaneMethod, const N: usize>(
+fn integrate_on<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize>(
     (simd, zero, method): (S, R, M),
-    runs: &mut GyrostatRuns<'_, R>,
+    runs: &mut GyrostatRuns<'_, R, E>,
     (grid, control): (&Grid, &Control),
     lanes: &mut [LaneTrajectory],
-    finish: &mut RunCallback<'_, R>,
+    finish: &mut RunCallback<'_, R, E>,
 ) {
-    let finish = |runs: &GyrostatRuns<'_, R>, _, run: usize, trajectory: &Trajectory, outcome: &Outcome| {
+    let finish = |runs: &GyrostatRuns<'_, R, E>, _, run: usize, trajectory: &Trajectory, outcome: &Outcome| {
         finish(runs, run, trajectory, outcome);
     };
     let mut recorder = TrajectoryRecorder::new(grid, lanes, M::ERRORS, control.tolerance.relative, finish);
@@ -115,7 +122,13 @@ fn integrate_on<S: Simd, R: Real, M: LaneMethod, const N: usize>(
     );
 }
 
-impl<S: Simd, R: Real + Send, M: LaneMethod + Send, const N: usize> Engine for RungeKuttaEngine<S, R, M, N> {
+impl<S: Simd, R: Real + Send, M: LaneMethod + Send, E: WithinArcs<R> + Send, const N: usize> Engine
+    for RungeKuttaEngine<S, R, M, E, N>
+{
+    fn integrates(&self, model: ForceModel) -> bool {
+        model.effects().all(integrated_effects::by_runge_kutta)
+    }
+
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         let simd = self.simd;
         simd.vectorize(

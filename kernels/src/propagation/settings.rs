@@ -2,6 +2,7 @@
 
 use super::method::Method;
 use crate::dynamics::actuation::Laws;
+use crate::dynamics::effects::{Effect, ForceModel};
 use crate::dynamics::gyrostat::completion::components;
 use crate::dynamics::gyrostat::{WITH_ANGLES, WITH_THRUST};
 use crate::ode::Control;
@@ -21,6 +22,8 @@ pub struct PropagationSettings {
     pub fields: StateFields,
     /// Number of wheels of the spacecraft.
     pub wheels: usize,
+    /// The effects that act.
+    pub forces: ForceModel,
     /// Whether thrust or body torque may act.
     pub thrust: bool,
     /// Whether motor torque may act.
@@ -32,12 +35,14 @@ pub struct PropagationSettings {
 impl PropagationSettings {
     /// Settings for scenes with the schedule of `nominal` (the magnitudes may differ from run to run).
     pub fn new(method: Method, control: Control, grid: Grid, fields: StateFields, nominal: &Scene) -> Self {
+        let forces = ForceModel::of(nominal);
         PropagationSettings {
-            method,
+            method: method.chosen(forces),
             control,
             grid,
             fields,
             wheels: nominal.mass.wheels.len(),
+            forces,
             thrust: nominal.commands_thrust || nominal.environment.acts(),
             motors: nominal.commands_torque,
             feedback: false,
@@ -58,6 +63,11 @@ impl PropagationSettings {
     /// Where they cannot.
     pub(super) fn check_laws(&self, laws: &Laws<'_>) {
         assert!(self.feedback || matches!(laws, Laws::OpenLoop), "laws need PropagationSettings::with_feedback");
+    }
+
+    /// Whether an effect changes within an arc and turns the body, so that the kernel has it.
+    pub fn changes_within_arcs(&self) -> bool {
+        self.forces.contains(Effect::GravityGradient)
     }
 
     /// Number of components that the gyrostat kernel integrates.

@@ -10,7 +10,7 @@ pub struct Actuated {
     pub thrusters: bool,
     /// Motors of wheels: the schedule commands a torque, or a motor holds the speed of its wheel.
     pub motors: bool,
-    /// Torques on the body, of the environment or of a control law.
+    /// Torques on the body, of the environment or of a control law, or the force of gravity on an orbit.
     pub body_torque: bool,
 }
 
@@ -28,7 +28,7 @@ impl Actuated {
         Actuated {
             thrusters: arcs().any(|arc| commands(&arc.thrust_n)),
             motors: arcs().any(|arc| commands(&arc.torque_n_m)) || input.wheels.iter().any(is_held),
-            body_torque: input.environment.acts(),
+            body_torque: input.environment.acts() || input.orbit.is_some(),
         }
     }
 

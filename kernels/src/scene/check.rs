@@ -6,6 +6,7 @@
 use super::error::Problems;
 use super::input::SceneInput;
 use super::mass::{Body, MassProperties};
+use super::orbit;
 use super::schedule::applied;
 use super::schema::limit::{INERTIA_SLACK, shown};
 use super::schema::{ArcErrors, InitialInput, PartInput, WheelInput, WheelMode};
@@ -36,6 +37,22 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     input.initial.check(has_debris, problems, |key| format!("initial.{key}").into());
     if has_debris {
         debris_state(&input.initial, problems);
+    }
+    if let Some(orbit) = &input.orbit {
+        let before = problems.0.len();
+        orbit.check(has_debris, problems, |key| format!("orbit.{key}").into());
+        if problems.0.len() == before {
+            orbit::check(orbit, &input.initial, problems);
+        }
+        if has_debris {
+            let allowed = "left out where there is an [orbit]: the debris moves without gravity";
+            problems.add("debris".to_owned(), "given".to_owned(), allowed, "delete [debris], or delete [orbit]");
+        }
+    }
+    if input.environment.gravity_gradient && input.orbit.is_none() {
+        let allowed = "false, or left out, without an [orbit]";
+        let remedy = "add an [orbit] table, or delete this line";
+        problems.add("environment.gravity_gradient".to_owned(), "true".to_owned(), allowed, remedy);
     }
     input.environment.check(has_debris, problems, |key| format!("environment.{key}").into());
     input.control.check(problems);

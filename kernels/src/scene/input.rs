@@ -7,7 +7,7 @@
 use super::name::Name;
 use super::schema::{
     ActuationInput, ActuatorsInput, BodyInput, ControlInput, DebrisInput, EnvironmentInput, InitialInput, MAX_WHEELS,
-    PartInput, PartShape, ThrusterInput, WheelInput, WheelMode,
+    OrbitInput, PartInput, PartShape, ThrusterInput, WheelInput, WheelMode,
 };
 use crate::math::list::List;
 
@@ -45,7 +45,9 @@ pub struct SceneInput {
     pub actuation: Vec<ActuationInput>,
     /// How late the actuators are.
     pub actuators: ActuatorsInput,
-    /// Torques of the environment.
+    /// The orbit of the spacecraft, if it is in one.
+    pub orbit: Option<OrbitInput>,
+    /// Effects of the environment.
     pub environment: EnvironmentInput,
     /// The parameters of the control law, if there is one.
     pub control: ControlInput,
@@ -76,6 +78,7 @@ impl SceneInput {
             initial: InitialInput::DEFAULT,
             actuation: Vec::new(),
             actuators: ActuatorsInput::DEFAULT,
+            orbit: None,
             environment: EnvironmentInput::DEFAULT,
             control: ControlInput::NONE,
         }

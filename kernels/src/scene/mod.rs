@@ -5,7 +5,7 @@
 //! - [`second_moment`]: inertia by second moments of mass, and errors of a distribution of mass.
 //! - [`solids`]: mass, centre and inertia of homogeneous solids (Berdoz's (60)-(67), in closed form).
 //! - [`body`]: the body of the spacecraft and the debris from their input. [`wheel`]: wheels that turn. `tensor`: inertias by rows.
-//! - [`mass`]: mass properties of the whole.
+//! - [`mass`]: mass properties of the whole. [`orbit`]: the orbit at time zero.
 //! - [`parameter`]: the numeric keys that can be dispersed.
 //! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not.
 //! - [`actuated`]: what acts on a spacecraft at any time of a run.
@@ -22,6 +22,7 @@ pub mod error;
 pub mod input;
 pub mod mass;
 pub mod name;
+pub mod orbit;
 pub mod parameter;
 #[cfg(test)]
 mod refusals;
@@ -43,12 +44,13 @@ pub use error::SceneError;
 pub use input::SceneInput;
 pub use mass::MassProperties;
 pub use name::Name;
+pub use orbit::Orbit;
 pub use parameter::Parameter;
 pub use schedule::{Actuation, Arc};
 pub use schema::{
     ActuationInput, ActuatorsInput, ArcErrors, BodyInput, ControlInput, DebrisInput, DeclaredTable, EnvironmentInput,
-    InitialInput, LawParameter, MAX_THRUSTERS, MAX_WHEELS, MassErrors, PartInput, PartShape, PrincipalInertia,
-    PrincipalMoments, ThrusterInput, WheelInput, WheelMode,
+    InitialInput, LawParameter, MAX_THRUSTERS, MAX_WHEELS, MassErrors, OrbitInput, PartInput, PartShape,
+    PrincipalInertia, PrincipalMoments, ThrusterInput, WheelInput, WheelMode,
 };
 
 pub use thruster::Thruster;
@@ -64,7 +66,9 @@ pub struct Scene {
     pub thrusters: Vec<Thruster>,
     /// Arcs of constant actuation as they are applied, in order, not overlapping, each with start < end.
     pub schedule: Vec<Arc>,
-    /// Torques of the environment, as written.
+    /// The orbit of the centre of mass; `None` where gravity is neglected.
+    pub orbit: Option<Orbit>,
+    /// Effects of the environment, as written.
     pub environment: EnvironmentInput,
     /// Whether the schedule commands thrust at all, whatever the thrusters make of it.
     pub commands_thrust: bool,

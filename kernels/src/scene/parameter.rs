@@ -207,7 +207,7 @@ impl SceneInput {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{ActuationInput, DebrisInput, PrincipalInertia, PrincipalMoments, WheelMode};
+    use crate::scene::{ActuationInput, DebrisInput, OrbitInput, PrincipalInertia, PrincipalMoments, WheelMode};
 
     const IDENTITY: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
@@ -256,6 +256,17 @@ mod tests {
         scene.body.inertia_kg_m2 = Some([[3.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 3.0]]);
         scene.body.principal = Some(principal);
         scene.environment.body_torque_n_m = Some([0.0; 3]);
+        scene.orbit = Some(OrbitInput {
+            position_m: Some([0.0; 3]),
+            velocity_m_s: Some([0.0; 3]),
+            semi_major_axis_m: Some(0.0),
+            eccentricity: Some(0.0),
+            inclination_rad: Some(0.0),
+            ascending_node_rad: Some(0.0),
+            argument_of_periapsis_rad: Some(0.0),
+            true_anomaly_rad: Some(0.0),
+            ..OrbitInput::DEFAULT
+        });
         scene.with_actuation(ActuationInput::idle(0.0, 1.0).with_thrust(&[1.0; 3]).with_torque(&[1.0; 2]))
     }
 

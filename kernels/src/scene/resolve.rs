@@ -5,8 +5,10 @@ use super::input::SceneInput;
 use super::mass::MassProperties;
 use super::schema::{InitialInput, MAX_WHEELS, WheelMode};
 use super::unit_quaternion::unit_quaternion;
-use super::{ActuatorModels, InitialState, Scene, SceneError, check, schedule};
-use crate::math::vector::{conjugate, dcm_from_quaternion, hamilton, sum, transposed_product};
+use super::{ActuatorModels, InitialState, Orbit, Scene, SceneError, check, schedule};
+use crate::math::vector::{
+    conjugate, cross, dcm_from_quaternion, difference, hamilton, product, sum, transposed_product,
+};
 
 impl Scene {
     /// The scene that `input` describes.
@@ -21,6 +23,7 @@ impl Scene {
             initial: initial_state(input),
             thrusters: Vec::new(),
             schedule: Vec::with_capacity(input.actuation.len()),
+            orbit: None,
             environment: input.environment,
             commands_thrust: false,
             commands_torque: false,
@@ -49,6 +52,14 @@ impl Scene {
         self.thrusters.extend(schedule::thrusters(input));
         self.schedule.clear();
         self.schedule.extend((0..input.actuation.len()).map(|index| schedule::applied(input, index)));
+        self.orbit = input.orbit.as_ref().map(Orbit::of);
+        if let Some(orbit) = &self.orbit {
+            // p from the centre of mass, which is on the orbit
+            let c_es = dcm_from_quaternion(self.initial.q_es);
+            let spin = cross(self.initial.omega_se_s, mass.center);
+            self.initial.r_po_e = difference(orbit.position, product(c_es, mass.center));
+            self.initial.v_po_e = difference(orbit.velocity, product(c_es, spin));
+        }
         self.environment = input.environment;
         self.commands_thrust = input.actuation.iter().any(|arc| arc.thrust_n.iter().any(|thrust| *thrust != 0.0));
         self.commands_torque = input.actuation.iter().any(|arc| arc.torque_n_m.iter().any(|torque| *torque != 0.0));

@@ -10,7 +10,7 @@ use super::name::Name;
 use super::schema::limit::shown;
 use super::schema::{
     ActuationInput, ActuatorsInput, ArcErrors, BodyInput, DebrisInput, DeclaredTable, EnvironmentInput, Facts,
-    InitialInput, LawParameter, MassErrors, PartInput, Presence, Row, ThrusterInput, WheelInput,
+    InitialInput, LawParameter, MassErrors, OrbitInput, PartInput, Presence, Row, ThrusterInput, WheelInput,
 };
 
 /// A key of a table of the schema.
@@ -172,6 +172,7 @@ tables! {
     Debris, "debris", true, &[DebrisInput::ROWS], scene.debris.as_ref(), scene.debris.as_mut();
     Actuators, "actuators", true, &[ActuatorsInput::ROWS], Some(&scene.actuators), Some(&mut scene.actuators);
     Initial, "initial", true, &[InitialInput::ROWS], Some(&scene.initial), Some(&mut scene.initial);
+    Orbit, "orbit", true, &[OrbitInput::ROWS], scene.orbit.as_ref(), scene.orbit.as_mut();
     Environment, "environment", true, &[EnvironmentInput::ROWS], Some(&scene.environment), Some(&mut scene.environment);
     Actuation, "actuation", false, &[ActuationInput::ROWS],
         scene.actuation.get(instance), scene.actuation.get_mut(instance);
@@ -294,7 +295,7 @@ impl Key {
 /// A scene in which every table is there, all at their defaults.
 fn with_every_table() -> SceneInput {
     let part = PartInput { name: Name::of("part"), ..PartInput::DEFAULT };
-    let scene = SceneInput { parts: vec![part], ..SceneInput::blank() };
+    let scene = SceneInput { parts: vec![part], orbit: Some(OrbitInput::DEFAULT), ..SceneInput::blank() };
     let scene = scene.with_wheel(WheelInput { name: Name::of("wheel"), ..WheelInput::DEFAULT });
     let scene = scene.with_thruster(ThrusterInput { name: Name::of("thruster"), ..ThrusterInput::DEFAULT });
     scene.with_debris(DebrisInput::BLANK).with_actuation(ActuationInput::DEFAULT)

@@ -6,6 +6,7 @@ use super::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_ANGLES,
     WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST,
 };
+use crate::dynamics::orbit::KeplerOrbit;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{
     conjugate, constant, constant_matrix, constant_quaternion, difference, dot, hamilton, product, scaled, sum,
@@ -171,22 +172,28 @@ fn complete_translations<S: Simd, const THRUST: bool>(
     for first in (0..table.stride()).step_by(WIDTH) {
         let chunk = Chunk { simd, first };
         complete_translation::<S, THRUST>(chunk, run, trajectory, &times[first..first + WIDTH], table);
-        complete_work::<S, THRUST>(chunk, run, trajectory, table);
+        complete_work::<S, THRUST>(chunk, run, trajectory, &times[first..first + WIDTH], table);
     }
 }
 
-/// Work of the thrusters and body torque, and of the wheel motors, including those that hold a speed.
+/// Work of the thrusters, torques on the body and gravity, and of the wheel motors, including those that hold a speed.
 #[inline(always)]
 fn complete_work<S: Simd, const THRUST: bool>(
     chunk: Chunk<S>,
     run: &Gyrostat<f64>,
     trajectory: &Trajectory,
+    times: &[f64],
     table: &mut StateTable,
 ) {
     if !table.has(StateField::Work) {
         return;
     }
-    let thrusters = chunk.read_if(THRUST, trajectory, THRUST_WORK);
+    let mut thrusters = chunk.read_if(THRUST, trajectory, THRUST_WORK);
+    if let Some(orbit) = &run.orbit {
+        let orbit = orbit.in_lanes(chunk.zero());
+        let place = orbit.state(Lanes::from_slice(chunk.simd, times));
+        thrusters += chunk.splat(run.mass) * orbit.work(place.distance);
+    }
     let mut motors = chunk.read_if(trajectory.components() >= WITH_MOTORS, trajectory, MOTOR_WORK);
     if let Some(held) = run.held_momentum_b() {
         let change = difference(chunk.read3(trajectory, OMEGA), constant(chunk.zero(), run.omega_b));
@@ -199,6 +206,45 @@ fn complete_work<S: Simd, const THRUST: bool>(
 /// Position and velocity of c, and impulses.
 #[inline(always)]
 fn complete_translation<S: Simd, const THRUST: bool>(
+    chunk: Chunk<S>,
+    run: &Gyrostat<f64>,
+    trajectory: &Trajectory,
+    times: &[f64],
+    table: &mut StateTable,
+) {
+    if let Some(orbit) = &run.orbit {
+        complete_orbit(chunk, run, orbit, times, table);
+    } else {
+        complete_line::<S, THRUST>(chunk, run, trajectory, times, table);
+    }
+    if table.has(StateField::AngularImpulse) {
+        chunk.write3(table, StateField::AngularImpulse, chunk.read3_if(THRUST, trajectory, ANGULAR_IMPULSE));
+    }
+}
+
+/// Position, velocity and impulse of c on an orbit, on which no thrust acts.
+#[inline(always)]
+fn complete_orbit<S: Simd>(
+    chunk: Chunk<S>,
+    run: &Gyrostat<f64>,
+    orbit: &KeplerOrbit<f64>,
+    times: &[f64],
+    table: &mut StateTable,
+) {
+    let fields = [StateField::ComPosition, StateField::ComVelocity, StateField::Impulse];
+    if !fields.into_iter().any(|field| table.has(field)) {
+        return;
+    }
+    let place = orbit.in_lanes(chunk.zero()).state(Lanes::from_slice(chunk.simd, times));
+    let gained = difference(place.velocity, constant(chunk.zero(), run.v_co_e));
+    chunk.write3(table, StateField::ComPosition, place.position);
+    chunk.write3(table, StateField::ComVelocity, place.velocity);
+    chunk.write3(table, StateField::Impulse, scaled(chunk.splat(run.mass), gained));
+}
+
+/// Position, velocity and impulse of c on the line that thrust bends.
+#[inline(always)]
+fn complete_line<S: Simd, const THRUST: bool>(
     chunk: Chunk<S>,
     run: &Gyrostat<f64>,
     trajectory: &Trajectory,
@@ -224,9 +270,6 @@ fn complete_translation<S: Simd, const THRUST: bool>(
     }
     if table.has(StateField::Impulse) {
         chunk.write3(table, StateField::Impulse, impulse);
-    }
-    if table.has(StateField::AngularImpulse) {
-        chunk.write3(table, StateField::AngularImpulse, chunk.read3_if(THRUST, trajectory, ANGULAR_IMPULSE));
     }
 }
 

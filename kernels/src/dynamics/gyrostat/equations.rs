@@ -118,15 +118,15 @@ impl<R: Real> Constants<R> {
         [self.inverse[0] * x, self.inverse[1] * y, self.inverse[2] * z]
     }
 
-    /// omega' in B: J* omega' = H x omega + tau_ext - sum tau_i a_i, H = J* omega + h.
+    /// omega' in B at the external torque `torque`: J* omega' = H x omega + tau_ext - sum tau_i a_i, H = J* omega + h.
     #[inline(always)]
-    pub fn angular_acceleration(&self, time: R, omega: [R; 3]) -> [R; 3] {
+    pub fn angular_acceleration(&self, time: R, omega: [R; 3], torque: [R; 3]) -> [R; 3] {
         let since = time - self.start;
         let h = sum(self.momentum, scaled(since, self.momentum_rate));
         let linear = cross(h, omega);
         let mut acceleration = [since; 3];
         for i in 0..3 {
-            let known = (self.torque[i] - self.momentum_rate[i]) + linear[i];
+            let known = (torque[i] - self.momentum_rate[i]) + linear[i];
             let product = omega[(i + 1) % 3] * omega[(i + 2) % 3];
             acceleration[i] = self.ratio[i].mul_add(product, self.inverse[i] * known);
         }
@@ -134,12 +134,13 @@ impl<R: Real> Constants<R> {
     }
 
     /// The derivative of the first `N` components, in the order of the indices of the parent module.
+    /// `torque` is the external one, B, N m: that of the arc and of the effects that change within it.
     #[inline(always)]
-    pub fn derivative<const N: usize>(&self, time: R, y: &[R; N]) -> [R; N] {
+    pub fn derivative<const N: usize>(&self, time: R, y: &[R; N], torque: [R; 3]) -> [R; N] {
         let zero = time.zero();
         let mut rate = [zero; N];
         let omega = [y[OMEGA], y[OMEGA + 1], y[OMEGA + 2]];
-        rate[OMEGA..OMEGA + 3].copy_from_slice(&self.angular_acceleration(time, omega));
+        rate[OMEGA..OMEGA + 3].copy_from_slice(&self.angular_acceleration(time, omega, torque));
         if N >= super::WITH_ATTITUDE {
             let q = [y[ATTITUDE], y[ATTITUDE + 1], y[ATTITUDE + 2], y[ATTITUDE + 3]];
             rate[ATTITUDE..ATTITUDE + 4].copy_from_slice(&quaternion_rate(q, omega));
@@ -159,8 +160,8 @@ impl<R: Real> Constants<R> {
                 let velocity = sum(self.velocity, scaled(self.inverse_mass, impulse));
                 rate[IMPULSE..IMPULSE + 3].copy_from_slice(&force);
                 rate[IMPULSE_INTEGRAL..IMPULSE_INTEGRAL + 3].copy_from_slice(&impulse);
-                rate[ANGULAR_IMPULSE..ANGULAR_IMPULSE + 3].copy_from_slice(&product(c_eb, self.torque));
-                rate[THRUST_WORK] = dot(force, velocity) + dot(self.torque, omega);
+                rate[ANGULAR_IMPULSE..ANGULAR_IMPULSE + 3].copy_from_slice(&product(c_eb, torque));
+                rate[THRUST_WORK] = dot(force, velocity) + dot(torque, omega);
             }
         }
         rate

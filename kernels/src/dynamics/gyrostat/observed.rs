@@ -27,13 +27,18 @@ pub fn observed_state<R: Real>(
     };
     let now = run.mass.splat(time);
     let inverse_mass = run.mass.splat(1.0) / run.mass;
-    let line = sum(run.r_co_e, scaled(now, run.v_co_e));
-    let body = BodyState {
-        omega_se_s: first_lane(omega_s),
-        q_es: first_lane(q_es),
-        r_co_e: first_lane(sum(line, scaled(inverse_mass, three(IMPULSE_INTEGRAL)))),
-        v_co_e: first_lane(sum(run.v_co_e, scaled(inverse_mass, three(IMPULSE)))),
+    let (r_co_e, v_co_e) = match &run.orbit {
+        Some(orbit) => {
+            let place = orbit.state(time);
+            (place.position, place.velocity)
+        }
+        None => {
+            let line = sum(run.r_co_e, scaled(now, run.v_co_e));
+            let position = sum(line, scaled(inverse_mass, three(IMPULSE_INTEGRAL)));
+            (first_lane(position), first_lane(sum(run.v_co_e, scaled(inverse_mass, three(IMPULSE)))))
+        }
     };
+    let body = BodyState { omega_se_s: first_lane(omega_s), q_es: first_lane(q_es), r_co_e, v_co_e };
     let mut wheels = WheelState::AT_REST;
     for (i, wheel) in run.wheels.iter().enumerate() {
         let motion = &motions[i];

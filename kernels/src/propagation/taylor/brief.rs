@@ -144,7 +144,7 @@ mod tests {
                     let mut jet = vec![[0.0; N]; FULL + 1];
                     jet[0][..3].copy_from_slice(&omega);
                     jet[0][ATTITUDE] = 1.0;
-                    expand::<f64, N, true>(&constants, &reciprocals, FULL, &mut scratch, &mut jet);
+                    expand::<f64, N, true>(&constants, &reciprocals, FULL, &mut scratch, None, &mut jet);
                     let rest = |order: usize| {
                         let terms = jet.iter().enumerate().skip(order + 1);
                         let of = |first: usize| {

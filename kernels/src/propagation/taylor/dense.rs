@@ -42,6 +42,10 @@ pub fn values<R: Real, const J: usize, const U: usize>(jet: &[[R; J]], x: [R; U]
     if J > 7 {
         group::<R, J, 3, U>(jet, 7, x, &mut all);
     }
+    // integrals of effects, where they have series
+    for first in 10..J {
+        group::<R, J, 1, U>(jet, first, x, &mut all);
+    }
     all
 }
 

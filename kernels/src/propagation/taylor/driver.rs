@@ -14,6 +14,7 @@ use super::period_search::{period, return_time};
 use super::points::{StepSeries, TakenStep, Until};
 use super::thrust::Push;
 use super::workspace::Workspace;
+use crate::dynamics::effects::within_arcs::WithinArcs;
 use crate::dynamics::gyrostat::{ANGLE, Gyrostat, WITH_THRUST};
 use crate::math::sums::{fast_two_sum, two_sum};
 use crate::math::{Mask, Real};
@@ -25,7 +26,7 @@ use crate::run::{Grid, Status};
 /// `N` components are integrated, the first `J` of them by series of their own. Every result is a function of the run and its law
 /// alone: lanes share no decision.
 #[inline(always)]
-pub fn integrate<'a, S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool>(
+pub fn integrate<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>(
     simd: S,
     zero: R,
     (runs, arcs): (&'a mut [Gyrostat<f64>], ArcSource<'a>),
@@ -34,7 +35,7 @@ pub fn integrate<'a, S: Simd, R: Real, const N: usize, const J: usize, const FOR
     finish: &mut RunCallback<'_>,
 ) {
     let lanes = RunLanes::new((simd, zero), runs, arcs, grid, workspace);
-    let mut driver = Driver::<S, R, N, J, FORCED> { lanes };
+    let mut driver = Driver::<S, R, E, N, J, FORCED> { lanes };
     for lane in 0..R::LANES {
         driver.lanes.load_lane(lane);
     }
@@ -44,16 +45,18 @@ pub fn integrate<'a, S: Simd, R: Real, const N: usize, const J: usize, const FOR
 }
 
 /// Steps the lanes and decides what happens to them.
-struct Driver<'a, S, R, const N: usize, const J: usize, const FORCED: bool> {
-    lanes: RunLanes<'a, S, R, N, J>,
+struct Driver<'a, S, R, E, const N: usize, const J: usize, const FORCED: bool> {
+    lanes: RunLanes<'a, S, R, E, N, J>,
 }
 
-impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Driver<'_, S, R, N, J, FORCED> {
+impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>
+    Driver<'_, S, R, E, N, J, FORCED>
+{
     /// One step of every lane.
     #[inline(always)]
     fn step(&mut self, finish: &mut RunCallback<'_>) {
         let has_begun = FORCED && core::mem::take(&mut self.lanes.has_begun);
-        let RunLanes { vectors, work, truncation, .. } = &mut self.lanes;
+        let RunLanes { vectors, work, truncation, effects, .. } = &mut self.lanes;
         let zero = vectors.time.zero();
         let infinite = zero.splat(f64::INFINITY);
         let mut constants = vectors.constants;
@@ -71,19 +74,30 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         segment.start = vectors.time;
         segment.start_low = vectors.time_low;
         let full = work.rule.order;
-        let brief = if has_begun {
+        // a bound of the torque is known for constant torques only
+        let brief = if has_begun && !E::ACT {
             let omega = [begin[0], begin[1], begin[2]];
             work.brief.orders(&constants, omega, (vectors.length, vectors.time, vectors.may_be_brief))
         } else {
             None
         };
         let order = brief.as_ref().map_or(full, |brief| brief.most);
-        expand::<R, J, FORCED>(&constants, &work.reciprocals, order, &mut work.scratch, &mut segment.jet);
+        let unit = zero.splat(1.0) / vectors.per_unit;
+        let now = (constants.start + vectors.time) * unit;
+        let gradient = effects.series(now, unit, &mut work.gradient);
+        expand::<R, J, FORCED>(&constants, &work.reciprocals, order, &mut work.scratch, gradient, &mut segment.jet);
         let left = (vectors.length - vectors.time) - vectors.time_low;
         let mut length = zero;
         if order == full {
-            let alpha = if FORCED { Some(constants.torque_acceleration()) } else { None };
-            let proposed = work.rule.step(&segment.jet, alpha);
+            let mut start = constants;
+            if E::ACT {
+                start.torque = work.gradient.torque()[0];
+            }
+            let alpha = if FORCED { Some(start.torque_acceleration()) } else { None };
+            let mut proposed = work.rule.step(&segment.jet, alpha);
+            if E::ACT {
+                proposed = proposed.smaller(work.rule.step_of_impulse(&segment.jet));
+            }
             length = R::select(left.lt(proposed), left, proposed);
         }
         if let Some(brief) = &brief {
@@ -104,7 +118,7 @@ impl<S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool> Drive
         }
         let mut push = Push::none(zero);
         if FORCED {
-            if N >= WITH_THRUST {
+            if N >= WITH_THRUST && N > J {
                 push = work.quadrature.over_step(&constants, &segment.jet[..=order], length);
             }
             let turned = [slope[ANGLE] * length, slope[ANGLE + 1] * length, slope[ANGLE + 2] * length];

@@ -1,56 +1,70 @@
 //! Taylor and periodic propagation as an [`Engine`].
 
+use core::marker::PhantomData;
+
 use fearless_simd::Simd;
 
 use super::driver::integrate;
 use super::lanes::RunCallback;
 use super::workspace::{Settings, Workspace};
 use crate::dynamics::actuation::Laws;
+use crate::dynamics::effects::ForceModel;
+use crate::dynamics::effects::gravity_gradient::GradientSeries;
+use crate::dynamics::effects::within_arcs::{NoEffects, WithinArcs};
 use crate::dynamics::gyrostat::{Gyrostat, WITH_ATTITUDE};
 use crate::math::Real;
 use crate::propagation::arc_source::ArcSource;
 use crate::propagation::engine::{CompletionCallback, Engine};
 use crate::propagation::gyrostat_batch::{DebrisRuns, GyrostatBatch};
+use crate::propagation::integrated_effects;
 use crate::propagation::method::Method;
 use crate::propagation::settings::PropagationSettings;
 use crate::run::Grid;
 use crate::scene::Scene;
 
-/// One worker's memory: `N` components; the first `J` have series of their own.
-pub struct TaylorEngine<S, R, const N: usize, const J: usize, const FORCED: bool> {
+/// One worker's memory: `N` components, the first `J` of which have series of their own, under the effects `E`.
+pub struct TaylorEngine<S, R, E, const N: usize, const J: usize, const FORCED: bool> {
     simd: S,
     zero: R,
     plan: PropagationSettings,
     batch: GyrostatBatch,
     workspace: Workspace<R, J>,
     debris_workspace: Option<Workspace<R, WITH_ATTITUDE>>,
+    effects: PhantomData<E>,
 }
 
-impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FORCED: bool>
-    TaylorEngine<S, R, N, J, FORCED>
+impl<S: Simd, R: Real + Send + 'static, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>
+    TaylorEngine<S, R, E, N, J, FORCED>
 {
     /// Memory for the runs of `plan`; `zero` says how many lanes.
     pub fn new(simd: S, zero: R, plan: &PropagationSettings) -> Self {
+        let mut own = settings(plan);
+        own.periodic &= !E::ACT;
+        let mut workspace = Workspace::new(zero, own, N, plan.grid.points());
+        if E::ACT {
+            workspace.gradient = GradientSeries::new(zero, workspace.rule.order);
+        }
         TaylorEngine {
             simd,
             zero,
             plan: plan.clone(),
             batch: GyrostatBatch::new(plan),
-            workspace: Workspace::new(zero, settings(plan), N, plan.grid.points()),
+            workspace,
             debris_workspace: None,
+            effects: PhantomData,
         }
     }
 
     #[inline(always)]
     fn run(&mut self, mut laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
-        let Self { simd, zero, plan, batch, workspace, debris_workspace } = self;
+        let Self { simd, zero, plan, batch, workspace, debris_workspace, .. } = self;
         plan.check_laws(&laws);
         let grid = &plan.grid;
         if let Some(DebrisRuns { runs, trajectories, outcomes }) = batch.load_debris(scenes) {
             let workspace = debris_workspace
                 .get_or_insert_with(|| Workspace::new(*zero, settings(plan), WITH_ATTITUDE, grid.points()));
             let arcs = ArcSource::free(grid.duration());
-            integrate_on::<S, R, WITH_ATTITUDE, WITH_ATTITUDE, false>(
+            integrate_on::<S, R, NoEffects, WITH_ATTITUDE, WITH_ATTITUDE, false>(
                 *simd,
                 *zero,
                 (runs, arcs),
@@ -64,7 +78,7 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FO
         }
         let arcs = ArcSource::new(scenes, laws.reborrow(), grid);
         let (runs, completion) = batch.load(scenes, &arcs);
-        integrate_on::<S, R, N, J, FORCED>(
+        integrate_on::<S, R, E, N, J, FORCED>(
             *simd,
             *zero,
             (runs, arcs),
@@ -80,7 +94,7 @@ impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FO
 /// The integration, compiled for its instruction set. Not inlined: so the engines of all numbers of components share one kernel for
 /// the debris, which is that of spacecraft without actuators, and it is compiled once.
 #[inline(never)]
-fn integrate_on<'a, S: Simd, R: Real, const N: usize, const J: usize, const FORCED: bool>(
+fn integrate_on<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>(
     simd: S,
     zero: R,
     runs: (&'a mut [Gyrostat<f64>], ArcSource<'a>),
@@ -90,7 +104,7 @@ fn integrate_on<'a, S: Simd, R: Real, const N: usize, const J: usize, const FORC
 ) {
     simd.vectorize(
         #[inline(always)]
-        || integrate::<S, R, N, J, FORCED>(simd, zero, runs, grid, workspace, finish),
+        || integrate::<S, R, E, N, J, FORCED>(simd, zero, runs, grid, workspace, finish),
     );
 }
 
@@ -103,9 +117,13 @@ fn settings(plan: &PropagationSettings) -> Settings {
     }
 }
 
-impl<S: Simd, R: Real + Send + 'static, const N: usize, const J: usize, const FORCED: bool> Engine
-    for TaylorEngine<S, R, N, J, FORCED>
+impl<S: Simd, R: Real + Send + 'static, E: WithinArcs<R> + Send, const N: usize, const J: usize, const FORCED: bool>
+    Engine for TaylorEngine<S, R, E, N, J, FORCED>
 {
+    fn integrates(&self, model: ForceModel) -> bool {
+        model.effects().all(integrated_effects::by_taylor)
+    }
+
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         let simd = self.simd;
         simd.vectorize(

@@ -8,6 +8,7 @@
 //! [`super::thrust`], so that each tests the other.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
+use crate::dynamics::effects::gravity_gradient::GradientSeries;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_ANGLES,
@@ -64,13 +65,14 @@ impl<R: Real> Scratch<R> {
 /// Fills `jet[1 ..= order]` with the Taylor coefficients of the first `N` components, given `jet[0]`, the state.
 ///
 /// `constants.momentum` is the wheels' momentum *at the start of the step*. Where `FORCED` is false, torques, thrusts and
-/// the rate of the momentum are taken as zero.
+/// the rate of the momentum are taken as zero. `gradient` is the gravity gradient, where it acts, at the start of the step.
 #[inline(always)]
 pub fn expand<R: Real, const N: usize, const FORCED: bool>(
     constants: &Constants<R>,
     reciprocals: &Reciprocals<R>,
     order: usize,
     scratch: &mut Scratch<R>,
+    mut gradient: Option<&mut GradientSeries<R>>,
     jet: &mut [[R; N]],
 ) {
     let jet = &mut jet[..=order];
@@ -82,7 +84,18 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
         let [inverse, inverse_low] = reciprocal[n + 1];
         let omega = [jet[n][OMEGA], jet[n][OMEGA + 1], jet[n][OMEGA + 2]];
         let sums = cauchy_products(jet, n);
-        let acceleration = angular_acceleration::<R, N, FORCED>(constants, jet, n, sums.rate);
+        let mut acceleration = angular_acceleration::<R, N, FORCED>(constants, jet, n, sums.rate);
+        if let Some(gradient) = &mut gradient {
+            let torque = gradient.extend(
+                n,
+                #[inline(always)]
+                |m| attitude_of(&jet[m]),
+                constants.torque,
+            );
+            for i in 0..3 {
+                acceleration[i] = constants.inverse[i].mul_add(torque[i], acceleration[i]);
+            }
+        }
         let mut next = [zero; N];
         for i in 0..3 {
             next[OMEGA + i] = acceleration[i].mul_add(inverse, acceleration[i] * inverse_low);
@@ -108,9 +121,13 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
             next[MOTOR_WORK] = (driven - dot(constants.momentum_rate, omega)) * inverse;
         }
         if N >= WITH_THRUST && FORCED {
-            let q = [jet[n][ATTITUDE], jet[n][ATTITUDE + 1], jet[n][ATTITUDE + 2], jet[n][ATTITUDE + 3]];
+            let q = attitude_of(&jet[n]);
             turned_force[n] = pure_product(q, constants.force);
             turned_torque[n] = pure_product(q, constants.torque);
+            let mut spun = dot(constants.torque, omega);
+            if let Some(gradient) = &gradient {
+                (turned_torque[n], spun) = products_of_torque(jet, gradient.torque(), n);
+            }
             force_e[n] = turned(jet, turned_force, n);
             let torque_e = turned(jet, turned_torque, n);
             for i in 0..3 {
@@ -119,10 +136,32 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
                 next[ANGULAR_IMPULSE + i] = torque_e[i] * inverse;
             }
             let push = thrust_power(constants, jet, force_e, n);
-            next[THRUST_WORK] = (push + dot(constants.torque, omega)) * inverse;
+            next[THRUST_WORK] = (push + spun) * inverse;
         }
         jet[n + 1] = next;
     }
+}
+
+/// The attitude quaternion of one order.
+#[inline(always)]
+fn attitude_of<R: Real, const N: usize>(coefficients: &[R; N]) -> [R; 4] {
+    [coefficients[ATTITUDE], coefficients[ATTITUDE + 1], coefficients[ATTITUDE + 2], coefficients[ATTITUDE + 3]]
+}
+
+/// Coefficients n of q (x) torque, with its negative, and of torque . omega.
+#[inline(always)]
+fn products_of_torque<R: Real, const N: usize>(jet: &[[R; N]], torque: &[[R; 3]], n: usize) -> ([R; 8], R) {
+    let mut turned = pure_product(attitude_of(&jet[n]), torque[0]);
+    let mut spun = dot(torque[0], [jet[n][OMEGA], jet[n][OMEGA + 1], jet[n][OMEGA + 2]]);
+    for m in 1..=n {
+        let earlier = &jet[n - m];
+        let own = pure_product(attitude_of(earlier), torque[m]);
+        for i in 0..8 {
+            turned[i] += own[i];
+        }
+        spun += dot(torque[m], [earlier[OMEGA], earlier[OMEGA + 1], earlier[OMEGA + 2]]);
+    }
+    (turned, spun)
 }
 
 /// Coefficient n of omega' = ratio omega omega + (h x omega + torque - h')/J, given those of the products of two rates.

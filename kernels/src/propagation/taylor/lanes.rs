@@ -11,6 +11,7 @@ use super::points::{Until, evaluate_kept};
 use super::return_detector::ReturnDetector;
 use super::truncation::{Truncation, TruncationSums};
 use super::workspace::Workspace;
+use crate::dynamics::effects::within_arcs::WithinArcs;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
 use crate::math::lanes::WIDEST;
@@ -21,8 +22,8 @@ use crate::run::{Grid, LocalErrors, Outcome, Status, StepStatistics, Trajectory}
 /// Receives a run that has ended: its index, the run with the arcs flown, its components at the points, how it ended.
 pub(super) type RunCallback<'a> = dyn FnMut(usize, &Gyrostat<f64>, &mut Trajectory, &Outcome) + 'a;
 
-/// Runs in lanes: `N` components; the first `J` have series.
-pub(super) struct RunLanes<'a, S, R, const N: usize, const J: usize> {
+/// Runs in lanes: `N` components, the first `J` of which have series, under the effects `E`.
+pub(super) struct RunLanes<'a, S, R, E, const N: usize, const J: usize> {
     pub simd: S,
     pub runs: &'a mut [Gyrostat<f64>],
     pub arcs: ArcSource<'a>,
@@ -32,6 +33,7 @@ pub(super) struct RunLanes<'a, S, R, const N: usize, const J: usize> {
     /// The next run that has no lane yet.
     pub next: usize,
     pub vectors: LaneVectors<R, N>,
+    pub effects: E,
     pub detector: ReturnDetector<R>,
     /// Truncation of the steps of each lane's run.
     pub truncation: Truncation<R>,
@@ -41,7 +43,7 @@ pub(super) struct RunLanes<'a, S, R, const N: usize, const J: usize> {
     pub work: &'a mut Workspace<R, J>,
 }
 
-impl<'a, S: Simd, R: Real, const N: usize, const J: usize> RunLanes<'a, S, R, N, J> {
+impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> RunLanes<'a, S, R, E, N, J> {
     /// Empty lanes for `runs`, whose arcs come from `arcs`.
     #[inline(always)]
     pub(super) fn new(
@@ -60,6 +62,7 @@ impl<'a, S: Simd, R: Real, const N: usize, const J: usize> RunLanes<'a, S, R, N,
             has_begun: false,
             next: 0,
             vectors: LaneVectors::new(zero),
+            effects: E::none(zero),
             detector: ReturnDetector::none(zero),
             truncation: Truncation::new(zero, &work.rule),
             states: [None; WIDEST],
@@ -80,6 +83,7 @@ impl<'a, S: Simd, R: Real, const N: usize, const J: usize> RunLanes<'a, S, R, N,
         };
         let unit = run.time_unit();
         self.set_unit(lane, self.next, unit);
+        self.effects.set_lane(lane, &self.runs[self.next]);
         // the memory of its arcs is that of the lane
         core::mem::swap(&mut self.runs[self.next].flown, &mut self.work.records[lane]);
         self.runs[self.next].flown.clear();

@@ -18,14 +18,16 @@ use super::step::StepRule;
 use crate::dynamics::actuation::ActuationLaw;
 use crate::dynamics::applied::next_arc;
 use crate::dynamics::debris;
+use crate::dynamics::effects::gravity_gradient::{GradientSeries, GravityGradient};
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::observed::observed_state;
 use crate::dynamics::gyrostat::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_THRUST,
 };
+use crate::dynamics::orbit::OrbitState;
 use crate::math::double_double::DoubleDouble;
 use crate::math::isa::NarrowWork;
-use crate::math::vector::{conjugate, difference, dot, hamilton, product, scaled, sum};
+use crate::math::vector::{conjugate, difference, dot, hamilton, norm, product, scaled, sum};
 use crate::math::{Isa, Real};
 use crate::propagation::settings::observes_debris_rotation;
 use crate::run::Status;
@@ -278,6 +280,7 @@ impl Integration<'_, '_> {
         let mut states = Vec::with_capacity(times.len());
         let mut steps = 0;
         let (mut reached, mut is_last) = (0.0, false);
+        let mut orbit = self.run.orbit.map(|orbit| ReferenceOrbit::new(self.run, orbit.mu(), order));
         while !is_last {
             self.begin_arc(reached, unit, &state);
             let new_unit = self.coarse.time_unit();
@@ -296,7 +299,8 @@ impl Integration<'_, '_> {
             is_last = reached >= grid.duration();
             let start = DoubleDouble::exact(bounds.start);
             let length = (DoubleDouble::exact(bounds.end()) - start) * per_second;
-            let is_forced = arc.force_b.iter().chain(&arc.torque_b).any(|component| component.high != 0.0);
+            let turns = self.run.gradient.is_some();
+            let is_forced = turns || arc.force_b.iter().chain(&arc.torque_b).any(|component| component.high != 0.0);
             // a thrust turns with omega where the quaternion turns with omega/2: the series of its integrals need half the step
             let share = DoubleDouble::exact(if is_forced { 0.5 } else { 1.0 });
             let mut time = zero;
@@ -306,8 +310,16 @@ impl Integration<'_, '_> {
                 now.momentum = sum(constants.momentum, scaled(time, constants.momentum_rate));
                 now.motor_power = constants.motor_power_rate.mul_add(time, constants.motor_power);
                 jet[0] = state;
-                expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, &mut jet);
-                let (proposed, left) = (share * rule.step(&jet, Some(constants.torque_acceleration())), length - time);
+                let gradient = orbit.as_mut().map(|orbit| orbit.begin(unit));
+                expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, gradient, &mut jet);
+                let mut proposed = share * rule.step(&jet, Some(constants.torque_acceleration()));
+                if let Some(orbit) = &orbit {
+                    proposed = proposed.smaller(orbit.step(&rule));
+                    if turns {
+                        proposed = proposed.smaller(rule.step_of_impulse(&jet));
+                    }
+                }
+                let left = length - time;
                 lands = !proposed.lt(left);
                 let step = if lands { left } else { proposed };
                 while let Some(at) = times.get(states.len()) {
@@ -318,9 +330,15 @@ impl Integration<'_, '_> {
                     }
                     let mut values = value(&jet, within);
                     scale(&mut values, factors);
+                    if let Some(orbit) = &orbit {
+                        orbit.complete(*at, &orbit.at(within), &mut values);
+                    }
                     states.push(values);
                 }
                 state = value(&jet, step);
+                if let Some(orbit) = &mut orbit {
+                    orbit.place = orbit.at(step);
+                }
                 if !(state[0].high + state[1].high + state[2].high).is_finite() {
                     return Err(Status::NonFinite);
                 }
@@ -332,6 +350,70 @@ impl Integration<'_, '_> {
             }
         }
         Ok(states)
+    }
+}
+
+/// The orbit of a run, integrated beside it: no closed form, so that it can judge one.
+struct ReferenceOrbit {
+    mass: DoubleDouble,
+    mu: DoubleDouble,
+    gradient: GravityGradient<DoubleDouble>,
+    start: OrbitState<DoubleDouble>,
+    /// At the start of the step.
+    place: OrbitState<DoubleDouble>,
+    /// The unit of time, s.
+    unit: DoubleDouble,
+    series: GradientSeries<DoubleDouble>,
+}
+
+impl ReferenceOrbit {
+    /// That of `run` about a body of the gravitational parameter `mu`.
+    fn new(run: &Gyrostat<DoubleDouble>, mu: f64, order: usize) -> Self {
+        let zero = DoubleDouble::exact(0.0);
+        let start = OrbitState { position: run.r_co_e, velocity: run.v_co_e, distance: norm(run.r_co_e) };
+        ReferenceOrbit {
+            mass: run.mass,
+            mu: DoubleDouble::exact(mu),
+            gradient: run.gradient.unwrap_or_else(|| GravityGradient::none(zero)),
+            start,
+            place: start,
+            unit: DoubleDouble::exact(1.0),
+            series: GradientSeries::new(zero, order),
+        }
+    }
+
+    /// Starts a step in a unit of time of `unit` seconds.
+    #[inline(always)]
+    fn begin(&mut self, unit: f64) -> &mut GradientSeries<DoubleDouble> {
+        self.unit = DoubleDouble::exact(unit);
+        self.series.begin(&self.gradient, self.mu, &self.place, self.unit);
+        &mut self.series
+    }
+
+    /// The step that the series of the position allows.
+    fn step(&self, rule: &StepRule) -> DoubleDouble {
+        let position = self.series.orbit.position();
+        rule.step_of_series([0, rule.order - 1, rule.order].map(|n| dot(position[n], position[n])))
+    }
+
+    /// The state `within` units of time after the start of the step, SI.
+    fn at(&self, within: DoubleDouble) -> OrbitState<DoubleDouble> {
+        let place = self.series.orbit.at(within);
+        OrbitState { velocity: scaled(DoubleDouble::exact(1.0) / self.unit, place.velocity), ..place }
+    }
+
+    /// Adds what gravity does to the components at `time`, s, where c is at `place`: its impulse, the integral of that, and its work.
+    fn complete(&self, time: f64, place: &OrbitState<DoubleDouble>, values: &mut [DoubleDouble; N]) {
+        let start = &self.start;
+        let line = sum(start.position, scaled(DoubleDouble::exact(time), start.velocity));
+        let gained = scaled(self.mass, difference(place.velocity, start.velocity));
+        let moved = scaled(self.mass, difference(place.position, line));
+        for i in 0..3 {
+            values[IMPULSE + i] += gained[i];
+            values[IMPULSE_INTEGRAL + i] += moved[i];
+        }
+        let fallen = (start.distance - place.distance) / (start.distance * place.distance);
+        values[THRUST_WORK] += self.mass * self.mu * fallen;
     }
 }
 

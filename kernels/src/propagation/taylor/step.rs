@@ -13,6 +13,7 @@
 //! Decided from the angular velocity alone, so that a campaign that asks for the attitude and one that does not take the same
 //! steps and get the same bits.
 
+use crate::dynamics::gyrostat::ANGULAR_IMPULSE;
 use crate::math::Real;
 use crate::math::power::{exp2_rough, log2_rough};
 use crate::math::vector::dot;
@@ -120,6 +121,27 @@ impl StepRule {
         }
         let (of_rate, of_turn) = (clamped_exp2(radius + number(self.log_safety)), clamped_exp2(slowest));
         of_rate.smaller(of_turn / number(self.share).mul_add(of_turn / of_rate, number(1.0)))
+    }
+
+    /// The step for any series alone, from the squares of its first, its last but one and its last coefficient.
+    #[inline(always)]
+    pub fn step_of_series<R: Real>(&self, [first, before, last]: [R; 3]) -> R {
+        let number = |value: f64| first.splat(value);
+        let (p, size) = (self.order as f64, log2_rough(first));
+        let from_last = (size - log2_rough(last)) * number(0.5 / p);
+        let from_before = (size - log2_rough(before)) * number(0.5 / (p - 1.0));
+        clamped_exp2(from_last.smaller(from_before) + number(self.log_safety))
+    }
+
+    /// The step that the angular impulse allows, whose series the jet has: the torque of an effect turns up to twice as fast as the body, which
+    /// shows in omega only where it is strong.
+    #[inline(always)]
+    pub fn step_of_impulse<R: Real, const N: usize>(&self, jet: &[[R; N]]) -> R {
+        let size = |n: usize| {
+            let impulse = [jet[n][ANGULAR_IMPULSE], jet[n][ANGULAR_IMPULSE + 1], jet[n][ANGULAR_IMPULSE + 2]];
+            dot(impulse, impulse)
+        };
+        self.step_of_series([size(1), size(self.order - 1), size(self.order)])
     }
 
     /// Largest |omega| h of a step.

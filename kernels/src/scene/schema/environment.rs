@@ -1,4 +1,4 @@
-//! `[environment]`: torques of the environment on the spacecraft.
+//! `[environment]`: effects of the environment on the spacecraft.
 
 use super::components::XYZ;
 use super::limit::Limit;
@@ -6,15 +6,18 @@ use super::numbers::Numbers;
 use super::rows::rows;
 
 rows! {
-    /// Torques of the environment on the spacecraft. A torque that is not written does not act.
+    /// Effects of the environment on the spacecraft. An effect that is not written does not act.
     pub struct EnvironmentInput in EnvironmentInput [table => table] {
     body_torque_n_m: Option<[f64; 3]> = None, "N m", "Constant torque on the spacecraft, in F_s", XYZ, Plain, Limit::Finite,
         (optional);
-    } others {}
+    } others {
+        /// Whether the torque of the gravity gradient acts; it needs an orbit.
+        gravity_gradient: bool = false,
+    }
 }
 
 impl EnvironmentInput {
-    /// Whether any torque of the environment acts: whether any key is written.
+    /// Whether any effect of the environment acts: whether any key is written.
     pub fn acts(&self) -> bool {
         *self != EnvironmentInput::DEFAULT
     }

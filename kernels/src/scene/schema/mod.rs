@@ -4,8 +4,8 @@
 //! dispersable [`super::Parameter`]s and the table of keys in the documents. To add a parameter, add a row here and use the
 //! field where it acts.
 //!
-//! - [`body`], [`part`], [`mass_errors`], [`wheel`], [`thruster`], [`debris`], [`initial`], [`environment`], [`actuators`], [`actuation`]: the
-//!   rows, table by table; [`control`]: those that a control law declares.
+//! - [`body`], [`part`], [`mass_errors`], [`wheel`], [`thruster`], [`debris`], [`initial`], [`orbit`], [`environment`], [`actuators`],
+//!   [`actuation`]: the rows, table by table; [`control`]: those that a control law declares.
 //! - [`row`]: what a row is. [`limit`]: what a value must satisfy. [`numbers`]: values seen as plain numbers.
 //!
 //! A row knows its own table only; [`super::table`] says where in a scene the tables are. A table may have several instances.
@@ -23,6 +23,7 @@ pub mod initial;
 pub mod limit;
 pub mod mass_errors;
 pub mod numbers;
+pub mod orbit;
 pub mod part;
 pub mod principal;
 pub mod row;
@@ -39,6 +40,7 @@ pub use environment::EnvironmentInput;
 pub use initial::InitialInput;
 pub use limit::Limit;
 pub use mass_errors::MassErrors;
+pub use orbit::OrbitInput;
 pub use part::{PartInput, PartShape};
 pub use principal::{PrincipalInertia, PrincipalMoments};
 pub use row::{Facts, Needs, Presence, Row, Shape};

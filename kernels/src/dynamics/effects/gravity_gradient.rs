@@ -1,0 +1,223 @@
+//! The gravity gradient: what the central body's pull, stronger on the near side, turns about the centre of mass.
+//!
+//! tau = 3 mu/|r|^5 r x (J r), with J about the centre of mass, wheels locked, and r from the central body, both in the same frame (P. Hughes,
+//! *Spacecraft Attitude Dynamics*, 1986, section 8.1: of first order in size over |r|).
+
+use crate::dynamics::orbit::OrbitState;
+use crate::dynamics::orbit_series::{OrbitSeries, next_of_power};
+use crate::math::Real;
+use crate::math::symmetric::principal_axes;
+use crate::math::vector::{
+    conjugate, constant_matrix, cross, dcm_from_quaternion, hamilton, product, scaled, sum, transposed_product,
+};
+use crate::scene::{Orbit, Scene};
+
+/// The gravity gradient of one run, one per lane.
+#[derive(Clone, Copy, Debug)]
+pub struct GravityGradient<R> {
+    /// 3 mu, m^3/s^2; zero where it does not act.
+    pub strength: R,
+    /// J, by rows in the frame whose attitude is given, kg m^2.
+    pub inertia: [[R; 3]; 3],
+}
+
+impl<R: Real> GravityGradient<R> {
+    /// One that does not act.
+    pub fn none(zero: R) -> Self {
+        GravityGradient { strength: zero, inertia: [[zero; 3]; 3] }
+    }
+
+    /// Puts `gradient` into lane `lane`.
+    pub fn set_lane(&mut self, lane: usize, gradient: &GravityGradient<f64>) {
+        self.strength.set_lane(lane, gradient.strength);
+        for i in 0..3 {
+            for j in 0..3 {
+                self.inertia[i][j].set_lane(lane, gradient.inertia[i][j]);
+            }
+        }
+    }
+
+    /// The torque on a body of attitude `q` (to F_e) at `position` (F_e, m), `distance` from the central body; in the body's frame, N m.
+    #[inline(always)]
+    pub fn torque(&self, q: [R; 4], position: [R; 3], distance: R) -> [R; 3] {
+        let inverse = distance.splat(1.0) / distance;
+        let up = transposed_product(dcm_from_quaternion(q), scaled(inverse, position));
+        let strength = self.strength * (inverse * (inverse * inverse));
+        scaled(strength, cross(up, product(self.inertia, up)))
+    }
+}
+
+/// The gravity gradient on `scene` in the frame B, which `c_sb` maps to F_s.
+pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<GravityGradient<R>> {
+    let orbit = scene.orbit.as_ref().filter(|_| scene.environment.gravity_gradient)?;
+    let inertia_s = constant_matrix(zero, scene.mass.inertia);
+    let inertia = match c_sb {
+        None => inertia_s,
+        // column by column: C_bs J C_sb
+        Some(c_sb) => {
+            let columns: [[R; 3]; 3] = core::array::from_fn(|j| {
+                transposed_product(c_sb, product(inertia_s, [c_sb[0][j], c_sb[1][j], c_sb[2][j]]))
+            });
+            core::array::from_fn(|i| core::array::from_fn(|j| columns[j][i]))
+        }
+    };
+    Some(GravityGradient { strength: zero.splat(3.0) * zero.splat(orbit.mu), inertia })
+}
+
+/// Taylor coefficients of the gravity gradient along a step, by recurrences.
+///
+/// With v = q* (x) r (x) q and g = 3 mu rho^(-5/2), rho = r . r, the torque is g v x (J v): products of series.
+#[derive(Clone, Debug)]
+pub struct GradientSeries<R> {
+    /// 3 mu, m^3 per unit of time squared, and J in B, kg m^2.
+    gradient: GravityGradient<R>,
+    /// Of the orbit.
+    pub orbit: OrbitSeries<R>,
+    /// Of r (x) q.
+    turned: Vec<[R; 4]>,
+    /// Of v, B, m.
+    up: Vec<[R; 3]>,
+    /// Of J v.
+    weighed: Vec<[R; 3]>,
+    /// Of v x (J v).
+    lever: Vec<[R; 3]>,
+    /// Of g.
+    strength: Vec<R>,
+    /// Of the torque and what else acts, B, N m in the unit of time.
+    torque: Vec<[R; 3]>,
+}
+
+impl<R: Real> GradientSeries<R> {
+    /// Memory for series of order `order`.
+    pub fn new(zero: R, order: usize) -> Self {
+        let vectors = vec![[zero; 3]; order + 1];
+        GradientSeries {
+            gradient: GravityGradient::none(zero),
+            orbit: OrbitSeries::new(zero, order),
+            turned: vec![[zero; 4]; order + 1],
+            up: vectors.clone(),
+            weighed: vectors.clone(),
+            lever: vectors.clone(),
+            strength: vec![zero; order + 1],
+            torque: vectors,
+        }
+    }
+
+    /// Starts a step at `place`, whose velocity is in m/s, in a unit of time of `unit` seconds.
+    #[inline(always)]
+    pub fn begin(&mut self, gradient: &GravityGradient<R>, mu: R, place: &OrbitState<R>, unit: R) {
+        let unit2 = unit * unit;
+        self.gradient = GravityGradient { strength: gradient.strength * unit2, inertia: gradient.inertia };
+        self.orbit.begin(mu * unit2, place.position, scaled(unit, place.velocity));
+    }
+
+    /// Coefficient n of the torque, given those of the attitude up to n. Call in ascending order of `n`. `constant` is what acts beside it, for
+    /// [`GradientSeries::torque`].
+    #[inline(always)]
+    pub fn extend(&mut self, n: usize, attitude: impl Fn(usize) -> [R; 4], constant: [R; 3]) -> [R; 3] {
+        let GradientSeries { gradient, orbit, turned, up, weighed, lever, strength, torque } = self;
+        let zero = gradient.strength.zero();
+        orbit.extend(n);
+        let mut of_turned = [zero; 4];
+        for m in 0..=n {
+            let [x, y, z] = orbit.position()[m];
+            of_turned = added(of_turned, hamilton([zero, x, y, z], attitude(n - m)));
+        }
+        turned[n] = of_turned;
+        let mut of_up = [zero; 4];
+        for m in 0..=n {
+            of_up = added(of_up, hamilton(conjugate(attitude(m)), turned[n - m]));
+        }
+        up[n] = [of_up[1], of_up[2], of_up[3]];
+        weighed[n] = product(gradient.inertia, up[n]);
+        let square = orbit.square();
+        if n == 0 {
+            let inverse = zero.splat(1.0) / square[0].sqrt();
+            let cubed = inverse * (inverse * inverse);
+            strength[0] = gradient.strength * (cubed * (inverse * inverse));
+        } else {
+            strength[n] = next_of_power(-2.5, n, square, strength);
+        }
+        let mut sums = [zero; 3];
+        for m in 0..=n {
+            sums = sum(sums, cross(up[m], weighed[n - m]));
+        }
+        lever[n] = sums;
+        let mut own = [zero; 3];
+        for m in 0..=n {
+            own = sum(own, scaled(strength[m], lever[n - m]));
+        }
+        torque[n] = if n == 0 { sum(constant, own) } else { own };
+        own
+    }
+
+    /// The coefficients of the torque, with what acts beside it, B, N m in the unit of time.
+    #[inline(always)]
+    pub fn torque(&self) -> &[[R; 3]] {
+        &self.torque
+    }
+}
+
+/// a + b.
+#[inline(always)]
+fn added<R: Real>(a: [R; 4], b: [R; 4]) -> [R; 4] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]]
+}
+
+/// Upper bound of the torque on `scene`, N m: at the periapsis, the axes of the largest and the smallest moment at 45 degrees to the vertical.
+pub fn largest_torque(scene: &Scene) -> f64 {
+    let Some(orbit) = scene.orbit.as_ref().filter(|_| scene.environment.gravity_gradient) else { return 0.0 };
+    let lowest = orbit.shape().periapsis;
+    let (moments, _) = principal_axes(scene.mass.inertia);
+    let [least, most] = [moments[0].min(moments[1]).min(moments[2]), moments[0].max(moments[1]).max(moments[2])];
+    1.5 * orbit.mu / (lowest * lowest * lowest) * (most - least)
+}
+
+/// Largest rate of librations on `orbit`, rad/s: sqrt(3 mu/r^3) at the periapsis, that of a dumbbell.
+pub fn largest_rate(orbit: &Orbit) -> f64 {
+    let lowest = orbit.shape().periapsis;
+    (3.0 * orbit.mu / lowest).sqrt() / lowest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vector::norm;
+
+    /// Law: a dumbbell of two point masses m at distance d from the centre is turned by the difference of the pulls on them, to first order of
+    /// d/|r|, whatever the attitude; along the vertical and across it not at all.
+    #[test]
+    fn a_dumbbell_is_turned_by_the_pulls_on_its_ends() {
+        const MU: f64 = 3.986004418e14;
+        let (mass, arm) = (3.0, 0.5);
+        let moment = 2.0 * mass * arm * arm;
+        let inertia = [[0.0, 0.0, 0.0], [0.0, moment, 0.0], [0.0, 0.0, moment]];
+        let gradient = GravityGradient { strength: 3.0 * MU, inertia };
+        let position = [3.1e6, -4.7e6, 4.2e6];
+        let distance = norm(position);
+        for k in 0..20 {
+            let angle = 0.37 * f64::from(k);
+            let (s, c) = libm::sincos(angle);
+            let q = [c * 0.6, s * 0.8, c * 0.8, -s * 0.6];
+            let c_eb = dcm_from_quaternion(q);
+            // differences of the pulls, expanded: mu (3 u (u . d) - d)/|r|^3
+            let up = transposed_product(c_eb, scaled(1.0 / distance, position));
+            let mut torque = [0.0; 3];
+            for end in [arm, -arm] {
+                let place = [end, 0.0, 0.0];
+                let pull =
+                    core::array::from_fn(|i| mass * MU / distance.powi(3) * (3.0 * up[i] * up[0] * end - place[i]));
+                torque = crate::math::vector::sum(torque, cross(place, pull));
+            }
+            let found = gradient.torque(q, position, distance);
+            for i in 0..3 {
+                assert!(
+                    (found[i] - torque[i]).abs() < 1e-15 * 3.0 * MU / distance.powi(3) * moment,
+                    "{found:?} {torque:?}"
+                );
+            }
+        }
+        let level = gradient.torque([1.0, 0.0, 0.0, 0.0], [0.0, 7e6, 0.0], 7e6);
+        assert!(level.iter().all(|torque| *torque == 0.0), "{level:?}");
+    }
+}

@@ -1,0 +1,113 @@
+//! Effects: what acts on a spacecraft beside its actuators, under a schedule and under any law alike.
+//!
+//! Each effect is one file, and one line in [`Effect::ALL`]; its parameters are keys of `[environment]` and `[orbit]`
+//! ([`crate::scene::schema`]). The effects that act in a run are its [`ForceModel`]. Every engine says of each effect whether it integrates it
+//! (`propagation::integrated_effects`); a run is not given to an engine that leaves one out.
+//!
+//! - `constant_torque`: constant in F_s: a part of every arc of constant actuation, so that all methods have it.
+//! - [`gravity_gradient`]: depends on attitude and position.
+//! - [`within_arcs`]: the effects that change within an arc, as the equations of motion have them.
+//!
+//! A scene without effects costs nothing: its kernel is compiled without them.
+
+mod constant_torque;
+pub mod gravity_gradient;
+pub mod within_arcs;
+
+use super::actuation::sum;
+use crate::math::vector::dot;
+use crate::scene::{Actuation, EnvironmentInput, Scene};
+
+/// An effect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Effect {
+    /// `environment.body_torque_n_m`.
+    ConstantTorque,
+    /// `environment.gravity_gradient`.
+    GravityGradient,
+    /// `[orbit]`: the force of gravity on the centre of mass.
+    Gravity,
+}
+
+impl Effect {
+    /// All effects.
+    pub const ALL: [Effect; 3] = [Effect::ConstantTorque, Effect::GravityGradient, Effect::Gravity];
+
+    /// The key that makes it act.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Effect::ConstantTorque => "environment.body_torque_n_m",
+            Effect::GravityGradient => "environment.gravity_gradient",
+            Effect::Gravity => "orbit",
+        }
+    }
+
+    /// Whether it acts on `scene`.
+    pub const fn acts_on(self, scene: &Scene) -> bool {
+        match self {
+            Effect::ConstantTorque => scene.environment.body_torque_n_m.is_some(),
+            Effect::GravityGradient => scene.environment.gravity_gradient,
+            Effect::Gravity => scene.orbit.is_some(),
+        }
+    }
+}
+
+/// The effects that act in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct ForceModel(u32);
+
+impl ForceModel {
+    /// No effects.
+    pub const NONE: ForceModel = ForceModel(0);
+
+    /// The effects on `scene`.
+    pub fn of(scene: &Scene) -> Self {
+        Effect::ALL.into_iter().filter(|effect| effect.acts_on(scene)).fold(Self::NONE, Self::with)
+    }
+
+    /// These and one more.
+    #[must_use]
+    pub const fn with(self, effect: Effect) -> Self {
+        ForceModel(self.0 | 1 << effect as u32)
+    }
+
+    /// Whether `effect` is among them.
+    pub const fn contains(self, effect: Effect) -> bool {
+        self.0 & (1 << effect as u32) != 0
+    }
+
+    /// The effects.
+    pub fn effects(self) -> impl Iterator<Item = Effect> {
+        Effect::ALL.into_iter().filter(move |effect| self.contains(*effect))
+    }
+
+    /// Whether no effect is here that is not in `others`.
+    pub const fn is_within(self, others: ForceModel) -> bool {
+        self.0 & !others.0 == 0
+    }
+}
+
+/// `applied` by the actuators, and the effects on `scene` that are constant over an arc.
+#[inline]
+pub fn with_constant_effects(scene: &Scene, applied: Actuation) -> Actuation {
+    if scene.environment.body_torque_n_m.is_none() {
+        return applied;
+    }
+    sum(&applied, &constant_torque::actuation(scene))
+}
+
+/// The environment of a run whose arcs are known to contain the constant effects: that of the run without them.
+pub fn beside_arcs(environment: EnvironmentInput) -> EnvironmentInput {
+    EnvironmentInput { body_torque_n_m: None, ..environment }
+}
+
+/// Upper bound of the torque of the effects on `scene` that are constant over an arc, N m.
+pub fn largest_constant_torque(scene: &Scene) -> f64 {
+    let torque = with_constant_effects(scene, Actuation::none(f64::INFINITY)).body_torque;
+    dot(torque, torque).sqrt()
+}
+
+/// Upper bound of the torque of the effects on `scene` that change within an arc, N m.
+pub fn largest_changing_torque(scene: &Scene) -> f64 {
+    gravity_gradient::largest_torque(scene)
+}

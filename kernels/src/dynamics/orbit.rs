@@ -1,0 +1,282 @@
+//! [`KeplerOrbit`]: position and velocity on a two-body orbit at any time, in closed form.
+//!
+//! With E the eccentric anomaly and x = E - E0 its change since time zero (R. Battin, *An Introduction to the Mathematics and Methods of
+//! Astrodynamics*, 1999, section 4.3):
+//!
+//! ```text
+//! r = F r0 + G v0,  v = F' r0 + G' v0,   |r| = a + (|r0| - a) cos x + sigma sqrt(a) sin x,   sigma = r0 . v0/sqrt(mu)
+//! F = 1 - a/|r0| (1 - cos x),   sqrt(mu) G = a sigma (1 - cos x) + |r0| sqrt(a) sin x
+//! F' = -sqrt(mu a)/(|r| |r0|) sin x,   G' = 1 - a/|r| (1 - cos x)
+//! ```
+//!
+//! Circles need no case of their own: no direction of a periapsis is used. E solves Kepler's equation E - e sin E = M, M = M0 + 2 pi t/P, in turns
+//! reduced to half a turn, so that a thousand orbits later only t/P is rounded.
+//!
+//! Not here: the orbit at time zero from what is written (`scene::orbit`).
+
+use crate::math::sine::sin_cos_turns;
+use crate::math::vector::{constant, dot, norm, scaled, sum};
+use crate::math::{Mask, Real};
+use crate::scene::Orbit;
+
+/// Newton's method has converged where its last correction of E is below this, rad: the next one would be e/(2 (1 - e)) times its square, below
+/// rounding up to e = 0.99.
+const CONVERGED: f64 = 1e-9;
+
+/// Corrections at most: up to e = 0.999 measured 9.
+const MOST_CORRECTIONS: usize = 30;
+
+/// Danby's start of Newton's method, E = M + 0.85 e sign(sin M) (J. M. A. Danby, *Fundamentals of Celestial Mechanics*, 1988, section 6.6).
+const START: f64 = 0.85;
+
+/// A two-body orbit, one per lane.
+#[derive(Clone, Copy, Debug)]
+pub struct KeplerOrbit<R> {
+    /// Position at time zero, F_e, m.
+    position: [R; 3],
+    /// Velocity at time zero, F_e, m/s.
+    velocity: [R; 3],
+    /// Eccentricity.
+    eccentricity: R,
+    /// E and M at time zero, turns.
+    eccentric: R,
+    mean: R,
+    /// One over the period, 1/s.
+    per_period: R,
+    /// a and a/|r0|, m and 1.
+    axis: R,
+    ratio: R,
+    /// |r0| - a and sigma sqrt(a), m.
+    cosine: R,
+    sine: R,
+    /// a sigma/sqrt(mu) and |r0| sqrt(a/mu), s.
+    level: R,
+    rise: R,
+    /// Gravitational parameter, m^3/s^2.
+    mu: R,
+    /// sqrt(mu a)/|r0|, m/s.
+    fall: R,
+    /// |r0|, m, and mu/|r0|, m^2/s^2.
+    start: R,
+    pull: R,
+}
+
+/// Where the spacecraft is on its orbit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrbitState<R> {
+    /// Position from the central body, F_e, m.
+    pub position: [R; 3],
+    /// Velocity, F_e, m/s.
+    pub velocity: [R; 3],
+    /// |position|, m.
+    pub distance: R,
+}
+
+impl KeplerOrbit<f64> {
+    /// The orbit of a scene.
+    pub fn new(orbit: &Orbit) -> Self {
+        let Orbit { mu, position, velocity } = *orbit;
+        let distance = norm(position);
+        let axis = 1.0 / (2.0 / distance - dot(velocity, velocity) / mu);
+        let sigma = dot(position, velocity) / mu.sqrt();
+        let (cosine, sine) = (distance - axis, sigma * axis.sqrt());
+        // e cos E0 and e sin E0
+        let (along, across) = (-cosine / axis, sine / axis);
+        let eccentric = libm::atan2(across, along);
+        let turns = 1.0 / core::f64::consts::TAU;
+        KeplerOrbit {
+            position,
+            velocity,
+            eccentricity: libm::sqrt(along * along + across * across),
+            eccentric: eccentric * turns,
+            mean: (eccentric - across) * turns,
+            per_period: (mu / axis).sqrt() / axis * turns,
+            axis,
+            ratio: axis / distance,
+            cosine,
+            sine,
+            level: axis * sigma / mu.sqrt(),
+            rise: distance * (axis / mu).sqrt(),
+            mu,
+            fall: (mu * axis).sqrt() / distance,
+            start: distance,
+            pull: mu / distance,
+        }
+    }
+
+    /// A circle that no run is on: what empty lanes have.
+    pub fn blank() -> Self {
+        KeplerOrbit::new(&Orbit { mu: 1.0, position: [1.0, 0.0, 0.0], velocity: [0.0, 1.0, 0.0] })
+    }
+
+    /// The same in all lanes of `zero`.
+    #[inline(always)]
+    pub fn in_lanes<R: Real>(&self, zero: R) -> KeplerOrbit<R> {
+        KeplerOrbit {
+            position: constant(zero, self.position),
+            velocity: constant(zero, self.velocity),
+            eccentricity: zero.splat(self.eccentricity),
+            eccentric: zero.splat(self.eccentric),
+            mean: zero.splat(self.mean),
+            per_period: zero.splat(self.per_period),
+            axis: zero.splat(self.axis),
+            ratio: zero.splat(self.ratio),
+            cosine: zero.splat(self.cosine),
+            sine: zero.splat(self.sine),
+            level: zero.splat(self.level),
+            rise: zero.splat(self.rise),
+            mu: zero.splat(self.mu),
+            fall: zero.splat(self.fall),
+            start: zero.splat(self.start),
+            pull: zero.splat(self.pull),
+        }
+    }
+}
+
+impl<R: Real> KeplerOrbit<R> {
+    /// Puts `orbit` into lane `lane`.
+    pub fn set_lane(&mut self, lane: usize, orbit: &KeplerOrbit<f64>) {
+        for i in 0..3 {
+            self.position[i].set_lane(lane, orbit.position[i]);
+            self.velocity[i].set_lane(lane, orbit.velocity[i]);
+        }
+        self.eccentricity.set_lane(lane, orbit.eccentricity);
+        self.eccentric.set_lane(lane, orbit.eccentric);
+        self.mean.set_lane(lane, orbit.mean);
+        self.per_period.set_lane(lane, orbit.per_period);
+        self.axis.set_lane(lane, orbit.axis);
+        self.ratio.set_lane(lane, orbit.ratio);
+        self.cosine.set_lane(lane, orbit.cosine);
+        self.sine.set_lane(lane, orbit.sine);
+        self.level.set_lane(lane, orbit.level);
+        self.rise.set_lane(lane, orbit.rise);
+        self.mu.set_lane(lane, orbit.mu);
+        self.fall.set_lane(lane, orbit.fall);
+        self.start.set_lane(lane, orbit.start);
+        self.pull.set_lane(lane, orbit.pull);
+    }
+
+    /// The gravitational parameter, m^3/s^2.
+    #[inline(always)]
+    pub fn mu(&self) -> R {
+        self.mu
+    }
+
+    /// The state at `time`, s.
+    #[inline(always)]
+    pub fn state(&self, time: R) -> OrbitState<R> {
+        let one = time.splat(1.0);
+        let turns = self.eccentric_anomaly(time) - self.eccentric;
+        let (sin, cos) = sin_cos_turns(turns - turns.nearest_integer());
+        let fallen = one - cos;
+        let distance = self.sine.mul_add(sin, self.cosine.mul_add(cos, self.axis));
+        let f = self.ratio.neg_mul_add(fallen, one);
+        let g = self.level.mul_add(fallen, self.rise * sin);
+        let f_rate = -(self.fall / distance * sin);
+        let g_rate = (self.axis / distance).neg_mul_add(fallen, one);
+        OrbitState {
+            position: sum(scaled(f, self.position), scaled(g, self.velocity)),
+            velocity: sum(scaled(f_rate, self.position), scaled(g_rate, self.velocity)),
+            distance,
+        }
+    }
+
+    /// The work of gravity since time zero on a kilogram that is now `distance` from the central body: mu/|r| - mu/|r0|, J.
+    #[inline(always)]
+    pub fn work(&self, distance: R) -> R {
+        self.pull * ((self.start - distance) / distance)
+    }
+
+    /// E at `time`, turns, by Newton's method; a lane that has converged stays as it is, whatever the others do.
+    #[inline(always)]
+    fn eccentric_anomaly(&self, time: R) -> R {
+        let number = |value: f64| time.splat(value);
+        let e = self.eccentricity;
+        let mean = time.mul_add(self.per_period, self.mean);
+        let mean = mean - mean.nearest_integer();
+        let ahead = e * number(START / core::f64::consts::TAU);
+        let mut found = mean + R::select(mean.lt(time.zero()), -ahead, ahead);
+        let mut open = !time.never();
+        for _ in 0..MOST_CORRECTIONS {
+            let (sin, cos) = sin_cos_turns(found - found.nearest_integer());
+            // in turns: E - e sin E/(2 pi) - M
+            let off = (found - mean) - e * sin * number(1.0 / core::f64::consts::TAU);
+            let correction = off / e.neg_mul_add(cos, number(1.0));
+            found = R::select(open, found - correction, found);
+            open = open & number(CONVERGED / core::f64::consts::TAU).lt(correction.abs());
+            if !open.any() {
+                break;
+            }
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vector::{cross, difference};
+
+    const MU: f64 = 3.986004418e14;
+
+    fn orbit(radius: f64, speed: f64, radial: f64) -> Orbit {
+        let circular = (MU / radius).sqrt();
+        let velocity = [radial * circular, speed * circular * 0.6, speed * circular * 0.8];
+        Orbit { mu: MU, position: [radius, 0.0, 0.0], velocity }
+    }
+
+    /// Law: energy and angular momentum of the orbit are constant, |r| is the distance, and one period later the state is the same; from
+    /// circles to an eccentricity of 0.98.
+    #[test]
+    fn the_constants_of_the_orbit_are_constant() {
+        for (speed, radial) in
+            [(1.0, 0.0), (1.0, 1e-9), (1.1, 0.0), (0.8, 0.3), (1.25, -0.2), (1.405, 0.0), (0.9, 1.05)]
+        {
+            let scene = orbit(7e6, speed, radial);
+            let kepler = KeplerOrbit::new(&scene);
+            let shape = scene.shape();
+            assert!(shape.eccentricity < 0.99, "{shape:?}");
+            let energy =
+                |state: &OrbitState<f64>| 0.5 * dot(state.velocity, state.velocity) - MU / norm(state.position);
+            let momentum = |state: &OrbitState<f64>| cross(state.position, state.velocity);
+            let first = OrbitState { position: scene.position, velocity: scene.velocity, distance: 7e6 };
+            let period = 1.0 / kepler.per_period;
+            for k in 0..=200 {
+                let time = f64::from(k) * 0.017 * period;
+                let state = kepler.state(time);
+                let size = 0.5 * dot(state.velocity, state.velocity) + MU / state.distance;
+                assert!((energy(&state) - energy(&first)).abs() < 4e-15 * size, "{speed} {radial} at {time}");
+                let off = norm(difference(momentum(&state), momentum(&first)));
+                assert!(off < 2e-14 * norm(state.position) * norm(state.velocity), "{speed} {radial} at {time}");
+                assert!((norm(state.position) / state.distance - 1.0).abs() < 1e-14, "{speed} {radial} at {time}");
+                let later = kepler.state(time + period);
+                // the position after a period depends on the rounding of the time, at the speed of the orbit
+                let moved = norm(difference(later.position, state.position)) / norm(state.velocity);
+                assert!(moved < 1e-13 * period, "{speed} {radial} at {time}: {moved}");
+            }
+        }
+    }
+
+    /// Law: the state follows v = r' and v' = -mu r/|r|^3, by central differences of fourth order.
+    #[test]
+    fn the_state_obeys_the_equations_of_motion() {
+        let kepler = KeplerOrbit::new(&orbit(7e6, 1.2, 0.1));
+        let step = 4.0;
+        for k in 0..40 {
+            let time = 250.0 * f64::from(k);
+            let at = |n: f64| kepler.state(time + n * step);
+            let slope = |of: fn(&OrbitState<f64>) -> [f64; 3]| {
+                let near = difference(of(&at(1.0)), of(&at(-1.0)));
+                let far = difference(of(&at(2.0)), of(&at(-2.0)));
+                scaled(1.0 / (12.0 * step), difference(scaled(8.0, near), far))
+            };
+            let now = at(0.0);
+            let off = norm(difference(slope(|state| state.position), now.velocity));
+            assert!(off < 1e-8 * norm(now.velocity), "{off:e}");
+            let distance = norm(now.position);
+            let acceleration = scaled(-MU / (distance * distance * distance), now.position);
+            let off = norm(difference(slope(|state| state.velocity), acceleration));
+            assert!(off < 1e-8 * norm(acceleration), "{off:e}");
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! [`Orbit`]: the two-body orbit of a scene at time zero, from position and velocity or from Keplerian elements.
+//!
+//! Formulas: D. Vallado, *Fundamentals of Astrodynamics and Applications*, 4th ed., 2013, sections 2.4 to 2.6. Not here: the motion along
+//! the orbit (`dynamics::orbit`).
+
+use super::error::Problems;
+use super::schema::limit::shown;
+use super::schema::{InitialInput, OrbitInput};
+use crate::math::vector::{cross, difference, dot, norm, scaled, sum};
+
+/// A two-body orbit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Orbit {
+    /// Gravitational parameter, m^3/s^2.
+    pub mu: f64,
+    /// Position of c from the central body at time zero, in F_e, m.
+    pub position: [f64; 3],
+    /// Velocity of c at time zero, in F_e, m/s.
+    pub velocity: [f64; 3],
+}
+
+/// Shape and size of an orbit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrbitShape {
+    /// Semi-major axis, m; negative of a hyperbola.
+    pub semi_major_axis: f64,
+    /// Eccentricity.
+    pub eccentricity: f64,
+    /// Smallest distance from the centre, m.
+    pub periapsis: f64,
+}
+
+impl Orbit {
+    /// The orbit that `input` describes; what is missing counts as zero.
+    pub fn of(input: &OrbitInput) -> Self {
+        let mu = input.mu_m3_s2;
+        let Some(semi_major_axis) = input.semi_major_axis_m else {
+            let (position, velocity) = (input.position_m.unwrap_or_default(), input.velocity_m_s.unwrap_or_default());
+            return Orbit { mu, position, velocity };
+        };
+        let angle = |value: Option<f64>| libm::sincos(value.unwrap_or(0.0));
+        let eccentricity = input.eccentricity.unwrap_or(0.0);
+        let (sin_i, cos_i) = angle(input.inclination_rad);
+        let (sin_node, cos_node) = angle(input.ascending_node_rad);
+        let (sin_w, cos_w) = angle(input.argument_of_periapsis_rad);
+        let (sin_f, cos_f) = angle(input.true_anomaly_rad);
+        // towards the node, and across it in the plane of the orbit
+        let node = [cos_node, sin_node, 0.0];
+        let across = [-sin_node * cos_i, cos_node * cos_i, sin_i];
+        let periapsis = sum(scaled(cos_w, node), scaled(sin_w, across));
+        let ahead = sum(scaled(-sin_w, node), scaled(cos_w, across));
+        let parameter = semi_major_axis * (1.0 - eccentricity * eccentricity);
+        let distance = parameter / (1.0 + eccentricity * cos_f);
+        let speed = (mu / parameter).sqrt();
+        Orbit {
+            mu,
+            position: scaled(distance, sum(scaled(cos_f, periapsis), scaled(sin_f, ahead))),
+            velocity: scaled(speed, sum(scaled(-sin_f, periapsis), scaled(eccentricity + cos_f, ahead))),
+        }
+    }
+
+    /// Its shape.
+    pub fn shape(&self) -> OrbitShape {
+        let distance = norm(self.position);
+        let speed2 = dot(self.velocity, self.velocity);
+        let radial = dot(self.position, self.velocity);
+        let semi_major_axis = 1.0 / (2.0 / distance - speed2 / self.mu);
+        let towards = difference(scaled(speed2 - self.mu / distance, self.position), scaled(radial, self.velocity));
+        let eccentricity = norm(towards) / self.mu;
+        let momentum = cross(self.position, self.velocity);
+        let periapsis = dot(momentum, momentum) / (self.mu * (1.0 + eccentricity));
+        OrbitShape { semi_major_axis, eccentricity, periapsis }
+    }
+}
+
+/// Collects what is wrong with the orbit, beyond the limits of single keys.
+pub(super) fn check(input: &OrbitInput, initial: &InitialInput, problems: &mut Problems) {
+    let key = |name: &str| format!("orbit.{name}");
+    let default = InitialInput::DEFAULT;
+    for (name, written, none) in [
+        ("position_m", &initial.position_m, &default.position_m),
+        ("velocity_m_s", &initial.velocity_m_s, &default.velocity_m_s),
+    ] {
+        if written != none {
+            let allowed = "left out where there is an [orbit], which says where the spacecraft is";
+            problems.add(format!("initial.{name}"), shown(written), allowed, "delete it, or delete [orbit]");
+        }
+    }
+    let of_elements = [
+        input.eccentricity,
+        input.inclination_rad,
+        input.ascending_node_rad,
+        input.argument_of_periapsis_rad,
+        input.true_anomaly_rad,
+    ];
+    let vectors = [input.position_m, input.velocity_m_s];
+    if let Some(axis) = input.semi_major_axis_m {
+        for (name, vector) in OrbitInput::VECTORS.into_iter().zip(vectors) {
+            if let Some(vector) = vector {
+                let allowed = "left out where semi_major_axis_m is given";
+                problems.add(key(name), shown(&vector), allowed, "write position and velocity, or elements");
+            }
+        }
+        if let Some(eccentricity) = input.eccentricity.filter(|eccentricity| *eccentricity >= 1.0) {
+            let allowed = "below 1: an ellipse or a circle";
+            return problems.add(key("eccentricity"), shown(&[eccentricity]), allowed, "write 0 for a circle");
+        }
+        let lowest = axis * (1.0 - input.eccentricity.unwrap_or(0.0));
+        if lowest <= input.body_radius_m {
+            let allowed = format!(
+                "so large that the periapsis, here {lowest:?} m, is above body_radius_m = {:?}",
+                input.body_radius_m
+            );
+            problems.add(
+                key("semi_major_axis_m"),
+                shown(&[axis]),
+                allowed,
+                "raise the orbit: it hits the central body",
+            );
+        }
+        return;
+    }
+    for (name, element) in OrbitInput::ELEMENTS.into_iter().skip(1).zip(of_elements) {
+        if let Some(element) = element {
+            let allowed = "left out where semi_major_axis_m is not given";
+            problems.add(key(name), shown(&[element]), allowed, "add semi_major_axis_m, or delete the elements");
+        }
+    }
+    let (Some(position), Some(velocity)) = (input.position_m, input.velocity_m_s) else {
+        let missing = if input.position_m.is_none() { "position_m" } else { "velocity_m_s" };
+        let allowed = "given, with the other of position_m and velocity_m_s (or elements from semi_major_axis_m on)";
+        return problems.add(key(missing), "missing".to_owned(), allowed, "write both, or Keplerian elements");
+    };
+    let shape = Orbit::of(input).shape();
+    // NaN is refused by the limits of its key
+    if shape.eccentricity >= 1.0 || shape.semi_major_axis < 0.0 {
+        let allowed = format!(
+            "below the speed of escape, {:?} m/s there: an ellipse or a circle",
+            (2.0 * input.mu_m3_s2 / norm(position)).sqrt()
+        );
+        problems.add(key("velocity_m_s"), shown(&velocity), allowed, "write a smaller velocity");
+    } else if shape.periapsis <= input.body_radius_m {
+        let allowed = format!(
+            "on an orbit whose periapsis, here {:?} m, is above body_radius_m = {:?}",
+            shape.periapsis, input.body_radius_m
+        );
+        problems.add(key("position_m"), shown(&position), allowed, "raise the orbit: it hits the central body");
+    }
+}

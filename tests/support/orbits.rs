@@ -1,0 +1,71 @@
+//! Spacecraft on orbits under the gravity gradient.
+
+use super::scenes::Uniform;
+use spindrift::scene::{BodyInput, EnvironmentInput, OrbitInput, Scene, SceneInput};
+
+/// Gravitational parameter of the Earth, m^3/s^2.
+pub const MU: f64 = 3.986004418e14;
+
+/// A body of the principal moments `moments` (kg m^2) in the orbit `orbit` under the gravity gradient.
+pub fn body(moments: [f64; 3], orbit: OrbitInput) -> SceneInput {
+    let [x, y, z] = moments;
+    let inertia = [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]];
+    SceneInput {
+        body: BodyInput {
+            mass_kg: Some(1000.0),
+            center_of_mass_m: Some([0.0; 3]),
+            inertia_kg_m2: Some(inertia),
+            ..BodyInput::DEFAULT
+        },
+        orbit: Some(orbit),
+        environment: EnvironmentInput { gravity_gradient: true, ..EnvironmentInput::DEFAULT },
+        ..SceneInput::blank()
+    }
+}
+
+/// A circle of `radius` m, at its ascending node at time zero.
+pub fn circle(radius: f64, inclination: f64) -> OrbitInput {
+    OrbitInput { semi_major_axis_m: Some(radius), inclination_rad: Some(inclination), ..OrbitInput::DEFAULT }
+}
+
+/// Bodies of random shapes in random orbits, eccentric up to 0.3, that turn at `rates` times the mean motion; every other one with a wheel.
+pub fn tumbling(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
+    let mut u = Uniform::new(seed);
+    let scene = |k: u64| {
+        let second = [u.between(1.0, 5.0), u.between(1.0, 5.0), u.between(1.0, 5.0)];
+        let moments = [second[1] + second[2], second[0] + second[2], second[0] + second[1]].map(|x| 30.0 * x);
+        let eccentricity = u.between(0.0, 0.3);
+        let axis = u.between(6.9e6, 9e6) / (1.0 - eccentricity);
+        let mut angle = || Some(u.between(-3.0, 3.0));
+        let orbit = OrbitInput {
+            semi_major_axis_m: Some(axis),
+            eccentricity: Some(eccentricity),
+            inclination_rad: angle(),
+            ascending_node_rad: angle(),
+            argument_of_periapsis_rad: angle(),
+            true_anomaly_rad: angle(),
+            ..OrbitInput::DEFAULT
+        };
+        let mut input = body(moments, orbit);
+        let motion = (MU / axis).sqrt() / axis;
+        let rate = motion * u.between(rates[0], rates[1]);
+        input.initial.angular_velocity_rad_s = u.vector::<3>(1.0).map(|x| rate * x);
+        let q = u.vector::<4>(1.0);
+        let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        input.initial.attitude = q.map(|x| x / norm);
+        if k % 2 == 1 {
+            let wheel = spindrift::scene::WheelInput {
+                mass_kg: Some(3.0),
+                axial_inertia_kg_m2: Some(0.02),
+                transverse_inertia_kg_m2: Some(0.012),
+                radius_m: None,
+                length_m: None,
+                density_kg_m3: None,
+                ..spindrift::scene::WheelInput::named("w1", [0.6, 0.0, 0.8], [0.1, 0.2, 0.0])
+            };
+            input = input.with_wheel(wheel).with("wheels.w1.rate_rad_s", &[30.0]);
+        }
+        Scene::resolve(&input).unwrap_or_else(|errors| panic!("{}", errors[0]))
+    };
+    (0..count).map(scene).collect()
+}
