@@ -48,7 +48,7 @@ pub struct MissionOutcome {
     failure: Failure,
     end: f64,
     at_launch: Option<AtLaunch>,
-    /// Largest rotation to the target after it was first passed, rad, and the direction of the error with which the phase began.
+    /// Largest rotation to the target after it was first passed, rad, and the direction of the first error of the phase.
     overshoot: f64,
     first_error: Option<[f64; 3]>,
     /// Since when the pointing error has been within the band, s; NaN while it is not.
@@ -142,9 +142,13 @@ impl MissionOutcome {
     fn pointing(&mut self, time: f64, error: &AttitudeError, begins: bool, band: f64) {
         let vector = vector_of(error.q_ts);
         let angle = norm(vector);
-        if begins || self.first_error.is_none() {
-            self.first_error = (angle > 0.0).then(|| scaled(1.0 / angle, vector));
-            (self.overshoot, self.settled_since, self.pointing_since) = (0.0, f64::NAN, time);
+        if begins {
+            (self.first_error, self.overshoot) = (None, 0.0);
+            (self.settled_since, self.pointing_since) = (f64::NAN, time);
+        }
+        // a phase that begins at its target has a direction from the first error on
+        if self.first_error.is_none() && angle > 0.0 {
+            self.first_error = Some(scaled(1.0 / angle, vector));
         }
         if let Some(first) = self.first_error {
             self.overshoot = self.overshoot.max(-dot(first, vector));
