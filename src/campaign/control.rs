@@ -3,6 +3,7 @@
 use super::lines::Lines;
 use super::numbers::{NumberLimit, POSITIVE};
 use super::section::Section;
+use super::size::MOST_TABLES;
 use super::tables::{read_keys, read_name};
 use crate::control::actuators::modulation;
 use crate::control::guidance::phase::{MANEUVERS, Maneuver, Next};
@@ -69,19 +70,16 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
     let model = read_model(&mut section);
     section.finish();
 
-    let sensors = root.sections("sensors", |section| read_sensor(section, scene, period));
+    let sensors = root.sections("sensors", MOST_TABLES, |section| read_sensor(section, scene, period));
     check_sensors(root, &sensors, estimator, [has_debris, !wheels.is_empty()]);
     let mut taken = Vec::new();
-    let phases = root.sections("guidance", |section| read_phase(section, scene, !thrusters.is_empty(), &mut taken));
+    let phases =
+        root.sections("guidance", MOST_PHASES, |section| read_phase(section, scene, !thrusters.is_empty(), &mut taken));
     if phases.is_empty() && !root.has("guidance") {
         let content = "the phases of the mission, at least one";
         let remedy =
             "add a [[guidance]] table with phase = \"hold\", law = \"quaternion_feedback\", target = \"attitude\"";
         root.document.add("guidance", None, content, remedy);
-    }
-    if phases.len() > MOST_PHASES {
-        let allowed = format!("at most {MOST_PHASES} tables");
-        root.document.add("guidance", Some(format!("{} tables", phases.len())), allowed, "delete some of them");
     }
     let phases = connected(root, phases, &taken);
     let spec = LoopSpec {

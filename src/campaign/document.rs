@@ -51,6 +51,8 @@ pub struct Document<'a> {
     pub(super) spans: BTreeMap<String, Spans>,
     /// The files of numbers that were read, each with the SHA-256 of its bytes.
     pub(super) files: Vec<(PathBuf, String)>,
+    /// Problems that are no more than that a file cannot be read now.
+    pub(super) unreadable: usize,
     /// How many tables named a file of numbers, and how many numbers were read.
     pub(super) data: (usize, u64),
     /// The scene of the document, once it is read: names of parameters are those of its tables.
@@ -83,6 +85,7 @@ impl<'a> Document<'a> {
             starts: std::iter::once(0).chain(ends).collect(),
             spans: BTreeMap::new(),
             files: Vec::new(),
+            unreadable: 0,
             data: (0, 0),
             scene: SceneInput::blank(),
             law: None,
@@ -221,7 +224,11 @@ impl<'a> Document<'a> {
     pub fn verdict(self) -> Result<(), CampaignError> {
         let mut problems = self.problems;
         problems.sort_by_key(|problem| problem.line.unwrap_or(usize::MAX));
-        if problems.is_empty() { Ok(()) } else { Err(CampaignError { problems, more: self.more, note: None }) }
+        if problems.is_empty() {
+            return Ok(());
+        }
+        let is_unreadable = self.unreadable == problems.len() + self.more;
+        Err(CampaignError { problems, more: self.more, note: None, is_unreadable })
     }
 
     /// Where `key` is, or the nearest table around it.

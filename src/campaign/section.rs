@@ -115,8 +115,8 @@ impl<'d, 'a> Section<'d, 'a> {
         Section { document: &mut *self.document, path, title: None, table, known: Vec::new(), unit, every: None }
     }
 
-    /// The tables `[[key]]`, in order, each read by `read`.
-    pub fn sections<T>(&mut self, key: &str, mut read: impl FnMut(&mut Section<'_, 'a>) -> T) -> Vec<T> {
+    /// The tables `[[key]]`, in order, each read by `read`; of more than `most` the first ones, after the others were refused.
+    pub fn sections<T>(&mut self, key: &str, most: usize, mut read: impl FnMut(&mut Section<'_, 'a>) -> T) -> Vec<T> {
         let Some(value) = self.take(key) else { return Vec::new() };
         let tables: Option<Vec<_>> = value.get_ref().as_array().and_then(|list| {
             list.iter().map(|item| item.get_ref().as_table().map(|table| (item.span(), table))).collect()
@@ -125,8 +125,12 @@ impl<'d, 'a> Section<'d, 'a> {
             self.refuse(key, "a list of tables", format!("write [[{key}]] with two brackets"));
             return Vec::new();
         };
-        let mut list = Vec::with_capacity(tables.len());
-        for (index, (span, table)) in tables.into_iter().enumerate() {
+        if tables.len() > most {
+            let (path, count) = (self.path(key), format!("{} tables", tables.len()));
+            self.document.add(&path, Some(count), format!("at most {most} tables"), "delete some of them");
+        }
+        let mut list = Vec::with_capacity(tables.len().min(most));
+        for (index, (span, table)) in tables.into_iter().take(most).enumerate() {
             let path = format!("{}[{index}]", self.path(key));
             self.document.spans.insert(path.clone(), Spans { key: span, value: 0..0 });
             let mut section = Section {

@@ -1,6 +1,7 @@
 //! [`Sources`]: the texts that a campaign is made of: its file, the files that this extends (`extends = "base.toml"`), and what is set beside them
 //! (`--set campaign.duration_s=20`). They are parsed one by one and laid over one another as one table, in which every value keeps its place.
 
+use super::input_file::is_unreadable;
 use super::problem::{CampaignError, Problem};
 use super::size;
 use std::borrow::Cow;
@@ -56,7 +57,7 @@ impl Sources {
                 let (file, key) = (name.clone(), "extends".to_owned());
                 Err(CampaignError::of(Problem { file, line: Some(line), key, value, allowed, remedy, excerpt: None }))
             };
-            if !path.is_file() {
+            if !path.is_file() && !path.metadata().is_err_and(|error| is_unreadable(&error)) {
                 return refuse("a campaign file, by its path from the folder of this file", "check the path");
             }
             if sources.extended.len() + 1 >= MOST_FILES {

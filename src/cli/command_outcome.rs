@@ -21,6 +21,8 @@ pub enum CommandOutcome {
     RequirementsFailed(usize),
     /// No requirement failed, and this many are undecided, a precision among them that `[stop]` did not reach: code 5.
     RequirementsUndecided(usize),
+    /// What was verified is sound, and more is to come: code 5.
+    Unfinished,
 }
 
 impl CommandOutcome {
@@ -54,7 +56,7 @@ pub fn exit_code(ended: Result<CommandOutcome, Failure>) -> ExitCode {
         Ok(CommandOutcome::SomeFailed(_)) => 1,
         Ok(CommandOutcome::Stopped(signal)) => signals::exit_code(signal),
         Ok(CommandOutcome::RequirementsFailed(_)) => 3,
-        Ok(CommandOutcome::RequirementsUndecided(_)) => 5,
+        Ok(CommandOutcome::RequirementsUndecided(_) | CommandOutcome::Unfinished) => 5,
         Err(Failure::Input(reason)) => {
             screen::note(&format!("error: {reason}"));
             2

@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
+use crate::analysis::ending::Ending;
 use crate::analysis::missions::{MissionShare, Missions};
 use crate::analysis::outcomes::named;
 use crate::analysis::statistics::Statistics;
@@ -162,7 +163,7 @@ impl Summary {
     }
 }
 
-/// What a finished summary says of how its campaign ended.
+/// How a campaign ended, as its rows and its summary both say.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SummaryEnd {
     /// Number of rows.
@@ -176,6 +177,17 @@ pub struct SummaryEnd {
 }
 
 impl SummaryEnd {
+    /// What the summary of a campaign says that ended like this.
+    pub fn of(ending: &Ending) -> Self {
+        let verdicts = ending.verdicts.list.iter();
+        SummaryEnd {
+            rows: ending.rows,
+            failed: ending.failed,
+            verdicts: verdicts.map(|one| (one.sentence(), one.word().to_owned())).collect(),
+            is_reached: ending.stopping.as_ref().is_none_or(Stopping::is_reached),
+        }
+    }
+
     /// What the bytes of a summary say; `None` where they are no finished summary.
     pub fn read(bytes: &[u8]) -> Option<Self> {
         let value: Value = serde_json::from_slice(bytes).ok()?;

@@ -10,14 +10,12 @@ use crate::analysis::statistics::Statistics;
 use crate::analysis::stopping::{Stopping, stopping};
 use crate::analysis::survey::Survey;
 use crate::analysis::verdicts::Verdicts;
-use crate::analysis::{derived_table, sensitivity, sensitivity_table, statistics, statistics_table, verdicts};
+use crate::analysis::{sensitivity, statistics, verdicts};
 use crate::campaign::Plan;
 use crate::ensemble::Bands;
 use crate::report::{requirements, stopping_text};
-use crate::storage::folder::Folder;
-use crate::storage::names::{BANDS, OBSERVABLES, SENSITIVITY, STATISTICS};
+use crate::storage::atomic;
 use crate::storage::rows_reader::RowsReader;
-use crate::storage::{atomic, bands_table};
 use crate::workflow::error::WorkflowError;
 
 /// What the rows say.
@@ -39,37 +37,7 @@ pub struct Analysed {
     pub missions: Missions,
 }
 
-/// Makes the tables of the dataset `folder` of `plan` from what was `gathered` from its rows.
-///
-/// # Errors
-/// Where a file cannot be read or written.
-pub fn analyse(
-    plan: &Plan,
-    reader: &RowsReader,
-    folder: &Folder,
-    gathered: Gathered,
-    threads: Option<NonZeroUsize>,
-) -> Result<Analysed, WorkflowError> {
-    let found = computed(plan, reader, gathered, threads)?;
-    write(folder, STATISTICS, statistics_table::encoded(plan, &found.statistics))?;
-    write(folder, SENSITIVITY, sensitivity_table::encoded(plan, &found.sensitivities))?;
-    match derived_table::encoded(plan, reader).transpose() {
-        Some(encoded) => write(folder, OBSERVABLES, encoded)?,
-        None => folder.remove(OBSERVABLES).map_err(WorkflowError::files)?,
-    }
-    if let Some(bands) = &found.bands {
-        write(folder, BANDS, bands_table::encoded(plan, bands))?;
-    }
-    Ok(found)
-}
-
-/// Writes an encoded table as the file `name` of a dataset.
-fn write<E: std::fmt::Display>(folder: &Folder, name: &str, encoded: Result<Vec<u8>, E>) -> Result<(), WorkflowError> {
-    let bytes = encoded.map_err(|error| in_file(&folder.path(name), &error))?;
-    folder.write(name, &bytes).map_err(WorkflowError::files)
-}
-
-/// What was `gathered` from the rows of `plan` says; nothing is written.
+/// What was `gathered` from the rows of `plan` says.
 ///
 /// # Errors
 /// Where a file cannot be read.

@@ -6,6 +6,7 @@
 mod support;
 
 mod absent_values;
+mod altered_results;
 mod audit;
 mod audit_limit;
 mod band_requirements;
