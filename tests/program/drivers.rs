@@ -13,14 +13,17 @@ fn a_dead_thruster_is_named() {
     let dead =
         "parameter = \"thrusters.p2.thrust_scale\"\ndistribution = \"bernoulli\"\nvalue = 0.0\nprobability = 0.04";
     assert!(DETUMBLE.contains(SCALE));
-    let found = found("dead", &DETUMBLE.replace(SCALE, dead).replace("samples = 1024", "samples = 400"));
+    let found = found(
+        "dead",
+        &DETUMBLE.replace(SCALE, dead).replace("samples = 1024", "samples = 400").replace("\"5 min\"", "\"64 s\""),
+    );
     let rows = found.scratch.rows("r");
     let [scale, began] = ["thrusters_p2_thrust_scale", "phase_rest_begin_s"].map(|name| column(&rows, name));
-    let runs = |value: f64| (1..400).filter(move |row| scale[*row] == value).collect::<Vec<_>>();
-    let missed = |rows: &[usize]| rows.iter().filter(|row| !(began[**row] <= 300.0)).count();
+    let runs = |value: f64| (1..400).filter(|row| scale[*row] == value).collect::<Vec<_>>();
+    let missed = |rows: &[usize]| rows.iter().filter(|row| began[**row].is_nan() || began[**row] > 64.0).count();
     let [dead, alive] = [0.0, 1.0].map(runs);
     let counts = [missed(&dead), dead.len(), missed(&alive), alive.len()];
-    assert!(counts[0] > 4 && counts[2] < 4, "{counts:?}");
+    assert!(counts[0] >= 4 && counts[2] < 4, "{counts:?}");
     let [a, m, b, n] = counts;
     let words =
         format!("thrusters_p2_thrust_scale = 0: {a} of {m} miss the limit; = 1: {b} of {n} miss the limit (risk ratio");

@@ -173,7 +173,8 @@ quantile = 0.9
 "#;
     let scratch = folder("statistics-drivers");
     scratch.file("spin.toml", &(campaign() + SPIN));
-    let screen = scratch.prints("campaign spin.toml --out r", 0);
+    let mut command = scratch.command("campaign spin.toml --out r");
+    let screen = scratch.outputs(command.env("COLUMNS", "200"), 0);
     let inputs = scratch.table("r/sensitivity.parquet");
     let name = |column: &str, row: usize| {
         inputs.column_by_name(column).expect(column).as_string::<i32>().value(row).to_owned()
