@@ -4,7 +4,8 @@
 //!   by an [`accumulator`].
 //! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`], [`order_statistics`]); [`tally`], [`audit_tally`]: statuses, worst runs, audits.
 //! - [`verdicts`]: of the requirements, each an [`assessment`] (over time: `band_verdicts`); [`mod@stopping`]: whether the rows are enough. [`mod@ending`]: how the campaign ended.
-//! - [`sensitivity`]: which input matters; [`drivers`]: which of them the rows show; [`noise_share`]: what noise within loops does. - [`statistics_table`], [`sensitivity_table`]: both as files.
+//! - [`sensitivity`]: which input matters (`block_indices`: of a `saltelli` design); [`effects`]: tests whether it does, also of an [`event`];
+//!   [`drivers`]: the ranking of what the rows show; [`noise_share`]: what noise within loops does. - [`statistics_table`], [`sensitivity_table`]: both as files.
 //! - [`comparison`]: two results, by the samples that both drew ([`pairing`]); [`comparison_table`]: as a file.
 //! - [`trajectories`]: which runs are retained, and their time series. - [`survey`]: what the page shows of the rows.
 //!
@@ -14,12 +15,17 @@ pub mod accumulator;
 pub mod assessment;
 pub mod audit_tally;
 mod band_verdicts;
+mod block_indices;
 pub mod column_counts;
 pub mod comparison;
 pub mod comparison_table;
 pub mod derived_table;
 pub mod drivers;
 pub mod ending;
+#[cfg(test)]
+mod drivers_of_known_truth;
+pub mod effects;
+pub mod event;
 pub mod fold;
 pub mod missions;
 pub mod noise_share;

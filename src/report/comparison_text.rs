@@ -54,7 +54,7 @@ pub fn text(compared: Compared<'_>) -> String {
         0 => "  compared as independent samples: Welch's test of means, Kolmogorov and Smirnov's of distributions\n"
             .to_owned(),
         pairs => format!(
-            "  compared sample by sample: {pairs} samples were drawn alike and are ok in both; Student's test of means, signed ranks\n"
+            "  compared sample by sample: {pairs} samples were drawn alike and computed in both; Student's test of means, signed ranks\n"
         ),
     };
     if let Some(other) = [first, second].into_iter().find(|of| of.population != Population::Independent) {

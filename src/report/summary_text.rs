@@ -55,9 +55,13 @@ impl Summary {
             (runs + ended.count, if *name == ok { ended.count } else { good })
         });
         if runs == good {
-            return if runs == 1 { "\n  the run is ok\n".to_owned() } else { format!("\n  all {runs} runs are ok\n") };
+            return if runs == 1 {
+                "\n  the run was computed\n".to_owned()
+            } else {
+                format!("\n  all {runs} runs were computed\n")
+            };
         }
-        let mut text = format!("\n  {good} of {runs} runs are ok\n");
+        let mut text = format!("\n  {good} of {runs} runs were computed\n");
         for (name, ended) in self.statuses.iter().filter(|(name, ended)| ended.count > 0 && *name != ok) {
             let more = if ended.count > ended.first.len() as u64 { ", ..." } else { "" };
             text += &format!("  {name:<16}{:>12}   samples {}{more}\n", ended.count, numbers(&ended.first));
@@ -87,7 +91,10 @@ impl Summary {
         if shown.iter().all(|line| line.is_empty()) {
             let is_nominal_ok =
                 self.statuses.iter().any(|(name, ended)| *name == Status::Done.name() && ended.count > 0);
-            return format!("\n  no {} is ok: no statistics\n", if is_nominal_ok { "dispersed run" } else { "run" });
+            return format!(
+                "\n  no {} was computed: no statistics\n",
+                if is_nominal_ok { "dispersed run" } else { "run" }
+            );
         }
         let title = if self.without_nominal { "dispersed runs" } else { "nominal run" };
         let mut text = table(&shown, title, self.confidence, width);
@@ -95,8 +102,10 @@ impl Summary {
             text += &format!("  {}\n", self.treatment);
         }
         for line in shown.iter().filter(|line| line.without_value > 0) {
-            text +=
-                &format!("  {}: {} runs that are ok have no value and are left out\n", line.name, line.without_value);
+            text += &format!(
+                "  {}: {} runs that were computed have no value and are left out\n",
+                line.name, line.without_value
+            );
         }
         if self.intervals.starts_with("none") {
             text += &format!("  intervals: {}\n", self.intervals);
@@ -161,7 +170,7 @@ impl Summary {
 }
 
 /// What [`crate::analysis::statistics::Statistics::treatment`] says where nothing is left out.
-const EVERY_RUN_IS_OK: &str = "every run is ok";
+const EVERY_RUN_IS_OK: &str = "every run was computed";
 
 #[cfg(test)]
 mod tests {
@@ -206,7 +215,7 @@ mod tests {
     #[test]
     fn statuses_are_counted_and_failures_named() {
         let summary = summary();
-        let lines = ["  5 of 13 runs are ok", "  step_limit                 2   samples 3, 4"];
+        let lines = ["  5 of 13 runs were computed", "  step_limit                 2   samples 3, 4"];
         let more = "  inaccurate                 6   samples 5, 6, ...";
         assert_eq!(summary.ended(), format!("\n{}\n{}\n{more}\n", lines[0], lines[1]));
         // the command that shows the first of each
@@ -241,7 +250,7 @@ mod tests {
         };
         let text = |lines: Vec<ObservableLine>| Summary { lines, ..summary() }.found(100);
         let none = text(vec![line(0)]);
-        assert!(none.ends_with("\n  no dispersed run is ok: no statistics\n"), "{none}");
+        assert!(none.ends_with("\n  no dispersed run was computed: no statistics\n"), "{none}");
         let some = text(vec![line(5)]);
         assert!(some.contains("energy_error_max") && !some.contains("no statistics"), "{some}");
     }

@@ -17,6 +17,7 @@ mod commands;
 mod compare_command;
 mod control_laws;
 mod derived_files;
+mod drivers;
 mod exit_codes;
 mod extremes;
 mod failed_again;

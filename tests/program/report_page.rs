@@ -106,9 +106,11 @@ fn pages_of_failures() {
     scratch.file("short.toml", &campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1"));
     scratch.prints("campaign short.toml --samples 30 --out short", 1);
     scratch.prints("campaign small.toml --samples 1 --out one", 0);
-    for (result, sentence) in
-        [("short", "None of 30 runs is ok"), ("one", "The run is ok."), ("thin", "of 100 runs are ok")]
-    {
+    for (result, sentence) in [
+        ("short", "None of 30 runs was computed"),
+        ("one", "The run was computed."),
+        ("thin", "of 100 runs were computed"),
+    ] {
         let page = page(&scratch, result);
         assert!(visible(&page).contains(sentence), "{result}: {sentence}");
         let mut words = visible(&page).split(|letter: char| !letter.is_alphanumeric());

@@ -100,8 +100,8 @@ fn a_campaign_counts_what_it_has() {
     let [_, share] = numbers(&said, "audits: # s of CPU time, #% of the total")[..] else { panic!("{said}") };
     assert!((50.0..100.0).contains(&share), "an audit takes a hundred times a run: {share}");
 
-    says(&said, "# of # runs are ok", &[ok, 600.0]);
-    says(&said, "# of # runs are not ok and are left out", &[600.0 - ok, 599.0]);
+    says(&said, "# of # runs were computed", &[ok, 600.0]);
+    says(&said, "# of # runs were not computed and are left out", &[600.0 - ok, 599.0]);
     says(&said, "# of # samples (#%) are not physical", &[invalid, 599.0, 100.0 * invalid / 599.0]);
     for (status, count) in [("invalid_sample", invalid), ("inaccurate", inaccurate)] {
         let first = of(status);

@@ -117,7 +117,7 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &Shown
     let [lower, upper] = [0.05, 0.95].map(|p| quantiles.iter().find(|quantile| quantile[0] == p));
     let statistic = if runs > 1 { format!("{percent}%-quantile") } else { "value".to_owned() };
     let (sentence, note) = if runs == 1 {
-        (format!("The only run that is ok: {what} {}.", text(estimate)), String::new())
+        (format!("The only run that was computed: {what} {}.", text(estimate)), String::new())
     } else {
         let sentence = match (lower, upper) {
             (Some(lower), Some(upper)) if min < 0.0 => format!(
@@ -162,7 +162,8 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &Shown
 
 /// The strongest inputs of an outcome in words; empty where that is not known.
 pub fn driven_by(outcome: &str, influences: &[Influence]) -> String {
-    influences.iter().find(|one| one.outcome == outcome).map_or_else(String::new, |one| one.drivers.clone())
+    let of = influences.iter().filter(|one| one.outcome == outcome).map(|one| one.drivers.as_str());
+    of.collect::<Vec<_>>().join(". Spread: ")
 }
 
 impl Card {

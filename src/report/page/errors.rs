@@ -43,9 +43,9 @@ pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
 /// How many of how many runs a figure is of.
 pub fn of_runs(shown: usize, all: u64) -> String {
     if shown as u64 == all {
-        format!("{all} runs that are ok")
+        format!("{all} runs that were computed")
     } else {
-        format!("{shown} of {all} runs that are ok, chosen by sample number")
+        format!("{shown} of {all} runs that were computed, chosen by sample number")
     }
 }
 
@@ -131,7 +131,7 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         section: FigureSection::Numerics,
         title: format!("Tail of {}", words(&outcome.quantity)),
         caption: format!(
-            "Fraction of all {} runs that are ok whose value is at least this; shown at ranks spaced by decades.{interval}",
+            "Fraction of all {} runs that were computed whose value is at least this; shown at ranks spaced by decades.{interval}",
             outcome.sketch.count()
         ),
         columns: 6,

@@ -48,10 +48,10 @@ pub fn header(plan: &Plan) -> String {
 /// What each status is called, in words.
 fn words(status: Status) -> &'static str {
     match status {
-        Status::Done => "ok",
-        Status::StepLimit => "failed: too many steps",
-        Status::StepFloor => "failed: step too small",
-        Status::NonFinite => "failed: not finite",
+        Status::Done => "computed",
+        Status::StepLimit => "computation failed: too many steps",
+        Status::StepFloor => "computation failed: step too small",
+        Status::NonFinite => "computation failed: not finite",
         Status::InvalidSample => "invalid: not physical",
         Status::Inaccurate => "inaccurate",
         Status::InternalError => "internal error",
@@ -95,13 +95,15 @@ pub fn status(plan: &Plan, survey: &Survey) -> String {
     let verdict = match (survey.ok(), survey.samples) {
         (ok, all) if ok == all => {
             if all == 1 {
-                "The run is ok.".to_owned()
+                "The run was computed.".to_owned()
             } else {
-                format!("All {} runs are ok.", grouped(all))
+                format!("All {} runs were computed.", grouped(all))
             }
         }
-        (0, all) => format!("None of {} runs is ok: there are no statistics.", grouped(all)),
-        (ok, all) => format!("{} of {} runs are ok; the statistics below are of these.", grouped(ok), grouped(all)),
+        (0, all) => format!("None of {} runs was computed: there are no statistics.", grouped(all)),
+        (ok, all) => {
+            format!("{} of {} runs were computed; the statistics below are of these.", grouped(ok), grouped(all))
+        }
     };
     format!(
         "<section id=\"status\"><h2>Did it run?</h2><p class=\"lead\">{verdict}{}</p><svg class=\"statusbar\" role=\"img\" aria-label=\"{verdict}\" preserveAspectRatio=\"none\" height=\"22\" width=\"100%\">{bars}</svg><ul class=\"legend\">{legend}</ul>{reasons}</section>\n",
@@ -115,7 +117,11 @@ pub fn missions(missions: &Missions) -> String {
     for one in missions {
         let at = |share: f64| format!("{:.3}%", 100.0 * share);
         let share = one.count as f64 / one.runs.max(1) as f64;
-        let class = if one.end == "launched" { "ok" } else { "failed" };
+        let class = match one.end {
+            "launched" | "not_failed" => "ok",
+            "flying" => "flying",
+            _ => "failed",
+        };
         let [low, high] = one.interval;
         let whisker = if low.is_finite() {
             format!("<line class=\"whisker\" x1=\"{}\" x2=\"{}\" y1=\"11\" y2=\"11\"/>", at(low), at(high))
@@ -135,7 +141,7 @@ pub fn missions(missions: &Missions) -> String {
         return lines;
     }
     format!(
-        "<section id=\"missions\"><h2>How did the missions end?</h2><table class=\"missions\"><thead><tr><th>end</th><th>runs</th><th>share, with its interval</th><th></th></tr></thead><tbody>{lines}</tbody></table><p class=\"caption\">Of the dispersed runs that are ok. The nominal run has no sensor noise.</p></section>\n"
+        "<section id=\"missions\"><h2>How did the missions end?</h2><table class=\"missions\"><thead><tr><th>end</th><th>runs</th><th>share, with its interval</th><th></th></tr></thead><tbody>{lines}</tbody></table><p class=\"caption\">Of the dispersed runs that were computed. The nominal run has no sensor noise.</p></section>\n"
     )
 }
 

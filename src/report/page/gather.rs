@@ -1,6 +1,7 @@
 //! [`Contents`] from what other modules computed of a result: statistics, verdicts, sensitivities, bands, and a survey of the rows.
 
 use crate::analysis::assessment::Assessment;
+use crate::analysis::drivers::{Question, Ranking};
 use crate::analysis::missions::Missions;
 use crate::analysis::noise_share::NoiseShare;
 use crate::analysis::order_statistics::QuantileStatistic;
@@ -11,7 +12,7 @@ use crate::analysis::survey::Survey;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::ensemble::Bands;
-use crate::report::drivers_text::{self, outcomes};
+use crate::report::drivers_text::{self, SEE_INTERACTIONS, outcomes, ranked, verb};
 use crate::report::noise_text;
 use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
@@ -24,7 +25,6 @@ use crate::report::page::tables::StatisticsRow;
 use crate::report::requirements::{runs_needed, together};
 use crate::report::stopping_text;
 use crate::statistics::binomial::Decision;
-use crate::statistics::correlation::Estimate;
 use crate::statistics::gate::GateLimit;
 
 /// Quantiles of the bands of the page.
@@ -117,21 +117,59 @@ fn influences(plan: &Plan, all: &[InputSensitivity], noise: &[NoiseShare], surve
         None => String::new(),
     };
     let of_outcome = |name: &str| {
-        let mut of: Vec<(&InputSensitivity, Estimate)> =
-            all.iter().filter(|one| one.observable == name).filter_map(|one| Some((one, one.influence()?))).collect();
-        of.sort_by(|a, b| b.1.value.total_cmp(&a.1.value));
-        let (first, _) = of.first()?;
-        let is_total = first.total.is_some();
-        Some(Influence {
-            outcome: name.to_owned(),
-            measure: if is_total { "total Sobol index".to_owned() } else { "share of the variance".to_owned() },
-            meaning: meaning(plan, first, all) + &of_noise(name),
-            inputs: of.iter().map(|(one, e)| (one.input.clone(), [e.value, e.lower, e.upper])).collect(),
-            drivers: drivers_text::driven_by(all, name),
-        })
+        let of_ranking = |ranking: &Ranking<'_>| influence(plan, all, name, ranking, &of_noise(name));
+        ranked(plan, all, name).iter().filter_map(of_ranking).collect::<Vec<_>>()
     };
     let seen = outcomes(plan, all).into_iter().filter(|name| survey.outcome(name).is_some());
-    seen.filter_map(of_outcome).collect()
+    seen.flat_map(of_outcome).collect()
+}
+
+/// A ranking of the inputs of the outcome `name`, and what is known of the `noise`.
+fn influence(
+    plan: &Plan,
+    all: &[InputSensitivity],
+    name: &str,
+    ranking: &Ranking<'_>,
+    noise: &str,
+) -> Option<Influence> {
+    let first = ranking.inputs.first()?.input;
+    let is_total = first.total.is_some();
+    let drivers = ranking.drivers().count();
+    let shown = match drivers {
+        0 => " These runs show no input that drives it.".to_owned(),
+        1 => " The first input is shown to drive it.".to_owned(),
+        count => format!(" The first {count} inputs are shown to drive it."),
+    };
+    let (event, measure, meaning) = match &ranking.question {
+        Question::Spread if is_total => (None, "total Sobol index", meaning(plan, first, all) + noise),
+        Question::Spread => (
+            None,
+            "share of the variance",
+            format!("{} {}.", meaning(plan, first, all), sentence(SEE_INTERACTIONS)) + noise,
+        ),
+        Question::Event(event) => {
+            let of = event.of;
+            let meaning = format!(
+                "{} of {} runs {}. Share of the variance of whether a run does that belongs to each input, with its interval. Shown: by an exact test of the table, or by ranks, of all inputs together (Holm).",
+                grouped(of.events),
+                grouped(of.runs),
+                verb(name, event)
+            );
+            (Some(*event), "share of the variance of whether a run does", meaning)
+        }
+    };
+    Some(Influence {
+        outcome: name.to_owned(),
+        event: event.map(|event| (verb(name, &event), !event.has_few_values)),
+        measure: measure.to_owned(),
+        meaning: meaning + &shown,
+        inputs: ranking
+            .inputs
+            .iter()
+            .map(|one| (one.input.input.clone(), [one.share.value, one.share.lower, one.share.upper]))
+            .collect(),
+        drivers: drivers_text::sentence(plan, name, ranking),
+    })
 }
 
 fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity]) -> String {
@@ -203,7 +241,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         notes.push(format!("Tested at {} points of time.", worst.points));
     }
     if one.failed > 0 {
-        notes.push(format!("{} runs that are not ok count as violations.", grouped(one.failed)));
+        notes.push(format!("{} runs that were not computed count as violations.", grouped(one.failed)));
     }
     match (&one.reason, one.gate.decision) {
         (Some(reason), _) => notes.push(format!("{}.", crate::report::page::errors::sentence(reason))),

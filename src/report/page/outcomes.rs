@@ -123,7 +123,7 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
         section: FigureSection::Outcome,
         title: format!("{}: runs up to a value", sentence(&words(&outcome.quantity))),
         caption: format!(
-            "Fraction of the {} runs that are ok whose value is at most this. {interval}",
+            "Fraction of the {} runs that were computed whose value is at most this. {interval}",
             outcome.sketch.count()
         ),
         columns: 6,

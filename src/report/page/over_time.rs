@@ -143,7 +143,7 @@ impl<'a> Curves<'a> {
             String::new()
         };
         format!(
-            "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that are ok, at each of {} times; solid line: median; dashed: nominal run.{left}{aliased}",
+            "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that were computed, at each of {} times; solid line: median; dashed: nominal run.{left}{aliased}",
             bands.runs,
             bands.times.len()
         )
