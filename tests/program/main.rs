@@ -26,6 +26,7 @@ mod faulty_storage;
 mod hostile_files;
 mod interrupted;
 mod judged_columns;
+mod loop_laws;
 mod loop_noise;
 mod mass_properties;
 mod memory;
