@@ -27,6 +27,9 @@ const MOST_TICKS: f64 = 1000.0;
 /// Most phases.
 const MOST_PHASES: usize = 64;
 
+/// The law that may have the term omega x H or not.
+const GYROSCOPIC: &str = "mrp_feedback";
+
 /// The word that stands for the launch of the net where a phase stands else.
 const LAUNCH: &str = "launch";
 
@@ -50,12 +53,11 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
         let path = section.path("wheels");
         section.document.add(&path, None, "the names of the wheels that the loop drives, or thrusters", remedy);
     }
-    if thrusters.is_empty() && section.has("modulation") {
-        section.refuse(
-            "modulation",
-            "left out in a loop without thrusters",
-            "add thrusters = [...], or delete this line",
-        );
+    let holds_force = section.flag("hold_force").unwrap_or(false);
+    for key in ["modulation", "hold_force"] {
+        if thrusters.is_empty() && section.has(key) {
+            section.refuse(key, "left out in a loop without thrusters", "add thrusters = [...], or delete this line");
+        }
     }
     check_valves(&mut section, scene, (&thrusters, modulation), period);
     let mut lists = vec![&parameters::LOOP[..], estimators::KINDS[estimator].parameters];
@@ -88,6 +90,7 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
         wheels,
         thrusters,
         modulation,
+        holds_force,
         sensors: sensors.into_iter().collect::<Option<_>>()?,
         phases: phases?,
         model,
@@ -283,6 +286,11 @@ fn read_phase(
     let has_debris = scene.debris.is_some();
     let law_names: Vec<&str> = laws::KINDS.iter().map(|kind| kind.name).collect();
     let law = section.name("law", &law_names, |name| law_names.iter().position(|known| *known == name));
+    let gyroscopic = section.flag("gyroscopic").unwrap_or(false);
+    let has_gyroscopic = law.is_some_and(|law| laws::KINDS[law].name == GYROSCOPIC);
+    if section.has("gyroscopic") && !has_gyroscopic {
+        section.refuse("gyroscopic", format!("left out where the law is not {GYROSCOPIC:?}"), "delete this line");
+    }
     let targets: Vec<(&str, Target)> =
         TARGETS.into_iter().filter(|(_, target)| has_debris || !target.needs_debris()).collect();
     let names: Vec<&str> = targets.iter().map(|(name, _)| *name).collect();
@@ -333,7 +341,7 @@ fn read_phase(
     let place = scene.control.guidance.len() - 1;
     read_keys(section, Table::Guidance, place, scene);
     section.finish();
-    let spec = PhaseSpec { name: own, law, target, thrust, until, next: Next::Stay, otherwise: None };
+    let spec = PhaseSpec { name: own, law, gyroscopic, target, thrust, until, next: Next::Stay, otherwise: None };
     name.map(|_| ReadPhase { spec, next, otherwise })
 }
 
@@ -387,6 +395,7 @@ pub(super) fn write(spec: &LoopSpec, scene: &SceneInput, lines: &mut Lines) {
     if !spec.thrusters.is_empty() {
         lines.key("thrusters", named(&spec.thrusters, &spec.thruster_names));
         lines.key("modulation", modulation::NAMES[spec.modulation]);
+        lines.key("hold_force", spec.holds_force);
     }
     lines.keys(Table::Control, 0, scene);
     let ModelSpec { mass, center, inertia } = &spec.model;
@@ -417,6 +426,9 @@ pub(super) fn write(spec: &LoopSpec, scene: &SceneInput, lines: &mut Lines) {
         lines.key("phase", phase.name);
         if let Some(law) = phase.law {
             lines.key("law", laws::KINDS[law].name);
+            if laws::KINDS[law].name == GYROSCOPIC {
+                lines.key("gyroscopic", phase.gyroscopic);
+            }
         }
         lines.key(
             "target",

@@ -18,6 +18,8 @@ pub struct LoopSpec {
     pub thrusters: Vec<usize>,
     /// How thrusters are fired, by its place in the list.
     pub modulation: usize,
+    /// Whether thrusters keep a force of zero where no maneuver wants one, instead of any.
+    pub holds_force: bool,
     /// The sensors.
     pub sensors: Vec<SensorSpec>,
     /// The phases; there is at least one.
@@ -52,6 +54,8 @@ pub struct PhaseSpec {
     pub name: Name,
     /// Its control law, by its place in the list; `None` for no torque.
     pub law: Option<usize>,
+    /// Whether its law `mrp_feedback` has the term omega x H.
+    pub gyroscopic: bool,
     /// The attitude that it wants; the quaternion of an attitude is a parameter.
     pub target: Target,
     /// What thrust is for.

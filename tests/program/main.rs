@@ -30,6 +30,7 @@ mod hostile_files;
 mod interrupted;
 mod judged_columns;
 mod loop_actuators;
+mod loop_authority;
 mod loop_cases;
 mod loop_columns;
 mod loop_filters;

@@ -14,7 +14,7 @@ use crate::control::guidance::Guidance;
 use crate::control::guidance::geometry::LaunchState;
 use crate::control::guidance::phase::Phase;
 use crate::control::guidance::target::Target;
-use crate::control::laws::{AttitudeLaw, KINDS as LAWS, KnownBody, MomentumUnloading};
+use crate::control::laws::{AttitudeLaw, KINDS as LAWS, KnownBody, LawSettings, MomentumUnloading};
 use crate::control::outcome::columns::OutcomeColumns;
 use crate::control::outcome::{Judgement, MissionOutcome};
 use crate::control::recorder::Recorder;
@@ -127,13 +127,17 @@ impl ControlLoop {
             tick: tick_period,
         });
         let phases = phases(spec, &context.parameters.guidance);
+        let delay = number_or(numbers, "delay_s", 0.0);
         let law = |(phase, table): (&PhaseSpec, &DeclaredTable)| {
-            phase.law.map_or(AttitudeLaw::None, |law| (LAWS[law].make)(table))
+            let settings = LawSettings { table, gyroscopic: phase.gyroscopic, period: spec.period, delay };
+            phase.law.map_or(AttitudeLaw::None, |law| (LAWS[law].make)(&settings))
         };
         let laws: Vec<AttitudeLaw> = spec.phases.iter().zip(&context.parameters.guidance).map(law).collect();
         let launch = launch_state(numbers);
-        let thrusters = (!spec.thrusters.is_empty()).then(|| ThrustAllocation::of_loop(&believed, &spec.thrusters));
-        let delay = number_or(numbers, "delay_s", 0.0);
+        let wheels = (!spec.wheels.is_empty()).then(|| WheelTorque::of_loop(&believed, &spec.wheels));
+        let by_wheels = wheels.map_or([[0.0; 3]; 3], |wheels| wheels.reachable);
+        let thrusters =
+            (!spec.thrusters.is_empty()).then(|| ThrustAllocation::of_loop(&believed, &spec.thrusters, by_wheels));
         ControlLoop {
             debris: DebrisMotion::of(&drawn),
             instruments,
@@ -144,11 +148,8 @@ impl ControlLoop {
             law: laws[0],
             laws,
             phases,
-            wheels: (!spec.wheels.is_empty()).then(|| {
-                let axes: Vec<[f64; 3]> = spec.wheels.iter().map(|place| believed.mass.wheels[*place].axis).collect();
-                WheelTorque::new(&axes)
-            }),
-            two_sided: thrusters.as_ref().map_or([[0.0; 3]; 3], ThrustAllocation::two_sided_torques),
+            wheels,
+            two_sided: thrusters.as_ref().map_or([[0.0; 3]; 3], |all| all.two_sided_torques(spec.holds_force)),
             thrusters,
             thruster_drives: believed.actuators.thrusters.map(|model| ThrusterDrive {
                 mode: modulation::mode(spec.modulation, numbers),
