@@ -54,7 +54,7 @@ fn without(text: &str, headers: &[&str]) -> String {
 }
 
 /// A spacecraft at rest with one wheel about each axis, of the inertia diag(30, 36, 24) kg m^2 with wheels that add nothing to K.
-fn small_craft(control: &str, initial: &str) -> String {
+pub(super) fn small_craft(control: &str, initial: &str) -> String {
     let mut text = String::from(
         "[campaign]\nname = \"loop\"\nsamples = 2\nseed = 1\nduration_s = 100\n[integrator]\nmethod = \"auto\"\ntolerance = 1e-14\n\
          [observe]\npoints = 401\ngroups = [\"final_state\", \"motion\", \"numerics\", \"energy_conservation\", \"momentum_conservation\"]\n\
