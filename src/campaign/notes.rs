@@ -7,7 +7,7 @@ use crate::sampling::design::{MAX_SAMPLES, Size};
 impl Plan {
     /// What about this plan a person should know before it is run, one sentence each.
     pub fn notes(&self) -> Vec<String> {
-        let mut notes = Vec::new();
+        let mut notes = self.ignored.clone();
         if self.samples > 1 && self.dispersions.columns().is_empty() {
             notes.push(format!("nothing is dispersed: all {} samples are the nominal scene", self.samples));
         }
