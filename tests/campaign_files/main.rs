@@ -10,6 +10,7 @@ mod bad_campaigns;
 mod implausible;
 mod invalid_files;
 mod keys;
+mod loop_notes;
 mod loops;
 mod misspelt;
 mod ranges;

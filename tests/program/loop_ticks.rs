@@ -129,3 +129,28 @@ fn slow_sensors_measure_at_their_times() {
     let mean = sum / runs as f64;
     assert!((0.76..1.29).contains(&mean), "{mean}");
 }
+
+/// Law: the share of a law's torque beyond which a note says that errors grow is where they begin to grow in a flown run, with a delay: 2% below it they
+/// die away, 2% above it they grow.
+#[test]
+fn the_noted_limit_is_where_a_run_diverges() {
+    let text = |gain: f64| {
+        let control = format!(
+            "[control]\nperiod_s = 0.25\ndelay_s = 0.1\nwheels = [\"w1\", \"w2\", \"w3\"]\n[[guidance]]\nphase = \"damp\"\nlaw = \"rate_damping\"\ngain_n_m_s = {gain:?}\n"
+        );
+        small_craft(&control, "angular_velocity_rad_s = [1e-6, 1e-6, 1e-6]")
+    };
+    let noted = |gain: f64| plan(&text(gain)).notes().into_iter().find(|note| note.contains("small errors grow"));
+    let note = noted(1000.0).expect("a note");
+    let share = note.split("at most ").nth(1).and_then(|rest| rest.split(' ').next()).expect("a share");
+    let limit = 1000.0 * share.parse::<f64>().expect("a number");
+    for (factor, grows) in [(0.98, false), (1.02, true)] {
+        let gain = factor * limit;
+        assert_eq!(noted(gain).is_some(), grows, "{gain}");
+        let run = run(&plan(&text(gain)), 0);
+        let rates = run.table.column(StateField::Rate, 2);
+        let largest = |part: &[f64]| part.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        let (early, late) = (largest(&rates[40..120]), largest(&rates[321..401]));
+        assert_eq!(late > early, grows, "{gain}: {early:e} {late:e}");
+    }
+}
