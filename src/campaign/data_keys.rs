@@ -157,9 +157,11 @@ fn components(table: &mut Section<'_, '_>, name: &str) -> Option<Vec<(String, (P
         return Some((0..parameter.width()).map(|k| (parameter.component_name(k), (parameter, k))).collect());
     }
     let Some(component) = named(&table.document.scene, name) else {
-        let key = if table.has("parameters") { "parameters" } else { "file" };
-        let (allowed, remedy) = unknown_parameter(&table.document.scene, name);
-        table.refuse_value(key, format!("{name:?}"), format!("made of names, each {allowed}"), remedy);
+        if !table.document.may_be_of_loop(name) {
+            let key = if table.has("parameters") { "parameters" } else { "file" };
+            let (allowed, remedy) = unknown_parameter(&table.document.scene, name);
+            table.refuse_value(key, format!("{name:?}"), format!("made of names, each {allowed}"), remedy);
+        }
         return None;
     };
     Some(vec![(name.to_owned(), component)])

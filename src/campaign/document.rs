@@ -59,6 +59,10 @@ pub struct Document<'a> {
     pub(super) scene: SceneInput,
     /// The control law that the program brings.
     pub(super) law: Option<ControlLaw>,
+    /// Whether the file has a control loop of which too little could be read to say its columns and parameters.
+    pub(super) is_loop_unknown: bool,
+    /// Keys that are there without effect, a sentence each.
+    pub(super) ignored: Vec<String>,
     /// The units in which limits and dispersions are written, by the name of the column or parameter.
     pub(super) units: Vec<(String, &'static str)>,
 }
@@ -89,6 +93,8 @@ impl<'a> Document<'a> {
             data: (0, 0),
             scene: SceneInput::blank(),
             law: None,
+            is_loop_unknown: false,
+            ignored: Vec::new(),
             units: Vec::new(),
         }
     }
@@ -195,6 +201,21 @@ impl<'a> Document<'a> {
             remedy: remedy.into(),
             excerpt,
         });
+    }
+
+    /// Number of problems that are noted.
+    pub(super) fn noted(&self) -> usize {
+        self.problems.len()
+    }
+
+    /// Forgets the problems after the first `noted`: they follow from one of those.
+    pub(super) fn forget_since(&mut self, noted: usize) {
+        self.problems.truncate(noted);
+    }
+
+    /// Whether `name` may be a parameter of the control loop, of which too little could be read.
+    pub(super) fn may_be_of_loop(&self, name: &str) -> bool {
+        self.is_loop_unknown && ["control.", "sensors.", "guidance."].iter().any(|table| name.starts_with(table))
     }
 
     /// Whether so many problems are noted that further ones are counted only.

@@ -83,6 +83,7 @@ fn read_law(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
 fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
     if root.has("control") {
         root.document.law = control::read(root, scene);
+        root.document.is_loop_unknown = root.document.law.is_none();
         return;
     }
     for key in ["sensors", "guidance"] {

@@ -135,6 +135,7 @@ impl Spec {
         let compression = section.name("compression", &names, Compression::from_name);
         section.finish();
 
+        let noted = root.document.noted();
         let observed = request(
             groups.as_deref().unwrap_or(&Group::DEFAULT),
             &scene,
@@ -145,6 +146,10 @@ impl Spec {
         let mut known = KnownColumns::new(observed);
         analysis.derived.iter().for_each(|derived| known.add(derived.quantity()));
         let retention = Retention::read(&mut root.section("retain"), &known);
+        if root.document.is_loop_unknown {
+            // which columns there are depends on the loop
+            root.document.forget_since(noted);
+        }
         root.finish();
 
         Spec {

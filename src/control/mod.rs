@@ -11,6 +11,7 @@
 //! - [`laws`]: from an estimate to a wanted torque.
 //! - [`allocation`]: from a wanted torque and force to wheels and thrusters. [`actuators`]: what these make of it.
 //! - [`capacity`]: whether the momentum of a scene fits into the wheels of its loop.
+//! - [`review`]: what in a loop looks like a mistake; [`stability`]: whether a sampled law is stable for small errors.
 //! - [`vector`], [`rotation`], [`small_matrix`]: what all of them compute with.
 //!
 //! Not here: the interface by which an engine asks a law ([`crate::dynamics::actuation`]), and which campaign flies which law (`campaign`).
@@ -29,11 +30,13 @@ pub mod measurement;
 pub mod outcome;
 pub mod parameters;
 pub mod recorder;
+pub mod review;
 pub mod rotation;
 pub mod runs;
 pub mod sensors;
 pub mod small_matrix;
 pub mod spec;
+pub mod stability;
 pub mod truth;
 pub mod vector;
 

@@ -47,6 +47,30 @@ pub struct SensorSpec {
     pub latency: f64,
 }
 
+/// Most ticks in a control period, and control periods in a latency.
+pub const MOST_TICKS: f64 = 1000.0;
+
+/// The number of ticks in a control period of `period` seconds, at some of which each sensor measures: sensors with these periods, each a whole multiple
+/// of the control period or a whole fraction of it. One where no sensor is faster than the loop; else the least common multiple of the fractions. `None`
+/// where that is more than [`MOST_TICKS`].
+pub fn ticks_per_period(period: f64, sensors: impl Iterator<Item = f64>) -> Option<u64> {
+    let common = |a: u64, b: u64| {
+        let (mut x, mut y) = (a, b);
+        while y > 0 {
+            (x, y) = (y, x % y);
+        }
+        a / x * b
+    };
+    let mut ticks = 1;
+    for own in sensors.filter(|own| *own < period) {
+        ticks = common(ticks, (period / own).round() as u64);
+        if ticks as f64 > MOST_TICKS {
+            return None;
+        }
+    }
+    Some(ticks)
+}
+
 /// A phase of guidance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhaseSpec {

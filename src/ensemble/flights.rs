@@ -2,14 +2,15 @@
 
 use crate::campaign::Plan;
 use crate::control::{LawContext, LawRuns};
-use crate::dynamics::actuation::Laws;
+use crate::dynamics::actuation::{BodyState, Laws, WheelState};
 use crate::ensemble::settings::{nominal, propagator};
 use crate::math::Isa;
+use crate::math::vector::dot;
 use crate::observables::nominal_attitude::NominalAttitude;
 use crate::observables::{Group, Observer, Request};
 use crate::propagation::engine::CompletionCallback;
 use crate::propagation::{CompletedRun, Engine};
-use crate::run::{Grid, StateField, StateFields, Status, Telemetry};
+use crate::run::{Grid, StateField, StateFields, StateTable, Status, Telemetry};
 use crate::sampling::SampleId;
 use crate::scene::{Arc, ControlInput, EnvironmentInput, Scene};
 
@@ -60,7 +61,16 @@ impl<'p> Flights<'p> {
                 &LawContext { nominal, drawn, parameters, nominal_parameters, sample, seed, duration, records },
             );
         }
-        self.engine.propagate_under(Laws::Feedback(&mut **laws), scenes, finish);
+        let mut ends = Vec::with_capacity(scenes.len());
+        self.engine.propagate_under(Laws::Feedback(&mut **laws), scenes, &mut |run| {
+            if run.outcome.status == Status::Done {
+                ends.push((run.index, run.outcome.time, state_at_end(&scenes[run.index], run.table)));
+            }
+            finish(run);
+        });
+        for (run, time, (body, wheels)) in ends {
+            laws.law(run).end(time, &body, &wheels);
+        }
     }
 
     /// Writes what the law of run `run` of the last flight reports, where the plan has a law.
@@ -76,6 +86,24 @@ impl<'p> Flights<'p> {
         let draws = if self.plan.law.is_some() { std::slice::from_ref(&draw) } else { &[] };
         self.fly(&[nominal(self.plan)], draws, finish);
     }
+}
+
+/// The motion of the body and of the wheels at the last point of `table`, of a run of `scene` under a law.
+fn state_at_end(scene: &Scene, table: &StateTable) -> (BodyState, WheelState) {
+    let last = table.points() - 1;
+    let body = BodyState {
+        omega_se_s: table.at(StateField::Rate, last),
+        q_es: table.at(StateField::Attitude, last),
+        r_co_e: table.at(StateField::ComPosition, last),
+        v_co_e: table.at(StateField::ComVelocity, last),
+    };
+    let mut wheels = WheelState::AT_REST;
+    for (i, wheel) in scene.mass.wheels.iter().enumerate() {
+        wheels.rates[i] = table.column(StateField::WheelRates, i)[last];
+        wheels.angles[i] = table.column(StateField::WheelAngles, i)[last];
+        wheels.momenta[i] = wheel.axial * (wheels.rates[i] + dot(wheel.axis, body.omega_se_s));
+    }
+    (body, wheels)
 }
 
 /// The attitude of the nominal run at the times of `grid`, where `request` compares runs with it.

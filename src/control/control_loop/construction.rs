@@ -20,7 +20,7 @@ use crate::control::outcome::{Judgement, MissionOutcome};
 use crate::control::recorder::Recorder;
 use crate::control::sensors::{Instrument, KINDS as SENSORS, SensorContext};
 use crate::control::small_matrix::inverse;
-use crate::control::spec::{LoopSpec, PhaseSpec, SensorSpec};
+use crate::control::spec::{LoopSpec, PhaseSpec, SensorSpec, ticks_per_period};
 use crate::control::truth::DebrisMotion;
 use crate::control::vector::{norm, scaled};
 use crate::scene::{DeclaredTable, MAX_THRUSTERS, MAX_WHEELS, Scene};
@@ -96,8 +96,8 @@ impl ControlLoop {
     pub fn new(spec: &Arc<LoopSpec>, columns: &Arc<OutcomeColumns>, context: &LawContext<'_>) -> Self {
         let (drawn, numbers) = (context.drawn.clone(), &context.parameters.law);
         let believed = spec.believed(context.nominal);
-        let fastest = spec.sensors.iter().map(|sensor| sensor.period).fold(spec.period, f64::min);
-        let ticks_per_period = (spec.period / fastest).round() as u64;
+        let ticks_per_period =
+            ticks_per_period(spec.period, spec.sensors.iter().map(|sensor| sensor.period)).unwrap_or(1);
         let tick_period = spec.period / ticks_per_period as f64;
         let instrument = |(sensor, parameters): (&SensorSpec, &DeclaredTable)| {
             let of_run = SensorContext {

@@ -11,6 +11,7 @@ use crate::scene::schema::Limit;
 pub(super) const KIND: SensorKind = SensorKind {
     name: "star_tracker",
     has_latency: true,
+    at_most_one: false,
     parameters: &PARAMETERS,
     make: |context| Box::new(StarTracker::new(context)),
 };
