@@ -129,7 +129,8 @@ fn the_campaign_of_new_holds_its_tolerance() {
         let page = page(&scratch, folder);
         assert!(visible(&page).contains("Largest relative errors") && !page.contains(above), "{change}");
     }
-    let other = "--set integrator.method=dormand_prince --set integrator.tolerance=1e-6 --set campaign.duration_s=3000.0";
+    let other =
+        "--set integrator.method=dormand_prince --set integrator.tolerance=1e-6 --set campaign.duration_s=3000.0";
     scratch.prints(&format!("campaign start.toml --out d {other}"), 0);
     assert!(page(&scratch, "d").contains(above));
 }
