@@ -3,7 +3,7 @@
 
 use super::lines::Lines;
 use super::numbers::POSITIVE;
-use super::phase_tables::{LAUNCH, connected, read_phase};
+use super::phase_tables::{GYROSCOPIC, LAUNCH, connected, read_phase};
 use super::section::Section;
 use super::size::MOST_TABLES;
 use super::sensor_tables::{check_sensors, read_sensor};

@@ -15,7 +15,7 @@ use crate::scene::{DeclaredTable, Name, SceneInput};
 pub(super) const LAUNCH: &str = "launch";
 
 /// The law that may have the term omega x H or not.
-const GYROSCOPIC: &str = "mrp_feedback";
+pub(super) const GYROSCOPIC: &str = "mrp_feedback";
 
 /// A phase as read: what follows it is a word until all phases are known.
 pub(super) struct ReadPhase {

@@ -4,7 +4,7 @@
 //!   (in [`context`]).
 //! - [`runs`]: the laws of the runs that an engine propagates together.
 //! - [`spec`]: what a loop of a campaign file consists of; [`parameters`]: its numbers. [`control_loop`]: it in a run. [`outcome`]: what comes of a run;
-//!   [`recorder`]: its telemetry.
+//!   [`recorder`]: its telemetry; [`loop_record`]: quantities over time at the observation points.
 //! - [`truth`]: the true state at a tick. [`sensors`]: what is measured of it ([`measurement`]).
 //! - [`estimators`]: from measurements to an [`estimate`].
 //! - [`guidance`]: which phase a run is in, and the attitude and the maneuver that it wants.
@@ -26,6 +26,7 @@ pub mod estimators;
 pub mod guidance;
 pub mod law;
 pub mod laws;
+pub mod loop_record;
 pub mod measurement;
 pub mod outcome;
 pub mod parameters;

@@ -3,6 +3,7 @@
 use super::guidance::phase::{Maneuver, Next};
 use super::guidance::situation::Condition;
 use super::guidance::target::Target;
+use crate::observables::{LawSeries, Series};
 use crate::scene::{Name, Scene};
 
 /// A control loop.
@@ -104,6 +105,21 @@ pub struct ModelSpec {
 }
 
 impl LoopSpec {
+    /// The quantities over time that the loop records.
+    pub fn over_time(&self) -> LawSeries {
+        let mut series = LawSeries::NONE;
+        if self.points() {
+            series = series.with(Series::PointingError);
+        }
+        if !self.knows_the_truth() {
+            series = series.with(Series::AttitudeEstimateError).with(Series::RateEstimateError);
+            if self.approaches() {
+                series = series.with(Series::PositionEstimateError).with(Series::VelocityEstimateError);
+            }
+        }
+        self.wheels.iter().fold(series, |series, wheel| series.with(Series::MotorTorque.of_wheel(*wheel)))
+    }
+
     /// Whether a phase leads to the launch of a net.
     pub fn launches(&self) -> bool {
         self.phases.iter().any(|phase| phase.next == Next::Launch)

@@ -39,6 +39,7 @@ mod loop_laws;
 mod loop_noise;
 mod loop_phases;
 mod loop_sensors;
+mod loop_series;
 mod loop_ticks;
 mod mass_properties;
 mod memory;

@@ -15,6 +15,7 @@ use crate::control::guidance::geometry::LaunchState;
 use crate::control::guidance::phase::Phase;
 use crate::control::guidance::target::Target;
 use crate::control::laws::{AttitudeLaw, KINDS as LAWS, KnownBody, LawSettings, MomentumUnloading};
+use crate::control::loop_record::NOTHING_KNOWN;
 use crate::control::outcome::columns::OutcomeColumns;
 use crate::control::outcome::{Judgement, MissionOutcome};
 use crate::control::recorder::Recorder;
@@ -180,11 +181,15 @@ impl ControlLoop {
                 keep_out: number_or(numbers, "keep_out_m", 0.0),
                 plume: [number_or(numbers, "plume_range_m", 0.0), number_or(numbers, "plume_half_angle_rad", 0.0)],
                 settling_band: number_or(numbers, "settling_band_rad", 0.0),
+                stability: ["stability_from_s", "stability_window_s"].map(|key| number_or(numbers, key, 0.0)),
+                period: spec.period,
                 isp: number_or(numbers, "isp_s", 0.0),
             },
             launch,
             outcome: MissionOutcome::new(),
             recorder: context.records.then(|| Recorder::new(spec)),
+            over_time: NOTHING_KNOWN,
+            record: context.record.cloned().inspect(|record| record.lock().restart()),
             has_ended: false,
             believed,
             drawn,

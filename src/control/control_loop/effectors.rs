@@ -6,10 +6,12 @@ use crate::control::estimate::Estimate;
 use crate::control::guidance::phase::Maneuver;
 use crate::control::guidance::target::{AttitudeError, Target};
 use crate::control::laws::LawInput;
+use crate::control::loop_record::set;
 use crate::control::outcome::ArcApplied;
 use crate::control::truth::Truth;
 use crate::control::vector::{difference, dot, product, scaled, sum};
 use crate::dynamics::actuation::{Actuation, BodyState, WheelState};
+use crate::observables::Series;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, WheelMode};
 
 /// What the motors are commanded, N m, by wheel.
@@ -137,6 +139,7 @@ impl ControlLoop {
             }
             let driven = drive.over(motor_torque[i], wheels.rates[i], length);
             actuation.motor_torque[i] = driven.torque;
+            set(&mut self.over_time, Series::MotorTorque.of_wheel(i), driven.torque);
             saturated[0] |= driven.is_torque_limited;
             saturated[1] |= driven.is_speed_limited;
             excess = excess.max(driven.excess);

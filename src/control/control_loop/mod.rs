@@ -24,6 +24,7 @@ use super::guidance::phase::Phase;
 use super::guidance::target::{AttitudeError, Target};
 use super::guidance::{Failure, Guidance, Progress};
 use super::laws::{AttitudeLaw, KnownBody};
+use super::loop_record::{KnownOverTime, SharedRecord, set};
 use super::measurement::Measurement;
 use super::outcome::columns::OutcomeColumns;
 use super::outcome::{Judgement, MissionOutcome, centers_of};
@@ -33,6 +34,7 @@ use super::spec::LoopSpec;
 use super::truth::{DebrisMotion, Truth};
 use crate::control::vector::{difference, norm, scaled};
 use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, WheelState};
+use crate::observables::Series;
 use crate::run::Telemetry;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 
@@ -95,6 +97,9 @@ pub struct ControlLoop {
     judgement: Judgement,
     outcome: MissionOutcome,
     recorder: Option<Recorder>,
+    /// What is known of the quantities over time, and where it is recorded.
+    over_time: KnownOverTime,
+    record: Option<SharedRecord>,
     has_ended: bool,
 }
 
@@ -244,6 +249,15 @@ impl ControlLoop {
             target.error(truth.body.q_es, geometry.as_ref(), &to_go)
         });
         let errors = if knows { EstimateErrors::NONE } else { estimate.errors(truth) };
+        for (series, value) in [
+            (Series::PointingError, error.map_or(f64::NAN, |error| error.angle())),
+            (Series::AttitudeEstimateError, errors.attitude),
+            (Series::RateEstimateError, errors.rate),
+            (Series::PositionEstimateError, errors.relative_position),
+            (Series::VelocityEstimateError, errors.relative_velocity),
+        ] {
+            set(&mut self.over_time, series, value);
+        }
         self.outcome.tick(&self.drawn, truth, (error.as_ref(), begins), &errors, &self.judgement);
     }
 
@@ -260,10 +274,11 @@ impl ActuationLaw for ControlLoop {
             let truth = Truth::new(&self.drawn, time, body, wheels, self.debris.as_mut());
             self.at_tick(&truth, false);
         }
-        if self.has_ended {
-            return Actuation::end_of_run();
+        let actuation = if self.has_ended { Actuation::end_of_run() } else { self.applied(time, body, wheels) };
+        if let Some(record) = &self.record {
+            record.lock().take(time - SAME_TIME * self.tick_period, &self.over_time);
         }
-        self.applied(time, body, wheels)
+        actuation
     }
 
     fn end(&mut self, time: f64, body: &BodyState, wheels: &WheelState) {

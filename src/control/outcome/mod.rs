@@ -1,7 +1,9 @@
 //! [`MissionOutcome`]: what a run under a loop has come to, from the true state at every tick. [`columns`]: the columns that say it.
 
 pub mod columns;
+mod stability;
 
+use self::stability::Stability;
 use super::estimate::EstimateErrors;
 use super::estimators::Consistency;
 use super::guidance::Failure;
@@ -23,6 +25,10 @@ pub struct Judgement {
     pub plume: [f64; 2],
     /// Pointing error of an attitude that has settled, rad.
     pub settling_band: f64,
+    /// Start and length of the window of the relative performance error, s; zero: from settling on, and to the end.
+    pub stability: [f64; 2],
+    /// Control period, s.
+    pub period: f64,
     /// Specific impulse, s; zero where it is not known.
     pub isp: f64,
 }
@@ -55,6 +61,7 @@ pub struct MissionOutcome {
     settled_since: f64,
     pointing_since: f64,
     pointing_error: f64,
+    stability: Stability,
     /// N s, by thruster.
     impulse: [f64; MAX_THRUSTERS],
     velocity_change: f64,
@@ -98,6 +105,7 @@ impl MissionOutcome {
             settled_since: f64::NAN,
             pointing_since: f64::NAN,
             pointing_error: f64::NAN,
+            stability: Stability::NONE,
             impulse: [0.0; MAX_THRUSTERS],
             velocity_change: 0.0,
             debris_distance: f64::INFINITY,
@@ -121,6 +129,7 @@ impl MissionOutcome {
         errors: &EstimateErrors,
         judgement: &Judgement,
     ) {
+        self.stability.tick(truth.time, error.map(|error| vector_of(error.q_ts)), judgement);
         if let Some(error) = error {
             self.pointing(truth.time, error, begins, judgement.settling_band);
         }

@@ -10,7 +10,7 @@ mod ground_radar;
 mod instrument;
 mod rate_gyro;
 mod relative_camera;
-mod star_tracker;
+pub mod star_tracker;
 mod tachometers;
 
 pub use instrument::Instrument;
