@@ -21,10 +21,10 @@ pub mod comparison;
 pub mod comparison_table;
 pub mod derived_table;
 pub mod drivers;
-pub mod ending;
 #[cfg(test)]
 mod drivers_of_known_truth;
 pub mod effects;
+pub mod ending;
 pub mod event;
 pub mod fold;
 pub mod missions;

@@ -5,8 +5,8 @@ use super::lines::Lines;
 use super::numbers::POSITIVE;
 use super::phase_tables::{GYROSCOPIC, LAUNCH, connected, read_phase};
 use super::section::Section;
-use super::size::MOST_TABLES;
 use super::sensor_tables::{check_sensors, read_sensor};
+use super::size::MOST_TABLES;
 use super::tables::{ignore_others, read_keys};
 use crate::control::actuators::modulation;
 use crate::control::guidance::phase::{MANEUVERS, Next};
@@ -47,7 +47,11 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
     if !may_fire {
         for key in ["modulation", "hold_force"] {
             if section.has(key) {
-                section.refuse(key, "left out in a loop without thrusters", "add thrusters = [...], or delete this line");
+                section.refuse(
+                    key,
+                    "left out in a loop without thrusters",
+                    "add thrusters = [...], or delete this line",
+                );
             }
         }
     }
