@@ -5,8 +5,10 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use crate::analysis::assessment::Assessment;
+use crate::analysis::tally::Tally;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
+use crate::report::audit_summary::AuditSummary;
 use crate::report::escaped::escaped;
 use crate::report::number::short;
 use crate::statistics::binomial::{Decision, POWER};
@@ -177,14 +179,19 @@ pub fn json(verdicts: &Verdicts) -> Value {
 }
 
 /// The verdicts as JUnit XML: one test case for each requirement, an undecided one is an error; and one that every run is `ok`:
-/// `failed` are not; and one that `[stop]` reached its goal, where there is one: whether it did, and in words. No clock time: the same campaign
+/// of those that `tally` has; and one that every estimate of an error covers as many errors as promised, where runs were audited; and one that `[stop]` reached its goal, where there is one: whether it did, and in words. No clock time: the same campaign
 /// gives the same bytes.
-pub fn junit(plan: &Plan, verdicts: &Verdicts, failed: u64, stop: Option<(bool, String)>) -> String {
+pub fn junit(plan: &Plan, verdicts: &Verdicts, tally: &Tally, stop: Option<(bool, String)>) -> String {
     let name = escaped(&plan.name);
+    let failed = tally.failed();
+    let audit = tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction).broken_promises());
+    let is_broken = audit.as_ref().is_some_and(|broken| !broken.is_empty());
     let is_missed = stop.as_ref().is_some_and(|(is_reached, _)| !is_reached);
-    let (failures, errors) =
-        (verdicts.failed() + usize::from(failed > 0), verdicts.undecided() + usize::from(is_missed));
-    let tests = verdicts.list.len() + 1 + usize::from(stop.is_some());
+    let (failures, errors) = (
+        verdicts.failed() + usize::from(failed > 0) + usize::from(is_broken),
+        verdicts.undecided() + usize::from(is_missed),
+    );
+    let tests = verdicts.list.len() + 1 + usize::from(stop.is_some()) + usize::from(audit.is_some());
     let counts = format!("tests=\"{tests}\" failures=\"{failures}\" errors=\"{errors}\"");
     let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     xml += &format!("<testsuites name=\"spindrift\" {counts}>\n  <testsuite name=\"{name}\" {counts}>\n");
@@ -201,6 +208,11 @@ pub fn junit(plan: &Plan, verdicts: &Verdicts, failed: u64, stop: Option<(bool, 
     };
     let message = format!("{failed} runs are not ok");
     case("every run is ok", (failed > 0).then_some(("failure", "failed runs", message.as_str())));
+    if let Some(broken) = audit {
+        let message = broken.join("; ");
+        let problem = is_broken.then_some(("failure", "audit", message.as_str()));
+        case("audited errors are within their estimates", problem);
+    }
     for one in &verdicts.list {
         let finding = finding(one);
         let problem = match one.gate.decision {

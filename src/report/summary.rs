@@ -12,6 +12,7 @@ use crate::campaign::Plan;
 use crate::ensemble::FailureReason;
 use crate::report::audit_summary::{AuditSummary, Numerics};
 use crate::report::observable_lines::{ObservableLine, lines};
+use crate::report::warnings::warnings;
 use crate::report::{requirements, stopping_text};
 use crate::run::Status;
 use crate::sampling::Replaced;
@@ -43,6 +44,8 @@ pub struct Summary {
     pub(super) quantile_error: f64,
     pub(super) audit: Option<AuditSummary>,
     pub(super) replaced: Vec<Replaced>,
+    /// What comes before every number.
+    pub(super) warnings: Vec<String>,
     /// The last look of a campaign with `[stop]`, and in words.
     pub(super) stopping: Option<(Stopping, String)>,
 }
@@ -54,7 +57,9 @@ impl Summary {
             let index = tally.headlines().iter().position(|headline| headline.quantity.name() == name)?;
             Numerics::new(tally.audits()?, index, &tally.headlines()[index].spread)
         };
+        let audit = tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
         Summary {
+            warnings: warnings(audit.as_ref()),
             name: plan.name.clone(),
             seed: plan.seed,
             samples: plan.samples,
@@ -71,7 +76,7 @@ impl Summary {
             treatment: statistics.treatment(),
             confidence: statistics.confidence,
             quantile_error: statistics.quantile_error,
-            audit: tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction)),
+            audit,
             replaced: plan.dispersions.replaced_correlations().to_vec(),
             stopping: None,
             missions: Missions::new(),
@@ -114,6 +119,7 @@ impl Summary {
             "plan_hash": self.plan_hash,
             "seed": self.seed,
             "samples": self.samples,
+            "warnings": self.warnings,
             "statuses": statuses,
             "first_failed": first_failed,
             "failure_reasons": reasons,
@@ -169,6 +175,10 @@ pub struct SummaryEnd {
     pub rows: u64,
     /// Number of runs that are not `ok`.
     pub failed: u64,
+    /// Audited runs whose errors are larger than their estimates, where these are more than promised; else 0.
+    pub not_covered: u64,
+    /// What comes before every number.
+    pub warnings: Vec<String>,
     /// The requirements, each with its verdict.
     pub verdicts: Vec<(String, String)>,
     /// Whether a campaign with `[stop]` has reached what it says; `true` of others.
@@ -186,10 +196,16 @@ impl SummaryEnd {
             .filter_map(|(name, count)| Some((name, count.as_u64()?)))
             .collect();
         let text = |one: &Value, key: &str| Some(one.get(key)?.as_str()?.to_owned());
+        let excess = |estimate: &str| value.pointer(&format!("/audit/{estimate}/excess")).and_then(Value::as_u64);
         let list = value.pointer("/requirements/list").and_then(Value::as_array).into_iter().flatten();
         Some(SummaryEnd {
             rows: statuses.iter().map(|(_, count)| count).sum(),
             failed: statuses.iter().filter(|(name, _)| *name != Status::Done.name()).map(|(_, count)| count).sum(),
+            warnings: value
+                .get("warnings")
+                .and_then(Value::as_array)
+                .map_or_else(Vec::new, |list| list.iter().filter_map(Value::as_str).map(str::to_owned).collect()),
+            not_covered: ["estimate", "debris_estimate"].into_iter().filter_map(excess).sum(),
             verdicts: list.filter_map(|one| Some((text(one, "requirement")?, text(one, "verdict")?))).collect(),
             is_reached: value.pointer("/stop/reached").and_then(Value::as_bool) != Some(false),
         })
@@ -220,7 +236,10 @@ mod tests {
     fn failed_runs_are_read_from_a_summary() {
         let end =
             SummaryEnd::read(br#"{"statuses": {"ok": 5, "step_limit": 2, "invalid_sample": 1}}"#).expect("a summary");
-        assert_eq!((end.rows, end.failed, end.is_reached), (8, 3, true));
+        assert_eq!((end.rows, end.failed, end.not_covered, end.is_reached), (8, 3, 0, true));
+        let audited =
+            br#"{"statuses": {"ok": 9}, "audit": {"estimate": {"excess": 2}, "debris_estimate": {"excess": 3}}}"#;
+        assert_eq!(SummaryEnd::read(audited).map(|end| end.not_covered), Some(5));
         assert_eq!(SummaryEnd::read(b"{}"), None);
     }
 }

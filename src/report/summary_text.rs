@@ -5,7 +5,7 @@ use super::number::short;
 use super::observable_lines::{ObservableLine, table};
 use super::summary::Summary;
 use super::wrapped::wrapped;
-use super::{failure_text, mission_text, requirements};
+use super::{failure_text, mission_text, requirements, warnings};
 use crate::analysis::outcomes::OF_MOTION;
 use crate::ensemble::FailureReason;
 use crate::run::Status;
@@ -35,7 +35,8 @@ impl Summary {
     /// The text for lines of `width` characters. `drivers` are what drives the outcomes, `file` is the campaign as a word of the commands that
     /// show a run.
     pub fn text(&self, drivers: &str, file: &str, width: usize) -> String {
-        let mut text = wrapped(&requirements::text(&self.verdicts), width);
+        let mut text = wrapped(&warnings::text(&self.warnings), width);
+        text += &wrapped(&requirements::text(&self.verdicts), width);
         if let Some((_, stop)) = &self.stopping {
             text += &wrapped(&format!("\n  stop: {stop}\n"), width);
         }
@@ -175,6 +176,7 @@ mod tests {
         let ended = |count: u64, first: &[u64]| Ended { count, first: first.iter().map(|id| SampleId(*id)).collect() };
         Summary {
             missions: Vec::new(),
+            warnings: Vec::new(),
             name: "x".to_owned(),
             seed: 1,
             samples: 13,

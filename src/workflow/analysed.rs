@@ -9,6 +9,7 @@ use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::stopping::{Stopping, stopping};
 use crate::analysis::survey::Survey;
+use crate::analysis::tally::Tally;
 use crate::analysis::verdicts::Verdicts;
 use crate::analysis::{derived_table, sensitivity, sensitivity_table, statistics, statistics_table, verdicts};
 use crate::campaign::Plan;
@@ -37,6 +38,8 @@ pub struct Analysed {
     pub survey: Survey,
     /// How missions ended, under a control loop.
     pub missions: Missions,
+    /// How runs ended, and the audits.
+    pub tally: Tally,
 }
 
 /// Makes the tables of the dataset `folder` of `plan` from what was `gathered` from its rows.
@@ -90,17 +93,18 @@ pub fn computed(
         bands: gathered.bands,
         survey: gathered.survey,
         missions: gathered.missions,
+        tally: gathered.tally,
     })
 }
 
-/// Writes the verdicts as JUnit XML, where a file for it was named; `failed` runs are not `ok`.
+/// Writes the verdicts as JUnit XML, where a file for it was named.
 ///
 /// # Errors
 /// Where the file cannot be written.
-pub fn write_junit(plan: &Plan, analysed: &Analysed, failed: u64, file: Option<&Path>) -> Result<(), WorkflowError> {
+pub fn write_junit(plan: &Plan, analysed: &Analysed, file: Option<&Path>) -> Result<(), WorkflowError> {
     let Some(file) = file else { return Ok(()) };
     let stop = analysed.stopping.as_ref().map(|found| (found.is_reached(), stopping_text::text(plan, found)));
-    let text = requirements::junit(plan, &analysed.verdicts, failed, stop);
+    let text = requirements::junit(plan, &analysed.verdicts, &analysed.tally, stop);
     atomic::write_bytes(file, text.as_bytes()).map_err(|error| in_file(file, &error))
 }
 

@@ -173,7 +173,7 @@ impl<'a> Results<'a> {
     /// # Errors
     /// Where a file cannot be read or written.
     pub fn write_junit(&self, file: &Path) -> Result<(), WorkflowError> {
-        write_junit(&self.plan, &self.analysed()?, self.end()?.failed, Some(file))
+        write_junit(&self.plan, &self.analysed()?, Some(file))
     }
 
     /// How the campaign ended, as its summary says.

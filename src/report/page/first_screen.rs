@@ -45,6 +45,16 @@ pub fn header(plan: &Plan) -> String {
     )
 }
 
+/// What comes before every number; nothing where there is no warning.
+pub fn warnings(warnings: &[String]) -> String {
+    let line = |text: &String| {
+        let (word, rest) = text.split_once(':').unwrap_or(("", text));
+        format!("<p><b>{}:</b>{}.</p>", escaped(word), escaped(rest))
+    };
+    let lines: String = warnings.iter().map(line).collect();
+    if lines.is_empty() { lines } else { format!("<section id=\"warnings\" role=\"alert\">{lines}</section>\n") }
+}
+
 /// What each status is called, in words.
 fn words(status: Status) -> &'static str {
     match status {

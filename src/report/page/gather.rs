@@ -8,9 +8,11 @@ use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::{ColumnStatistics, Statistics};
 use crate::analysis::stopping::Stopping;
 use crate::analysis::survey::Survey;
+use crate::analysis::tally::Tally;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::ensemble::Bands;
+use crate::report::audit_summary::AuditSummary;
 use crate::report::drivers_text::{self, outcomes};
 use crate::report::noise_text;
 use crate::report::page::Contents;
@@ -23,6 +25,7 @@ use crate::report::page::shown_columns::words;
 use crate::report::page::tables::StatisticsRow;
 use crate::report::requirements::{runs_needed, together};
 use crate::report::stopping_text;
+use crate::report::warnings::warnings;
 use crate::statistics::binomial::Decision;
 use crate::statistics::correlation::Estimate;
 use crate::statistics::gate::GateLimit;
@@ -45,6 +48,8 @@ pub struct Analysis<'a> {
     pub noise: &'a [NoiseShare],
     /// Quantiles over time, where they were kept.
     pub bands: Option<&'a Bands>,
+    /// How runs ended, and the audits.
+    pub tally: &'a Tally,
     /// The look that ended the campaign, where it has `[stop]`.
     pub stopping: Option<&'a Stopping>,
 }
@@ -56,7 +61,9 @@ impl Contents {
         let verdicts = &analysis.verdicts.list;
         let mut said = together(analysis.verdicts);
         said.extend(analysis.stopping.map(|found| stopping_text::text(plan, found)));
+        let audit = analysis.tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
         Contents {
+            warnings: warnings(audit.as_ref()),
             bands: analysis.bands.map_or_else(Vec::new, time_bands),
             statistics: analysis
                 .statistics

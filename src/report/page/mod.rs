@@ -56,6 +56,8 @@ pub struct Contents {
     pub statistics: Vec<StatisticsRow>,
     /// What drives the outcomes.
     pub influences: Vec<Influence>,
+    /// What comes before every number; mostly nothing.
+    pub warnings: Vec<String>,
     /// The verdicts of the requirements; empty where the file has none.
     pub verdicts: Vec<Card>,
     /// What `[stop]` and the verdicts together say, as sentences.
@@ -118,6 +120,7 @@ impl Page {
         };
         let first = [
             first_screen::header(plan),
+            first_screen::warnings(&contents.warnings),
             first_screen::status(plan, survey),
             first_screen::missions(&contents.missions),
             first_screen::verdicts(&cards, !contents.verdicts.is_empty(), &contents.said),
