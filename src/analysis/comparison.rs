@@ -51,8 +51,10 @@ pub struct ColumnComparison {
     pub mean: Option<Difference>,
     /// P-value of the distributions: of [`marginals`] of the pairs, or of Kolmogorov and Smirnov's test.
     pub distribution_p_value: Option<f64>,
-    /// P-value of the pairs' differences, adjusted for the number of observables; `None` without pairs, or where none differs.
+    /// P-value of the pairs' differences; `None` without pairs, or where none differs.
     pub moved_p_value: Option<f64>,
+    /// The same, adjusted for the number of observables.
+    pub adjusted_moved_p_value: Option<f64>,
     /// Pairs whose values differ.
     pub differing_pairs: u64,
     /// Whether a requirement of either plan names it.
@@ -120,7 +122,7 @@ impl Comparison {
 impl Comparison {
     /// Whether the runs of an observable moved, each a little or most of them one way, and chance is no explanation, while its distribution is not shifted.
     pub fn is_moved(&self, column: &ColumnComparison) -> bool {
-        !self.is_shifted(column) && column.moved_p_value.is_some_and(|p| p <= self.level())
+        !self.is_shifted(column) && column.adjusted_moved_p_value.is_some_and(|p| p <= self.level())
     }
 }
 
@@ -223,6 +225,7 @@ fn compared(
         mean: tests.mean,
         distribution_p_value: tests.distribution,
         moved_p_value: tests.moved,
+        adjusted_moved_p_value: None,
         differing_pairs: tests.differing,
         is_required: false,
         p_value: tests.p_value,
@@ -292,7 +295,7 @@ fn adjust(columns: &mut [ColumnComparison]) {
     let (mut adjusted, mut moved) = (of_all(&|column| column.p_value), of_all(&|column| column.moved_p_value));
     for column in columns.iter_mut() {
         column.adjusted_p_value = column.p_value.and_then(|_| adjusted.next());
-        column.moved_p_value = column.moved_p_value.and_then(|_| moved.next());
+        column.adjusted_moved_p_value = column.moved_p_value.and_then(|_| moved.next());
     }
     // a p-value that underflows is no better than another one: the shift decides
     columns.sort_by(|a, b| {

@@ -40,11 +40,10 @@ pub fn table(comparison: &Comparison) -> Vec<DescribedColumn> {
         ),
         real("p_value_mean", "P-value of the test of means.", &|row| row.mean.map(|found| found.p_value)),
         real("p_value_distribution", "P-value of the test of distributions.", &|row| row.distribution_p_value),
-        real(
-            "adjusted_p_value_moved",
-            "P-value of the signed ranks of the pairs' differences, adjusted likewise.",
-            &|row| row.moved_p_value,
-        ),
+        real("p_value_moved", "P-value of the signed ranks of the pairs' differences.", &|row| row.moved_p_value),
+        real("adjusted_p_value_moved", "The same, adjusted for the number of observables (Holm).", &|row| {
+            row.adjusted_moved_p_value
+        }),
         real("mean_shift", "Shift of the mean, second minus first; of pairs, where there are any.", &|row| {
             row.mean.map(|found| found.shift.value)
         }),

@@ -37,6 +37,9 @@ const CHANCE: f64 = 5.5;
 /// measured 0.5 for the sum of five inputs and 16 blocks.
 const ENOUGH_BLOCKS: usize = 64;
 
+/// The name of the outcome whether a run is computed: 1 where it is `ok`, else 0.
+pub const COMPUTED: &str = "computed";
+
 /// What one input means for one observable. What does not apply is `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InputSensitivity {
@@ -97,6 +100,8 @@ pub struct FirstRows {
     inputs: Vec<String>,
     observed: Vec<Observed>,
     most: usize,
+    /// Whether it keeps rows of all physical samples with whether each is computed, in place of observables.
+    of_failures: bool,
     /// Whether the rows are there, so that no further part adds any.
     is_full: AtomicBool,
 }
@@ -111,7 +116,12 @@ impl FirstRows {
             Design::Saltelli(_) => (Vec::new(), MOST_ROWS),
             _ => (inputs(plan), most),
         };
-        FirstRows { inputs, observed, most, is_full: AtomicBool::new(false) }
+        FirstRows { inputs, observed, most, of_failures: false, is_full: AtomicBool::new(false) }
+    }
+
+    /// Of the campaign `plan`, for what decides whether a run is computed.
+    pub fn of_failures(plan: &Plan) -> Self {
+        FirstRows { observed: Vec::new(), most: FEWER_ROWS, of_failures: true, ..Self::new(plan) }
     }
 }
 
@@ -134,7 +144,11 @@ impl Accumulator for FirstRows {
 
     fn nothing(&self) -> RowTable {
         let empty = |count: usize| vec![Vec::new(); count];
-        RowTable { samples: Vec::new(), inputs: empty(self.inputs.len()), observables: empty(self.observed.len()) }
+        RowTable {
+            samples: Vec::new(),
+            inputs: empty(self.inputs.len()),
+            observables: empty(self.observed.len() + usize::from(self.of_failures)),
+        }
     }
 
     fn count(&self, part: &impl PartColumns) -> Result<RowTable, RowsError> {
@@ -142,13 +156,17 @@ impl Accumulator for FirstRows {
             return Ok(self.nothing());
         }
         let (samples, statuses) = (part.samples()?, part.statuses()?);
-        let of_population = |row: &usize| samples[*row].0 > 0 && statuses[*row] == Status::Done;
+        let is_kept = |status| status == Status::Done || self.of_failures && status != Status::InvalidSample;
+        let of_population = |row: &usize| samples[*row].0 > 0 && is_kept(statuses[*row]);
         let rows: Vec<usize> = (0..samples.len()).filter(of_population).take(self.most).collect();
         let taken = |column: Cow<'_, [f64]>| rows.iter().map(|row| column[*row]).collect::<Vec<f64>>();
         Ok(RowTable {
             samples: rows.iter().map(|row| samples[*row].0).collect(),
             inputs: self.inputs.iter().map(|name| part.numbers(name).map(taken)).collect::<Result<_, _>>()?,
-            observables: self.observed.iter().map(|one| one.column(part).map(taken)).collect::<Result<_, _>>()?,
+            observables: match self.of_failures {
+                true => vec![rows.iter().map(|row| f64::from(u8::from(statuses[*row] == Status::Done))).collect()],
+                false => self.observed.iter().map(|one| one.column(part).map(taken)).collect::<Result<_, _>>()?,
+            },
         })
     }
 
@@ -165,23 +183,35 @@ impl Accumulator for FirstRows {
 
 /// What every input of `plan` means for the observables that its file requires or names (the main ones, where it names none), from its first rows.
 pub fn compute(plan: &Plan, table: &RowTable, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
-    let FirstRows { inputs, observed, .. } = FirstRows::new(plan);
+    let observed = FirstRows::new(plan).observed;
+    let names: Vec<&str> = observed.iter().map(|one| one.quantity.name()).collect();
+    of_table(plan, &names, table, threads)
+}
+
+/// What every input of `plan` means for whether a run is computed ([`COMPUTED`]), from the rows of [`FirstRows::of_failures`]; nothing where all are, or none.
+pub fn of_failures(plan: &Plan, table: &RowTable, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
+    let varies = table.observables.iter().any(|flags| flags.iter().any(|flag| *flag != flags[0]));
+    if varies { of_table(plan, &[COMPUTED], table, threads) } else { Vec::new() }
+}
+
+fn of_table(plan: &Plan, names: &[&str], table: &RowTable, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
     if let Design::Saltelli(_) = plan.design {
-        return of_blocks(plan, &observed, table);
+        return of_blocks(plan, names, table);
     }
+    let inputs = inputs(plan);
     let prepared = Prepared::new(table.inputs.clone(), threads);
-    let of_observable = |(observed, y): (&Observed, &Vec<f64>)| {
+    let of_observable = |(name, y): (&&str, &Vec<f64>)| {
         if y.iter().all(|value| value.is_finite()) {
-            return prepared.sensitivities(plan, &inputs, observed, y);
+            return prepared.sensitivities(plan, &inputs, name, y);
         }
         // other rows have other ranks
         let rows: Vec<usize> = (0..y.len()).filter(|row| y[*row].is_finite()).collect();
         let y: Vec<f64> = rows.iter().map(|row| y[*row]).collect();
         let of_rows = |input: &Vec<f64>| rows.iter().map(|row| input[*row]).collect();
         let one = NonZeroUsize::new(1);
-        Prepared::new(table.inputs.iter().map(of_rows).collect(), one).sensitivities(plan, &inputs, observed, &y)
+        Prepared::new(table.inputs.iter().map(of_rows).collect(), one).sensitivities(plan, &inputs, name, &y)
     };
-    let work: Vec<_> = observed.iter().zip(&table.observables).collect();
+    let work: Vec<_> = names.iter().zip(&table.observables).collect();
     in_parallel(work, threads, of_observable).into_iter().flatten().collect()
 }
 
@@ -253,7 +283,7 @@ impl Prepared {
         (r.abs() > chance.max(NOTABLE_CORRELATION)).then(|| (names[other].clone(), *r))
     }
 
-    fn sensitivities(&self, plan: &Plan, names: &[String], observed: &Observed, y: &[f64]) -> Vec<InputSensitivity> {
+    fn sensitivities(&self, plan: &Plan, names: &[String], observable: &str, y: &[f64]) -> Vec<InputSensitivity> {
         let confidence = plan.analysis.confidence;
         let population = Population::of(plan);
         let (scaled, ranked) = (standardised(y), standardised(&mid_ranks(y)));
@@ -283,7 +313,7 @@ impl Prepared {
             let (order, x) = (&self.orders[index], &self.values[index]);
             let correlated_with = self.correlated_with(index, names);
             InputSensitivity {
-                observable: observed.quantity.name().to_owned(),
+                observable: observable.to_owned(),
                 input: name.clone(),
                 rows: self.rows as u64,
                 pearson: correlated(&self.standardised[index], &scaled),
@@ -332,7 +362,7 @@ fn note(
         }
         Population::Chosen(LISTED) => notes.push(format!("chosen samples ({LISTED}): no population, no interval")),
         Population::Chosen(design) => notes.push(format!("design \"{design}\": no population, no interval")),
-        Population::Independent | Population::Nominal => {}
+        Population::Independent | Population::Nominal | Population::Incomplete(_) => {}
     }
     (!notes.is_empty()).then(|| notes.join("; "))
 }
@@ -351,12 +381,12 @@ fn factor_names(plan: &Plan) -> Vec<String> {
 }
 
 /// Indices from whole blocks of a `saltelli` design.
-fn of_blocks(plan: &Plan, observed: &[Observed], table: &RowTable) -> Vec<InputSensitivity> {
+fn of_blocks(plan: &Plan, names: &[&str], table: &RowTable) -> Vec<InputSensitivity> {
     let factors = factor_names(plan);
     let members = factors.len() + 2;
     let confidence = plan.analysis.confidence;
     let mut found = Vec::new();
-    for (observed, y) in observed.iter().zip(&table.observables) {
+    for (observable, y) in names.iter().zip(&table.observables) {
         // a block with a run that is missing, or has no value, has no part in any index
         let mut blocks: Vec<&[f64]> = Vec::new();
         let mut row = 0;
@@ -382,7 +412,7 @@ fn of_blocks(plan: &Plan, observed: &[Observed], table: &RowTable) -> Vec<InputS
                 None => "the observable does not vary, or there are fewer than two whole blocks",
             };
             found.push(InputSensitivity {
-                observable: observed.quantity.name().to_owned(),
+                observable: (*observable).to_owned(),
                 input: name.clone(),
                 rows: (blocks.len() * members) as u64,
                 first_order: indices.map(|[first, _]| first),
@@ -410,7 +440,8 @@ mod tests {
         let rows = [1.0, 2.0, 4.0, 5.0, 9.0, 9.0, 9.0, 4.0, 3.0, 3.0, 2.0];
         let samples = (1..=12).filter(|sample| *sample != 6).collect();
         let table = RowTable { samples, inputs: Vec::new(), observables: vec![rows.to_vec()] };
-        let found = of_blocks(&plan, &observed, &table);
+        let names: Vec<&str> = observed.iter().map(|one| one.quantity.name()).collect();
+        let found = of_blocks(&plan, &names, &table);
         let inputs: Vec<(&str, u64)> = found.iter().map(|one| (one.input.as_str(), one.rows)).collect();
         let parameter = |axis: &str| format!("initial.angular_velocity_rad_s.{axis}");
         assert_eq!(inputs, [(parameter("x").as_str(), 8), (parameter("y").as_str(), 8)]);

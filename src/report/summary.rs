@@ -12,7 +12,6 @@ use crate::campaign::Plan;
 use crate::ensemble::FailureReason;
 use crate::report::audit_summary::{AuditSummary, Numerics};
 use crate::report::observable_lines::{ObservableLine, lines};
-use crate::report::warnings::warnings;
 use crate::report::{requirements, stopping_text};
 use crate::run::Status;
 use crate::sampling::Replaced;
@@ -59,7 +58,7 @@ impl Summary {
         };
         let audit = tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
         Summary {
-            warnings: warnings(audit.as_ref()),
+            warnings: Vec::new(),
             name: plan.name.clone(),
             seed: plan.seed,
             samples: plan.samples,
@@ -81,6 +80,12 @@ impl Summary {
             stopping: None,
             missions: Missions::new(),
         }
+    }
+
+    /// The same, with what comes before every number.
+    #[must_use]
+    pub fn with_warnings(self, warnings: Vec<String>) -> Self {
+        Summary { warnings, ..self }
     }
 
     /// The same, with how the missions of a control loop ended.
@@ -141,7 +146,7 @@ impl Summary {
             value["nearest_correlations_of_scores"] = Value::Array(list.collect());
         }
         if !self.missions.is_empty() {
-            let one = |share: &MissionShare| json!({ "end": share.end, "count": share.count, "runs": share.runs, "interval": share.interval });
+            let one = |share: &MissionShare| json!({ "end": share.end, "count": share.count, "runs": share.runs, "not_computed": share.missing, "shares": share.shares(), "interval": share.interval });
             value["missions"] = Value::Array(self.missions.iter().map(one).collect());
         }
         if let Some(audit) = &self.audit {

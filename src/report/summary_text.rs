@@ -6,6 +6,7 @@ use super::observable_lines::{ObservableLine, table};
 use super::summary::Summary;
 use super::wrapped::wrapped;
 use super::{failure_text, mission_text, requirements, warnings};
+use crate::analysis::assessment::Assessment;
 use crate::analysis::outcomes::OF_MOTION;
 use crate::ensemble::FailureReason;
 use crate::run::Status;
@@ -43,6 +44,7 @@ impl Summary {
         text += &self.ended();
         text += &wrapped(&mission_text::text(&self.missions), width);
         text += &self.found(width);
+        text += &wrapped(&self.brackets(), width);
         text += &wrapped(drivers, width);
         text += &wrapped(&self.numerics(), width);
         // commands stay whole, to be copied
@@ -91,7 +93,7 @@ impl Summary {
             return format!("\n  no {} is ok: no statistics\n", if is_nominal_ok { "dispersed run" } else { "run" });
         }
         let title = if self.without_nominal { "dispersed runs" } else { "nominal run" };
-        let mut text = table(&shown, title, self.confidence, width);
+        let mut text = table(&shown, title, width);
         if self.treatment != EVERY_RUN_IS_OK {
             text += &format!("  {}\n", self.treatment);
         }
@@ -107,6 +109,16 @@ impl Summary {
             more => text += &format!("  {more} more in statistics.parquet\n"),
         }
         text
+    }
+
+    /// What the intervals in brackets are, once for all of them.
+    fn brackets(&self) -> String {
+        let of_missions = self.missions.iter().any(|one| one.interval[0].is_finite());
+        let of_lines = self.shown().iter().any(|line| line.has_interval());
+        if !(of_missions || of_lines || self.verdicts.list.iter().any(Assessment::has_interval)) {
+            return String::new();
+        }
+        format!("\n  in brackets: {}; ?: not bounded by so few runs\n", requirements::intervals(self.confidence))
     }
 
     /// How well it was computed: a sentence, and the audits.

@@ -14,6 +14,8 @@ use crate::analysis::verdicts::Verdicts;
 use crate::analysis::{derived_table, sensitivity, sensitivity_table, statistics, statistics_table, verdicts};
 use crate::campaign::Plan;
 use crate::ensemble::Bands;
+use crate::report::audit_summary::AuditSummary;
+use crate::report::warnings::warnings;
 use crate::report::{requirements, stopping_text};
 use crate::storage::folder::Folder;
 use crate::storage::names::{BANDS, OBSERVABLES, SENSITIVITY, STATISTICS};
@@ -40,6 +42,8 @@ pub struct Analysed {
     pub missions: Missions,
     /// How runs ended, and the audits.
     pub tally: Tally,
+    /// What a reader has to know before any number.
+    pub warnings: Vec<String>,
 }
 
 /// Makes the tables of the dataset `folder` of `plan` from what was `gathered` from its rows.
@@ -85,7 +89,13 @@ pub fn computed(
     let statistics =
         statistics::compute(plan, reader, Some(gathered.columns), threads).map_err(WorkflowError::files)?;
     let verdicts = verdicts::assess(plan, &gathered.requirements, gathered.bands.as_ref()).with_quantiles(&statistics);
+    let audit = gathered.tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
+    let failures = match statistics.loss().is_big() {
+        true => sensitivity::of_failures(plan, &gathered.failure_rows, threads),
+        false => Vec::new(),
+    };
     Ok(Analysed {
+        warnings: warnings(&statistics, audit.as_ref(), &failures),
         sensitivities: sensitivity::compute(plan, &gathered.first_rows, threads),
         stopping: stopping(plan, plan.samples, &gathered.stop_values, &verdicts),
         verdicts,

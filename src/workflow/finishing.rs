@@ -126,7 +126,7 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
     let is_imprecise = analysed.stopping.as_ref().is_some_and(|found| !found.is_reached());
     let summary =
         Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts).with_stopping(plan, analysed.stopping);
-    let summary = summary.with_missions(analysed.missions);
+    let summary = summary.with_missions(analysed.missions).with_warnings(analysed.warnings);
     folder.write(SUMMARY, summary.json().as_bytes()).map_err(WorkflowError::files)?;
     // the last part is larger in a campaign without an end, where it can get further rows
     let endless = |id: PartId| parts.with_samples(u64::MAX).part(id);

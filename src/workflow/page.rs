@@ -88,7 +88,7 @@ pub fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord]
         verdicts: &analysed.verdicts,
         sensitivities: &analysed.sensitivities,
         missions: &analysed.missions,
-        tally: &analysed.tally,
+        warnings: &analysed.warnings,
         noise,
         bands: analysed.bands.as_ref(),
         stopping: analysed.stopping.as_ref(),

@@ -27,6 +27,7 @@ mod hostile_files;
 mod interrupted;
 mod judged_columns;
 mod loop_noise;
+mod lost_runs;
 mod mass_properties;
 mod memory;
 mod missions;

@@ -124,7 +124,7 @@ pub fn missions(missions: &Missions) -> String {
     let mut lines = String::new();
     for one in missions {
         let at = |share: f64| format!("{:.3}%", 100.0 * share);
-        let share = one.count as f64 / one.runs.max(1) as f64;
+        let [share, _] = one.shares();
         let class = if one.end == "launched" { "ok" } else { "failed" };
         let [low, high] = one.interval;
         let whisker = if low.is_finite() {
@@ -145,7 +145,8 @@ pub fn missions(missions: &Missions) -> String {
         return lines;
     }
     format!(
-        "<section id=\"missions\"><h2>How did the missions end?</h2><table class=\"missions\"><thead><tr><th>end</th><th>runs</th><th>share, with its interval</th><th></th></tr></thead><tbody>{lines}</tbody></table><p class=\"caption\">Of the dispersed runs that are ok. The nominal run has no sensor noise.</p></section>\n"
+        "<section id=\"missions\"><h2>How did the missions end?</h2><table class=\"missions\"><thead><tr><th>end</th><th>runs</th><th>share, with its interval</th><th></th></tr></thead><tbody>{lines}</tbody></table><p class=\"caption\">Of the dispersed runs{}. The nominal run has no sensor noise.</p></section>\n",
+        mission_text::missing(missions).map_or_else(String::new, |note| format!("; {}", escaped(&note)))
     )
 }
 

@@ -8,11 +8,9 @@ use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::{ColumnStatistics, Statistics};
 use crate::analysis::stopping::Stopping;
 use crate::analysis::survey::Survey;
-use crate::analysis::tally::Tally;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::ensemble::Bands;
-use crate::report::audit_summary::AuditSummary;
 use crate::report::drivers_text::{self, outcomes};
 use crate::report::noise_text;
 use crate::report::page::Contents;
@@ -23,9 +21,8 @@ use crate::report::page::over_time::TimeBands;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::shown_columns::words;
 use crate::report::page::tables::StatisticsRow;
-use crate::report::requirements::{runs_needed, together};
+use crate::report::requirements::{assumed, runs_needed, together};
 use crate::report::stopping_text;
-use crate::report::warnings::warnings;
 use crate::statistics::binomial::Decision;
 use crate::statistics::correlation::Estimate;
 use crate::statistics::gate::GateLimit;
@@ -48,8 +45,8 @@ pub struct Analysis<'a> {
     pub noise: &'a [NoiseShare],
     /// Quantiles over time, where they were kept.
     pub bands: Option<&'a Bands>,
-    /// How runs ended, and the audits.
-    pub tally: &'a Tally,
+    /// What a reader has to know before any number.
+    pub warnings: &'a [String],
     /// The look that ended the campaign, where it has `[stop]`.
     pub stopping: Option<&'a Stopping>,
 }
@@ -61,9 +58,9 @@ impl Contents {
         let verdicts = &analysis.verdicts.list;
         let mut said = together(analysis.verdicts);
         said.extend(analysis.stopping.map(|found| stopping_text::text(plan, found)));
-        let audit = analysis.tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
         Contents {
-            warnings: warnings(audit.as_ref()),
+            warnings: analysis.warnings.to_vec(),
+            loss: analysis.statistics.loss(),
             bands: analysis.bands.map_or_else(Vec::new, time_bands),
             statistics: analysis
                 .statistics
@@ -209,8 +206,11 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         notes[0] = format!("{at}{}", notes[0]);
         notes.push(format!("Tested at {} points of time.", worst.points));
     }
-    if one.failed > 0 {
-        notes.push(format!("{} runs that are not ok count as violations.", grouped(one.failed)));
+    if one.missing > 0 {
+        notes.push(format!("{} runs without a value count as violations.", grouped(one.missing)));
+    }
+    if let Some(assumed) = assumed(one) {
+        notes.push(format!("{}.", sentence(&assumed)));
     }
     match (&one.reason, one.gate.decision) {
         (Some(reason), _) => notes.push(format!("{}.", crate::report::page::errors::sentence(reason))),
@@ -226,13 +226,12 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         Statement::Mean => (
             "mean".to_owned(),
             shown.value(one.gate.estimate),
-            one.gate.bounds.map(|end| shown.value(end)),
+            one.interval.map(|end| shown.value(end)),
             shown.written(limit),
             shown.unit.clone(),
         ),
         Statement::Quantile(p) => {
-            let quantile =
-                requirement.observable().and_then(|name| statistics.required(name, p, requirement.confidence));
+            let quantile = statistics.required(requirement);
             let ends = quantile
                 .map_or([None; 2], |quantile| quantile.interval)
                 .map(|end| shown.value(end.unwrap_or(f64::NAN)));
@@ -244,7 +243,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
             (
                 "runs within the limit".to_owned(),
                 hundred(one.gate.estimate),
-                one.gate.bounds.map(hundred),
+                one.interval.map(hundred),
                 hundred(fraction),
                 "%".to_owned(),
             )
@@ -263,11 +262,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         statistic,
         estimate,
         interval: ends,
-        confidence: match requirement.statement {
-            Statement::Quantile(_) => requirement.confidence,
-            _ => one.confidences[0],
-        },
-        is_one_sided: !matches!(requirement.statement, Statement::Quantile(_)),
+        confidence: statistics.confidence,
         limit: Some((limit, is_upper && !is_fraction)),
         unit,
         note: notes.join(" "),
