@@ -58,6 +58,7 @@ fn every_key_is_read_and_written() {
         subject: Subject::Observable("margin_deg".to_owned()),
         statement: Statement::Fraction(0.999),
         limit: GateLimit::AtMost(1.5),
+        bounded: None,
         confidence: 0.99,
     };
     assert_eq!(requirements[1], expected);
