@@ -3,7 +3,7 @@
 //! - [`fold`]: one pass over the parts, of rows in memory or in files ([`part_columns`]), in which everything that follows gathers what it needs, each
 //!   by an [`accumulator`].
 //! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`], [`order_statistics`]); [`tally`], [`audit_tally`]: statuses, worst runs, audits.
-//! - [`verdicts`]: of the requirements, each an [`assessment`] (over time: `band_verdicts`); [`mod@stopping`]: whether the rows are enough. [`mod@ending`]: how the campaign ended.
+//! - [`verdicts`]: of the requirements, each an [`assessment`] (of a number of each run: `row_verdicts`; over time: `band_verdicts`); [`mod@stopping`]: whether the rows are enough. [`mod@ending`]: how the campaign ended.
 //! - [`sensitivity`]: which input matters (`block_indices`: of a `saltelli` design); [`effects`]: tests whether it does, also of an [`event`];
 //!   [`drivers`]: the ranking of what the rows show; [`noise_share`]: what noise within loops does. - [`statistics_table`], [`sensitivity_table`]: both as files.
 //! - [`comparison`]: two results, by the samples that both drew ([`pairing`]); [`comparison_table`]: as a file.
@@ -35,6 +35,7 @@ pub mod outcomes;
 pub mod pairing;
 pub mod part_columns;
 pub mod population;
+mod row_verdicts;
 pub mod sensitivity;
 pub mod sensitivity_table;
 #[cfg(test)]

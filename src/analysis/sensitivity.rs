@@ -37,6 +37,9 @@ const NOTABLE_CORRELATION: f64 = 0.05;
 /// Standard deviations of a chance correlation, beyond which it is none: of 10,000 pairs one passes by chance in a thousand campaigns.
 const CHANCE: f64 = 5.5;
 
+/// The name of the outcome whether a run is computed: 1 where it is `ok`, else 0.
+pub const COMPUTED: &str = "computed";
+
 /// What one input means for one observable. What does not apply is `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InputSensitivity {
@@ -103,6 +106,8 @@ pub struct FirstRows {
     inputs: Vec<String>,
     observed: Vec<Observed>,
     most: usize,
+    /// Whether it keeps rows of all physical samples with whether each is computed, in place of observables.
+    of_failures: bool,
     /// Whether the rows are there, so that no further part adds any.
     is_full: AtomicBool,
 }
@@ -117,7 +122,12 @@ impl FirstRows {
             Design::Saltelli(_) => (Vec::new(), MOST_ROWS),
             _ => (inputs(plan), most),
         };
-        FirstRows { inputs, observed, most, is_full: AtomicBool::new(false) }
+        FirstRows { inputs, observed, most, of_failures: false, is_full: AtomicBool::new(false) }
+    }
+
+    /// Of the campaign `plan`, for what decides whether a run is computed.
+    pub fn of_failures(plan: &Plan) -> Self {
+        FirstRows { observed: Vec::new(), most: FEWER_ROWS, of_failures: true, ..Self::new(plan) }
     }
 }
 
@@ -140,7 +150,11 @@ impl Accumulator for FirstRows {
 
     fn nothing(&self) -> RowTable {
         let empty = |count: usize| vec![Vec::new(); count];
-        RowTable { samples: Vec::new(), inputs: empty(self.inputs.len()), observables: empty(self.observed.len()) }
+        RowTable {
+            samples: Vec::new(),
+            inputs: empty(self.inputs.len()),
+            observables: empty(self.observed.len() + usize::from(self.of_failures)),
+        }
     }
 
     fn count(&self, part: &impl PartColumns) -> Result<RowTable, RowsError> {
@@ -148,13 +162,17 @@ impl Accumulator for FirstRows {
             return Ok(self.nothing());
         }
         let (samples, statuses) = (part.samples()?, part.statuses()?);
-        let of_population = |row: &usize| samples[*row].0 > 0 && statuses[*row] == Status::Done;
+        let is_kept = |status| status == Status::Done || self.of_failures && status != Status::InvalidSample;
+        let of_population = |row: &usize| samples[*row].0 > 0 && is_kept(statuses[*row]);
         let rows: Vec<usize> = (0..samples.len()).filter(of_population).take(self.most).collect();
         let taken = |column: Cow<'_, [f64]>| rows.iter().map(|row| column[*row]).collect::<Vec<f64>>();
         Ok(RowTable {
             samples: rows.iter().map(|row| samples[*row].0).collect(),
             inputs: self.inputs.iter().map(|name| part.numbers(name).map(taken)).collect::<Result<_, _>>()?,
-            observables: self.observed.iter().map(|one| one.column(part).map(taken)).collect::<Result<_, _>>()?,
+            observables: match self.of_failures {
+                true => vec![rows.iter().map(|row| f64::from(u8::from(statuses[*row] == Status::Done))).collect()],
+                false => self.observed.iter().map(|one| one.column(part).map(taken)).collect::<Result<_, _>>()?,
+            },
         })
     }
 
@@ -171,14 +189,25 @@ impl Accumulator for FirstRows {
 
 /// What every input of `plan` means for the observables that its file requires or names (the main ones, where it names none), from its first rows.
 pub fn compute(plan: &Plan, table: &RowTable, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
-    let FirstRows { inputs, observed, .. } = FirstRows::new(plan);
+    let observed = FirstRows::new(plan).observed;
+    let names: Vec<&str> = observed.iter().map(|one| one.quantity.name()).collect();
+    of_table(plan, &names, table, threads)
+}
+
+/// What every input of `plan` means for whether a run is computed ([`COMPUTED`]), from the rows of [`FirstRows::of_failures`]; nothing where all are, or none.
+pub fn of_failures(plan: &Plan, table: &RowTable, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
+    let varies = table.observables.iter().any(|flags| flags.iter().any(|flag| *flag != flags[0]));
+    if varies { of_table(plan, &[COMPUTED], table, threads) } else { Vec::new() }
+}
+
+fn of_table(plan: &Plan, names: &[&str], table: &RowTable, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
     if let Design::Saltelli(_) = plan.design {
-        return of_blocks(plan, &observed, table);
+        return of_blocks(plan, names, table);
     }
+    let inputs = inputs(plan);
     let prepared = Prepared::new(table.inputs.clone(), threads);
-    let of_observable =
-        |(observed, y): (&Observed, &Vec<f64>)| prepared.explained(plan, &inputs, observed.quantity.name(), y);
-    let work: Vec<_> = observed.iter().zip(&table.observables).collect();
+    let of_observable = |(name, y): (&&str, &Vec<f64>)| prepared.explained(plan, &inputs, name, y);
+    let work: Vec<_> = names.iter().zip(&table.observables).collect();
     in_parallel(work, threads, of_observable).into_iter().flatten().collect()
 }
 
@@ -402,7 +431,7 @@ fn note(
         }
         Population::Chosen(LISTED) => notes.push(format!("chosen samples ({LISTED}): no population, no interval")),
         Population::Chosen(design) => notes.push(format!("design \"{design}\": no population, no interval")),
-        Population::Independent | Population::Nominal => {}
+        Population::Independent | Population::Nominal | Population::Incomplete(_) => {}
     }
     (!notes.is_empty()).then(|| notes.join("; "))
 }

@@ -20,9 +20,9 @@ use crate::storage::claim::Shard;
 const EXIT_CODES: &str = "\
 Exit codes:
   0  done (also: the same campaign was already complete)
-  1  ran, but some runs failed (their rows say how)
+  1  ran, but some runs failed (their rows say how), or audited errors exceed their estimates more often than promised
   2  bad input: arguments, campaign file, or a sample that is not physical
-  3  ran, and a requirement failed
+  3  ran, and a requirement failed; of compare: a verdict got worse, or a shift is beyond the tolerance
   4  input/output error, or the folder has a result that may not be overwritten
   5  ran, and no requirement failed, but one is undecided, or [stop] did not reach its precision; of verify: the result is not finished
   129, 130, 138, 143  stopped by SIGHUP, SIGINT, SIGUSR1, SIGTERM; the same command continues

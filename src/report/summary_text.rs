@@ -5,7 +5,8 @@ use super::number::short;
 use super::observable_lines::{ObservableLine, table};
 use super::summary::Summary;
 use super::wrapped::wrapped;
-use super::{failure_text, mission_text, requirements};
+use super::{failure_text, mission_text, requirements, warnings};
+use crate::analysis::assessment::Assessment;
 use crate::analysis::outcomes::OF_MOTION;
 use crate::ensemble::FailureReason;
 use crate::run::Status;
@@ -35,13 +36,15 @@ impl Summary {
     /// The text for lines of `width` characters. `drivers` are what drives the outcomes, `file` is the campaign as a word of the commands that
     /// show a run.
     pub fn text(&self, drivers: &str, file: &str, width: usize) -> String {
-        let mut text = wrapped(&requirements::text(&self.verdicts), width);
+        let mut text = wrapped(&warnings::text(&self.warnings), width);
+        text += &wrapped(&requirements::text(&self.verdicts), width);
         if let Some((_, stop)) = &self.stopping {
             text += &wrapped(&format!("\n  stop: {stop}\n"), width);
         }
         text += &self.ended();
         text += &wrapped(&mission_text::text(&self.missions), width);
         text += &self.found(width);
+        text += &wrapped(&self.brackets(), width);
         text += &wrapped(drivers, width);
         text += &wrapped(&self.numerics(), width);
         // commands stay whole, to be copied
@@ -97,7 +100,7 @@ impl Summary {
             );
         }
         let title = if self.without_nominal { "dispersed runs" } else { "nominal run" };
-        let mut text = table(&shown, title, self.confidence, width);
+        let mut text = table(&shown, title, width);
         if self.treatment != EVERY_RUN_IS_OK {
             text += &format!("  {}\n", self.treatment);
         }
@@ -115,6 +118,16 @@ impl Summary {
             more => text += &format!("  {more} more in statistics.parquet\n"),
         }
         text
+    }
+
+    /// What the intervals in brackets are, once for all of them.
+    fn brackets(&self) -> String {
+        let of_missions = self.missions.iter().any(|one| one.interval[0].is_finite());
+        let of_lines = self.shown().iter().any(|line| line.has_interval());
+        if !(of_missions || of_lines || self.verdicts.list.iter().any(Assessment::has_interval)) {
+            return String::new();
+        }
+        format!("\n  in brackets: {}; ?: not bounded by so few runs\n", requirements::intervals(self.confidence))
     }
 
     /// How well it was computed: a sentence, and the audits.
@@ -184,6 +197,7 @@ mod tests {
         let ended = |count: u64, first: &[u64]| Ended { count, first: first.iter().map(|id| SampleId(*id)).collect() };
         Summary {
             missions: Vec::new(),
+            warnings: Vec::new(),
             name: "x".to_owned(),
             seed: 1,
             samples: 13,

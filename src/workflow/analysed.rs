@@ -9,10 +9,13 @@ use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::stopping::{Stopping, stopping};
 use crate::analysis::survey::Survey;
+use crate::analysis::tally::Tally;
 use crate::analysis::verdicts::Verdicts;
 use crate::analysis::{sensitivity, statistics, verdicts};
 use crate::campaign::Plan;
 use crate::ensemble::Bands;
+use crate::report::audit_summary::AuditSummary;
+use crate::report::warnings::warnings;
 use crate::report::{requirements, stopping_text};
 use crate::storage::atomic;
 use crate::storage::rows_reader::RowsReader;
@@ -35,6 +38,10 @@ pub struct Analysed {
     pub survey: Survey,
     /// How missions ended, under a control loop.
     pub missions: Missions,
+    /// How runs ended, and the audits.
+    pub tally: Tally,
+    /// What a reader has to know before any number.
+    pub warnings: Vec<String>,
 }
 
 /// What was `gathered` from the rows of `plan` says.
@@ -50,7 +57,13 @@ pub fn computed(
     let statistics =
         statistics::compute(plan, reader, Some(gathered.columns), threads).map_err(WorkflowError::files)?;
     let verdicts = verdicts::assess(plan, &gathered.requirements, gathered.bands.as_ref()).with_quantiles(&statistics);
+    let audit = gathered.tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
+    let failures = match statistics.loss().is_big() {
+        true => sensitivity::of_failures(plan, &gathered.failure_rows, threads),
+        false => Vec::new(),
+    };
     Ok(Analysed {
+        warnings: warnings(&statistics, audit.as_ref(), &failures),
         sensitivities: sensitivity::compute(plan, &gathered.first_rows, threads),
         stopping: stopping(plan, plan.samples, &gathered.stop_values, &verdicts),
         verdicts,
@@ -58,17 +71,18 @@ pub fn computed(
         bands: gathered.bands,
         survey: gathered.survey,
         missions: gathered.missions,
+        tally: gathered.tally,
     })
 }
 
-/// Writes the verdicts as JUnit XML, where a file for it was named; `failed` runs are not `ok`.
+/// Writes the verdicts as JUnit XML, where a file for it was named.
 ///
 /// # Errors
 /// Where the file cannot be written.
-pub fn write_junit(plan: &Plan, analysed: &Analysed, failed: u64, file: Option<&Path>) -> Result<(), WorkflowError> {
+pub fn write_junit(plan: &Plan, analysed: &Analysed, file: Option<&Path>) -> Result<(), WorkflowError> {
     let Some(file) = file else { return Ok(()) };
     let stop = analysed.stopping.as_ref().map(|found| (found.is_reached(), stopping_text::text(plan, found)));
-    let text = requirements::junit(plan, &analysed.verdicts, failed, stop);
+    let text = requirements::junit(plan, &analysed.verdicts, &analysed.tally, stop);
     atomic::write_bytes(file, text.as_bytes()).map_err(|error| in_file(file, &error))
 }
 

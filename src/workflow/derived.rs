@@ -4,7 +4,6 @@
 use std::fmt::Display;
 
 use crate::analysis::fold::Gathered;
-use crate::analysis::tally::Tally;
 use crate::analysis::{derived_table, sensitivity_table, statistics_table, trajectories};
 use crate::ensemble::Ensemble;
 use crate::report::page::Page;
@@ -68,7 +67,6 @@ pub(super) struct Derived {
     pub analysed: Analysed,
     pub page: Option<Page>,
     pub summary: Summary,
-    pub tally: Tally,
 }
 
 /// Makes the files from what was `gathered` from the rows, each for `files`.
@@ -81,7 +79,6 @@ pub(super) fn derive(
     files: &dyn Destination,
 ) -> Result<Derived, WorkflowError> {
     let (plan, threads) = (job.ensemble.plan(), job.session.threads);
-    let tally = gathered.tally.clone();
     let analysed = computed(plan, job.reader, gathered, threads)?;
     take(files, STATISTICS, Some(statistics_table::encoded(plan, &analysed.statistics)))?;
     take(files, SENSITIVITY, Some(sensitivity_table::encoded(plan, &analysed.sensitivities)))?;
@@ -97,11 +94,12 @@ pub(super) fn derive(
         }
     };
     take(files, REPORT, page.as_ref().map(|page| Ok::<_, WorkflowError>(page.html.clone().into_bytes())))?;
-    let summary = Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts.clone())
+    let summary = Summary::new(plan, &analysed.tally, &analysed.statistics, analysed.verdicts.clone())
         .with_stopping(plan, analysed.stopping.clone())
-        .with_missions(analysed.missions.clone());
+        .with_missions(analysed.missions.clone())
+        .with_warnings(analysed.warnings.clone());
     take(files, SUMMARY, Some(Ok::<_, WorkflowError>(summary.json().into_bytes())))?;
-    Ok(Derived { analysed, page, summary, tally })
+    Ok(Derived { analysed, page, summary })
 }
 
 /// Gives `files` the file `name`, or says that there is none.

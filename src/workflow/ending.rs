@@ -1,10 +1,10 @@
 //! [`end_of`]: how the campaign of a finished result ended: what its rows say, and that its summary says the same.
 
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use crate::analysis::ending::ending;
 use crate::campaign::Plan;
+use crate::ensemble::Ensemble;
 use crate::report::shell_word::quoted_path;
 use crate::report::summary::SummaryEnd;
 use crate::storage::claim::Finished;
@@ -22,11 +22,16 @@ pub(super) fn end_of(
     (root, summary): (&Path, &[u8]),
     plan: &Plan,
     rows: (&RowsReader, &[PathBuf]),
-    threads: Option<NonZeroUsize>,
+    session: &Session<'_>,
 ) -> Result<SummaryEnd, WorkflowError> {
-    let end = SummaryEnd::of(&ending(plan, rows, threads).map_err(WorkflowError::files)?);
-    if SummaryEnd::read(summary).as_ref() == Some(&end) {
-        return Ok(end);
+    let ensemble = Ensemble::new(plan, session.isa);
+    let end = SummaryEnd::of(&ending(&ensemble, rows, session.threads).map_err(WorkflowError::files)?);
+    // warnings are words that nothing follows from
+    let said = SummaryEnd::read(summary).map(|said| (said.warnings.clone(), SummaryEnd { warnings: Vec::new(), ..said }));
+    if let Some((warnings, said)) = said
+        && said == end
+    {
+        return Ok(SummaryEnd { warnings, ..end });
     }
     Err(WorkflowError::Files(format!(
         "{}: does not say what the rows say, though it has the checksum that {MANIFEST} lists; this makes it again: spindrift verify {} --repair",
@@ -49,5 +54,5 @@ pub(super) fn end_of_finished(
     let read = PartsRead::of(&finished.parts, |name| root.join(name));
     let reader = RowsReader::new(session.storage, read.rows);
     let plan = plan.clone().at_look(rows);
-    end_of((root, finished.summary.as_bytes()), &plan, (&reader, &read.bands), session.threads)
+    end_of((root, finished.summary.as_bytes()), &plan, (&reader, &read.bands), session)
 }

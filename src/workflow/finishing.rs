@@ -5,6 +5,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use crate::analysis::audit_tally::AuditTally;
 use crate::analysis::fold::Gathered;
 use crate::analysis::sensitivity::InputSensitivity;
 use crate::campaign::{FilesRead, Plan, data};
@@ -67,6 +68,8 @@ pub struct Completed {
     pub sensitivities: Vec<InputSensitivity>,
     /// Number of runs that are not `ok`.
     pub failed_runs: u64,
+    /// Audited runs whose errors are larger than their estimates, where these are more than promised; else 0.
+    pub not_covered: u64,
     /// Number of requirements that failed.
     pub failed: usize,
     /// Number of requirements that are undecided, a precision among them that `[stop]` did not reach.
@@ -119,12 +122,13 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
     let session = job.session;
     let derivation =
         Derivation { session, ensemble: job.ensemble, reader: &reader, records: &records, page, retained: &retained };
-    let Derived { analysed, page, summary, tally } = derive(&derivation, gathered, folder)?;
+    let Derived { analysed, page, summary } = derive(&derivation, gathered, folder)?;
     if let Some(page) = page {
         let place = job.outputs.figures.as_ref().map(|(folder, size)| (folder.as_path(), *size));
         page::save_figures(&session, &page, place)?;
     }
-    write_junit(plan, &analysed, tally.failed(), job.outputs.junit.as_deref())?;
+    write_junit(plan, &analysed, job.outputs.junit.as_deref())?;
+    let tally = &analysed.tally;
     let (failed, undecided) = (analysed.verdicts.failed(), analysed.verdicts.undecided());
     let is_imprecise = analysed.stopping.as_ref().is_some_and(|found| !found.is_reached());
     let growing = growing(job.ensemble, &records);
@@ -139,6 +143,7 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
         summary,
         sensitivities: analysed.sensitivities,
         failed_runs: tally.failed(),
+        not_covered: tally.audits().map_or(0, AuditTally::not_covered),
         failed,
         undecided: undecided + usize::from(is_imprecise),
         made: job.made,

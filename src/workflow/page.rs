@@ -114,6 +114,7 @@ fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord], no
         verdicts: &analysed.verdicts,
         sensitivities: &analysed.sensitivities,
         missions: &analysed.missions,
+        warnings: &analysed.warnings,
         noise,
         bands: analysed.bands.as_ref(),
         stopping: analysed.stopping.as_ref(),

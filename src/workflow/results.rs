@@ -174,7 +174,7 @@ impl<'a> Results<'a> {
     /// # Errors
     /// Where a file cannot be read or written.
     pub fn write_junit(&self, file: &Path) -> Result<(), WorkflowError> {
-        write_junit(&self.plan, &self.analysed()?, self.end()?.failed, Some(file))
+        write_junit(&self.plan, &self.analysed()?, Some(file))
     }
 
     /// How the campaign ended, as its rows say.
@@ -185,6 +185,6 @@ impl<'a> Results<'a> {
         let path = self.root.join(SUMMARY);
         let damaged = |error: &dyn std::fmt::Display| WorkflowError::Files(format!("{}: {error}", path.display()));
         let summary = self.session.storage.read(&path, MOST_SUMMARY).map_err(|error| damaged(&error))?;
-        end_of((&self.root, &summary), &self.plan, (&self.reader, &self.bands), self.session.threads)
+        end_of((&self.root, &summary), &self.plan, (&self.reader, &self.bands), &self.session)
     }
 }

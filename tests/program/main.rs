@@ -41,6 +41,7 @@ mod loop_phases;
 mod loop_sensors;
 mod loop_series;
 mod loop_ticks;
+mod lost_runs;
 mod mass_properties;
 mod memory;
 mod missions;

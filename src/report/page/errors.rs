@@ -3,6 +3,7 @@
 use crate::analysis::survey::{CONFIDENCE, Survey, SurveyedOutcome};
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::histogram::{bins, counts};
+use crate::report::page::NO_INTERVAL;
 use crate::report::page::shown_columns::words;
 use crate::run::Status;
 use crate::statistics::binomial::interval;
@@ -124,7 +125,7 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     let interval = if has_intervals {
         " Band: Clopper-Pearson interval of the fraction (95%)."
     } else {
-        " The design's runs are not independent: no interval."
+        &format!(" {NO_INTERVAL}")
     };
     Figure {
         name: format!("tail_{}", outcome.quantity.name()),

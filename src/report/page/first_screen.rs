@@ -45,6 +45,16 @@ pub fn header(plan: &Plan) -> String {
     )
 }
 
+/// What comes before every number; nothing where there is no warning.
+pub fn warnings(warnings: &[String]) -> String {
+    let line = |text: &String| {
+        let (word, rest) = text.split_once(':').unwrap_or(("", text));
+        format!("<p><b>{}:</b>{}.</p>", escaped(word), escaped(rest))
+    };
+    let lines: String = warnings.iter().map(line).collect();
+    if lines.is_empty() { lines } else { format!("<section id=\"warnings\" role=\"alert\">{lines}</section>\n") }
+}
+
 /// What each status is called, in words.
 fn words(status: Status) -> &'static str {
     match status {
@@ -116,7 +126,7 @@ pub fn missions(missions: &Missions) -> String {
     let mut lines = String::new();
     for one in missions {
         let at = |share: f64| format!("{:.3}%", 100.0 * share);
-        let share = one.count as f64 / one.runs.max(1) as f64;
+        let [share, _] = one.shares();
         let class = match one.end {
             "launched" | "not_failed" => "ok",
             "flying" => "flying",
@@ -141,7 +151,8 @@ pub fn missions(missions: &Missions) -> String {
         return lines;
     }
     format!(
-        "<section id=\"missions\"><h2>How did the missions end?</h2><table class=\"missions\"><thead><tr><th>end</th><th>runs</th><th>share, with its interval</th><th></th></tr></thead><tbody>{lines}</tbody></table><p class=\"caption\">Of the dispersed runs that were computed. The nominal run has no sensor noise.</p></section>\n"
+        "<section id=\"missions\"><h2>How did the missions end?</h2><table class=\"missions\"><thead><tr><th>end</th><th>runs</th><th>share, with its interval</th><th></th></tr></thead><tbody>{lines}</tbody></table><p class=\"caption\">Of the dispersed runs{}. The nominal run has no sensor noise.</p></section>\n",
+        mission_text::missing(missions).map_or_else(String::new, |note| format!("; {}", escaped(&note)))
     )
 }
 

@@ -22,7 +22,7 @@ use crate::report::page::over_time::TimeBands;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::shown_columns::words;
 use crate::report::page::tables::StatisticsRow;
-use crate::report::requirements::{runs_needed, together};
+use crate::report::requirements::{assumed, runs_needed, together};
 use crate::report::stopping_text;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::GateLimit;
@@ -45,6 +45,8 @@ pub struct Analysis<'a> {
     pub noise: &'a [NoiseShare],
     /// Quantiles over time, where they were kept.
     pub bands: Option<&'a Bands>,
+    /// What a reader has to know before any number.
+    pub warnings: &'a [String],
     /// The look that ended the campaign, where it has `[stop]`.
     pub stopping: Option<&'a Stopping>,
 }
@@ -57,6 +59,8 @@ impl Contents {
         let mut said = together(analysis.verdicts);
         said.extend(analysis.stopping.map(|found| stopping_text::text(plan, found)));
         Contents {
+            warnings: analysis.warnings.to_vec(),
+            loss: analysis.statistics.loss(),
             bands: analysis.bands.map_or_else(Vec::new, time_bands),
             statistics: analysis
                 .statistics
@@ -240,8 +244,11 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         notes[0] = format!("{at}{}", notes[0]);
         notes.push(format!("Tested at {} points of time.", worst.points));
     }
-    if one.failed > 0 {
-        notes.push(format!("{} runs that were not computed count as violations.", grouped(one.failed)));
+    if one.missing > 0 {
+        notes.push(format!("{} runs without a value count as violations.", grouped(one.missing)));
+    }
+    if let Some(assumed) = assumed(one) {
+        notes.push(format!("{}.", sentence(&assumed)));
     }
     match (&one.reason, one.gate.decision) {
         (Some(reason), _) => notes.push(format!("{}.", crate::report::page::errors::sentence(reason))),
@@ -257,13 +264,12 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         Statement::Mean => (
             "mean".to_owned(),
             shown.value(one.gate.estimate),
-            one.gate.bounds.map(|end| shown.value(end)),
+            one.interval.map(|end| shown.value(end)),
             shown.written(limit),
             shown.unit.clone(),
         ),
         Statement::Quantile(p) => {
-            let quantile =
-                requirement.observable().and_then(|name| statistics.required(name, p, requirement.confidence));
+            let quantile = statistics.required(requirement);
             let ends = quantile
                 .map_or([None; 2], |quantile| quantile.interval)
                 .map(|end| shown.value(end.unwrap_or(f64::NAN)));
@@ -275,7 +281,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
             (
                 "runs within the limit".to_owned(),
                 hundred(one.gate.estimate),
-                one.gate.bounds.map(hundred),
+                one.interval.map(hundred),
                 hundred(fraction),
                 "%".to_owned(),
             )
@@ -294,11 +300,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         statistic,
         estimate,
         interval: ends,
-        confidence: match requirement.statement {
-            Statement::Quantile(_) => requirement.confidence,
-            _ => one.confidences[0],
-        },
-        is_one_sided: !matches!(requirement.statement, Statement::Quantile(_)),
+        confidence: statistics.confidence,
         limit: Some((limit, is_upper && !is_fraction)),
         unit,
         note: notes.join(" "),
