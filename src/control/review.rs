@@ -6,7 +6,7 @@ use super::actuators::modulation;
 use super::allocation::{ThrustAllocation, WheelTorque};
 use super::guidance::phase::Next;
 use super::guidance::target::Target;
-use super::laws::{KINDS as LAWS, KnownBody};
+use super::laws::{KINDS as LAWS, KnownBody, LawSettings};
 use super::sensors::KINDS as SENSORS;
 use super::small_matrix::added;
 use super::spec::{LoopSpec, PhaseSpec};
@@ -158,18 +158,25 @@ fn stability(
     (phase, table): (&PhaseSpec, &DeclaredTable),
 ) -> Option<String> {
     let law = LAWS[phase.law?];
+    // a slew under a torque limit brakes on a curve that has no gain at its end
+    if number(table, "max_torque_n_m") > 0.0 {
+        return None;
+    }
     let believed = spec.believed(scene);
     let axes: Vec<[f64; 3]> = spec.wheels.iter().map(|place| believed.mass.wheels[*place].axis).collect();
-    let mut reach = WheelTorque::new(&axes).reachable;
+    let by_wheels = WheelTorque::new(&axes).reachable;
+    let mut reach = by_wheels;
     // pulses do not hold a torque over the period
     if !spec.thrusters.is_empty() && !modulation::is_on_off(spec.modulation) {
-        let both = added(&reach, &ThrustAllocation::of_loop(&believed, &spec.thrusters).two_sided_torques());
+        let thrusters = ThrustAllocation::of_loop(&believed, &spec.thrusters, by_wheels);
+        let both = added(&reach, &thrusters.two_sided_torques(spec.holds_force));
         reach = WheelTorque::new(&both).reachable;
     }
     let known = KnownBody::of(&believed.mass);
     let (period, delay) = (spec.period, number(&numbers.law, "delay_s"));
     let body = (scene.mass.inertia_rotating(), reach);
-    let gains = axis_gains((law.make)(table), &known, phase.target != Target::None, body, period);
+    let settings = LawSettings { table, gyroscopic: phase.gyroscopic, period, delay };
+    let gains = axis_gains((law.make)(&settings), &known, phase.target != Target::None, body, period);
     let share = stable_share(&gains, period, delay)?;
     let most = if share > 0.0 {
         format!(

@@ -163,7 +163,7 @@ pub fn stable_share(gains: &[AxisGains], period: f64, delay: f64) -> Option<f64>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::control::laws::{MrpFeedback, QuaternionFeedback, RateDamping};
+    use crate::control::laws::{Integral, MrpFeedback, QuaternionFeedback, RateDamping};
 
     /// The size of angle and rate in two windows of a double integrator under a torque that is held, flown from instant to instant: early and late.
     fn flown(gains: AxisGains, period: f64, delay: f64) -> [f64; 2] {
@@ -249,7 +249,7 @@ mod tests {
         let all = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let two = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0; 3]];
         let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.abs();
-        let quaternion = AttitudeLaw::QuaternionFeedback(QuaternionFeedback { bandwidth: 0.3, damping: 0.8 });
+        let quaternion = AttitudeLaw::QuaternionFeedback(QuaternionFeedback::new(0.3, 0.8));
         for (reach, count) in [(all, 3), (two, 2)] {
             let found = axis_gains(quaternion, &known, true, (inertia, reach), 0.5);
             assert_eq!(found.len(), count);
@@ -263,7 +263,7 @@ mod tests {
         let law = MrpFeedback::new(4.0, 20.0).with_integral(0.001, f64::INFINITY);
         for (law, expected) in [
             (AttitudeLaw::MrpFeedback(law), [1.0, 20.0, 20.0 * 0.001 * 0.5]),
-            (AttitudeLaw::RateDamping(RateDamping { gain: 7.0 }), [0.0, 7.0, 0.0]),
+            (AttitudeLaw::RateDamping(RateDamping { gain: 7.0, integral: Integral::NONE }), [0.0, 7.0, 0.0]),
         ] {
             let mut found = axis_gains(law, &known, true, (inertia, all), 0.5);
             found.sort_by(|a, b| b.damping.total_cmp(&a.damping));
