@@ -3,6 +3,7 @@
 use crate::analysis::population::Loss;
 use crate::analysis::sensitivity::{COMPUTED, InputSensitivity};
 use crate::analysis::statistics::Statistics;
+use crate::campaign::Plan;
 use crate::report::audit_summary::AuditSummary;
 use crate::report::drivers_text::driven_by;
 use crate::report::share_text::with_interval;
@@ -10,14 +11,19 @@ use crate::run::Status;
 
 /// The warnings of a campaign with these `statistics` and the audits `audit`, each a sentence that begins with what it is about in capitals; mostly none.
 /// `failures`: what drives whether a run is computed.
-pub fn warnings(statistics: &Statistics, audit: Option<&AuditSummary>, failures: &[InputSensitivity]) -> Vec<String> {
-    let mut found: Vec<String> = not_computed(statistics, failures).into_iter().collect();
+pub fn warnings(
+    plan: &Plan,
+    statistics: &Statistics,
+    audit: Option<&AuditSummary>,
+    failures: &[InputSensitivity],
+) -> Vec<String> {
+    let mut found: Vec<String> = not_computed(plan, statistics, failures).into_iter().collect();
     found.extend(audit.map_or_else(Vec::new, AuditSummary::broken_promises));
     found
 }
 
 /// That many runs have no numbers, and what decides which.
-fn not_computed(statistics: &Statistics, failures: &[InputSensitivity]) -> Option<String> {
+fn not_computed(plan: &Plan, statistics: &Statistics, failures: &[InputSensitivity]) -> Option<String> {
     let loss = statistics.loss();
     let Loss { missing, runs } = loss;
     if !loss.is_big() {
@@ -28,9 +34,9 @@ fn not_computed(statistics: &Statistics, failures: &[InputSensitivity]) -> Optio
         .zip(statistics.statuses)
         .filter(|(status, count)| *count > 0 && ![Status::Done, Status::InvalidSample].contains(status));
     let ended: Vec<String> = ended.map(|(status, count)| format!("{} {count}", status.name())).collect();
-    let drivers = match driven_by(failures, COMPUTED) {
+    let drivers = match driven_by(plan, failures, COMPUTED) {
         none if none.is_empty() => String::new(),
-        drivers => format!(". Whether a run is computed is driven by: {drivers}"),
+        drivers => format!(". Whether a run is computed: {}", drivers.join("; ")),
     };
     let others = match runs - missing {
         0 => "There are no numbers".to_owned(),

@@ -27,7 +27,8 @@ pub(super) fn end_of(
     let ensemble = Ensemble::new(plan, session.isa);
     let end = SummaryEnd::of(&ending(&ensemble, rows, session.threads).map_err(WorkflowError::files)?);
     // warnings are words that nothing follows from
-    let said = SummaryEnd::read(summary).map(|said| (said.warnings.clone(), SummaryEnd { warnings: Vec::new(), ..said }));
+    let said =
+        SummaryEnd::read(summary).map(|said| (said.warnings.clone(), SummaryEnd { warnings: Vec::new(), ..said }));
     if let Some((warnings, said)) = said
         && said == end
     {
