@@ -1,6 +1,7 @@
 //! First-order and total indices of Sobol, from the whole blocks of a `saltelli` design.
 
-use crate::analysis::sensitivity::{InputSensitivity, RowTable};
+use crate::analysis::first_rows::RowTable;
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::campaign::Plan;
 use crate::statistics::sensitivity::{Block, saltelli_indices};
 

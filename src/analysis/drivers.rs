@@ -3,7 +3,7 @@
 
 use crate::analysis::effects::Dependence;
 use crate::analysis::event::{Event, Occurs};
-use crate::analysis::sensitivity::InputSensitivity;
+use crate::analysis::input_sensitivity::{InputSensitivity, LEAST_SHARE};
 use crate::statistics::correlation::Estimate;
 
 impl InputSensitivity {
@@ -25,8 +25,6 @@ impl InputSensitivity {
     }
 }
 
-/// Least share of the variance of an input that is called a driver of the spread: without the input the standard deviation is 5% smaller.
-pub const LEAST_SHARE: f64 = 0.1;
 /// Least risk ratio, or its inverse, of a value that is called a driver of an event: of many runs small ratios are certain, and matter to nobody.
 const LEAST_RATIO: f64 = 1.5;
 /// The same of the chance of [`Dependence::Shift`], as its distance from one half.

@@ -2,8 +2,9 @@
 
 use crate::analysis::drivers::{Question, rankings};
 use crate::analysis::effects::{Dependence, Direction};
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::observed::Observed;
-use crate::analysis::sensitivity::{InputSensitivity, Prepared};
+use crate::analysis::sensitivity::Prepared;
 use crate::analysis::small_plan::small_plan;
 use crate::campaign::Plan;
 

@@ -8,11 +8,11 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::analysis::accumulator::{Accumulator, of_files};
 use crate::analysis::column_counts::{Collected, Collector, REFERENCE_ROWS, batches, is_exact, references};
+use crate::analysis::first_rows::{FirstRows, RowTable};
 use crate::analysis::missions::{MissionCounter, Missions};
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::RowNames;
 use crate::analysis::population::Population;
-use crate::analysis::sensitivity::{FirstRows, RowTable};
 use crate::analysis::stopping::ObservedValues;
 use crate::analysis::survey::{Survey, Surveyor};
 use crate::analysis::tally::{Tally, TallyColumns};

@@ -4,7 +4,7 @@
 //!   by an [`accumulator`].
 //! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`], [`order_statistics`]); [`tally`], [`audit_tally`]: statuses, worst runs, audits.
 //! - [`verdicts`]: of the requirements, each an [`assessment`] (of a number of each run: `row_verdicts`; over time: `band_verdicts`); [`mod@stopping`]: whether the rows are enough. [`mod@ending`]: how the campaign ended.
-//! - [`sensitivity`]: which input matters (`block_indices`: of a `saltelli` design); [`effects`]: tests whether it does, also of an [`event`];
+//! - [`sensitivity`]: which input matters ([`input_sensitivity`]), from the [`first_rows`] (`block_indices`: of a `saltelli` design); [`effects`]: tests whether it does, also of an [`event`];
 //!   [`drivers`]: the ranking of what the rows show; [`noise_share`]: what noise within loops does. - [`statistics_table`], [`sensitivity_table`]: both as files.
 //! - [`comparison`]: two results, by the samples that both drew ([`pairing`]); [`comparison_table`]: as a file.
 //! - [`trajectories`]: which runs are retained, and their time series. - [`survey`]: what the page shows of the rows.
@@ -26,7 +26,9 @@ mod drivers_of_known_truth;
 pub mod effects;
 pub mod ending;
 pub mod event;
+pub mod first_rows;
 pub mod fold;
+pub mod input_sensitivity;
 pub mod missions;
 pub mod noise_share;
 pub mod observed;

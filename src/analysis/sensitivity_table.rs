@@ -3,7 +3,7 @@
 use crate::storage::columnar::EncodingError;
 
 use crate::analysis::effects::{Dependence, Direction, OnEvent};
-use crate::analysis::sensitivity::InputSensitivity;
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::campaign::Plan;
 use crate::statistics::correlation::Estimate;
 use crate::storage::described_table::{self, DescribedColumn};

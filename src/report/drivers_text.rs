@@ -3,7 +3,7 @@
 use crate::analysis::drivers::{Question, Ranked, Ranking, rankings};
 use crate::analysis::effects::{Dependence, Direction, Level};
 use crate::analysis::event::{Event, Occurs};
-use crate::analysis::sensitivity::InputSensitivity;
+use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
 use crate::campaign::Plan;
 use crate::report::number::short;
 use crate::sampling::Design;
@@ -36,6 +36,9 @@ pub fn verb(outcome: &str, event: &Event) -> String {
     match event.occurs {
         Occurs::Missed if ["launched", "failure"].contains(&outcome) => "fail".to_owned(),
         Occurs::Missed => "miss the limit".to_owned(),
+        Occurs::Value(value) if outcome == COMPUTED => {
+            format!("were {}computed", if value == 1.0 { "" } else { "not " })
+        }
         Occurs::Value(value) => format!("have {}", short(value)),
         Occurs::OtherThan(value) => format!("have another value than {}", short(value)),
         Occurs::Worst(share) => format!("are among the worst {}%", short(libm::round(1e9 * share) / 1e7)),

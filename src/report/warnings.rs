@@ -1,7 +1,7 @@
 //! What a reader has to know before any number of a result: first on the screen, on the page and in `summary.json`.
 
+use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
 use crate::analysis::population::Loss;
-use crate::analysis::sensitivity::{COMPUTED, InputSensitivity};
 use crate::analysis::statistics::Statistics;
 use crate::campaign::Plan;
 use crate::report::audit_summary::AuditSummary;

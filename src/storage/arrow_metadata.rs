@@ -8,7 +8,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use parquet::file::metadata::KeyValue;
 
-use crate::storage::columnar::{Content, Heading};
+use crate::storage::heading::{Content, Heading};
 
 /// The key.
 const KEY: &str = "ARROW:schema";

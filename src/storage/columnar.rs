@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::io::Write;
 use std::sync::Arc;
 
-use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
+use parquet::basic::{Compression, Encoding, ZstdLevel};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::KeyValue;
@@ -17,59 +17,12 @@ use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{ColumnPath, Type, TypePtr};
 
-use crate::run::Quantity;
 use crate::storage::arrow_metadata;
 
 /// Why columns could not be encoded.
 pub use parquet::errors::ParquetError as EncodingError;
 
-/// Type of a column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Content {
-    /// Real numbers.
-    Real,
-    /// Counts.
-    Count,
-    /// Short words, few of them distinct.
-    Word,
-}
-
-/// A column of a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Heading {
-    /// Name, unit and meaning.
-    pub quantity: Quantity,
-    /// Type.
-    pub content: Content,
-    /// Whether a value may be absent.
-    pub nullable: bool,
-}
-
-impl Heading {
-    /// A column without absent values; those of real numbers may always be absent, since what is no finite number is null.
-    pub fn new(quantity: Quantity, content: Content) -> Self {
-        Heading { quantity, content, nullable: content == Content::Real }
-    }
-
-    /// The same column, whose values may be absent.
-    #[must_use]
-    pub fn nullable(self) -> Self {
-        Heading { nullable: true, ..self }
-    }
-
-    /// The column in Parquet's schema.
-    fn column(&self) -> Result<TypePtr> {
-        let (physical, logical) = match self.content {
-            Content::Real => (Physical::DOUBLE, None),
-            // table engines have no unsigned integers (Delta Lake, Spark, Trino); no count comes near 2^63
-            Content::Count => (Physical::INT64, None),
-            Content::Word => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
-        };
-        let repetition = if self.nullable { Repetition::OPTIONAL } else { Repetition::REQUIRED };
-        let column = Type::primitive_type_builder(self.quantity.name(), physical);
-        column.with_repetition(repetition).with_logical_type(logical).build().map(Arc::new)
-    }
-}
+pub use crate::storage::heading::{Content, Heading};
 
 /// The values of a column.
 #[derive(Clone, Debug)]
@@ -317,6 +270,7 @@ fn present<'a, T: Copy>(values: &'a [T], mask: &'a [bool]) -> impl Iterator<Item
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::Quantity;
     use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::record::Field as Cell;
 

@@ -4,8 +4,8 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use crate::analysis::fold::Gathered;
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::missions::Missions;
-use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::stopping::{Stopping, stopping};
 use crate::analysis::survey::Survey;

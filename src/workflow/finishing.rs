@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crate::analysis::audit_tally::AuditTally;
 use crate::analysis::fold::Gathered;
-use crate::analysis::sensitivity::InputSensitivity;
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::campaign::{FilesRead, Plan, data};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, PartId};

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::analysis::comparison::{Comparison, compare};
 use crate::analysis::fold::Gathered;
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::pairing::ResultRows;
-use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::Plan;

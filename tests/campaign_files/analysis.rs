@@ -182,7 +182,7 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         REQUIRE,
         "at_most = 1e-9",
         "at_most = 1e-9\nat_mots = 1",
-        "require[0].at_mots = 1: must be a key of [require[0]] (observable, at_all_times, confidence, quantile, at_most, fraction, mean, at_least, bounded, band, from_s, to_s); did you mean at_most?",
+        "require[0].at_mots = 1: must be a key of [require[0]] (observable, at_all_times, confidence, quantile, at_most, bounded, fraction, mean, at_least, band, from_s, to_s); did you mean at_most?",
     ),
     (
         BAND,

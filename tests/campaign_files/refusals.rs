@@ -258,7 +258,8 @@ fn every_list_of_tables_has_a_limit() {
         // a loop is read where there is one, and parts are those of a body
         let text = match list {
             "body.parts" => PARTS.replacen("[initial]", &format!("{tables}[initial]"), 1),
-            _ => format!("{DIRECT}\n[control]\nperiod_s = 0.1\n{tables}"),
+            "sensors" | "guidance" => format!("{DIRECT}\n[control]\nperiod_s = 0.1\n{tables}"),
+            _ => format!("{DIRECT}\n{tables}"),
         };
         // tables of a list may be in several places of a file
         let error = refused(&text);

@@ -197,7 +197,11 @@ fn thrusters_give_what_their_valves_make_of_the_commands() {
 /// over the mass.
 #[test]
 fn opposing_thrusts_change_no_velocity() {
-    let flown = FlownLoop::new(&changed(DETUMBLE, &[("duration_s = \"10 min\"", "duration_s = 60.2")]), 0);
+    let change = [
+        ("duration_s = \"10 min\"", "duration_s = 60.2"),
+        ("modulation = \"pulse_width\"", "modulation = \"pulse_width\"\nhold_force = true"),
+    ];
+    let flown = FlownLoop::new(&changed(DETUMBLE, &change), 0);
     let columns = flown.run.request.columns();
     let value = |name: &str| flown.run.row[columns.iter().position(|one| one.quantity.name() == name).expect(name)];
     let momentum = value("impulse_total_n_s");

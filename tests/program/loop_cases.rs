@@ -20,7 +20,9 @@ impl Case {
     fn new(text: &str, sample: u64, failure: &'static str, beyond: &[(&str, &str)]) -> Self {
         let flown = FlownLoop::new(text, sample);
         let going_on = FlownLoop::new(&changed(text, beyond), sample);
-        for (row, other) in flown.run.telemetry.rows.iter().zip(&going_on.run.telemetry.rows) {
+        // no command follows from the tick at which a mission ends
+        let before = flown.run.telemetry.rows.len() - usize::from(flown.end.is_some());
+        for (row, other) in flown.run.telemetry.rows[..before].iter().zip(&going_on.run.telemetry.rows) {
             let same = row.iter().zip(other).all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()));
             assert!(same, "until the end the run is the same");
         }

@@ -66,7 +66,8 @@ fn quantities_over_time_are_those_of_the_run() {
         let pointing = errors(&run);
         assert!(pointing[SLEW..].iter().any(|error| length(*error) > 1.0), "a slew");
         let telemetry = &run.telemetry;
-        assert_eq!(telemetry.times.len(), TICKS);
+        // and the tick at the end
+        assert_eq!(telemetry.times.len(), TICKS + 1);
         let place = |name: &str| telemetry.quantities.iter().position(|quantity| quantity.name() == name).expect(name);
         let (q, omega) = (place("estimated_q_es_w"), place("estimated_omega_se_s_x_rad_s"));
         for tick in 0..TICKS {

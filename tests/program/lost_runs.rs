@@ -72,7 +72,7 @@ fn a_loss_is_said_first_and_is_not_random() {
     let high = interval((count + missing) as u64, runs as u64, 0.95)[1];
     let shares = [count, count + missing].map(|count| count as f64 / runs as f64);
     let known = [count as f64, runs as f64, 100.0 * shares[0], 100.0 * shares[1], 100.0 * low, 100.0 * high];
-    says(&said, "# of # runs did not fail: #% to #% [#, #]", &known);
+    says(&said, "# of # missions did not fail: #% to #% [#, #]", &known);
 
     // no interval takes the loss for random, and no number contradicts a verdict
     for line in summary["observables"].as_array().expect("observables") {
@@ -139,7 +139,7 @@ fn an_audit_that_fails_is_no_success() {
     assert!(covered < 10 && errors.iter().all(|error| *error < 0.1), "{covered} of {}", errors.len());
     let words = format!("AUDIT FAILED: state_error_estimate covers the true error in {covered} of {}", errors.len());
     let flat = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(flat.find(&words).expect("the word") < flat.find("runs are ok").expect("statuses"), "{said}");
+    assert!(flat.find(&words).expect("the word") < flat.find("runs were computed").expect("statuses"), "{said}");
     assert!(scratch.summary("few")["warnings"][0].as_str().is_some_and(|text| text.starts_with(&words)));
     let page = scratch.text("few/report.html");
     assert!(page.find("<b>AUDIT FAILED:</b>").expect("the word") < page.find("id=\"status\"").expect("statuses"));

@@ -2,10 +2,10 @@
 
 use crate::analysis::assessment::Assessment;
 use crate::analysis::drivers::{Question, Ranking};
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::missions::Missions;
 use crate::analysis::noise_share::NoiseShare;
 use crate::analysis::order_statistics::QuantileStatistic;
-use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::{ColumnStatistics, Statistics};
 use crate::analysis::stopping::Stopping;
 use crate::analysis::survey::Survey;
