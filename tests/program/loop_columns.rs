@@ -97,18 +97,21 @@ fn mission(case: &Case, found: &mut Columns) {
 /// Pointing, of the last phase with a target.
 fn pointing(case: &Case, found: &mut Columns) {
     let (flown, phases) = (&case.flown, case.phases());
-    let (mut arrival, mut since, mut errors) = (f64::NAN, f64::NAN, Vec::new());
+    let (mut arrival, mut since, mut errors, mut all) = (f64::NAN, f64::NAN, Vec::new(), Vec::new());
     for (tick, (place, state)) in phases.iter().zip(&flown.ticks).enumerate() {
         let begins = tick == 0 || phases[tick - 1] != *place;
         if begins && flown.spec().phases[*place].thrust == Maneuver::Transfer {
             arrival = state.time + flown.guidance(*place, "transfer_time_s").expect("a time")[0];
         }
-        let Some(error) = error_vector(flown, *place, state, arrival) else { continue };
+        let error = error_vector(flown, *place, state, arrival);
+        all.push((state.time, error));
+        let Some(error) = error else { continue };
         if begins {
             (since, errors) = (state.time, Vec::new());
         }
         errors.push((state.time, error));
     }
+    stability(flown, &all, found);
     let band = flown.control("settling_band_rad");
     let last_outside = errors.iter().rposition(|(_, error)| norm(*error) > band);
     let settled = errors.get(last_outside.map_or(0, |last| last + 1)).map(|(time, _)| time - since);
@@ -118,6 +121,37 @@ fn pointing(case: &Case, found: &mut Columns) {
         |first: [f64; 3]| errors.iter().map(|(_, error)| -dot(first, *error) / norm(first)).fold(0.0, f64::max);
     found.insert("overshoot_rad".into(), if since.is_nan() { f64::NAN } else { first.map_or(0.0, beyond) });
     found.insert("pointing_error_final_rad".into(), errors.last().map_or(f64::NAN, |(_, error)| norm(*error)));
+}
+
+/// Since when the mission has settled, and the relative performance error over the window that begins then or when the file says: ECSS-E-ST-60-10C. `errors`
+/// are those of all ticks, with or without a target.
+fn stability(flown: &FlownLoop, errors: &[(f64, Option<[f64; 3]>)], found: &mut Columns) {
+    let band = flown.control("settling_band_rad");
+    let last_outside = errors.iter().rposition(|(_, error)| error.is_none_or(|error| norm(error) > band));
+    let settled = errors.get(last_outside.map_or(0, |last| last + 1)).map_or(f64::NAN, |(time, _)| *time);
+    found.insert("mission_settling_time_s".into(), settled);
+    let [from, length] = ["stability_from_s", "stability_window_s"].map(|key| flown.control(key));
+    let (start, near) = (if from > 0.0 { from } else { settled }, 1e-6 * flown.spec().period);
+    let is_within = |time: f64| time > start - near && (length == 0.0 || time < start + length - near);
+    let window: Vec<Option<[f64; 3]>> =
+        errors.iter().filter(|(time, _)| is_within(*time)).map(|(_, error)| *error).collect();
+    let end = errors.last().map_or(f64::NAN, |(time, _)| time + flown.spec().period + near);
+    let is_complete = if length == 0.0 { window.len() > 1 } else { !window.is_empty() && end > start + length };
+    let [rms, swing] = match window.into_iter().collect::<Option<Vec<[f64; 3]>>>() {
+        Some(errors) if is_complete => {
+            let count = errors.len() as f64;
+            let mean = scaled(1.0 / count, errors.iter().fold([0.0; 3], |total, error| sum(total, *error)));
+            let square: f64 = errors.iter().map(|error| norm(difference(*error, mean)).powi(2)).sum();
+            let swing = |axis: usize| {
+                let of_axis = || errors.iter().map(|error| error[axis]);
+                of_axis().fold(f64::NEG_INFINITY, f64::max) - of_axis().fold(f64::INFINITY, f64::min)
+            };
+            [(square / count).sqrt(), swing(0).max(swing(1)).max(swing(2))]
+        }
+        _ => [f64::NAN; 2],
+    };
+    found.insert("relative_performance_error_rms_rad".into(), rms);
+    found.insert("relative_performance_error_peak_to_peak_rad".into(), swing);
 }
 
 /// Where the debris is.
