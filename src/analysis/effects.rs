@@ -242,9 +242,9 @@ pub fn on_event(
     let found: Vec<Option<(Dependence, f64)>> =
         inputs.iter().map(|input| input.as_ref().and_then(|input| input.on_event(marked, confidence))).collect();
     let p_values = of_all(&found.iter().map(|one| one.as_ref().map(|(_, p)| *p)).collect::<Vec<_>>(), asked);
-    let effects = found.into_iter().zip(p_values).enumerate();
-    let effect = |(input, (found, p_value)): (usize, (Option<(Dependence, f64)>, Option<f64>))| {
-        Some(OnEvent { event, share: share(input)?, p_value: p_value?, dependence: found?.0 })
-    };
-    effects.map(effect).collect()
+    let dependences = found.into_iter().map(|one| one.map(|(dependence, _)| dependence));
+    let effects = dependences.zip(p_values).enumerate().map(|(input, (dependence, p_value))| {
+        Some(OnEvent { event, share: share(input)?, p_value: p_value?, dependence: dependence? })
+    });
+    effects.collect()
 }

@@ -142,6 +142,9 @@ fn chosen(plan: &Plan, count: u64) -> BTreeSet<SampleId> {
     (0..count.min(dispersed)).map(|place| plan.sample(first + permutation.image(place))).collect()
 }
 
+/// Takes a file of a dataset: its name and its bytes.
+pub type TakeFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StorageError> + Sync + 'a;
+
 /// Makes the time series of `samples` of `plan`, and gives each to `take` as a file of a dataset. The bytes are those of `simulate --sample K --out`.
 ///
 /// # Errors
@@ -150,7 +153,7 @@ pub fn save(
     plan: &Plan,
     samples: &[SampleId],
     machine: (Isa, Option<NonZeroUsize>),
-    take: &(dyn Fn(&str, &[u8]) -> Result<(), StorageError> + Sync),
+    take: &TakeFile<'_>,
 ) -> Result<(), TrajectoryError> {
     run_each(plan, samples, machine, &|runs, sample| {
         // a sample without a run has no file

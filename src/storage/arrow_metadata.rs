@@ -167,9 +167,9 @@ mod tests {
                     let (name, unit, meaning) = ("n".repeat(index + 1), "m".repeat(index % 5), "µ".repeat(index % 7));
                     let metadata = [("unit", &unit), ("meaning", &meaning)];
                     let metadata: HashMap<_, _> = metadata.map(|(key, value)| (key.to_owned(), value.clone())).into();
-                    let field = Field::new(&name, of, index % 2 == 0).with_metadata(metadata);
+                    let field = Field::new(&name, of, index.is_multiple_of(2)).with_metadata(metadata);
                     let quantity = Quantity::named(name, unit, meaning);
-                    (Heading { quantity, content, nullable: index % 2 == 0 }, field)
+                    (Heading { quantity, content, nullable: index.is_multiple_of(2) }, field)
                 })
                 .unzip();
             let entry = of(&columns);

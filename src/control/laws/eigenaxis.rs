@@ -110,6 +110,7 @@ mod tests {
     use crate::control::laws::plant::Body;
     use crate::control::rotation::{quaternion_of, vector_of};
     use crate::control::vector::{cross, dot};
+    use core::f64::consts::FRAC_PI_2;
 
     const AXIS: [f64; 3] = [0.48, -0.6, 0.64];
     const START: f64 = 2.4;
@@ -197,7 +198,7 @@ mod tests {
                 if bandwidth * (times[0] + times[1]) > 0.6 {
                     continue;
                 }
-                for start in [0.3, 1.570_796, 2.9] {
+                for start in [0.3, FRAC_PI_2, 2.9] {
                     for rate in [FREE, 0.03] {
                         let peak = (most * start).sqrt();
                         let book = if peak < rate { 2.0 * (start / most).sqrt() } else { start / rate + rate / most };
@@ -223,10 +224,10 @@ mod tests {
     #[test]
     fn without_a_slew_it_does_not_brake_in_time() {
         let along = norm([INERTIA[0] * AXIS[0], INERTIA[1] * AXIS[1], INERTIA[2] * AXIS[2]]);
-        let book = 2.0 * (1.570_796 * along / 0.25_f64).sqrt();
+        let book = 2.0 * (FRAC_PI_2 * along / 0.25_f64).sqrt();
         let [fast, slow] = [2.0, 0.02].map(|bandwidth| {
             let law = Eigenaxis::new(2.0 * bandwidth * bandwidth, 1.8 * bandwidth);
-            slew(law, [1.570_796, 2.0 * book], [0.1, 0.0], 0.25)
+            slew(law, [FRAC_PI_2, 2.0 * book], [0.1, 0.0], 0.25)
         });
         assert!(fast.overshoot > 0.5 && slow.settled > 1.9 * book, "{} {}", fast.overshoot, slow.settled);
     }

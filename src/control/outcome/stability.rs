@@ -55,13 +55,13 @@ impl Stability {
         // without a target the window has no error, and its statistics are NaN
         let error = error.unwrap_or([f64::NAN; 3]);
         self.count += 1.0;
-        for axis in 0..3 {
+        for (axis, error) in error.into_iter().enumerate() {
             // B. P. Welford, Technometrics 4(3), 1962
-            let departure = error[axis] - self.mean[axis];
+            let departure = error - self.mean[axis];
             self.mean[axis] += departure / self.count;
-            self.squares[axis] += departure * (error[axis] - self.mean[axis]);
+            self.squares[axis] += departure * (error - self.mean[axis]);
             let [low, high] = &mut self.extremes[axis];
-            (*low, *high) = (low.min(error[axis]), high.max(error[axis]));
+            (*low, *high) = (low.min(error), high.max(error));
         }
     }
 
