@@ -144,7 +144,7 @@ fn each_note_has_a_file_that_gets_it_and_a_neighbour_that_does_not() {
         let found = plan(&LOOP.replacen(from, wrong, 1)).notes();
         let is_said = |text: &&str| found.iter().any(|note| note.contains(*text));
         let notes = says.iter().filter(|text| !text.starts_with("at most") && !text.starts_with("too little")).count();
-        assert!(says.iter().all(|text| is_said(&text)) && found.len() == notes, "{wrong}: {found:#?}");
+        assert!(says.iter().all(is_said) && found.len() == notes, "{wrong}: {found:#?}");
         let neighbour = plan(&LOOP.replacen(from, right, 1)).notes();
         assert!(neighbour.is_empty(), "{right}: {neighbour:#?}");
     }

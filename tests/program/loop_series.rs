@@ -70,12 +70,12 @@ fn quantities_over_time_are_those_of_the_run() {
         assert_eq!(telemetry.times.len(), TICKS + 1);
         let place = |name: &str| telemetry.quantities.iter().position(|quantity| quantity.name() == name).expect(name);
         let (q, omega) = (place("estimated_q_es_w"), place("estimated_omega_se_s_x_rad_s"));
-        for tick in 0..TICKS {
+        for (tick, error) in pointing.iter().enumerate() {
             let row = &telemetry.rows[tick];
             let estimated: [f64; 4] = std::array::from_fn(|i| row[q + i]);
             let rate: [f64; 3] = run.table.at(StateField::Rate, tick);
             for (of, expected) in [
-                (Series::PointingError, length(pointing[tick])),
+                (Series::PointingError, length(*error)),
                 (Series::AttitudeEstimateError, length(rotation(estimated, run.table.at(StateField::Attitude, tick)))),
                 (Series::RateEstimateError, length(std::array::from_fn(|i| row[omega + i] - rate[i]))),
             ] {
@@ -89,7 +89,7 @@ fn quantities_over_time_are_those_of_the_run() {
             }
         }
         assert!(series(&run, Series::MotorTorque).iter().any(|torque| torque.abs() > 1e-3));
-        // no tick is flown at the end: it has what the last one knew
+        // the tick at the end is flown after the run was observed: the last point has what the one before knew
         assert_eq!(series(&run, Series::PointingError)[TICKS], series(&run, Series::PointingError)[TICKS - 1]);
     }
     // between ticks an error is that of the tick before
@@ -109,8 +109,7 @@ fn requirements_and_bands_are_of_the_quantities() {
     let scratch = ScratchFolder::new("loop-series");
     let quiet = Quiet::default();
     let session = Session::new(&quiet).expect("a session");
-    let results =
-        Campaign::from_text("loop.toml", &text, session).store(&scratch.path("r")).results().expect("results");
+    let results = Campaign::from_text("loop.toml", &text, session).store(scratch.path("r")).results().expect("results");
     let plan = results.plan();
     let runs: Vec<SingleRun> = (0..12)
         .map(|sample| SingleRun::new(plan, SampleId(sample), plan.grid.clone(), Isa::best()).expect("physical"))

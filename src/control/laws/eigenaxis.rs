@@ -12,7 +12,7 @@ use crate::scene::schema::Limit;
 /// with theta'' = -c theta' - k sin(theta/2) (B. Wie, H. Weiss & A. Arapostathis, *J. Guidance* 12(3), 1989).
 ///
 /// With a limit of the rate, k (e + z) is cut to the length c max_rate, where the body coasts at that rate (cascade saturation; Wie, *Space Vehicle Dynamics and
-/// Control*, 2008, section 7.3). With a limit of the torque, K (...) keeps its direction, and large errors are removed by a [`Slew`], which brakes in
+/// Control*, 2008, section 7.3). With a limit of the torque, K (...) keeps its direction, and large errors are removed by a `Slew`, which brakes in
 /// time. The integral rests while something is cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eigenaxis {
