@@ -7,11 +7,12 @@ use std::process::ExitCode;
 
 use spindrift::cli::arguments::{Command, arguments};
 use spindrift::cli::{
-    check, columns, command_outcome, compare, finish_campaign, new, precision, report, run_campaign, sample, simulate,
-    slurm, verify,
+    check, columns, command_outcome, compare, finish_campaign, new, precision, report, run_campaign, sample, signals,
+    simulate, slurm, verify,
 };
 
 fn main() -> ExitCode {
+    signals::report_file_limit();
     let ended = match arguments().command {
         Command::Campaign(options) => run_campaign::run(&options),
         Command::CompleteResult(options) => finish_campaign::run(&options),

@@ -15,7 +15,7 @@ export function pairFigure(pairs, first, second) {
   };
   const axis = (column) => ({ quantity: column.name, unit: column.unit, log: positive(column), names: null, range: null });
   const failed = kept(true);
-  const marks = [points("ok", 0, false, kept(false)), ...(failed.length > 0 ? [points("failed", 1, true, failed)] : [])];
+  const marks = [points("computed", 0, false, kept(false)), ...(failed.length > 0 ? [points("not computed", 1, true, failed)] : [])];
   return { name: `pair_${x.name}_${y.name}`, section: "influence", title: `${y.name} against ${x.name}`, caption: `${rows.length} of ${pairs.all} samples, chosen by sample number.`, columns: 12, time: false, x: axis(x), y: axis(y), marks };
 }
 

@@ -4,22 +4,24 @@
 //! the bucket that the limit is in: both bounds must decide, so that no verdict rests on where in a bucket a run is.
 
 use crate::analysis::assessment::{Assessment, WorstPoint};
+use crate::analysis::order_statistics::among_values;
 use crate::analysis::population::Population;
+use crate::analysis::row_verdicts::Asked;
 use crate::campaign::requirement::BandSubject;
-use crate::campaign::{Requirement, ShownUnit, Statement};
+use crate::campaign::{ShownUnit, Statement};
 use crate::ensemble::Bands;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{Gate, points_gate};
 
-/// What `bands` say of `requirement`, which is about `band`, passes at the first of two confidences and fails at the second, of so many runs that
-/// count, `failed` of them not `ok`.
+/// What `bands` say of what is `asked` about `band`, of so many runs that count, `failed` of them not `ok`.
 pub(super) fn over_time(
-    (requirement, confidences): (&Requirement, [f64; 2]),
+    asked: Asked<'_>,
     band: &BandSubject,
     bands: Option<&Bands>,
     [runs, failed]: [u64; 2],
     population: Population,
 ) -> Assessment {
+    let Asked { requirement, confidences, .. } = asked;
     let found = bands.and_then(|bands| bands.find(&band.series).map(|series| (bands, series)));
     let points: Vec<(usize, f64)> = found.map_or_else(Vec::new, |(bands, _)| {
         bands.times().iter().copied().enumerate().filter(|(_, time)| band.contains(*time)).collect()
@@ -33,9 +35,11 @@ pub(super) fn over_time(
         Statement::Mean => f64::NAN,
     };
     let (mut gate, worst) = points_gate(&within, target, confidences);
+    let mut interval = points_gate(&within, target, [asked.of_an_end(); 2]).0.bounds;
     let mut reason = None;
     if population != Population::Independent {
         gate = Gate { decision: Decision::Undecided(None), bounds: [f64::NAN; 2], ..gate };
+        interval = [f64::NAN; 2];
         let why = match population {
             Population::Replicated(_) => "bands do not tell replicates apart".to_owned(),
             _ => population.intervals(),
@@ -47,9 +51,16 @@ pub(super) fn over_time(
         reason = Some("there are no runs that count".to_owned());
     }
     let value = found.zip(worst).and_then(|((bands, series), worst)| match requirement.statement {
-        Statement::Quantile(p) => bands.quantile(series, points[worst].0, p),
+        Statement::Quantile(p) => {
+            let count = bands.count(series, points[worst].0);
+            let p = among_values(p, count, runs.saturating_sub(count), requirement.limit)?;
+            bands.quantile(series, points[worst].0, p)
+        }
         _ => None,
     });
+    let missing = found
+        .zip(worst)
+        .map_or(failed, |((bands, series), worst)| runs.saturating_sub(bands.count(series, points[worst].0)));
     let [least, most] = worst.map_or([0; 2], |worst| within[worst].0);
     let unit = found.map_or_else(String::new, |(bands, series)| bands.quantity(series).unit().to_owned());
     Assessment {
@@ -58,9 +69,11 @@ pub(super) fn over_time(
         shown: ShownUnit::own(&unit),
         unit,
         gate,
+        interval,
         value,
         runs,
         violations: runs.saturating_sub(least),
+        missing,
         failed,
         worst: worst.map(|worst| WorstPoint {
             time_s: points[worst].1,

@@ -23,12 +23,27 @@ pub fn table(comparison: &Comparison) -> Vec<DescribedColumn> {
         count("is_shifted", "1 where chance is no explanation of the difference.", &|row| {
             u64::from(comparison.is_shifted(row))
         }),
-        real("adjusted_p_value", "P-value of both tests, adjusted for the number of observables (Holm).", &|row| {
-            row.adjusted_p_value
-        }),
-        real("p_value", "Twice the smaller p-value of both tests.", &|row| row.p_value),
+        count(
+            "is_moved",
+            "1 where it is not shifted, and chance is no explanation of how the values of the pairs differ.",
+            &|row| u64::from(comparison.is_moved(row)),
+        ),
+        real(
+            "adjusted_p_value",
+            "What decides whether it is shifted, adjusted for the number of observables (Holm).",
+            &|row| row.adjusted_p_value,
+        ),
+        real(
+            "p_value",
+            "Of pairs the p-value of the test of distributions, of independent samples twice the smaller one of both tests.",
+            &|row| row.p_value,
+        ),
         real("p_value_mean", "P-value of the test of means.", &|row| row.mean.map(|found| found.p_value)),
         real("p_value_distribution", "P-value of the test of distributions.", &|row| row.distribution_p_value),
+        real("p_value_moved", "P-value of the signed ranks of the pairs' differences.", &|row| row.moved_p_value),
+        real("adjusted_p_value_moved", "The same, adjusted for the number of observables (Holm).", &|row| {
+            row.adjusted_moved_p_value
+        }),
         real("mean_shift", "Shift of the mean, second minus first; of pairs, where there are any.", &|row| {
             row.mean.map(|found| found.shift.value)
         }),

@@ -1,6 +1,9 @@
-//! What drives an observable: how strongly each input acts, from the measures of its sensitivity, and which inputs the rows show to act.
+//! What drives an outcome: the ranking of its inputs, for its spread and for an event of it. What screen, cards and charts say follows from
+//! [`rankings`] alone.
 
-use crate::analysis::sensitivity::InputSensitivity;
+use crate::analysis::effects::Dependence;
+use crate::analysis::event::{Event, Occurs};
+use crate::analysis::input_sensitivity::{InputSensitivity, LEAST_SHARE};
 use crate::statistics::correlation::Estimate;
 
 impl InputSensitivity {
@@ -20,62 +23,88 @@ impl InputSensitivity {
         };
         self.total.or_else(|| [self.first_order, squared].into_iter().flatten().max_by(rank))
     }
+}
 
-    /// Whether the observable rises (or falls) with the input; `None` where the rows do not show it.
-    pub fn rises(&self) -> Option<bool> {
-        self.spearman.filter(|r| r.lower * r.upper > 0.0).map(|r| r.value > 0.0)
+/// Least risk ratio, or its inverse, of a value that is called a driver of an event: of many runs small ratios are certain, and matter to nobody.
+const LEAST_RATIO: f64 = 1.5;
+/// The same of the chance of [`Dependence::Shift`], as its distance from one half.
+const LEAST_CHANCE: f64 = 0.1;
+
+/// What is asked of an outcome.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Question {
+    /// What its spread comes from.
+    Spread,
+    /// What decides whether an event occurs.
+    Event(Event),
+}
+
+/// An input in a ranking.
+#[derive(Clone, Copy, Debug)]
+pub struct Ranked<'a> {
+    /// The input.
+    pub input: &'a InputSensitivity,
+    /// Its share of the variance: of the outcome, or of whether the event occurs.
+    pub share: Estimate,
+    /// Whether the rows show that it acts, and that it matters.
+    pub is_driver: bool,
+}
+
+/// The inputs of an outcome: first its drivers, then the others, each the greatest share first.
+#[derive(Clone, Debug)]
+pub struct Ranking<'a> {
+    /// What is asked.
+    pub question: Question,
+    /// The inputs.
+    pub inputs: Vec<Ranked<'a>>,
+}
+
+impl<'a> Ranking<'a> {
+    /// Its drivers.
+    pub fn drivers(&self) -> impl Iterator<Item = &Ranked<'a>> {
+        self.inputs.iter().filter(|ranked| ranked.is_driver)
     }
 }
 
-/// Least share of the variance of an input that is called a driver: less matters to nobody, and among many inputs some show it by chance.
-const LEAST_SHARE: f64 = 0.01;
-
-/// The inputs that drive `observable` by [`InputSensitivity::influence`], the strongest first: those of a hundredth of the variance or more whose
-/// interval, where the design gives one, is above zero. What the screen and the page say follows from this alone.
-pub fn drivers<'a>(all: &'a [InputSensitivity], observable: &str) -> Vec<(&'a InputSensitivity, Estimate)> {
-    let of = all.iter().filter(|one| one.observable == observable);
-    let mut found: Vec<_> = of.filter_map(|one| Some((one, one.influence()?))).collect();
-    let has_interval = |one: &Estimate| !(one.lower.is_nan() && one.upper.is_nan());
-    found.retain(|(_, one)| one.value >= LEAST_SHARE && (one.lower > 0.0 || !has_interval(one)));
-    found.sort_by(|a, b| b.1.value.total_cmp(&a.1.value));
-    found
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: the observable is driven by what its first-order index or its rank correlation shows, whichever is more, the strongest first; what
-    /// neither shows drives nothing; without intervals the values decide.
-    #[test]
-    fn drivers_are_what_either_measure_shows() {
-        let estimate = |value: f64, half: f64| Some(Estimate { value, lower: value - half, upper: value + half });
-        let of = |input: &str, first_order, spearman| InputSensitivity {
-            observable: "y".to_owned(),
-            input: input.to_owned(),
-            first_order,
-            spearman,
-            ..InputSensitivity::default()
+/// The rankings of an outcome: of an event, where it has one, and of its spread, unless it has few values and the event is its spread. The tail is
+/// asked only where something drives it that does not drive the spread. `alpha`: the probability that an outcome without any influence has a driver.
+pub fn rankings<'a>(all: &'a [InputSensitivity], outcome: &str, alpha: f64) -> Vec<Ranking<'a>> {
+    let of = || all.iter().filter(|one| one.observable == outcome);
+    let on_event = |input: &'a InputSensitivity| {
+        let effect = input.on_event.as_ref()?;
+        let matters = match &effect.dependence {
+            Dependence::Levels { ratio, .. } => !(1.0 / LEAST_RATIO..LEAST_RATIO).contains(&ratio.value),
+            Dependence::Shift { chance, .. } | Dependence::Distance { chance } => (chance - 0.5).abs() >= LEAST_CHANCE,
         };
-        let all = [
-            of("nothing", estimate(0.01, 0.1), estimate(-0.05, 0.1)),
-            of("falls", estimate(0.2, 0.1), estimate(-0.5, 0.1)),
-            of("magnitude", estimate(0.45, 0.1), estimate(0.01, 0.1)),
-            of("weak", estimate(0.5, 0.6), estimate(0.2, 0.1)),
-            of("certain, and nothing", estimate(0.004, 0.001), estimate(0.05, 0.01)),
-        ];
-        let names =
-            |all: &[InputSensitivity]| drivers(all, "y").iter().map(|(one, _)| one.input.clone()).collect::<Vec<_>>();
-        assert_eq!(names(&all), ["magnitude", "falls", "weak"]);
-        let rises = all.each_ref().map(InputSensitivity::rises);
-        assert_eq!(rises, [None, Some(false), None, Some(true), Some(true)]);
-        let falls = all[1].influence().expect("an influence");
-        assert!((falls.value - 0.25).abs() < 1e-15 && (falls.lower - 0.16).abs() < 1e-15, "{falls:?}");
-        let chosen =
-            [of("x", estimate(0.3, f64::NAN), estimate(0.9, f64::NAN)), of("z", estimate(0.004, f64::NAN), None)];
-        assert_eq!(names(&chosen), ["x"]);
-        let total = [InputSensitivity { total: estimate(0.3, 0.1), ..of("x", estimate(0.9, 0.1), None) }];
-        assert_eq!(total[0].influence(), estimate(0.3, 0.1));
-        assert!(drivers(&all, "another").is_empty());
+        Some(Ranked { input, share: effect.share, is_driver: matters && effect.p_value <= alpha })
+    };
+    let on_spread = |input: &'a InputSensitivity| {
+        let share = input.influence()?;
+        // a design without a population has neither tests nor intervals: the shares decide
+        let is_shown = match input.p_value {
+            Some(p_value) => p_value <= alpha,
+            None => share.lower > 0.0 || share.lower.is_nan() && share.upper.is_nan(),
+        };
+        Some(Ranked { input, share, is_driver: is_shown && share.value >= LEAST_SHARE })
+    };
+    let sorted = |mut inputs: Vec<Ranked<'a>>| {
+        inputs.sort_by(|a, b| b.is_driver.cmp(&a.is_driver).then(b.share.value.total_cmp(&a.share.value)));
+        inputs
+    };
+    let event = of().find_map(|one| one.on_event.as_ref()).map(|effect| effect.event);
+    let has_spread = event.is_none_or(|event| !event.has_few_values);
+    let spread = sorted(if has_spread { of().filter_map(on_spread).collect() } else { Vec::new() });
+    let mut found = Vec::new();
+    if let Some(event) = event {
+        let inputs = sorted(of().filter_map(on_event).collect());
+        let drives_spread = |name: &str| spread.iter().any(|ranked| ranked.is_driver && ranked.input.input == name);
+        let is_new = |ranked: &Ranked<'_>| ranked.is_driver && !drives_spread(&ranked.input.input);
+        if !matches!(event.occurs, Occurs::Worst(_)) || inputs.iter().any(is_new) {
+            found.push(Ranking { question: Question::Event(event), inputs });
+        }
     }
+    if !spread.is_empty() {
+        found.push(Ranking { question: Question::Spread, inputs: spread });
+    }
+    found
 }

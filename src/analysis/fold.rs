@@ -8,11 +8,11 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::analysis::accumulator::{Accumulator, of_files};
 use crate::analysis::column_counts::{Collected, Collector, REFERENCE_ROWS, batches, is_exact, references};
+use crate::analysis::first_rows::{FirstRows, RowTable};
 use crate::analysis::missions::{MissionCounter, Missions};
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::RowNames;
 use crate::analysis::population::Population;
-use crate::analysis::sensitivity::{FirstRows, RowTable};
 use crate::analysis::stopping::ObservedValues;
 use crate::analysis::survey::{Survey, Surveyor};
 use crate::analysis::tally::{Tally, TallyColumns};
@@ -25,10 +25,10 @@ use crate::storage::bands_file;
 use crate::storage::part_sink::CountRows;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
-/// Everything that is gathered: statuses and audits, columns, requirements, the observable of `[stop]`, the first rows, retained runs, the page.
+/// Everything that is gathered: statuses and audits, columns, requirements, the observable of `[stop]`, the first rows, those for what decides failures, retained runs, the page.
 type Everything = (
     ((TallyColumns, Collector), (RequirementCounter, ObservedValues)),
-    ((FirstRows, Retained), (Surveyor, MissionCounter)),
+    (((FirstRows, FirstRows), Retained), (Surveyor, MissionCounter)),
 );
 
 /// Gathers everything that the end of a campaign needs.
@@ -48,6 +48,8 @@ pub struct Gathered {
     pub stop_values: Vec<f64>,
     /// Inputs and main observables of the first rows.
     pub first_rows: RowTable,
+    /// Inputs of the first physical rows, and whether each was computed.
+    pub failure_rows: RowTable,
     /// Samples whose runs are retained, ascending.
     pub retained: Vec<SampleId>,
     /// What the page shows.
@@ -68,12 +70,18 @@ impl RowsFold {
                 (TallyColumns::new(ensemble), columns),
                 (RequirementCounter::new(plan), ObservedValues::of_stop(plan, plan.samples)),
             ),
-            ((FirstRows::new(plan), Retained::new(plan)), (Surveyor::new(ensemble), MissionCounter::new(plan))),
+            (
+                ((FirstRows::new(plan), FirstRows::of_failures(plan)), Retained::new(plan)),
+                (Surveyor::new(ensemble), MissionCounter::new(plan)),
+            ),
         ))
     }
 
     fn gathered(self, whole: <Everything as Accumulator>::Whole, bands: Option<Bands>) -> Gathered {
-        let (((tally, columns), (requirements, stop_values)), ((first_rows, retained), (survey, missions))) = whole;
+        let (
+            ((tally, columns), (requirements, stop_values)),
+            (((first_rows, failure_rows), retained), (survey, missions)),
+        ) = whole;
         let (((_, collector), _), ((_, retention), (_, counter))) = self.0;
         Gathered {
             tally,
@@ -81,6 +89,7 @@ impl RowsFold {
             requirements,
             stop_values,
             first_rows,
+            failure_rows,
             retained: retention.chosen(retained),
             survey: survey.finished(),
             missions: counter.finished(&missions),

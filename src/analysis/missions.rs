@@ -16,10 +16,19 @@ pub struct MissionShare {
     pub end: &'static str,
     /// Number of runs.
     pub count: u64,
-    /// Number of all runs that are `ok`.
+    /// Number of all runs.
     pub runs: u64,
-    /// The interval of the share at the confidence of the statistics; NaN where samples are not independent.
+    /// Runs of those that were not computed, which may have ended in this way or not.
+    pub missing: u64,
+    /// The interval of the share at the confidence of the statistics, whatever the missing runs would have done; NaN where samples are not independent.
     pub interval: [f64; 2],
+}
+
+impl MissionShare {
+    /// The least and the largest share of all runs that ended in this way: they differ by the missing ones.
+    pub fn shares(&self) -> [f64; 2] {
+        [self.count, self.count + self.missing].map(|count| count as f64 / self.runs.max(1) as f64)
+    }
 }
 
 /// Counts how missions ended.
@@ -31,8 +40,8 @@ pub struct MissionCounter {
     confidence: f64,
 }
 
-/// How many runs that are `ok` ended in each way: launched, flying, then by failure.
-pub type MissionCounts = [u64; 2 + Failure::NAMES.len()];
+/// How many runs that are `ok` ended in each way: launched, flying, then by failure; and how many physical samples have no such run.
+pub type MissionCounts = ([u64; 2 + Failure::NAMES.len()], u64);
 
 /// How the missions of a campaign ended, those that occur, in the order of the codes.
 pub type Missions = Vec<MissionShare>;
@@ -51,7 +60,8 @@ impl MissionCounter {
 
     /// What was counted.
     pub fn finished(&self, counts: &MissionCounts) -> Missions {
-        let runs: u64 = counts.iter().sum();
+        let (counts, missing) = counts;
+        let runs = counts.iter().sum::<u64>() + missing;
         let neither = if self.launches { "flying" } else { "not_failed" };
         let names = ["launched", neither].into_iter().chain(Failure::NAMES);
         let has_intervals = self.population == Population::Independent;
@@ -59,7 +69,13 @@ impl MissionCounter {
             end,
             count: *count,
             runs,
-            interval: if has_intervals { interval(*count, runs, self.confidence) } else { [f64::NAN; 2] },
+            missing: *missing,
+            interval: match has_intervals {
+                true => {
+                    [interval(*count, runs, self.confidence)[0], interval(count + missing, runs, self.confidence)[1]]
+                }
+                false => [f64::NAN; 2],
+            },
         };
         names.zip(counts).filter(|(_, count)| **count > 0).map(share).collect()
     }
@@ -70,7 +86,7 @@ impl Accumulator for MissionCounter {
     type OfPart = MissionCounts;
 
     fn nothing(&self) -> MissionCounts {
-        [0; 2 + Failure::NAMES.len()]
+        ([0; 2 + Failure::NAMES.len()], 0)
     }
 
     fn count(&self, part: &impl PartColumns) -> Result<MissionCounts, RowsError> {
@@ -81,12 +97,18 @@ impl Accumulator for MissionCounter {
         let failures = part.numbers("failure")?;
         let launched = if self.launches { Some(part.numbers("launched")?) } else { None };
         let (samples, statuses) = (part.samples()?, part.statuses()?);
-        let rows =
-            (0..part.rows()).filter(|row| statuses[*row] == Status::Done && self.population.contains(samples[*row]));
-        for row in rows {
+        for row in (0..part.rows()).filter(|row| self.population.contains(samples[*row])) {
+            match statuses[row] {
+                Status::Done => {}
+                Status::InvalidSample => continue,
+                _ => {
+                    found.1 += 1;
+                    continue;
+                }
+            }
             let has_launched = launched.as_ref().is_some_and(|launched| launched[row] == 1.0);
             let failure = failures[row] as usize;
-            found[if has_launched {
+            found.0[if has_launched {
                 0
             } else if failure == 0 {
                 1
@@ -98,6 +120,7 @@ impl Accumulator for MissionCounter {
     }
 
     fn merge(&self, whole: &mut MissionCounts, part: MissionCounts) {
-        whole.iter_mut().zip(part).for_each(|(mine, theirs)| *mine += theirs);
+        whole.0.iter_mut().zip(part.0).for_each(|(mine, theirs)| *mine += theirs);
+        whole.1 += part.1;
     }
 }

@@ -3,8 +3,9 @@
 //! - [`fold`]: one pass over the parts, of rows in memory or in files ([`part_columns`]), in which everything that follows gathers what it needs, each
 //!   by an [`accumulator`].
 //! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`], [`order_statistics`]); [`tally`], [`audit_tally`]: statuses, worst runs, audits.
-//! - [`verdicts`]: of the requirements, each an [`assessment`] (over time: `band_verdicts`); [`mod@stopping`]: whether the rows are enough.
-//! - [`sensitivity`]: which input matters; [`drivers`]: which of them the rows show; [`noise_share`]: what noise within loops does. - [`statistics_table`], [`sensitivity_table`]: both as files.
+//! - [`verdicts`]: of the requirements, each an [`assessment`] (of a number of each run: `row_verdicts`; over time: `band_verdicts`); [`mod@stopping`]: whether the rows are enough. [`mod@ending`]: how the campaign ended.
+//! - [`sensitivity`]: which input matters ([`input_sensitivity`]), from the [`first_rows`] (`block_indices`: of a `saltelli` design); [`effects`]: tests whether it does, also of an [`event`];
+//!   [`drivers`]: the ranking of what the rows show; [`noise_share`]: what noise within loops does. - [`statistics_table`], [`sensitivity_table`]: both as files.
 //! - [`comparison`]: two results, by the samples that both drew ([`pairing`]); [`comparison_table`]: as a file.
 //! - [`trajectories`]: which runs are retained, and their time series. - [`survey`]: what the page shows of the rows.
 //!
@@ -14,12 +15,20 @@ pub mod accumulator;
 pub mod assessment;
 pub mod audit_tally;
 mod band_verdicts;
+mod block_indices;
 pub mod column_counts;
 pub mod comparison;
 pub mod comparison_table;
 pub mod derived_table;
 pub mod drivers;
+#[cfg(test)]
+mod drivers_of_known_truth;
+pub mod effects;
+pub mod ending;
+pub mod event;
+pub mod first_rows;
 pub mod fold;
+pub mod input_sensitivity;
 pub mod missions;
 pub mod noise_share;
 pub mod observed;
@@ -28,6 +37,7 @@ pub mod outcomes;
 pub mod pairing;
 pub mod part_columns;
 pub mod population;
+mod row_verdicts;
 pub mod sensitivity;
 pub mod sensitivity_table;
 #[cfg(test)]

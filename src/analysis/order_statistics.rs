@@ -2,6 +2,7 @@
 
 use crate::analysis::population::Population;
 use crate::campaign::Plan;
+use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::{
     Ranks as IntervalRanks, interval_ranks, percent, quantile, runs_for_bound, runs_for_interval,
 };
@@ -95,6 +96,7 @@ impl CommonRanks {
 }
 
 /// A quantile that is asked for.
+#[derive(Clone, Copy)]
 pub struct AskedQuantile {
     /// Its probability.
     pub p: f64,
@@ -102,12 +104,46 @@ pub struct AskedQuantile {
     pub confidence: f64,
     /// The ranks of its interval, where the population has intervals.
     pub ranks: Option<IntervalRanks>,
+    /// The quantile of the values that are there that it is; `None` where it is one of those that are missing.
+    of_values: Option<f64>,
+    /// Runs without a value that count as values beyond every other one.
+    missing: u64,
+}
+
+/// The probability of the quantile of `count` values, at least one, that is the `p`-quantile of these and of `missing` ones that violate `limit`, each more than any of
+/// these does; `None` where that is a missing one. Quantiles are of type 7.
+pub fn among_values(p: f64, count: u64, missing: u64, limit: GateLimit) -> Option<f64> {
+    if missing == 0 {
+        return Some(p);
+    }
+    let place = p * (count + missing - 1) as f64;
+    let place = match limit {
+        GateLimit::AtMost(_) => place,
+        GateLimit::AtLeast(_) => place - missing as f64,
+    };
+    let last = count.checked_sub(1)? as f64;
+    (0.0..=last).contains(&place).then(|| if last > 0.0 { place / last } else { 0.5 })
 }
 
 impl AskedQuantile {
+    /// The `p`-quantile of all values.
+    pub fn new(p: f64, confidence: f64, ranks: Option<IntervalRanks>) -> Self {
+        AskedQuantile { p, confidence, ranks, of_values: Some(p), missing: 0 }
+    }
+
+    /// The same of `count` values and of `missing` runs without one, which violate `limit`; `ranks` are those of all of them.
+    #[must_use]
+    pub fn with_missing(self, count: u64, missing: u64, limit: GateLimit) -> Self {
+        let shift = if matches!(limit, GateLimit::AtLeast(_)) { missing } else { 0 };
+        let kept =
+            |rank: Option<u64>| rank.and_then(|rank| rank.checked_sub(shift)).filter(|rank| (1..=count).contains(rank));
+        let ranks = self.ranks.map(|ranks| IntervalRanks { lower: kept(ranks.lower), upper: kept(ranks.upper) });
+        AskedQuantile { ranks, of_values: among_values(self.p, count, missing, limit), missing, ..self }
+    }
+
     /// The places, from zero, of the order statistics that it needs of `count` values; some may be beyond the last.
     pub fn places(&self, count: usize) -> impl Iterator<Item = usize> {
-        let below = (count as f64 * self.p) as usize;
+        let below = (count as f64 * self.of_values.unwrap_or(self.p)) as usize;
         // (count - 1) p, rounded, is between below - 1 and below + 1
         let ends = self.ranks.into_iter().flat_map(|ranks| [ranks.lower, ranks.upper]).flatten();
         (below.saturating_sub(1)..=below + 1).chain(ends.map(|rank| rank as usize - 1))
@@ -116,12 +152,16 @@ impl AskedQuantile {
 
 /// A quantile with the interval of independent samples, where they are.
 pub fn of_quantile(order: &Order, asked: &AskedQuantile) -> QuantileStatistic {
-    let AskedQuantile { p, confidence, ranks } = *asked;
-    let mut found = QuantileStatistic { p, confidence, value: order.quantile(p), interval: [None; 2], note: None };
+    let AskedQuantile { p, confidence, ranks, of_values, missing } = *asked;
+    let value = of_values.and_then(|p| order.quantile(p));
+    let mut found = QuantileStatistic { p, confidence, value, interval: [None; 2], note: None };
+    if missing > 0 {
+        found.note = Some(format!("{missing} runs without a value count as violations"));
+    }
     let Some(ranks) = ranks else { return found };
     let end = |rank: Option<u64>, which: usize| rank.and_then(|rank| order.bounds(rank)).map(|bounds| bounds[which]);
     found.interval = [end(ranks.lower, 0), end(ranks.upper, 1)];
-    if found.interval.contains(&None) {
+    if found.note.is_none() && found.interval.contains(&None) {
         found.note = Some(format!(
             "p{} with {}% confidence needs {} runs ({} for a bound on one side)",
             percent(p),
@@ -131,4 +171,40 @@ pub fn of_quantile(order: &Order, asked: &AskedQuantile) -> QuantileStatistic {
         ));
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: with missing values that violate the limit a quantile is that of all of them, the missing ones infinite on the wrong side, and so are the ends of
+    /// its interval; none where it is a missing one. The counter-test: of the values alone it is another one.
+    #[test]
+    fn missing_values_violate() {
+        let values: Vec<f64> = (1..=40).map(f64::from).collect();
+        for (limit, wrong) in [(GateLimit::AtMost(0.0), f64::INFINITY), (GateLimit::AtLeast(0.0), f64::NEG_INFINITY)] {
+            for missing in [0, 1, 7, 25, 60] {
+                let mut all: Vec<f64> = values.iter().copied().chain(vec![wrong; missing as usize]).collect();
+                all.sort_by(f64::total_cmp);
+                for p in [0.01, 0.05, 0.3, 0.5, 0.8, 0.95] {
+                    let ranks = interval_ranks(40 + missing, p, 0.9);
+                    let asked = AskedQuantile::new(p, 0.9, Some(ranks)).with_missing(40, missing, limit);
+                    let found = of_quantile(&Order::Exact(values.clone()), &asked);
+                    let known = quantile(&all, p).filter(|value| value.is_finite());
+                    let is_same = match (found.value, known) {
+                        (Some(a), Some(b)) => (a - b).abs() < 1e-12,
+                        (a, b) => a == b,
+                    };
+                    assert!(is_same, "{limit:?} {missing} {p}: {found:?} for {known:?}");
+                    let end = |rank: Option<u64>| rank.map(|rank| all[rank as usize - 1]).filter(|end| end.is_finite());
+                    assert_eq!(found.interval, [end(ranks.lower), end(ranks.upper)], "{limit:?} {missing} {p}");
+                }
+            }
+            assert_ne!(among_values(0.5, 40, 7, limit), Some(0.5));
+        }
+        assert_eq!(
+            (among_values(0.5, 0, 3, GateLimit::AtMost(0.0)), among_values(0.5, 1, 0, GateLimit::AtMost(0.0))),
+            (None, Some(0.5))
+        );
+    }
 }

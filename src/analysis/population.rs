@@ -1,10 +1,41 @@
 //! [`Population`]: how the samples of a design represent the population of runs, and so which intervals hold.
 
 use crate::campaign::Plan;
+use crate::run::Status;
 use crate::sampling::{Design, SampleId};
 
 /// Stands for a design where `campaign.only` lists the samples.
 pub const LISTED: &str = "campaign.only";
+
+/// Runs of a population that have no numbers, because they were not computed to their end or not accurately. Samples that are not physical are no part of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Loss {
+    /// Runs without numbers.
+    pub missing: u64,
+    /// All runs.
+    pub runs: u64,
+}
+
+impl Loss {
+    /// From this share of missing runs on a loss is big: not even the 95%-quantile of an outcome, the usual one, is then bounded by the runs that are
+    /// there, since all that are missing may be beyond it. Below, an interval takes the loss for random.
+    pub const BIG: f64 = 0.05;
+
+    /// Of the numbers of runs that ended with each status, in the order of [`Status::ALL`].
+    pub fn of(statuses: &[u64; Status::ALL.len()]) -> Self {
+        let counts = Status::ALL.iter().zip(statuses);
+        counts.fold(Loss::default(), |loss, (status, count)| match status {
+            Status::InvalidSample => loss,
+            Status::Done => Loss { runs: loss.runs + count, ..loss },
+            _ => Loss { runs: loss.runs + count, missing: loss.missing + count },
+        })
+    }
+
+    /// Whether so many runs are missing that what is left says little of all.
+    pub fn is_big(self) -> bool {
+        self.missing > 0 && self.missing as f64 >= Self::BIG * self.runs as f64
+    }
+}
 
 /// How samples represent the population.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +50,8 @@ pub enum Population {
     Chosen(&'static str),
     /// The nominal sample alone.
     Nominal,
+    /// What a big loss leaves.
+    Incomplete(Loss),
 }
 
 impl Population {
@@ -35,6 +68,12 @@ impl Population {
                 Population::Chosen(name)
             }
         }
+    }
+
+    /// The same, after a `loss`.
+    #[must_use]
+    pub fn after(self, loss: Loss) -> Self {
+        if loss.is_big() && self.has_intervals() { Population::Incomplete(loss) } else { self }
     }
 
     /// Number of groups of samples that are independent of each other; one where there are no replicates.
@@ -79,6 +118,9 @@ impl Population {
                 format!("none: samples of design \"{design}\" are chosen, not drawn from a population")
             }
             Population::Nominal => "none: the nominal sample alone".to_owned(),
+            Population::Incomplete(Loss { missing, runs }) => format!(
+                "none: {missing} of {runs} runs have no numbers, and need not be like the others"
+            ),
         }
     }
 }
@@ -86,6 +128,26 @@ impl Population {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Law: a loss is big from a twentieth of the physical runs on, whatever their failure; then, and only then, an independent population has no intervals.
+    #[test]
+    fn a_big_loss_leaves_no_intervals() {
+        let place = |status: Status| Status::ALL.iter().position(|one| *one == status).expect("a status");
+        for status in Status::ALL.into_iter().filter(|status| *status != Status::Done) {
+            for lost in [0_u64, 1, 4, 5, 6, 90] {
+                let mut statuses = [0; Status::ALL.len()];
+                (statuses[place(Status::Done)], statuses[place(status)]) = (100 - lost, lost);
+                let is_run = status != Status::InvalidSample;
+                let loss = Loss::of(&statuses);
+                let known = if is_run { (lost, 100) } else { (0, 100 - lost) };
+                assert_eq!((loss.missing, loss.runs), known, "{status:?}");
+                let left = Population::Independent.after(loss);
+                assert_eq!(left.has_intervals(), !(is_run && lost >= 5), "{status:?} {lost}");
+                assert_eq!(left.intervals().contains("90 of 100"), is_run && lost == 90);
+                assert_eq!(Population::Nominal.after(loss), Population::Nominal);
+            }
+        }
+    }
 
     /// Law: statistics are about the dispersed samples, about the nominal one only where it is all there is; each sample is in one group.
     #[test]

@@ -2,7 +2,8 @@
 
 use crate::storage::columnar::EncodingError;
 
-use crate::analysis::sensitivity::InputSensitivity;
+use crate::analysis::effects::{Dependence, Direction, OnEvent};
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::campaign::Plan;
 use crate::statistics::correlation::Estimate;
 use crate::storage::described_table::{self, DescribedColumn};
@@ -21,7 +22,7 @@ const PARTS: [EstimatePart; 3] = [
 ];
 
 /// The measures.
-const MEASURES: [Measure; 8] = [
+const MEASURES: [Measure; 10] = [
     (
         "influence",
         "How strongly the input acts, as a share of the variance: the total index, or the larger one of first-order index and squared rank correlation",
@@ -40,6 +41,21 @@ const MEASURES: [Measure; 8] = [
         one.first_order
     }),
     ("total", "Total sensitivity index, with the interactions of this input", |one| one.total),
+    ("event_share", "Share of the variance of whether the event of the observable occurs", |one| {
+        one.on_event.as_ref().map(|effect| effect.share)
+    }),
+    (
+        "event_ratio",
+        "Risk ratio of the event at event_level against the other runs, by Koopman's score test; null where the input has many values, where it occurs in no other run, and at an end without a bound",
+        |one| match one.on_event.as_ref()?.dependence {
+            Dependence::Levels { ratio, .. } => {
+                let [value, lower, upper] =
+                    [ratio.value, ratio.lower, ratio.upper].map(|end| if end.is_finite() { end } else { f64::NAN });
+                Some(Estimate { value, lower, upper })
+            }
+            _ => None,
+        },
+    ),
 ];
 
 fn table(list: &[InputSensitivity]) -> Vec<DescribedColumn> {
@@ -59,7 +75,46 @@ fn table(list: &[InputSensitivity]) -> Vec<DescribedColumn> {
             table.push(DescribedColumn::numbers(&format!("{name}{suffix}"), &format!("{meaning}{what}."), values));
         }
     }
+    let of_event = |of: fn(&OnEvent) -> Option<f64>| list.iter().map(move |one| one.on_event.as_ref().and_then(of));
     table.extend([
+        DescribedColumn::numbers(
+            "p_value",
+            "Probability of an influence on the spread as strong as this one where no input has any, of all inputs together (Holm).",
+            list.iter().map(|one| one.p_value),
+        ),
+        text("direction", "How the observable goes with the input, where it is a driver of the spread.", &|one| {
+            let word = match one.direction? {
+                Direction::Rises => "rises",
+                Direction::Falls => "falls",
+                Direction::NotMonotonic => "not_monotonic",
+            };
+            Some(word.to_owned())
+        }),
+        text("event", "What occurs in some runs: missed (a requirement), value, other_value, worst (the tail).", &|one| {
+            Some(one.on_event.as_ref()?.event.occurs.name().to_owned())
+        }),
+        DescribedColumn::numbers("event_runs", "In how many runs it occurs.", of_event(|on| Some(on.event.of.events as f64))),
+        DescribedColumn::numbers(
+            "event_p_value",
+            "Probability of a dependence of the event as strong as this one where it depends on no input, of all inputs together (Holm).",
+            of_event(|on| Some(on.p_value)),
+        ),
+        DescribedColumn::numbers(
+            "event_level",
+            "Value of an input with few values at which the event differs most from the other runs; null for all values but the most frequent one.",
+            of_event(|on| match &on.dependence {
+                Dependence::Levels { levels, most, .. } => levels[*most].value,
+                _ => None,
+            }),
+        ),
+        DescribedColumn::numbers(
+            "event_chance",
+            "Of an input with many values, the chance that a run with the event has the larger one; null where the event comes with distance from the median.",
+            of_event(|on| match on.dependence {
+                Dependence::Shift { chance, .. } => Some(chance),
+                _ => None,
+            }),
+        ),
         text("correlated_with", "The input that this one is most correlated with, where that is notable.", &|one| {
             one.correlated_with.as_ref().map(|(name, _)| name.clone())
         }),

@@ -5,7 +5,8 @@
 //! are those of the values themselves; beyond, those of sketches, with their bound. A few columns are read at a time: memory
 //! does not depend on the number of rows.
 //!
-//! The nominal sample 0 is no part of it where there are others. A run that is not `ok` is counted and has no part in any number.
+//! The nominal sample 0 is no part of it where there are others. A run that is not `ok` is counted and has no part in any number, but in the quantiles of requirements,
+//! which it violates; where many are not ([`Loss`]), numbers have no intervals.
 
 use std::num::NonZeroUsize;
 
@@ -15,9 +16,10 @@ use crate::analysis::column_counts::{
 };
 use crate::analysis::observed::Observed;
 use crate::analysis::order_statistics::{AskedQuantile, CommonRanks, Order, QuantileStatistic, of_quantile};
-use crate::analysis::population::Population;
-use crate::campaign::{Plan, Statement};
+use crate::analysis::population::{Loss, Population};
+use crate::campaign::{Plan, Requirement, Statement};
 use crate::run::{Quantity, Status};
+use crate::statistics::gate::GateLimit;
 use crate::statistics::mean::{MOST_SHARE, deviation_bounds, mean_bounds};
 use crate::statistics::moments::Moments;
 use crate::statistics::quantile::place_order_statistics;
@@ -47,8 +49,8 @@ pub struct ColumnStatistics {
     pub note: Option<String>,
     /// The quantiles of the plan, ascending.
     pub quantiles: Vec<QuantileStatistic>,
-    /// Those of the requirements on it, each with the confidence of its requirement.
-    pub required: Vec<QuantileStatistic>,
+    /// Those of the requirements on it, each with its requirement, which runs without a value violate.
+    pub required: Vec<(Requirement, QuantileStatistic)>,
 }
 
 /// What the runs of a campaign say.
@@ -83,9 +85,15 @@ impl Statistics {
             .sum()
     }
 
-    /// The `p`-quantile of the observable called `name` for a requirement at `confidence`.
-    pub fn required(&self, name: &str, p: f64, confidence: f64) -> Option<&QuantileStatistic> {
-        self.column(name)?.required.iter().find(|one| one.p == p && one.confidence == confidence)
+    /// The quantile that `requirement` is about.
+    pub fn required(&self, requirement: &Requirement) -> Option<&QuantileStatistic> {
+        let column = self.column(requirement.observable()?)?;
+        column.required.iter().find(|(one, _)| one == requirement).map(|(_, quantile)| quantile)
+    }
+
+    /// The runs without numbers.
+    pub fn loss(&self) -> Loss {
+        Loss::of(&self.statuses)
     }
 
     /// The observable called `name`.
@@ -96,8 +104,8 @@ impl Statistics {
     /// How failed runs are treated, in words.
     pub fn treatment(&self) -> String {
         match self.samples() - self.ok() {
-            0 => "every run is ok".to_owned(),
-            failed => format!("{failed} of {} runs are not ok and are left out", self.samples()),
+            0 => "every run was computed".to_owned(),
+            failed => format!("{failed} of {} runs were not computed and are left out", self.samples()),
         }
     }
 }
@@ -115,13 +123,16 @@ pub fn compute(
 ) -> Result<Statistics, RowsError> {
     let population = Population::of(plan);
     let is_exact = is_exact(plan);
+    // of the runs that have numbers
+    let mut left = population;
     let mut statuses = [0; Status::ALL.len()];
     let mut columns = Vec::new();
     let mut describe = |observed: &[Observed], collected: Collected| {
         statuses = collected.statuses;
-        let common =
-            CommonRanks::new(plan, population, collected.columns.first().map_or(0, |column| column.moments.count()));
-        let describe = |(observed, counts)| described(plan, population, observed, counts, &common);
+        let loss = Loss::of(&statuses);
+        left = population.after(loss);
+        let common = CommonRanks::new(plan, left, collected.columns.first().map_or(0, |column| column.moments.count()));
+        let describe = |(observed, counts)| described(plan, (left, loss), observed, counts, &common);
         columns.extend(in_parallel(observed.iter().zip(collected.columns).collect(), threads, describe));
     };
     for batch in batches(plan) {
@@ -138,12 +149,12 @@ pub fn compute(
         describe(&batch, of_batch);
     }
     let quantile_error = if is_exact { 0.0 } else { RELATIVE_ERROR };
-    Ok(Statistics { population, confidence: plan.analysis.confidence, statuses, quantile_error, columns })
+    Ok(Statistics { population: left, confidence: plan.analysis.confidence, statuses, quantile_error, columns })
 }
 
 fn described(
     plan: &Plan,
-    population: Population,
+    (population, loss): (Population, Loss),
     observed: &Observed,
     mut collected: ColumnCounts,
     common: &CommonRanks,
@@ -177,23 +188,37 @@ fn described(
     }
     steps.sort_by(|a, b| a.value.total_cmp(&b.value));
     let moments = collected.moments;
-    let asked = |p: f64, confidence: f64| {
+    let asked = |p: f64| {
         let ranks = population.has_intervals().then(|| common.of(moments.count(), p, confidence));
-        AskedQuantile { p, confidence, ranks }
+        AskedQuantile::new(p, confidence, ranks)
+    };
+    let count = moments.count();
+    let with_missing = |p: f64, limit: GateLimit| {
+        let runs = loss.runs.max(count);
+        // violations are known, and so are intervals that count them
+        let is_known = match Population::of(plan) {
+            Population::Independent => true,
+            other => other.has_intervals() && runs == count,
+        };
+        let ranks = is_known.then(|| common.of(runs, p, confidence));
+        AskedQuantile::new(p, confidence, ranks).with_missing(count, runs - count, limit)
     };
     let requirements =
         plan.analysis.requirements.iter().filter(|one| one.observable() == Some(observed.quantity.name()));
     let required = requirements.filter_map(|one| match one.statement {
-        Statement::Quantile(p) => Some(asked(p, one.confidence)),
+        Statement::Quantile(p) => Some((one, with_missing(p, one.limit))),
         _ => None,
     });
-    let required: Vec<AskedQuantile> = required.collect();
-    let quantiles: Vec<AskedQuantile> = plan.analysis.quantiles.iter().map(|p| asked(*p, confidence)).collect();
+    let required: Vec<(&Requirement, AskedQuantile)> = required.collect();
+    let quantiles: Vec<AskedQuantile> = plan.analysis.quantiles.iter().map(|p| asked(*p)).collect();
     let order = if is_sketched {
         Order::Sketched(ranks(&whole))
     } else {
         let count = values.len();
-        place_order_statistics(&mut values, quantiles.iter().chain(&required).flat_map(|one| one.places(count)));
+        place_order_statistics(
+            &mut values,
+            quantiles.iter().chain(required.iter().map(|(_, one)| one)).flat_map(|one| one.places(count)),
+        );
         Order::Exact(values)
     };
     let one_sided = 0.5 + 0.5 * confidence;
@@ -225,7 +250,7 @@ fn described(
         deviation_interval: mean.map_or([None; 2], |_| ends(deviation)),
         note: mean.and_then(|_| note(&moments, mean_interval)),
         quantiles: quantiles.iter().map(quantile).collect(),
-        required: required.iter().map(quantile).collect(),
+        required: required.iter().map(|(one, asked)| ((*one).clone(), quantile(asked))).collect(),
     }
 }
 
@@ -304,7 +329,7 @@ mod tests {
         assert_eq!((column.moments.count(), column.moments.mean(), column.moments.max()), (5, Some(4.0), Some(10.0)));
         let median = column.quantiles.iter().find(|quantile| quantile.p == 0.5).expect("the median");
         assert_eq!(median.value, Some(3.0));
-        assert_eq!(found.treatment(), "1 of 6 runs are not ok and are left out");
+        assert_eq!(found.treatment(), "1 of 6 runs were not computed and are left out");
     }
 
     /// Law: beyond the exact ones, quantiles are within a hundredth of a standard deviation, whatever the offset of the values is, also far from the
@@ -342,7 +367,7 @@ mod tests {
             counted.into_iter().for_each(|(_, part)| collector.merge(&mut collected, part));
             let mut columns = collector.finish(collected).columns;
             let common = CommonRanks::new(&plan, population, columns[0].moments.count());
-            described(&plan, population, &observed[0], columns.remove(0), &common)
+            described(&plan, (population, Loss::default()), &observed[0], columns.remove(0), &common)
         };
         for offset in [0.0, 1.0, -1.0, 1e3, -1e5, 1e9, -1e9] {
             let value = |k: usize| offset + score(k);

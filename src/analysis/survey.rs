@@ -6,10 +6,10 @@
 use std::collections::BTreeMap;
 
 use crate::analysis::accumulator::Accumulator;
+use crate::analysis::first_rows::explained;
 use crate::analysis::observed::Observed;
 use crate::analysis::outcomes::{is_worst_when_low, outcomes};
 use crate::analysis::part_columns::PartColumns;
-use crate::analysis::sensitivity::explained;
 use crate::ensemble::Ensemble;
 use crate::ensemble::audit::AuditValue;
 use crate::observables::Group;

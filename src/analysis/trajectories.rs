@@ -21,7 +21,6 @@ use crate::run::Status;
 use crate::sampling::design::latin::Permutation;
 use crate::sampling::{SampleId, Stream};
 use crate::storage::disk::StorageError;
-use crate::storage::folder::Folder;
 use crate::storage::names::TRAJECTORIES;
 use crate::storage::rows_reader::RowsError;
 use crate::storage::timeseries::TimeSeries;
@@ -143,24 +142,26 @@ fn chosen(plan: &Plan, count: u64) -> BTreeSet<SampleId> {
     (0..count.min(dispersed)).map(|place| plan.sample(first + permutation.image(place))).collect()
 }
 
-/// Writes the time series of `samples` of `plan` as files of the dataset `folder`. The bytes are those of `simulate --sample K --out`.
+/// Takes a file of a dataset: its name and its bytes.
+pub type TakeFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StorageError> + Sync + 'a;
+
+/// Makes the time series of `samples` of `plan`, and gives each to `take` as a file of a dataset. The bytes are those of `simulate --sample K --out`.
 ///
 /// # Errors
-/// The first file that could not be written; no run is started after it.
+/// The first file that could not be taken; no run is started after it.
 pub fn save(
     plan: &Plan,
     samples: &[SampleId],
-    folder: &Folder,
-    isa: Isa,
-    threads: Option<NonZeroUsize>,
+    machine: (Isa, Option<NonZeroUsize>),
+    take: &TakeFile<'_>,
 ) -> Result<(), TrajectoryError> {
-    run_each(plan, samples, (isa, threads), &|runs, sample| {
+    run_each(plan, samples, machine, &|runs, sample| {
         // a sample without a run has no file
         let Ok(run) = runs.run(sample) else { return Ok(()) };
         let name = format!("{TRAJECTORIES}/{}", file_name(sample));
         let encoded = TimeSeries::new(plan, sample, &run, |_| true).encoded();
-        let bytes = encoded.map_err(|source| TrajectoryError::Encoding { path: folder.path(&name), source })?;
-        Ok(folder.write(&name, &bytes)?)
+        let bytes = encoded.map_err(|source| TrajectoryError::Encoding { path: PathBuf::from(&name), source })?;
+        Ok(take(&name, &bytes)?)
     })
     .map(|_| ())
     .map_err(|error| match error {

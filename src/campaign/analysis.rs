@@ -8,6 +8,7 @@ use super::limits::{CONFIDENCE, MAX_SAMPLES};
 use super::lines::Lines;
 use super::requirement::{DEFAULT_CONFIDENCE, Requirement};
 use super::section::Section;
+use super::size::MOST_TABLES;
 use super::stop::{Stop, When};
 use crate::observables::Request;
 use crate::observables::window::{MAX_WINDOWS, Window};
@@ -56,7 +57,7 @@ impl Analysis {
     pub(super) fn read(root: &mut Section<'_, '_>, of_rows: Request) -> Self {
         let rows = KnownColumns::new(of_rows);
         let mut known = rows.clone();
-        let derived = root.sections("observable", |table| {
+        let derived = root.sections("observable", MOST_TABLES, |table| {
             let found = DerivedObservable::read(table, &rows)?;
             if known.observable(&found.name).is_some() {
                 table.refuse("name", "a name of its own", "delete one of the two [[observable]] tables");
@@ -72,7 +73,7 @@ impl Analysis {
         let mut section = root.section("summary");
         let summary_columns = columns(&mut section, &known);
         section.finish();
-        let requirements = root.sections("require", |table| Requirement::read(table, &known));
+        let requirements = root.sections("require", MOST_TABLES, |table| Requirement::read(table, &known));
         let stop = Stop::read(&mut root.section("stop"), &known);
         let written = std::mem::take(&mut root.document.units);
         let display = Display::read(&mut root.section("display"), &written, &known);

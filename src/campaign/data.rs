@@ -8,7 +8,7 @@
 use super::data_columns::{ReadError, TextCells, csv_columns, parquet_columns};
 use super::input_file::{self, InputError};
 use sha2::{Digest, Sha256};
-use std::io::{Read, Seek};
+use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
@@ -52,12 +52,27 @@ pub struct DataFile {
 /// What is wrong with a file: value, what is allowed, remedy.
 pub type Refusal = (String, String, String);
 
+/// Why a file of numbers is not used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unused {
+    /// What is wrong with it.
+    pub refusal: Refusal,
+    /// Whether that is only that it cannot be read now.
+    pub is_unreadable: bool,
+}
+
+impl From<Refusal> for Unused {
+    fn from(refusal: Refusal) -> Self {
+        Unused { refusal, is_unreadable: false }
+    }
+}
+
 impl DataFile {
     /// Reads the columns of the file whose names are `used`, at most `most` numbers.
     ///
     /// # Errors
     /// What keeps them from being read.
-    pub fn read(path: &Path, most: u64, used: &dyn Fn(&str) -> bool) -> Result<Self, Refusal> {
+    pub fn read(path: &Path, most: u64, used: &dyn Fn(&str) -> bool) -> Result<Self, Unused> {
         let shown = path.display().to_string();
         let unreadable =
             |why: String, remedy: &str| (format!("{shown:?}"), format!("a readable file ({why})"), remedy.to_owned());
@@ -66,20 +81,22 @@ impl DataFile {
             let allowed = format!("a file of at most {most} numbers{others} (this one has {size})");
             (format!("{shown:?}"), allowed, "keep fewer rows, or name fewer columns".to_owned())
         };
-        let (mut file, size) = input_file::open(path, LARGEST_FILE).map_err(|error| match error {
+        let (file, size) = input_file::open(path, LARGEST_FILE).map_err(|error| match error {
             InputError::Kind(kind) => {
-                unreadable(kind.to_owned(), "name a regular file: what it has must not change or wait")
+                Unused::from(unreadable(kind.to_owned(), "name a regular file: what it has must not change or wait"))
             }
-            InputError::Size(bytes) => too_large(format!("{bytes} bytes")),
-            InputError::Io(error) => {
-                unreadable(error.to_string(), "its path counts from the folder of the campaign file")
-            }
+            InputError::Size(bytes) => Unused::from(too_large(format!("{bytes} bytes"))),
+            InputError::Io(error) => Unused {
+                is_unreadable: input_file::is_unreadable(&error),
+                refusal: unreadable(error.to_string(), "its path counts from the folder of the campaign file"),
+            },
         })?;
-        let failed = |error: std::io::Error| unreadable(error.to_string(), "try again");
+        let failed =
+            |error: std::io::Error| Unused { refusal: unreadable(error.to_string(), "try again"), is_unreadable: true };
         let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
-        (&file).take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(failed)?;
+        file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(failed)?;
         if bytes.len() as u64 > LARGEST_FILE {
-            return Err(too_large(format!("{LARGEST_FILE} bytes or more")));
+            return Err(too_large(format!("{LARGEST_FILE} bytes or more")).into());
         }
         let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
         let refused = |error: ReadError| match error {
@@ -100,10 +117,8 @@ impl DataFile {
                 (names, columns, 2)
             }
             Some("parquet") => {
-                drop(bytes);
-                file.rewind().map_err(failed)?;
                 // the Parquet reader panics on some damaged files
-                let read = catch_unwind(AssertUnwindSafe(|| parquet_columns(file, most, used)));
+                let read = catch_unwind(AssertUnwindSafe(|| parquet_columns(bytes.into(), most, used)));
                 let damaged =
                     |_| Err(ReadError::Format("it is damaged: the Parquet reader cannot decode it".to_owned()));
                 let (names, columns) = read.unwrap_or_else(damaged).map_err(refused)?;
@@ -111,7 +126,7 @@ impl DataFile {
             }
             _ => {
                 let allowed = "a file whose name ends in .csv or .parquet".to_owned();
-                return Err((format!("{shown:?}"), allowed, "convert it, or rename it".to_owned()));
+                return Err((format!("{shown:?}"), allowed, "convert it, or rename it".to_owned()).into());
             }
         };
         Ok(DataFile { sha256, names, columns, first_row })
@@ -179,7 +194,7 @@ mod tests {
         group.close().expect("closed");
         writer.close().expect("closed");
         let size = std::fs::metadata(&path).expect("a file").len();
-        let refused = DataFile::read(&path, MOST_NUMBERS, &|_| true).expect_err("too many");
+        let refused = DataFile::read(&path, MOST_NUMBERS, &|_| true).expect_err("too many").refusal;
         std::fs::remove_file(&path).expect("removed");
         assert!(size < 1_000_000, "{size} bytes");
         assert!(refused.1.contains("at most 20000000 numbers (this one has 20000001"), "{refused:?}");
@@ -209,8 +224,9 @@ mod tests {
     fn read(name: &str, bytes: &[u8]) -> Result<Vec<f64>, Refusal> {
         let path = std::env::temp_dir().join(format!("spindrift-{}-{name}.parquet", std::process::id()));
         std::fs::write(&path, bytes).expect("written");
-        let found =
-            DataFile::read(&path, MOST_NUMBERS, &|_| true).and_then(|data| data.column("x").expect("the column"));
+        let found = DataFile::read(&path, MOST_NUMBERS, &|_| true)
+            .map_err(|unused| unused.refusal)
+            .and_then(|data| data.column("x").expect("the column"));
         std::fs::remove_file(&path).expect("removed");
         found
     }

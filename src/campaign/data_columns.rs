@@ -100,7 +100,7 @@ pub(super) fn csv_columns(bytes: &[u8], most: u64, used: &dyn Fn(&str) -> bool) 
 
 /// The columns of a Parquet file that are `used`, at most `most` numbers.
 pub(super) fn parquet_columns(
-    file: std::fs::File,
+    file: bytes::Bytes,
     most: u64,
     used: &dyn Fn(&str) -> bool,
 ) -> Result<Columns, ReadError> {

@@ -1,6 +1,6 @@
 //! The keys that name a file of numbers: `file`, `sha256`, `column`, `parameters`, `columns`.
 
-use super::data::{COPIES, DataFile, MOST_FILES, MOST_NUMBERS, copy_name};
+use super::data::{COPIES, DataFile, MOST_FILES, MOST_NUMBERS, Unused, copy_name};
 use super::parameter::{named, unknown_parameter};
 use super::problem::nearest;
 use super::section::Section;
@@ -62,7 +62,8 @@ fn file(table: &mut Section<'_, '_>, used: &dyn Fn(&str) -> bool) -> Option<(Str
     let path = found(table.document.folder_of(written_at), &name, sha256.as_deref());
     let data = match DataFile::read(&path, MOST_NUMBERS - numbers, used) {
         Ok(data) => data,
-        Err((value, allowed, remedy)) => {
+        Err(Unused { refusal: (value, allowed, remedy), is_unreadable }) => {
+            table.document.unreadable += usize::from(is_unreadable);
             table.refuse_value("file", value, allowed, remedy);
             return None;
         }
@@ -156,9 +157,11 @@ fn components(table: &mut Section<'_, '_>, name: &str) -> Option<Vec<(String, (P
         return Some((0..parameter.width()).map(|k| (parameter.component_name(k), (parameter, k))).collect());
     }
     let Some(component) = named(&table.document.scene, name) else {
-        let key = if table.has("parameters") { "parameters" } else { "file" };
-        let (allowed, remedy) = unknown_parameter(&table.document.scene, name);
-        table.refuse_value(key, format!("{name:?}"), format!("made of names, each {allowed}"), remedy);
+        if !table.document.may_be_of_loop(name) {
+            let key = if table.has("parameters") { "parameters" } else { "file" };
+            let (allowed, remedy) = unknown_parameter(&table.document.scene, name);
+            table.refuse_value(key, format!("{name:?}"), format!("made of names, each {allowed}"), remedy);
+        }
         return None;
     };
     Some(vec![(name.to_owned(), component)])

@@ -13,8 +13,15 @@ pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
         let mut parameters = Vec::with_capacity(names.len());
         for name in names {
             let Some(found) = Parameter::find(&table.document.scene, &name) else {
-                let (allowed, remedy) = unknown_parameter(&table.document.scene, &name);
-                table.refuse_value("parameters", format!("{name:?}"), format!("made of names, each {allowed}"), remedy);
+                if !table.document.may_be_of_loop(&name) {
+                    let (allowed, remedy) = unknown_parameter(&table.document.scene, &name);
+                    table.refuse_value(
+                        "parameters",
+                        format!("{name:?}"),
+                        format!("made of names, each {allowed}"),
+                        remedy,
+                    );
+                }
                 return None;
             };
             parameters.push(found);

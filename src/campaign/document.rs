@@ -51,12 +51,18 @@ pub struct Document<'a> {
     pub(super) spans: BTreeMap<String, Spans>,
     /// The files of numbers that were read, each with the SHA-256 of its bytes.
     pub(super) files: Vec<(PathBuf, String)>,
+    /// Problems that are no more than that a file cannot be read now.
+    pub(super) unreadable: usize,
     /// How many tables named a file of numbers, and how many numbers were read.
     pub(super) data: (usize, u64),
     /// The scene of the document, once it is read: names of parameters are those of its tables.
     pub(super) scene: SceneInput,
     /// The control law that the program brings.
     pub(super) law: Option<ControlLaw>,
+    /// Whether the file has a control loop of which too little could be read to say its columns and parameters.
+    pub(super) is_loop_unknown: bool,
+    /// Keys that are there without effect, a sentence each.
+    pub(super) ignored: Vec<String>,
     /// The units in which limits and dispersions are written, by the name of the column or parameter.
     pub(super) units: Vec<(String, &'static str)>,
 }
@@ -83,9 +89,12 @@ impl<'a> Document<'a> {
             starts: std::iter::once(0).chain(ends).collect(),
             spans: BTreeMap::new(),
             files: Vec::new(),
+            unreadable: 0,
             data: (0, 0),
             scene: SceneInput::blank(),
             law: None,
+            is_loop_unknown: false,
+            ignored: Vec::new(),
             units: Vec::new(),
         }
     }
@@ -194,6 +203,21 @@ impl<'a> Document<'a> {
         });
     }
 
+    /// Number of problems that are noted.
+    pub(super) fn noted(&self) -> usize {
+        self.problems.len()
+    }
+
+    /// Forgets the problems after the first `noted`: they follow from one of those.
+    pub(super) fn forget_since(&mut self, noted: usize) {
+        self.problems.truncate(noted);
+    }
+
+    /// Whether `name` may be a parameter of the control loop, of which too little could be read.
+    pub(super) fn may_be_of_loop(&self, name: &str) -> bool {
+        self.is_loop_unknown && ["control.", "sensors.", "guidance."].iter().any(|table| name.starts_with(table))
+    }
+
     /// Whether so many problems are noted that further ones are counted only.
     pub(super) fn is_full(&self) -> bool {
         self.problems.len() >= NOTED
@@ -221,7 +245,11 @@ impl<'a> Document<'a> {
     pub fn verdict(self) -> Result<(), CampaignError> {
         let mut problems = self.problems;
         problems.sort_by_key(|problem| problem.line.unwrap_or(usize::MAX));
-        if problems.is_empty() { Ok(()) } else { Err(CampaignError { problems, more: self.more, note: None }) }
+        if problems.is_empty() {
+            return Ok(());
+        }
+        let is_unreadable = self.unreadable == problems.len() + self.more;
+        Err(CampaignError { problems, more: self.more, note: None, is_unreadable })
     }
 
     /// Where `key` is, or the nearest table around it.

@@ -1,5 +1,6 @@
 //! Which file a name on the command line means.
 
+use super::input_file::is_unreadable;
 use std::path::{Path, PathBuf};
 
 /// The folder of shipped campaigns, in which a bare name is looked up.
@@ -25,8 +26,8 @@ fn find_in(start: &Path, name: &Path) -> Result<PathBuf, Vec<PathBuf>> {
             tried.push(start.join(FOLDER).join(&file));
         }
     }
-    // what is neither file nor folder is refused where it is read, by what it is
-    let is_other = |path: &PathBuf| path.metadata().is_ok_and(|found| !found.is_dir());
+    // what is neither file nor folder is refused where it is read, by what it is; and so is what cannot be looked at
+    let is_other = |path: &PathBuf| path.metadata().map_or_else(|error| is_unreadable(&error), |found| !found.is_dir());
     match tried.iter().position(|path| path.is_file()).or_else(|| tried.iter().position(is_other)) {
         Some(index) => Ok(tried.swap_remove(index)),
         None => Err(tried),

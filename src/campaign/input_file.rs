@@ -22,6 +22,12 @@ pub enum InputError {
     Io(#[from] io::Error),
 }
 
+/// Whether `error` says that a file cannot be read now: not that there is no such file, which a person has to correct.
+pub fn is_unreadable(error: &io::Error) -> bool {
+    use io::ErrorKind::{InvalidFilename, InvalidInput, NotADirectory, NotFound};
+    ![NotFound, NotADirectory, InvalidInput, InvalidFilename].contains(&error.kind())
+}
+
 /// What a file is that is not regular, in words.
 fn kind(file: FileType) -> &'static str {
     #[cfg(unix)]

@@ -11,8 +11,11 @@ impl Section<'_, '_> {
     pub fn numbers(&mut self, key: &str) -> Option<Vec<f64>> {
         let value = self.take(key)?;
         let list = numbers(value.get_ref(), self.unit_of(key));
-        if list.is_none() {
-            self.refuse_number(key, value.get_ref(), "an array of finite numbers", "write it like [1.0, 2.0]");
+        let (allowed, remedy) = ("an array of finite numbers", "write it like [1.0, 2.0]");
+        match (&list, value.get_ref()) {
+            (Some(_), _) => {}
+            (None, DeValue::Array(_)) => self.refuse_number(key, value.get_ref(), allowed, remedy),
+            (None, _) => self.refuse(key, allowed, remedy),
         }
         list
     }

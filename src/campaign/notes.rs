@@ -1,13 +1,15 @@
 //! [`Plan::notes`]: what is allowed in a campaign file, and is probably not what was meant, as far as the file alone says.
 
 use super::plan::Plan;
+use crate::control::{ControlLaw, review};
 use crate::observables::accuracy::Accuracy;
 use crate::sampling::design::{MAX_SAMPLES, Size};
+use crate::scene::Scene;
 
 impl Plan {
     /// What about this plan a person should know before it is run, one sentence each.
     pub fn notes(&self) -> Vec<String> {
-        let mut notes = Vec::new();
+        let mut notes = self.ignored.clone();
         if self.samples > 1 && self.dispersions.columns().is_empty() {
             notes.push(format!("nothing is dispersed: all {} samples are the nominal scene", self.samples));
         }
@@ -23,6 +25,9 @@ impl Plan {
                 "no requested column says how accurate a run is, so none can end as inaccurate; add \"energy_conservation\", \"momentum_conservation\" or \"numerics\" to observe.groups"
                     .to_owned(),
             );
+        }
+        if let (Some(spec), Ok(scene)) = (self.law.as_ref().and_then(ControlLaw::spec), Scene::resolve(&self.nominal)) {
+            notes.extend(review::notes(spec, &self.nominal.control, &scene, self.grid.duration()));
         }
         notes
     }

@@ -24,6 +24,13 @@ pub const FINITE: NumberLimit =
 pub const POSITIVE: NumberLimit =
     NumberLimit { allowed: "a number > 0", remedy: "write a positive number", test: |x| x.is_finite() && x > 0.0 };
 
+/// Zero or above.
+pub const NOT_NEGATIVE: NumberLimit = NumberLimit {
+    allowed: "a number of at least 0",
+    remedy: "write zero or a positive number",
+    test: |x| x.is_finite() && x >= 0.0,
+};
+
 /// Keys of distributions whose values are in the unit of what is dispersed.
 pub(super) const DISTANCES: [&str; 15] = [
     "min",

@@ -9,7 +9,7 @@ pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Optio
     table.require(key, "a numeric key of scene or initial state", "\"initial.angular_velocity_rad_s\"");
     let name = table.text(key)?;
     let found = Parameter::find(&table.document.scene, name);
-    if found.is_none() {
+    if found.is_none() && !table.document.may_be_of_loop(name) {
         let (allowed, remedy) = unknown_parameter(&table.document.scene, name);
         table.refuse(key, allowed, remedy);
     }

@@ -81,6 +81,8 @@ pub struct Plan {
     pub analysis: Analysis,
     /// Which runs keep their full time series.
     pub retention: Retention,
+    /// The keys of the file that have no effect, a sentence each; the plan as text is without them.
+    pub ignored: Vec<String>,
 }
 
 /// The files that a plan was made from.
@@ -301,6 +303,10 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         }
     }
 
+    if document.is_loop_unknown {
+        // what can be dispersed, and named in requirements, depends on it
+        return None;
+    }
     let drawn = DrawTables::of(spec.dispersions, spec.correlations, spec.derivations);
     let draws = Draws {
         seed: spec.seed.unwrap_or(0),
@@ -367,6 +373,7 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         analysis: spec.analysis,
         retention: spec.retention.unwrap_or_default(),
         law: document.law.clone(),
+        ignored: std::mem::take(&mut document.ignored),
     })
 }
 

@@ -48,12 +48,14 @@ pub struct CampaignError {
     pub more: usize,
     /// What that many reasons probably mean.
     pub note: Option<&'static str>,
+    /// Whether the only reason is that files cannot be read now: nothing is known to be wrong with the campaign.
+    pub is_unreadable: bool,
 }
 
 impl CampaignError {
     /// A single reason.
     pub(super) fn of(problem: Problem) -> Self {
-        CampaignError { problems: vec![problem], more: 0, note: None }
+        CampaignError { problems: vec![problem], more: 0, note: None, is_unreadable: false }
     }
 
     /// The message with the lines of the file, each with a mark under what is wrong in it.

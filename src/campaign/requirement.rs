@@ -64,6 +64,8 @@ pub struct Requirement {
     pub statement: Statement,
     /// The limit, in the unit of the observable or of the quantity over time.
     pub limit: GateLimit,
+    /// Of a mean: between which values every value is known to be.
+    pub bounded: Option<[f64; 2]>,
     /// With which confidence.
     pub confidence: f64,
 }
@@ -128,8 +130,10 @@ impl Requirement {
             }
             Some(if key == "at_most" { GateLimit::AtMost(number) } else { GateLimit::AtLeast(number) })
         });
+        let bounded = bounded(table, statement, unit.is_some());
         STATEMENTS.iter().chain(&LIMITS).chain(&SUBJECTS).chain(&INTERVAL).for_each(|key| table.know(key));
         let confidence_passed = !table.has("confidence") || confidence.is_some();
+        let bounded_passed = !table.has("bounded") || bounded.is_some();
         table.finish();
         let (subject, statement, limit) = (subject?, statement?, limit?);
         let confidence = confidence.unwrap_or(DEFAULT_CONFIDENCE);
@@ -141,7 +145,13 @@ impl Requirement {
             }
             other => other,
         };
-        (confidence_passed && flag_passed).then_some(Requirement { subject, statement, limit, confidence })
+        (confidence_passed && flag_passed && bounded_passed).then_some(Requirement {
+            subject,
+            statement,
+            limit,
+            bounded,
+            confidence,
+        })
     }
 
     /// The observable that it is about; `None` where it is about a quantity at each time.
@@ -205,7 +215,32 @@ impl Requirement {
             GateLimit::AtMost(limit) => lines.key("at_most", limit),
             GateLimit::AtLeast(limit) => lines.key("at_least", limit),
         }
+        if let Some([low, high]) = self.bounded {
+            lines.key("bounded", vec![low, high]);
+        }
         lines.key("confidence", self.confidence);
+    }
+}
+
+/// Between which values every value of a mean is known to be, if it was written; `has_unit`: the unit of the observable is known. What is wrong is noted.
+fn bounded(table: &mut Section<'_, '_>, statement: Option<Statement>, has_unit: bool) -> Option<[f64; 2]> {
+    if !has_unit {
+        table.know("bounded");
+        return None;
+    }
+    let list = table.numbers("bounded")?;
+    if statement != Some(Statement::Mean) {
+        let allowed = "left out without mean = true: shares and quantiles need no bounds";
+        table.refuse("bounded", allowed, "delete it");
+        return None;
+    }
+    match list[..] {
+        [low, high] if low < high => Some([low, high]),
+        _ => {
+            let allowed = "two numbers, the smaller one first: no run has a value outside of them";
+            table.refuse("bounded", allowed, "write it like [0.0, 1.0]");
+            None
+        }
     }
 }
 

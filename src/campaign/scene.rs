@@ -28,7 +28,8 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
         read_body(root, &mut scene);
     }
     let mut names = HashSet::new();
-    root.sections("actuation", |section| {
+    // each arc is read in the same time, and there are as many as a file may have keys
+    root.sections("actuation", usize::MAX, |section| {
         scene.actuation.push(ActuationInput::DEFAULT);
         let arc = scene.actuation.len() - 1;
         read_keys(section, Table::Actuation, arc, &mut scene);
@@ -89,6 +90,7 @@ fn read_law(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
 fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
     if root.has("control") {
         root.document.law = control::read(root, scene);
+        root.document.is_loop_unknown = root.document.law.is_none();
         return;
     }
     for key in ["sensors", "guidance"] {
@@ -134,21 +136,8 @@ fn read_arc_name(section: &mut Section<'_, '_>, taken: &mut HashSet<Name>) -> Na
     name
 }
 
-/// Refuses more tables than a spacecraft may have.
-fn refuse_many(root: &mut Section<'_, '_>, key: &str, count: usize, most: usize) {
-    if count > most {
-        let path = root.path(key);
-        root.document.add(
-            &path,
-            Some(format!("{count} tables")),
-            format!("at most {most} tables"),
-            "delete some of them",
-        );
-    }
-}
-
 fn read_wheels(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
-    root.sections("wheels", |section| {
+    root.sections("wheels", MAX_WHEELS, |section| {
         let taken: Vec<Name> = scene.wheels.iter().map(|wheel| wheel.name).collect();
         let name = read_name(section, Table::Wheel, &taken);
         exclude_wheel_masses(section);
@@ -166,8 +155,6 @@ fn read_wheels(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
         }
         section.finish();
     });
-    refuse_many(root, "wheels", scene.wheels.len(), MAX_WHEELS);
-    scene.wheels.truncate(MAX_WHEELS);
 }
 
 /// A wheel is a solid cylinder, or given by mass and inertias.
@@ -189,7 +176,7 @@ fn exclude_wheel_masses(section: &mut Section<'_, '_>) {
 }
 
 fn read_thrusters(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
-    root.sections("thrusters", |section| {
+    root.sections("thrusters", MAX_THRUSTERS, |section| {
         let taken: Vec<Name> = scene.thrusters.iter().map(|thruster| thruster.name).collect();
         let name = read_name(section, Table::Thruster, &taken);
         scene.thrusters.push(ThrusterInput { name, ..ThrusterInput::DEFAULT });
@@ -197,13 +184,11 @@ fn read_thrusters(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
         read_keys(section, Table::Thruster, thruster, scene);
         section.finish();
     });
-    refuse_many(root, "thrusters", scene.thrusters.len(), MAX_THRUSTERS);
-    scene.thrusters.truncate(MAX_THRUSTERS);
 }
 
 fn read_body(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
     let mut section = root.section("body");
-    section.sections("parts", |section| {
+    section.sections("parts", MAX_PARTS, |section| {
         let taken: Vec<Name> = scene.parts.iter().map(|part| part.name).collect();
         let name = read_name(section, Table::Part, &taken);
         section.require("shape", &format!("one of {}", PartShape::ALL.map(PartShape::name).join(", ")), "\"box\"");
@@ -239,9 +224,6 @@ fn read_body(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
         section.refuse("includes_wheels", allowed, "delete this line");
     }
     section.finish();
-    let count = scene.parts.len();
-    refuse_many(root, "body.parts", count, MAX_PARTS);
-    scene.parts.truncate(MAX_PARTS);
 }
 
 /// A part has the sizes of its shape, and a density or a mass.

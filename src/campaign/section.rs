@@ -16,6 +16,8 @@ pub struct Section<'d, 'a> {
     title: Option<String>,
     table: Option<&'d DeTable<'a>>,
     known: Vec<String>,
+    /// Keys that may be there without effect.
+    ignored: Vec<&'static str>,
     /// The unit of what the table describes and so of its distances, `std`, `min` and so on; `1` where there is none.
     pub(super) unit: &'static str,
     /// The unit of every number of the table, where all are of one kind.
@@ -31,6 +33,7 @@ impl<'d, 'a> Section<'d, 'a> {
             title: None,
             table: Some(table),
             known: Vec::new(),
+            ignored: Vec::new(),
             unit: "1",
             every: None,
         }
@@ -112,11 +115,20 @@ impl<'d, 'a> Section<'d, 'a> {
         };
         // a distribution of an angle, `angle_rad = { ... }`, has its own unit
         let unit = Some(units::in_name(key)).filter(|unit| *unit != "1").unwrap_or(self.unit);
-        Section { document: &mut *self.document, path, title: None, table, known: Vec::new(), unit, every: None }
+        Section {
+            document: &mut *self.document,
+            path,
+            title: None,
+            table,
+            known: Vec::new(),
+            ignored: Vec::new(),
+            unit,
+            every: None,
+        }
     }
 
-    /// The tables `[[key]]`, in order, each read by `read`.
-    pub fn sections<T>(&mut self, key: &str, mut read: impl FnMut(&mut Section<'_, 'a>) -> T) -> Vec<T> {
+    /// The tables `[[key]]`, in order, each read by `read`; of more than `most` the first ones, after the others were refused.
+    pub fn sections<T>(&mut self, key: &str, most: usize, mut read: impl FnMut(&mut Section<'_, 'a>) -> T) -> Vec<T> {
         let Some(value) = self.take(key) else { return Vec::new() };
         let tables: Option<Vec<_>> = value.get_ref().as_array().and_then(|list| {
             list.iter().map(|item| item.get_ref().as_table().map(|table| (item.span(), table))).collect()
@@ -125,8 +137,12 @@ impl<'d, 'a> Section<'d, 'a> {
             self.refuse(key, "a list of tables", format!("write [[{key}]] with two brackets"));
             return Vec::new();
         };
-        let mut list = Vec::with_capacity(tables.len());
-        for (index, (span, table)) in tables.into_iter().enumerate() {
+        if tables.len() > most {
+            let (path, count) = (self.path(key), format!("{} tables", tables.len()));
+            self.document.add(&path, Some(count), format!("at most {most} tables"), "delete some of them");
+        }
+        let mut list = Vec::with_capacity(tables.len().min(most));
+        for (index, (span, table)) in tables.into_iter().take(most).enumerate() {
             let path = format!("{}[{index}]", self.path(key));
             self.document.spans.insert(path.clone(), Spans { key: span, value: 0..0 });
             let mut section = Section {
@@ -135,6 +151,7 @@ impl<'d, 'a> Section<'d, 'a> {
                 title: None,
                 table: Some(table),
                 known: Vec::new(),
+                ignored: Vec::new(),
                 unit: "1",
                 every: None,
             };
@@ -273,11 +290,28 @@ impl<'d, 'a> Section<'d, 'a> {
         value.is_some_and(|name| names.contains(&name))
     }
 
+    /// Lets `keys` be there without effect: they are those of `owner`, and this table says `chosen`. A note says which were written.
+    pub(super) fn ignore(&mut self, keys: impl Iterator<Item = &'static str>, owner: &str, chosen: &str) {
+        let written: Vec<&str> =
+            keys.filter(|key| self.has(key) && !self.known.iter().any(|known| known == key)).collect();
+        if !written.is_empty() {
+            let (first, have) = (self.path(written[0]), if written.len() == 1 { "has" } else { "have" });
+            let all = [vec![first.as_str()], written[1..].to_vec()].concat().join(", ");
+            let these = if written.len() == 1 { "a key" } else { "keys" };
+            let note = format!("{all} {have} no effect: {these} of {owner}, and the file says {chosen}");
+            self.document.ignored.push(note);
+            self.ignored.extend(written);
+        }
+    }
+
     /// Notes every key that was written and not asked for.
     pub fn finish(&mut self) {
         let Some(table) = self.table else { return };
         for name in table.keys() {
             let name = name.get_ref();
+            if self.ignored.iter().any(|ignored| ignored == name) {
+                continue;
+            }
             if self.known.iter().any(|known| known == name) {
                 continue;
             }

@@ -9,6 +9,9 @@ use toml::de::{DeTable, DeValue};
 pub const MOST_BYTES: u64 = 8 << 20;
 /// Most keys of a campaign file. A schedule of 20,000 arcs has 100,000.
 pub const MOST_KEYS: usize = 400_000;
+/// Most tables of a list such as `[[disperse]]` or `[[require]]`, each of which may be about any other. (Lists that a scene limits have their own
+/// limits, and `[[actuation]]` has none.)
+pub const MOST_TABLES: usize = 1000;
 /// Most levels of tables and arrays within one another, which the TOML parser has.
 const MOST_LEVELS: usize = 80;
 
@@ -45,7 +48,10 @@ pub(super) fn read(path: &Path, file: &str) -> Result<String, CampaignError> {
             problem(kind.to_owned(), "a regular file", "write the campaign to a file, and name that")
         }
         InputError::Size(bytes) => CampaignError::of(too_large(file, bytes)),
-        InputError::Io(error) => problem(error.to_string(), "a readable text file (UTF-8)", "check the path"),
+        InputError::Io(error) => CampaignError {
+            is_unreadable: input_file::is_unreadable(&error),
+            ..problem(error.to_string(), "a readable text file (UTF-8)", "check the path")
+        },
     })?;
     String::from_utf8(bytes).map_err(|error| {
         let value = format!("invalid UTF-8 at byte {}", error.utf8_error().valid_up_to());

@@ -1,6 +1,7 @@
 //! [`Sources`]: the texts that a campaign is made of: its file, the files that this extends (`extends = "base.toml"`), and what is set beside them
 //! (`--set campaign.duration_s=20`). They are parsed one by one and laid over one another as one table, in which every value keeps its place.
 
+use super::input_file::is_unreadable;
 use super::problem::{CampaignError, Problem};
 use super::size;
 use std::borrow::Cow;
@@ -56,7 +57,7 @@ impl Sources {
                 let (file, key) = (name.clone(), "extends".to_owned());
                 Err(CampaignError::of(Problem { file, line: Some(line), key, value, allowed, remedy, excerpt: None }))
             };
-            if !path.is_file() {
+            if !path.is_file() && !path.metadata().is_err_and(|error| is_unreadable(&error)) {
                 return refuse("a campaign file, by its path from the folder of this file", "check the path");
             }
             if sources.extended.len() + 1 >= MOST_FILES {
@@ -131,7 +132,7 @@ pub(super) fn value_at<'a>(text: &'a str, by: usize) -> Spanned<DeValue<'a>> {
     moved(DeValue::parse_recoverable(text).0, by)
 }
 
-/// Lays `over` over `base`: tables key by key; lists of tables by `name`, or by `parameter`; a table with another `kind`, `distribution` or `shape`, and
+/// Lays `over` over `base`: tables key by key; lists of tables by `name`, `parameter` or `phase`; a table with another `kind`, `distribution` or `shape`, and
 /// everything else, takes the place of what is below.
 pub(super) fn lay_over<'a>(base: &mut DeTable<'a>, over: DeTable<'a>) {
     for (key, value) in over {
@@ -181,7 +182,7 @@ fn is_other_kind(below: &DeTable<'_>, over: &DeTable<'_>) -> bool {
 /// What a table of a list is known by.
 fn identity<'v>(item: &'v Spanned<DeValue<'_>>) -> Option<&'v str> {
     let table = item.get_ref().as_table()?;
-    ["name", "parameter"].iter().find_map(|key| table.get(*key)?.get_ref().as_str())
+    ["name", "parameter", "phase"].iter().find_map(|key| table.get(*key)?.get_ref().as_str())
 }
 
 fn is_named(list: &[Spanned<DeValue<'_>>]) -> bool {
@@ -229,7 +230,11 @@ pub(super) fn put<'a>(table: &mut DeTable<'a>, path: &str, value: Spanned<DeValu
             };
             match place.map(|place| list.as_mut()[place].get_mut()) {
                 Some(DeValue::Table(inner)) => put(inner, rest, value),
-                _ => Err(format!("there is no such table in [[{key}]]")),
+                _ => {
+                    let names: Vec<&str> = list.iter().filter_map(identity).collect();
+                    let known = if names.is_empty() { String::new() } else { format!(": it has {}", names.join(", ")) };
+                    Err(format!("there is no such table in [[{key}]]{known}"))
+                }
             }
         }
         _ => Err(format!("{key} is no table")),

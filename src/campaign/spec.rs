@@ -12,6 +12,7 @@ use super::limits::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, TOLERANCE};
 use super::numbers::POSITIVE;
 use super::retention::Retention;
 use super::section::Section;
+use super::size::MOST_TABLES;
 use super::{bands, dependence, description, design, disperse, scene};
 use crate::math::vector::norm;
 use crate::observables::Group;
@@ -119,9 +120,9 @@ impl Spec {
         let nutation_axis = nutation_axis(&mut section);
         section.finish();
 
-        let dispersions = root.sections("disperse", disperse::read);
-        let correlations = root.sections("correlate", dependence::correlation);
-        let derivations = root.sections("derive", dependence::derivation);
+        let dispersions = root.sections("disperse", MOST_TABLES, disperse::read);
+        let correlations = root.sections("correlate", MOST_TABLES, dependence::correlation);
+        let derivations = root.sections("derive", MOST_TABLES, dependence::derivation);
 
         let band_points = bands::read(&mut root.section("bands"));
 
@@ -134,6 +135,7 @@ impl Spec {
         let compression = section.name("compression", &names, Compression::from_name);
         section.finish();
 
+        let noted = root.document.noted();
         let observed = request(
             groups.as_deref().unwrap_or(&Group::DEFAULT),
             &scene,
@@ -144,6 +146,10 @@ impl Spec {
         let mut known = KnownColumns::new(observed);
         analysis.derived.iter().for_each(|derived| known.add(derived.quantity()));
         let retention = Retention::read(&mut root.section("retain"), &known);
+        if root.document.is_loop_unknown {
+            // which columns there are depends on the loop
+            root.document.forget_since(noted);
+        }
         root.finish();
 
         Spec {

@@ -2,7 +2,7 @@
 
 use super::section::Section;
 use crate::scene::table::Table;
-use crate::scene::{Name, SceneInput};
+use crate::scene::{LawParameter, Name, SceneInput};
 
 /// Reads the keys of one table into the scene.
 pub(super) fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: usize, scene: &mut SceneInput) {
@@ -41,4 +41,19 @@ pub(super) fn read_name(section: &mut Section<'_, '_>, table: Table, taken: &[Na
     }
     section.rename(table.header(), name.as_str());
     name
+}
+
+/// Lets the keys of the kinds other than that of place `chosen` be there without effect: of a file in which another one is tried.
+pub(super) fn ignore_others(
+    section: &mut Section<'_, '_>,
+    word: &str,
+    chosen: Option<usize>,
+    kinds: impl IntoIterator<Item = (&'static str, &'static [LawParameter])>,
+) {
+    let kinds: Vec<_> = kinds.into_iter().collect();
+    let Some((chosen, _)) = chosen.and_then(|place| kinds.get(place)) else { return };
+    for (name, parameters) in kinds.iter().filter(|(name, _)| name != chosen) {
+        let keys = parameters.iter().map(|parameter| parameter.facts.key);
+        section.ignore(keys, &format!("{word} = {name:?}"), &format!("{chosen:?}"));
+    }
 }

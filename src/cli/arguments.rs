@@ -10,6 +10,7 @@ use crate::cli::argument_values::{
     count, fraction, method, sbatch_option, seconds, setting, shard, shards, shift, size, threads, time_limit,
     tolerance,
 };
+use crate::cli::screen;
 use crate::cli::slurm_script::TimeLimit;
 use crate::propagation::Method;
 use crate::report::image::PlotSize;
@@ -19,11 +20,11 @@ use crate::storage::claim::Shard;
 const EXIT_CODES: &str = "\
 Exit codes:
   0  done (also: the same campaign was already complete)
-  1  ran, but some runs failed (their rows say how)
+  1  ran, but some runs failed (their rows say how), or audited errors exceed their estimates more often than promised
   2  bad input: arguments, campaign file, or a sample that is not physical
-  3  ran, and a requirement failed
+  3  ran, and a requirement failed; of compare: a verdict got worse, or a shift is beyond the tolerance
   4  input/output error, or the folder has a result that may not be overwritten
-  5  ran, and no requirement failed, but one is undecided, or [stop] did not reach its precision
+  5  ran, and no requirement failed, but one is undecided, or [stop] did not reach its precision; of verify: the result is not finished
   129, 130, 138, 143  stopped by SIGHUP, SIGINT, SIGUSR1, SIGTERM; the same command continues
 Where several apply, the first of 2, 4, that of a signal, 3, 5, 1, 0 is returned.
 
@@ -52,7 +53,7 @@ pub enum Command {
     /// Write the scripts that run a campaign on a cluster with Slurm, one shard a task, and submit them.
     #[command(after_help = EXIT_CODES)]
     Slurm(SlurmOptions),
-    /// Check a result: every checksum, and for a fraction of the parts every bit of every row.
+    /// Check a result: every checksum, for a fraction of the parts every bit of every row, and every file that follows from the rows.
     #[command(after_help = EXIT_CODES)]
     Verify(VerifyOptions),
     /// Show what a campaign would run: plan, mass properties, dispersions, what is integrated and why, time and disk space.
@@ -404,9 +405,19 @@ pub struct ColumnsOptions {
     pub campaign: Option<PathBuf>,
 }
 
-/// The arguments of this process; invalid ones end it with a message and code 2.
+/// The arguments of this process; invalid ones end it with a message and code 2, and a request for help ends it with code 0.
 pub fn arguments() -> Arguments {
-    Arguments::parse()
+    Arguments::try_parse().unwrap_or_else(|error| {
+        // the parser would print names as they are, with what a terminal obeys
+        let text = error.render().to_string();
+        if error.use_stderr() {
+            screen::note(text.trim_end());
+        } else if let Err(error) = screen::print(&text) {
+            screen::note(&format!("error: {error}"));
+            std::process::exit(4);
+        }
+        std::process::exit(error.exit_code());
+    })
 }
 
 #[cfg(test)]

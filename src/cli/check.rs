@@ -6,6 +6,7 @@ use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::workload::Workload;
 use crate::cli::{dispersions, scene_text, screen};
+use crate::control::capacity::Capacity;
 use crate::ensemble::Ensemble;
 use crate::ensemble::influence;
 use crate::ensemble::plausibility::implausible;
@@ -39,6 +40,10 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
         scene_text::masses(&mut text, &plan.nominal, &scene.mass)?;
         section(&mut text, "Momenta and torques of the nominal scene")?;
         scene_text::momenta(&mut text, &plan.nominal, &scene)?;
+        if let Some(spec) = plan.law.as_ref().and_then(|law| law.spec()) {
+            section(&mut text, "Torque of the control loop")?;
+            Capacity::of(spec, &scene).lines(spec).iter().try_for_each(|line| writeln!(text, "{line}"))?;
+        }
         section(&mut text, "Dispersions")?;
         dispersions::table(&mut text, &plan)?;
         let unseen = influence::notes(&plan, ensemble.isa());

@@ -13,7 +13,7 @@ pub use crate::workflow::WorkflowError as Failure;
 pub enum CommandOutcome {
     /// No run failed: code 0.
     Done,
-    /// This many runs failed: code 1.
+    /// This many runs failed, or had errors above their estimates where more did than promised: code 1.
     SomeFailed(u64),
     /// A signal stopped it: code 128 and the signal's number.
     Stopped(i32),
@@ -21,6 +21,8 @@ pub enum CommandOutcome {
     RequirementsFailed(usize),
     /// No requirement failed, and this many are undecided, a precision among them that `[stop]` did not reach: code 5.
     RequirementsUndecided(usize),
+    /// What was verified is sound, and more is to come: code 5.
+    Unfinished,
 }
 
 impl CommandOutcome {
@@ -32,10 +34,10 @@ impl CommandOutcome {
     /// The outcome of a command that finds a finished result: as of the one that finished it.
     pub fn of_end(end: &SummaryEnd) -> Self {
         let undecided = end.count("UNDECIDED") + usize::from(!end.is_reached);
-        Self::of_campaign(end.failed, end.count("FAIL"), undecided)
+        Self::of_campaign(end.failed + end.not_covered, end.count("FAIL"), undecided)
     }
 
-    /// The outcome of a campaign with so many runs and requirements that failed, and requirements that are undecided. A requirement that failed
+    /// The outcome of a campaign with so many runs (those that broke the promise of their audits among them) and requirements that failed, and requirements that are undecided. A requirement that failed
     /// matters most, then one that is undecided, then failed runs.
     pub fn of_campaign(failed_runs: u64, failed: usize, undecided: usize) -> Self {
         match (failed, undecided, failed_runs) {
@@ -54,7 +56,7 @@ pub fn exit_code(ended: Result<CommandOutcome, Failure>) -> ExitCode {
         Ok(CommandOutcome::SomeFailed(_)) => 1,
         Ok(CommandOutcome::Stopped(signal)) => signals::exit_code(signal),
         Ok(CommandOutcome::RequirementsFailed(_)) => 3,
-        Ok(CommandOutcome::RequirementsUndecided(_)) => 5,
+        Ok(CommandOutcome::RequirementsUndecided(_) | CommandOutcome::Unfinished) => 5,
         Err(Failure::Input(reason)) => {
             screen::note(&format!("error: {reason}"));
             2

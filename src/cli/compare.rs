@@ -53,8 +53,17 @@ pub fn compared(session: &Session<'_>, options: &CompareOptions) -> Result<(Comm
         Some(tolerance) => format!("\n  PASS: no shift is beyond {tolerance:?} of the spread\n"),
         None => String::new(),
     };
-    let outcome = if is_beyond { CommandOutcome::RequirementsFailed(1) } else { CommandOutcome::Done };
-    Ok((outcome, format!("{}\n{}{verdict}", names.join(" | "), comparison_text::text(compared))))
+    let worse = verdicts.iter().filter(|one| one.is_worse()).count();
+    let worsened = match worse {
+        0 => String::new(),
+        1 => "\n  FAIL: one verdict is worse than before\n".to_owned(),
+        worse => format!("\n  FAIL: {worse} verdicts are worse than before\n"),
+    };
+    let outcome = match worse + usize::from(is_beyond) {
+        0 => CommandOutcome::Done,
+        failed => CommandOutcome::RequirementsFailed(failed),
+    };
+    Ok((outcome, format!("{}\n{}{verdict}{worsened}", names.join(" | "), comparison_text::text(compared))))
 }
 
 /// The requirements of both results: those of the first in their order, then those that only the second has.

@@ -31,10 +31,11 @@ pub fn text(completed: &Completed, replayed: &str) -> String {
     )
 }
 
-/// The verdicts of a finished result in `root`, and its page.
+/// The warnings and verdicts of a finished result in `root`, and its page.
 pub fn of_end(end: &SummaryEnd, root: &Path) -> String {
     let verdicts: String = end.verdicts.iter().map(|(one, verdict)| format!("  {verdict:<10}{one}\n")).collect();
-    verdicts + &page(root)
+    let warnings: String = end.warnings.iter().map(|one| format!("  {one}\n")).collect();
+    warnings + &verdicts + &page(root)
 }
 
 /// The name of the page in `root`, where there is one.

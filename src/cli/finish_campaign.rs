@@ -29,7 +29,11 @@ pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
     })?;
     let (outcome, text) = match finished {
         Finished::Now(completed) => (
-            CommandOutcome::of_campaign(completed.failed_runs, completed.failed, completed.undecided),
+            CommandOutcome::of_campaign(
+                completed.failed_runs + completed.not_covered,
+                completed.failed,
+                completed.undecided,
+            ),
             completed_text::text(&completed, &quoted_path(&root.join(PLAN))),
         ),
         Finished::Already(end) => (

@@ -35,12 +35,16 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     match campaign.run()? {
         CampaignOutcome::Finished(completed) => {
             screen::print(&completed_text::text(&completed, &replayed(options, root)))?;
-            Ok(CommandOutcome::of_campaign(completed.failed_runs, completed.failed, completed.undecided))
+            Ok(CommandOutcome::of_campaign(
+                completed.failed_runs + completed.not_covered,
+                completed.failed,
+                completed.undecided,
+            ))
         }
         CampaignOutcome::AlreadyFinished(end) => {
             let outcome = CommandOutcome::of_end(&end);
             let failed = match outcome {
-                CommandOutcome::SomeFailed(failed) => format!(", {failed} of them failed"),
+                CommandOutcome::SomeFailed(_) if end.failed > 0 => format!(", {} of them failed", end.failed),
                 _ => String::new(),
             };
             screen::print(&format!(

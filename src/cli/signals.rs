@@ -52,6 +52,18 @@ pub fn asked() -> &'static Signals {
     &ASKED
 }
 
+/// Makes the write that exceeds the file size that the process may have (`ulimit -f`) fail with an error, which is then told as any other. Without a handler
+/// the system would end the program.
+#[cfg(unix)]
+pub fn report_file_limit() {
+    // where it cannot be registered, only that message is lost
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
+}
+
+/// There is no such limit here.
+#[cfg(not(unix))]
+pub fn report_file_limit() {}
+
 /// Starts to watch for signals, once. Where its thread cannot be started, the program ends: it would not end at a signal.
 #[cfg(unix)]
 pub fn watch() -> &'static Signals {

@@ -18,15 +18,21 @@ pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
     let Some(verified) = verify(&session, &options.folder, wanted)? else {
         return Ok(CommandOutcome::Stopped(watch.signal().unwrap_or_default()));
     };
-    let Verified { checked, problems, is_finished, completed } = &verified;
+    let Verified { checked, problems, is_finished, unchecked, completed } = &verified;
     let replayed = options.folder.join(PLAN).display().to_string();
     let completed = completed.as_ref().map(|completed| completed_text::text(completed, &replayed));
     let end = match (&completed, is_finished, problems) {
         (Some(_), _, 0) => "sound, and finished now".to_owned(),
         (Some(_), ..) => format!("{problems} problems, repaired"),
         (None, true, _) => "sound".to_owned(),
-        (None, false, _) => "sound so far; not finished: the campaign's command continues it".to_owned(),
+        (None, false, _) if unchecked.is_empty() => {
+            "what was compared is sound, and the result is not finished: _SUCCESS is missing, or not empty; the campaign's command finishes it".to_owned()
+        }
+        (None, false, _) => format!(
+            "what was compared is sound, and the result is not finished; not compared, since nothing says what should be in them: {}; the campaign's command finishes it and makes them again",
+            unchecked.join(", ")
+        ),
     };
     screen::print(&format!("{}{checked}: {end}\n", completed.unwrap_or_default()))?;
-    Ok(CommandOutcome::Done)
+    Ok(if *is_finished { CommandOutcome::Done } else { CommandOutcome::Unfinished })
 }

@@ -1,33 +1,44 @@
-//! [`Capacity`]: whether the momentum of the nominal scene fits into the wheels of a loop, and about which axes its thrusters can take it out again.
+//! [`Capacity`]: about which axes a loop has torque in both directions, whether the momentum of the nominal scene fits into its wheels, and about which axes
+//! its thrusters can take it out again.
 
 use super::allocation::{ThrustAllocation, WheelTorque};
 use super::spec::LoopSpec;
-use crate::control::vector::{difference, norm, product, scaled, sum};
+use crate::control::vector::{difference, dot, norm, product, scaled, sum};
+use crate::math::symmetric::principal_axes;
 use crate::scene::Scene;
 
-/// What a loop can do about the angular momentum of the nominal scene about its centre of mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Torques of wheels and thrusters in a direction below this, of the sum of two projections, are none: above its rounding, 1e-16, and below the square of any
+/// alignment that is used, 1e-12.
+const NOTHING: f64 = 1e-13;
+
+/// What a loop can do about torque, and about the angular momentum of the nominal scene about its centre of mass. Axes are unit vectors in F_s.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Capacity {
     /// The part of the momentum within the span of the wheels' axes, N m s.
     pub within_reach: f64,
     /// The most that the wheels can take in its direction within their limits of speed, shared by least norm, N m s; infinite without limits.
     pub wheels: f64,
-    /// The part across the axes of the wheels, N m s: thrusters alone can take it.
-    pub across: f64,
-    /// Number of axes about which the thrusters have torque in both directions.
+    /// The part about axes without torque in both directions, N m s: the loop cannot take it.
+    pub out_of_reach: f64,
+    /// The axes that span the torques of the wheels.
+    pub wheel_axes: Vec<[f64; 3]>,
+    /// The axes that span the torques of the thrusters in both directions, with the total thrust and the net force of 1 N m, N.
+    pub thruster_axes: Vec<([f64; 3], [f64; 2])>,
+    /// The number of axes about which they unload the wheels: where the force is held, without a net force.
     pub unloaded_axes: usize,
+    /// The axes about which neither wheels nor thrusters have torque in both directions.
+    pub free_axes: Vec<[f64; 3]>,
 }
 
 impl Capacity {
-    /// Of the loop `spec` in the nominal scene `scene`.
+    /// Of the loop `spec` in the nominal scene `scene`, as flight software believes it.
     pub fn of(spec: &LoopSpec, scene: &Scene) -> Self {
         let (mass, initial) = (&scene.mass, &scene.initial);
         let mut momentum = product(mass.inertia, initial.omega_se_s);
         for (wheel, rate) in mass.wheels.iter().zip(initial.wheel_rates) {
             momentum = sum(momentum, scaled(wheel.axial * rate, wheel.axis));
         }
-        let axes: Vec<[f64; 3]> = spec.wheels.iter().map(|place| mass.wheels[*place].axis).collect();
-        let wheels = WheelTorque::new(&axes);
+        let wheels = WheelTorque::of_loop(scene, &spec.wheels);
         let reached = product(wheels.reachable, momentum);
         let shares = wheels.motors(reached);
         let most = |(share, place): (f64, &usize)| {
@@ -36,18 +47,53 @@ impl Capacity {
         // a share of zero limits nothing
         let limits = shares.into_iter().zip(&spec.wheels).filter(|(share, _)| *share != 0.0).map(most);
         let within_reach = norm(reached);
-        let two_sided = if spec.thrusters.is_empty() {
-            [[0.0; 3]; 3]
-        } else {
-            ThrustAllocation::of_loop(scene, &spec.thrusters).two_sided_torques()
+        let thrusters = ThrustAllocation::of_loop(&spec.believed(scene), &spec.thrusters, wheels.reachable);
+        let (two_sided, unloading) =
+            (thrusters.two_sided_torques(false), thrusters.two_sided_torques(spec.holds_force));
+        let both = std::array::from_fn(|i| sum(wheels.reachable[i], two_sided[i]));
+        let free_axes: Vec<[f64; 3]> = axes(both, |moment| moment <= NOTHING);
+        let out_of_reach = free_axes.iter().map(|axis| dot(*axis, momentum).powi(2)).sum::<f64>().sqrt();
+        let with_cost = |axis: [f64; 3]| {
+            // the force is held where that can be
+            let holds_force = spec.holds_force && norm(difference(product(unloading, axis), axis)) < 1e-6;
+            (axis, thrusters.cost(axis, holds_force))
         };
-        let trace: f64 = (0..3).map(|i| two_sided[i][i]).sum();
         Capacity {
             within_reach,
             wheels: limits.fold(f64::INFINITY, f64::min) * within_reach.max(f64::MIN_POSITIVE),
-            across: norm(difference(momentum, reached)),
-            unloaded_axes: trace.round() as usize,
+            out_of_reach,
+            wheel_axes: axes(wheels.reachable, |moment| moment > 0.5),
+            thruster_axes: axes(two_sided, |moment| moment > 0.5).into_iter().map(with_cost).collect(),
+            unloaded_axes: (0..3).map(|i| unloading[i][i]).sum::<f64>().round() as usize,
+            free_axes,
         }
+    }
+
+    /// About which axes the loop has torque, a line each.
+    pub fn lines(&self, spec: &LoopSpec) -> Vec<String> {
+        let mut lines = Vec::new();
+        if !spec.wheels.is_empty() {
+            lines.push(format!("wheels: torque about {}", names(&self.wheel_axes)));
+        }
+        for (axis, [total, force]) in &self.thruster_axes {
+            let with = if *force > NOTHING * total {
+                format!("and a net force of {force:.4} N")
+            } else {
+                "without a net force".to_owned()
+            };
+            let name = names(&[*axis]);
+            lines.push(format!(
+                "thrusters: torque in both directions about {name}; 1 N m takes {total:.4} N of thrust, {with}"
+            ));
+        }
+        if !spec.thrusters.is_empty() && self.thruster_axes.is_empty() {
+            lines.push("thrusters: torque in both directions about no axis".to_owned());
+        }
+        if !self.free_axes.is_empty() {
+            let free = names(&self.free_axes);
+            lines.push(format!("neither wheels nor thrusters have torque in both directions about {free}"));
+        }
+        lines
     }
 
     /// What a person should know of it; nothing where all of it fits and can be unloaded.
@@ -59,17 +105,25 @@ impl Capacity {
                 self.wheels, self.within_reach
             ));
         }
-        // rounding of the projection
-        if self.across > 1e-9 * (self.within_reach + self.across) && self.unloaded_axes == 0 {
+        if !self.free_axes.is_empty() && spec.phases.iter().any(|phase| phase.law.is_some()) {
             notes.push(format!(
-                "{:.3} N m s of the nominal momentum are across the axes of the loop's wheels, and no thrusters turn the body: the loop cannot stop it",
-                self.across
+                "neither wheels nor thrusters of the loop have torque in both directions about {}: the loop cannot control the attitude about it; add wheels or thrusters",
+                names(&self.free_axes)
+            ));
+        }
+        // rounding of the projections
+        if self.out_of_reach > 1e-9 * (self.within_reach + self.out_of_reach) {
+            notes.push(format!(
+                "{:.3} N m s of the nominal momentum are about {}: the loop cannot stop it",
+                self.out_of_reach,
+                names(&self.free_axes)
             ));
         }
         if !spec.wheels.is_empty() && !spec.thrusters.is_empty() && self.unloaded_axes < 3 {
             let axes = ["no axis", "one axis", "two axes"][self.unloaded_axes];
+            let held = if spec.holds_force { " without a net force" } else { "" };
             notes.push(format!(
-                "the thrusters of the loop have torque in both directions about {axes} alone: momentum of the wheels about the others cannot be unloaded without a turn"
+                "the thrusters of the loop have torque in both directions{held} about {axes} alone: momentum of the wheels about the others cannot be unloaded without a turn"
             ));
         }
         if spec.knows_the_truth() && !spec.sensors.is_empty() {
@@ -77,6 +131,26 @@ impl Capacity {
         }
         notes
     }
+}
+
+/// The principal axes of `matrix` whose moments are as `is_meant` says; of the whole space those of F_s.
+fn axes(matrix: [[f64; 3]; 3], is_meant: impl Fn(f64) -> bool) -> Vec<[f64; 3]> {
+    let (moments, c_sb) = principal_axes(matrix);
+    let found: Vec<[f64; 3]> = (0..3).filter(|i| is_meant(moments[*i])).map(|i| c_sb.map(|row| row[i])).collect();
+    if found.len() == 3 { vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] } else { found }
+}
+
+/// `axes` by their names in F_s, or by their components.
+fn names(axes: &[[f64; 3]]) -> String {
+    let name = |axis: &[f64; 3]| {
+        let place = (0..3).find(|i| {
+            let unit: [f64; 3] = std::array::from_fn(|j| if *i == j { axis[j].signum() } else { 0.0 });
+            norm(difference(*axis, unit)) < 1e-6
+        });
+        let [x, y, z] = axis;
+        place.map_or_else(|| format!("({x:.4}, {y:.4}, {z:.4})"), |i| format!("s{}", i + 1))
+    };
+    if axes.is_empty() { "no axis".to_owned() } else { axes.iter().map(name).collect::<Vec<_>>().join(", ") }
 }
 
 #[cfg(test)]
@@ -105,17 +179,19 @@ mod tests {
         let [x, y, z] = [0.5, 0.8, -1.0].map(|rate: f64| rate.to_radians());
         let expected = (3_055.375_141_124_116 * y).hypot(1_687.280_032_907_598_8 * z);
         assert!((found.within_reach / expected - 1.0).abs() < 1e-12);
-        assert!((found.across / (3_054.590_970_145_349 * x) - 1.0).abs() < 1e-12);
+        assert_eq!(found.out_of_reach, 0.0, "{x}");
         // w1 is the first at its limit: it has the larger share
         let most = 1.656_699_250_916_492_6 * 40.0 * core::f64::consts::PI * expected / (3_055.375_141_124_116 * y);
         assert!((found.wheels / most - 1.0).abs() < 1e-12);
-        assert_eq!((found.unloaded_axes, notes.len()), (1, 1), "{notes:?}");
+        assert_eq!((found.thruster_axes.len(), notes.len()), (1, 1), "{notes:?}");
         let (_, fast) = capacity(&[("\"0.8 deg/s\"", "\"40 deg/s\"")]);
         assert!(fast.len() == 2 && fast[0].contains("saturate"), "{fast:?}");
-        let (_, alone) = capacity(&[
+        let (found, alone) = capacity(&[
             ("thrusters = [\"p1\", \"p2\", \"p3\"]\nmodulation = \"pulse_width\"\nisp_s = 220.0\n", ""),
             ("\n[[require]]\nobservable = \"propellant_kg\"\nquantile = 0.95\nat_most = 0.2\n", ""),
         ]);
-        assert!(alone.len() == 1 && alone[0].contains("cannot stop it"), "{alone:?}");
+        assert!((found.out_of_reach / (3_054.590_970_145_349 * x) - 1.0).abs() < 1e-12);
+        let says = ["in both directions about s1: the loop cannot control", "about s1: the loop cannot stop it"];
+        assert!(alone.len() == 2 && alone.iter().zip(says).all(|(note, says)| note.contains(says)), "{alone:?}");
     }
 }

@@ -1,5 +1,6 @@
 //! [`LawContext`]: what the law of a run is made from at its start.
 
+use super::loop_record::SharedRecord;
 use crate::sampling::{Noise, SampleId};
 use crate::scene::{ControlInput, Scene};
 
@@ -23,6 +24,8 @@ pub struct LawContext<'a> {
     pub seed: u64,
     /// The end of the run, s.
     pub duration: f64,
+    /// Where a control loop writes its quantities over time; `None` where nobody reads them.
+    pub record: Option<&'a SharedRecord>,
     /// Whether the law is to record what it does ([`crate::dynamics::actuation::ActuationLaw::telemetry`]).
     pub records: bool,
 }

@@ -66,7 +66,8 @@ impl ControlLaw {
         let columns = Arc::new(OutcomeColumns::of(&spec));
         let commands =
             Actuated { thrusters: !spec.thrusters.is_empty(), motors: !spec.wheels.is_empty(), body_torque: false };
-        let (reported, own) = (columns.columns(), spec.clone());
+        let reported = LawColumns { over_time: spec.over_time(), ..columns.columns() };
+        let own = spec.clone();
         let law =
             ControlLaw::new("closed_loop", commands, &[], move |context| ControlLoop::new(&own, &columns, context));
         ControlLaw { columns: reported, spec: Some(spec), ..law }
@@ -80,7 +81,7 @@ impl ControlLaw {
     /// The same law, which reports `columns` at the end of a run ([`ActuationLaw::report`]): columns of the rows.
     #[must_use]
     pub fn reporting(self, columns: &'static [LawColumn]) -> Self {
-        ControlLaw { columns: LawColumns(columns), ..self }
+        ControlLaw { columns: LawColumns { list: columns, ..self.columns }, ..self }
     }
 
     /// Its name, as in `control.law` of a plan.

@@ -4,13 +4,14 @@
 //!   (in [`context`]).
 //! - [`runs`]: the laws of the runs that an engine propagates together.
 //! - [`spec`]: what a loop of a campaign file consists of; [`parameters`]: its numbers. [`control_loop`]: it in a run. [`outcome`]: what comes of a run;
-//!   [`recorder`]: its telemetry.
+//!   [`recorder`]: its telemetry; [`loop_record`]: quantities over time at the observation points.
 //! - [`truth`]: the true state at a tick. [`sensors`]: what is measured of it ([`measurement`]).
 //! - [`estimators`]: from measurements to an [`estimate`].
 //! - [`guidance`]: which phase a run is in, and the attitude and the maneuver that it wants.
 //! - [`laws`]: from an estimate to a wanted torque.
 //! - [`allocation`]: from a wanted torque and force to wheels and thrusters. [`actuators`]: what these make of it.
 //! - [`capacity`]: whether the momentum of a scene fits into the wheels of its loop.
+//! - [`review`]: what in a loop looks like a mistake; [`stability`]: whether a sampled law is stable for small errors.
 //! - [`vector`], [`rotation`], [`small_matrix`]: what all of them compute with.
 //!
 //! Not here: the interface by which an engine asks a law ([`crate::dynamics::actuation`]), and which campaign flies which law (`campaign`).
@@ -25,15 +26,18 @@ pub mod estimators;
 pub mod guidance;
 pub mod law;
 pub mod laws;
+pub mod loop_record;
 pub mod measurement;
 pub mod outcome;
 pub mod parameters;
 pub mod recorder;
+pub mod review;
 pub mod rotation;
 pub mod runs;
 pub mod sensors;
 pub mod small_matrix;
 pub mod spec;
+pub mod stability;
 pub mod truth;
 pub mod vector;
 

@@ -10,7 +10,7 @@ const fn number(key: &'static str, unit: &'static str, meaning: &'static str, de
 }
 
 /// Of every loop.
-pub static LOOP: [LawParameter; 3] = [
+pub static LOOP: [LawParameter; 5] = [
     number("delay_s", "s", "Time from a tick to the effect of its commands", &[0.0]),
     number(
         "settling_band_rad",
@@ -18,6 +18,13 @@ pub static LOOP: [LawParameter; 3] = [
         "Pointing error within which the attitude counts as settled",
         &[0.017_453_292_519_943_295],
     ),
+    number(
+        "stability_from_s",
+        "s",
+        "Start of the window over which the attitude is to be stable; 0: when the mission has settled",
+        &[0.0],
+    ),
+    number("stability_window_s", "s", "Length of that window; 0: to the end of the run", &[0.0]),
     number(
         "saturation_timeout_s",
         "s",

@@ -1,5 +1,6 @@
 //! [`Recorder`]: telemetry of a run under a loop: phase, estimates, commands and measurements at the control ticks.
 
+use super::control_loop::SAME_TIME;
 use super::estimate::Estimate;
 use super::estimators::Consistency;
 use super::estimators::kalman::NormalizedSquare;
@@ -69,7 +70,8 @@ impl Recorder {
             tachometers: has("tachometers"),
         };
         let quantities = parts.quantities(spec);
-        Recorder { telemetry: Telemetry { quantities, times: Vec::new(), rows: Vec::new() }, parts }
+        let same = SAME_TIME * spec.period;
+        Recorder { telemetry: Telemetry { quantities, times: Vec::new(), rows: Vec::new(), same }, parts }
     }
 
     /// What was recorded.

@@ -1,6 +1,6 @@
 //! Rotations as vectors and as modified Rodrigues parameters, beside the quaternions of [`super::vector`] (scalar first, Hamilton product).
 
-use crate::control::vector::{cross, dot, norm, scaled, sum};
+use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, scaled, sum};
 
 /// The quaternion of the rotation vector `v`, rad: angle times axis.
 pub fn quaternion_of(v: [f64; 3]) -> [f64; 4] {
@@ -40,12 +40,45 @@ pub fn turned(v: [f64; 3], by: [f64; 3]) -> [f64; 3] {
     sum(sum(scaled(cosine, v), scaled(sine, cross(axis, v))), along)
 }
 
+/// The rotation matrix of the shortest way that s3 turns to `direction`, of any length but zero; about s1 where that is the opposite one.
+pub fn from_s3_to(direction: [f64; 3]) -> [[f64; 3]; 3] {
+    let [x, y, z] = direction;
+    let across = [-y, x, 0.0];
+    let sine = norm(across);
+    let angle = libm::atan2(sine, z);
+    let axis = if sine > 0.0 { scaled(1.0 / sine, across) } else { [1.0, 0.0, 0.0] };
+    dcm_from_quaternion(quaternion_of(scaled(angle, axis)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::control::vector::{dcm_from_quaternion, difference, hamilton, product};
 
     /// Law: vector and quaternion are one rotation, of any angle up to half a turn; so are the MRP, and a turned vector.
+    /// Law: s3 goes to the direction, whatever its length; the axes stay orthonormal and right-handed; s3 itself is left as it is, bit for bit.
+    #[test]
+    fn s3_turns_to_a_direction() {
+        let cases = [
+            [0.0, 0.0, 1.0],
+            [0.0, 0.0, 7.0],
+            [0.0, 0.0, -1.0],
+            [1.0, 0.0, 0.0],
+            [0.0, -2.0, 0.0],
+            [0.3, 0.4, -0.5],
+            [1e-9, 0.0, -1.0],
+        ];
+        for direction in cases {
+            let c = from_s3_to(direction);
+            let columns: [[f64; 3]; 3] = std::array::from_fn(|j| c.map(|row| row[j]));
+            let unit = scaled(1.0 / norm(direction), direction);
+            assert!(norm(difference(columns[2], unit)) < 4e-15, "{direction:?}: {columns:?}");
+            assert!(norm(difference(cross(columns[0], columns[1]), columns[2])) < 4e-15, "{direction:?}");
+            assert!(columns.iter().all(|column| (norm(*column) - 1.0).abs() < 4e-15), "{direction:?}");
+        }
+        assert_eq!(from_s3_to([0.0, 0.0, 3.0]), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    }
+
     #[test]
     fn a_rotation_has_one_meaning() {
         let axis = scaled(1.0 / norm([1.0, -2.0, 0.5]), [1.0, -2.0, 0.5]);

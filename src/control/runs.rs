@@ -80,6 +80,10 @@ impl<L: ActuationLaw> ActuationLaw for BesideSchedule<L> {
         sum(scheduled, of_law)
     }
 
+    fn end(&mut self, time: f64, body: &BodyState, wheels: &WheelState) {
+        self.law.end(time, body, wheels);
+    }
+
     fn report(&self, values: &mut [f64]) {
         self.law.report(values);
     }

@@ -3,6 +3,7 @@
 use super::guidance::phase::{Maneuver, Next};
 use super::guidance::situation::Condition;
 use super::guidance::target::Target;
+use crate::observables::{LawSeries, Series};
 use crate::scene::{Name, Scene};
 
 /// A control loop.
@@ -18,6 +19,8 @@ pub struct LoopSpec {
     pub thrusters: Vec<usize>,
     /// How thrusters are fired, by its place in the list.
     pub modulation: usize,
+    /// Whether thrusters keep a force of zero where no maneuver wants one, instead of any.
+    pub holds_force: bool,
     /// The sensors.
     pub sensors: Vec<SensorSpec>,
     /// The phases; there is at least one.
@@ -45,6 +48,30 @@ pub struct SensorSpec {
     pub latency: f64,
 }
 
+/// Most ticks in a control period, and control periods in a latency.
+pub const MOST_TICKS: f64 = 1000.0;
+
+/// The number of ticks in a control period of `period` seconds, at some of which each sensor measures: sensors with these periods, each a whole multiple
+/// of the control period or a whole fraction of it. One where no sensor is faster than the loop; else the least common multiple of the fractions. `None`
+/// where that is more than [`MOST_TICKS`].
+pub fn ticks_per_period(period: f64, sensors: impl Iterator<Item = f64>) -> Option<u64> {
+    let common = |a: u64, b: u64| {
+        let (mut x, mut y) = (a, b);
+        while y > 0 {
+            (x, y) = (y, x % y);
+        }
+        a / x * b
+    };
+    let mut ticks = 1;
+    for own in sensors.filter(|own| *own < period) {
+        ticks = common(ticks, (period / own).round() as u64);
+        if ticks as f64 > MOST_TICKS {
+            return None;
+        }
+    }
+    Some(ticks)
+}
+
 /// A phase of guidance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhaseSpec {
@@ -52,6 +79,8 @@ pub struct PhaseSpec {
     pub name: Name,
     /// Its control law, by its place in the list; `None` for no torque.
     pub law: Option<usize>,
+    /// Whether its law `mrp_feedback` has the term omega x H.
+    pub gyroscopic: bool,
     /// The attitude that it wants; the quaternion of an attitude is a parameter.
     pub target: Target,
     /// What thrust is for.
@@ -76,6 +105,21 @@ pub struct ModelSpec {
 }
 
 impl LoopSpec {
+    /// The quantities over time that the loop records.
+    pub fn over_time(&self) -> LawSeries {
+        let mut series = LawSeries::NONE;
+        if self.points() {
+            series = series.with(Series::PointingError);
+        }
+        if !self.knows_the_truth() {
+            series = series.with(Series::AttitudeEstimateError).with(Series::RateEstimateError);
+            if self.approaches() {
+                series = series.with(Series::PositionEstimateError).with(Series::VelocityEstimateError);
+            }
+        }
+        self.wheels.iter().fold(series, |series, wheel| series.with(Series::MotorTorque.of_wheel(*wheel)))
+    }
+
     /// Whether a phase leads to the launch of a net.
     pub fn launches(&self) -> bool {
         self.phases.iter().any(|phase| phase.next == Next::Launch)

@@ -1,16 +1,17 @@
 //! [`Flights`]: propagates runs of a plan, each under the control law of the plan where it has one; nothing else of the ensemble flies a run.
 
 use crate::campaign::Plan;
+use crate::control::loop_record::SharedRecord;
 use crate::control::{LawContext, LawRuns};
-use crate::dynamics::actuation::Laws;
+use crate::dynamics::actuation::{BodyState, Laws, WheelState};
 use crate::dynamics::effects::beside_arcs;
 use crate::ensemble::settings::{nominal, propagator};
 use crate::math::Isa;
+use crate::math::vector::dot;
 use crate::observables::nominal_attitude::NominalAttitude;
-use crate::observables::{Group, Observer, Request};
-use crate::propagation::engine::CompletionCallback;
+use crate::observables::{Group, LawSeries, Observer, Request};
 use crate::propagation::{CompletedRun, Engine};
-use crate::run::{Grid, StateField, StateFields, Status, Telemetry};
+use crate::run::{Grid, StateField, StateFields, StateTable, Status, Telemetry};
 use crate::sampling::SampleId;
 use crate::scene::{Arc, ControlInput, Scene};
 
@@ -29,13 +30,26 @@ pub struct Flights<'p> {
     engine: Box<dyn Engine>,
     /// The laws, and the nominal scene that they know; where the plan has a law.
     laws: Option<(Box<dyn LawRuns>, Scene)>,
+    /// What the loops of the runs record over time; empty where nothing is.
+    over_time: Vec<SharedRecord>,
+    times: Vec<f64>,
     records: bool,
 }
 
+/// Receives a run that has ended, and what its law has recorded at the observation points ([`crate::observables::LawSeries`]).
+pub type FlightCallback<'a> = dyn FnMut(CompletedRun<'_>, &[f64]) + 'a;
+
 impl<'p> Flights<'p> {
-    /// Runs of `plan` by `engine`, which is for its settings.
-    pub fn new(plan: &'p Plan, engine: Box<dyn Engine>) -> Self {
-        Flights { plan, engine, laws: plan.law.as_ref().map(|law| (law.runs(), nominal(plan))), records: false }
+    /// Runs of `plan` by `engine`, which is for its settings, observed on `grid`.
+    pub fn new(plan: &'p Plan, engine: Box<dyn Engine>, grid: &Grid) -> Self {
+        Flights {
+            plan,
+            engine,
+            times: grid.times().to_vec(),
+            laws: plan.law.as_ref().map(|law| (law.runs(), nominal(plan))),
+            over_time: Vec::new(),
+            records: false,
+        }
     }
 
     /// The same, with laws that record what they do.
@@ -49,19 +63,48 @@ impl<'p> Flights<'p> {
     }
 
     /// Flies `scenes` and passes each to `finish`. `draws` are those of the laws, one for each scene, and nothing where the plan has no law.
-    pub fn fly(&mut self, scenes: &[Scene], draws: &[LawDraw], finish: &mut CompletionCallback<'_>) {
-        let Some((laws, nominal)) = &mut self.laws else { return self.engine.propagate(scenes, finish) };
+    pub fn fly(&mut self, scenes: &[Scene], draws: &[LawDraw], finish: &mut FlightCallback<'_>) {
+        let Some((laws, nominal)) = &mut self.laws else {
+            return self.engine.propagate(scenes, &mut |run| finish(run, &[]));
+        };
         assert_eq!(scenes.len(), draws.len(), "each run has a law");
+        let is_recorded = self.plan.law.as_ref().is_some_and(|law| law.columns().over_time != LawSeries::NONE);
+        while is_recorded && self.over_time.len() < scenes.len() {
+            self.over_time.push(SharedRecord::new(&self.times));
+        }
         for (run, (drawn, LawDraw { sample, parameters })) in scenes.iter().zip(draws).enumerate() {
             let nominal_parameters = &self.plan.nominal.control;
             let (sample, seed, records) = (*sample, self.plan.seed, self.records);
             let duration = self.plan.grid.duration();
             laws.begin(
                 run,
-                &LawContext { nominal, drawn, parameters, nominal_parameters, sample, seed, duration, records },
+                &LawContext {
+                    nominal,
+                    drawn,
+                    parameters,
+                    nominal_parameters,
+                    sample,
+                    seed,
+                    duration,
+                    record: self.over_time.get(run),
+                    records,
+                },
             );
         }
-        self.engine.propagate_under(Laws::Feedback(&mut **laws), scenes, finish);
+        let over_time = &self.over_time;
+        let mut ends = Vec::with_capacity(scenes.len());
+        self.engine.propagate_under(Laws::Feedback(&mut **laws), scenes, &mut |run| {
+            if run.outcome.status == Status::Done {
+                ends.push((run.index, run.outcome.time, state_at_end(&scenes[run.index], run.table)));
+            }
+            match over_time.get(run.index) {
+                Some(record) => finish(run, record.lock().values()),
+                None => finish(run, &[]),
+            }
+        });
+        for (run, time, (body, wheels)) in ends {
+            laws.law(run).end(time, &body, &wheels);
+        }
     }
 
     /// Writes what the law of run `run` of the last flight reports, where the plan has a law.
@@ -72,11 +115,29 @@ impl<'p> Flights<'p> {
     }
 
     /// Flies the nominal run.
-    pub fn fly_nominal(&mut self, finish: &mut CompletionCallback<'_>) {
+    pub fn fly_nominal(&mut self, finish: &mut FlightCallback<'_>) {
         let draw = LawDraw { sample: SampleId(0), parameters: self.plan.nominal.control.clone() };
         let draws = if self.plan.law.is_some() { std::slice::from_ref(&draw) } else { &[] };
         self.fly(&[nominal(self.plan)], draws, finish);
     }
+}
+
+/// The motion of the body and of the wheels at the last point of `table`, of a run of `scene` under a law.
+fn state_at_end(scene: &Scene, table: &StateTable) -> (BodyState, WheelState) {
+    let last = table.points() - 1;
+    let body = BodyState {
+        omega_se_s: table.at(StateField::Rate, last),
+        q_es: table.at(StateField::Attitude, last),
+        r_co_e: table.at(StateField::ComPosition, last),
+        v_co_e: table.at(StateField::ComVelocity, last),
+    };
+    let mut wheels = WheelState::AT_REST;
+    for (i, wheel) in scene.mass.wheels.iter().enumerate() {
+        wheels.rates[i] = table.column(StateField::WheelRates, i)[last];
+        wheels.angles[i] = table.column(StateField::WheelAngles, i)[last];
+        wheels.momenta[i] = wheel.axial * (wheels.rates[i] + dot(wheel.axis, body.omega_se_s));
+    }
+    (body, wheels)
 }
 
 /// The attitude of the nominal run at the times of `grid`, where `request` compares runs with it.
@@ -87,7 +148,7 @@ pub fn nominal_attitude(plan: &Plan, request: &Request, grid: &Grid, isa: Isa) -
     let mut found = None;
     let attitude = StateFields::NONE.with(StateField::Attitude);
     let engine = propagator(plan, grid.clone(), attitude).engine(isa);
-    Flights::new(plan, engine).fly_nominal(&mut |run| {
+    Flights::new(plan, engine, grid).fly_nominal(&mut |run, _| {
         found = Some(NominalAttitude::of(run.table, run.outcome));
     });
     found
@@ -99,12 +160,12 @@ pub fn observe(
     observer: &mut Observer,
     isa: Isa,
     scene: &Scene,
-    run: &CompletedRun<'_>,
+    (run, of_law): (&CompletedRun<'_>, &[f64]),
     row: &mut [f64],
 ) -> Status {
     match plan.law {
         None => observer.observe(isa, scene, run.table, run.outcome, row),
-        Some(_) => observer.observe_flown(isa, (scene, run.arcs), run.table, run.outcome, row),
+        Some(_) => observer.observe_flown(isa, (scene, run.arcs, of_law), run.table, run.outcome, row),
     }
 }
 

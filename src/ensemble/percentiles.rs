@@ -41,8 +41,9 @@ impl Percentiles {
     /// Counts the samples of `drawn`.
     pub fn add(&mut self, drawn: &DrawnScenes) {
         self.invalid += drawn.physical.iter().filter(|physical| !**physical).count() as u64;
-        let from = usize::from(drawn.first == SampleId(0));
-        self.count += drawn.count().saturating_sub(from) as u64;
+        // a plan of the nominal sample alone has nothing drawn
+        let from = usize::from(drawn.first == SampleId(0)).min(drawn.count());
+        self.count += (drawn.count() - from) as u64;
         match &mut self.columns {
             HeldColumns::Values(columns) => {
                 let new = drawn.columns.iter().chain(&drawn.magnitudes);

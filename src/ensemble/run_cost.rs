@@ -47,7 +47,7 @@ pub fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
     let mut settings = propagator(plan, grid, plan.request().fields());
     settings.control = Control { max_steps: plan.max_steps.min(COUNTED_STEPS), ..settings.control };
     let mut found: Option<Outcome> = None;
-    Flights::new(plan, settings.engine(isa)).fly_nominal(&mut |run| found = Some(*run.outcome));
+    Flights::new(plan, settings.engine(isa), &plan.grid).fly_nominal(&mut |run, _| found = Some(*run.outcome));
     let evaluations = found.map_or(COUNTED_STEPS as f64, |outcome| {
         let share = (outcome.time / plan.grid.duration()).clamp(1e-9, 1.0);
         outcome.effort.evaluations as f64 / share

@@ -3,16 +3,25 @@
 use crate::campaign::Plan;
 use crate::ode::Control;
 use crate::propagation::PropagationSettings;
-use crate::run::{Grid, StateFields};
+use crate::run::{Grid, StateField, StateFields};
 use crate::scene::Scene;
 
-/// The settings for scenes of `plan` with states `fields` at the times of `grid`.
+/// The states that a law is told at the end of a run.
+const SEEN_BY_LAWS: StateFields = StateFields::NONE
+    .with(StateField::Rate)
+    .with(StateField::Attitude)
+    .with(StateField::WheelRates)
+    .with(StateField::WheelAngles)
+    .with(StateField::ComPosition)
+    .with(StateField::ComVelocity);
+
+/// The settings for scenes of `plan` with states `fields` at the times of `grid`, and under a law with those that it is told at the end.
 pub fn propagator(plan: &Plan, grid: Grid, fields: StateFields) -> PropagationSettings {
     let control = Control { tolerance: plan.tolerance, step: plan.step_s, max_steps: plan.max_steps };
-    let settings = PropagationSettings::new(plan.method, control, grid, fields, &nominal(plan));
+    let settings = |fields| PropagationSettings::new(plan.method, control, grid, fields, &nominal(plan));
     match &plan.law {
-        Some(law) => settings.with_feedback(law.commands()),
-        None => settings,
+        Some(law) => settings(fields.union(SEEN_BY_LAWS)).with_feedback(law.commands()),
+        None => settings(fields),
     }
 }
 

@@ -124,7 +124,7 @@ impl<'p> SingleRuns<'p> {
             plan,
             isa,
             request,
-            flights: Flights::new(plan, propagator(plan, grid.clone(), fields).engine(isa)).recording(),
+            flights: Flights::new(plan, propagator(plan, grid.clone(), fields).engine(isa), &grid).recording(),
             observer: Observer::new(request, &grid).with_nominal(nominal(&request)),
             series_observer: Observer::new(shown, &grid).with_nominal(nominal(&shown)),
             ignored: vec![f64::NAN; shown.columns().len()],
@@ -151,9 +151,9 @@ impl<'p> SingleRuns<'p> {
         let (isa, observer, series_observer) = (self.isa, &mut self.observer, &mut self.series_observer);
         let (plan, ignored) = (self.plan, &mut self.ignored);
         let draw = plan.law.as_ref().map(|_| LawDraw { sample: noise, parameters: self.draws.drawn().control.clone() });
-        self.flights.fly(std::slice::from_ref(&scene), draw.as_slice(), &mut |run| {
-            let status = observe(plan, observer, isa, &scene, &run, &mut row);
-            observe(plan, series_observer, isa, &scene, &run, ignored);
+        self.flights.fly(std::slice::from_ref(&scene), draw.as_slice(), &mut |run, of_law| {
+            let status = observe(plan, observer, isa, &scene, (&run, of_law), &mut row);
+            observe(plan, series_observer, isa, &scene, (&run, of_law), ignored);
             reason = observer.reason(status, run.outcome, &row);
             result = Some((run.table.clone(), run.arcs.to_vec(), Outcome { status, ..*run.outcome }));
         });

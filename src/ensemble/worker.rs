@@ -105,8 +105,8 @@ impl<'p> Ensemble<'p> {
         let (scene, mut observer) = (nominal(self.plan), self.observer());
         let mut ignored = vec![f64::NAN; self.shape().observables];
         let mut kept = vec![f64::NAN; reader.columns()];
-        self.flights().fly_nominal(&mut |run| {
-            observe(self.plan, &mut observer, self.isa, &scene, &run, &mut ignored);
+        self.flights().fly_nominal(&mut |run, of_law| {
+            observe(self.plan, &mut observer, self.isa, &scene, (&run, of_law), &mut ignored);
             kept.copy_from_slice(reader.kept(&observer, run.table));
         });
         Some(PartBands::new(Arc::new(BandLayout { series, times, nominal: kept }), reader))
@@ -120,7 +120,7 @@ impl<'p> Ensemble<'p> {
     }
 
     fn flights(&self) -> Flights<'p> {
-        Flights::new(self.plan, self.engine())
+        Flights::new(self.plan, self.engine(), &self.plan.grid)
     }
 
     fn observer(&self) -> Observer {
@@ -320,9 +320,9 @@ impl Worker<'_> {
         let (scenes, rows_of_scenes) = (&self.scenes[which.clone()], &self.rows_of_scenes[which]);
         let (observer, observed, is_done) = (&mut self.observer, &mut self.observed, &mut self.is_done);
         let is_selected = &self.is_selected;
-        self.flights.fly(scenes, draws, &mut |run| {
+        self.flights.fly(scenes, draws, &mut |run, of_law| {
             let CompletedRun { index, table, outcome, arcs } = run;
-            let status = observe(plan, observer, isa, &scenes[index], &run, observed);
+            let status = observe(plan, observer, isa, &scenes[index], (&run, of_law), observed);
             let row = rows_of_scenes[index];
             rows.set_result(row, status, observed);
             is_done[first_scene + index] = true;

@@ -6,10 +6,11 @@ use std::fmt::{self, Display, Formatter};
 
 use serde::Serialize;
 
-use crate::analysis::audit_tally::{AuditTally, Coverage};
+use crate::analysis::audit_tally::{AuditTally, Coverage, PROMISED_COVERAGE};
 use crate::ensemble::audit::AuditValue;
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use crate::report::number::short;
+use crate::statistics::quantile::percent;
 use crate::statistics::spread::Spread;
 
 /// The numerical errors of an observable over the audited runs, beside the spread of its values over the campaign.
@@ -54,12 +55,20 @@ impl Quantiles {
 /// Comparison of an estimate with the true error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
+    /// Runs that were audited and have this error.
+    pub audited: u64,
     /// Runs whose estimate covers the true error.
     pub covered: u64,
     /// Fraction of the audited runs.
     pub coverage: Option<f64>,
     /// Median of estimate over true error.
     pub median_ratio: Option<f64>,
+    /// The coverage that is promised.
+    pub promised: f64,
+    /// The probability of so few covered runs, or fewer, if the promise were kept.
+    pub chance: f64,
+    /// Runs that are not covered, where chance does not explain that there are so many; else 0.
+    pub excess: u64,
 }
 
 /// The statistics of the audits of a campaign.
@@ -90,12 +99,15 @@ pub struct AuditSummary {
 }
 
 impl Estimate {
-    /// Of `audited` runs.
-    fn new(coverage: &Coverage, audited: u64) -> Self {
+    fn new(coverage: &Coverage) -> Self {
         Estimate {
+            audited: coverage.audited,
             covered: coverage.covered,
-            coverage: (audited > 0).then(|| coverage.covered as f64 / audited as f64),
+            coverage: (coverage.audited > 0).then(|| coverage.covered as f64 / coverage.audited as f64),
             median_ratio: coverage.ratio.quantile(0.5),
+            promised: PROMISED_COVERAGE,
+            chance: coverage.chance(),
+            excess: coverage.excess(),
         }
     }
 }
@@ -131,10 +143,30 @@ impl AuditSummary {
             omega_error: Quantiles::of(&audits.omega),
             attitude_error_rad: Quantiles::of(&audits.attitude),
             debris_error: (audits.debris.count() > 0).then(|| Quantiles::of(&audits.debris)),
-            estimate: Estimate::new(&audits.coverage, audits.audited),
-            debris_estimate: (audits.debris.count() > 0)
-                .then(|| Estimate::new(&audits.debris_coverage, audits.debris.count())),
+            estimate: Estimate::new(&audits.coverage),
+            debris_estimate: (audits.debris.count() > 0).then(|| Estimate::new(&audits.debris_coverage)),
         }
+    }
+
+    /// The estimates, each with the name of its column.
+    fn estimates(&self) -> impl Iterator<Item = (&'static str, Estimate)> {
+        let debris = self.debris_estimate.map(|estimate| (DEBRIS_STATE_ERROR_ESTIMATE.name(), estimate));
+        std::iter::once((STATE_ERROR_ESTIMATE.name(), self.estimate)).chain(debris)
+    }
+
+    /// The estimates that cover the true error in fewer runs than promised, each as a sentence; none where chance may be why.
+    pub fn broken_promises(&self) -> Vec<String> {
+        let broken = self.estimates().filter(|(_, estimate)| estimate.excess > 0);
+        let sentence = |(name, one): (&str, Estimate)| {
+            format!(
+                "AUDIT FAILED: {name} covers the true error in {} of {} audited runs, at least {}% are promised; with that promise kept, so few or fewer would have the probability {}. The numerical errors of these runs are larger than their estimates",
+                one.covered,
+                one.audited,
+                percent(one.promised),
+                short(one.chance),
+            )
+        };
+        broken.map(sentence).collect()
     }
 }
 
@@ -176,15 +208,12 @@ impl Display for AuditSummary {
             }
             writeln!(f)?;
         }
-        let debris = self.debris_estimate.map(|estimate| (DEBRIS_STATE_ERROR_ESTIMATE, estimate));
-        for (id, estimate) in std::iter::once((STATE_ERROR_ESTIMATE, self.estimate)).chain(debris) {
-            let Estimate { covered, coverage, median_ratio } = estimate;
+        for (name, estimate) in self.estimates() {
+            let Estimate { audited, covered, coverage, median_ratio, .. } = estimate;
             let ratio = median_ratio.map_or("-".to_owned(), short);
             writeln!(
                 f,
-                "  {} covers {covered} of {} ({:.1}%), {ratio} times the error in the median",
-                id.name(),
-                self.audited,
+                "  {name} covers {covered} of {audited} ({:.1}%), {ratio} times the error in the median",
                 100.0 * coverage.unwrap_or(0.0)
             )?;
         }
@@ -215,8 +244,11 @@ mod tests {
     /// Law: each quantile is that of type 7, and the ratios are of the runs that were audited.
     #[test]
     fn quantiles_and_shares_are_those_stated() {
-        let mut audits =
-            AuditTally { audited: 4, coverage: Coverage { covered: 3, ..Coverage::default() }, ..AuditTally::new(1) };
+        let mut audits = AuditTally {
+            audited: 4,
+            coverage: Coverage { audited: 4, covered: 3, ..Coverage::default() },
+            ..AuditTally::new(1)
+        };
         (1..=1000).for_each(|k| audits.state.add(f64::from(k)));
         (1..=1000).for_each(|k| audits.observables[0].add(f64::from(k)));
         let found = AuditSummary::new(&audits, 0.5);
@@ -235,5 +267,27 @@ mod tests {
         assert!((numerics.spread / 89.1 - 1.0).abs() < 2.0 * RELATIVE_ERROR, "{}", numerics.spread);
         near(numerics.share_of_spread, 950.05 / numerics.spread);
         assert_eq!(cost([3.0, 1.0]), format!("{} s of CPU time, 25.0% of the total", short(1.0)));
+    }
+
+    /// Law: an estimate whose promise is broken is named with its counts, each estimate by its own runs; none is where the promise may be kept.
+    #[test]
+    fn broken_promises_are_named() {
+        let of = |state: [u64; 2], debris: [u64; 2]| {
+            let coverage = |[covered, audited]: [u64; 2]| Coverage { audited, covered, ..Coverage::default() };
+            let mut audits =
+                AuditTally { coverage: coverage(state), debris_coverage: coverage(debris), ..AuditTally::new(0) };
+            (0..debris[1]).for_each(|_| audits.debris.add(1e-12));
+            AuditSummary::new(&audits, 1.0).broken_promises()
+        };
+        assert!(of([7, 7], [0, 0]).is_empty() && of([6, 7], [95, 100]).is_empty());
+        let found = of([0, 7], [10, 20]);
+        let words = [
+            "AUDIT FAILED: state_error_estimate covers the true error in 0 of 7",
+            "AUDIT FAILED: debris_state_error_estimate covers the true error in 10 of 20",
+        ];
+        assert!(
+            found.len() == 2 && found.iter().zip(words).all(|(found, words)| found.starts_with(words)),
+            "{found:?}"
+        );
     }
 }

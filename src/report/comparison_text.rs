@@ -24,6 +24,16 @@ pub struct ComparedVerdict {
     pub verdicts: [Option<String>; 2],
 }
 
+impl ComparedVerdict {
+    /// Whether the second verdict is worse than the first: FAIL is worse than UNDECIDED, which is worse than PASS. A requirement that only one result
+    /// has is not compared.
+    pub fn is_worse(&self) -> bool {
+        let rank = |word: &String| ["FAIL", "UNDECIDED", "PASS"].iter().position(|known| known == word);
+        let [first, second] = self.verdicts.each_ref().map(|verdict| verdict.as_ref().and_then(rank));
+        first.zip(second).is_some_and(|(first, second)| second < first)
+    }
+}
+
 /// Two results compared, with what is said of them beside their numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Compared<'c> {
@@ -54,7 +64,7 @@ pub fn text(compared: Compared<'_>) -> String {
         0 => "  compared as independent samples: Welch's test of means, Kolmogorov and Smirnov's of distributions\n"
             .to_owned(),
         pairs => format!(
-            "  compared sample by sample: {pairs} samples were drawn alike and are ok in both; Student's test of means, signed ranks\n"
+            "  compared sample by sample: {pairs} samples were drawn alike and computed in both; distributions by McNemar's test, whether runs moved by signed ranks\n"
         ),
     };
     if let Some(other) = [first, second].into_iter().find(|of| of.population != Population::Independent) {
@@ -70,7 +80,11 @@ pub fn text(compared: Compared<'_>) -> String {
     }
     for one in verdicts {
         let [first, second] = one.verdicts.each_ref().map(value);
-        let mark = if first == second { "" } else { "   DIFFERENT" };
+        let mark = match (one.is_worse(), first == second) {
+            (true, _) => "   WORSE",
+            (false, true) => "",
+            (false, false) => "   DIFFERENT",
+        };
         text += &format!("  {first:<10}| {second:<10}{}{mark}\n", one.requirement);
     }
     text + &observables(comparison, tolerance)
@@ -81,6 +95,7 @@ fn observables(comparison: &Comparison, tolerance: Option<f64>) -> String {
     let all = &comparison.columns;
     let same = all.iter().filter(|column| column.largest_relative() == 0.0 && column.differing_pairs == 0).count();
     let (shifted, others): (Vec<_>, Vec<_>) = all.iter().partition(|column| comparison.is_shifted(column));
+    let moved: Vec<_> = others.iter().copied().filter(|column| comparison.is_moved(column)).collect();
     let beyond: Vec<_> =
         others.into_iter().filter(|column| tolerance.is_some_and(|most| column.is_beyond(most))).collect();
     let mut text = format!(
@@ -91,6 +106,13 @@ fn observables(comparison: &Comparison, tolerance: Option<f64>) -> String {
         short(comparison.level()),
     );
     text += &table(comparison, "shifted", &shifted, tolerance);
+    if !moved.is_empty() {
+        text += &format!(
+            "\n  the runs of {} more moved: most values differ one way, and the distribution is not shown to\n",
+            moved.len()
+        );
+        text += &table(comparison, "moved, not shifted", &moved, tolerance);
+    }
     text + &table(comparison, "beyond tolerance, explained by chance", &beyond, tolerance)
 }
 
@@ -151,7 +173,7 @@ pub fn json(names: [String; 2], compared: Compared<'_>) -> String {
         json!({ "result": name, "samples": statistics.samples(), "ok": statistics.ok(), "only_here": comparison.alone[which] })
     };
     let key = |key: &KeyDifference| json!({ "key": key.key, "first": key.first, "second": key.second });
-    let verdict = |one: &ComparedVerdict| json!({ "requirement": one.requirement, "first": one.verdicts[0], "second": one.verdicts[1] });
+    let verdict = |one: &ComparedVerdict| json!({ "requirement": one.requirement, "first": one.verdicts[0], "second": one.verdicts[1], "is_worse": one.is_worse() });
     let [first, second] = names;
     let value = json!({
         "program": "spindrift",
@@ -169,4 +191,21 @@ pub fn json(names: [String; 2], compared: Compared<'_>) -> String {
         "observables": described_table::json(&comparison_table::table(comparison)),
     });
     format!("{value:#}\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: of every pair of verdicts those are worse that go down from PASS by UNDECIDED to FAIL; one that is in one result only is compared with nothing.
+    #[test]
+    fn worse_verdicts_go_down() {
+        let words = [Some("PASS"), Some("UNDECIDED"), Some("FAIL"), None].map(|word| word.map(str::to_owned));
+        for (place, first) in words.iter().enumerate() {
+            for (other, second) in words.iter().enumerate() {
+                let one = ComparedVerdict { requirement: String::new(), verdicts: [first.clone(), second.clone()] };
+                assert_eq!(one.is_worse(), place < other && other < 3, "{one:?}");
+            }
+        }
+    }
 }

@@ -1,12 +1,19 @@
-//! What drives an outcome, in words: on the screen and on the cards of the page.
+//! What drives an outcome, in words: on the screen, on the cards and at the charts of the page.
 
-use crate::analysis::drivers::drivers;
-use crate::analysis::sensitivity::InputSensitivity;
+use crate::analysis::drivers::{Question, Ranked, Ranking, rankings};
+use crate::analysis::effects::{Dependence, Direction, Level};
+use crate::analysis::event::{Event, Occurs};
+use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
 use crate::campaign::Plan;
-use crate::statistics::correlation::Estimate;
+use crate::report::number::short;
+use crate::sampling::Design;
+use crate::statistics::quantile::percent;
 
 /// Inputs that are named.
 const NAMED: usize = 2;
+
+/// How a campaign shows interactions.
+pub const SEE_INTERACTIONS: &str = "these shares do not contain interactions of inputs: the total indices of a campaign with design.kind = \"saltelli\" do";
 
 /// The observables of `all` whose drivers are shown: the outcomes of the campaign.
 pub fn outcomes<'a>(plan: &Plan, all: &'a [InputSensitivity]) -> Vec<&'a str> {
@@ -19,32 +26,138 @@ pub fn outcomes<'a>(plan: &Plan, all: &'a [InputSensitivity]) -> Vec<&'a str> {
     names
 }
 
-/// The strongest inputs of an outcome, with their share of its variance and the direction; empty where no influence was estimated.
-pub fn driven_by(all: &[InputSensitivity], outcome: &str) -> String {
-    let mut of = all.iter().filter(|one| one.observable == outcome && one.influence().is_some());
-    let Some(first) = of.next() else { return String::new() };
-    let found = drivers(all, outcome);
-    if found.is_empty() {
-        return "no input with an influence that these runs can show".to_owned();
-    }
-    let name = |(one, influence): &(&InputSensitivity, Estimate)| {
-        let direction = match one.rises() {
-            Some(true) => ", rises with it",
-            Some(false) => ", falls with it",
-            None => "",
-        };
-        format!("{} ({:.2}{direction})", one.input, influence.value)
-    };
-    let names: Vec<String> = found.iter().take(NAMED).map(name).collect();
-    let measure = if first.total.is_some() { "total Sobol index" } else { "share of the variance" };
-    format!("{}; {measure}", names.join(", "))
+/// The rankings of an outcome, at the confidence of the plan.
+pub fn ranked<'a>(plan: &Plan, all: &'a [InputSensitivity], outcome: &str) -> Vec<Ranking<'a>> {
+    rankings(all, outcome, 1.0 - plan.analysis.confidence)
 }
 
-/// A line for each outcome; nothing where no influence was estimated.
+/// What happens in a run in which the event of `outcome` occurs: "fail".
+pub fn verb(outcome: &str, event: &Event) -> String {
+    match event.occurs {
+        Occurs::Missed if ["launched", "failure"].contains(&outcome) => "fail".to_owned(),
+        Occurs::Missed => "miss the limit".to_owned(),
+        Occurs::Value(value) if outcome == COMPUTED => {
+            format!("were {}computed", if value == 1.0 { "" } else { "not " })
+        }
+        Occurs::Value(value) => format!("have {}", short(value)),
+        Occurs::OtherThan(value) => format!("have another value than {}", short(value)),
+        Occurs::Worst(share) => format!("are among the worst {}%", short(libm::round(1e9 * share) / 1e7)),
+    }
+}
+
+/// A ranking in words.
+pub fn sentence(plan: &Plan, outcome: &str, ranking: &Ranking<'_>) -> String {
+    match &ranking.question {
+        Question::Event(event) => of_event(plan, &verb(outcome, event), event, ranking),
+        Question::Spread => of_spread(plan, ranking),
+    }
+}
+
+fn of_event(plan: &Plan, verb: &str, event: &Event, ranking: &Ranking<'_>) -> String {
+    let confidence = percent(plan.analysis.confidence);
+    let phrase = |ranked: &Ranked<'_>| {
+        let name = &ranked.input.input;
+        let dependence = ranked.input.on_event.as_ref().map(|effect| &effect.dependence)?;
+        Some(match dependence {
+            Dependence::Levels { levels, most, ratio } => {
+                let level = |level: &Level| {
+                    let value = level.value.map_or("at other values".to_owned(), |value| format!("= {}", short(value)));
+                    format!("{value}: {} of {} {verb}", level.of.events, level.of.runs)
+                };
+                let mut listed: Vec<&Level> = levels.iter().collect();
+                let first = listed.remove(*most);
+                listed.insert(0, first);
+                let listed: Vec<String> = listed.into_iter().map(level).collect();
+                let end = |end: f64| if end.is_finite() { short(end) } else { "no bound".to_owned() };
+                let times = if ratio.value.is_finite() {
+                    format!(
+                        "risk ratio {}, {confidence}% interval {} to {}",
+                        short(ratio.value),
+                        end(ratio.lower),
+                        end(ratio.upper)
+                    )
+                } else {
+                    format!("risk ratio above {} with {confidence}% confidence", short(ratio.lower))
+                };
+                format!("{name} {} ({times})", listed.join("; "))
+            }
+            Dependence::Shift { chance, medians } => {
+                let word = if *chance > 0.5 { "larger" } else { "smaller" };
+                let [with, without] = medians.map(short);
+                format!("{name} is {word} in the runs that {verb} (median {with}, others {without})")
+            }
+            Dependence::Distance { chance } => {
+                let word = if *chance > 0.5 { "farther from" } else { "nearer to" };
+                format!("{name} is {word} its median in the runs that {verb}")
+            }
+        })
+    };
+    let named: Vec<String> = ranking.drivers().take(NAMED).filter_map(phrase).collect();
+    if named.is_empty() {
+        let of = event.of;
+        return format!("{} of {} runs {verb}; these runs do not show an input that decides it", of.events, of.runs);
+    }
+    named.join("; ")
+}
+
+fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
+    let Some(first) = ranking.inputs.first() else { return String::new() };
+    let is_total = first.input.total.is_some();
+    let name = |ranked: &Ranked<'_>| {
+        let direction = match ranked.input.direction {
+            Some(Direction::Rises) => ", rises with it",
+            Some(Direction::Falls) => ", falls with it",
+            Some(Direction::NotMonotonic) => ", not monotonic",
+            None => "",
+        };
+        format!("{} ({:.2}{direction})", ranked.input.input, ranked.share.value)
+    };
+    let names: Vec<String> = ranking.drivers().take(NAMED).map(name).collect();
+    let rest = rest(plan, ranking);
+    if !names.is_empty() {
+        let measure = if is_total { "total Sobol index" } else { "share of the variance" };
+        let rest = rest.map_or_else(String::new, |rest| format!("; {rest}"));
+        return format!("{}; {measure}{rest}", names.join(", "));
+    }
+    let most = ranking.inputs.iter().map(|ranked| ranked.share.value).fold(0.0, f64::max);
+    let rest = rest.map_or_else(String::new, |rest| format!("; {rest}"));
+    format!("no input is seen to explain more than {:.0}% of the variance{rest}", (100.0 * most).ceil())
+}
+
+/// What the rest of the variance is, where the drivers explain less than half of it.
+fn rest(plan: &Plan, ranking: &Ranking<'_>) -> Option<String> {
+    let share: f64 = ranking.drivers().map(|ranked| ranked.share.value).sum();
+    let first = ranking.inputs.first()?.input;
+    if share >= 0.5 || first.total.is_some() {
+        return None;
+    }
+    let together = first.r_squared.map_or(0.0, |of| of.value);
+    Some(match (together >= 0.5, plan.law.is_some()) {
+        (true, _) => format!("a regression on all inputs together explains {:.0}%", (100.0 * together).floor()),
+        (false, true) => "the rest is noise in the loop or interactions of inputs".to_owned(),
+        (false, false) => "the rest is interactions of inputs, or what these runs are too few to show".to_owned(),
+    })
+}
+
+/// The rankings of an outcome in words; empty where no influence was estimated.
+pub fn driven_by(plan: &Plan, all: &[InputSensitivity], outcome: &str) -> Vec<String> {
+    ranked(plan, all, outcome).iter().map(|ranking| sentence(plan, outcome, ranking)).collect()
+}
+
+/// Lines for each outcome; nothing where no influence was estimated.
 pub fn text(plan: &Plan, all: &[InputSensitivity]) -> String {
     let outcomes = outcomes(plan, all);
     let width = outcomes.iter().map(|outcome| outcome.len()).max().unwrap_or(0);
-    let lines = outcomes.iter().map(|outcome| (outcome, driven_by(all, outcome))).filter(|(_, text)| !text.is_empty());
-    let text: String = lines.map(|(outcome, drivers)| format!("  {outcome:<width$}  {drivers}\n")).collect();
+    let mut text = String::new();
+    let mut has_rest = false;
+    for outcome in outcomes {
+        for ranking in &ranked(plan, all, outcome) {
+            text += &format!("  {outcome:<width$}  {}\n", sentence(plan, outcome, ranking));
+            has_rest |= ranking.question == Question::Spread && rest(plan, ranking).is_some();
+        }
+    }
+    if has_rest && !matches!(plan.design, Design::Saltelli(_)) {
+        text += &format!("  {SEE_INTERACTIONS}\n");
+    }
     if text.is_empty() { text } else { format!("\n  driven by\n{text}") }
 }

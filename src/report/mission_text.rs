@@ -1,9 +1,10 @@
 //! How the missions of a control loop ended, in words.
 
 use crate::analysis::missions::{MissionShare, Missions};
-use crate::report::number::short;
+use crate::control::guidance::Failure;
+use crate::report::share_text::with_interval;
 
-/// How a mission ended, in words.
+/// How a mission ended, in words that follow "mission".
 pub fn words(end: &str) -> &str {
     match end {
         "flying" => "still flying at the end of the run",
@@ -18,21 +19,36 @@ pub fn words(end: &str) -> &str {
     }
 }
 
-/// The share in per cent, and its interval where there is one.
-pub fn share(share: &MissionShare) -> String {
-    let percent = |share: f64| short(100.0 * share);
-    let of_all = percent(share.count as f64 / share.runs.max(1) as f64);
-    match share.interval {
-        [low, high] if low.is_finite() => format!("{of_all}% [{}, {}]", percent(low), percent(high)),
-        _ => format!("{of_all}%"),
+/// How the mission of a run ended, by the columns of its row; `None` where the row has none, or the mission did neither fail nor launch.
+pub fn of_row(row: &[(String, f64)]) -> Option<String> {
+    let value = |name: &str| row.iter().find(|(column, _)| column == name).map(|(_, value)| *value);
+    if value("launched") == Some(1.0) {
+        return Some("mission launched".to_owned());
     }
+    let failure = value("failure").filter(|code| *code >= 1.0)?;
+    Some(format!("mission {}", words(Failure::NAMES.get(failure as usize)?)))
+}
+
+/// The share in per cent, between bounds where runs are missing, and its interval where there is one.
+pub fn share(share: &MissionShare) -> String {
+    with_interval(share.shares(), share.interval)
+}
+
+/// What runs that were not computed mean for the shares; `None` where there are none.
+pub fn missing(missions: &Missions) -> Option<String> {
+    let MissionShare { missing, runs, .. } = missions.first()?;
+    (*missing > 0)
+        .then(|| format!("{missing} of {runs} runs were not computed: each share is between none and all of them"))
 }
 
 /// A line for each way in which missions ended; nothing without a loop.
 pub fn text(missions: &Missions) -> String {
     let mut text = String::new();
     for one in missions {
-        text += &format!("  {:>8} of {} runs {}: {}\n", one.count, one.runs, words(one.end), share(one));
+        text += &format!("  {:>8} of {} missions {}: {}\n", one.count, one.runs, words(one.end), share(one));
+    }
+    if let Some(note) = missing(missions) {
+        text += &format!("  {note}\n");
     }
     if text.is_empty() { text } else { format!("\n{text}") }
 }
@@ -44,10 +60,28 @@ mod tests {
     /// Law: each way is named with its count, its share and the ends of its interval in order.
     #[test]
     fn ends_are_counted() {
-        let share = |end, count, interval| MissionShare { end, count, runs: 200, interval };
+        let share = |end, count, interval| MissionShare { end, count, runs: 200, missing: 0, interval };
         let found = text(&vec![share("launched", 190, [0.91, 0.975]), share("keep_out", 10, [f64::NAN; 2])]);
-        assert!(found.contains("190 of 200 runs launched: 95% [91, 97.50]"), "{found}");
-        assert!(found.contains("10 of 200 runs failed: too close to the debris: 5%\n"), "{found}");
+        assert!(found.contains("190 of 200 missions launched: 95% [91, 97.50]"), "{found}");
+        assert!(found.contains("10 of 200 missions failed: too close to the debris: 5%\n"), "{found}");
         assert_eq!(text(&Missions::new()), "");
+        // 82 of 300 launched, 214 were not computed: from 27% to 99%
+        let bounds = MissionShare { runs: 300, missing: 214, ..share("launched", 82, [0.223, 0.997]) };
+        let found = text(&vec![bounds]);
+        assert!(found.contains("82 of 300 missions launched: 27.33% to 98.67% [22.30, 99.70]"), "{found}");
+        assert!(found.contains("214 of 300 runs were not computed"), "{found}");
+    }
+
+    /// Law: the code of a row is that of the list of failures, and a launched mission did not fail.
+    #[test]
+    fn rows_say_how_their_mission_ended() {
+        let row =
+            |launched: f64, failure: f64| of_row(&[("launched".to_owned(), launched), ("failure".to_owned(), failure)]);
+        for (code, name) in Failure::NAMES.iter().enumerate().skip(1) {
+            assert_eq!(row(0.0, code as f64), Some(format!("mission {}", words(name))));
+            assert!(words(name).starts_with("failed: "), "{name}");
+        }
+        assert_eq!(row(1.0, 0.0).as_deref(), Some("mission launched"));
+        assert_eq!([row(0.0, 0.0), of_row(&[])], [None, None]);
     }
 }

@@ -1,6 +1,6 @@
 //! Layer 9: text and figures for people.
 //!
-//! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`failure_text`]: why runs failed. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. [`noise_text`]: what noise does. - [`precision_text`]: work-precision measurements as text.
+//! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`warnings`]: what comes before them. - [`failure_text`]: why runs failed. [`share_text`]: shares of runs. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. [`noise_text`]: what noise does. - [`precision_text`]: work-precision measurements as text.
 //! - [`figure`]: what a figure shows. - [`sheet`]: figures on one picture, drawn with `panel`, `axis`, `legend`, `marks`, `shapes` as `svg`; [`image`]: its files. - [`fitted_text`]: text that is shortened to a width. - `escaped`: text within markup.
 //! - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in [`histogram`]s, with [`expected_counts`], of numbers drawn together by [`marginal`]; [`origin_text`]: in words), [`precision_figure`]: the figures of the commands; [`relative_errors`]: the axis of errors.
 //! - [`comparison_text`]: two results compared. - [`stopping_text`]: looks of a campaign with `[stop]`.
@@ -34,6 +34,7 @@ pub mod precision_text;
 pub mod relative_errors;
 pub mod requirements;
 mod shapes;
+pub mod share_text;
 pub mod sheet;
 pub mod shell_word;
 pub mod simulation_figure;
@@ -42,4 +43,5 @@ pub mod summary;
 mod summary_text;
 mod svg;
 pub mod time_table;
+pub mod warnings;
 mod wrapped;

@@ -102,6 +102,11 @@ impl ObservableLine {
         self.count == 0 && self.without_value == 0 && !self.quantiles.iter().any(is_known)
     }
 
+    /// Whether it has an interval.
+    pub fn has_interval(&self) -> bool {
+        self.quantiles.iter().any(|one| one.interval != [None; 2])
+    }
+
     fn quantile(&self, p: f64) -> Option<&QuantileLine> {
         self.quantiles.iter().find(|quantile| quantile.p == p)
     }
@@ -156,9 +161,9 @@ const WIDE: usize = 120;
 /// Width of a quantile with its interval, characters.
 const QUANTILE: usize = 22;
 
-/// `lines` as a table for lines of `width` characters: values, and below them the ends of their intervals at `confidence`; `title` is that
+/// `lines` as a table for lines of `width` characters: values, and below them the ends of their intervals; `title` is that
 /// of the first column.
-pub fn table(lines: &[&ObservableLine], title: &str, confidence: f64, width: usize) -> String {
+pub fn table(lines: &[&ObservableLine], title: &str, width: usize) -> String {
     let unit =
         |line: &ObservableLine| if line.shown.unit.is_empty() { "-".to_owned() } else { line.shown.unit.clone() };
     let is_wide = width >= WIDE;
@@ -192,10 +197,6 @@ pub fn table(lines: &[&ObservableLine], title: &str, confidence: f64, width: usi
             };
             text += &format!("{:first$}  {}", "", cells(quantiles.iter().map(interval).collect(), ""));
         }
-    }
-    let has_intervals = lines.iter().flat_map(|line| &line.quantiles).any(|one| one.interval != [None; 2]);
-    if has_intervals {
-        text += &format!("  in brackets: {}% confidence; ?: not bounded by so few runs\n", percent(confidence));
     }
     for p in ps {
         let notes = lines.iter().filter_map(|line| line.quantile(p).and_then(|quantile| quantile.note.as_ref()));

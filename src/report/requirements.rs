@@ -4,11 +4,14 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::analysis::assessment::Assessment;
+use crate::analysis::assessment::{Assessment, RARE};
+use crate::analysis::tally::Tally;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
+use crate::report::audit_summary::AuditSummary;
 use crate::report::escaped::escaped;
 use crate::report::number::short;
+use crate::report::share_text::with_interval;
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
@@ -46,6 +49,12 @@ pub fn together(verdicts: &Verdicts) -> Vec<String> {
             verdicts.list.len()
         ));
     }
+    if verdicts.list.iter().any(Assessment::has_interval) {
+        said.push(
+            "a verdict looks at one side only, with the confidence of its requirement: it may be decided while its two-sided interval still has the limit in it"
+                .to_owned(),
+        );
+    }
     if verdicts.looks > 1 {
         said.push(format!("the confidence is that of all {} looks of [stop] together", verdicts.looks));
     }
@@ -62,33 +71,51 @@ pub fn together(verdicts: &Verdicts) -> Vec<String> {
 // what the text says
 const _: () = assert!(POWER == 0.9);
 
+/// What a decision on a mean assumes of events that the runs do not show; `None` where it assumes nothing.
+pub fn assumed(one: &Assessment) -> Option<String> {
+    let room = one.room_for_rare_events()?;
+    let unit = if one.shown.unit.is_empty() { String::new() } else { format!(" {}", one.shown.unit) };
+    Some(format!(
+        "if events rarer than {RARE} in {} runs move the mean by less than {}{unit}; with bounded = [lowest, highest] it would assume nothing",
+        one.runs,
+        short(one.shown.value(room)),
+    ))
+}
+
+/// What the intervals in brackets are, in words.
+pub fn intervals(confidence: f64) -> String {
+    format!("two-sided {}% intervals, of shares by Clopper and Pearson", percent(confidence))
+}
+
 /// How many runs would decide, in words.
 pub fn runs_needed(runs: &str) -> String {
-    format!("with {runs} runs nine of ten campaigns would decide, if the truth is what was seen")
+    format!(
+        "with {runs} runs nine of ten campaigns would decide if the truth were exactly what was seen; as it is not, count on half"
+    )
 }
 
 /// What was found, in words: the estimate with its bounds, and how many runs would decide.
 fn finding(one: &Assessment) -> String {
-    let [lower, upper] = one.gate.bounds;
+    let [lower, upper] = one.interval;
     let unit = if one.shown.unit.is_empty() { String::new() } else { format!(" {}", one.shown.unit) };
     let shown = |value: f64| format!("{}{unit}", short(one.shown.value(value)));
-    let in_percent = |fraction: f64| format!("{:.4}%", 100.0 * fraction);
-    let bounds = |show: &dyn Fn(f64) -> String| {
-        let shown = |end: f64| if end.is_finite() { show(end) } else { "no bound".to_owned() };
-        match lower.is_finite() || upper.is_finite() {
-            false => String::new(),
-            true => format!(
-                ", between {} and {} (each bound with {}% confidence)",
-                shown(lower),
-                shown(upper),
-                percent(one.confidences[0])
-            ),
-        }
-    };
     let found = match one.requirement.statement {
-        Statement::Mean => format!("mean {}{}", shown(one.gate.estimate), bounds(&shown)),
-        _ => {
-            let value = one.value.map_or(String::new(), |value| format!("{}; ", shown(value)));
+        Statement::Mean => {
+            let end = |end: f64| if end.is_finite() { short(one.shown.value(end)) } else { "?".to_owned() };
+            let interval = match lower.is_finite() || upper.is_finite() {
+                false => String::new(),
+                true => format!(" [{}, {}]", end(lower), end(upper)),
+            };
+            format!("mean {}{interval}", shown(one.gate.estimate))
+        }
+        statement => {
+            let value = match (one.value, statement) {
+                (Some(value), _) => format!("{}; ", shown(value)),
+                (None, Statement::Quantile(p)) if one.missing > 0 => {
+                    format!("p{} is among the runs without a value; ", percent(p))
+                }
+                _ => String::new(),
+            };
             let within = one.runs - one.violations;
             let at = one.worst.map_or(String::new(), |worst| {
                 let unresolved = match worst.unresolved {
@@ -97,7 +124,15 @@ fn finding(one: &Assessment) -> String {
                 };
                 format!("{unresolved} at {} s, the worst of {} points of time", short(worst.time_s), worst.points)
             });
-            format!("{value}{within} of {} runs within the limit{at}{}", one.runs, bounds(&in_percent))
+            let missing = match one.missing {
+                0 => String::new(),
+                missing => format!(" ({missing} runs without a value count as violations)"),
+            };
+            let share = match one.gate.estimate {
+                share if share.is_finite() => format!(": {}", with_interval([share; 2], one.interval)),
+                _ => String::new(),
+            };
+            format!("{value}{within} of {} runs within the limit{at}{share}{missing}", one.runs)
         }
     };
     let needed = match (&one.reason, one.gate.decision) {
@@ -114,7 +149,8 @@ fn finding(one: &Assessment) -> String {
         ),
         false => String::new(),
     };
-    let note = one.note.as_ref().map_or_else(String::new, |note| format!("; {note}"));
+    let notes = assumed(one).into_iter().chain(one.note.clone());
+    let note: String = notes.map(|note| format!("; {note}")).collect();
     format!("{found}{alone}{needed}{note}")
 }
 
@@ -158,9 +194,13 @@ pub fn json(verdicts: &Verdicts) -> Value {
             "confidence_of_fail": one.confidences[1],
             "estimate": finite(one.gate.estimate),
             "bounds": one.gate.bounds.map(finite),
+            "interval": one.interval.map(finite),
+            "bounded": requirement.bounded,
+            "assumes": assumed(one),
             "value": one.value.and_then(finite),
             "runs": one.runs,
             "violations": one.violations,
+            "runs_without_a_value": one.missing,
             "failed_runs": one.failed,
             "runs_that_would_decide": needed,
             "reason": one.reason,
@@ -170,6 +210,7 @@ pub fn json(verdicts: &Verdicts) -> Value {
     json!({
         "list": verdicts.list.iter().map(one).collect::<Vec<_>>(),
         "looks": verdicts.looks,
+        "confidence_of_intervals": verdicts.confidence,
         "together": together(verdicts),
         "samples": verdicts.samples,
         "samples_that_are_not_physical": verdicts.invalid,
@@ -177,17 +218,28 @@ pub fn json(verdicts: &Verdicts) -> Value {
 }
 
 /// The verdicts as JUnit XML: one test case for each requirement, an undecided one is an error; and one that every run is `ok`:
-/// `failed` are not; and one that `[stop]` reached its goal, where there is one: whether it did, and in words. No clock time: the same campaign
+/// of those that `tally` has; and one that every estimate of an error covers as many errors as promised, where runs were audited; and one that `[stop]` reached its goal, where there is one: whether it did, and in words. No clock time: the same campaign
 /// gives the same bytes.
-pub fn junit(plan: &Plan, verdicts: &Verdicts, failed: u64, stop: Option<(bool, String)>) -> String {
+pub fn junit(plan: &Plan, verdicts: &Verdicts, tally: &Tally, stop: Option<(bool, String)>) -> String {
     let name = escaped(&plan.name);
+    let failed = tally.failed();
+    let audit = tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction).broken_promises());
+    let is_broken = audit.as_ref().is_some_and(|broken| !broken.is_empty());
     let is_missed = stop.as_ref().is_some_and(|(is_reached, _)| !is_reached);
-    let (failures, errors) =
-        (verdicts.failed() + usize::from(failed > 0), verdicts.undecided() + usize::from(is_missed));
-    let tests = verdicts.list.len() + 1 + usize::from(stop.is_some());
+    let (failures, errors) = (
+        verdicts.failed() + usize::from(failed > 0) + usize::from(is_broken),
+        verdicts.undecided() + usize::from(is_missed),
+    );
+    let tests = verdicts.list.len() + 1 + usize::from(stop.is_some()) + usize::from(audit.is_some());
     let counts = format!("tests=\"{tests}\" failures=\"{failures}\" errors=\"{errors}\"");
     let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     xml += &format!("<testsuites name=\"spindrift\" {counts}>\n  <testsuite name=\"{name}\" {counts}>\n");
+    if verdicts.list.iter().any(Assessment::has_interval) {
+        let intervals = escaped(&intervals(verdicts.confidence));
+        xml += &format!(
+            "    <properties>\n      <property name=\"in brackets\" value=\"{intervals}\"/>\n    </properties>\n"
+        );
+    }
     let mut case = |title: &str, problem: Option<(&str, &str, &str)>| {
         let title = escaped(title);
         let _ = match problem {
@@ -201,6 +253,11 @@ pub fn junit(plan: &Plan, verdicts: &Verdicts, failed: u64, stop: Option<(bool, 
     };
     let message = format!("{failed} runs are not ok");
     case("every run is ok", (failed > 0).then_some(("failure", "failed runs", message.as_str())));
+    if let Some(broken) = audit {
+        let message = broken.join("; ");
+        let problem = is_broken.then_some(("failure", "audit", message.as_str()));
+        case("audited errors are within their estimates", problem);
+    }
     for one in &verdicts.list {
         let finding = finding(one);
         let problem = match one.gate.decision {

@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
+use crate::analysis::ending::Ending;
 use crate::analysis::missions::{MissionShare, Missions};
 use crate::analysis::outcomes::named;
 use crate::analysis::statistics::Statistics;
@@ -43,6 +44,8 @@ pub struct Summary {
     pub(super) quantile_error: f64,
     pub(super) audit: Option<AuditSummary>,
     pub(super) replaced: Vec<Replaced>,
+    /// What comes before every number.
+    pub(super) warnings: Vec<String>,
     /// The last look of a campaign with `[stop]`, and in words.
     pub(super) stopping: Option<(Stopping, String)>,
 }
@@ -54,7 +57,9 @@ impl Summary {
             let index = tally.headlines().iter().position(|headline| headline.quantity.name() == name)?;
             Numerics::new(tally.audits()?, index, &tally.headlines()[index].spread)
         };
+        let audit = tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
         Summary {
+            warnings: Vec::new(),
             name: plan.name.clone(),
             seed: plan.seed,
             samples: plan.samples,
@@ -71,11 +76,17 @@ impl Summary {
             treatment: statistics.treatment(),
             confidence: statistics.confidence,
             quantile_error: statistics.quantile_error,
-            audit: tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction)),
+            audit,
             replaced: plan.dispersions.replaced_correlations().to_vec(),
             stopping: None,
             missions: Missions::new(),
         }
+    }
+
+    /// The same, with what comes before every number.
+    #[must_use]
+    pub fn with_warnings(self, warnings: Vec<String>) -> Self {
+        Summary { warnings, ..self }
     }
 
     /// The same, with how the missions of a control loop ended.
@@ -114,6 +125,7 @@ impl Summary {
             "plan_hash": self.plan_hash,
             "seed": self.seed,
             "samples": self.samples,
+            "warnings": self.warnings,
             "statuses": statuses,
             "first_failed": first_failed,
             "failure_reasons": reasons,
@@ -135,7 +147,7 @@ impl Summary {
             value["nearest_correlations_of_scores"] = Value::Array(list.collect());
         }
         if !self.missions.is_empty() {
-            let one = |share: &MissionShare| json!({ "end": share.end, "count": share.count, "runs": share.runs, "interval": share.interval });
+            let one = |share: &MissionShare| json!({ "end": share.end, "count": share.count, "runs": share.runs, "not_computed": share.missing, "shares": share.shares(), "interval": share.interval });
             value["missions"] = Value::Array(self.missions.iter().map(one).collect());
         }
         if let Some(audit) = &self.audit {
@@ -162,13 +174,17 @@ impl Summary {
     }
 }
 
-/// What a finished summary says of how its campaign ended.
+/// How a campaign ended, as its rows and its summary both say.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SummaryEnd {
     /// Number of rows.
     pub rows: u64,
     /// Number of runs that are not `ok`.
     pub failed: u64,
+    /// Audited runs whose errors are larger than their estimates, where these are more than promised; else 0.
+    pub not_covered: u64,
+    /// What comes before every number, as the summary says it.
+    pub warnings: Vec<String>,
     /// The requirements, each with its verdict.
     pub verdicts: Vec<(String, String)>,
     /// Whether a campaign with `[stop]` has reached what it says; `true` of others.
@@ -176,6 +192,19 @@ pub struct SummaryEnd {
 }
 
 impl SummaryEnd {
+    /// What the summary of a campaign says that ended like this, without its warnings.
+    pub fn of(ending: &Ending) -> Self {
+        let verdicts = ending.verdicts.list.iter();
+        SummaryEnd {
+            rows: ending.rows,
+            failed: ending.failed,
+            not_covered: ending.not_covered,
+            warnings: Vec::new(),
+            verdicts: verdicts.map(|one| (one.sentence(), one.word().to_owned())).collect(),
+            is_reached: ending.stopping.as_ref().is_none_or(Stopping::is_reached),
+        }
+    }
+
     /// What the bytes of a summary say; `None` where they are no finished summary.
     pub fn read(bytes: &[u8]) -> Option<Self> {
         let value: Value = serde_json::from_slice(bytes).ok()?;
@@ -186,10 +215,16 @@ impl SummaryEnd {
             .filter_map(|(name, count)| Some((name, count.as_u64()?)))
             .collect();
         let text = |one: &Value, key: &str| Some(one.get(key)?.as_str()?.to_owned());
+        let excess = |estimate: &str| value.pointer(&format!("/audit/{estimate}/excess")).and_then(Value::as_u64);
         let list = value.pointer("/requirements/list").and_then(Value::as_array).into_iter().flatten();
         Some(SummaryEnd {
             rows: statuses.iter().map(|(_, count)| count).sum(),
             failed: statuses.iter().filter(|(name, _)| *name != Status::Done.name()).map(|(_, count)| count).sum(),
+            warnings: value
+                .get("warnings")
+                .and_then(Value::as_array)
+                .map_or_else(Vec::new, |list| list.iter().filter_map(Value::as_str).map(str::to_owned).collect()),
+            not_covered: ["estimate", "debris_estimate"].into_iter().filter_map(excess).sum(),
             verdicts: list.filter_map(|one| Some((text(one, "requirement")?, text(one, "verdict")?))).collect(),
             is_reached: value.pointer("/stop/reached").and_then(Value::as_bool) != Some(false),
         })
@@ -220,7 +255,10 @@ mod tests {
     fn failed_runs_are_read_from_a_summary() {
         let end =
             SummaryEnd::read(br#"{"statuses": {"ok": 5, "step_limit": 2, "invalid_sample": 1}}"#).expect("a summary");
-        assert_eq!((end.rows, end.failed, end.is_reached), (8, 3, true));
+        assert_eq!((end.rows, end.failed, end.not_covered, end.is_reached), (8, 3, 0, true));
+        let audited =
+            br#"{"statuses": {"ok": 9}, "audit": {"estimate": {"excess": 2}, "debris_estimate": {"excess": 3}}}"#;
+        assert_eq!(SummaryEnd::read(audited).map(|end| end.not_covered), Some(5));
         assert_eq!(SummaryEnd::read(b"{}"), None);
     }
 }

@@ -5,7 +5,8 @@ use super::number::short;
 use super::observable_lines::{ObservableLine, table};
 use super::summary::Summary;
 use super::wrapped::wrapped;
-use super::{failure_text, mission_text, requirements};
+use super::{failure_text, mission_text, requirements, warnings};
+use crate::analysis::assessment::Assessment;
 use crate::analysis::outcomes::OF_MOTION;
 use crate::ensemble::FailureReason;
 use crate::run::Status;
@@ -35,13 +36,15 @@ impl Summary {
     /// The text for lines of `width` characters. `drivers` are what drives the outcomes, `file` is the campaign as a word of the commands that
     /// show a run.
     pub fn text(&self, drivers: &str, file: &str, width: usize) -> String {
-        let mut text = wrapped(&requirements::text(&self.verdicts), width);
+        let mut text = wrapped(&warnings::text(&self.warnings), width);
+        text += &wrapped(&requirements::text(&self.verdicts), width);
         if let Some((_, stop)) = &self.stopping {
             text += &wrapped(&format!("\n  stop: {stop}\n"), width);
         }
         text += &self.ended();
         text += &wrapped(&mission_text::text(&self.missions), width);
         text += &self.found(width);
+        text += &wrapped(&self.brackets(), width);
         text += &wrapped(drivers, width);
         text += &wrapped(&self.numerics(), width);
         // commands stay whole, to be copied
@@ -55,9 +58,13 @@ impl Summary {
             (runs + ended.count, if *name == ok { ended.count } else { good })
         });
         if runs == good {
-            return if runs == 1 { "\n  the run is ok\n".to_owned() } else { format!("\n  all {runs} runs are ok\n") };
+            return if runs == 1 {
+                "\n  the run was computed\n".to_owned()
+            } else {
+                format!("\n  all {runs} runs were computed\n")
+            };
         }
-        let mut text = format!("\n  {good} of {runs} runs are ok\n");
+        let mut text = format!("\n  {good} of {runs} runs were computed\n");
         for (name, ended) in self.statuses.iter().filter(|(name, ended)| ended.count > 0 && *name != ok) {
             let more = if ended.count > ended.first.len() as u64 { ", ..." } else { "" };
             text += &format!("  {name:<16}{:>12}   samples {}{more}\n", ended.count, numbers(&ended.first));
@@ -87,16 +94,21 @@ impl Summary {
         if shown.iter().all(|line| line.is_empty()) {
             let is_nominal_ok =
                 self.statuses.iter().any(|(name, ended)| *name == Status::Done.name() && ended.count > 0);
-            return format!("\n  no {} is ok: no statistics\n", if is_nominal_ok { "dispersed run" } else { "run" });
+            return format!(
+                "\n  no {} was computed: no statistics\n",
+                if is_nominal_ok { "dispersed run" } else { "run" }
+            );
         }
         let title = if self.without_nominal { "dispersed runs" } else { "nominal run" };
-        let mut text = table(&shown, title, self.confidence, width);
+        let mut text = table(&shown, title, width);
         if self.treatment != EVERY_RUN_IS_OK {
             text += &format!("  {}\n", self.treatment);
         }
         for line in shown.iter().filter(|line| line.without_value > 0) {
-            text +=
-                &format!("  {}: {} runs that are ok have no value and are left out\n", line.name, line.without_value);
+            text += &format!(
+                "  {}: {} runs that were computed have no value and are left out\n",
+                line.name, line.without_value
+            );
         }
         if self.intervals.starts_with("none") {
             text += &format!("  intervals: {}\n", self.intervals);
@@ -106,6 +118,16 @@ impl Summary {
             more => text += &format!("  {more} more in statistics.parquet\n"),
         }
         text
+    }
+
+    /// What the intervals in brackets are, once for all of them.
+    fn brackets(&self) -> String {
+        let of_missions = self.missions.iter().any(|one| one.interval[0].is_finite());
+        let of_lines = self.shown().iter().any(|line| line.has_interval());
+        if !(of_missions || of_lines || self.verdicts.list.iter().any(Assessment::has_interval)) {
+            return String::new();
+        }
+        format!("\n  in brackets: {}; ?: not bounded by so few runs\n", requirements::intervals(self.confidence))
     }
 
     /// How well it was computed: a sentence, and the audits.
@@ -161,7 +183,7 @@ impl Summary {
 }
 
 /// What [`crate::analysis::statistics::Statistics::treatment`] says where nothing is left out.
-const EVERY_RUN_IS_OK: &str = "every run is ok";
+const EVERY_RUN_IS_OK: &str = "every run was computed";
 
 #[cfg(test)]
 mod tests {
@@ -175,6 +197,7 @@ mod tests {
         let ended = |count: u64, first: &[u64]| Ended { count, first: first.iter().map(|id| SampleId(*id)).collect() };
         Summary {
             missions: Vec::new(),
+            warnings: Vec::new(),
             name: "x".to_owned(),
             seed: 1,
             samples: 13,
@@ -206,7 +229,7 @@ mod tests {
     #[test]
     fn statuses_are_counted_and_failures_named() {
         let summary = summary();
-        let lines = ["  5 of 13 runs are ok", "  step_limit                 2   samples 3, 4"];
+        let lines = ["  5 of 13 runs were computed", "  step_limit                 2   samples 3, 4"];
         let more = "  inaccurate                 6   samples 5, 6, ...";
         assert_eq!(summary.ended(), format!("\n{}\n{}\n{more}\n", lines[0], lines[1]));
         // the command that shows the first of each
@@ -241,7 +264,7 @@ mod tests {
         };
         let text = |lines: Vec<ObservableLine>| Summary { lines, ..summary() }.found(100);
         let none = text(vec![line(0)]);
-        assert!(none.ends_with("\n  no dispersed run is ok: no statistics\n"), "{none}");
+        assert!(none.ends_with("\n  no dispersed run was computed: no statistics\n"), "{none}");
         let some = text(vec![line(5)]);
         assert!(some.contains("energy_error_max") && !some.contains("no statistics"), "{some}");
     }

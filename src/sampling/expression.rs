@@ -11,6 +11,8 @@
 //! | functions | `sqrt exp ln log10 sin cos tan asin acos atan atan2 abs min max`, `if(condition, yes, no)` |
 //! | constants | `pi`, numbers such as `2`, `0.5`, `1e-3` |
 
+mod bounds;
+
 /// Deepest stack: an expression nested deeper is refused.
 pub const DEEPEST: usize = 32;
 

@@ -66,13 +66,16 @@ pub enum Claim {
     Finished(Finished),
 }
 
-/// A dataset in which everything is there.
+/// A dataset in which everything is there, locked against other processes until this is dropped.
 #[derive(Debug)]
 pub struct Finished {
     /// The text of its summary.
     pub summary: String,
+    /// Its parts, whose checksums were compared.
+    pub parts: Vec<PartRecord>,
     /// What is not part of it, and was left alone.
     pub notes: Vec<String>,
+    _locks: Locks,
 }
 
 /// A dataset that is ready for parts, locked against other processes until it is dropped.
@@ -227,7 +230,10 @@ fn ready(
     if is_complete {
         let path = root.join(SUMMARY);
         match summary(storage.read(&path, MOST_SUMMARY).map_err(at(&path))?) {
-            Some(summary) => return Ok(Claim::Finished(Finished { summary, notes: found.notes() })),
+            Some(summary) => {
+                let finished = Finished { summary, parts: all, notes: found.notes(), _locks: locks };
+                return Ok(Claim::Finished(finished));
+            }
             None => damaged.push(format!("{SUMMARY}: its content has changed")),
         }
     }

@@ -1,16 +1,15 @@
 //! [`Layout`]: named columns with unit and meaning as a Parquet file.
 //!
-//! Arrow's schema (which carries unit and meaning as field metadata) with Parquet's typed column writer: columns are passed
+//! Arrow's schema (which carries unit and meaning as field metadata) beside Parquet's, with Parquet's typed column writer: columns are passed
 //! from the memory of the rows to the encoder without a copy. The Arrow writer was rejected: it writes a third slower.
 //! Floats have no dictionary (with one the file is a quarter larger and takes five times as long). The encoding
 //! BYTE_STREAM_SPLIT makes their exponents compress.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::io::Write;
 use std::sync::Arc;
 
-use arrow_schema::{DataType, Field, Schema};
-use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
+use parquet::basic::{Compression, Encoding, ZstdLevel};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::KeyValue;
@@ -18,70 +17,12 @@ use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{ColumnPath, Type, TypePtr};
 
-use crate::run::Quantity;
 use crate::storage::arrow_metadata;
 
 /// Why columns could not be encoded.
 pub use parquet::errors::ParquetError as EncodingError;
 
-/// Type of a column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Content {
-    /// Real numbers.
-    Real,
-    /// Counts.
-    Count,
-    /// Short words, few of them distinct.
-    Word,
-}
-
-/// A column of a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Heading {
-    /// Name, unit and meaning.
-    pub quantity: Quantity,
-    /// Type.
-    pub content: Content,
-    /// Whether a value may be absent.
-    pub nullable: bool,
-}
-
-impl Heading {
-    /// A column without absent values; those of real numbers may always be absent, since what is no finite number is null.
-    pub fn new(quantity: Quantity, content: Content) -> Self {
-        Heading { quantity, content, nullable: content == Content::Real }
-    }
-
-    /// The same column, whose values may be absent.
-    #[must_use]
-    pub fn nullable(self) -> Self {
-        Heading { nullable: true, ..self }
-    }
-
-    fn field(&self) -> Field {
-        let data_type = match self.content {
-            Content::Real => DataType::Float64,
-            // table engines have no unsigned integers (Delta Lake, Spark, Trino); no count comes near 2^63
-            Content::Count => DataType::Int64,
-            Content::Word => DataType::Utf8,
-        };
-        let metadata = [("unit", self.quantity.unit()), ("meaning", self.quantity.meaning())];
-        let metadata: HashMap<String, String> = metadata.map(|(key, value)| (key.to_owned(), value.to_owned())).into();
-        Field::new(self.quantity.name(), data_type, self.nullable).with_metadata(metadata)
-    }
-
-    /// The column in Parquet's schema.
-    fn column(&self) -> Result<TypePtr> {
-        let (physical, logical) = match self.content {
-            Content::Real => (Physical::DOUBLE, None),
-            Content::Count => (Physical::INT64, None),
-            Content::Word => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
-        };
-        let repetition = if self.nullable { Repetition::OPTIONAL } else { Repetition::REQUIRED };
-        let column = Type::primitive_type_builder(self.quantity.name(), physical);
-        column.with_repetition(repetition).with_logical_type(logical).build().map(Arc::new)
-    }
-}
+pub use crate::storage::heading::{Content, Heading};
 
 /// The values of a column.
 #[derive(Clone, Debug)]
@@ -114,7 +55,9 @@ const ROOT: &str = "arrow_schema";
 /// What all files of one kind have in common.
 #[derive(Clone, Debug)]
 pub struct Layout {
-    schema: Schema,
+    columns: Vec<Heading>,
+    /// What every file says of itself, in order of the keys: that of a hash map changes from run to run, and files must not.
+    metadata: BTreeMap<String, String>,
     root: TypePtr,
     /// Properties of every file, without its metadata.
     properties: WriterProperties,
@@ -133,13 +76,11 @@ impl Layout {
         if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
             return Err(ParquetError::General(format!("two columns have the name `{}`", twice[0])));
         }
-        let schema = Schema::new_with_metadata(headings.iter().map(Heading::field).collect::<Vec<_>>(), metadata);
         let columns = headings.iter().map(Heading::column).collect::<Result<Vec<TypePtr>>>()?;
         let root = Arc::new(Type::group_type_builder(ROOT).with_fields(columns).build()?);
-        let properties = properties(&schema, packing);
-        // without the schema's own metadata, which would be stored twice
-        let arrow_schema = arrow_metadata::of(&Schema::new(schema.fields().clone()));
-        Ok(Layout { schema, root, properties, arrow_schema })
+        let properties = properties(headings, packing);
+        let (arrow_schema, metadata) = (arrow_metadata::of(headings), metadata.into_iter().collect());
+        Ok(Layout { columns: headings.to_vec(), metadata, root, properties, arrow_schema })
     }
 
     /// The same without the extremes of columns, which readers of the whole file need not know.
@@ -149,9 +90,9 @@ impl Layout {
         Layout { properties, ..self }
     }
 
-    /// The columns, and the metadata that every file has.
-    pub fn schema(&self) -> &Schema {
-        &self.schema
+    /// The columns.
+    pub fn columns(&self) -> &[Heading] {
+        &self.columns
     }
 
     /// Writes one file: a row group of `cells`, column by column in the order of the headings, all of the same length.
@@ -184,9 +125,9 @@ impl Layout {
 
     /// The properties of a file with the metadata `own`.
     fn properties(&self, own: &[(&str, String)]) -> WriterProperties {
-        let pairs = self.schema.metadata().iter().map(|(key, value)| (key.as_str(), value));
+        let pairs = self.metadata.iter().map(|(key, value)| (key.as_str(), value));
         let mut pairs: Vec<(&str, &String)> = pairs.chain(own.iter().map(|(key, value)| (*key, value))).collect();
-        pairs.sort_unstable(); // the order of a hash map changes from run to run; files must not
+        pairs.sort_unstable();
         let pairs = pairs.into_iter().map(|(key, value)| KeyValue::new(key.to_owned(), value.clone()));
         let pairs = pairs.chain([self.arrow_schema.clone()]).collect();
         self.properties.clone().into_builder().set_key_value_metadata(Some(pairs)).build()
@@ -210,9 +151,9 @@ impl<W: Write + Send> GroupWriter<'_, W> {
     /// Where the type of the cells differs from the heading's.
     pub fn group<'a>(&mut self, cells: impl Iterator<Item = Cells<'a>>) -> Result<()> {
         let mut group = self.writer.next_row_group()?;
-        for (field, cells) in self.layout.schema.fields().iter().zip(cells) {
+        for (heading, cells) in self.layout.columns.iter().zip(cells) {
             let Some(mut column) = group.next_column()? else { break };
-            self.scratch.write(&mut column, cells, field.is_nullable())?;
+            self.scratch.write(&mut column, cells, heading.nullable)?;
             column.close()?;
         }
         group.close()?;
@@ -229,8 +170,8 @@ impl<W: Write + Send> GroupWriter<'_, W> {
     }
 }
 
-/// Encodings and compression of the columns of `schema`.
-fn properties(schema: &Schema, packing: Packing) -> WriterProperties {
+/// Encodings and compression of the columns.
+fn properties(columns: &[Heading], packing: Packing) -> WriterProperties {
     let (compression, reals) = match packing {
         Packing::Lz4 => (Compression::LZ4_RAW, Encoding::BYTE_STREAM_SPLIT),
         Packing::Zstd => (Compression::ZSTD(ZstdLevel::default()), Encoding::BYTE_STREAM_SPLIT),
@@ -239,14 +180,14 @@ fn properties(schema: &Schema, packing: Packing) -> WriterProperties {
     // most columns are real numbers: theirs is the encoding of columns without one of their own
     let mut properties = WriterProperties::builder().set_dictionary_enabled(false).set_encoding(reals);
     properties = properties.set_compression(compression);
-    for field in schema.fields() {
-        let path = || ColumnPath::from(field.name().as_str());
-        properties = match field.data_type() {
-            DataType::Utf8 => {
+    for column in columns {
+        let path = || ColumnPath::from(column.quantity.name());
+        properties = match column.content {
+            Content::Word => {
                 properties.set_column_dictionary_enabled(path(), true).set_column_encoding(path(), Encoding::PLAIN)
             }
-            DataType::Int64 => properties.set_column_encoding(path(), Encoding::DELTA_BINARY_PACKED),
-            _ => properties,
+            Content::Count => properties.set_column_encoding(path(), Encoding::DELTA_BINARY_PACKED),
+            Content::Real => properties,
         };
     }
     properties.build()
@@ -329,6 +270,7 @@ fn present<'a, T: Copy>(values: &'a [T], mask: &'a [bool]) -> impl Iterator<Item
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::Quantity;
     use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::record::Field as Cell;
 

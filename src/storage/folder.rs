@@ -283,9 +283,7 @@ impl Folder {
     /// # Errors
     /// Where a file operation fails.
     pub fn unfinish(&self) -> Result<(), StorageError> {
-        let path = self.own(SUCCESS)?;
-        self.storage.remove(&path).map_err(at(&path))?;
-        self.storage.sync_folder(&self.root).map_err(at(&self.root))?;
+        unmark(self.storage, &self.root)?;
         let top = entries_in(self.storage, &self.root, &self.root)?;
         if !top.iter().any(|entry| entry.is_file && entry.name == SUMMARY) {
             return Ok(());
@@ -342,6 +340,17 @@ impl Folder {
     pub fn size(&self) -> u64 {
         self.state().parts.values().flat_map(|part| &part.files).map(|file| file.bytes).sum()
     }
+}
+
+/// Takes the mark away that says that everything of the dataset in `root` is there.
+///
+/// # Errors
+/// Where a file operation fails.
+pub fn unmark(storage: &dyn Storage, root: &Path) -> Result<(), StorageError> {
+    no_link(root).map_err(at(root))?;
+    let path = root.join(SUCCESS);
+    storage.remove(&path).map_err(at(&path))?;
+    storage.sync_folder(root).map_err(at(root))
 }
 
 /// Writes the manifest of the finished dataset in `root`, whose plan has the text `plan`, after one file that follows from the rows was made again.

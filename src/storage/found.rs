@@ -9,7 +9,7 @@ use crate::storage::folder::MOST_MANIFEST;
 use crate::storage::identity::in_rows;
 use crate::storage::manifest::{FileRecord, Identity, Manifest, PartRecord};
 use crate::storage::names::{
-    FOLDERS, MANIFEST, PLAN, REPLACEMENT, REPORT, SHARDS, SUCCESS, TABLE_LOG, UNFINISHED, is_derived, is_ours,
+    DATA, FOLDERS, MANIFEST, PLAN, REPLACEMENT, REPORT, SHARDS, SUCCESS, TABLE_LOG, UNFINISHED, is_derived, is_ours,
 };
 use crate::storage::stored_file::is_unfit;
 
@@ -52,6 +52,8 @@ pub struct Found {
     pub strays: Vec<String>,
     /// Files with names of the dataset that no manifest lists although everything is there.
     pub unlisted: Vec<String>,
+    /// Of a result that is not finished: the files that follow from rows and that no manifest lists. Nothing says what should be in them.
+    pub unchecked: Vec<String>,
     /// Commits of the table's log that no manifest lists although everything is there: a table engine would believe them.
     pub foreign_commits: Vec<String>,
 }
@@ -76,7 +78,12 @@ impl Found {
 
     /// The files that follow from plan and rows, of a result in which everything is there.
     pub fn derived(&self) -> &[FileRecord] {
-        self.manifests.get(MANIFEST).filter(|_| self.is_finished).map_or(&[], |manifest| &manifest.derived)
+        if self.is_finished { self.written() } else { &[] }
+    }
+
+    /// The same of a result of which only the mark may be missing.
+    pub fn written(&self) -> &[FileRecord] {
+        self.manifests.get(MANIFEST).filter(|manifest| manifest.is_finished).map_or(&[], |manifest| &manifest.derived)
     }
 
     /// What a note says of each entry that is not part of the result, and is left alone.
@@ -177,7 +184,15 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<FolderContents, St
     found.has_page = has(REPORT) || found.derived().iter().any(|file| file.name == REPORT);
     let mut listed = found.listed();
     listed.extend(found.derived().iter().map(|file| file.name.clone()));
-    if found.is_finished {
+    if !found.is_finished {
+        let written: BTreeSet<&str> = found.written().iter().map(|file| file.name.as_str()).collect();
+        // the manifest has the plan, and the plan has the checksums of files of numbers
+        let is_unchecked = |name: &String| {
+            is_derived(name) && name != PLAN && !name.starts_with(DATA) && !written.contains(name.as_str())
+        };
+        let top = top.iter().filter(|entry| entry.is_file).map(|entry| &entry.name);
+        found.unchecked = top.chain(&files).filter(|name| is_unchecked(name)).cloned().collect();
+    } else {
         let top = top.iter().filter(|entry| entry.is_file && is_derived(&entry.name)).map(|entry| entry.name.clone());
         let files = files.into_iter().chain(top).filter(|name| !name.ends_with(UNFINISHED) && !listed.contains(name));
         (found.foreign_commits, found.unlisted) = files.partition(|name| name.starts_with(TABLE_LOG));

@@ -7,7 +7,7 @@
 //! - [`verify`]: whether files are what was written, [`recovery`]: the manifest of a result that has lost it.
 //! - [`disk`]: file operations, [`stored_file`]: of open files. - [`atomic`]: files that are whole or absent.
 //! - [`rows_file`]: the files of rows, which [`part_sink`] writes and [`rows_reader`] reads, through [`parquet_source`]; [`bands_file`]: of bands.
-//! - [`columnar`]: columns to Parquet, with [`arrow_metadata`] and [`provenance`]. - [`table`]: tables in a single file: [`timeseries`], [`bands_table`],
+//! - [`columnar`]: columns ([`heading`]) to Parquet, with [`arrow_metadata`] and [`provenance`]. - [`table`]: tables in a single file: [`timeseries`], [`bands_table`],
 //!   [`drawn_table`], [`precision_table`], [`described_table`]. - [`parallel`]: threads.
 //!
 //! Not here: what the rows say (`analysis`), text and figures for people (`report`), and reading tables for a campaign (`campaign`).
@@ -24,6 +24,7 @@ pub mod drawn_table;
 pub mod folder;
 pub mod folder_error;
 pub mod found;
+pub mod heading;
 pub mod identity;
 pub mod manifest;
 pub mod names;

@@ -140,7 +140,7 @@ impl RowsFile {
 
     /// Number of columns.
     pub fn columns(&self) -> usize {
-        self.layout.schema().fields().len()
+        self.layout.columns().len()
     }
 
     /// Writes `rows` to `out`.

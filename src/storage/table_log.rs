@@ -134,6 +134,8 @@ fn commit_of(version: usize) -> String {
 /// A log as it was read.
 #[derive(Debug, Default)]
 struct Log {
+    /// The columns of the table, as text.
+    columns: String,
     /// Its commits.
     commits: Vec<FileRecord>,
     /// The files that the last version lists.
@@ -175,7 +177,8 @@ fn log_of(commits: Vec<(String, Vec<u8>)>, identity: &Identity) -> Option<Log> {
         let mut again = Vec::new();
         if version == 0 {
             let columns = actions.iter().find_map(|action| action.pointer("/metaData/schemaString")?.as_str());
-            again.extend(head(identity, columns?));
+            log.columns = columns?.to_owned();
+            again.extend(head(identity, &log.columns));
         }
         for action in actions.iter().skip(again.len()) {
             if let Some(name) = action.pointer("/remove/path").and_then(Value::as_str) {
@@ -211,6 +214,20 @@ fn is_earlier(before: &Files, now: &Files) -> bool {
     })
 }
 
+/// Whether the log in `root` is one that this program has written for the rows of `parts`, under these `headings`; `growing` as for [`update`].
+///
+/// # Errors
+/// Where it cannot be read.
+pub fn is_of(
+    (storage, root): (&dyn Storage, &Path),
+    identity: &Identity,
+    headings: &[Heading],
+    (parts, growing): (&[PartRecord], Option<PartId>),
+) -> Result<bool, StorageError> {
+    let log = read(storage, root, identity)?;
+    Ok(log.is_some_and(|log| log.columns == columns(headings) && log.files == files(parts, growing)))
+}
+
 /// Brings the log of a dataset whose parts are all there up to date: nothing where it is, one more commit where files were added, and a new
 /// log where there is none, or another one. `growing` is the part that gets further rows when the campaign is made longer.
 ///
@@ -219,7 +236,9 @@ fn is_earlier(before: &Files, now: &Files) -> bool {
 pub fn update(folder: &Folder, headings: &[Heading], growing: Option<PartId>) -> Result<(), StorageError> {
     let parts = folder.parts();
     let files = files(&parts, growing);
-    let log = read(folder.storage(), folder.root(), folder.identity())?.filter(|log| is_earlier(&log.files, &files));
+    let columns = columns(headings);
+    let log = read(folder.storage(), folder.root(), folder.identity())?
+        .filter(|log| log.columns == columns && is_earlier(&log.files, &files));
     let is_new = log.is_none();
     if is_new {
         folder.clear(TABLE_LOG)?;
@@ -240,7 +259,7 @@ pub fn update(folder: &Folder, headings: &[Heading], growing: Option<PartId>) ->
     }
     let gone = log.files.keys().filter(|name| !files.contains_key(*name)).map(|name| remove(name));
     let new = files.iter().filter(|(name, _)| !log.files.contains_key(*name)).map(|(name, file)| add(name, file));
-    let head = is_new.then(|| head(folder.identity(), &columns(headings))).into_iter().flatten();
+    let head = is_new.then(|| head(folder.identity(), &columns)).into_iter().flatten();
     let text = lines(head.chain(gone).chain(new));
     if text.is_empty() {
         return Ok(());

@@ -4,20 +4,21 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use crate::analysis::fold::Gathered;
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::missions::Missions;
-use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::stopping::{Stopping, stopping};
 use crate::analysis::survey::Survey;
+use crate::analysis::tally::Tally;
 use crate::analysis::verdicts::Verdicts;
-use crate::analysis::{derived_table, sensitivity, sensitivity_table, statistics, statistics_table, verdicts};
+use crate::analysis::{sensitivity, statistics, verdicts};
 use crate::campaign::Plan;
 use crate::ensemble::Bands;
+use crate::report::audit_summary::AuditSummary;
+use crate::report::warnings::warnings;
 use crate::report::{requirements, stopping_text};
-use crate::storage::folder::Folder;
-use crate::storage::names::{BANDS, OBSERVABLES, SENSITIVITY, STATISTICS};
+use crate::storage::atomic;
 use crate::storage::rows_reader::RowsReader;
-use crate::storage::{atomic, bands_table};
 use crate::workflow::error::WorkflowError;
 
 /// What the rows say.
@@ -37,39 +38,13 @@ pub struct Analysed {
     pub survey: Survey,
     /// How missions ended, under a control loop.
     pub missions: Missions,
+    /// How runs ended, and the audits.
+    pub tally: Tally,
+    /// What a reader has to know before any number.
+    pub warnings: Vec<String>,
 }
 
-/// Makes the tables of the dataset `folder` of `plan` from what was `gathered` from its rows.
-///
-/// # Errors
-/// Where a file cannot be read or written.
-pub fn analyse(
-    plan: &Plan,
-    reader: &RowsReader,
-    folder: &Folder,
-    gathered: Gathered,
-    threads: Option<NonZeroUsize>,
-) -> Result<Analysed, WorkflowError> {
-    let found = computed(plan, reader, gathered, threads)?;
-    write(folder, STATISTICS, statistics_table::encoded(plan, &found.statistics))?;
-    write(folder, SENSITIVITY, sensitivity_table::encoded(plan, &found.sensitivities))?;
-    match derived_table::encoded(plan, reader).transpose() {
-        Some(encoded) => write(folder, OBSERVABLES, encoded)?,
-        None => folder.remove(OBSERVABLES).map_err(WorkflowError::files)?,
-    }
-    if let Some(bands) = &found.bands {
-        write(folder, BANDS, bands_table::encoded(plan, bands))?;
-    }
-    Ok(found)
-}
-
-/// Writes an encoded table as the file `name` of a dataset.
-fn write<E: std::fmt::Display>(folder: &Folder, name: &str, encoded: Result<Vec<u8>, E>) -> Result<(), WorkflowError> {
-    let bytes = encoded.map_err(|error| in_file(&folder.path(name), &error))?;
-    folder.write(name, &bytes).map_err(WorkflowError::files)
-}
-
-/// What was `gathered` from the rows of `plan` says; nothing is written.
+/// What was `gathered` from the rows of `plan` says.
 ///
 /// # Errors
 /// Where a file cannot be read.
@@ -82,7 +57,13 @@ pub fn computed(
     let statistics =
         statistics::compute(plan, reader, Some(gathered.columns), threads).map_err(WorkflowError::files)?;
     let verdicts = verdicts::assess(plan, &gathered.requirements, gathered.bands.as_ref()).with_quantiles(&statistics);
+    let audit = gathered.tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
+    let failures = match statistics.loss().is_big() {
+        true => sensitivity::of_failures(plan, &gathered.failure_rows, threads),
+        false => Vec::new(),
+    };
     Ok(Analysed {
+        warnings: warnings(plan, &statistics, audit.as_ref(), &failures),
         sensitivities: sensitivity::compute(plan, &gathered.first_rows, threads),
         stopping: stopping(plan, plan.samples, &gathered.stop_values, &verdicts),
         verdicts,
@@ -90,17 +71,18 @@ pub fn computed(
         bands: gathered.bands,
         survey: gathered.survey,
         missions: gathered.missions,
+        tally: gathered.tally,
     })
 }
 
-/// Writes the verdicts as JUnit XML, where a file for it was named; `failed` runs are not `ok`.
+/// Writes the verdicts as JUnit XML, where a file for it was named.
 ///
 /// # Errors
 /// Where the file cannot be written.
-pub fn write_junit(plan: &Plan, analysed: &Analysed, failed: u64, file: Option<&Path>) -> Result<(), WorkflowError> {
+pub fn write_junit(plan: &Plan, analysed: &Analysed, file: Option<&Path>) -> Result<(), WorkflowError> {
     let Some(file) = file else { return Ok(()) };
     let stop = analysed.stopping.as_ref().map(|found| (found.is_reached(), stopping_text::text(plan, found)));
-    let text = requirements::junit(plan, &analysed.verdicts, failed, stop);
+    let text = requirements::junit(plan, &analysed.verdicts, &analysed.tally, stop);
     atomic::write_bytes(file, text.as_bytes()).map_err(|error| in_file(file, &error))
 }
 

@@ -6,9 +6,10 @@ use crate::campaign::{FilesRead, Overrides, Plan};
 use crate::ensemble::Ensemble;
 use crate::storage::claim::{Claim, ClaimOptions, Shard, claim};
 use crate::storage::rows_file::identity;
+use crate::workflow::ending::end_of_finished;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::failed_samples::plan_of_failed;
-use crate::workflow::finishing::{Outputs, end_of, keep_data, say_notes};
+use crate::workflow::finishing::{Outputs, keep_data, say_notes};
 use crate::workflow::outcome::CampaignOutcome;
 use crate::workflow::results::Results;
 use crate::workflow::running::{Running, run_missing};
@@ -148,10 +149,7 @@ impl<'a> Campaign<'a> {
     /// Where it, or the result whose failed samples are meant, is wrong.
     pub fn prepare(self) -> Result<Option<PreparedCampaign<'a>>, WorkflowError> {
         let found = match (&self.only_failed_of, &self.text) {
-            (None, Some(text)) => {
-                let found = Plan::from_text_of(&self.file, text, self.overrides.clone());
-                Some(found.map_err(|error| WorkflowError::Input(error.with_excerpts()))?)
-            }
+            (None, Some(text)) => Some(Plan::from_text_of(&self.file, text, self.overrides.clone())?),
             (None, None) => Some(plan_and_files(&self.file, self.overrides.clone())?),
             (Some(of), _) => plan_of_failed(&self.session, &self.file, of, self.overrides.clone())?,
         };
@@ -223,10 +221,12 @@ impl PreparedCampaign<'_> {
         let ready = match claimed.map_err(WorkflowError::files)? {
             Claim::Finished(finished) => {
                 say_notes(session, root, &finished.notes);
+                let end = end_of_finished(session, root, &self.plan, &finished)?;
+                drop(finished);
                 if let Some(file) = outputs.junit.as_deref().filter(|_| shard.is_none()) {
                     Results::open(root, *session)?.write_junit(file)?;
                 }
-                return end_of(root, &finished.summary).map(CampaignOutcome::AlreadyFinished);
+                return Ok(CampaignOutcome::AlreadyFinished(end));
             }
             Claim::Ready(ready) => *ready,
         };

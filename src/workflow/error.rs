@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::campaign::CampaignError;
+
 /// Why a campaign could not run, or a result could not be used. The text says where, what is wrong, and what to do.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum WorkflowError {
@@ -17,6 +19,14 @@ impl WorkflowError {
     /// An error of input or output.
     pub fn files(error: impl std::fmt::Display) -> Self {
         WorkflowError::Files(error.to_string())
+    }
+}
+
+impl From<CampaignError> for WorkflowError {
+    /// What is wrong with a campaign file, with the lines of the file; an error of input and output where it only cannot be read now.
+    fn from(error: CampaignError) -> Self {
+        let text = error.with_excerpts();
+        if error.is_unreadable { WorkflowError::Files(text) } else { WorkflowError::Input(text) }
     }
 }
 

@@ -5,27 +5,28 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use crate::analysis::audit_tally::AuditTally;
 use crate::analysis::fold::Gathered;
-use crate::analysis::sensitivity::InputSensitivity;
-use crate::analysis::trajectories;
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::campaign::{FilesRead, Plan, data};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, PartId};
 use crate::report::image::PlotSize;
 use crate::report::shell_word::quoted_path;
 use crate::report::summary::{Summary, SummaryEnd};
-use crate::sampling::SampleId;
 use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
 use crate::storage::folder::Folder;
 use crate::storage::identity;
 use crate::storage::manifest::PartRecord;
-use crate::storage::names::{PLAN, REPORT, SUMMARY, TRAJECTORIES};
+use crate::storage::names::{PLAN, TRAJECTORIES};
 use crate::storage::parts_read::PartsRead;
 use crate::storage::replacement::replace;
 use crate::storage::rows_file::{headings, identity};
 use crate::storage::rows_reader::RowsReader;
 use crate::storage::table_log;
-use crate::workflow::analysed::{Analysed, analyse, write_junit};
+use crate::workflow::analysed::write_junit;
+use crate::workflow::derived::{Derivation, Derived, PageKind, derive};
+use crate::workflow::ending::end_of_finished;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::page;
 use crate::workflow::results::Results;
@@ -67,6 +68,8 @@ pub struct Completed {
     pub sensitivities: Vec<InputSensitivity>,
     /// Number of runs that are not `ok`.
     pub failed_runs: u64,
+    /// Audited runs whose errors are larger than their estimates, where these are more than promised; else 0.
+    pub not_covered: u64,
     /// Number of requirements that failed.
     pub failed: usize,
     /// Number of requirements that are undecided, a precision among them that `[stop]` did not reach.
@@ -113,21 +116,22 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
         Some(gathered) => gathered,
         None => Gathered::of_files(job.ensemble, (&reader, &bands), threads).map_err(WorkflowError::files)?,
     };
-    let (tally, retained) = (gathered.tally.clone(), gathered.retained.clone());
-    let analysed = analyse(plan, &reader, folder, gathered, threads)?;
-    retain(job, &retained)?;
-    make_page(job, &analysed, &records)?;
-    write_junit(plan, &analysed, tally.failed(), job.outputs.junit.as_deref())?;
+    let retained = gathered.retained.clone();
+    prepare_trajectories(folder, !retained.is_empty())?;
+    let page = if job.outputs.without_page { PageKind::Without } else { PageKind::OfRows };
+    let session = job.session;
+    let derivation =
+        Derivation { session, ensemble: job.ensemble, reader: &reader, records: &records, page, retained: &retained };
+    let Derived { analysed, page, summary } = derive(&derivation, gathered, folder)?;
+    if let Some(page) = page {
+        let place = job.outputs.figures.as_ref().map(|(folder, size)| (folder.as_path(), *size));
+        page::save_figures(&session, &page, place)?;
+    }
+    write_junit(plan, &analysed, job.outputs.junit.as_deref())?;
+    let tally = &analysed.tally;
     let (failed, undecided) = (analysed.verdicts.failed(), analysed.verdicts.undecided());
     let is_imprecise = analysed.stopping.as_ref().is_some_and(|found| !found.is_reached());
-    let summary =
-        Summary::new(plan, &tally, &analysed.statistics, analysed.verdicts).with_stopping(plan, analysed.stopping);
-    let summary = summary.with_missions(analysed.missions);
-    folder.write(SUMMARY, summary.json().as_bytes()).map_err(WorkflowError::files)?;
-    // the last part is larger in a campaign without an end, where it can get further rows
-    let endless = |id: PartId| parts.with_samples(u64::MAX).part(id);
-    let is_growing = |part: &Part| endless(part.id).is_some_and(|whole| whole.count > part.count);
-    let growing = records.last().map(PartRecord::samples).filter(is_growing).map(|part| part.id);
+    let growing = growing(job.ensemble, &records);
     table_log::update(folder, &headings(job.ensemble), growing).map_err(WorkflowError::files)?;
     folder.finish().map_err(WorkflowError::files)?;
     if let Some(old) = &job.ready.replaces {
@@ -139,6 +143,7 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
         summary,
         sensitivities: analysed.sensitivities,
         failed_runs: tally.failed(),
+        not_covered: tally.audits().map_or(0, AuditTally::not_covered),
         failed,
         undecided: undecided + usize::from(is_imprecise),
         made: job.made,
@@ -148,43 +153,25 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
     })
 }
 
-/// Writes the report page and its figures, where they are asked for; else there is none.
-fn make_page(job: &Finishing<'_>, analysed: &Analysed, records: &[PartRecord]) -> Result<(), WorkflowError> {
-    let folder = &job.ready.folder;
-    if job.outputs.without_page {
-        return folder.remove(REPORT).map_err(WorkflowError::files);
-    }
-    let page = page::page(job.ensemble, analysed, records, &[]);
-    folder.write(REPORT, page.html.as_bytes()).map_err(WorkflowError::files)?;
-    let place = job.outputs.figures.as_ref().map(|(folder, size)| (folder.as_path(), *size));
-    page::save_figures(&job.session, &page, place)
+/// The last of the parts `records`, where it gets further rows when the campaign is made longer.
+pub(super) fn growing(ensemble: &Ensemble<'_>, records: &[PartRecord]) -> Option<PartId> {
+    // it is larger in a campaign without an end
+    let endless = parts(ensemble.plan(), ensemble.isa()).with_samples(u64::MAX);
+    let is_growing = |part: &Part| endless.part(part.id).is_some_and(|whole| whole.count > part.count);
+    records.last().map(PartRecord::samples).filter(is_growing).map(|part| part.id)
 }
 
-/// Writes the time series of the `samples` that the plan retains.
-fn retain(job: &Finishing<'_>, samples: &[SampleId]) -> Result<(), WorkflowError> {
-    let (plan, folder, threads) = (job.ensemble.plan(), &job.ready.folder, job.session.threads);
+/// Prepares the folder of time series: without those that an earlier end of the campaign left there, and none where none are retained.
+fn prepare_trajectories(folder: &Folder, is_needed: bool) -> Result<(), WorkflowError> {
     let path = folder.clear(TRAJECTORIES).map_err(WorkflowError::files)?;
-    if samples.is_empty() {
-        return Ok(());
-    }
-    let created = folder.storage().create_folder(&path);
-    created.map_err(|error| WorkflowError::files(format!("{}: {error}", path.display())))?;
-    trajectories::save(plan, samples, folder, job.ensemble.isa(), threads).map_err(WorkflowError::files)
+    let created = if is_needed { folder.storage().create_folder(&path) } else { Ok(()) };
+    created.map_err(|error| WorkflowError::files(format!("{}: {error}", path.display())))
 }
 
 /// The rows of a dataset that are there, and the files of their bands.
 pub(super) fn rows_of(ready: &Ready) -> (RowsReader, Vec<PathBuf>) {
     let parts = PartsRead::of(&ready.folder.parts(), |name| ready.folder.path(name));
     (RowsReader::new(ready.folder.storage(), parts.rows), parts.bands)
-}
-
-/// What the summary `text` of the finished result in `root` says.
-///
-/// # Errors
-/// Where it is no summary.
-pub(super) fn end_of(root: &Path, text: &str) -> Result<SummaryEnd, WorkflowError> {
-    SummaryEnd::read(text.as_bytes())
-        .ok_or_else(|| WorkflowError::Files(format!("{}: its content has changed", root.join(SUMMARY).display())))
 }
 
 /// That an unfinished result with `[stop]` is completed by the command that looks at it.
@@ -276,10 +263,12 @@ pub fn finish(
     let ready = match claimed {
         Claim::Finished(finished) => {
             say_notes(session, root, &finished.notes);
+            let end = end_of_finished(session, root, &plan, &finished)?;
+            drop(finished);
             if let Some(file) = &outputs.junit {
                 Results::open(root, *session)?.write_junit(file)?;
             }
-            return end_of(root, &finished.summary).map(Finished::Already);
+            return Ok(Finished::Already(end));
         }
         Claim::Ready(ready) => *ready,
     };

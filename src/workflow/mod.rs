@@ -2,7 +2,8 @@
 //!
 //! - [`campaign`]: [`Campaign`], a file and where its result goes; [`outcome`]: how it ended; `running`: the samples that are not there yet. - [`results`]: [`Results`], a finished
 //!   result to be read.
-//! - [`finishing`]: what is made once all rows are there: [`analysed`], [`page`]. - [`verification`]: whether a result is what was written.
+//! - [`finishing`]: what is made once all rows are there: [`analysed`], [`page`], `derived`. - `ending`: how a finished campaign ended.
+//! - [`verification`]: whether a result is what was written, and (`derived_check`) what its rows say.
 //! - [`failed_samples`]: samples that failed, again or as the end. - [`source`]: where plans come from. - [`session`]: disk, threads, control law, and who
 //!   is told. - [`error`].
 //!
@@ -10,6 +11,9 @@
 
 pub mod analysed;
 pub mod campaign;
+mod derived;
+mod derived_check;
+mod ending;
 pub mod error;
 pub mod failed_samples;
 pub mod finishing;

@@ -66,13 +66,7 @@ pub fn remade(
     let reader = RowsReader::new(storage, parts.rows);
     let gathered = Gathered::of_files(&ensemble, (&reader, &parts.bands), threads).map_err(WorkflowError::files)?;
     let analysed = computed(&plan, &reader, gathered, threads)?;
-    let noise = match noise {
-        None => Vec::new(),
-        Some(scenes) => {
-            noise_shares(&plan, &outcomes(&plan), scenes, (session.isa, threads)).map_err(WorkflowError::files)?
-        }
-    };
-    let page = page(&ensemble, &analysed, &records, &noise);
+    let (page, noise) = made_page(session, &ensemble, &analysed, &records, noise)?;
     let path = root.join(REPORT);
     place(storage, &path, page.html.as_bytes()).map_err(WorkflowError::files)?;
     relist(storage, root, (manifest, &found.plan), FileRecord::of(REPORT, page.html.as_bytes()))
@@ -81,13 +75,46 @@ pub fn remade(
     Ok(Remade { path, size: page.html.len() as u64, noise })
 }
 
+/// Begins the mark in a page that says by how many scenes the share of noise was measured, so that the same page can be made again.
+const NOISE_MARK: &str = "<meta name=\"noise-scenes\" content=\"";
+/// Before it.
+const BEFORE_MARK: &str = "<meta charset=\"utf-8\">\n";
+
+/// The page of a result whose parts are `records`, and the share of noise in its outcomes, measured by so many `scenes`, where that is asked for.
+///
+/// # Errors
+/// Where threads cannot be started.
+pub(super) fn made_page(
+    session: &Session<'_>,
+    ensemble: &Ensemble<'_>,
+    analysed: &Analysed,
+    records: &[PartRecord],
+    scenes: Option<u64>,
+) -> Result<(Page, Vec<NoiseShare>), WorkflowError> {
+    let Some(scenes) = scenes else { return Ok((page(ensemble, analysed, records, &[]), Vec::new())) };
+    let plan = ensemble.plan();
+    let machine = (session.isa, session.threads);
+    let noise = noise_shares(plan, &outcomes(plan), scenes, machine).map_err(WorkflowError::files)?;
+    let made = page(ensemble, analysed, records, &noise);
+    let marked = format!("{BEFORE_MARK}{NOISE_MARK}{scenes}\">\n");
+    Ok((Page { html: made.html.replacen(BEFORE_MARK, &marked, 1), ..made }, noise))
+}
+
+/// By how many scenes the page `html` was made to tell noise; `None` of one that does not.
+pub(super) fn noise_scenes(html: &[u8]) -> Option<u64> {
+    let text = std::str::from_utf8(html).ok()?;
+    let (_, after) = text.split_once(BEFORE_MARK)?;
+    after.strip_prefix(NOISE_MARK)?.split('"').next()?.parse().ok()
+}
+
 /// The page of a result whose parts are `records`; `noise`: the share of noise in its outcomes, where it was measured.
-pub fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord], noise: &[NoiseShare]) -> Page {
+fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord], noise: &[NoiseShare]) -> Page {
     let analysis = Analysis {
         statistics: &analysed.statistics,
         verdicts: &analysed.verdicts,
         sensitivities: &analysed.sensitivities,
         missions: &analysed.missions,
+        warnings: &analysed.warnings,
         noise,
         bands: analysed.bands.as_ref(),
         stopping: analysed.stopping.as_ref(),

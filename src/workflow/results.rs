@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::analysis::comparison::{Comparison, compare};
 use crate::analysis::fold::Gathered;
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::pairing::ResultRows;
-use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::Plan;
@@ -19,6 +19,7 @@ use crate::storage::names::{SUMMARY, TRAJECTORIES};
 use crate::storage::parts_read::PartsRead;
 use crate::storage::rows_reader::RowsReader;
 use crate::workflow::analysed::{Analysed, computed, write_junit};
+use crate::workflow::ending::end_of;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 use crate::workflow::source::plan_of_sound;
@@ -173,17 +174,17 @@ impl<'a> Results<'a> {
     /// # Errors
     /// Where a file cannot be read or written.
     pub fn write_junit(&self, file: &Path) -> Result<(), WorkflowError> {
-        write_junit(&self.plan, &self.analysed()?, self.end()?.failed, Some(file))
+        write_junit(&self.plan, &self.analysed()?, Some(file))
     }
 
-    /// How the campaign ended, as its summary says.
+    /// How the campaign ended, as its rows say.
     ///
     /// # Errors
-    /// Where the summary cannot be read.
+    /// Where rows or summary cannot be read, or the summary says something else.
     pub fn end(&self) -> Result<SummaryEnd, WorkflowError> {
         let path = self.root.join(SUMMARY);
         let damaged = |error: &dyn std::fmt::Display| WorkflowError::Files(format!("{}: {error}", path.display()));
         let summary = self.session.storage.read(&path, MOST_SUMMARY).map_err(|error| damaged(&error))?;
-        SummaryEnd::read(&summary).ok_or_else(|| damaged(&"its content has changed"))
+        end_of((&self.root, &summary), &self.plan, (&self.reader, &self.bands), &self.session)
     }
 }

@@ -38,7 +38,7 @@ pub fn plan_and_files(file: &Path, overrides: Overrides) -> Result<(Plan, FilesR
         let tried: Vec<String> = tried.iter().map(|path| format!("`{}`", path.display())).collect();
         WorkflowError::Input(format!("there is no campaign file `{}`; looked for {}", file.display(), tried.join(", ")))
     })?;
-    Plan::load_with_files(&path, overrides).map_err(|error| WorkflowError::Input(error.with_excerpts()))
+    Ok(Plan::load_with_files(&path, overrides)?)
 }
 
 /// The plan of a result that is in a folder, and the files that it was made from.

@@ -5,8 +5,9 @@ use std::sync::Mutex;
 
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts};
+use crate::sampling::SampleId;
 use crate::storage::claim::{Claim, ClaimOptions, claim, lock, open};
-use crate::storage::folder::PartFile;
+use crate::storage::folder::{PartFile, unmark};
 use crate::storage::found::{Found, plan_text};
 use crate::storage::manifest::{FileRecord, PartRecord};
 use crate::storage::names::{MANIFEST, rows_of};
@@ -14,10 +15,11 @@ use crate::storage::part_sink::{PartFiles, write_parts};
 use crate::storage::recovery::{begin_again, is_lost};
 use crate::storage::rows_file::identity;
 use crate::storage::verify::{damaged, derived_damage};
+use crate::workflow::derived_check::derived_problems;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::finishing::{Completed, Finishing, Outputs, complete, keep_data, stop_is_continued};
 use crate::workflow::session::Session;
-use crate::workflow::source::{plan_in, plan_of_result, refuse_other_rows};
+use crate::workflow::source::{plan_in, refuse_other_rows};
 
 /// How a result was verified.
 #[derive(Clone, Debug)]
@@ -28,6 +30,8 @@ pub struct Verified {
     pub problems: usize,
     /// Whether the result is finished.
     pub is_finished: bool,
+    /// Of a result that is not finished: files that were not compared, since nothing says what should be in them.
+    pub unchecked: Vec<String>,
     /// The result, where a repair has finished it.
     pub completed: Option<Box<Completed>>,
 }
@@ -50,7 +54,8 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     let note = |text: &str| session.watch.note(text);
     let lost = if wanted.repair { new_manifest(session, root)? } else { None };
     let (found, locks) = open(storage, root, !wanted.repair).map_err(WorkflowError::files)?;
-    let plan = plan_of_result(session, root, &found)?;
+    let (plan, read) = plan_in(session, root, &found)?;
+    let plan = plan.at_look(found.rows());
     let ensemble = Ensemble::new(&plan, session.isa);
     let expected = identity(&ensemble);
     refuse_other_rows(root, &found, &expected)?;
@@ -61,7 +66,7 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     found.notes().iter().for_each(|entry| note(entry));
     let broken = damaged(storage, root, &expected, &records, session.readers()).map_err(WorkflowError::files)?;
     problems.extend(broken.iter().map(|(_, what)| what.clone()));
-    problems.extend(derived_damage(storage, root, found.derived()).map_err(WorkflowError::files)?);
+    problems.extend(derived_damage(storage, root, found.written()).map_err(WorkflowError::files)?);
     let missing = missing_parts(&found, &ensemble);
     problems.extend(
         (!missing.is_empty())
@@ -73,16 +78,28 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     let differing = differing(session, &ensemble, &records, &chosen)?;
     problems.extend(differing.iter().map(|part| format!("{}: its rows are not those of the plan", rows_of(part.id))));
     let rows: usize = chosen.iter().map(|part| part.count).sum();
-    let checked = format!(
+    let mut checked = format!(
         "{}: {} parts, {} rows: checksums compared; {} parts with {rows} rows computed again and compared bit for bit",
         root.display(),
         records.len(),
         found.rows(),
         chosen.len()
     );
+    // what follows from rows that are damaged, or not all there, is made again with them
+    let is_comparable = problems.is_empty() && !found.written().is_empty();
+    if is_comparable {
+        let chosen = |samples: &[SampleId]| choice(samples, wanted.fraction);
+        let check = derived_problems(session, (root, &found), (&ensemble, &read), &records, &chosen)?;
+        checked += &format!("; {} files made of plan and rows again and compared", check.files);
+        if check.left_out > 0 {
+            checked += &format!(" ({} time series are not among them; --fraction 1 makes all)", check.left_out);
+        }
+        problems.extend(check.problems);
+    }
     // a repair that was interrupted has left what is sound and not finished
     if problems.is_empty() && (found.is_finished || !wanted.repair) {
-        return Ok(Some(Verified { checked, problems: 0, is_finished: found.is_finished, completed: None }));
+        let (is_finished, unchecked) = (found.is_finished, found.unchecked);
+        return Ok(Some(Verified { checked, problems: 0, is_finished, unchecked, completed: None }));
     }
     problems.iter().for_each(|problem| note(problem));
     if !wanted.repair {
@@ -91,10 +108,15 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
             problems.len()
         )));
     }
+    if is_comparable && found.is_finished {
+        // all checksums are right: without the mark, everything that follows from the rows is made again
+        unmark(storage, root).map_err(WorkflowError::files)?;
+    }
     drop(locks);
     match repair(session, root, &ensemble, (&found, &differing))? {
         Repair::Done(completed) => {
-            Ok(Some(Verified { checked, problems: problems.len(), is_finished: true, completed: Some(completed) }))
+            let (problems, completed) = (problems.len(), Some(completed));
+            Ok(Some(Verified { checked, problems, is_finished: true, unchecked: Vec::new(), completed }))
         }
         Repair::Stopped(left) => {
             note(&format!(
@@ -127,10 +149,10 @@ fn missing_parts(found: &Found, ensemble: &Ensemble<'_>) -> Vec<Part> {
     parts.iter().filter(|part| there.get(&part.id.0).is_none_or(|record| record.samples() != *part)).collect()
 }
 
-/// A fraction of `parts`, evenly spread, and at least one where the fraction is above zero.
-fn choice(parts: &[Part], fraction: f64) -> Vec<Part> {
-    let count = (parts.len() as f64 * fraction).ceil() as usize;
-    (0..count).map(|index| parts[index * parts.len() / count]).collect()
+/// A fraction of `list`, evenly spread, and at least one where the fraction is above zero.
+fn choice<T: Copy>(list: &[T], fraction: f64) -> Vec<T> {
+    let count = (list.len() as f64 * fraction).ceil() as usize;
+    (0..count).map(|index| list[index * list.len() / count]).collect()
 }
 
 /// How a repair ended.

@@ -58,6 +58,7 @@ fn every_key_is_read_and_written() {
         subject: Subject::Observable("margin_deg".to_owned()),
         statement: Statement::Fraction(0.999),
         limit: GateLimit::AtMost(1.5),
+        bounded: None,
         confidence: 0.99,
     };
     assert_eq!(requirements[1], expected);
@@ -83,6 +84,8 @@ fn rows_do_not_depend_on_it() {
 
 const REQUIRE: &str = "[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.99\nat_most = 1e-9\n";
 const BAND: &str = "[[require]]\nband = \"energy_body_j\"\nquantile = 0.99\nat_most = 1e9\nfrom_s = 1\n";
+const MEAN: &str =
+    "[[require]]\nobservable = \"energy_error_max\"\nmean = true\nat_most = 1e-9\nbounded = [0.0, 1.0]\n";
 const ALL_TIMES: &str =
     "[[require]]\nband = \"energy_body_j\"\nquantile = 0.99\nat_most = 1e9\nat_all_times = true\nfrom_s = 1\n";
 const OBSERVABLE: &str = "[[observable]]\nname = \"twice\"\nexpression = \"2 * energy_error_max\"\n";
@@ -179,7 +182,7 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         REQUIRE,
         "at_most = 1e-9",
         "at_most = 1e-9\nat_mots = 1",
-        "require[0].at_mots = 1: must be a key of [require[0]] (observable, at_all_times, confidence, quantile, at_most, fraction, mean, at_least, band, from_s, to_s); did you mean at_most?",
+        "require[0].at_mots = 1: must be a key of [require[0]] (observable, at_all_times, confidence, quantile, at_most, bounded, fraction, mean, at_least, band, from_s, to_s); did you mean at_most?",
     ),
     (
         BAND,
@@ -265,6 +268,20 @@ const CASES: &[(&str, &str, &str, &str)] = &[
     ),
     (STOP, "half_width = 1e-12", "half_width = 0", "stop.half_width = 0: must be a number > 0"),
     (ALL_TIMES, "true", "1", "require[0].at_all_times = 1: must be true or false"),
+    (
+        REQUIRE,
+        "at_most = 1e-9",
+        "at_most = 1e-9\nbounded = [0, 1]",
+        "require[0].bounded = [0, 1]: must be left out without mean = true: shares and quantiles need no bounds; delete it",
+    ),
+    (
+        MEAN,
+        "[0.0, 1.0]",
+        "[1.0, 0.0]",
+        "require[0].bounded = [1.0, 0.0]: must be two numbers, the smaller one first: no run has a value outside of them; write it like [0.0, 1.0]",
+    ),
+    (MEAN, "[0.0, 1.0]", "[0.0]", "require[0].bounded = [0.0]: must be two numbers"),
+    (MEAN, "[0.0, 1.0]", "\"wide\"", "require[0].bounded = \"wide\": must be an array of finite numbers"),
     (
         ALL_TIMES,
         "from_s = 1\n",

@@ -10,6 +10,8 @@ mod bad_campaigns;
 mod implausible;
 mod invalid_files;
 mod keys;
+mod loop_notes;
+mod loops;
 mod misspelt;
 mod ranges;
 mod refusals;

@@ -103,7 +103,7 @@ fn every_misspelt_key_gets_its_suggestion() {
         let unknown = error(&with(NOTHING));
         let problem = unknown.problems.iter().find(|problem| problem.key.ends_with(NOTHING));
         let problem = problem.unwrap_or_else(|| panic!("{table}: {unknown}"));
-        let own = CampaignError { problems: vec![problem.clone()], more: 0, note: None };
+        let own = CampaignError { problems: vec![problem.clone()], more: 0, note: None, is_unreadable: false };
         let names = listed(&own, " (", ')');
         assert!(!names.is_empty(), "{table}: {problem}");
         for name in &names {

@@ -263,3 +263,32 @@ fn a_spacecraft_without_a_body_is_refused() {
         "bad.toml: body is missing: must be a table with the mass properties of the body, or its parts; add a [body] table, or [[body.parts]] tables"
     );
 }
+
+/// Law: every list of tables that the documents show has a limit, so that reading takes no more than a moment however many there are. Only `[[actuation]]`
+/// has none: each arc is read in the same time.
+#[test]
+fn every_list_of_tables_has_a_limit() {
+    let documents = [include_str!("../../docs/campaign-files.md"), include_str!("../../docs/control.md")];
+    let names = documents.iter().flat_map(|text| text.split("[[").skip(1)).filter_map(|rest| rest.split_once("]]"));
+    let is_name = |name: &&str| name.chars().all(|letter| letter.is_ascii_lowercase() || letter == '.');
+    let lists: std::collections::BTreeSet<&str> = names.map(|(name, _)| name).filter(is_name).collect();
+    assert!(lists.len() >= 11 && lists.contains("sensors") && lists.contains("body.parts"), "{lists:?}");
+    for list in lists {
+        let tables = format!("[[{list}]]\n").repeat(20_000);
+        // a loop is read where there is one, and parts are those of a body
+        let text = match list {
+            "body.parts" => PARTS.replacen("[initial]", &format!("{tables}[initial]"), 1),
+            "sensors" | "guidance" => format!("{DIRECT}\n[control]\nperiod_s = 0.1\n{tables}"),
+            _ => format!("{DIRECT}\n{tables}"),
+        };
+        // tables of a list may be in several places of a file
+        let error = refused(&text);
+        let is_limit = |problem: &spindrift::campaign::Problem| {
+            let count = problem.value.as_deref().and_then(|value| value.strip_suffix(" tables")?.parse::<usize>().ok());
+            problem.key == list && count.is_some_and(|count| count >= 20_000) && problem.allowed.starts_with("at most ")
+        };
+        assert_eq!(error.problems.iter().any(is_limit), list != "actuation", "{list}: {error}");
+        let read = error.problems.len() + error.more;
+        assert!(list == "actuation" || read < 20_000, "{list}: {read} problems, so all tables were read");
+    }
+}

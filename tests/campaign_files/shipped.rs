@@ -33,6 +33,35 @@ fn shipped_campaigns_are_valid_and_say_what_they_ask() {
     }
 }
 
+/// Law: each property of the launch that the header of `net_launch.toml` promises is a requirement, with the limit of the header.
+#[test]
+fn a_launch_is_judged_by_what_its_file_promises() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/net_launch.toml");
+    let text = std::fs::read_to_string(&file).expect("readable");
+    let header = text.split("\n\n").next().expect("a header").replace("\n#  ", "");
+    let plan = Plan::load(&file, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let degree = std::f64::consts::PI / 180.0;
+    for (said, column, limit) in [
+        ("a lateral velocity below 5 cm/s", "relative_speed_launch_m_s", 0.05),
+        ("pointing within 2 deg", "pointing_error_launch_rad", 2.0 * degree),
+        ("a rate below 0.2 deg/s", "body_rate_launch_rad_s", 0.2 * degree),
+        ("an offset from the line below 1.5 m", "axis_offset_launch_m", 1.5),
+    ] {
+        assert!(header.contains(said), "{said}: {header}");
+        let observed = format!("observable = \"{column}\"\n");
+        let text = plan.text();
+        let of_column = text.split("[[require]]\n").filter(|one| one.starts_with(&observed));
+        let limits: Vec<f64> = of_column.map(at_most).collect();
+        assert!(matches!(limits[..], [found] if (found - limit).abs() < 1e-12 * limit), "{column}: {limits:?}");
+    }
+}
+
+/// The upper limit of a requirement as the plan writes it.
+fn at_most(requirement: &str) -> f64 {
+    let line = requirement.lines().find_map(|line| line.strip_prefix("at_most = ")).expect("an upper limit");
+    line.trim_matches('"').parse().expect("a number")
+}
+
 #[test]
 fn a_plan_reads_back_from_its_text() {
     for file in shipped() {

@@ -189,7 +189,7 @@ fn a_torque_on_a_held_wheel_changes_no_bit() {
 type Observe = fn(&mut Observer, Isa, &Scene, &CompletedRun<'_>, &mut [f64]);
 
 fn flown(observer: &mut Observer, isa: Isa, scene: &Scene, run: &CompletedRun<'_>, row: &mut [f64]) {
-    observer.observe_flown(isa, (scene, run.arcs), run.table, run.outcome, row);
+    observer.observe_flown(isa, (scene, run.arcs, &[]), run.table, run.outcome, row);
 }
 
 fn scheduled(observer: &mut Observer, isa: Isa, scene: &Scene, run: &CompletedRun<'_>, row: &mut [f64]) {

@@ -26,8 +26,8 @@ const AUDITED: [&str; 3] = ["spin_sweep", "burn", "inertia"];
 /// The campaign one of whose requirements fails.
 const FAILS: &str = "acceptance";
 
-/// One with a requirement that so few samples do not decide.
-const UNDECIDED: [&str; 2] = ["slew", "slew_closed"];
+/// Those with a requirement that so few samples do not decide.
+const UNDECIDED: [&str; 3] = ["slew", "slew_closed", "net_launch"];
 
 /// Columns that measure the machine and not the run.
 const OF_THE_MACHINE: [&str; 2] = ["cpu_s", "wall_s"];

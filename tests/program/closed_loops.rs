@@ -54,7 +54,7 @@ fn without(text: &str, headers: &[&str]) -> String {
 }
 
 /// A spacecraft at rest with one wheel about each axis, of the inertia diag(30, 36, 24) kg m^2 with wheels that add nothing to K.
-fn small_craft(control: &str, initial: &str) -> String {
+pub(super) fn small_craft(control: &str, initial: &str) -> String {
     let mut text = String::from(
         "[campaign]\nname = \"loop\"\nsamples = 2\nseed = 1\nduration_s = 100\n[integrator]\nmethod = \"auto\"\ntolerance = 1e-14\n\
          [observe]\npoints = 401\ngroups = [\"final_state\", \"motion\", \"numerics\", \"energy_conservation\", \"momentum_conservation\"]\n\
@@ -166,7 +166,7 @@ fn the_arcs_flown_are_the_run() {
 }
 
 /// A loop that holds F_e with the wheels by quaternion feedback.
-fn hold(bandwidth: f64, damping: f64, period: f64, more: &str) -> String {
+pub(super) fn hold(bandwidth: f64, damping: f64, period: f64, more: &str) -> String {
     format!(
         "[control]\nperiod_s = {period:?}\nwheels = [\"w1\", \"w2\", \"w3\"]\n{more}[[guidance]]\nphase = \"hold\"\nlaw = \"quaternion_feedback\"\n\
          bandwidth_rad_s = {bandwidth:?}\ndamping = {damping:?}\ntarget = \"attitude\"\nattitude = [1, 0, 0, 0]\n"
@@ -174,7 +174,7 @@ fn hold(bandwidth: f64, damping: f64, period: f64, more: &str) -> String {
 }
 
 /// The angle about s2 of a small rotation at each point.
-fn angles(run: &SingleRun) -> Vec<f64> {
+pub(super) fn angles(run: &SingleRun) -> Vec<f64> {
     let [w, y] = [0, 2].map(|component| run.table.column(StateField::Attitude, component));
     let points = run.grid.points();
     w[..points].iter().zip(&y[..points]).map(|(w, y)| 2.0 * y.atan2(*w)).collect()
@@ -361,6 +361,8 @@ fn hostile_loops_end() {
 fn wrong_loops_are_refused() {
     let delete = "";
     let cases = [
+        ("hold_force = true", "hold_force = 1", "control.hold_force", "true or false"),
+        ("law = \"eigenaxis\"", "law = \"eigenaxis\"\ngyroscopic = true", "guidance.aim.gyroscopic", "mrp_feedback"),
         ("period_s = 0.5\ndelay_s", "delay_s", "control.period_s is missing", "a number > 0"),
         ("estimator = \"mekf\"", "estimator = \"kalman\"", "control.estimator", "one of perfect, raw, mekf"),
         (

@@ -99,7 +99,12 @@ fn with_rate(scratch: &ScratchFolder, nominal: f64, seed: u32, samples: u32) -> 
 
 /// The comparison of two results as its JSON file has it.
 fn compared(scratch: &ScratchFolder, first: &str, second: &str) -> Value {
-    scratch.prints(&format!("compare {first} {second} --out c.json"), 0);
+    ended_with(scratch, first, second, 0)
+}
+
+/// The same of a comparison that ends with this code.
+fn ended_with(scratch: &ScratchFolder, first: &str, second: &str, code: i32) -> Value {
+    scratch.prints(&format!("compare {first} {second} --out c.json"), code);
     serde_json::from_str(&scratch.text("c.json")).expect("JSON")
 }
 
@@ -125,7 +130,7 @@ fn equal_differences_have_equal_ranks() {
     let above = rates[1..].iter().filter(|rate| **rate > 0.1).count() as f64;
     let expected = libm::erfc((2.0 * above - 599.0).abs() / libm::sqrt(2.0 * 599.0));
     let compared = compared(&scratch, "none", "signs");
-    let found = row(&compared, "sign")["p_value_distribution"].as_f64().expect("a p-value");
+    let found = row(&compared, "sign")["p_value_moved"].as_f64().expect("a p-value");
     // rounding of sums of 599 ranks
     assert!((1e-6..0.9).contains(&expected) && (found / expected - 1.0).abs() < 1e-11, "{found} {expected}");
 }
@@ -170,8 +175,8 @@ fn inaccurate_runs_have_no_part_in_the_test_of_distributions() {
     assert!(checked > 50 && changed > 20, "{checked} {changed}");
 }
 
-/// Law: two campaigns that drew the same samples about other nominal values are compared pair by pair, and a shift of a fiftieth of the standard
-/// deviation is found with its true size; campaigns of other seeds, whose standard error of the difference is 0.029, do not show it. A
+/// Law: two campaigns that drew the same samples about other nominal values are compared pair by pair, and that every run moved by a fiftieth of the standard
+/// deviation is found, with its true size; campaigns of other seeds, whose standard error of the difference is 0.029, do not show it. A
 /// shift of twenty standard deviations turns the verdict; what is required comes first, and only what is significant is called shifted.
 #[test]
 fn planted_shifts_are_found_by_pairs() {
@@ -184,10 +189,11 @@ fn planted_shifts_are_found_by_pairs() {
     assert_eq!((&pairs["pairs"], &pairs["compared_as"]), (&Value::from(599), &Value::from("pairs")));
     let number = |key: &str| rate[key].as_f64().expect("a number");
     // rounding of a difference of numbers of order one
-    assert!((number("mean_shift") - 0.01).abs() < 1e-15 && number("adjusted_p_value") < 1e-9, "{rate}");
+    assert!((number("mean_shift") - 0.01).abs() < 1e-15 && number("adjusted_p_value_moved") < 1e-9, "{rate}");
+    // through no limit go so many of 599 that the distribution is seen to move
     assert_eq!(
-        (&rate["is_shifted"], &rate["is_required"], &rate["differing_pairs"]),
-        (&1.into(), &1.into(), &599.into())
+        (&rate["is_moved"], &rate["is_shifted"], &rate["is_required"], &rate["differing_pairs"]),
+        (&1.into(), &0.into(), &1.into(), &599.into())
     );
     let both: Vec<&str> =
         ["first", "second"].into_iter().filter_map(|key| pairs["requirements"][0][key].as_str()).collect();
@@ -198,10 +204,21 @@ fn planted_shifts_are_found_by_pairs() {
     assert_eq!((&independent["pairs"], &rate["is_shifted"]), (&0.into(), &0.into()));
     assert!((rate["mean_shift"].as_f64().expect("a number") - 0.01).abs() < 4.0 * 0.029, "{rate}");
 
-    let said = scratch.prints(&format!("compare {base} {far}"), 0);
-    let verdict = said.lines().find(|line| line.contains("DIFFERENT")).expect("a verdict that differs");
-    assert!(verdict.contains("PASS") && verdict.contains("FAIL") && verdict.contains("rate"), "{verdict}");
-    for compared in [&pairs, &independent, &compared(&scratch, &base, &far)] {
+    // a verdict that gets worse ends with 3, with or without a tolerance that is kept; one that gets better does not
+    for (results, tolerance, mark, code) in [
+        (format!("{base} {far}"), "", "WORSE", 3),
+        (format!("{base} {far}"), " --tolerance 1e9", "WORSE", 3),
+        (format!("{far} {base}"), "", "DIFFERENT", 0),
+    ] {
+        let said = scratch.prints(&format!("compare {results}{tolerance}"), code);
+        let verdict = said.lines().find(|line| line.contains(mark)).expect("a verdict that differs");
+        assert!(verdict.contains("PASS") && verdict.contains("FAIL") && verdict.contains("rate"), "{verdict}");
+        assert_eq!(said.contains("FAIL: one verdict is worse than before"), code == 3, "{said}");
+    }
+    let worse = ended_with(&scratch, &base, &far, 3);
+    assert_eq!(worse["requirements"][0]["is_worse"], true);
+    assert_eq!(row(&worse, "rate")["is_shifted"], 1);
+    for compared in [&pairs, &independent, &worse] {
         let rows = compared["observables"].as_array().expect("rows");
         assert_eq!(rows[0]["observable"], "rate");
         let key = |row: &Value, key: &str| row[key].as_f64();

@@ -191,3 +191,34 @@ fn outliers_end_alone() {
         assert!(said.contains(&format!("the run ended with step_limit: {};", reasons.value(row))), "{row}: {said}");
     }
 }
+
+/// Law: masses whose products overflow are refused with the limit, whatever has them, in every shipped campaign; no number of a mass that is shown is infinite.
+#[test]
+fn masses_that_overflow_are_refused() {
+    let scratch = folder("large-masses");
+    for entry in fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/campaigns")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let mut refused = 0;
+        for key in ["body.mass_kg", "debris.mass_kg", "wheels.w1.mass_kg"] {
+            let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_spindrift"));
+            let command = command.arg("check").arg(&path).arg("--set").arg(format!("{key}=1e308"));
+            let output = command.current_dir(&scratch.0).output().unwrap();
+            let said =
+                format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+            assert_eq!(output.status.code(), Some(2), "{path:?} {key}: {said}");
+            assert!(!said.contains("panicked") && !said.contains("inf kg"), "{path:?} {key}: {said}");
+            refused += usize::from(said.contains("at most 1e150"));
+        }
+        assert!(refused > 0, "{path:?}");
+    }
+}
+
+/// Law: a campaign of the nominal sample alone is checked: it has no draws, and so no percentiles.
+#[test]
+fn a_campaign_of_one_sample_is_checked() {
+    let said = folder("one-sample").says("check", "slew.toml", "--set campaign.samples=1", 0);
+    assert!(said.contains("of 0 draws (sample 0 is nominal)"), "{said}");
+}

@@ -251,3 +251,94 @@ fn threads_that_do_not_start_are_no_input_error() {
         scratch.outputs(&mut command(arguments), 0);
     }
 }
+
+/// Law: no character of an argument that a terminal obeys reaches it, whichever part of the parser refuses the argument.
+#[test]
+fn escapes_in_arguments_are_shown_as_text() {
+    let scratch = folder("argument-escapes");
+    let hostile = "\u{1b}[2J\u{9b}1m\u{202e}x";
+    for arguments in [
+        vec![hostile],
+        vec!["check", "small.toml", hostile],
+        vec!["check", "--X", "small.toml"],
+        vec!["campaign", "small.toml", "--threads", hostile],
+        vec!["campaign", "small.toml", "--samples", hostile],
+        vec!["campaign", "small.toml", "--seed", hostile],
+        vec!["campaign", "small.toml", "--shard", hostile],
+        vec!["campaign", "small.toml", "--dpi", hostile],
+        vec!["campaign", "small.toml", "--size", hostile],
+        vec!["check", "small.toml", "--set", hostile],
+        vec!["precision", "small.toml", "--methods", hostile],
+        vec!["slurm", "small.toml", "--time", hostile],
+        vec!["verify", "r", "--fraction", hostile],
+    ] {
+        let arguments: Vec<String> =
+            arguments.iter().map(|text| text.replace("--X", &format!("--{hostile}"))).collect();
+        let said = scratch.outputs(Command::new(env!("CARGO_BIN_EXE_spindrift")).args(&arguments), 2);
+        let is_obeyed = |letter: char| letter != '\n' && (letter.is_control() || letter == '\u{202e}');
+        assert!(!said.contains(is_obeyed), "{arguments:?}: {said:?}");
+        assert!(said.contains("\\u{1b}[2J\\u{9b}1m\\u{202e}x"), "{arguments:?}: {said}");
+    }
+    // help and version are results
+    assert!(
+        scratch.prints("--help", 0).contains("Exit codes:") && scratch.prints("--version", 0).starts_with("spindrift ")
+    );
+    scratch.prints("", 2);
+}
+
+/// Law: a file that may not grow further is an error of input and output with its name, code 4; without the limit the same command ends with the same bytes.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_limit_of_file_sizes_is_an_error() {
+    let scratch = folder("file-limit");
+    scratch.prints("campaign small.toml --out whole", 0);
+    let limited = |arguments: &str, code: i32| {
+        // blocks of 512 bytes
+        let line = format!("ulimit -f 8; exec '{}' {arguments}", env!("CARGO_BIN_EXE_spindrift"));
+        scratch.outputs(Command::new("sh").args(["-c", &line]), code)
+    };
+    for arguments in [
+        "campaign small.toml --out r",
+        "sample small.toml --out s.csv",
+        "simulate small.toml --out s.parquet",
+        "report whole",
+    ] {
+        let said = limited(arguments, 4);
+        assert!(said.contains("File too large"), "{arguments}: {said}");
+    }
+    scratch.prints("campaign small.toml --out r", 0);
+    assert!(contents(&scratch.path("r")) == contents(&scratch.path("whole")));
+    // counter-test: what fits is written
+    limited("check small.toml", 0);
+}
+
+/// Law: a file of the campaign that cannot be read now ends the command with code 4, whichever it is; one that is missing is a mistake, code 2, and so is any
+/// mistake beside it.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_cannot_be_read_now_is_no_mistake() {
+    let scratch = folder("unreadable");
+    table_campaign(&scratch);
+    fs::remove_file(scratch.path("table.csv")).unwrap();
+    // a regular file whose first byte cannot be read (EIO): no page of memory is there
+    let unreadable = |name: &str| std::os::unix::fs::symlink("/proc/self/mem", scratch.path(name)).unwrap();
+    let commands = ["check FILE", "campaign FILE --out r", "simulate FILE", "sample FILE"];
+    let all = |file: &str, code: i32| {
+        for command in commands {
+            let said = scratch.prints(&command.replace("FILE", file), code);
+            assert_eq!(said.contains("Input/output error"), code == 4, "{command}: {said}");
+        }
+    };
+    unreadable("none.toml");
+    all("none.toml", 4);
+    scratch.file("over.toml", "extends = \"base.toml\"\n");
+    all("over.toml", 2);
+    unreadable("base.toml");
+    all("over.toml", 4);
+    all("table.toml", 2);
+    unreadable("table.csv");
+    all("table.toml", 4);
+    scratch.file("table.toml", &scratch.text("table.toml").replace("seed = 7", "sead = 7"));
+    scratch.prints("check table.toml", 2);
+    assert!(!scratch.path("r").exists());
+}

@@ -78,6 +78,8 @@ fn noise_is_told_from_scenes() {
     let page_before = run.data.to_string();
     assert!(page_before.contains("report DIR --noise 256"), "the page says how");
     let text = run.scratch.prints("report r --noise 400", 0);
+    // the page says how it was made, and is made again
+    run.scratch.prints("verify r --fraction 0", 0);
     assert!(
         text.contains("of_scene                           noise within the loop changes it in none of 400 scenes"),
         "{text}"

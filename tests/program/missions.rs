@@ -36,7 +36,7 @@ fn ends_are_those_of_the_rows() {
         assert_eq!([&one["count"], &one["runs"]].map(|number| number.as_u64()), [Some(count), Some(ok.len() as u64)]);
         let percents = [share, low, high].map(|share| 100.0 * share);
         let counted = [&[count as f64, runs][..], &percents].concat();
-        says(&said, &format!("# of # runs {words}: #% [#, #]"), &counted);
+        says(&said, &format!("# of # missions {words}: #% [#, #]"), &counted);
         let row = table.split("<tr>").find(|row| row.contains(words)).expect("a row");
         says(
             row,
@@ -51,5 +51,22 @@ fn ends_are_those_of_the_rows() {
         all += count as f64;
     }
     assert!(all == runs && missions.len() == 2, "{missions:?}");
+    // a figure counts the runs that have a value; those that failed never came to rest
+    let began = found.rows(&["phase_rest_begin_s"]);
+    let known = began.iter().filter(|(_, row)| row[0].is_finite()).count();
+    let scatter = found.figure("scatter_phase_rest_begin_s_initial_angular_velocity_y_rad_s");
+    assert!(known < began.len() && scatter["caption"] == format!("{known} runs that were computed."), "{scatter}");
+    // what failed is the mission, and not its computation
+    let worst = between(&page, "id=\"worst\"", "id=\"replay\"");
+    for row in worst.split("<tr>").skip(3) {
+        let sample = between(row, "<th scope=\"row\">", "</th>").parse::<usize>().expect("a sample");
+        let mission = if failures[sample] == 1.0 { "; mission failed: a phase took too long" } else { "" };
+        assert!(row.contains(&format!("<td class=\"text\">computed{mission}</td>")), "{row}");
+    }
+    assert!(said.contains("all 40 runs were computed") && page.contains("All 40 runs were computed."), "{said}");
+    for (end, class) in [("did not fail", "ok"), ("failed: a phase took too long", "failed")] {
+        let row = table.split("<tr>").find(|row| row.contains(end)).expect("a row");
+        assert!(row.contains(&format!("class=\"mission {class}\"")), "{row}");
+    }
     assert!(failures[0] == 1.0 || failures[0] == 0.0);
 }

@@ -151,7 +151,7 @@ fn every_named_driver_has_its_direction() {
     let start = found.said.find("driven by").expect("drivers");
     let said = &found.said[start..start + found.said[start..].find("\n\n").expect("an end")];
     let mut seen = [0; 2];
-    for line in said.lines().skip(1) {
+    for line in said.lines().skip(1).filter(|line| line.contains("with it")) {
         let (outcome, drivers) = line.trim_start().split_once(' ').expect("an outcome");
         let ordinates = if outcome == "spin_ratio" {
             let [y, z] = ["y", "z"].map(|axis| dispersed(&found, &format!("initial_angular_velocity_{axis}_rad_s")));

@@ -68,7 +68,7 @@ fn axes_are_not_exchanged() {
     let found = found("axes", &motion());
     let [input, outcome] = ["initial_angular_velocity_z_rad_s", "angular_rate_final_rad_s"];
     let figure = format!("scatter_{outcome}_{input}");
-    let points = found.mark(&figure, "ok");
+    let points = found.mark(&figure, "computed");
     let [samples, x, y] = ["samples", "x", "y"].map(|key| found.array(&points[key]));
     assert_eq!(samples.len(), 299);
     let columns = found.all(&[input, outcome]);
@@ -257,7 +257,7 @@ fn two_statuses_are_told_apart() {
         let reasons = summary["failure_reasons"].as_array().unwrap();
         let of = reasons.iter().filter(|one| one["status"] == status);
         let sample = of.map(|one| one["sample"].as_u64().expect("a sample")).min().expect("a reason");
-        let row = rows.iter().find(|row| row.contains(&format!("failed: {status}"))).expect("a row");
+        let row = rows.iter().find(|row| row.contains(&format!("computation failed: {status}"))).expect("a row");
         assert!(row.contains(&format!("<b>{status}</b>: ")), "{row}");
         assert!(row.starts_with(&format!("<th scope=\"row\">{sample}</th>")), "{sample}: {row}");
         let first = format!("first in sample {sample}: ");
@@ -266,7 +266,7 @@ fn two_statuses_are_told_apart() {
         // each replay command is that of its own row
         assert!(row.contains(&format!("--sample {sample}</code>")), "{row}");
     }
-    let is_ok = |row: &&&str| row.contains("<td class=\"text\">ok</td>");
+    let is_ok = |row: &&&str| row.contains("<td class=\"text\">computed</td>");
     assert!(rows.iter().filter(is_ok).count() >= 5, "{worst}");
     let scatter = found.data["figures"]
         .as_array()
@@ -280,8 +280,8 @@ fn two_statuses_are_told_apart() {
     };
     let ok = summary["statuses"]["ok"].as_u64().unwrap();
     let dispersed_ok = ok - 1; // the nominal run is ok
-    assert_eq!(samples("ok").len() as u64, dispersed_ok);
-    assert_eq!(samples("failed").len() as u64, 300 - ok);
-    assert!(!samples("ok").contains(&0.0));
-    assert!(samples("failed").iter().all(|sample| !samples("ok").contains(sample)));
+    assert_eq!(samples("computed").len() as u64, dispersed_ok);
+    assert_eq!(samples("not computed").len() as u64, 300 - ok);
+    assert!(!samples("computed").contains(&0.0));
+    assert!(samples("not computed").iter().all(|sample| !samples("computed").contains(sample)));
 }

@@ -144,7 +144,7 @@ fn bands_are(found: &Found, figure: &Value) {
         assert!(five.windows(2).all(|pair| pair[0][point] <= pair[1][point]), "{name}, point {point}");
     }
     let caption = format!(
-        "of {} dispersed runs that are ok, at each of {} times",
+        "of {} dispersed runs that were computed, at each of {} times",
         found.column("energy_error_max").len(),
         five[0].len()
     );
@@ -169,7 +169,7 @@ fn scatter_is(found: &Found, figure: &Value, outcomes: &[&str]) {
     let mut lowest = f64::INFINITY;
     let mut all = Vec::new();
     for mark in figure["marks"].as_array().expect("marks") {
-        let is_ok = text(mark, "label") == "ok";
+        let is_ok = text(mark, "label") == "computed";
         let [samples, x, y] = ["samples", "x", "y"].map(|key| found.array(&mark[key]));
         for (k, sample) in samples.iter().enumerate() {
             let row = *sample as usize;
@@ -250,7 +250,7 @@ fn every_series_is_of_its_label() {
                 let shown = |value: &f64| factor * if is_error { value.abs() } else { *value };
                 let values: Vec<f64> = found.column(column).iter().map(shown).collect();
                 let nominal = shown(&found.all(&[column])[0][0]);
-                let count = format!("{} runs that are ok", values.len());
+                let count = format!("{} runs that were computed", values.len());
                 assert!(kind == "convergence_" || text(figure, "caption").contains(&count), "{figure}");
                 for mark in marks {
                     series_is(&found, kind, column, (mark, factor), &values, nominal);

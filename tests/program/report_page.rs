@@ -106,12 +106,33 @@ fn pages_of_failures() {
     scratch.file("short.toml", &campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1"));
     scratch.prints("campaign short.toml --samples 30 --out short", 1);
     scratch.prints("campaign small.toml --samples 1 --out one", 0);
-    for (result, sentence) in
-        [("short", "None of 30 runs is ok"), ("one", "The run is ok."), ("thin", "of 100 runs are ok")]
-    {
+    for (result, sentence) in [
+        ("short", "None of 30 runs was computed"),
+        ("one", "The run was computed."),
+        ("thin", "of 100 runs were computed"),
+    ] {
         let page = page(&scratch, result);
         assert!(visible(&page).contains(sentence), "{result}: {sentence}");
         let mut words = visible(&page).split(|letter: char| !letter.is_alphanumeric());
         assert!(words.all(|word| word != "NaN" && word != "inf"), "{result}");
     }
+}
+
+/// Law: what the file of `new` asks of the integration it gets: nothing on its screen or page is above what the tolerance promises, whatever the draws.
+/// A method whose steps add up to more than ten times its tolerance is named.
+#[test]
+fn the_campaign_of_new_holds_its_tolerance() {
+    let scratch = ScratchFolder::new("page-new");
+    scratch.prints("new start.toml", 0);
+    let above = "above what the tolerance promises";
+    for (folder, change) in [("a", ""), ("b", " --set campaign.seed=810"), ("c", " --set campaign.duration_s=600.0")] {
+        let said = scratch.prints(&format!("campaign start.toml --out {folder}{change}"), 0);
+        assert!(said.contains("largest errors, relative") && !said.contains("above"), "{said}");
+        let page = page(&scratch, folder);
+        assert!(visible(&page).contains("Largest relative errors") && !page.contains(above), "{change}");
+    }
+    let other =
+        "--set integrator.method=dormand_prince --set integrator.tolerance=1e-6 --set campaign.duration_s=3000.0";
+    scratch.prints(&format!("campaign start.toml --out d {other}"), 0);
+    assert!(page(&scratch, "d").contains(above));
 }

@@ -111,7 +111,7 @@ fn files_are_those_of_simulate() {
     for (path, threads) in [(&one, 1), (&two, 2)] {
         fs::create_dir_all(path).unwrap();
         let dataset = dataset(&plan, path.parent().unwrap());
-        save(&plan, &samples, &dataset, isa, NonZeroUsize::new(threads)).unwrap();
+        save(&plan, &samples, (isa, NonZeroUsize::new(threads)), &|name, bytes| dataset.write(name, bytes)).unwrap();
     }
     let mut seen = BTreeSet::new();
     for sample in &samples {
@@ -125,7 +125,9 @@ fn files_are_those_of_simulate() {
     }
     assert_eq!(fs::read_dir(&one).unwrap().count(), samples.len());
     fs::create_dir(scratch.path("missing")).unwrap();
-    let refused = save(&plan, &samples, &dataset(&plan, &scratch.path("missing")), isa, None).unwrap_err().to_string();
+    let dataset = dataset(&plan, &scratch.path("missing"));
+    let refused =
+        save(&plan, &samples, (isa, None), &|name, bytes| dataset.write(name, bytes)).unwrap_err().to_string();
     assert!(refused.contains("missing") && refused.contains("sample-00000"), "{refused}");
 }
 

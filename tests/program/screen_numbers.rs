@@ -7,6 +7,7 @@ use serde_json::Value;
 use super::page_numbers::{failing, quantile};
 use super::small_campaign::mixed_failures;
 use crate::support::scratch_folder::{ScratchFolder, batches, column, ended};
+use spindrift::statistics::binomial::interval;
 
 /// A line with `#` in place of each number, and the numbers; digits within a word are none, and a `#` of the line itself is `@`.
 pub(super) fn template(line: &str) -> (String, Vec<f64>) {
@@ -100,8 +101,8 @@ fn a_campaign_counts_what_it_has() {
     let [_, share] = numbers(&said, "audits: # s of CPU time, #% of the total")[..] else { panic!("{said}") };
     assert!((50.0..100.0).contains(&share), "an audit takes a hundred times a run: {share}");
 
-    says(&said, "# of # runs are ok", &[ok, 600.0]);
-    says(&said, "# of # runs are not ok and are left out", &[600.0 - ok, 599.0]);
+    says(&said, "# of # runs were computed", &[ok, 600.0]);
+    says(&said, "# of # runs were not computed and are left out", &[600.0 - ok, 599.0]);
     says(&said, "# of # samples (#%) are not physical", &[invalid, 599.0, 100.0 * invalid / 599.0]);
     for (status, count) in [("invalid_sample", invalid), ("inaccurate", inaccurate)] {
         let first = of(status);
@@ -116,20 +117,19 @@ fn a_campaign_counts_what_it_has() {
     // requirements: on the screen and in JUnit
     let junit = scratch.text("junit.xml");
     let list = summary["requirements"]["list"].as_array().expect("requirements");
-    assert_eq!(junit_counts(&junit), [list.len() + 1, list.len() + 1, 0]);
+    // a case for the runs and one for the audits
+    assert_eq!(junit_counts(&junit), [list.len() + 2, list.len() + 1, 0]);
     says(&junit, "message=\"# runs are not ok\"", &[600.0 - ok]);
     for one in list {
         let sentence = one["requirement"].as_str().expect("a text");
-        let [runs, violations, low, high, confidence] = [
-            &one["runs"],
-            &one["violations"],
-            &one["bounds"][0],
-            &one["bounds"][1],
-            &one["confidence_of_pass_and_bounds"],
-        ]
-        .map(number);
-        let pattern = "# of # runs within the limit, between #% and #% (each bound with #% confidence)";
-        let known = [runs - violations, runs, 100.0 * low, 100.0 * high, 100.0 * confidence];
+        let [runs, violations, missing] = ["runs", "violations", "runs_without_a_value"].map(|key| number(&one[key]));
+        // one convention everywhere: two-sided, Clopper and Pearson
+        let [low, high] = interval((runs - violations) as u64, runs as u64, 0.95);
+        assert_eq!([low, high], [0, 1].map(|end| number(&one["interval"][end])));
+        let pattern = "# of # runs within the limit: #% [#, #] (# runs without a value count as violations)";
+        let within = runs - violations;
+        let known = [within, runs, 100.0 * within / runs, 100.0 * low, 100.0 * high, missing];
+        assert_eq!(missing, inaccurate);
         for text in [&said, &junit] {
             says(text.split_once(sentence).expect("the requirement").1, pattern, &known);
         }

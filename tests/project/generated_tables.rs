@@ -11,7 +11,7 @@ use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
 use spindrift::observables::band_series::band_series;
 use spindrift::observables::request::wheel_names;
-use spindrift::observables::{Group, Groups, Request, table};
+use spindrift::observables::{Group, Groups, LawColumns, LawSeries, Request, table};
 use spindrift::sampling::SampleId;
 use spindrift::scene::schema::Presence;
 use spindrift::scene::table::Table;
@@ -93,7 +93,7 @@ fn quantities_over_time() -> String {
         constrained: false,
         wheels: wheel_names(&["w1"]),
         nutation_axis: spindrift::observables::request::NutationAxis::SpinAxis,
-        of_law: spindrift::observables::LawColumns::NONE,
+        of_law: LawColumns { over_time: LawSeries::ALL, ..LawColumns::NONE },
         windows: spindrift::observables::window::NO_WINDOWS,
     };
     let mut table = String::from("| series | unit | what it is |\n| --- | --- | --- |\n");

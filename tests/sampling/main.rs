@@ -17,6 +17,7 @@ mod distributions;
 mod effect;
 mod geometric;
 mod geometric_files;
+mod means_with_tails;
 mod replay;
 mod replicates;
 mod structure;

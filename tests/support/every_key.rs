@@ -314,6 +314,7 @@ pub fn every_loop() -> Vec<String> {
             "[[guidance]]\nphase = \"p{place}\"\nlaw = \"{law}\"\n{own}target = \"{target}\"\nthrust = \"{thrust}\"\n\
              until = \"time_s > {place} and body_rate_rad_s < 1\"\nnext = \"launch\"\notherwise = \"p0\"\n"
         );
+        phases += if *law == "mrp_feedback" { "gyroscopic = true\n" } else { "" };
         phases += if target == "attitude" { "attitude = [1, 0, 0, 0]\n" } else { "" };
         phases += if target == "transfer" || thrust == "transfer" { "transfer_time_s = 60\n" } else { "" };
     }
@@ -323,7 +324,7 @@ pub fn every_loop() -> Vec<String> {
             let estimator = estimator.name;
             files.push(format!(
                 "{base}[control]\nperiod_s = 0.25\nestimator = \"{estimator}\"\nwheels = [\"w1\"]\nthrusters = [\"p1\"]\n\
-                 modulation = \"{modulation}\"\n[control.model]\nmass_kg = 2000.0\ncenter_of_mass_m = [0, 0, 1.5]\n\
+                 modulation = \"{modulation}\"\nhold_force = true\n[control.model]\nmass_kg = 2000.0\ncenter_of_mass_m = [0, 0, 1.5]\n\
                  inertia_kg_m2 = [[3000, 0, 0], [0, 3000, 0], [0, 0, 1700]]\n{sensors}{phases}"
             ));
         }

@@ -56,6 +56,10 @@ pub trait ActuationLaw {
     /// `until` must be after `time`.
     fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation;
 
+    /// The run has come to its end at `time`, where the state is this. Called once, after the last arc, of a run that reaches its end: a law that
+    /// works at ticks of its own can look at the state there. Nothing acts any more.
+    fn end(&mut self, _time: f64, _body: &BodyState, _wheels: &WheelState) {}
+
     /// Writes what the law has to report when its run has ended: the values of the columns that it declares, in their order. All are NaN
     /// before, which is a value that the run does not have.
     fn report(&self, _values: &mut [f64]) {}
@@ -132,6 +136,10 @@ impl<L: ActuationLaw> ActuationLaw for ZeroOrderHold<L> {
         self.held
     }
 
+    fn end(&mut self, time: f64, body: &BodyState, wheels: &WheelState) {
+        self.law.end(time, body, wheels);
+    }
+
     fn report(&self, values: &mut [f64]) {
         self.law.report(values);
     }
@@ -164,6 +172,11 @@ impl<A: ActuationLaw, B: ActuationLaw> ActuationLaw for Sum<A, B> {
             self.second.1 = self.second.0.arc(time, body, wheels);
         }
         sum(&self.first.1, &self.second.1)
+    }
+
+    fn end(&mut self, time: f64, body: &BodyState, wheels: &WheelState) {
+        self.first.0.end(time, body, wheels);
+        self.second.0.end(time, body, wheels);
     }
 }
 

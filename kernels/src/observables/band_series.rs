@@ -4,6 +4,7 @@
 //! computed for them that the observed columns do not need, apart from |omega| at the points of the bands.
 
 use super::group::Group;
+use super::law_columns::LawSeries;
 use super::reduction::{Reduction, Stored};
 use super::request::Request;
 use super::table::{CHANGES, Column, Series};
@@ -64,7 +65,7 @@ pub struct BandSeries {
 const OWN: Series = Series::RateSquare;
 
 /// The quantities of runs of `request` that have bands, those of them that are observed: conservation errors, energy of each body, energy
-/// transfer, angles, |omega|, wheel speeds.
+/// transfer, angles, |omega|, wheel speeds, and what a control loop records.
 pub fn band_series(request: &Request) -> Vec<BandSeries> {
     let errors = [Series::EnergyError, Series::LinearMomentumError, Series::AngularMomentumError];
     let energies = [Series::EnergyBody, Series::EnergyWheel];
@@ -76,9 +77,17 @@ pub fn band_series(request: &Request) -> Vec<BandSeries> {
         Series::RateSquare,
         Series::WheelSpeed,
     ];
+    let of_loops = [
+        Series::PointingError,
+        Series::AttitudeEstimateError,
+        Series::RateEstimateError,
+        Series::PositionEstimateError,
+        Series::VelocityEstimateError,
+        Series::MotorTorque,
+    ];
     let of_values = errors.into_iter().chain(energies).map(|series| (series, false));
     let of_changes = CHANGES.iter().map(|(series, ..)| (*series, true));
-    let kinds = of_values.chain(of_changes).chain(motion.map(|series| (series, false)));
+    let kinds = of_values.chain(of_changes).chain(motion.into_iter().chain(of_loops).map(|series| (series, false)));
     kinds.flat_map(|(series, is_change)| of_series(request, series, is_change)).collect()
 }
 
@@ -86,7 +95,8 @@ impl BandSeries {
     /// Its extreme in runs of `request`: the largest value over the points from one time to another, s, or the smallest.
     pub fn window(&self, request: &Request, is_highest: bool, times: [Option<f64>; 2]) -> Window {
         let shows = |column: &Column| column.value.of(self.series);
-        let group = request.columns().into_iter().find(shows).map_or(Group::Motion, |column| column.group);
+        let otherwise = if LawSeries::place(self.series).is_some() { Group::Control } else { Group::Motion };
+        let group = request.columns().into_iter().find(shows).map_or(otherwise, |column| column.group);
         Window::new((self.series, group, self.is_change), is_highest, times)
     }
 }

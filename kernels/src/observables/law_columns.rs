@@ -1,13 +1,14 @@
-//! [`LawColumns`]: the columns of a row that a control law reports at the end of a run.
+//! [`LawColumns`]: the columns of a row that a control law reports at the end of a run; [`LawSeries`]: the quantities that it records over time.
 //!
-//! The observer does not know their values: whoever flies a run asks its law ([`crate::dynamics::actuation::ActuationLaw::report`]).
+//! The observer does not know the values of the columns: whoever flies a run asks its law ([`crate::dynamics::actuation::ActuationLaw::report`]).
 
 use std::sync::{Mutex, PoisonError};
 
 use super::group::Group;
 use super::rows::{ColumnKind, Scenes};
-use super::table::{Column, ColumnId, Value};
+use super::table::{Column, ColumnId, Series, Value};
 use crate::run::Quantity;
+use crate::scene::MAX_WHEELS;
 
 /// A column that a control law reports.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,40 +21,79 @@ pub struct LawColumn {
     pub codes: &'static [&'static str],
 }
 
-/// The columns that the control law of a campaign reports, in the order of a row. NaN is a value that a run does not have.
+/// The quantities over time that a control loop records at the observation points: a set of series of the table.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LawSeries(u16);
+
+impl LawSeries {
+    /// No quantity.
+    pub const NONE: LawSeries = LawSeries(0);
+    /// Every quantity.
+    pub const ALL: LawSeries = LawSeries(u16::MAX);
+    /// How many there are, with one of each wheel that a spacecraft may have: a record has as many columns, in the order of the table.
+    pub const COUNT: usize = Series::MotorTorque.index() + MAX_WHEELS - Series::PointingError.index();
+
+    /// The set with `series`.
+    ///
+    /// # Panics
+    /// Where no control loop records it.
+    #[must_use]
+    pub fn with(self, series: Series) -> Self {
+        LawSeries(self.0 | 1 << Self::place(series).expect("a control loop records the series"))
+    }
+
+    /// The column of `series` in a record; `None` where no control loop records it.
+    pub fn place(series: Series) -> Option<usize> {
+        series.index().checked_sub(Series::PointingError.index()).filter(|place| *place < Self::COUNT)
+    }
+
+    /// The series of the set.
+    pub(super) fn series(self) -> impl Iterator<Item = Series> {
+        Series::all().filter(move |series| Self::place(*series).is_some_and(|place| self.0 & 1 << place != 0))
+    }
+}
+
+/// What the control law of a campaign reports: the columns `list` of its rows, in this order, and quantities over time. NaN is a value that a run does
+/// not have.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct LawColumns(pub &'static [LawColumn]);
+pub struct LawColumns {
+    /// The columns.
+    pub list: &'static [LawColumn],
+    /// The quantities over time.
+    pub over_time: LawSeries,
+}
 
 impl PartialEq for LawColumns {
     fn eq(&self, other: &Self) -> bool {
-        core::ptr::eq(self.0, other.0) || self.0 == other.0
+        (core::ptr::eq(self.list, other.list) || self.list == other.list) && self.over_time == other.over_time
     }
 }
 
 impl LawColumns {
     /// A law that reports nothing, or no law.
-    pub const NONE: LawColumns = LawColumns(&[]);
+    pub const NONE: LawColumns = LawColumns { list: &[], over_time: LawSeries::NONE };
 
     /// The columns `list`, known at run time only. Each list is kept once and for good: a program has as many as it opens kinds of campaigns.
     pub fn kept(list: Vec<LawColumn>) -> Self {
         static KEPT: Mutex<Vec<&'static [LawColumn]>> = Mutex::new(Vec::new());
         let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
         let known = kept.iter().find(|known| ***known == list[..]).copied();
-        LawColumns(known.unwrap_or_else(|| {
+        let list = known.unwrap_or_else(|| {
             let list: &'static [LawColumn] = Vec::leak(list);
             kept.push(list);
             list
-        }))
+        });
+        LawColumns { list, ..LawColumns::NONE }
     }
 
     /// The handles of the columns.
     pub(super) fn ids(self) -> impl Iterator<Item = ColumnId> {
-        (0..self.0.len()).map(|index| ColumnId { group: Group::Control, value: Value::Law(index as u8) })
+        (0..self.list.len()).map(|index| ColumnId { group: Group::Control, value: Value::Law(index as u8) })
     }
 
     /// The columns.
     pub(super) fn columns(self) -> impl Iterator<Item = Column> {
-        self.0.iter().zip(self.ids()).map(|(column, ColumnId { group, value })| Column {
+        self.list.iter().zip(self.ids()).map(|(column, ColumnId { group, value })| Column {
             quantity: column.quantity.clone(),
             group,
             kind: column.kind,

@@ -7,6 +7,7 @@ use fearless_simd::Simd;
 
 use super::attitude::attitude_series;
 use super::energies::energies;
+use super::law_columns::LawSeries;
 use super::momenta::{angular_momentum, debris_momenta, linear_momentum};
 use super::motion::motion;
 use super::points::{Column, MeasuredRun, SeriesTable, needed};
@@ -26,9 +27,21 @@ pub(super) fn measure<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesT
             SeriesSource::DebrisMomenta => debris_momenta(simd, run, out),
             SeriesSource::Residuals => residuals(run, out),
             SeriesSource::Motion => motion(simd, run, out),
+            SeriesSource::Law => recorded(run, out),
         }
     }
     out.pad(run.observed, run.points);
+}
+
+/// What the control law has recorded; NaN where it records nothing.
+fn recorded(run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let of_each = run.of_law.len() / LawSeries::COUNT;
+    for series in Series::all().filter(|series| run.observed.has(*series)) {
+        let Some(place) = LawSeries::place(series) else { continue };
+        let [column] = out.write([series], run.vectors());
+        let recorded = run.of_law[place * of_each..][..of_each].iter().copied().chain(std::iter::repeat(f64::NAN));
+        column.as_flattened_mut().iter_mut().zip(recorded).for_each(|(value, recorded)| *value = recorded);
+    }
 }
 
 /// The residuals of the constraints, as the kernel has them.

@@ -54,7 +54,7 @@ mod weights;
 pub mod window;
 
 pub use group::{Group, Groups};
-pub use law_columns::{LawColumn, LawColumns};
+pub use law_columns::{LawColumn, LawColumns, LawSeries};
 pub use observer::Observer;
 pub use reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Reduction, ValueStatistic};
 pub use request::Request;

@@ -116,29 +116,30 @@ impl Observer {
         outcome: &Outcome,
         row: &mut [f64],
     ) -> Status {
-        self.observe_acting(isa, Acting::scheduled(scene), table, outcome, row)
+        self.observe_acting(isa, (Acting::scheduled(scene), &[]), table, outcome, row)
     }
 
     /// The same of a run under an actuation law, in which `arcs` were flown: the schedule of `scene` did not act. The values are those
-    /// of [`Observer::observe`] of a scene with `arcs` as its schedule, where no environment acts.
+    /// of [`Observer::observe`] of a scene with `arcs` as its schedule, where no environment acts. `of_law` is what the law has recorded at the points,
+    /// series by series ([`super::LawSeries`]); empty where it records nothing.
     ///
     /// # Panics
     /// As [`Observer::observe`].
     pub fn observe_flown(
         &mut self,
         isa: Isa,
-        (scene, arcs): (&Scene, &ArcRecord),
+        (scene, arcs, of_law): (&Scene, &ArcRecord, &[f64]),
         table: &StateTable,
         outcome: &Outcome,
         row: &mut [f64],
     ) -> Status {
-        self.observe_acting(isa, Acting::flown(scene, arcs), table, outcome, row)
+        self.observe_acting(isa, (Acting::flown(scene, arcs), of_law), table, outcome, row)
     }
 
     fn observe_acting(
         &mut self,
         isa: Isa,
-        acting: Acting<'_>,
+        (acting, of_law): (Acting<'_>, &[f64]),
         table: &StateTable,
         outcome: &Outcome,
         row: &mut [f64],
@@ -153,7 +154,7 @@ impl Observer {
         let is_ended = self.filled == observed && observed < self.times.len();
         self.ended_weights = is_ended.then(|| Weights::at(&self.times[..observed]));
         if self.filled > 0 {
-            isa.run(Observation { observer: self, acting, table, outcome });
+            isa.run(Observation { observer: self, acting, of_law, table, outcome });
         }
         let is_final_observed = self.request.groups.contains(Group::FinalState);
         let mass = &acting.scene().mass;
@@ -249,6 +250,7 @@ impl Observer {
 struct Observation<'a> {
     observer: &'a mut Observer,
     acting: Acting<'a>,
+    of_law: &'a [f64],
     table: &'a StateTable,
     outcome: &'a Outcome,
 }
@@ -258,7 +260,7 @@ impl Work for Observation<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Observation { observer, acting, table, outcome } = self;
+        let Observation { observer, acting, of_law, table, outcome } = self;
         let scene = acting.scene();
         let debris = scene.mass.debris.as_ref().filter(|_| observer.request.debris);
         let (observed, points) = (observer.observed, observer.filled);
@@ -266,7 +268,7 @@ impl Work for Observation<'_> {
         let nutation_axis =
             if observed.has(Series::Nutation) { observer.request.nutation_axis.of(scene.mass.inertia) } else { None };
         let (sources, mass) = (&observer.sources, &scene.mass);
-        let run = MeasuredRun { observed, sources, mass, debris, nominal, nutation_axis, table, points };
+        let run = MeasuredRun { observed, sources, mass, debris, nominal, nutation_axis, of_law, table, points };
         measure(simd, &run, &mut observer.series);
         observer.reduce(simd);
         if observer.request.groups.contains(Group::Exchange) {

@@ -34,6 +34,8 @@ pub(super) struct MeasuredRun<'a> {
     pub(super) nominal: Option<&'a NominalAttitude>,
     /// The axis of nutation in F_s, where it is not s3.
     pub(super) nutation_axis: Option<[f64; 3]>,
+    /// What the control law has recorded, series by series ([`super::law_columns::LawSeries`]) and point by point; empty where it records nothing.
+    pub(super) of_law: &'a [f64],
     /// The states.
     pub(super) table: &'a StateTable,
     /// Number of filled points, at least one.

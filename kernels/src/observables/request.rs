@@ -123,7 +123,7 @@ impl Request {
     /// Where a row has what the control law reports.
     pub fn places_of_law(&self) -> Range<usize> {
         let start = self.rows().len();
-        start..start + self.of_law.0.len()
+        start..start + self.of_law.list.len()
     }
 
     /// The place of a column in a row; `None` where the row does not have it.
@@ -182,9 +182,10 @@ impl Request {
         StateField::ALL.into_iter().filter_map(reason).collect()
     }
 
-    /// The series that the columns are made of, with those that set their scales.
+    /// The series that the columns are made of, with those that set their scales, and those that the control law records.
     pub(super) fn observed(&self) -> SeriesSet {
-        self.inputs().fold(SeriesSet::default(), |set, (series, _)| set.with(series))
+        let of_columns = self.inputs().map(|(series, _)| series);
+        of_columns.chain(self.of_law.over_time.series()).fold(SeriesSet::default(), SeriesSet::with)
     }
 
     /// What is computed of each observed series: those that are scales of others first.

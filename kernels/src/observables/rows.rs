@@ -72,11 +72,13 @@ pub(super) enum SeriesSource {
     Residuals,
     /// [`super::motion`].
     Motion,
+    /// What the control law has recorded at the points ([`super::law_columns::LawSeries`]).
+    Law,
 }
 
 impl SeriesSource {
     /// Every source, in the order of the computation.
-    pub(super) const ALL: [SeriesSource; 7] = [
+    pub(super) const ALL: [SeriesSource; 8] = [
         SeriesSource::Energies,
         SeriesSource::LinearMomentum,
         SeriesSource::AngularMomentum,
@@ -84,6 +86,7 @@ impl SeriesSource {
         SeriesSource::DebrisMomenta,
         SeriesSource::Residuals,
         SeriesSource::Motion,
+        SeriesSource::Law,
     ];
 }
 

@@ -402,6 +402,12 @@ series! {
     WheelSpeed [MAX_WHEELS]: Motion, Square, None, [SPIN], Some(("speed_{wheel}_rad_s", "rad/s")), "Magnitude of the rate of wheel {wheel} relative to the body.";
     WheelMomentum [MAX_WHEELS]: Motion, Square, None, [SPIN], Some(("momentum_{wheel}_n_m_s", "N m s")), "Magnitude of the angular momentum of wheel {wheel} about its axis relative to F_e.";
     DebrisDirection [1]: Motion, Quantity, None, [SPIN_AXIS, DEBRIS_DIRECTION], Some(("spin_axis_debris_angle_rad", "rad")), "Angle between s3 and the line from the spacecraft's centre of mass to the debris (0 where they coincide).";
+    PointingError [1]: Law, Quantity, None, [], Some(("pointing_error_rad", "rad")), "Angle of the rotation from the true attitude to the target of the phase, at the last tick of the control loop; null in a phase without a target.";
+    AttitudeEstimateError [1]: Law, Quantity, None, [], Some(("attitude_estimate_error_rad", "rad")), "Angle between estimated and true attitude, at the last tick of the control loop.";
+    RateEstimateError [1]: Law, Quantity, None, [], Some(("rate_estimate_error_rad_s", "rad/s")), "Magnitude of the error of the estimated angular velocity, at the last tick of the control loop.";
+    PositionEstimateError [1]: Law, Quantity, None, [], Some(("relative_position_estimate_error_m", "m")), "Distance between estimated and true position relative to the debris, at the last tick of the control loop.";
+    VelocityEstimateError [1]: Law, Quantity, None, [], Some(("relative_velocity_estimate_error_m_s", "m/s")), "Magnitude of the error of the estimated velocity relative to the debris, at the last tick of the control loop.";
+    MotorTorque [MAX_WHEELS]: Law, Quantity, None, [], Some(("torque_{wheel}_n_m", "N m")), "Torque of motor and bearing on wheel {wheel} along its axis, within limits, which the control loop applies.";
 }
 
 /// A series that no time series shows: the scale of another one.

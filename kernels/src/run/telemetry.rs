@@ -11,12 +11,15 @@ pub struct Telemetry {
     pub times: Vec<f64>,
     /// For each time one value of each column; NaN where there is none.
     pub rows: Vec<Vec<f64>>,
+    /// Times that differ by no more than this are one, s: a tick is a product of its number and a period, which rounds otherwise than the same time
+    /// on a grid.
+    pub same: f64,
 }
 
 impl Telemetry {
     /// Each column at `times`: the value recorded last, NaN before the first.
     pub fn held_at(&self, times: &[f64]) -> Vec<Vec<f64>> {
-        let row = |time: &f64| self.times.partition_point(|recorded| recorded <= time).checked_sub(1);
+        let row = |time: &f64| self.times.partition_point(|recorded| *recorded <= time + self.same).checked_sub(1);
         let rows: Vec<Option<usize>> = times.iter().map(row).collect();
         let value = |row: &Option<usize>, column: usize| row.map_or(f64::NAN, |row| self.rows[row][column]);
         (0..self.quantities.len()).map(|column| rows.iter().map(|row| value(row, column)).collect()).collect()
@@ -34,9 +37,30 @@ mod tests {
             quantities: vec![Quantity::new("phase", "", "Phase.")],
             times: vec![0.5, 1.0],
             rows: vec![vec![1.0], vec![2.0]],
+            same: 0.0,
         };
         let held = telemetry.held_at(&[0.0, 0.5, 0.75, 1.0, 9.0]);
         assert!(held[0][0].is_nan());
         assert_eq!(held[0][1..], [1.0, 1.0, 2.0, 2.0]);
+    }
+
+    /// Law: tick k of a period of 0.1 s is at k times 0.1 and holds at the point of a grid that is meant by the same time, whichever of the two rounds
+    /// below the other; without the tolerance some points show the tick before.
+    #[test]
+    fn rounding_shows_no_tick_before() {
+        let ticks = 400;
+        let telemetry = |same: f64| Telemetry {
+            quantities: vec![Quantity::new("phase", "", "Phase.")],
+            times: (0..=ticks).map(|tick| f64::from(tick) * 0.1).collect(),
+            rows: (0..=ticks).map(|tick| vec![f64::from(tick)]).collect(),
+            same,
+        };
+        let grid: Vec<f64> = (0..=ticks).map(|point| 40.0 * f64::from(point) / f64::from(ticks)).collect();
+        let late = |same: f64| {
+            let held = telemetry(same).held_at(&grid);
+            held[0].iter().enumerate().filter(|(point, tick)| **tick != *point as f64).count()
+        };
+        assert_eq!(late(1e-10), 0);
+        assert!(late(0.0) > 10, "{} points", late(0.0));
     }
 }

@@ -14,6 +14,9 @@ use super::table::Table;
 use crate::math::symmetric::{is_positive_definite, principal_axes};
 use crate::math::vector::{difference, norm};
 
+/// Largest mass (kg) and moment of inertia (kg m^2) of a body: the product of two of them, as sums over pairs and determinants have it, is finite.
+const LARGEST: f64 = 1e150;
+
 /// Collects what is wrong with the numbers as written.
 pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     let has_debris = input.debris.is_some();
@@ -215,14 +218,14 @@ fn switches(input: &SceneInput, problems: &mut Problems) {
 
 /// Collects what is wrong with what follows from an input whose numbers all passed.
 pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut Problems) {
-    let is_normal = |value: f64| value.is_finite() && value >= f64::MIN_POSITIVE;
+    let is_normal = |value: f64| (f64::MIN_POSITIVE..=LARGEST).contains(&value);
     let mut body = |key: &dyn Fn() -> String, mass: f64, moments: [f64; 3]| {
         let passed = is_normal(mass) && moments.into_iter().all(is_normal);
         if !passed {
             problems.add(
                 key(),
                 format!("{:?}", (mass, moments)),
-                "of a mass (kg) and moments of inertia (kg m^2) that are positive and finite numbers",
+                format!("of a mass (kg) and moments of inertia (kg m^2) that are positive and finite numbers, at most {LARGEST:e}"),
                 "check the units of sizes and densities",
             );
         }
@@ -231,7 +234,8 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
     let diagonal = |tensor: [[f64; 3]; 3]| [tensor[0][0], tensor[1][1], tensor[2][2]];
     let Body { mass: own, inertia, .. } = mass.body;
     let mut passed = true;
-    if !input.body.includes_wheels {
+    let is_large = own > LARGEST || diagonal(inertia).into_iter().any(|moment| moment > LARGEST);
+    if !input.body.includes_wheels || is_large {
         passed &= body(&|| "body".to_owned(), own, diagonal(inertia));
     }
     let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);

@@ -200,6 +200,26 @@ const REFUSALS: &[(&str, &str, Change, Change)] = &[
         |input| wheel(input, 0).radius_m = Some(1e-160),
         |input| wheel(input, 0).radius_m = Some(1e-75),
     ),
+    ("body", "at most 1e150", |input| input.body.mass_kg = Some(1e308), |input| input.body.mass_kg = Some(1e140)),
+    ("body", "at most 1e150", |input| includes_wheels(input, 1e308), |input| includes_wheels(input, 1e150)),
+    (
+        "body",
+        "at most 1e150",
+        |input| input.body.principal = Some(principal(PrincipalMoments::Inertia([1.1e150; 3]))),
+        |input| input.body.principal = Some(principal(PrincipalMoments::Inertia([1e150; 3]))),
+    ),
+    (
+        "wheels.w1",
+        "at most 1e150",
+        |input| wheel(input, 0).density_kg_m3 = Some(1e308),
+        |input| wheel(input, 0).density_kg_m3 = Some(1e140),
+    ),
+    (
+        "debris",
+        "at most 1e150",
+        |input| input.debris = Some(DebrisInput::Tensor { mass_kg: 1e308, inertia_kg_m2: UNIT }),
+        |input| input.debris = Some(DebrisInput::Tensor { mass_kg: 1e150, inertia_kg_m2: UNIT }),
+    ),
     (
         "debris.side_m",
         "above zero",

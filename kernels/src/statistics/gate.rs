@@ -7,7 +7,7 @@
 
 use super::binomial::{Decision, MAX_RUNS, POWER, decide, lower_bound, upper_bound};
 use super::looks::adjusted;
-use super::mean::{distance_towards, mean_bounds, one_sided};
+use super::mean::{bernstein_reach, bounded_mean_bounds, distance_towards, mean_bounds, one_sided};
 use super::moments::Moments;
 use super::replicates;
 
@@ -151,6 +151,20 @@ pub fn mean_gate(moments: &Moments, limit: GateLimit, confidence: f64) -> Gate {
         distance_towards(limit.value(), moments, n, confidence) + scatter / libm::sqrt(n as f64) < distance
     };
     let needed = || is_spread.then(|| smallest(count, decides)).flatten();
+    Gate { decision: decision(bounds, limit, needed), estimate, bounds }
+}
+
+/// The same of runs whose values are never outside of `range`: whatever their distribution, and also without a spread.
+pub fn bounded_mean_gate(moments: &Moments, range: [f64; 2], limit: GateLimit, confidence: f64) -> Gate {
+    let estimate = moments.mean().unwrap_or(f64::NAN);
+    let deviation = moments.standard_deviation().unwrap_or(f64::NAN);
+    let distance = (estimate - limit.value()).abs();
+    let decides = |n: u64| {
+        let scatter = one_sided(POWER, n as f64 - 1.0) * deviation / libm::sqrt(n as f64);
+        bernstein_reach(n, range[1] - range[0], deviation, confidence) + scatter < distance
+    };
+    let needed = || (moments.count() > 1).then(|| smallest(moments.count(), decides)).flatten();
+    let bounds = bounded_mean_bounds(moments, range, confidence);
     Gate { decision: decision(bounds, limit, needed), estimate, bounds }
 }
 

@@ -6,6 +6,9 @@
 //! f(T) = (e^(2 r T/3) - 1)/(2 r/3) + r/6 is more nearly t distributed than T = (mean - mu)/(s/sqrt(n)) is, and -T at the bound is
 //! -log(1 - (2 r/3)(t + r/6))/(2 r/3). Where that logarithm does not exist, the runs are too few for their skewness: there is no bound.
 //!
+//! No numbers bound a mean that a rarer one decides: these bounds hold where no event that the runs show fewer than some ten times makes much of the
+//! mean. Where the numbers are known to be within bounds, [`bounded_mean_bounds`] need no such assumption.
+//!
 //! The tests (`coverage_of_means`) measure how often bounds miss. Not here: numbers that are not independent ([`super::replicates`]).
 
 use super::moments::Moments;
@@ -44,6 +47,20 @@ pub fn mean_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
     let (count, t) = (moments.count(), one_sided(confidence, moments.count() as f64 - 1.0));
     let [below, above] = [-1.0, 1.0].map(|side| reach(count, side * skewness(moments), t));
     [mean - below * error, mean + above * error]
+}
+
+/// One-sided bounds of the mean of independent numbers that are never outside of `[low, high]`, each at `confidence`, whatever their distribution: the empirical
+/// Bernstein bound (A. Maurer & M. Pontil, *Empirical Bernstein bounds and sample-variance penalization*, COLT 2009, theorem 4).
+pub fn bounded_mean_bounds(moments: &Moments, [low, high]: [f64; 2], confidence: f64) -> [f64; 2] {
+    let Some((mean, deviation)) = moments.mean().zip(moments.standard_deviation()) else { return [low, high] };
+    let half = bernstein_reach(moments.count(), high - low, deviation, confidence);
+    [(mean - half).max(low), (mean + half).min(high)]
+}
+
+/// Half the width of [`bounded_mean_bounds`] of `count` numbers within a range of the length `range`.
+pub fn bernstein_reach(count: u64, range: f64, deviation: f64, confidence: f64) -> f64 {
+    let (n, risk) = (count as f64, libm::log(2.0 / (1.0 - confidence)));
+    deviation * libm::sqrt(2.0 * risk / n) + 7.0 * range * risk / (3.0 * (n - 1.0))
 }
 
 /// The distance of the bound of the mean on the side of `limit`, were there `count` runs with the same spread and skewness.
@@ -162,6 +179,22 @@ mod tests {
             assert_eq!(upper.is_finite(), is_bounded, "{fourth}: {upper}");
             assert!(upper > 1.0 && (upper < 1.05 || !is_bounded), "{fourth}: {upper}");
         }
+    }
+
+    /// Known: of 101 numbers, half 0 and half 1 but for one 1/2, whose variance is 1/4, the bounds at 1 - 2/e^2 are 1/2 -+ (1/2 sqrt(4/101) + 14/300);
+    /// bounds are within the range, which few numbers have instead; and without a spread the range alone decides.
+    #[test]
+    fn the_bounds_of_bounded_numbers_are_bernsteins() {
+        let values = [0.0, 1.0].repeat(50).into_iter().chain([0.5]);
+        let [lower, upper] = bounded_mean_bounds(&Moments::of(values), [0.0, 1.0], 1.0 - 2.0 / libm::exp(2.0));
+        let half = 0.5 * libm::sqrt(4.0 / 101.0) + 14.0 / 300.0;
+        assert!((upper - 0.5 - half).abs() < 1e-14 && (0.5 - lower - half).abs() < 1e-14, "{lower} {upper} {half}");
+        for few in [&[][..], &[0.3], &[0.3, 0.4]] {
+            assert_eq!(bounded_mean_bounds(&Moments::of(few.iter().copied()), [0.0, 1.0], 0.95), [0.0, 1.0]);
+        }
+        let [lower, upper] = bounded_mean_bounds(&Moments::of([0.25; 1000]), [0.0, 1.0], 0.95);
+        let half = 7.0 * libm::log(40.0) / (3.0 * 999.0);
+        assert!((upper - 0.25 - half).abs() < 1e-15 && (0.25 - lower - half).abs() < 1e-15, "{lower} {upper}");
     }
 
     /// Law: what shows no spread, or too little of a long tail, bounds nothing.

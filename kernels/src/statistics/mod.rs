@@ -2,10 +2,11 @@
 //!
 //! - [`moments`], [`quantile`], [`sketch`] (on [`carries`]), [`spread`]: what describes one column. - [`student`], [`mean`], [`jackknife`], [`binomial`], [`replicates`]: intervals; [`share_within`]: of repetition.
 //! - [`gate`]: requirements decided. - [`looks`]: when to stop. - [`two_sample`]: two campaigns compared.
-//! - [`correlation`], [`regression`], [`sensitivity`]: which input matters.
+//! - [`correlation`], [`regression`], [`sensitivity`]: which input matters. - [`contingency`], [`rank_tests`]: whether it does.
 
 pub mod binomial;
 pub mod carries;
+pub mod contingency;
 pub mod correlation;
 pub mod deviation;
 pub mod gate;
@@ -14,6 +15,7 @@ pub mod looks;
 pub mod mean;
 pub mod moments;
 pub mod quantile;
+pub mod rank_tests;
 pub mod regression;
 pub mod replicates;
 pub mod sensitivity;

@@ -2,12 +2,13 @@
 //!
 //! - Means: B. L. Welch, *Biometrika* 34 (1947) 28, which does not assume equal variances. - Distributions: Kolmogorov and Smirnov's largest
 //!   difference of the empirical distribution functions, with the tail of the limiting distribution as corrected by M. A. Stephens, *J. Roy.
-//!   Stat. Soc. B* 32 (1970) 115. - Pairs: Student's t of the differences, and F. Wilcoxon's signed ranks (*Biometrics* 1 (1945) 80) in the
-//!   normal approximation, corrected for ties, without zeros.
+//!   Stat. Soc. B* 32 (1970) 115. - Distributions of pairs: Q. McNemar's exact test (*Psychometrika* 12 (1947) 153) at several limits. - Pairs: Student's
+//!   t of the differences, and F. Wilcoxon's signed ranks (*Biometrics* 1 (1945) 80) in the normal approximation, corrected for ties, without zeros.
 //!
 //! All are two-sided and for independent runs, or pairs. Of many tests: S. Holm, *Scand. J. Stat.* 6 (1979) 65, which assumes nothing of how they
 //! depend on each other.
 
+use super::binomial::at_most;
 use super::correlation::{Estimate, mid_ranks};
 use super::moments::Moments;
 use super::student::{two_sided_quantile, two_sided_tail};
@@ -108,6 +109,32 @@ pub fn signed_ranks(differences: &[f64]) -> Option<f64> {
     Some(libm::erfc(z / core::f64::consts::SQRT_2))
 }
 
+/// At so many limits [`marginals`] compares: the sixteenths of all values.
+const LIMITS: usize = 15;
+
+/// The p-value of the test whether both numbers of `pairs` have the same distribution; `None` without pairs. No value is NaN.
+///
+/// Where they have, as many pairs go up through any limit as go down through it, but for chance: of the pairs that go through it at all, the number
+/// that goes up is binomial with one half, whatever else the numbers of a pair have to do with each other. So it needs no symmetric differences,
+/// which signed ranks do: a phase that moves on by a little and is wrapped to one period keeps its distribution. The smallest p-value of all
+/// limits counts, times their number (Bonferroni).
+pub fn marginals(pairs: &[[f64; 2]]) -> Option<f64> {
+    let mut all: Vec<f64> = pairs.iter().flatten().copied().collect();
+    all.sort_unstable_by(f64::total_cmp);
+    let mut limits: Vec<f64> = (1..=LIMITS).filter_map(|k| all.get(all.len() * k / (LIMITS + 1)).copied()).collect();
+    limits.dedup();
+    let through = |limit: f64| {
+        let mut counts = [0_u64; 2];
+        for [first, second] in pairs {
+            counts[0] += u64::from(*first < limit && limit <= *second);
+            counts[1] += u64::from(*second < limit && limit <= *first);
+        }
+        2.0 * at_most(counts[0].min(counts[1]), counts[0] + counts[1], 0.5)
+    };
+    let smallest = limits.iter().map(|limit| through(*limit)).reduce(f64::min)?;
+    Some((limits.len() as f64 * smallest).min(1.0))
+}
+
 /// P-values adjusted for their number (Holm 1979): among the hypotheses that hold, whichever these are, the probability that any has an adjusted
 /// value of alpha or less is at most alpha.
 pub fn holm(p_values: &[f64]) -> Vec<f64> {
@@ -182,6 +209,24 @@ mod tests {
             assert!((kolmogorov_tail(x) - tail).abs() < 1e-4, "{x}: {}", kolmogorov_tail(x));
         }
         assert_eq!((kolmogorov_tail(0.0), kolmogorov_tail(9.0)), (1.0, 2.0 * libm::exp(-162.0)));
+    }
+
+    /// Known: of a hundred pairs (k, k + 10) ten go up through each limit and none goes down, so that p is 15 times 2/2^10 = 15/512; pairs (k, k + 10
+    /// modulo 100) go down as often as up, and all signed ranks but theirs are the same. Equal numbers do not differ; without pairs there is no test.
+    #[test]
+    fn pairs_go_through_limits_up_and_down() {
+        let pairs = |wrap: f64| -> Vec<[f64; 2]> {
+            (0..100).map(|k| [f64::from(k), libm::fmod(f64::from(k) + 10.0, wrap)]).collect()
+        };
+        let (shifted, wrapped) = (marginals(&pairs(1e9)), marginals(&pairs(100.0)));
+        assert!((shifted.expect("pairs") - 15.0 / 512.0).abs() < 1e-15, "{shifted:?}");
+        assert_eq!(wrapped, Some(1.0));
+        let differences: Vec<f64> = pairs(100.0).iter().map(|[a, b]| b - a).collect();
+        assert!(signed_ranks(&differences).is_some_and(|p| p < 1e-6), "the counter-test");
+        assert_eq!((marginals(&[[3.0, 3.0]; 9]), marginals(&[])), (Some(1.0), None));
+        // ten of ten that leave the only value of the others
+        let jumps: Vec<[f64; 2]> = (0..40).map(|k| [0.0, f64::from(u8::from(k < 10))]).collect();
+        assert!(marginals(&jumps).is_some_and(|p| (0.001..0.02).contains(&p)), "{:?}", marginals(&jumps));
     }
 
     /// Law: what is the same has no difference; what does not vary differs certainly or not at all.

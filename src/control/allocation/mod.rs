@@ -4,9 +4,11 @@
 //! - [`wheel_torque`]: to torques of wheels' motors, with the least norm.
 
 mod simplex;
+#[cfg(test)]
+mod tests;
 pub mod thrust;
 mod two_sided;
 pub mod wheel_torque;
 
-pub use thrust::{Allocated, ThrustAllocation};
+pub use thrust::ThrustAllocation;
 pub use wheel_torque::WheelTorque;

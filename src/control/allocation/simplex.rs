@@ -8,10 +8,10 @@ use crate::scene::MAX_THRUSTERS;
 
 /// Largest number of equations: a force and a torque.
 pub(super) const ROWS: usize = 6;
-/// Largest number of variables: thrusts, and what is missing or too much of each equation.
-pub(super) const COLUMNS: usize = MAX_THRUSTERS + 2 * ROWS;
+/// Largest number of variables: thrusts, a share, and what is missing or too much of each equation.
+pub(super) const COLUMNS: usize = MAX_THRUSTERS + 1 + 2 * ROWS;
 /// Number of priorities.
-pub(super) const LEVELS: usize = 3;
+pub(super) const LEVELS: usize = 4;
 
 /// Smallest reduced cost and smallest pivot that are not rounding, where entries and costs are at most of order one.
 const NEGLIGIBLE: f64 = 1e-10;
@@ -49,8 +49,7 @@ struct Tableau<'a> {
 
 /// The variables with the least cost that satisfy the first `rows` equations: entries times variables = `wanted`.
 ///
-/// The columns from `units` on are those of the unit matrix, then those of its negative where any of `wanted` is below zero with the variables at their
-/// start: the first basis. Entries, costs and `wanted` are of order one. Errors: a few rounding errors times the condition of the last basis.
+/// The columns from `units` on are those of the unit matrix, then those of its negative: the first basis, of the sign of what is wanted. Entries, costs and `wanted` are of order one. Errors: a few rounding errors times the condition of the last basis.
 pub(super) fn least(rows: usize, columns: &[Column], units: usize, wanted: [f64; ROWS]) -> [f64; COLUMNS] {
     let mut tableau = Tableau::new(rows, columns, units, wanted);
     let mut steps = 0;

@@ -3,7 +3,7 @@
 use crate::control::vector::{dot, product, scaled, sum};
 use crate::math::list::List;
 use crate::math::symmetric::principal_axes;
-use crate::scene::MAX_WHEELS;
+use crate::scene::{MAX_WHEELS, Scene};
 
 /// A direction along which the sum of the squares of the axes' components is less than this, relative to the largest such sum, is not reached: above the
 /// rounding of such sums, 1e-16, and below the square of any alignment that is used, 1e-12.
@@ -41,6 +41,11 @@ impl WheelTorque {
         let mut gains = List::empty([0.0; 3]);
         axes.iter().for_each(|axis| gains.push(scaled(-1.0, product(inverse, *axis))));
         WheelTorque { gains, reachable }
+    }
+
+    /// That of the wheels at the places `used` of those of `scene` that turn, in a control loop.
+    pub fn of_loop(scene: &Scene, used: &[usize]) -> Self {
+        Self::new(&used.iter().map(|place| scene.mass.wheels[*place].axis).collect::<Vec<_>>())
     }
 
     /// The torques of the motors on the wheels (N m, in the order of the axes) for the torque `torque_s` on the body, F_s, N m: of its part within reach.

@@ -14,13 +14,14 @@ use crate::control::guidance::Guidance;
 use crate::control::guidance::geometry::LaunchState;
 use crate::control::guidance::phase::Phase;
 use crate::control::guidance::target::Target;
-use crate::control::laws::{AttitudeLaw, KINDS as LAWS, KnownBody, MomentumUnloading};
+use crate::control::laws::{AttitudeLaw, KINDS as LAWS, KnownBody, LawSettings, MomentumUnloading};
+use crate::control::loop_record::NOTHING_KNOWN;
 use crate::control::outcome::columns::OutcomeColumns;
 use crate::control::outcome::{Judgement, MissionOutcome};
 use crate::control::recorder::Recorder;
 use crate::control::sensors::{Instrument, KINDS as SENSORS, SensorContext};
 use crate::control::small_matrix::inverse;
-use crate::control::spec::{LoopSpec, PhaseSpec, SensorSpec};
+use crate::control::spec::{LoopSpec, PhaseSpec, SensorSpec, ticks_per_period};
 use crate::control::truth::DebrisMotion;
 use crate::control::vector::{norm, scaled};
 use crate::scene::{DeclaredTable, MAX_THRUSTERS, MAX_WHEELS, Scene};
@@ -96,8 +97,8 @@ impl ControlLoop {
     pub fn new(spec: &Arc<LoopSpec>, columns: &Arc<OutcomeColumns>, context: &LawContext<'_>) -> Self {
         let (drawn, numbers) = (context.drawn.clone(), &context.parameters.law);
         let believed = spec.believed(context.nominal);
-        let fastest = spec.sensors.iter().map(|sensor| sensor.period).fold(spec.period, f64::min);
-        let ticks_per_period = (spec.period / fastest).round() as u64;
+        let ticks_per_period =
+            ticks_per_period(spec.period, spec.sensors.iter().map(|sensor| sensor.period)).unwrap_or(1);
         let tick_period = spec.period / ticks_per_period as f64;
         let instrument = |(sensor, parameters): (&SensorSpec, &DeclaredTable)| {
             let of_run = SensorContext {
@@ -127,13 +128,17 @@ impl ControlLoop {
             tick: tick_period,
         });
         let phases = phases(spec, &context.parameters.guidance);
+        let delay = number_or(numbers, "delay_s", 0.0);
         let law = |(phase, table): (&PhaseSpec, &DeclaredTable)| {
-            phase.law.map_or(AttitudeLaw::None, |law| (LAWS[law].make)(table))
+            let settings = LawSettings { table, gyroscopic: phase.gyroscopic, period: spec.period, delay };
+            phase.law.map_or(AttitudeLaw::None, |law| (LAWS[law].make)(&settings))
         };
         let laws: Vec<AttitudeLaw> = spec.phases.iter().zip(&context.parameters.guidance).map(law).collect();
         let launch = launch_state(numbers);
-        let thrusters = (!spec.thrusters.is_empty()).then(|| ThrustAllocation::of_loop(&believed, &spec.thrusters));
-        let delay = number_or(numbers, "delay_s", 0.0);
+        let wheels = (!spec.wheels.is_empty()).then(|| WheelTorque::of_loop(&believed, &spec.wheels));
+        let by_wheels = wheels.map_or([[0.0; 3]; 3], |wheels| wheels.reachable);
+        let thrusters =
+            (!spec.thrusters.is_empty()).then(|| ThrustAllocation::of_loop(&believed, &spec.thrusters, by_wheels));
         ControlLoop {
             debris: DebrisMotion::of(&drawn),
             instruments,
@@ -144,11 +149,8 @@ impl ControlLoop {
             law: laws[0],
             laws,
             phases,
-            wheels: (!spec.wheels.is_empty()).then(|| {
-                let axes: Vec<[f64; 3]> = spec.wheels.iter().map(|place| believed.mass.wheels[*place].axis).collect();
-                WheelTorque::new(&axes)
-            }),
-            two_sided: thrusters.as_ref().map_or([[0.0; 3]; 3], ThrustAllocation::two_sided_torques),
+            wheels,
+            two_sided: thrusters.as_ref().map_or([[0.0; 3]; 3], |all| all.two_sided_torques(spec.holds_force)),
             thrusters,
             thruster_drives: believed.actuators.thrusters.map(|model| ThrusterDrive {
                 mode: modulation::mode(spec.modulation, numbers),
@@ -179,11 +181,15 @@ impl ControlLoop {
                 keep_out: number_or(numbers, "keep_out_m", 0.0),
                 plume: [number_or(numbers, "plume_range_m", 0.0), number_or(numbers, "plume_half_angle_rad", 0.0)],
                 settling_band: number_or(numbers, "settling_band_rad", 0.0),
+                stability: ["stability_from_s", "stability_window_s"].map(|key| number_or(numbers, key, 0.0)),
+                period: spec.period,
                 isp: number_or(numbers, "isp_s", 0.0),
             },
             launch,
             outcome: MissionOutcome::new(),
             recorder: context.records.then(|| Recorder::new(spec)),
+            over_time: NOTHING_KNOWN,
+            record: context.record.cloned().inspect(|record| record.lock().restart()),
             has_ended: false,
             believed,
             drawn,

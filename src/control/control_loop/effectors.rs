@@ -6,10 +6,12 @@ use crate::control::estimate::Estimate;
 use crate::control::guidance::phase::Maneuver;
 use crate::control::guidance::target::{AttitudeError, Target};
 use crate::control::laws::LawInput;
+use crate::control::loop_record::set;
 use crate::control::outcome::ArcApplied;
 use crate::control::truth::Truth;
 use crate::control::vector::{difference, dot, product, scaled, sum};
 use crate::dynamics::actuation::{Actuation, BodyState, WheelState};
+use crate::observables::Series;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, WheelMode};
 
 /// What the motors are commanded, N m, by wheel.
@@ -64,19 +66,20 @@ impl ControlLoop {
                 let stored = stored_momentum(&self.believed, estimate);
                 wanted = sum(wanted, unloading.torque(stored, self.two_sided));
             }
-            let mut along = match phase.thrust {
-                Maneuver::None => 0.0,
-                _ => mass.total * dot(velocity_to_go, s3_e) / self.spec.period,
+            let force = match phase.thrust {
+                Maneuver::None => self.spec.holds_force.then_some([0.0; 3]),
+                _ => {
+                    let along = mass.total * dot(velocity_to_go, s3_e) / self.spec.period;
+                    // where s3 is turned for the thruster that pushes along it, none brakes
+                    let only_forward = matches!(phase.target, Target::Transfer | Target::Stop);
+                    Some([0.0, 0.0, if only_forward { along.max(0.0) } else { along }])
+                }
             };
-            if matches!(phase.target, Target::Transfer | Target::Stop) {
-                // s3 is turned there for the thruster that pushes along it
-                along = along.max(0.0);
-            }
-            let allocated = allocation.allocate([0.0, 0.0, along], wanted);
+            let thrust = allocation.allocate(force, wanted);
             let mut pulses = Pulses { begin, ..NO_PULSES };
             for &i in &self.spec.thrusters {
                 let period = self.spec.period;
-                let pulse = self.thruster_drives[i].over(allocated.thrust[i], period, &mut self.pulses[i]);
+                let pulse = self.thruster_drives[i].over(thrust[i], period, &mut self.pulses[i]);
                 (pulses.thrust[i], pulses.on_time[i]) = (pulse.thrust, pulse.on_time);
                 mean[i] = pulse.thrust * pulse.on_time / period;
             }
@@ -136,6 +139,7 @@ impl ControlLoop {
             }
             let driven = drive.over(motor_torque[i], wheels.rates[i], length);
             actuation.motor_torque[i] = driven.torque;
+            set(&mut self.over_time, Series::MotorTorque.of_wheel(i), driven.torque);
             saturated[0] |= driven.is_torque_limited;
             saturated[1] |= driven.is_speed_limited;
             excess = excess.max(driven.excess);

@@ -2,7 +2,8 @@
 //!
 //! At a tick the sensors that are due measure the true state, the estimator updates, guidance may change the phase, the law wants a torque and the
 //! maneuver a force, and allocation makes commands of them. A command acts `delay_s` later, until the next one (zero-order hold), or as pulses; what the
-//! actuators make of it is held over an arc, with friction and limits by the state at its start.
+//! actuators make of it is held over an arc, with friction and limits by the state at its start. Where the end of a run is a tick, that tick is the last
+//! one: the run can launch or fail there, and nothing that it commands acts.
 //!
 //! Flight software knows the nominal scene as it is believed ([`LoopSpec::believed`]) and its own drawn numbers; the truth reaches it through sensors.
 
@@ -23,6 +24,7 @@ use super::guidance::phase::Phase;
 use super::guidance::target::{AttitudeError, Target};
 use super::guidance::{Failure, Guidance, Progress};
 use super::laws::{AttitudeLaw, KnownBody};
+use super::loop_record::{KnownOverTime, SharedRecord, set};
 use super::measurement::Measurement;
 use super::outcome::columns::OutcomeColumns;
 use super::outcome::{Judgement, MissionOutcome, centers_of};
@@ -32,11 +34,12 @@ use super::spec::LoopSpec;
 use super::truth::{DebrisMotion, Truth};
 use crate::control::vector::{difference, norm, scaled};
 use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, WheelState};
+use crate::observables::Series;
 use crate::run::Telemetry;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 
 /// Times that differ by less than this share of a period are one: rounding of the products that they are.
-const SAME_TIME: f64 = 1e-9;
+pub const SAME_TIME: f64 = 1e-9;
 
 /// The loop of one run.
 pub struct ControlLoop {
@@ -94,12 +97,20 @@ pub struct ControlLoop {
     judgement: Judgement,
     outcome: MissionOutcome,
     recorder: Option<Recorder>,
+    /// What is known of the quantities over time, and where it is recorded.
+    over_time: KnownOverTime,
+    record: Option<SharedRecord>,
     has_ended: bool,
 }
 
 impl ControlLoop {
-    /// Tick number [`ControlLoop::tick`] at the true state `truth`.
-    fn at_tick(&mut self, truth: &Truth) {
+    /// Whether a tick is due at `time`, s.
+    fn is_due(&self, time: f64) -> bool {
+        !self.has_ended && time >= self.next_tick - SAME_TIME * self.tick_period
+    }
+
+    /// Tick number [`ControlLoop::tick`] at the true state `truth`; `is_last`: at the end of the run.
+    fn at_tick(&mut self, truth: &Truth, is_last: bool) {
         self.measurements.clear();
         for (sensor, instrument) in self.instruments.iter_mut().enumerate() {
             self.measurements.extend(instrument.deliver(self.tick, truth).map(|measurement| (sensor, measurement)));
@@ -130,14 +141,14 @@ impl ControlLoop {
         });
         (self.last_update, self.commanded, self.commanded_motors) = (truth.time, [[0.0; 3]; 2], [0.0; MAX_WHEELS]);
         if self.tick.is_multiple_of(self.ticks_per_period) {
-            self.control(truth, &estimate);
+            self.control(truth, &estimate, is_last);
         }
         self.tick += 1;
         self.next_tick = self.tick as f64 * self.tick_period;
     }
 
     /// A control tick: guidance, law, allocation.
-    fn control(&mut self, truth: &Truth, estimate: &Estimate) {
+    fn control(&mut self, truth: &Truth, estimate: &Estimate, is_last: bool) {
         let geometry = self.geometry_of(estimate);
         let mut situation = self.situation(truth.time, estimate, geometry);
         // a phase begins with the run, or where guidance has changed it
@@ -154,19 +165,24 @@ impl ControlLoop {
             self.law = self.laws[self.guidance.phase];
             (error, velocity_to_go) = self.wanted(estimate, geometry.as_ref(), truth.time);
         }
-        self.judge(truth, estimate, begins, &error);
+        // columns are about the ticks whose commands act, and about the one at which the mission ends
+        let is_judged = !is_last || progress != Progress::Flies;
+        if is_judged {
+            self.judge(truth, estimate, begins, &error);
+        }
+        // nothing is commanded where the mission ends
+        self.latest = ([0.0; MAX_WHEELS], [0.0; MAX_THRUSTERS]);
         match progress {
-            Progress::Flies => {
-                self.command(truth.time, estimate, &error, velocity_to_go, situation.s3_e);
-                if self.recorder.is_some() {
-                    self.record(truth, estimate, &error);
-                }
-            }
-            Progress::Launches => self.end(truth, Failure::None),
-            Progress::Fails(failure) => self.end(truth, failure),
+            Progress::Flies => self.command(truth.time, estimate, &error, velocity_to_go, situation.s3_e),
+            Progress::Launches => self.end_mission(truth, Failure::None),
+            Progress::Fails(failure) => self.end_mission(truth, failure),
+        }
+        if self.recorder.is_some() {
+            self.record(truth, estimate, &error);
         }
         // rows have it of the last tick alone
-        if self.has_ended || truth.time + (1.0 + SAME_TIME) * self.spec.period >= self.duration {
+        let is_final = self.has_ended || truth.time + (1.0 + SAME_TIME) * self.spec.period >= self.duration;
+        if is_judged && is_final {
             self.outcome.consistency = self.consistency(truth);
         }
     }
@@ -187,8 +203,8 @@ impl ControlLoop {
         }
     }
 
-    /// The run has launched, or failed.
-    fn end(&mut self, truth: &Truth, failure: Failure) {
+    /// The mission has launched, or failed.
+    fn end_mission(&mut self, truth: &Truth, failure: Failure) {
         self.outcome.ends(&self.drawn, truth, failure, &self.launch);
         self.has_ended = true;
     }
@@ -233,6 +249,15 @@ impl ControlLoop {
             target.error(truth.body.q_es, geometry.as_ref(), &to_go)
         });
         let errors = if knows { EstimateErrors::NONE } else { estimate.errors(truth) };
+        for (series, value) in [
+            (Series::PointingError, error.map_or(f64::NAN, |error| error.angle())),
+            (Series::AttitudeEstimateError, errors.attitude),
+            (Series::RateEstimateError, errors.rate),
+            (Series::PositionEstimateError, errors.relative_position),
+            (Series::VelocityEstimateError, errors.relative_velocity),
+        ] {
+            set(&mut self.over_time, series, value);
+        }
         self.outcome.tick(&self.drawn, truth, (error.as_ref(), begins), &errors, &self.judgement);
     }
 
@@ -245,14 +270,22 @@ impl ControlLoop {
 
 impl ActuationLaw for ControlLoop {
     fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
-        if !self.has_ended && time >= self.next_tick - SAME_TIME * self.tick_period {
+        if self.is_due(time) {
             let truth = Truth::new(&self.drawn, time, body, wheels, self.debris.as_mut());
-            self.at_tick(&truth);
+            self.at_tick(&truth, false);
         }
-        if self.has_ended {
-            return Actuation::end_of_run();
+        let actuation = if self.has_ended { Actuation::end_of_run() } else { self.applied(time, body, wheels) };
+        if let Some(record) = &self.record {
+            record.lock().take(time - SAME_TIME * self.tick_period, &self.over_time);
         }
-        self.applied(time, body, wheels)
+        actuation
+    }
+
+    fn end(&mut self, time: f64, body: &BodyState, wheels: &WheelState) {
+        if self.is_due(time) {
+            let truth = Truth::new(&self.drawn, time, body, wheels, self.debris.as_mut());
+            self.at_tick(&truth, true);
+        }
     }
 
     fn report(&self, values: &mut [f64]) {

@@ -16,7 +16,8 @@ use super::{Consistency, Estimator, EstimatorContext, EstimatorKind, Update, cen
 use crate::control::estimate::Estimate;
 use crate::control::measurement::{Measurement, PointMotion};
 use crate::control::rotation::{quaternion_of, vector_of};
-use crate::control::sensors::{number, vector};
+use crate::control::sensors::number;
+use crate::control::sensors::star_tracker::covariance_s;
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
 use crate::control::truth::{DebrisState, Truth};
 use crate::control::vector::{conjugate, dcm_from_quaternion, difference, dot, hamilton, product, scaled, sum};
@@ -131,7 +132,7 @@ impl Mekf {
                     gyro = Some(sensor);
                     Believed::Gyro
                 }
-                "star_tracker" => Believed::Tracker(diagonal(vector(table, "noise_rad").map(|sigma| sigma * sigma))),
+                "star_tracker" => Believed::Tracker(covariance_s(table)),
                 "ground_radar" => {
                     Believed::Radar([number(table, "position_noise_m"), number(table, "velocity_noise_m_s")])
                 }

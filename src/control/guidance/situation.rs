@@ -34,6 +34,19 @@ pub struct Situation {
     pub debris_rate: f64,
 }
 
+/// The numbers that a quantity can have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum QuantityRange {
+    /// Every number.
+    Any,
+    /// Zero and above: magnitudes.
+    NotNegative,
+    /// The angle of a rotation: zero to pi.
+    Angle,
+    /// A time within the run.
+    Time,
+}
+
 /// A quantity that conditions may name.
 pub struct GuidanceQuantity {
     /// Its name, unit last.
@@ -42,6 +55,8 @@ pub struct GuidanceQuantity {
     pub meaning: &'static str,
     /// Whether the scene must have debris.
     pub needs_debris: bool,
+    /// Which numbers it can have.
+    pub range: QuantityRange,
     value: fn(&Situation) -> f64,
 }
 
@@ -51,19 +66,26 @@ fn with_geometry(situation: &Situation, of: impl Fn(&LaunchGeometry) -> f64) -> 
 }
 
 const fn own(name: &'static str, meaning: &'static str, value: fn(&Situation) -> f64) -> GuidanceQuantity {
-    GuidanceQuantity { name, meaning, needs_debris: false, value }
+    GuidanceQuantity { name, meaning, needs_debris: false, range: QuantityRange::NotNegative, value }
 }
 
 const fn of_debris(name: &'static str, meaning: &'static str, value: fn(&Situation) -> f64) -> GuidanceQuantity {
-    GuidanceQuantity { name, meaning, needs_debris: true, value }
+    GuidanceQuantity { name, meaning, needs_debris: true, range: QuantityRange::NotNegative, value }
+}
+
+impl GuidanceQuantity {
+    const fn within(self, range: QuantityRange) -> Self {
+        GuidanceQuantity { range, ..self }
+    }
 }
 
 /// The quantities of conditions, all of them estimates.
 pub static QUANTITIES: [GuidanceQuantity; 16] = [
-    own("time_s", "Time since the start of the run", |s| s.time),
-    own("time_in_phase_s", "Time since the phase began", |s| s.time_in_phase),
+    own("time_s", "Time since the start of the run", |s| s.time).within(QuantityRange::Time),
+    own("time_in_phase_s", "Time since the phase began", |s| s.time_in_phase).within(QuantityRange::Time),
     own("body_rate_rad_s", "Magnitude of the angular velocity of the body relative to F_e", |s| s.body_rate),
-    own("pointing_error_rad", "Angle of the rotation to the target of the phase", |s| s.error.angle()),
+    own("pointing_error_rad", "Angle of the rotation to the target of the phase", |s| s.error.angle())
+        .within(QuantityRange::Angle),
     own("wheel_speed_rad_s", "Largest magnitude of the rate of a wheel relative to the body", |s| s.wheel_speed),
     own("wheel_momentum_n_m_s", "Magnitude of the momentum of the wheels relative to the body", |s| s.wheel_momentum),
     of_debris("debris_distance_m", "Distance from the debris", |s| with_geometry(s, |g| norm(g.to_debris))),
@@ -72,7 +94,8 @@ pub static QUANTITIES: [GuidanceQuantity; 16] = [
     }),
     of_debris("distance_error_m", "Distance behind the debris along that line, less control.launch_distance_m", |s| {
         with_geometry(s, LaunchGeometry::distance_error)
-    }),
+    })
+    .within(QuantityRange::Any),
     of_debris("position_error_m", "Distance from the station", |s| with_geometry(s, LaunchGeometry::position_error)),
     of_debris("relative_speed_m_s", "Speed relative to the debris", |s| {
         with_geometry(s, |g| norm(g.relative_velocity))
@@ -86,10 +109,12 @@ pub static QUANTITIES: [GuidanceQuantity; 16] = [
         "velocity_to_go_along_m_s",
         "Component along s3 of the impulse per mass that is left of the maneuver of the phase",
         |s| crate::control::vector::dot(s.velocity_to_go, s.s3_e),
-    ),
+    )
+    .within(QuantityRange::Any),
     of_debris("time_to_station_s", "Time until the station is reached in the transfer that is flown", |s| {
         s.time_to_station
-    }),
+    })
+    .within(QuantityRange::Any),
     of_debris("debris_age_s", "Time since the debris was last measured", |s| s.debris_age),
     of_debris("debris_rate_rad_s", "Magnitude of the angular velocity of the debris relative to F_e", |s| {
         s.debris_rate
@@ -122,7 +147,25 @@ impl Condition {
             })
         };
         let quantities = expression.variables().iter().map(place).collect::<Result<_, _>>()?;
+        if !expression.is_condition() {
+            return Err("a comparison, or several with `and` and `or`: a number alone says nothing".to_owned());
+        }
         Ok(Condition { text: text.to_owned(), expression, quantities })
+    }
+
+    /// Whether it has the quantity called `name`.
+    pub fn asks_for(&self, name: &str) -> bool {
+        self.quantities.iter().any(|quantity| QUANTITIES[*quantity].name == name)
+    }
+
+    /// The range of its value in runs of `duration` seconds, whatever the motion: 0 to 0 where it is never met, 1 to 1 where it is always.
+    pub fn range(&self, duration: f64) -> [f64; 2] {
+        self.expression.range(|variable| match QUANTITIES[self.quantities[variable]].range {
+            QuantityRange::Any => [f64::NEG_INFINITY, f64::INFINITY],
+            QuantityRange::NotNegative => [0.0, f64::INFINITY],
+            QuantityRange::Angle => [0.0, core::f64::consts::PI],
+            QuantityRange::Time => [0.0, duration],
+        })
     }
 
     /// Whether it is met. A value that is not known (NaN) meets no condition.

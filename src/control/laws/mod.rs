@@ -4,12 +4,15 @@
 //! free wheels are driven by motors, H the angular momentum with the wheels, and u the torque on the body, F_s.
 
 mod eigenaxis;
+mod integral;
 pub mod momentum_unloading;
 mod mrp_feedback;
 mod quaternion_feedback;
 mod rate_damping;
+mod slew;
 
 pub use eigenaxis::Eigenaxis;
+pub use integral::Integral;
 pub use momentum_unloading::MomentumUnloading;
 pub use mrp_feedback::MrpFeedback;
 pub use quaternion_feedback::QuaternionFeedback;
@@ -28,11 +31,26 @@ pub struct LawKind {
     pub name: &'static str,
     /// The keys of its table.
     pub parameters: &'static [LawParameter],
-    /// Makes the law of a run from the table of its parameters.
-    pub make: fn(&DeclaredTable) -> AttitudeLaw,
+    /// Makes the law of a run.
+    pub make: fn(&LawSettings<'_>) -> AttitudeLaw,
+}
+
+/// What the law of a phase is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct LawSettings<'a> {
+    /// Its numbers.
+    pub table: &'a DeclaredTable,
+    /// Whether `mrp_feedback` has omega x H.
+    pub gyroscopic: bool,
+    /// The control period, s.
+    pub period: f64,
+    /// The time from a tick to the effect of its command, s.
+    pub delay: f64,
 }
 
 /// A law of attitude in a run, with what it remembers.
+// a run has one for each phase, and a box would be allocated
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AttitudeLaw {
     /// No torque.
@@ -52,10 +70,10 @@ impl AttitudeLaw {
     pub fn torque(&mut self, body: &KnownBody, input: &LawInput, period: f64) -> [f64; 3] {
         match self {
             AttitudeLaw::None => [0.0; 3],
-            AttitudeLaw::RateDamping(law) => law.torque(input),
-            AttitudeLaw::QuaternionFeedback(law) => law.torque(body, input),
+            AttitudeLaw::RateDamping(law) => law.torque(input, period),
+            AttitudeLaw::QuaternionFeedback(law) => law.torque(body, input, period),
             AttitudeLaw::MrpFeedback(law) => law.torque(body, input, period),
-            AttitudeLaw::Eigenaxis(law) => law.torque(body, input),
+            AttitudeLaw::Eigenaxis(law) => law.torque(body, input, period),
         }
     }
 }
@@ -215,7 +233,7 @@ mod tests {
             for (value, parameter) in table.values.iter_mut().zip(kind.parameters) {
                 *value = parameter.default.map_or(0.5, |default| default[0]);
             }
-            let mut law = (kind.make)(&table);
+            let mut law = (kind.make)(&LawSettings { table: &table, gyroscopic: false, period: 0.1, delay: 0.0 });
             let torque = law.torque(&craft, &body.input(), 0.1);
             assert!(crate::control::vector::dot(torque, body.omega) < -1e-6, "{}: {torque:?}", kind.name);
         }
@@ -225,11 +243,9 @@ mod tests {
     /// and its derivative they lag behind.
     #[test]
     fn a_target_that_turns_is_followed() {
-        let free = f64::INFINITY;
-        let slew = Eigenaxis { stiffness: 0.3, damping: 0.7, largest_rate: free, largest_torque: free };
         let laws = [
-            AttitudeLaw::QuaternionFeedback(QuaternionFeedback { bandwidth: 0.4, damping: 0.9 }),
-            AttitudeLaw::Eigenaxis(slew),
+            AttitudeLaw::QuaternionFeedback(QuaternionFeedback::new(0.4, 0.9)),
+            AttitudeLaw::Eigenaxis(Eigenaxis::new(0.3, 0.7)),
             AttitudeLaw::MrpFeedback(MrpFeedback::new(20.0, 25.0)),
         ];
         let follow = |mut law: AttitudeLaw, period: f64, is_told: bool| {
@@ -257,6 +273,40 @@ mod tests {
             let (coarse, fine) = (follow(law, 0.1, true), follow(law, 0.05, true));
             assert!(fine < 1e-4 && (coarse / fine - 2.0).abs() < 0.1, "{coarse} {fine}");
             assert!(follow(law, 0.1, false) > 0.1);
+        }
+    }
+
+    /// Law: a constant torque leaves a law of the list with an error (an angle, or of rate damping a rate) without its integral, and none with it; a limit of
+    /// the integral below what balances the torque leaves a part.
+    #[test]
+    fn the_integral_of_every_law_removes_the_offset() {
+        for kind in KINDS {
+            let left = |gain: f64, limit: f64| {
+                let mut table = DeclaredTable::of(Name::NONE, kind.parameters);
+                for (value, parameter) in table.values.iter_mut().zip(kind.parameters) {
+                    *value = match (parameter.facts.key, parameter.default) {
+                        (key, _) if key.starts_with("integral_limit") => limit,
+                        (key, _) if key.starts_with("integral_1") => gain,
+                        ("bandwidth_rad_s", _) => 0.2,
+                        ("damping", _) => 0.9,
+                        (_, Some(default)) => default[0],
+                        (_, None) => 5.0,
+                    };
+                }
+                let mut law = (kind.make)(&LawSettings { table: &table, gyroscopic: false, period: 0.2, delay: 0.0 });
+                let mut body = Body { inertia: [30.0, 45.0, 20.0], q_es: [1.0, 0.0, 0.0, 0.0], omega: [0.0; 3] };
+                let craft = KnownBody { inertia: body.matrix() };
+                for tick in 0..6000 {
+                    let torque = law.torque(&craft, &body.input(), if tick == 0 { 0.0 } else { 0.2 });
+                    body.step(sum(torque, [0.02, -0.01, 0.015]), 0.2, 1);
+                }
+                if kind.name == "rate_damping" { norm(body.omega) } else { norm(vector_of(body.q_es)) }
+            };
+            let (without, with) = (left(0.0, 0.0), left(0.03, 0.0));
+            assert!(without > 1e-3 && with < 1e-6 * without, "{}: {without:e} and {with:e}", kind.name);
+            // a part of what balances the torque: of MRP P Ki times the limit, else of the error itself
+            let limited = left(0.03, if kind.name == "mrp_feedback" { 0.05 } else { 1e-3 });
+            assert!(limited > 0.1 * without && limited < 0.97 * without, "{}: {limited:e} of {without:e}", kind.name);
         }
     }
 }

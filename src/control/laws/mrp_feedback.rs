@@ -1,14 +1,15 @@
 //! [`MrpFeedback`]: proportional to the modified Rodrigues parameters of the error, to the rate, and to an integral.
 
-use super::{AttitudeLaw, KnownBody, LawInput, LawKind, limit, number};
+use super::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, limit, number};
 use crate::control::rotation::mrp_of;
 use crate::control::vector::{cross, difference, norm, product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-/// u = -K s - P omega_st - P Ki z + (omega_te + Ki z) x H - J (omega x omega_te - omega_te'), with s the attitude relative to the target, z = K int s dt + J
-/// omega_st and H with the wheels (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018, section 8.4; the form of Basilisk's module
-/// `mrpFeedback`).
+/// u = -k s - P omega_st - P Ki z + (omega_te + Ki z) x H + K (omega_te' - omega x omega_te), with s the attitude relative to the target, z = k int s dt + K
+/// omega_st, K = J less the axial inertias of free wheels, and H with the wheels (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018,
+/// section 8.4; the form of Basilisk's module `mrpFeedback`: towards a target at rest without an integral nothing is left of the third term). Where
+/// `gyroscopic`, omega x H stands in place of (omega_te + Ki z) x H: the body's own gyroscopic torque is balanced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MrpFeedback {
     /// K, N m.
@@ -19,6 +20,8 @@ pub struct MrpFeedback {
     pub integral: f64,
     /// Largest magnitude of each component of the integral of K s, N m s.
     pub integral_limit: f64,
+    /// Whether omega x H is in it.
+    pub gyroscopic: bool,
     /// The integral of K s, N m s.
     summed: [f64; 3],
 }
@@ -41,17 +44,18 @@ pub static PARAMETERS: [LawParameter; 4] = [
 pub const KIND: LawKind = LawKind {
     name: "mrp_feedback",
     parameters: &PARAMETERS,
-    make: |table| {
+    make: |LawSettings { table, gyroscopic, .. }| {
         let law = MrpFeedback::new(number(table, "stiffness_n_m"), number(table, "damping_n_m_s"));
-        let integral = number(table, "integral_1_n_m_s");
-        AttitudeLaw::MrpFeedback(law.with_integral(integral, limit(table, "integral_limit_n_m_s")))
+        let law = law.with_integral(number(table, "integral_1_n_m_s"), limit(table, "integral_limit_n_m_s"));
+        AttitudeLaw::MrpFeedback(MrpFeedback { gyroscopic: *gyroscopic, ..law })
     },
 };
 
 impl MrpFeedback {
-    /// Without an integral.
+    /// Without an integral, and without omega x H.
     pub fn new(stiffness: f64, damping: f64) -> Self {
-        MrpFeedback { stiffness, damping, integral: 0.0, integral_limit: f64::INFINITY, summed: [0.0; 3] }
+        let (integral, integral_limit) = (0.0, f64::INFINITY);
+        MrpFeedback { stiffness, damping, integral, integral_limit, gyroscopic: false, summed: [0.0; 3] }
     }
 
     /// The same with an integral of gain `integral`, whose components stay within `limit`.
@@ -71,6 +75,9 @@ impl MrpFeedback {
             let z = sum(self.summed, product(craft.inertia, relative));
             torque = sum(torque, scaled(self.damping * self.integral, z));
             rate = sum(rate, scaled(self.integral, z));
+        }
+        if self.gyroscopic {
+            rate = input.omega_se_s;
         }
         let carried = difference(cross(input.omega_se_s, input.omega_te_s), input.acceleration_te_s);
         let feedforward = difference(product(craft.inertia, carried), cross(rate, input.momentum_s));
@@ -186,5 +193,24 @@ mod tests {
         let offset = norm([0.02, -0.01, 0.03]);
         assert!((left(0.0) / offset - 1.0).abs() < 1e-13, "{}", left(0.0));
         assert!(left(0.005) < 3e-8, "{}", left(0.005));
+    }
+
+    /// Law: with omega x H the rate obeys K omega' = -k s - P omega of a target at rest, whatever momentum the wheels have; without it that momentum turns
+    /// the body.
+    #[test]
+    fn the_gyroscopic_torque_is_balanced() {
+        let (inertia, omega) = ([30.0, 45.0, 20.0], [0.05, -0.02, 0.03]);
+        let body = Body { inertia, q_es: [1.0, 0.0, 0.0, 0.0], omega };
+        let craft = KnownBody { inertia: body.matrix() };
+        let wheels = [3.0, -2.0, 5.0];
+        let momentum_s = sum(product(craft.inertia, omega), wheels);
+        let input = LawInput { momentum_s, ..body.input() };
+        for (gyroscopic, is_balanced) in [(true, true), (false, false)] {
+            let mut law = MrpFeedback { gyroscopic, ..MrpFeedback::new(1.0, 10.0) };
+            // K omega' = H x omega + u
+            let torque = sum(cross(momentum_s, omega), law.torque(&craft, &input, 0.0));
+            let off = norm(sum(torque, scaled(10.0, omega)));
+            assert_eq!(off < 1e-15, is_balanced, "{off:e}");
+        }
     }
 }

@@ -1,41 +1,53 @@
 //! [`QuaternionFeedback`]: proportional to the quaternion of the error, and to the rate.
 
+use super::integral::{self, Integral};
 use super::{AttitudeLaw, KnownBody, LawInput, LawKind, number};
 use crate::control::vector::{product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-/// u = -2 w^2 K q_v sign(q_0) - 2 z w K omega_st + omega x H + K (omega_te' - omega x omega_te), with q the attitude relative to the target and omega_st the
-/// rate relative to it, for the bandwidth w and the damping z of small errors (B. Wie, *Space Vehicle Dynamics and Control*, 2008, section 7.3; the last
-/// term follows a target that turns).
+/// u = -2 w^2 K (e + z_i) - 2 z w K omega_st + omega x H + K (omega_te' - omega x omega_te), with e = q_v sign(q_0) of the attitude q relative to the target,
+/// omega_st the rate relative to it, z_i = Ki int e dt, for the bandwidth w and the damping z of small errors. K is J less the axial inertias of free wheels, H
+/// the momentum with the wheels (B. Wie, *Space Vehicle Dynamics and Control*, 2008, section 7.3; the last term follows a target that turns).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuaternionFeedback {
     /// Bandwidth w, rad/s.
     pub bandwidth: f64,
     /// Damping z.
     pub damping: f64,
+    /// The integral of the error.
+    pub integral: Integral,
 }
 
 /// Its keys in campaign files.
-pub static PARAMETERS: [LawParameter; 2] = [
+pub static PARAMETERS: [LawParameter; 4] = [
     LawParameter::number("bandwidth_rad_s", "rad/s", "Natural frequency of small errors", Limit::Positive),
     LawParameter::number("damping", "1", "Damping ratio of small errors", Limit::NotNegative),
+    integral::GAIN,
+    integral::LIMIT,
 ];
 
 /// Its place in the list of laws.
 pub const KIND: LawKind = LawKind {
     name: "quaternion_feedback",
     parameters: &PARAMETERS,
-    make: |table| {
-        let (bandwidth, damping) = (number(table, "bandwidth_rad_s"), number(table, "damping"));
-        AttitudeLaw::QuaternionFeedback(QuaternionFeedback { bandwidth, damping })
+    make: |settings| {
+        let [bandwidth, damping] = ["bandwidth_rad_s", "damping"].map(|key| number(settings.table, key));
+        let integral = Integral::of(settings, "integral_limit");
+        AttitudeLaw::QuaternionFeedback(QuaternionFeedback { bandwidth, damping, integral })
     },
 };
 
 impl QuaternionFeedback {
-    /// The torque on the body, F_s, N m.
-    pub fn torque(&self, craft: &KnownBody, input: &LawInput) -> [f64; 3] {
-        let error = scaled(-2.0 * self.bandwidth * self.bandwidth, input.error_vector());
+    /// Without an integral.
+    pub fn new(bandwidth: f64, damping: f64) -> Self {
+        QuaternionFeedback { bandwidth, damping, integral: Integral::NONE }
+    }
+
+    /// The torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first).
+    pub fn torque(&mut self, craft: &KnownBody, input: &LawInput, period: f64) -> [f64; 3] {
+        let error = self.integral.with(input.error_vector(), period);
+        let error = scaled(-2.0 * self.bandwidth * self.bandwidth, error);
         let wanted = sum(error, scaled(-2.0 * self.damping * self.bandwidth, input.omega_st_s()));
         sum(product(craft.inertia, wanted), input.feedforward(craft))
     }
@@ -47,12 +59,12 @@ mod tests {
     use crate::control::laws::plant::Body;
     use crate::control::rotation::{quaternion_of, vector_of};
 
-    fn settle(law: QuaternionFeedback, angle: f64, period: f64, ticks: usize) -> Vec<f64> {
+    fn settle(mut law: QuaternionFeedback, angle: f64, period: f64, ticks: usize) -> Vec<f64> {
         let mut body = Body { inertia: [30.0, 36.0, 24.0], q_es: quaternion_of([0.0, angle, 0.0]), omega: [0.0; 3] };
         let craft = KnownBody { inertia: body.matrix() };
         let mut angles = vec![angle];
         for _ in 0..ticks {
-            let torque = law.torque(&craft, &body.input());
+            let torque = law.torque(&craft, &body.input(), 0.0);
             body.step(torque, period, 2);
             angles.push(vector_of(body.q_es)[1]);
         }
@@ -62,7 +74,7 @@ mod tests {
     /// Law: a small angle about one axis follows the exact discrete solution of theta'' = -2 z w theta' - w^2 theta under a held torque.
     #[test]
     fn small_angles_follow_the_discrete_solution() {
-        let (law, period, start) = (QuaternionFeedback { bandwidth: 0.5, damping: 0.8 }, 0.2, 1e-5);
+        let (law, period, start) = (QuaternionFeedback::new(0.5, 0.8), 0.2, 1e-5);
         let found = settle(law, start, period, 200);
         let (mut angle, mut rate) = (start, 0.0_f64);
         for expected in &found[..] {
@@ -89,7 +101,7 @@ mod tests {
             let w = 0.3_f64;
             let (decay, damped) = (z * w, w * (1.0 - z * z).sqrt());
             let period = 2.0 * core::f64::consts::PI / damped / 100.0;
-            let law = QuaternionFeedback { bandwidth: w, damping: z };
+            let law = QuaternionFeedback::new(w, z);
             let angles: Vec<f64> = settle(law, start, period, 400).iter().map(|angle| angle / start).collect();
             let settled = |angle: &dyn Fn(usize) -> f64| (0..400).rev().find(|tick| angle(*tick).abs() > 0.02);
             // the poles r e^{+-i phi} of the map of angle and rate over a period
@@ -117,9 +129,9 @@ mod tests {
     #[test]
     fn the_shorter_way_is_taken() {
         let craft = KnownBody { inertia: [[2.0, 0.1, 0.0], [0.1, 3.0, 0.0], [0.0, 0.0, 4.0]] };
-        let law = QuaternionFeedback { bandwidth: 0.1, damping: 0.7 };
+        let mut law = QuaternionFeedback::new(0.1, 0.7);
         let q = quaternion_of([0.2, -0.4, 0.1]);
-        let at_rest = |q_ts: [f64; 4]| law.torque(&craft, &LawInput { q_ts, ..LawInput::AT_TARGET });
+        let mut at_rest = |q_ts: [f64; 4]| law.torque(&craft, &LawInput { q_ts, ..LawInput::AT_TARGET }, 0.0);
         let [a, b] = [at_rest(q), at_rest(q.map(|x| -x))];
         assert_eq!(a, b);
         assert!(at_rest(quaternion_of([0.0, 0.0, 4.0]))[2] > 0.0, "four radians back are two forth");
@@ -128,14 +140,14 @@ mod tests {
     /// Whether the loop with u/J = -k sin(theta/2) - c theta' grows from a small angle and rate, the torque acting at once or a period late.
     fn grows(k: f64, c: f64, period: f64, is_late: bool) -> bool {
         let bandwidth = (0.5 * k).sqrt();
-        let law = QuaternionFeedback { bandwidth, damping: 0.5 * c / bandwidth };
+        let mut law = QuaternionFeedback::new(bandwidth, 0.5 * c / bandwidth);
         let (start, inertia) = (1e-5, [30.0, 36.0, 24.0]);
         let q_es = quaternion_of([0.0, start, 0.0]);
         let mut body = Body { inertia, q_es, omega: [0.0, start / period, 0.0] };
         let craft = KnownBody { inertia: body.matrix() };
         let (mut before, mut early, mut late) = ([0.0; 3], 0.0_f64, 0.0_f64);
         for tick in 0..4000 {
-            let torque = law.torque(&craft, &body.input());
+            let torque = law.torque(&craft, &body.input(), 0.0);
             body.step(if is_late { before } else { torque }, period, 1);
             before = torque;
             let size = vector_of(body.q_es)[1].abs() + period * body.omega[1].abs();

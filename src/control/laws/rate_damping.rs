@@ -1,31 +1,41 @@
 //! [`RateDamping`]: a torque against the rate.
 
+use super::integral::{self, Integral};
 use super::{AttitudeLaw, LawInput, LawKind, number};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-/// The torque u = -gain omega against the rate relative to F_e. The energy of rotation falls at -gain |omega|^2.
+/// u = -gain (omega + z) against the rate omega relative to F_e, with z = Ki int omega dt. The energy of rotation falls at -gain |omega|^2 without the
+/// integral.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RateDamping {
     /// Gain, N m s.
     pub gain: f64,
+    /// The integral of the rate.
+    pub integral: Integral,
 }
 
 /// Its keys in campaign files.
-pub static PARAMETERS: [LawParameter; 1] =
-    [LawParameter::number("gain_n_m_s", "N m s", "Torque against a rate of 1 rad/s", Limit::Positive)];
+pub static PARAMETERS: [LawParameter; 3] = [
+    LawParameter::number("gain_n_m_s", "N m s", "Torque against a rate of 1 rad/s", Limit::Positive),
+    integral::GAIN,
+    integral::RATE_LIMIT,
+];
 
 /// Its place in the list of laws.
 pub const KIND: LawKind = LawKind {
     name: "rate_damping",
     parameters: &PARAMETERS,
-    make: |table| AttitudeLaw::RateDamping(RateDamping { gain: number(table, "gain_n_m_s") }),
+    make: |settings| {
+        let gain = number(settings.table, "gain_n_m_s");
+        AttitudeLaw::RateDamping(RateDamping { gain, integral: Integral::of(settings, "integral_limit_rad_s") })
+    },
 };
 
 impl RateDamping {
-    /// The torque on the body, F_s, N m.
-    pub fn torque(&self, input: &LawInput) -> [f64; 3] {
-        input.omega_se_s.map(|rate| -self.gain * rate)
+    /// The torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first).
+    pub fn torque(&mut self, input: &LawInput, period: f64) -> [f64; 3] {
+        self.integral.with(input.omega_se_s, period).map(|rate| -self.gain * rate)
     }
 }
 
@@ -42,7 +52,8 @@ mod tests {
         let energy = |body: &Body| 0.5 * dot(body.omega, product(body.matrix(), body.omega));
         for period in [0.1, 0.01] {
             let mut body = start;
-            body.step(RateDamping { gain: 4.0 }.torque(&body.input()), period, 4);
+            let torque = RateDamping { gain: 4.0, integral: Integral::NONE }.torque(&body.input(), 0.0);
+            body.step(torque, period, 4);
             let (slope, law) = ((energy(&body) - energy(&start)) / period, -4.0 * dot(start.omega, start.omega));
             assert!((slope / law - 1.0).abs() < 0.2 * period, "{slope} for {law}");
         }

@@ -1,5 +1,6 @@
 //! [`OutcomeColumns`]: the columns of rows that say what a run under a loop has come to.
 
+use super::stability::Stability;
 use super::{AtLaunch, Judgement, MissionOutcome, STANDARD_GRAVITY};
 use crate::control::estimators::Consistency;
 use crate::control::estimators::kalman::NormalizedSquare;
@@ -132,6 +133,25 @@ fn pointing(add: &mut Add<'_>) {
         |o| {
             if o.pointing_since.is_nan() { f64::NAN } else { o.overshoot }
         },
+    );
+    plain(
+        add,
+        "mission_settling_time_s",
+        "s",
+        "Time from the start of the run until the pointing error stayed within control.settling_band_rad to the end, in all phases from then on; null where it did not.",
+        |o| o.stability.settled_since(),
+    );
+    let mut over_window = |name: &str, what: &str, value: fn(&Stability, &Judgement) -> f64| {
+        let meaning = format!(
+            "Relative performance error (ECSS-E-ST-60-10C), {what}, of the rotation vector from the target to the true attitude less its mean over the ticks of the window of control.stability_from_s and control.stability_window_s; null where the run does not complete it, or a phase in it has no target."
+        );
+        add(name.into(), "rad", meaning, Box::new(move |o, _, judgement| value(&o.stability, judgement)));
+    };
+    over_window("relative_performance_error_rms_rad", "root mean square of the magnitude", Stability::rms);
+    over_window(
+        "relative_performance_error_peak_to_peak_rad",
+        "largest peak to peak about an axis of the body",
+        Stability::peak_to_peak,
     );
 }
 

@@ -1,7 +1,9 @@
 //! [`MissionOutcome`]: what a run under a loop has come to, from the true state at every tick. [`columns`]: the columns that say it.
 
 pub mod columns;
+mod stability;
 
+use self::stability::Stability;
 use super::estimate::EstimateErrors;
 use super::estimators::Consistency;
 use super::guidance::Failure;
@@ -23,6 +25,10 @@ pub struct Judgement {
     pub plume: [f64; 2],
     /// Pointing error of an attitude that has settled, rad.
     pub settling_band: f64,
+    /// Start and length of the window of the relative performance error, s; zero: from settling on, and to the end.
+    pub stability: [f64; 2],
+    /// Control period, s.
+    pub period: f64,
     /// Specific impulse, s; zero where it is not known.
     pub isp: f64,
 }
@@ -48,13 +54,14 @@ pub struct MissionOutcome {
     failure: Failure,
     end: f64,
     at_launch: Option<AtLaunch>,
-    /// Largest rotation to the target after it was first passed, rad, and the direction of the error with which the phase began.
+    /// Largest rotation to the target after it was first passed, rad, and the direction of the first error of the phase.
     overshoot: f64,
     first_error: Option<[f64; 3]>,
     /// Since when the pointing error has been within the band, s; NaN while it is not.
     settled_since: f64,
     pointing_since: f64,
     pointing_error: f64,
+    stability: Stability,
     /// N s, by thruster.
     impulse: [f64; MAX_THRUSTERS],
     velocity_change: f64,
@@ -98,6 +105,7 @@ impl MissionOutcome {
             settled_since: f64::NAN,
             pointing_since: f64::NAN,
             pointing_error: f64::NAN,
+            stability: Stability::NONE,
             impulse: [0.0; MAX_THRUSTERS],
             velocity_change: 0.0,
             debris_distance: f64::INFINITY,
@@ -121,6 +129,7 @@ impl MissionOutcome {
         errors: &EstimateErrors,
         judgement: &Judgement,
     ) {
+        self.stability.tick(truth.time, error.map(|error| vector_of(error.q_ts)), judgement);
         if let Some(error) = error {
             self.pointing(truth.time, error, begins, judgement.settling_band);
         }
@@ -142,9 +151,13 @@ impl MissionOutcome {
     fn pointing(&mut self, time: f64, error: &AttitudeError, begins: bool, band: f64) {
         let vector = vector_of(error.q_ts);
         let angle = norm(vector);
-        if begins || self.first_error.is_none() {
-            self.first_error = (angle > 0.0).then(|| scaled(1.0 / angle, vector));
-            (self.overshoot, self.settled_since, self.pointing_since) = (0.0, f64::NAN, time);
+        if begins {
+            (self.first_error, self.overshoot) = (None, 0.0);
+            (self.settled_since, self.pointing_since) = (f64::NAN, time);
+        }
+        // a phase that begins at its target has a direction from the first error on
+        if self.first_error.is_none() && angle > 0.0 {
+            self.first_error = Some(scaled(1.0 / angle, vector));
         }
         if let Some(first) = self.first_error {
             self.overshoot = self.overshoot.max(-dot(first, vector));

@@ -9,6 +9,7 @@ use crate::scene::LawParameter;
 pub(super) const KIND: SensorKind = SensorKind {
     name: "ground_radar",
     has_latency: true,
+    at_most_one: false,
     parameters: &PARAMETERS,
     make: |context| Box::new(GroundRadar::new(context)),
 };

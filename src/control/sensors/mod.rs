@@ -10,7 +10,7 @@ mod ground_radar;
 mod instrument;
 mod rate_gyro;
 mod relative_camera;
-mod star_tracker;
+pub mod star_tracker;
 mod tachometers;
 
 pub use instrument::Instrument;
@@ -102,6 +102,8 @@ pub struct SensorKind {
     pub name: &'static str,
     /// Whether a measurement may be delivered later, with its age.
     pub has_latency: bool,
+    /// Whether a loop has one of it at most: estimators use a single one.
+    pub at_most_one: bool,
     /// The keys of its table; `period_s` and `latency_s` are those of every sensor.
     pub parameters: &'static [LawParameter],
     /// The sensor of a run.

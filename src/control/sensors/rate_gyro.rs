@@ -16,6 +16,7 @@ use crate::scene::schema::Limit;
 pub(super) const KIND: SensorKind = SensorKind {
     name: "rate_gyro",
     has_latency: false,
+    at_most_one: true,
     parameters: &PARAMETERS,
     make: |context| Box::new(RateGyro::new(context)),
 };

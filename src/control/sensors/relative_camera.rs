@@ -10,6 +10,7 @@ use crate::scene::LawParameter;
 pub(super) const KIND: SensorKind = SensorKind {
     name: "relative_camera",
     has_latency: true,
+    at_most_one: false,
     parameters: &PARAMETERS,
     make: |context| Box::new(RelativeCamera::new(context)),
 };

@@ -1,28 +1,54 @@
-//! A star tracker: the attitude, with noise about each axis of the body; nothing above a rate of the body.
+//! A star tracker: the attitude, with noise about the axes of the tracker; nothing above a rate of the body.
+//!
+//! The third axis of the tracker, F_t, is its boresight, about which a tracker measures least exactly (C. C. Liebe, IEEE Transactions on Aerospace and
+//! Electronic Systems 38(2), 2002). The others are s1 and s2, turned with s3 to the boresight the shortest way: they are s1 and s2 where it is s3.
 
 use super::{AXES, NormalErrors, Sensor, SensorContext, SensorKind, axes, optional};
 use crate::control::measurement::Measurement;
-use crate::control::rotation::quaternion_of;
+use crate::control::rotation::{from_s3_to, quaternion_of};
+use crate::control::small_matrix::{diagonal, multiplied, transposed};
 use crate::control::truth::Truth;
-use crate::control::vector::{hamilton, norm};
-use crate::scene::LawParameter;
+use crate::control::vector::{hamilton, norm, product};
 use crate::scene::schema::Limit;
+use crate::scene::{DeclaredTable, LawParameter};
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "star_tracker",
     has_latency: true,
+    at_most_one: false,
     parameters: &PARAMETERS,
     make: |context| Box::new(StarTracker::new(context)),
 };
 
-static PARAMETERS: [LawParameter; 3] = [
-    axes("noise_rad", "rad", "Standard deviation about each axis of the body", Limit::NotNegative),
+static PARAMETERS: [LawParameter; 4] = [
+    axes(
+        "noise_rad",
+        "rad",
+        "Standard deviation about each axis of the tracker: two across the boresight, the third about it",
+        Limit::NotNegative,
+    ),
+    axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0, 0.0, 1.0]),
     axes("bias_rad", "rad", "Constant rotation vector from the body to the body as measured", Limit::Finite),
     optional("max_rate_rad_s", "rad/s", "Rate of the body above which it gives nothing; 0: no limit"),
 ];
 
+/// The rotation F_t -> F_s of a tracker with the numbers of `table`.
+fn c_st(table: &DeclaredTable) -> [[f64; 3]; 3] {
+    from_s3_to(super::vector(table, "boresight"))
+}
+
+/// The covariance of the noise of a tracker with the numbers of `table`, in F_s, rad^2.
+pub fn covariance_s(table: &DeclaredTable) -> [[f64; 3]; 3] {
+    let c_st = c_st(table);
+    let in_tracker = diagonal(super::vector(table, "noise_rad").map(|sigma| sigma * sigma));
+    multiplied(&multiplied(&c_st, &in_tracker), &transposed(&c_st))
+}
+
 struct StarTracker {
+    /// About the axes of the tracker, rad.
     deviations: [f64; 3],
+    /// F_t -> F_s.
+    c_st: [[f64; 3]; 3],
     /// The constant error as a quaternion.
     bias: [f64; 4],
     max_rate: f64,
@@ -33,6 +59,7 @@ impl StarTracker {
     fn new(context: &SensorContext<'_>) -> Self {
         StarTracker {
             deviations: context.vector("noise_rad"),
+            c_st: c_st(context.parameters),
             bias: quaternion_of(context.vector("bias_rad")),
             max_rate: context.number("max_rate_rad_s"),
             noise: context.normal("noise", AXES),
@@ -45,17 +72,18 @@ impl Sensor for StarTracker {
         if self.max_rate > 0.0 && norm(truth.body.omega_se_s) > self.max_rate {
             return None;
         }
-        let error = hamilton(self.bias, quaternion_of(self.noise.scaled(count, self.deviations)));
+        let noise_s = product(self.c_st, self.noise.scaled(count, self.deviations));
+        let error = hamilton(self.bias, quaternion_of(noise_s));
         Some(Measurement::Attitude { q_es: hamilton(truth.body.q_es, error), age: 0.0 })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::bench::{assert_normal, sensor, truth};
+    use super::super::bench::{assert_normal, sensor, table, truth};
     use super::*;
     use crate::control::rotation::vector_of;
-    use crate::control::vector::conjugate;
+    use crate::control::vector::{conjugate, difference, dot, scaled};
 
     const NOISE: [f64; 3] = [1e-5, 2e-5, 2e-4];
 
@@ -65,6 +93,48 @@ mod tests {
             Some(Measurement::Attitude { q_es, .. }) => Some(vector_of(hamilton(conjugate(q), q_es))),
             _ => None,
         }
+    }
+
+    /// Law: noise about the boresight is about that direction of the body, whichever it is, and of unit length or not; across it there is none where the
+    /// noise across is zero. The covariance that a filter believes is that of the errors.
+    #[test]
+    fn the_noise_is_about_the_axes_of_the_tracker() {
+        const ABOUT: f64 = 2e-4;
+        for boresight in [[0.0, 0.0, 1.0], [0.0, 0.0, -2.0], [1.0, 0.0, 0.0], [0.0, -3.0, 0.0], [0.4, -0.5, -0.9]] {
+            let values: [(&str, &[f64]); 2] = [("noise_rad", &[0.0, 0.0, ABOUT]), ("boresight", &boresight)];
+            let mut tracker = sensor("star_tracker", &values, 0.5, 6);
+            let unit = boresight.map(|x| x / norm(boresight));
+            let errors: Vec<[f64; 3]> =
+                (0..4_000).filter_map(|count| error(&mut *tracker, count, [1.0, 0.0, 0.0, 0.0], 0.0)).collect();
+            let along: Vec<f64> = errors.iter().map(|error| dot(*error, unit)).collect();
+            assert_normal(&along, ABOUT, 1e-3);
+            for (error, along) in errors.iter().zip(&along) {
+                let across = difference(*error, scaled(*along, unit));
+                assert!(norm(across) < 4e-15 * ABOUT.max(along.abs()) + 1e-18, "{boresight:?}: {across:?}");
+            }
+            let covariance = covariance_s(&table("unit", &PARAMETERS, &values));
+            for (row, a) in covariance.iter().zip(unit) {
+                for (found, b) in row.iter().zip(unit) {
+                    assert!((found - ABOUT * ABOUT * a * b).abs() < 4e-15 * ABOUT * ABOUT, "{boresight:?}");
+                }
+            }
+        }
+        // with noise about all axes: the sample covariance of 4,000 errors is that of the filter, to six standard errors (H0: they agree)
+        let values: [(&str, &[f64]); 2] = [("noise_rad", &NOISE), ("boresight", &[0.6, 0.0, 0.8])];
+        let mut tracker = sensor("star_tracker", &values, 0.5, 6);
+        let covariance = covariance_s(&table("unit", &PARAMETERS, &values));
+        let errors: Vec<[f64; 3]> =
+            (0..4_000).filter_map(|count| error(&mut *tracker, count, quaternion_of([0.3, 0.2, 0.1]), 0.0)).collect();
+        for i in 0..3 {
+            for j in 0..3 {
+                let found = errors.iter().map(|error| error[i] * error[j]).sum::<f64>() / 4_000.0;
+                let error = ((covariance[i][i] * covariance[j][j] + covariance[i][j].powi(2)) / 4_000.0).sqrt();
+                assert!((found - covariance[i][j]).abs() < 6.0 * error, "{i} {j}: {found} {}", covariance[i][j]);
+            }
+        }
+        // R = C diag C^T of a boresight in the plane of s1 and s3, written out
+        let expected = 0.48 * (NOISE[2].powi(2) - NOISE[0].powi(2));
+        assert!((covariance[0][2] - expected).abs() < 1e-14 * expected, "{} {expected}", covariance[0][2]);
     }
 
     /// Law: the error about each axis of the body is normal with its deviation, at any attitude, and axes are independent: 4,000 samples, alpha 1e-3

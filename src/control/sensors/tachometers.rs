@@ -9,6 +9,7 @@ use crate::scene::{LawParameter, MAX_WHEELS};
 pub(super) const KIND: SensorKind = SensorKind {
     name: "tachometers",
     has_latency: false,
+    at_most_one: true,
     parameters: &PARAMETERS,
     make: |context| Box::new(Tachometers::new(context)),
 };

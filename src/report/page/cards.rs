@@ -3,6 +3,7 @@
 use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::campaign::{Display, ShownUnit};
 use crate::report::escaped::escaped;
+use crate::report::page::NO_INTERVAL;
 use crate::report::page::errors::sentence as sentence_case;
 use crate::report::page::influence::Influence;
 use crate::report::page::readable::{number, with_unit};
@@ -71,10 +72,8 @@ pub struct Card {
     pub estimate: f64,
     /// The ends of its interval; NaN where the runs do not bound it.
     pub interval: [f64; 2],
-    /// The confidence of the interval, or of each of its ends.
+    /// The confidence of the interval.
     pub confidence: f64,
-    /// Whether the ends are bounds that hold with the confidence one by one, and not both together.
-    pub is_one_sided: bool,
     /// The limit, and whether it is an upper one.
     pub limit: Option<(f64, bool)>,
     /// Unit of estimate and limit.
@@ -117,7 +116,7 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &Shown
     let [lower, upper] = [0.05, 0.95].map(|p| quantiles.iter().find(|quantile| quantile[0] == p));
     let statistic = if runs > 1 { format!("{percent}%-quantile") } else { "value".to_owned() };
     let (sentence, note) = if runs == 1 {
-        (format!("The only run that is ok: {what} {}.", text(estimate)), String::new())
+        (format!("The only run that was computed: {what} {}.", text(estimate)), String::new())
     } else {
         let sentence = match (lower, upper) {
             (Some(lower), Some(upper)) if min < 0.0 => format!(
@@ -135,7 +134,7 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &Shown
         };
         let confidence = row.map_or(f64::NAN, |row| row.confidence);
         let note = match confidence.is_nan() {
-            true => "The design's runs are not independent: no interval.".to_owned(),
+            true => NO_INTERVAL.to_owned(),
             false if !high.is_finite() => format!(
                 "{runs} runs do not bound the {statistic} from above with {}% confidence.",
                 number(100.0 * confidence)
@@ -152,7 +151,6 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &Shown
         estimate: shown.value(estimate),
         interval: [low, high].map(|end| shown.value(end)),
         confidence: row.map_or(f64::NAN, |row| row.confidence),
-        is_one_sided: false,
         limit: None,
         unit: shown.unit.clone(),
         note,
@@ -162,7 +160,8 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &Shown
 
 /// The strongest inputs of an outcome in words; empty where that is not known.
 pub fn driven_by(outcome: &str, influences: &[Influence]) -> String {
-    influences.iter().find(|one| one.outcome == outcome).map_or_else(String::new, |one| one.drivers.clone())
+    let of = influences.iter().filter(|one| one.outcome == outcome).map(|one| one.drivers.as_str());
+    of.collect::<Vec<_>>().join(". Spread: ")
 }
 
 impl Card {
@@ -179,11 +178,7 @@ impl Card {
             let ends = self.interval.map(shown);
             let confidence = number(100.0 * self.confidence);
             let interval = if self.interval.iter().any(|end| end.is_finite()) {
-                if self.is_one_sided {
-                    format!(" (bounds: {} and {}, each with {confidence}% confidence)", ends[0], ends[1])
-                } else {
-                    format!(" ({confidence}% interval: {} to {})", ends[0], ends[1])
-                }
+                format!(" ({confidence}% interval: {} to {})", ends[0], ends[1])
             } else {
                 String::new()
             };
@@ -277,7 +272,6 @@ mod tests {
             estimate,
             interval,
             confidence: 0.95,
-            is_one_sided: false,
             limit,
             unit: "J".to_owned(),
             note: String::new(),
@@ -298,11 +292,9 @@ mod tests {
         for (index, judged) in all.into_iter().enumerate() {
             assert!(all[index + 1..].iter().all(|other| other.shape() != judged.shape()));
         }
-        // two bounds that each hold with 95% are an interval of 90%; the ends have the unit of the estimate
-        let two_sided = card(Judged::Pass, 0.0, [0.0, 0.1497], None);
-        let one_sided = Card { is_one_sided: true, ..two_sided.clone() };
-        assert!(two_sided.html().contains("95% interval") && !one_sided.html().contains("95% interval"));
-        assert!([two_sided, one_sided].iter().all(|card| card.html().contains("0.1497\u{a0}J")));
+        // the ends have the unit of the estimate
+        let bounded = card(Judged::Pass, 0.0, [0.0, 0.1497], None).html();
+        assert!(bounded.contains("95% interval") && bounded.contains("0.1497\u{a0}J"), "{bounded}");
         let empty = card(Judged::Finding, f64::NAN, [f64::NAN; 2], None).html();
         assert!(!empty.contains("NaN") && !empty.contains("<circle class=\"dot\""), "{empty}");
         assert!(!card(Judged::Pass, 0.0, [0.0; 2], Some((0.0, true))).html().contains("NaN"));

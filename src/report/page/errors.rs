@@ -3,6 +3,7 @@
 use crate::analysis::survey::{CONFIDENCE, Survey, SurveyedOutcome};
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::histogram::{bins, counts};
+use crate::report::page::NO_INTERVAL;
 use crate::report::page::shown_columns::words;
 use crate::run::Status;
 use crate::statistics::binomial::interval;
@@ -43,9 +44,9 @@ pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
 /// How many of how many runs a figure is of.
 pub fn of_runs(shown: usize, all: u64) -> String {
     if shown as u64 == all {
-        format!("{all} runs that are ok")
+        format!("{all} runs that were computed")
     } else {
-        format!("{shown} of {all} runs that are ok, chosen by sample number")
+        format!("{shown} of {all} runs that were computed, chosen by sample number")
     }
 }
 
@@ -124,14 +125,14 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     let interval = if has_intervals {
         " Band: Clopper-Pearson interval of the fraction (95%)."
     } else {
-        " The design's runs are not independent: no interval."
+        &format!(" {NO_INTERVAL}")
     };
     Figure {
         name: format!("tail_{}", outcome.quantity.name()),
         section: FigureSection::Numerics,
         title: format!("Tail of {}", words(&outcome.quantity)),
         caption: format!(
-            "Fraction of all {} runs that are ok whose value is at least this; shown at ranks spaced by decades.{interval}",
+            "Fraction of all {} runs that were computed whose value is at least this; shown at ranks spaced by decades.{interval}",
             outcome.sketch.count()
         ),
         columns: 6,

@@ -1,17 +1,18 @@
 //! [`Contents`] from what other modules computed of a result: statistics, verdicts, sensitivities, bands, and a survey of the rows.
 
 use crate::analysis::assessment::Assessment;
+use crate::analysis::drivers::{Question, Ranking};
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::missions::Missions;
 use crate::analysis::noise_share::NoiseShare;
 use crate::analysis::order_statistics::QuantileStatistic;
-use crate::analysis::sensitivity::InputSensitivity;
 use crate::analysis::statistics::{ColumnStatistics, Statistics};
 use crate::analysis::stopping::Stopping;
 use crate::analysis::survey::Survey;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::ensemble::Bands;
-use crate::report::drivers_text::{self, outcomes};
+use crate::report::drivers_text::{self, SEE_INTERACTIONS, outcomes, ranked, verb};
 use crate::report::noise_text;
 use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
@@ -21,10 +22,9 @@ use crate::report::page::over_time::TimeBands;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::shown_columns::words;
 use crate::report::page::tables::StatisticsRow;
-use crate::report::requirements::{runs_needed, together};
+use crate::report::requirements::{assumed, runs_needed, together};
 use crate::report::stopping_text;
 use crate::statistics::binomial::Decision;
-use crate::statistics::correlation::Estimate;
 use crate::statistics::gate::GateLimit;
 
 /// Quantiles of the bands of the page.
@@ -45,6 +45,8 @@ pub struct Analysis<'a> {
     pub noise: &'a [NoiseShare],
     /// Quantiles over time, where they were kept.
     pub bands: Option<&'a Bands>,
+    /// What a reader has to know before any number.
+    pub warnings: &'a [String],
     /// The look that ended the campaign, where it has `[stop]`.
     pub stopping: Option<&'a Stopping>,
 }
@@ -57,6 +59,8 @@ impl Contents {
         let mut said = together(analysis.verdicts);
         said.extend(analysis.stopping.map(|found| stopping_text::text(plan, found)));
         Contents {
+            warnings: analysis.warnings.to_vec(),
+            loss: analysis.statistics.loss(),
             bands: analysis.bands.map_or_else(Vec::new, time_bands),
             statistics: analysis
                 .statistics
@@ -117,21 +121,59 @@ fn influences(plan: &Plan, all: &[InputSensitivity], noise: &[NoiseShare], surve
         None => String::new(),
     };
     let of_outcome = |name: &str| {
-        let mut of: Vec<(&InputSensitivity, Estimate)> =
-            all.iter().filter(|one| one.observable == name).filter_map(|one| Some((one, one.influence()?))).collect();
-        of.sort_by(|a, b| b.1.value.total_cmp(&a.1.value));
-        let (first, _) = of.first()?;
-        let is_total = first.total.is_some();
-        Some(Influence {
-            outcome: name.to_owned(),
-            measure: if is_total { "total Sobol index".to_owned() } else { "share of the variance".to_owned() },
-            meaning: meaning(plan, first, all) + &of_noise(name),
-            inputs: of.iter().map(|(one, e)| (one.input.clone(), [e.value, e.lower, e.upper])).collect(),
-            drivers: drivers_text::driven_by(all, name),
-        })
+        let of_ranking = |ranking: &Ranking<'_>| influence(plan, all, name, ranking, &of_noise(name));
+        ranked(plan, all, name).iter().filter_map(of_ranking).collect::<Vec<_>>()
     };
     let seen = outcomes(plan, all).into_iter().filter(|name| survey.outcome(name).is_some());
-    seen.filter_map(of_outcome).collect()
+    seen.flat_map(of_outcome).collect()
+}
+
+/// A ranking of the inputs of the outcome `name`, and what is known of the `noise`.
+fn influence(
+    plan: &Plan,
+    all: &[InputSensitivity],
+    name: &str,
+    ranking: &Ranking<'_>,
+    noise: &str,
+) -> Option<Influence> {
+    let first = ranking.inputs.first()?.input;
+    let is_total = first.total.is_some();
+    let drivers = ranking.drivers().count();
+    let shown = match drivers {
+        0 => " These runs show no input that drives it.".to_owned(),
+        1 => " The first input is shown to drive it.".to_owned(),
+        count => format!(" The first {count} inputs are shown to drive it."),
+    };
+    let (event, measure, meaning) = match &ranking.question {
+        Question::Spread if is_total => (None, "total Sobol index", meaning(plan, first, all) + noise),
+        Question::Spread => (
+            None,
+            "share of the variance",
+            format!("{} {}.", meaning(plan, first, all), sentence(SEE_INTERACTIONS)) + noise,
+        ),
+        Question::Event(event) => {
+            let of = event.of;
+            let meaning = format!(
+                "{} of {} runs {}. Share of the variance of whether a run does that belongs to each input, with its interval. Shown: by an exact test of the table, or by ranks, of all inputs together (Holm).",
+                grouped(of.events),
+                grouped(of.runs),
+                verb(name, event)
+            );
+            (Some(*event), "share of the variance of whether a run does", meaning)
+        }
+    };
+    Some(Influence {
+        outcome: name.to_owned(),
+        event: event.map(|event| (verb(name, &event), !event.has_few_values)),
+        measure: measure.to_owned(),
+        meaning: meaning + &shown,
+        inputs: ranking
+            .inputs
+            .iter()
+            .map(|one| (one.input.input.clone(), [one.share.value, one.share.lower, one.share.upper]))
+            .collect(),
+        drivers: drivers_text::sentence(plan, name, ranking),
+    })
 }
 
 fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity]) -> String {
@@ -202,8 +244,11 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         notes[0] = format!("{at}{}", notes[0]);
         notes.push(format!("Tested at {} points of time.", worst.points));
     }
-    if one.failed > 0 {
-        notes.push(format!("{} runs that are not ok count as violations.", grouped(one.failed)));
+    if one.missing > 0 {
+        notes.push(format!("{} runs without a value count as violations.", grouped(one.missing)));
+    }
+    if let Some(assumed) = assumed(one) {
+        notes.push(format!("{}.", sentence(&assumed)));
     }
     match (&one.reason, one.gate.decision) {
         (Some(reason), _) => notes.push(format!("{}.", crate::report::page::errors::sentence(reason))),
@@ -219,13 +264,12 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         Statement::Mean => (
             "mean".to_owned(),
             shown.value(one.gate.estimate),
-            one.gate.bounds.map(|end| shown.value(end)),
+            one.interval.map(|end| shown.value(end)),
             shown.written(limit),
             shown.unit.clone(),
         ),
         Statement::Quantile(p) => {
-            let quantile =
-                requirement.observable().and_then(|name| statistics.required(name, p, requirement.confidence));
+            let quantile = statistics.required(requirement);
             let ends = quantile
                 .map_or([None; 2], |quantile| quantile.interval)
                 .map(|end| shown.value(end.unwrap_or(f64::NAN)));
@@ -237,7 +281,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
             (
                 "runs within the limit".to_owned(),
                 hundred(one.gate.estimate),
-                one.gate.bounds.map(hundred),
+                one.interval.map(hundred),
                 hundred(fraction),
                 "%".to_owned(),
             )
@@ -256,11 +300,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         statistic,
         estimate,
         interval: ends,
-        confidence: match requirement.statement {
-            Statement::Quantile(_) => requirement.confidence,
-            _ => one.confidences[0],
-        },
-        is_one_sided: !matches!(requirement.statement, Statement::Quantile(_)),
+        confidence: statistics.confidence,
         limit: Some((limit, is_upper && !is_fraction)),
         unit,
         note: notes.join(" "),

@@ -16,17 +16,19 @@ const MOST_INPUTS: usize = 12;
 pub struct Influence {
     /// The outcome.
     pub outcome: String,
+    /// Of a ranking for an event: what the runs do in which it occurs, and whether the outcome has a spread besides; `None` of its spread.
+    pub event: Option<(String, bool)>,
     /// What the numbers are, as an axis says it.
     pub measure: String,
     /// What they mean, in a sentence or two.
     pub meaning: String,
-    /// Input column, value, lower and upper end of its interval (NaN where there is none); the strongest first.
+    /// Input column, value, lower and upper end of its interval (NaN where there is none), in the order of the ranking.
     pub inputs: Vec<(String, [f64; 3])>,
     /// The strongest inputs in words.
     pub drivers: String,
 }
 
-/// For each outcome, a tornado and two scatter plots.
+/// For each ranking, a tornado and two scatter plots, each once.
 pub fn figures(plan: &Plan, survey: &Survey, influences: &[Influence]) -> Vec<Figure> {
     let mut figures: Vec<Figure> = Vec::new();
     for influence in influences {
@@ -35,7 +37,12 @@ pub fn figures(plan: &Plan, survey: &Survey, influences: &[Influence]) -> Vec<Fi
         let strongest: Vec<usize> = inputs.iter().take(2).filter_map(|(name, _)| position(plan, name)).collect();
         inputs.truncate(MOST_INPUTS);
         figures.push(tornado(influence, outcome, &inputs, survey.thinned.inputs.len()));
-        figures.extend(strongest.into_iter().map(|input| scatter(plan, survey, input, index, outcome)));
+        for input in strongest {
+            let figure = scatter(plan, survey, input, index, outcome);
+            if !figures.iter().any(|other| other.name == figure.name) {
+                figures.push(figure);
+            }
+        }
     }
     figures.retain(Figure::is_visible);
     figures
@@ -49,10 +56,18 @@ fn tornado(influence: &Influence, outcome: &SurveyedOutcome, inputs: &[(String, 
     let column = |place: usize| inputs.iter().map(|(_, value)| value[place]).collect::<Vec<f64>>();
     let note =
         if inputs.len() < all { format!(" The strongest {} of {all} inputs.", inputs.len()) } else { String::new() };
+    let name = outcome.quantity.name();
+    let (name, title) = match &influence.event {
+        None => (format!("influence_{name}"), format!("What drives {}", words(&outcome.quantity))),
+        Some((verb, has_spread)) => {
+            let part = if *has_spread { "_event" } else { "" };
+            (format!("influence_{name}{part}"), format!("{}: which runs {verb}", sentence(&words(&outcome.quantity))))
+        }
+    };
     Figure {
-        name: format!("influence_{}", outcome.quantity.name()),
+        name,
         section: FigureSection::Influence,
-        title: format!("What drives {}", words(&outcome.quantity)),
+        title,
         caption: format!("{}{note}", influence.meaning),
         columns: 4,
         is_over_time: false,
@@ -74,7 +89,9 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
     let name = column.parameter.component_name(column.component);
     let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
     let thinned = &survey.thinned;
-    let rows = shown_rows(survey);
+    // a run without a value of the outcome is no point
+    let rows: Vec<usize> =
+        shown_rows(survey).into_iter().filter(|row| thinned.outcomes[index][*row].is_finite()).collect();
     let samples: Vec<u64> = rows.iter().map(|row| thinned.samples[*row]).collect();
     let kept: Vec<usize> = chosen(&samples, SCATTER).into_iter().map(|place| rows[place]).collect();
     let ordinates: Vec<f64> =
@@ -90,14 +107,14 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
         y,
         samples: rows.iter().map(|row| thinned.samples[*row] as f64).collect(),
     };
-    let mut marks = vec![points(&kept, "ok", Hue::Total, PointShape::Disc, shown)];
+    let mut marks = vec![points(&kept, "computed", Hue::Total, PointShape::Disc, shown)];
     let failed: Vec<usize> =
         (0..thinned.samples.len()).filter(|row| thinned.statuses[*row] != Status::Done).take(SCATTER).collect();
     if !failed.is_empty() {
         // a run that failed has no outcome: it is marked at the lower edge
         let edge = if lowest.is_finite() { lowest } else { 0.0 };
         let y = vec![edge; failed.len()];
-        marks.push(points(&failed, "failed (at the lower edge)", Hue::Failed, PointShape::Cross, y));
+        marks.push(points(&failed, "not computed (at the lower edge)", Hue::Failed, PointShape::Cross, y));
     }
     let all = outcome.sketch.count();
     let label = if outcome.is_error { format!("|{}|", words(&outcome.quantity)) } else { words(&outcome.quantity) };
@@ -147,7 +164,7 @@ pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         name: format!("convergence_{}", quantity.name()),
         section: FigureSection::Statistics,
         title: format!("Convergence of {}", words(quantity)),
-        caption: "Quantiles of the first N dispersed runs that are ok, in the order of their numbers; where the band begins, N bounds the \
+        caption: "Quantiles of the first N dispersed runs that were computed, in the order of their numbers; where the band begins, N bounds the \
                   quantile from both sides."
             .to_owned(),
         columns: 6,

@@ -37,6 +37,7 @@ use self::over_time::{Curves, TimeBands};
 use self::payload::Payload;
 use self::tables::StatisticsRow;
 use crate::analysis::missions::Missions;
+use crate::analysis::population::Loss;
 use crate::analysis::survey::{self, Survey};
 use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
@@ -56,6 +57,10 @@ pub struct Contents {
     pub statistics: Vec<StatisticsRow>,
     /// What drives the outcomes.
     pub influences: Vec<Influence>,
+    /// What comes before every number; mostly nothing.
+    pub warnings: Vec<String>,
+    /// Runs without numbers.
+    pub loss: Loss,
     /// The verdicts of the requirements; empty where the file has none.
     pub verdicts: Vec<Card>,
     /// What `[stop]` and the verdicts together say, as sentences.
@@ -73,6 +78,9 @@ pub struct Page {
     pub figures: Vec<Figure>,
 }
 
+/// What stands in place of an interval where there is none.
+pub(crate) const NO_INTERVAL: &str = "No interval: these runs are no random part of all.";
+
 /// Whether the dispersed runs are independent, so that the intervals of order statistics hold.
 pub fn is_independent(plan: &Plan) -> bool {
     matches!(plan.design, Design::Random(_))
@@ -82,7 +90,7 @@ impl Page {
     /// The page of a campaign. Runs the nominal and the worst samples again, to show them over time.
     pub fn new(ensemble: &Ensemble<'_>, contents: &Contents) -> Self {
         let (plan, survey) = (ensemble.plan(), &contents.survey);
-        let has_intervals = is_independent(plan);
+        let has_intervals = is_independent(plan) && !contents.loss.is_big();
         let shown = runs::shown_runs(plan, survey, ensemble.isa());
         let nominal = shown.iter().find(|run| run.sample == SampleId(0)).and_then(|run| run.run.as_ref());
         let wheels = ensemble.request().wheels.to_vec();
@@ -118,6 +126,7 @@ impl Page {
         };
         let first = [
             first_screen::header(plan),
+            first_screen::warnings(&contents.warnings),
             first_screen::status(plan, survey),
             first_screen::missions(&contents.missions),
             first_screen::verdicts(&cards, !contents.verdicts.is_empty(), &contents.said),

@@ -3,6 +3,7 @@
 use crate::analysis::survey::{CONFIDENCE, Survey, SurveyedOutcome};
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape, Scale};
+use crate::report::page::NO_INTERVAL;
 use crate::report::page::errors::{histogram, sentence};
 use crate::report::page::readable::{number, with_unit};
 use crate::report::page::shown_columns::words;
@@ -113,17 +114,13 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
     let what = if outcome.is_error { format!("|{}|", words(&outcome.quantity)) } else { words(&outcome.quantity) };
     let is_log = outcome.is_error && outcome.sketch.min().is_some_and(|min| min > 0.0);
     let axis = if is_log { Axis::log } else { Axis::linear };
-    let interval = if has_intervals {
-        "Band: Clopper-Pearson interval of the fraction (95%)."
-    } else {
-        "The design's runs are not independent: no interval."
-    };
+    let interval = if has_intervals { "Band: Clopper-Pearson interval of the fraction (95%)." } else { NO_INTERVAL };
     Figure {
         name: format!("cumulative_{}", outcome.quantity.name()),
         section: FigureSection::Outcome,
         title: format!("{}: runs up to a value", sentence(&words(&outcome.quantity))),
         caption: format!(
-            "Fraction of the {} runs that are ok whose value is at most this. {interval}",
+            "Fraction of the {} runs that were computed whose value is at most this. {interval}",
             outcome.sketch.count()
         ),
         columns: 6,

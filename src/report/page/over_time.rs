@@ -41,13 +41,18 @@ const SEEN_SWING: f64 = 0.05;
 /// A series with the title of its figure, its quantity, and whose colour it has.
 type Shown = (Series, &'static str, &'static str, Hue);
 
-/// The series of the motion.
-const MOTION: [Shown; 5] = [
+/// The series of the motion, and those that a control loop records.
+const MOTION: [Shown; 10] = [
     (Series::RateSquare, "Angular rate of the body", "|omega|", Hue::Body),
     (Series::SpinAxisAngle, "Angle of s3 from its initial direction", "angle", Hue::Body),
     (Series::Nutation, "Nutation angle: s3 from the angular momentum", "angle", Hue::Body),
     (Series::FromNominal, "Attitude relative to the nominal run", "angle", Hue::Body),
     (Series::DebrisDirection, "Angle between s3 and the line to the debris", "angle", Hue::Debris),
+    (Series::PointingError, "Pointing error", "angle", Hue::Body),
+    (Series::AttitudeEstimateError, "Error of the estimated attitude", "angle", Hue::Body),
+    (Series::RateEstimateError, "Error of the estimated angular velocity", "rate", Hue::Body),
+    (Series::PositionEstimateError, "Error of the estimated position relative to the debris", "distance", Hue::Debris),
+    (Series::VelocityEstimateError, "Error of the estimated velocity relative to the debris", "speed", Hue::Debris),
 ];
 
 impl<'a> Curves<'a> {
@@ -143,7 +148,7 @@ impl<'a> Curves<'a> {
             String::new()
         };
         format!(
-            "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that are ok, at each of {} times; solid line: median; dashed: nominal run.{left}{aliased}",
+            "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that were computed, at each of {} times; solid line: median; dashed: nominal run.{left}{aliased}",
             bands.runs,
             bands.times.len()
         )
@@ -160,7 +165,8 @@ impl<'a> Curves<'a> {
         let is_shown =
             |(series, ..): &&Shown| *series != Series::FromNominal || self.band(&self.name(*series).0).is_some();
         let mut figures: Vec<Figure> = MOTION.iter().filter(is_shown).map(|shown| self.single(shown)).collect();
-        figures.extend(self.wheel_speeds());
+        figures.extend(self.of_wheels(Series::WheelSpeed, "Speed", "speed"));
+        figures.extend(self.of_wheels(Series::MotorTorque, "Torque", "torque"));
         figures.extend(self.energies());
         figures.extend(self.transfer());
         figures
@@ -182,15 +188,16 @@ impl<'a> Curves<'a> {
         over_time(&name, title, self.caption(&name), Axis::linear(*quantity, &unit).showing(&name), marks)
     }
 
-    fn wheel_speeds(&self) -> Vec<Figure> {
+    /// The figure of `series` for each wheel.
+    fn of_wheels(&self, series: Series, title: &str, quantity: &str) -> Vec<Figure> {
         let figure = |(index, wheel): (usize, &Name)| {
-            let (name, unit) = self.name(Series::WheelSpeed.of_wheel(index));
-            let marks = self.marks(&name, self.nominal(Series::WheelSpeed.of_wheel(index)), Hue::Wheel(index), "");
+            let (name, unit) = self.name(series.of_wheel(index));
+            let marks = self.marks(&name, self.nominal(series.of_wheel(index)), Hue::Wheel(index), "");
             over_time(
                 &name,
-                &format!("Speed of wheel {wheel}"),
+                &format!("{title} of wheel {wheel}"),
                 self.caption(&name),
-                Axis::linear("speed", &unit).showing(&name),
+                Axis::linear(quantity, &unit).showing(&name),
                 marks,
             )
         };

@@ -119,7 +119,10 @@ fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
     let mut first: Vec<(usize, SampleId, String)> = Vec::new();
     for ended in failed {
         let of_kind = ended.first.iter().enumerate();
-        first.extend(of_kind.map(|(place, (sample, _))| (place, *sample, format!("failed: {}", ended.status.name()))));
+        first.extend(
+            of_kind
+                .map(|(place, (sample, _))| (place, *sample, format!("computation failed: {}", ended.status.name()))),
+        );
     }
     first.sort_by_key(|(place, sample, _)| (*place, *sample));
     let mut list: Vec<(SampleId, String)> =
@@ -132,6 +135,13 @@ fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
         for outcome in &outcomes {
             let is_low = outcome.is_worst_when_low;
             if let Some((sample, value)) = outcome.worst.get(place).filter(|(_, value)| is_low || *value != 0.0) {
+                if outcome.quantity.name() == "launched" {
+                    // the others are no worse than each other
+                    if *value == 0.0 {
+                        list.push((*sample, "mission did not launch".to_owned()));
+                    }
+                    continue;
+                }
                 let rank = match (place, is_low) {
                     (0, false) => "largest".to_owned(),
                     (0, true) => "smallest".to_owned(),

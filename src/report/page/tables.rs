@@ -3,6 +3,7 @@
 use crate::analysis::survey::Survey;
 use crate::campaign::{Display, Plan};
 use crate::report::escaped::escaped;
+use crate::report::mission_text;
 use crate::report::origin_text::unit_of;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::runs::ShownRun;
@@ -47,7 +48,7 @@ fn cell(value: f64) -> String {
 
 /// The statistics of every observable.
 pub fn statistics(rows: &[StatisticsRow], display: &Display) -> String {
-    let Some(first) = rows.first() else { return "<p>No run is ok: there are no statistics.</p>".to_owned() };
+    let Some(first) = rows.first() else { return "<p>No run was computed: there are no statistics.</p>".to_owned() };
     let heads: String =
         first.quantiles.iter().map(|quantile| format!("<th>{}%</th>", number(100.0 * quantile[0]))).collect();
     let confidence = number(100.0 * first.confidence);
@@ -91,7 +92,7 @@ pub fn statistics(rows: &[StatisticsRow], display: &Display) -> String {
         );
     }
     format!(
-        "<div class=\"table\" tabindex=\"0\"><table class=\"sortable searchable\"><thead><tr><th>observable</th><th>unit</th><th>runs</th><th>mean</th><th>std. dev.</th><th>min</th>{heads}<th>max</th></tr></thead><tbody>\n{body}</tbody></table></div><p class=\"caption\">Of the dispersed runs that are ok. <sup>*</sup> {caption}.</p>\n"
+        "<div class=\"table\" tabindex=\"0\"><table class=\"sortable searchable\"><thead><tr><th>observable</th><th>unit</th><th>runs</th><th>mean</th><th>std. dev.</th><th>min</th>{heads}<th>max</th></tr></thead><tbody>\n{body}</tbody></table></div><p class=\"caption\">Of the dispersed runs that were computed. <sup>*</sup> {caption}.</p>\n"
     )
 }
 
@@ -128,7 +129,8 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
         let listed = if shown.sample.0 == 0 { "nominal values".to_owned() } else { listed.join("<br>") };
         let reached = shown.run.as_ref().is_some_and(|run| run.outcome.points.min(run.grid.points()) > 1);
         let status = if shown.status == Status::Done {
-            "ok".to_owned()
+            let mission = mission_text::of_row(&shown.row).map_or_else(String::new, |end| format!("; {end}"));
+            format!("computed{}", escaped(&mission))
         } else {
             format!("<b>{}</b>: {}", shown.status.name(), escaped(&shown.reason))
         };

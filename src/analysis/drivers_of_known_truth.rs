@@ -1,0 +1,193 @@
+//! Tests of the rankings on runs whose causes are known.
+
+use crate::analysis::drivers::{Question, rankings};
+use crate::analysis::effects::{Dependence, Direction};
+use crate::analysis::input_sensitivity::InputSensitivity;
+use crate::analysis::observed::Observed;
+use crate::analysis::sensitivity::Prepared;
+use crate::analysis::small_plan::small_plan;
+use crate::campaign::Plan;
+
+/// SplitMix64: uniform in [0, 1).
+struct Uniform(u64);
+
+impl Uniform {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ z >> 31) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+const ALPHA: f64 = 0.05;
+
+/// The observable of the tests: the first of the plan, with a limit of 1 in 95% of the runs where there is to be one.
+fn plan(has_limit: bool) -> (Plan, String) {
+    let name = Observed::all(&small_plan(7, ""))[0].quantity.name().to_owned();
+    let limit = format!("require = [{{ observable = \"{name}\", at_most = 1.0, fraction = 0.95 }}]");
+    (small_plan(7, if has_limit { &limit } else { "" }), name)
+}
+
+/// What is found of the outcome `y` of the inputs.
+fn explained(inputs: &[Vec<f64>], y: &[f64], has_limit: bool) -> (Vec<InputSensitivity>, String) {
+    let (plan, name) = plan(has_limit);
+    let names: Vec<String> = (0..inputs.len()).map(|input| format!("x{input}")).collect();
+    (Prepared::new(inputs.to_vec(), None).explained(&plan, &names, &name, y), name)
+}
+
+/// The names of the drivers: of the event, and of the spread; `None` where that is not asked.
+fn drivers(inputs: &[Vec<f64>], y: &[f64], has_limit: bool) -> [Option<Vec<String>>; 2] {
+    let (all, name) = explained(inputs, y, has_limit);
+    let rankings = rankings(&all, &name, ALPHA);
+    [true, false].map(|is_event| {
+        let ranking = rankings.iter().find(|one| matches!(one.question, Question::Event(_)) == is_event)?;
+        Some(ranking.drivers().map(|ranked| ranked.input.input.clone()).collect())
+    })
+}
+
+/// A thousand runs of six inputs: uniform, but the last two, which are 0 in some of a hundred runs, else 1.
+fn inputs(random: &mut Uniform) -> Vec<Vec<f64>> {
+    let mut inputs: Vec<Vec<f64>> = (0..4).map(|_| (0..1000).map(|_| random.next()).collect()).collect();
+    inputs.extend((0..2).map(|_| (0..1000).map(|_| f64::from(random.next() > 0.014)).collect::<Vec<f64>>()));
+    inputs
+}
+
+/// Law: the causes that were built in are named, and no others, over a list: what the outcome is of the inputs and noise, whether it has the limit 1, the
+/// drivers of the event and of the spread.
+#[test]
+fn causes_are_named() {
+    type Case =
+        (&'static str, fn(&[f64], f64) -> f64, bool, Option<&'static [&'static str]>, Option<&'static [&'static str]>);
+    let cases: [Case; 11] = [
+        (
+            "a rare yes or no decides a 0/1 outcome",
+            |x, e| f64::from(x[4] > 0.5 && e > 0.002),
+            false,
+            Some(&["x4"]),
+            None,
+        ),
+        ("two of them", |x, e| f64::from(x[4] * x[5] > 0.5 && e > 0.002), false, Some(&["x4", "x5"]), None),
+        ("no cause of a rare failure", |_, e| f64::from(e > 0.016), false, Some(&[]), None),
+        ("a number decides a rare failure", |x, e| f64::from(x[1] < 0.97 || e < 0.5), false, Some(&["x1"]), None),
+        ("both ends of a number do", |x, _| f64::from((x[1] - 0.5).abs() < 0.49), false, Some(&["x1"]), None),
+        ("one number", |x, e| x[2] + 0.2 * e, false, None, Some(&["x2"])),
+        ("a V", |x, e| (x[3] - 0.5).abs() + 0.1 * e, false, None, Some(&["x3"])),
+        ("noise", |_, e| e, false, None, Some(&[])),
+        ("a product of numbers about zero", |x, _| (x[0] - 0.5) * (x[1] - 0.5), false, Some(&["x0", "x1"]), Some(&[])),
+        (
+            "the limit is missed where a part is dead",
+            |x, e| e + 2.0 * x[0] * (1.0 - x[4]) + 0.3 * (1.0 - x[4]) - 0.1,
+            true,
+            Some(&["x4"]),
+            Some(&["x4"]),
+        ),
+        (
+            "only the tail is of a dead part",
+            |x, e| x[0] + 0.1 * e + 0.7 * (1.0 - x[5]) * f64::from(x[1] > 0.3),
+            false,
+            Some(&["x0", "x5"]),
+            Some(&["x0"]),
+        ),
+    ];
+    let mut random = Uniform(3);
+    let inputs = inputs(&mut random);
+    for (what, of, has_limit, event, spread) in cases {
+        let row = |row: usize| inputs.iter().map(|input| input[row]).collect::<Vec<f64>>();
+        let y: Vec<f64> = (0..1000).map(|at| of(&row(at), random.next())).collect();
+        let [mut on_event, on_spread] = drivers(&inputs, &y, has_limit);
+        on_event.iter_mut().for_each(|names| names.sort());
+        let listed =
+            |names: Option<&[&str]>| names.map(|names| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>());
+        assert_eq!((on_event, on_spread), (listed(event), listed(spread)), "{what}");
+    }
+}
+
+/// Law: levels are counted as they are, the one that differs most is the cause, and its risk ratio is that of the counts.
+#[test]
+fn levels_are_counts() {
+    let mut random = Uniform(8);
+    let inputs = inputs(&mut random);
+    let y: Vec<f64> = inputs[5].iter().map(|x| f64::from(*x > 0.5 && random.next() > 0.002)).collect();
+    let (all, name) = explained(&inputs, &y, false);
+    let ranking = rankings(&all, &name, ALPHA).remove(0);
+    let first = ranking.inputs[0].input;
+    let effect = first.on_event.as_ref().expect("an effect");
+    let Dependence::Levels { levels, most, ratio } = &effect.dependence else { panic!("{effect:?}") };
+    let count = |value: f64, failed: bool| {
+        (0..1000).filter(|row| inputs[5][*row] == value && (!failed || y[*row] == 0.0)).count() as u64
+    };
+    for (level, value) in levels.iter().zip([0.0, 1.0]) {
+        assert_eq!(
+            (level.value, level.of.events, level.of.runs),
+            (Some(value), count(value, true), count(value, false))
+        );
+    }
+    assert_eq!((first.input.as_str(), *most), ("x5", 0));
+    let share = |value: f64| count(value, true) as f64 / count(value, false) as f64;
+    assert!((ratio.value * share(1.0) / share(0.0) - 1.0).abs() < 1e-12 && ratio.lower > 10.0, "{ratio:?}");
+}
+
+/// Law: an input of three values drives a continuous outcome, with its share of the variance: of levels -1, 0, 1 with equal shares and noise of
+/// variance 1/12, x has 2/3 of 2/3 + 1/12, and x^2 has 2/9 of 2/9 + 1/12. Directions: x rises, -x falls, x^2 does both.
+#[test]
+fn few_values_have_a_share_and_a_direction() {
+    let mut random = Uniform(21);
+    let levels: Vec<f64> = (0..1200).map(|_| (3.0 * random.next()).floor() - 1.0).collect();
+    let smooth: Vec<f64> = (0..1200).map(|_| 2.0 * random.next() - 1.0).collect();
+    for (of, share, direction) in [
+        ((|x| x) as fn(f64) -> f64, (2.0 / 3.0) / (2.0 / 3.0 + 1.0 / 12.0), Direction::Rises),
+        (|x| -x, (2.0 / 3.0) / (2.0 / 3.0 + 1.0 / 12.0), Direction::Falls),
+        (|x| x * x, (2.0 / 9.0) / (2.0 / 9.0 + 1.0 / 12.0), Direction::NotMonotonic),
+    ] {
+        for (x, share) in [(&levels, Some(share)), (&smooth, None)] {
+            let y: Vec<f64> = x.iter().map(|x| of(*x) + random.next()).collect();
+            let (all, name) = explained(&[smooth.iter().rev().copied().collect(), x.clone()], &y, false);
+            let rankings = rankings(&all, &name, ALPHA);
+            let spread = rankings.last().expect("the spread");
+            let names: Vec<&str> = spread.drivers().map(|ranked| ranked.input.input.as_str()).collect();
+            assert_eq!(names, ["x1"]);
+            let first = &spread.inputs[0];
+            assert_eq!(first.input.direction, Some(direction));
+            // four standard errors of 0.01
+            assert!(share.is_none_or(|share| (first.share.value - share).abs() < 0.04), "{:?} {share:?}", first.share);
+        }
+    }
+}
+
+/// H0: of outcomes that depend on none of 40 inputs, at most 5% have a driver: a continuous one with a tail, a rare yes or no, and one that is mostly
+/// zero; inputs are continuous, rare and in three levels. 120 studies each: 5% and three standard deviations are 13.
+#[test]
+fn noise_has_seldom_a_driver() {
+    let mut random = Uniform(77);
+    let mut wrong = [0; 3];
+    for _ in 0..120 {
+        let rows = 150;
+        let mut column = |of: &dyn Fn(f64) -> f64| (0..rows).map(|_| of(random.next())).collect::<Vec<f64>>();
+        let inputs: Vec<Vec<f64>> = (0..40)
+            .map(|input| match input % 4 {
+                0 => column(&|u| f64::from(u > 0.03)),
+                1 => column(&|u| (3.0 * u).floor()),
+                _ => column(&|u| u),
+            })
+            .collect();
+        let outcomes = [column(&|u| u * u), column(&|u| f64::from(u > 0.05)), column(&|u| (u - 0.95).max(0.0))];
+        for (wrong, y) in wrong.iter_mut().zip(outcomes) {
+            *wrong += u32::from(drivers(&inputs, &y, false).iter().flatten().any(|names| !names.is_empty()));
+        }
+    }
+    assert!(wrong.iter().all(|count| *count <= 13), "{wrong:?}");
+}
+
+/// Law: what a test does not show is no driver, whatever its share; a limit at which nothing fails is no event.
+#[test]
+fn limits_that_all_meet_have_no_causes() {
+    let mut random = Uniform(4);
+    let inputs = inputs(&mut random);
+    let y: Vec<f64> = inputs[0].iter().map(|x| 0.5 * x + 0.01 * random.next()).collect();
+    assert_eq!(drivers(&inputs, &y, true), [None, Some(vec!["x0".to_owned()])]);
+    let few: Vec<Vec<f64>> = inputs.iter().map(|input| input[..70].to_vec()).collect();
+    let noise: Vec<f64> = (0..70).map(|_| random.next()).collect();
+    assert_eq!(drivers(&few, &noise, false), [None, Some(Vec::new())]);
+}

@@ -1,0 +1,250 @@
+//! Whether inputs act on an outcome, tested: on its spread, and on an [`Event`] of it. Tests by ranks and of tables, which assume nothing of any
+//! distribution; p-values are those of all inputs together (Holm).
+
+use crate::analysis::event::{Event, are_few, distinct};
+use crate::statistics::contingency::{Occurrence, fisher, risk_ratio};
+use crate::statistics::correlation::{Estimate, ascending_order, mid_ranks, mid_ranks_in_order};
+use crate::statistics::rank_tests::{kruskal_wallis, mann_whitney, spearman_test, turns};
+use crate::statistics::two_sample::holm;
+
+/// Cells of an input with many values, at most, in which the observable's ranks are compared; and rows in a cell, at least.
+const CELLS: [usize; 2] = [9, 8];
+/// Share of equal values of an observable above which ranks tell little: the test then asks whether it is another one, and exactly.
+const MANY_EQUAL: f64 = 0.1;
+/// The same of an input: all other values are one group.
+const MOSTLY_EQUAL: f64 = 0.5;
+
+/// How an observable goes with an input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// It rises with it.
+    Rises,
+    /// It falls with it.
+    Falls,
+    /// It rises in a part of the input's range and falls in another.
+    NotMonotonic,
+}
+
+/// Runs of one value of an input.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level {
+    /// The value; `None` for all values but the most frequent one.
+    pub value: Option<f64>,
+    /// In how many of its runs the event occurs.
+    pub of: Occurrence,
+}
+
+/// How an event depends on an input.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Dependence {
+    /// Of an input with few values: each in ascending order; which of them differs most from the others, and the risk ratio of that.
+    Levels {
+        /// The values.
+        levels: Vec<Level>,
+        /// The index of the one that differs most.
+        most: usize,
+        /// How many times as often the event occurs there as in the other runs.
+        ratio: Estimate,
+    },
+    /// Of an input with many values: the event comes with large or with small ones.
+    Shift {
+        /// The chance that a run with the event has the larger value than one without.
+        chance: f64,
+        /// Medians of the input with the event and without.
+        medians: [f64; 2],
+    },
+    /// Of an input with many values: the event comes with those far from (or near to) the middle ones.
+    Distance {
+        /// The chance that a run with the event is farther from the middle.
+        chance: f64,
+    },
+}
+
+/// The effect of an input on an event.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OnEvent {
+    /// The event.
+    pub event: Event,
+    /// Share of the variance of whether it occurs.
+    pub share: Estimate,
+    /// Probability of a dependence as strong as this one where no input has any, of all inputs together.
+    pub p_value: f64,
+    /// How it depends on the input.
+    pub dependence: Dependence,
+}
+
+/// An input in the forms that the tests need.
+#[derive(Clone, Debug)]
+pub struct TestedInput {
+    values: Vec<f64>,
+    order: Vec<usize>,
+    /// The group of each row, and the value of each group; of an input with few values.
+    groups: Option<(Vec<usize>, Vec<Option<f64>>)>,
+    ranks: Vec<f64>,
+    /// Ranks of the distances from the middle rank.
+    distances: Vec<f64>,
+}
+
+impl TestedInput {
+    /// Of an input with these values, row by row, and their ascending order; `None` where it does not vary.
+    pub fn new(values: &[f64], order: &[usize]) -> Option<Self> {
+        let known = distinct(values, order);
+        let frequent = known.iter().max_by_key(|(_, count)| *count).filter(|_| known.len() > 1)?;
+        let of_values = |labels: Vec<Option<f64>>| {
+            let other = labels.iter().position(Option::is_none);
+            let group = |value: &f64| labels.iter().position(|label| *label == Some(*value)).or(other).unwrap_or(0);
+            (values.iter().map(group).collect(), labels)
+        };
+        let groups = if are_few(known.len(), values.len()) {
+            Some(of_values(known.iter().map(|(value, _)| Some(*value)).collect()))
+        } else if frequent.1 as f64 > MOSTLY_EQUAL * values.len() as f64 {
+            Some(of_values(vec![Some(frequent.0), None]))
+        } else {
+            None
+        };
+        let ranks = mid_ranks_in_order(values, order);
+        let middle = 0.5 * (values.len() - 1) as f64;
+        let distances = mid_ranks(&ranks.iter().map(|rank| (rank - middle).abs()).collect::<Vec<_>>());
+        Some(TestedInput { values: values.to_vec(), order: order.to_vec(), groups, ranks, distances })
+    }
+
+    /// In how many runs of each group the event occurs.
+    fn levels(&self, marked: &[bool]) -> Option<Vec<Level>> {
+        let (groups, labels) = self.groups.as_ref()?;
+        let none = Occurrence { events: 0, runs: 0 };
+        let mut levels: Vec<Level> = labels.iter().map(|value| Level { value: *value, of: none }).collect();
+        for (group, is_marked) in groups.iter().zip(marked) {
+            levels[*group].of.runs += 1;
+            levels[*group].of.events += u64::from(*is_marked);
+        }
+        Some(levels)
+    }
+
+    /// The p-value of the input's influence on the spread of an observable, alone among inputs.
+    fn p_of_spread(&self, y: &TestedSpread) -> f64 {
+        let rows = self.values.len();
+        if let Some(levels) = y.is_other.as_ref().and_then(|is_other| self.levels(is_other)) {
+            return of_levels(&levels).1;
+        }
+        if let Some((groups, labels)) = &self.groups {
+            return kruskal_wallis(&y.ranks, groups, labels.len()).unwrap_or(1.0);
+        }
+        let monotonic = spearman_test(&self.ranks, &y.ranks)[1];
+        let cells = CELLS[0].min(rows / CELLS[1]).min(y.others / CELLS[1]);
+        let mut cell = vec![0; rows];
+        self.order.iter().enumerate().for_each(|(place, row)| cell[*row] = place * cells / rows);
+        let any = if cells > 2 { kruskal_wallis(&y.ranks, &cell, cells) } else { None };
+        any.map_or(monotonic, |any| (2.0 * monotonic.min(any)).min(1.0))
+    }
+
+    /// How an event depends on the input, and the p-value alone among inputs.
+    fn on_event(&self, marked: &[bool], confidence: f64) -> Option<(Dependence, f64)> {
+        if let Some(levels) = self.levels(marked) {
+            let (most, p_value) = of_levels(&levels);
+            let ratio = risk_ratio(levels[most].of, rest(&levels, most), confidence)?;
+            return Some((Dependence::Levels { levels, most, ratio }, p_value));
+        }
+        let shift = mann_whitney(&self.ranks, marked)?;
+        let distance = mann_whitney(&self.distances, marked).filter(|distance| distance.p_value < shift.p_value);
+        let p_value = (2.0 * distance.map_or(shift.p_value, |distance| distance.p_value)).min(1.0);
+        let dependence = match distance {
+            Some(distance) => Dependence::Distance { chance: distance.chance },
+            None => {
+                let median = |of: bool| {
+                    let rows: Vec<usize> = self.order.iter().copied().filter(|row| marked[*row] == of).collect();
+                    0.5 * (self.values[rows[(rows.len() - 1) / 2]] + self.values[rows[rows.len() / 2]])
+                };
+                Dependence::Shift { chance: shift.chance, medians: [median(true), median(false)] }
+            }
+        };
+        Some((dependence, p_value))
+    }
+
+    /// How the observable with these values goes with the input; `None` where the rows do not show it at the level `alpha`.
+    pub fn direction(&self, y: &[f64], alpha: f64) -> Option<Direction> {
+        if turns(&self.order, &self.values, y, alpha) {
+            return Some(Direction::NotMonotonic);
+        }
+        let [r, p_value] = spearman_test(&self.ranks, &mid_ranks(y));
+        (p_value <= alpha).then_some(if r > 0.0 { Direction::Rises } else { Direction::Falls })
+    }
+}
+
+/// An observable in the forms that the tests of its spread need.
+struct TestedSpread {
+    ranks: Vec<f64>,
+    /// Whether a row has another value than the most frequent one, where that is so frequent that ranks tell little.
+    is_other: Option<Vec<bool>>,
+    /// Rows with another value than the most frequent one.
+    others: usize,
+}
+
+impl TestedSpread {
+    /// Of an observable with these values; `None` where it does not vary, or has fewer than four rows.
+    fn new(values: &[f64]) -> Option<Self> {
+        let order = ascending_order(values);
+        let known = distinct(values, &order);
+        let is_tested = known.len() > 1 && values.len() >= 4;
+        let (frequent, count) = *known.iter().max_by_key(|(_, count)| *count).filter(|_| is_tested)?;
+        let has_many_equal = count as f64 > MANY_EQUAL * values.len() as f64;
+        Some(TestedSpread {
+            ranks: mid_ranks_in_order(values, &order),
+            is_other: has_many_equal.then(|| values.iter().map(|value| *value != frequent).collect()),
+            others: values.len() - count,
+        })
+    }
+}
+
+/// The runs of all levels but one.
+fn rest(levels: &[Level], but: usize) -> Occurrence {
+    let others = levels.iter().enumerate().filter(|(place, _)| *place != but).map(|(_, level)| level.of);
+    others.fold(Occurrence { events: 0, runs: 0 }, |sum, of| Occurrence {
+        events: sum.events + of.events,
+        runs: sum.runs + of.runs,
+    })
+}
+
+/// Which level differs most from the others together, and the p-value of a difference like that of any of them: Fisher's exact test of each against
+/// the rest, by Bonferroni where there are more than two.
+fn of_levels(levels: &[Level]) -> (usize, f64) {
+    let share = |place: usize| levels[place].of.events as f64 / levels[place].of.runs.max(1) as f64;
+    if levels.len() == 2 {
+        return (usize::from(share(1) > share(0)), fisher(levels[0].of, levels[1].of));
+    }
+    let p_values = levels.iter().enumerate().map(|(place, level)| fisher(level.of, rest(levels, place)));
+    let found = p_values.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+    found.map_or((0, 1.0), |(most, p_value)| (most, (levels.len() as f64 * p_value).min(1.0)))
+}
+
+/// P-values by Holm, for so many questions `asked` of the same runs.
+fn of_all(p_values: &[Option<f64>], asked: usize) -> Vec<Option<f64>> {
+    let known: Vec<f64> = p_values.iter().flatten().map(|p| (asked as f64 * p).min(1.0)).collect();
+    let mut adjusted = holm(&known).into_iter();
+    p_values.iter().map(|p| p.and_then(|_| adjusted.next())).collect()
+}
+
+/// The p-value of each input's influence on the spread of an observable with the values `y`; `asked` questions are asked of the same runs.
+pub fn on_spread(inputs: &[Option<TestedInput>], y: &[f64], asked: usize) -> Vec<Option<f64>> {
+    let Some(y) = TestedSpread::new(y) else { return vec![None; inputs.len()] };
+    let p_values: Vec<Option<f64>> =
+        inputs.iter().map(|input| input.as_ref().map(|input| input.p_of_spread(&y))).collect();
+    of_all(&p_values, asked)
+}
+
+/// The effect of each input on an event that occurs in the rows that are `marked`; `share` gives that of the variance.
+pub fn on_event(
+    inputs: &[Option<TestedInput>],
+    (event, marked): (Event, &[bool]),
+    share: impl Fn(usize) -> Option<Estimate>,
+    asked: usize,
+    confidence: f64,
+) -> Vec<Option<OnEvent>> {
+    let found: Vec<Option<(Dependence, f64)>> =
+        inputs.iter().map(|input| input.as_ref().and_then(|input| input.on_event(marked, confidence))).collect();
+    let p_values = of_all(&found.iter().map(|one| one.as_ref().map(|(_, p)| *p)).collect::<Vec<_>>(), asked);
+    let dependences = found.into_iter().map(|one| one.map(|(dependence, _)| dependence));
+    let effects = dependences.zip(p_values).enumerate().map(|(input, (dependence, p_value))| {
+        Some(OnEvent { event, share: share(input)?, p_value: p_value?, dependence: dependence? })
+    });
+    effects.collect()
+}

@@ -1,0 +1,118 @@
+//! [`Event`]: what may or may not occur in a run, and is asked of an outcome beside its spread: whether a requirement is missed, a value of few, the tail.
+
+use crate::analysis::outcomes::is_worst_when_low;
+use crate::campaign::{Plan, Statement};
+use crate::statistics::contingency::Occurrence;
+use crate::statistics::correlation::ascending_order;
+
+/// Values up to which an observable, or an input, has few: each is a group of its own.
+pub const FEW: usize = 5;
+/// Rows for each of few values, at least: fewer runs have few values of anything.
+const ROWS_OF_EACH: usize = 4;
+/// Fewer events show the influence of no input that has many values ([`crate::statistics::rank_tests`]): the tail is asked instead.
+const FEWEST: usize = 4;
+/// Rows from which on a tail is asked, and the least number of rows in it.
+const ROWS_OF_TAIL: [usize; 2] = [100, 5];
+/// The tail where no requirement has another: the worst twentieth.
+const TAIL: f64 = 0.05;
+
+/// What occurs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Occurs {
+    /// A limit on the outcome is missed, as runs without a value do.
+    Missed,
+    /// An outcome of few values has another one than the most frequent, which is this.
+    OtherThan(f64),
+    /// An outcome of two values has the less frequent one, which is this.
+    Value(f64),
+    /// The outcome is among this share of the worst.
+    Worst(f64),
+}
+
+impl Occurs {
+    /// Its name in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Occurs::Missed => "missed",
+            Occurs::OtherThan(_) => "other_value",
+            Occurs::Value(_) => "value",
+            Occurs::Worst(_) => "worst",
+        }
+    }
+}
+
+/// An event of an outcome.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// What occurs.
+    pub occurs: Occurs,
+    /// In how many of all runs.
+    pub of: Occurrence,
+    /// Whether the outcome has few values, so that its spread is the event itself.
+    pub has_few_values: bool,
+}
+
+/// Values in ascending order with the number of rows of each; NaN is none.
+pub fn distinct(values: &[f64], order: &[usize]) -> Vec<(f64, usize)> {
+    let mut found: Vec<(f64, usize)> = Vec::new();
+    for value in order.iter().map(|row| values[*row]).filter(|value| !value.is_nan()) {
+        match found.last_mut() {
+            Some((last, count)) if *last == value => *count += 1,
+            _ => found.push((value, 1)),
+        }
+    }
+    found
+}
+
+/// Whether so many distinct values of so many rows are few.
+pub fn are_few(distinct: usize, rows: usize) -> bool {
+    (2..=FEW).contains(&distinct) && rows >= ROWS_OF_EACH * distinct
+}
+
+impl Event {
+    /// The event of the outcome `name` of `plan` with these values, row by row, and in which rows it occurs; `None` where there is none to ask.
+    pub fn of(plan: &Plan, name: &str, values: &[f64]) -> Option<(Event, Vec<bool>)> {
+        let known = distinct(values, &ascending_order(values));
+        let has_few_values = are_few(known.len(), values.len()) || known.len() == 1;
+        let requirements = || plan.analysis.requirements.iter().filter(|one| one.observable() == Some(name));
+        let limits: Vec<_> =
+            requirements().filter(|one| one.statement != Statement::Mean).map(|one| one.limit).collect();
+        let event = |occurs: Occurs, marked: Vec<bool>| {
+            let events = marked.iter().filter(|is_marked| **is_marked).count() as u64;
+            (Event { occurs, of: Occurrence { events, runs: marked.len() as u64 }, has_few_values }, marked)
+        };
+        if !limits.is_empty() {
+            let is_missed = |value: &f64| limits.iter().any(|limit| !limit.is_met(*value));
+            let found = event(Occurs::Missed, values.iter().map(is_missed).collect());
+            let Occurrence { events, runs } = found.0.of;
+            let least = if has_few_values { 1 } else { FEWEST as u64 };
+            if events >= least && runs - events >= least {
+                return Some(found);
+            }
+        }
+        if has_few_values {
+            let frequent = known.iter().max_by_key(|(_, count)| *count)?.0;
+            let other = known.iter().find(|(value, _)| *value != frequent)?.0;
+            let occurs = if known.len() == 2 { Occurs::Value(other) } else { Occurs::OtherThan(frequent) };
+            return Some(event(occurs, values.iter().map(|value| *value != frequent && !value.is_nan()).collect()));
+        }
+        let share = requirements().find_map(|one| match one.statement {
+            Statement::Quantile(p) => Some(1.0 - one.limit.fraction(p)),
+            Statement::Fraction(fraction) => Some(1.0 - fraction),
+            Statement::Mean => None,
+        });
+        let share = share.filter(|share| *share <= 0.25).unwrap_or(TAIL);
+        let is_low = is_worst_when_low(plan, name);
+        let badness = |value: &f64| if is_low { -value } else { value.abs() };
+        let mut sizes: Vec<f64> = values.iter().map(badness).filter(|size| !size.is_nan()).collect();
+        if sizes.len() < ROWS_OF_TAIL[0] {
+            return None;
+        }
+        sizes.sort_by(|a, b| b.total_cmp(a));
+        let count = (libm::round(share * sizes.len() as f64) as usize).max(ROWS_OF_TAIL[1]);
+        let found =
+            event(Occurs::Worst(share), values.iter().map(|value| badness(value) >= sizes[count - 1]).collect());
+        // many equal values have no tail
+        (found.0.of.events <= 2 * count as u64).then_some(found)
+    }
+}

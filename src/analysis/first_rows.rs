@@ -1,0 +1,130 @@
+//! [`FirstRows`]: the first rows of a campaign, from which follows which input matters: inputs, and the outcomes that are asked about.
+
+use std::borrow::Cow;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::analysis::accumulator::Accumulator;
+use crate::analysis::observed::Observed;
+use crate::analysis::outcomes::{named, outcomes};
+use crate::analysis::part_columns::PartColumns;
+use crate::campaign::Plan;
+use crate::observables::headlines::headlines;
+use crate::run::Status;
+use crate::sampling::Design;
+use crate::storage::rows_reader::RowsError;
+
+/// Most rows for observables that a campaign file names.
+pub const MOST_ROWS: usize = 65_536;
+/// Most rows for the main observables, where the file names none.
+const FEWER_ROWS: usize = 16_384;
+/// The names of the observables, and how many rows they are from.
+fn wanted(plan: &Plan) -> (Vec<String>, usize) {
+    let named = named(plan);
+    if !named.is_empty() {
+        return (named, MOST_ROWS);
+    }
+    let columns = plan.request().columns();
+    let main = headlines(&plan.request()).into_iter().map(|index| columns[index].quantity.name().to_owned());
+    let of_motion = outcomes(plan).into_iter().chain(main).fold(Vec::new(), |mut names: Vec<String>, name| {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+        names
+    });
+    (of_motion, FEWER_ROWS)
+}
+
+/// The first rows of dispersed samples that are `ok`, in the order of the samples.
+#[derive(Clone, Debug, Default)]
+pub struct RowTable {
+    pub(super) samples: Vec<u64>,
+    pub(super) inputs: Vec<Vec<f64>>,
+    pub(super) observables: Vec<Vec<f64>>,
+}
+
+/// Keeps the first rows: inputs, and the observables that a campaign file requires or names (the main ones, where it names none).
+#[derive(Debug)]
+pub struct FirstRows {
+    inputs: Vec<String>,
+    pub(super) observed: Vec<Observed>,
+    most: usize,
+    /// Whether it keeps rows of all physical samples with whether each is computed, in place of observables.
+    of_failures: bool,
+    /// Whether the rows are there, so that no further part adds any.
+    is_full: AtomicBool,
+}
+
+impl FirstRows {
+    /// Of the campaign `plan`.
+    pub fn new(plan: &Plan) -> Self {
+        let (names, most) = wanted(plan);
+        let observed = Observed::named(plan, names.iter().map(String::as_str));
+        // the blocks of a `saltelli` design tell inputs by their places
+        let (inputs, most) = match plan.design {
+            Design::Saltelli(_) => (Vec::new(), MOST_ROWS),
+            _ => (inputs(plan), most),
+        };
+        FirstRows { inputs, observed, most, of_failures: false, is_full: AtomicBool::new(false) }
+    }
+
+    /// Of the campaign `plan`, for what decides whether a run is computed.
+    pub fn of_failures(plan: &Plan) -> Self {
+        FirstRows { observed: Vec::new(), most: FEWER_ROWS, of_failures: true, ..Self::new(plan) }
+    }
+}
+
+/// The names of the observables whose inputs are estimated; none where there are no inputs.
+pub fn explained(plan: &Plan) -> Vec<String> {
+    let observed = if inputs(plan).is_empty() { Vec::new() } else { FirstRows::new(plan).observed };
+    observed.into_iter().map(|one| one.quantity.name().to_owned()).collect()
+}
+
+/// The columns of the inputs: what follows from other inputs by an expression is none.
+pub(super) fn inputs(plan: &Plan) -> Vec<String> {
+    let columns = plan.dispersions.columns().iter().enumerate();
+    let drawn = columns.filter(|(index, _)| plan.dispersions.expression_of(*index).is_none());
+    drawn.map(|(_, column)| column.parameter.column_name(column.component)).collect()
+}
+
+impl Accumulator for FirstRows {
+    type Whole = RowTable;
+    type OfPart = RowTable;
+
+    fn nothing(&self) -> RowTable {
+        let empty = |count: usize| vec![Vec::new(); count];
+        RowTable {
+            samples: Vec::new(),
+            inputs: empty(self.inputs.len()),
+            observables: empty(self.observed.len() + usize::from(self.of_failures)),
+        }
+    }
+
+    fn count(&self, part: &impl PartColumns) -> Result<RowTable, RowsError> {
+        if self.is_full.load(Ordering::Relaxed) {
+            return Ok(self.nothing());
+        }
+        let (samples, statuses) = (part.samples()?, part.statuses()?);
+        let is_kept = |status| status == Status::Done || self.of_failures && status != Status::InvalidSample;
+        let of_population = |row: &usize| samples[*row].0 > 0 && is_kept(statuses[*row]);
+        let rows: Vec<usize> = (0..samples.len()).filter(of_population).take(self.most).collect();
+        let taken = |column: Cow<'_, [f64]>| rows.iter().map(|row| column[*row]).collect::<Vec<f64>>();
+        Ok(RowTable {
+            samples: rows.iter().map(|row| samples[*row].0).collect(),
+            inputs: self.inputs.iter().map(|name| part.numbers(name).map(taken)).collect::<Result<_, _>>()?,
+            observables: match self.of_failures {
+                true => vec![rows.iter().map(|row| f64::from(u8::from(statuses[*row] == Status::Done))).collect()],
+                false => self.observed.iter().map(|one| one.column(part).map(taken)).collect::<Result<_, _>>()?,
+            },
+        })
+    }
+
+    fn merge(&self, whole: &mut RowTable, part: RowTable) {
+        let left = self.most - whole.samples.len();
+        whole.samples.extend(part.samples.into_iter().take(left));
+        let columns = whole.inputs.iter_mut().chain(&mut whole.observables);
+        columns
+            .zip(part.inputs.into_iter().chain(part.observables))
+            .for_each(|(mine, theirs)| mine.extend(theirs.into_iter().take(left)));
+        self.is_full.store(whole.samples.len() == self.most, Ordering::Relaxed);
+    }
+}

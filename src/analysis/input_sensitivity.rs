@@ -1,0 +1,45 @@
+//! [`InputSensitivity`]: what one input of a campaign means for one outcome.
+
+use crate::analysis::effects::{Direction, OnEvent};
+use crate::statistics::correlation::Estimate;
+
+/// The name of the outcome whether a run is computed: 1 where it is `ok`, else 0.
+pub const COMPUTED: &str = "computed";
+
+/// Least share of the variance of an input that is called a driver of the spread: without the input the standard deviation is 5% smaller.
+pub const LEAST_SHARE: f64 = 0.1;
+
+/// What one input means for one observable. What does not apply is `None`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InputSensitivity {
+    /// The observable.
+    pub observable: String,
+    /// The input: a column of the rows, or for a `saltelli` design what one distribution disperses.
+    pub input: String,
+    /// Number of rows.
+    pub rows: u64,
+    /// Pearson's correlation.
+    pub pearson: Option<Estimate>,
+    /// Spearman's rank correlation.
+    pub spearman: Option<Estimate>,
+    /// Rank correlation with the other inputs held fixed.
+    pub partial_rank: Option<Estimate>,
+    /// Standardised regression coefficient.
+    pub regression: Option<Estimate>,
+    /// Share of the variance that the regression on all inputs explains, corrected for their number.
+    pub r_squared: Option<Estimate>,
+    /// First-order index: share of the variance that this input explains alone.
+    pub first_order: Option<Estimate>,
+    /// Total index: share that this input and its interactions explain.
+    pub total: Option<Estimate>,
+    /// Probability of an influence on the spread as strong as this one where no input has any, of all inputs together (Holm).
+    pub p_value: Option<f64>,
+    /// How the observable goes with the input, where it is a driver of the spread and the rows show it.
+    pub direction: Option<Direction>,
+    /// What the input means for an event of the observable.
+    pub on_event: Option<OnEvent>,
+    /// The input that it is most correlated with, and their rank correlation, where that is notable.
+    pub correlated_with: Option<(String, f64)>,
+    /// What to know about these numbers.
+    pub note: Option<String>,
+}

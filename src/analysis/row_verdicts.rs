@@ -1,0 +1,316 @@
+//! What was counted of one requirement on a number of each run, and what that says of it.
+
+use crate::analysis::assessment::Assessment;
+use crate::analysis::population::Population;
+use crate::campaign::{Requirement, ShownUnit, Statement};
+use crate::statistics::binomial::Decision;
+use crate::statistics::gate::{
+    Gate, bounded_mean_gate, constant_gate, failing_at, fraction_gate, mean_gate, replicate_fraction_gate,
+    replicate_mean_gate,
+};
+use crate::statistics::mean::MOST_SHARE;
+use crate::statistics::moments::Moments;
+
+/// What is counted of one requirement in a group of samples.
+#[derive(Clone, Debug, Default)]
+pub(super) struct GroupRuns {
+    pub(super) runs: u64,
+    pub(super) within: u64,
+    pub(super) moments: Moments,
+}
+
+/// What is counted of one requirement.
+#[derive(Clone, Debug)]
+pub(super) struct RequirementRuns {
+    pub(super) groups: Vec<GroupRuns>,
+    /// Runs that are not `ok`.
+    pub(super) failed: u64,
+    /// Runs without a value: those, and others that have none.
+    pub(super) missing: u64,
+}
+
+impl RequirementRuns {
+    pub(super) fn new(groups: usize) -> Self {
+        RequirementRuns { groups: vec![GroupRuns::default(); groups], failed: 0, missing: 0 }
+    }
+
+    pub(super) fn merge(&mut self, other: &RequirementRuns) {
+        for (mine, theirs) in self.groups.iter_mut().zip(&other.groups) {
+            mine.runs += theirs.runs;
+            mine.within += theirs.within;
+            mine.moments.merge(&theirs.moments);
+        }
+        self.failed += other.failed;
+        self.missing += other.missing;
+    }
+
+    /// The sum of a count over the groups.
+    pub(super) fn sum(&self, count: impl Fn(&GroupRuns) -> u64) -> u64 {
+        self.groups.iter().map(count).sum()
+    }
+}
+
+/// What is asked of the runs.
+#[derive(Clone, Copy)]
+pub(super) struct Asked<'r> {
+    /// The requirement.
+    pub requirement: &'r Requirement,
+    /// It passes at the first confidence, and fails at the second.
+    pub confidences: [f64; 2],
+    /// Confidence of the two-sided interval.
+    pub interval: f64,
+}
+
+impl Asked<'_> {
+    /// The confidence of each end of the interval.
+    pub(super) fn of_an_end(&self) -> f64 {
+        0.5 + 0.5 * self.interval
+    }
+}
+
+/// What `counts` say of a requirement; `is_constant`: every run has the same value.
+pub(super) fn assessment(
+    asked: Asked<'_>,
+    unit: String,
+    counts: &RequirementRuns,
+    population: Population,
+    is_constant: bool,
+) -> Assessment {
+    let Asked { requirement, confidences, .. } = asked;
+    let (runs, within) = (counts.sum(|group| group.runs), counts.sum(|group| group.within));
+    let limit = requirement.limit;
+    let mut whole = Moments::default();
+    counts.groups.iter().for_each(|group| whole.merge(&group.moments));
+    let target = match requirement.statement {
+        Statement::Quantile(p) => Some(limit.fraction(p)),
+        Statement::Fraction(fraction) => Some(fraction),
+        Statement::Mean => None,
+    };
+    let at = |confidence| match target {
+        Some(target) => of_fraction(counts, target, confidence, population),
+        None if is_constant && whole.min() == whole.max() => constant_gate(whole.mean().unwrap_or(f64::NAN), limit),
+        None => of_mean(counts, &whole, requirement, confidence, population),
+    };
+    let is_met = |estimate| target.map_or_else(|| limit.is_met(estimate), |target| estimate >= target);
+    let mut gate = failing_at(confidences, is_met, at);
+    let mut interval = at(asked.of_an_end()).bounds;
+    let is_undecided = matches!(gate.decision, Decision::Undecided(_));
+    let is_tailed = target.is_none() && requirement.bounded.is_none();
+    let mut reason = (is_undecided && is_tailed && whole.count() > 1 && whole.min() == whole.max())
+        .then(|| "all values are equal, and a rare event would not show".to_owned());
+    let mut note = (is_tailed && whole.largest_share(2) > MOST_SHARE)
+        .then(|| format!("heavy tail: one run makes {:.0}% of the variance", 100.0 * whole.largest_share(2)));
+    // a mean over all runs is not known where a run has no value
+    let missing = if target.is_none() { runs - whole.count() } else { 0 };
+    let outside = requirement.bounded.and_then(|[low, high]| {
+        let ends = [whole.min().filter(|min| *min < low), whole.max().filter(|max| *max > high)];
+        ends.into_iter()
+            .flatten()
+            .next()
+            .map(|value| format!("{value:?} is outside of bounded = [{low:?}, {high:?}] {unit}"))
+    });
+    if let Some(outside) = outside {
+        gate.decision = Decision::Fail;
+        reason = Some(format!("{}, which no run may be", outside.trim_end()));
+        interval = [f64::NAN; 2];
+    }
+    if missing > 0 {
+        gate.decision = Decision::Fail;
+        reason = Some(format!("{missing} runs without a value violate it"));
+        interval = [f64::NAN; 2];
+    }
+    if !population.has_intervals() {
+        gate = Gate { decision: Decision::Undecided(None), bounds: [f64::NAN; 2], ..gate };
+        interval = [f64::NAN; 2];
+        reason = Some(format!("intervals: {}", population.intervals()));
+        note = None;
+    } else if runs == 0 {
+        reason = Some("there are no runs that count".to_owned());
+    }
+    let value = matches!(requirement.statement, Statement::Mean).then(|| whole.mean()).flatten();
+    Assessment {
+        requirement: requirement.clone(),
+        confidences,
+        shown: ShownUnit::own(&unit),
+        unit,
+        gate,
+        interval: interval.map(|end| if end.is_finite() { end } else { f64::NAN }),
+        value,
+        runs,
+        violations: runs - within,
+        missing: counts.missing,
+        failed: counts.failed,
+        worst: None,
+        reason,
+        note,
+    }
+}
+
+/// The gate on the fraction of runs within the limit.
+fn of_fraction(counts: &RequirementRuns, target: f64, confidence: f64, population: Population) -> Gate {
+    let (runs, within) = (counts.sum(|group| group.runs), counts.sum(|group| group.within));
+    if let Population::Replicated(_) = population {
+        let groups = counts.groups.iter().filter(|group| group.runs > 0);
+        let fractions: Vec<f64> = groups.map(|group| group.within as f64 / group.runs as f64).collect();
+        return replicate_fraction_gate(&fractions, runs, target, confidence);
+    }
+    fraction_gate(within, runs, target, confidence)
+}
+
+/// The gate on the mean.
+fn of_mean(
+    counts: &RequirementRuns,
+    whole: &Moments,
+    requirement: &Requirement,
+    confidence: f64,
+    population: Population,
+) -> Gate {
+    let limit = requirement.limit;
+    let means = || counts.groups.iter().filter_map(|group| group.moments.mean());
+    match (population, requirement.bounded) {
+        // means of replicates are within the bounds of their values
+        (Population::Replicated(_), Some(range)) => bounded_mean_gate(&Moments::of(means()), range, limit, confidence),
+        (Population::Replicated(_), None) => {
+            replicate_mean_gate(&means().collect::<Vec<f64>>(), whole, limit, confidence)
+        }
+        (_, Some(range)) => bounded_mean_gate(whole, range, limit, confidence),
+        (_, None) => mean_gate(whole, limit, confidence),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::requirement::Subject;
+    use crate::statistics::gate::GateLimit;
+
+    /// At 95%.
+    fn asked(requirement: &Requirement) -> Asked<'_> {
+        Asked { requirement, confidences: [0.95; 2], interval: 0.95 }
+    }
+
+    fn requirement(statement: Statement, limit: GateLimit) -> Requirement {
+        Requirement { subject: Subject::Observable("x".to_owned()), statement, limit, bounded: None, confidence: 0.95 }
+    }
+
+    /// RequirementRuns of groups: runs, runs within the limit, values.
+    fn counts(groups: &[(u64, u64, &[f64])]) -> RequirementRuns {
+        let mut counts = RequirementRuns::new(0);
+        for (runs, within, values) in groups {
+            let moments = Moments::of_block(values);
+            counts.groups.push(GroupRuns { runs: *runs, within: *within, moments });
+        }
+        counts
+    }
+
+    /// Published: 59 runs within the limit show p95, 58 do not; a violation more and 59 do not.
+    #[test]
+    fn counts_decide() {
+        let p95 = requirement(Statement::Quantile(0.95), GateLimit::AtMost(1.0));
+        let of = |runs, within| {
+            let counts = counts(&[(runs, within, &[])]);
+            assessment(asked(&p95), "J".to_owned(), &counts, Population::Independent, false)
+        };
+        let found = of(59, 59);
+        assert_eq!(found.word(), "PASS");
+        assert_eq!(found.sentence(), "p95 of x at most 1.0 J, with 95% confidence");
+        assert_eq!((of(58, 58).word(), of(59, 58).word(), of(59, 10).word()), ("UNDECIDED", "UNDECIDED", "FAIL"));
+        assert_eq!(of(58, 58).gate.decision, Decision::Undecided(Some(59)));
+        assert_eq!(of(0, 0).reason.as_deref(), Some("there are no runs that count"));
+    }
+
+    /// Law: a run without a value violates a requirement on the mean; designs without a population decide nothing, nor do equal values of
+    /// an observable that need not be constant.
+    #[test]
+    fn what_numbers_cannot_say_is_not_decided_by_them() {
+        let mean = requirement(Statement::Mean, GateLimit::AtMost(9.0));
+        let of = |runs, population| {
+            let counts = counts(&[(runs, runs, &[1.0, 2.0, 3.0].repeat(10))]);
+            assessment(asked(&mean), String::new(), &counts, population, false)
+        };
+        assert_eq!(of(30, Population::Independent).word(), "PASS");
+        let missing = of(31, Population::Independent);
+        assert_eq!((missing.word(), missing.reason.as_deref()), ("FAIL", Some("1 runs without a value violate it")));
+        for population in [Population::Dependent("sobol"), Population::Chosen("grid"), Population::Nominal] {
+            let found = of(30, population);
+            assert!(found.word() == "UNDECIDED" && found.reason.is_some_and(|reason| reason.contains("none")));
+        }
+        for (is_constant, word) in [(false, "UNDECIDED"), (true, "PASS")] {
+            let equal = counts(&[(100, 100, &[0.0; 100])]);
+            let found = assessment(asked(&mean), String::new(), &equal, Population::Independent, is_constant);
+            assert_eq!((found.word(), found.reason.is_some()), (word, !is_constant));
+        }
+    }
+
+    /// Law: replicates decide by their spread, and by the least spread of counts where they agree.
+    #[test]
+    fn replicates_decide_by_their_spread() {
+        let p90 = requirement(Statement::Fraction(0.9), GateLimit::AtMost(1.0));
+        let of = |groups: &[(u64, u64, &[f64])]| {
+            assessment(asked(&p90), String::new(), &counts(groups), Population::Replicated(4), false).word()
+        };
+        assert_eq!(of(&[(10, 10, &[]), (10, 10, &[]), (10, 10, &[]), (10, 10, &[])]), "PASS");
+        assert_eq!(of(&[(2, 2, &[]), (2, 2, &[]), (2, 2, &[]), (2, 2, &[])]), "UNDECIDED");
+        assert_eq!(of(&[(100, 98, &[]), (100, 96, &[]), (100, 97, &[]), (100, 97, &[])]), "PASS");
+        assert_eq!(of(&[(100, 80, &[]), (100, 99, &[]), (100, 85, &[]), (100, 98, &[])]), "UNDECIDED");
+        assert_eq!(of(&[(100, 80, &[]), (100, 81, &[]), (100, 82, &[]), (100, 79, &[])]), "FAIL");
+        // 380 of 400 runs would show 90% if they were independent; one replicate of four misses it
+        let spread: [(u64, u64, &[f64]); 4] = [(100, 100, &[]), (100, 100, &[]), (100, 100, &[]), (100, 80, &[])];
+        assert_eq!(of(&spread), "UNDECIDED");
+        let independent = assessment(asked(&p90), String::new(), &counts(&spread), Population::Independent, false);
+        assert_eq!(independent.word(), "PASS", "the counter-test");
+    }
+
+    /// Law: the interval of a share is Clopper and Pearson's, two-sided, whatever the confidence of the requirement; that of the verdict is its own.
+    #[test]
+    fn intervals_are_two_sided() {
+        let p95 = Requirement { confidence: 0.99, ..requirement(Statement::Fraction(0.95), GateLimit::AtMost(1.0)) };
+        let asked = Asked { requirement: &p95, confidences: [0.99; 2], interval: 0.9 };
+        let counts = counts(&[(499, 490, &[])]);
+        let found = assessment(asked, String::new(), &counts, Population::Independent, false);
+        let [lower, upper] = found.interval;
+        let tails = [
+            crate::statistics::binomial::at_least(490, 499, lower),
+            crate::statistics::binomial::at_most(490, 499, upper),
+        ];
+        assert!(tails.iter().all(|tail| (tail - 0.05).abs() < 1e-9), "{tails:?}");
+        assert!((crate::statistics::binomial::at_least(490, 499, found.gate.bounds[0]) - 0.01).abs() < 1e-9);
+    }
+
+    /// Law: bounds of the values decide a mean whatever its tail, also without a spread, and say nothing of a tail; a value outside of them fails it, and says so. Without
+    /// bounds the decision names the room that it leaves for rare events: from its bound to the limit.
+    #[test]
+    fn bounded_means_assume_no_tail() {
+        let mean = |bounded, limit| Requirement { bounded, ..requirement(Statement::Mean, GateLimit::AtMost(limit)) };
+        let of = |requirement: &Requirement, values: &[f64]| {
+            let runs = values.len() as u64;
+            assessment(
+                asked(requirement),
+                "J".to_owned(),
+                &counts(&[(runs, runs, values)]),
+                Population::Independent,
+                false,
+            )
+        };
+        let spread: Vec<f64> = (0..1000).map(|k| f64::from(k % 10) / 10.0).collect();
+        let (bounded, free) = (of(&mean(Some([0.0, 1.0]), 0.5), &spread), of(&mean(None, 0.5), &spread));
+        assert_eq!((bounded.word(), free.word()), ("PASS", "PASS"));
+        assert_eq!(bounded.room_for_rare_events(), None);
+        let room = free.room_for_rare_events().expect("an assumption");
+        assert!((room - (0.5 - free.gate.bounds[1])).abs() < 1e-15 && room > 0.0, "{room}");
+        assert!(bounded.gate.bounds[1] > free.gate.bounds[1], "what assumes nothing is wider");
+        let equal = [0.25; 1000];
+        assert_eq!(
+            (of(&mean(Some([0.0, 1.0]), 0.5), &equal).word(), of(&mean(None, 0.5), &equal).word()),
+            ("PASS", "UNDECIDED")
+        );
+        for range in [[0.0, 0.8], [0.05, 1.0]] {
+            let outside = of(&mean(Some(range), 0.5), &spread);
+            assert!(
+                outside.word() == "FAIL" && outside.reason.is_some_and(|reason| reason.contains("outside of bounded"))
+            );
+        }
+        // two values within [0, 1] say nothing
+        assert_eq!(of(&mean(Some([0.0, 1.0]), 0.5), &[0.1, 0.2]).word(), "UNDECIDED");
+    }
+}

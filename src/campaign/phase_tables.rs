@@ -1,0 +1,170 @@
+//! `[[guidance]]`: the phases of a control loop as a campaign file says them, and what follows each.
+
+use super::section::Section;
+use super::tables::{ignore_others, read_keys};
+use crate::control::guidance::phase::{MANEUVERS, Maneuver, Next};
+use crate::control::guidance::situation::Condition;
+use crate::control::guidance::target::{TARGETS, Target};
+use crate::control::spec::PhaseSpec;
+use crate::control::{laws, parameters};
+use crate::scene::schema::control::kept;
+use crate::scene::table::Table;
+use crate::scene::{DeclaredTable, Name, SceneInput};
+
+/// The word that stands for the launch of the net where a phase stands else.
+pub(super) const LAUNCH: &str = "launch";
+
+/// The law that may have the term omega x H or not.
+pub(super) const GYROSCOPIC: &str = "mrp_feedback";
+
+/// A phase as read: what follows it is a word until all phases are known.
+pub(super) struct ReadPhase {
+    spec: PhaseSpec,
+    next: Option<String>,
+    otherwise: Option<String>,
+}
+
+/// One table of `[[guidance]]`; its name joins `taken`. `None` where its name is wrong, or a word that other keys depend on, which are then not known.
+pub(super) fn read_phase(
+    section: &mut Section<'_, '_>,
+    scene: &mut SceneInput,
+    has_thrusters: bool,
+    taken: &mut Vec<Name>,
+) -> Option<ReadPhase> {
+    section.require("phase", Name::ALLOWED, "\"hold\"");
+    let name = section.text("phase").map(|text| (text, Name::new(text)));
+    let name = match name {
+        Some((text, Some(name))) if text != LAUNCH && !taken.contains(&name) => Some(name),
+        Some((_, None)) => {
+            section.refuse("phase", Name::ALLOWED, "write a name such as \"aim\"");
+            None
+        }
+        Some(_) => {
+            section.refuse(
+                "phase",
+                "another name than that of the other phases, and than \"launch\"",
+                "give each its own name",
+            );
+            None
+        }
+        None => None,
+    };
+    // a table without a name of its own keeps its place in the list
+    let own = name.unwrap_or_else(|| Name::number(taken.len()));
+    taken.push(own);
+    if name.is_some() {
+        section.rename("guidance", own.as_str());
+    }
+    let has_debris = scene.debris.is_some();
+    let law_names: Vec<&str> = laws::KINDS.iter().map(|kind| kind.name).collect();
+    let law = section.name("law", &law_names, |name| law_names.iter().position(|known| *known == name));
+    let gyroscopic = section.flag("gyroscopic").unwrap_or(false);
+    if section.has("gyroscopic") && law.is_some_and(|law| laws::KINDS[law].name != GYROSCOPIC) {
+        section.refuse("gyroscopic", format!("left out where the law is not {GYROSCOPIC:?}"), "delete this line");
+    }
+    let targets: Vec<(&str, Target)> =
+        TARGETS.into_iter().filter(|(_, target)| has_debris || !target.needs_debris()).collect();
+    let names: Vec<&str> = targets.iter().map(|(name, _)| *name).collect();
+    let target =
+        section.name("target", &names, |name| targets.iter().find(|(known, _)| *known == name).map(|one| one.1));
+    let mut is_known = !(section.has("law") && law.is_none() || section.has("target") && target.is_none());
+    let target = target.unwrap_or(Target::None);
+    let thrust = section.name("thrust", &MANEUVERS.map(|(name, _)| name), |name| {
+        MANEUVERS.iter().find(|(known, _)| *known == name).map(|one| one.1)
+    });
+    is_known &= thrust.is_some() || !section.has("thrust");
+    let thrust = thrust.unwrap_or(Maneuver::None);
+    if thrust != Maneuver::None && !(has_thrusters && has_debris) {
+        let allowed = "\"none\" in a loop without thrusters, or without debris";
+        section.refuse(
+            "thrust",
+            allowed,
+            "add thrusters = [...] to [control] and a [debris] table, or delete this line",
+        );
+    }
+    if matches!((target, thrust), (Target::Transfer, Maneuver::Stop) | (Target::Stop, Maneuver::Transfer)) {
+        section.refuse(
+            "thrust",
+            "\"none\", or what the target is for",
+            "write the same word, or target = \"velocity\"",
+        );
+    }
+    if section.has("hold_s") && !section.has("until") {
+        section.know("hold_s");
+        section.refuse("hold_s", "left out without `until`", "add until = \"...\", or delete this line");
+    }
+    let until = section.text("until");
+    let until = until.and_then(|text| match Condition::parse(text, has_debris) {
+        Ok(condition) => Some(condition),
+        Err(allowed) => {
+            section.refuse("until", allowed, "write it like \"body_rate_rad_s < 0.002\"");
+            None
+        }
+    });
+    let next = section.text("next").map(str::to_owned);
+    let otherwise = section.text("otherwise").map(str::to_owned);
+    for key in ["next", "otherwise"] {
+        if section.has(key) && !section.has("until") {
+            section.refuse(key, "left out without `until`", "add until = \"...\", or delete this line");
+        }
+    }
+    let mut lists = parameters::of_phase(target, thrust, [section.has("until"), has_thrusters]);
+    lists.extend(law.map(|law| laws::KINDS[law].parameters));
+    scene.control.guidance.push(DeclaredTable::of(own, kept(&lists)));
+    let place = scene.control.guidance.len() - 1;
+    read_keys(section, Table::Guidance, place, scene);
+    if !is_known {
+        return None;
+    }
+    ignore_others(section, "law", law, laws::KINDS.iter().map(|kind| (kind.name, kind.parameters)));
+    section.finish();
+    let spec = PhaseSpec { name: own, law, gyroscopic, target, thrust, until, next: Next::Stay, otherwise: None };
+    name.map(|_| ReadPhase { spec, next, otherwise })
+}
+
+/// The phases with what follows them. One with a condition and without `next` is followed by the next in the list.
+pub(super) fn connected(
+    root: &mut Section<'_, '_>,
+    phases: Vec<Option<ReadPhase>>,
+    names: &[Name],
+) -> Option<Vec<PhaseSpec>> {
+    let place = |word: &str| names.iter().position(|name| name.as_str() == word);
+    let mut list = Vec::with_capacity(phases.len());
+    let count = phases.len();
+    // a wrong name may be the one that a phase is followed by
+    let is_known = phases.iter().all(Option::is_some);
+    let mut is_whole = true;
+    for (index, phase) in phases.into_iter().enumerate() {
+        let Some(ReadPhase { mut spec, next, otherwise }) = phase else {
+            is_whole = false;
+            continue;
+        };
+        let mut unknown = |key: &str, word: &str, also: &str| {
+            is_whole = false;
+            if !is_known {
+                return;
+            }
+            let known: Vec<&str> = names.iter().map(Name::as_str).collect();
+            let allowed = format!("the name of a phase ({}){also}", known.join(", "));
+            let path = format!("guidance.{}.{key}", spec.name);
+            root.document.add(&path, Some(format!("{word:?}")), allowed, "write the name of another phase");
+        };
+        match next.as_deref() {
+            Some(LAUNCH) => spec.next = Next::Launch,
+            Some(word) => match place(word) {
+                Some(place) => spec.next = Next::Phase(place),
+                None => unknown("next", word, " or \"launch\""),
+            },
+            None if spec.until.is_some() && index + 1 < count => spec.next = Next::Phase(index + 1),
+            None => {}
+        }
+        if let Some(word) = otherwise.as_deref() {
+            match place(word) {
+                Some(place) => spec.otherwise = Some(place),
+                None => unknown("otherwise", word, ""),
+            }
+        }
+        list.push(spec);
+    }
+    is_whole.then_some(list)
+}

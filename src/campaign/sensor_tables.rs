@@ -1,0 +1,122 @@
+//! `[[sensors]]`: the sensors of a control loop as a campaign file says them.
+
+use super::numbers::{NOT_NEGATIVE, POSITIVE};
+use super::section::Section;
+use super::tables::{read_keys, read_name};
+use crate::control::spec::{MOST_TICKS, SensorSpec, ticks_per_period};
+use crate::control::{estimators, sensors};
+use crate::scene::table::Table;
+use crate::scene::{DeclaredTable, Name, SceneInput};
+
+/// Most control periods from one measurement to the next.
+const MOST_PERIODS: f64 = 1e9;
+
+/// One table of `[[sensors]]`.
+pub(super) fn read_sensor(
+    section: &mut Section<'_, '_>,
+    scene: &mut SceneInput,
+    period: Option<f64>,
+) -> Option<SensorSpec> {
+    let taken: Vec<Name> = scene.control.sensors.iter().map(|sensor| sensor.name).collect();
+    let name = read_name(section, Table::Sensors, &taken);
+    let names: Vec<&str> = sensors::KINDS.iter().map(|kind| kind.name).collect();
+    section.require("kind", &format!("one of {}", names.join(", ")), "\"rate_gyro\"");
+    let seen: Vec<&str> =
+        names.iter().copied().filter(|name| scene.debris.is_some() || *name != "relative_camera").collect();
+    let kind = section.name("kind", &seen, |name| names.iter().position(|known| *known == name));
+    let own_period = section.number("period_s", POSITIVE).or(period);
+    let latency = section.number("latency_s", NOT_NEGATIVE).unwrap_or(0.0);
+    scene.control.sensors.push(DeclaredTable::of(name, kind.map_or(&[], |kind| sensors::KINDS[kind].parameters)));
+    let Some(kind) = kind else {
+        // its keys are not known
+        return None;
+    };
+    let place = scene.control.sensors.len() - 1;
+    read_keys(section, Table::Sensors, place, scene);
+    section.finish();
+    if latency > 0.0 && !sensors::KINDS[kind].has_latency {
+        section.refuse("latency_s", "left out: this sensor delivers at once", "delete this line");
+    }
+    if let (Some(period), Some(own)) = (period, own_period) {
+        check_times(section, period, own, latency);
+    }
+    // a wrong number is told, and the columns do not depend on it
+    Some(SensorSpec { name, kind, period: own_period.unwrap_or(f64::NAN), latency })
+}
+
+/// Notes where a sensor that measures every `own` seconds and delivers after `latency` seconds does not fit into a loop of this period.
+fn check_times(section: &mut Section<'_, '_>, period: f64, own: f64, latency: f64) {
+    let is_near = period / own <= MOST_TICKS && own / period <= MOST_PERIODS;
+    if !is_near || !is_whole(own / period) && !is_whole(period / own) {
+        let near = if own < period {
+            period / (period / own).round().clamp(1.0, MOST_TICKS)
+        } else {
+            (own / period).round().clamp(1.0, MOST_PERIODS) * period
+        };
+        let allowed = format!("a whole multiple of control.period_s ({period:?}), or a whole fraction of it");
+        section.refuse("period_s", allowed, format!("write {:?}", plain(near)));
+    }
+    if latency > 0.0 && !(is_whole(latency / period) && latency / period <= MOST_TICKS) {
+        let allowed = format!("a whole multiple of control.period_s ({period:?}), at most {MOST_TICKS} of it");
+        let near = (latency / period).round().clamp(1.0, MOST_TICKS) * period;
+        section.refuse("latency_s", allowed, format!("write {:?}", plain(near)));
+    }
+}
+
+/// Whether a ratio of two times is a whole number, for all that rounding can do.
+fn is_whole(ratio: f64) -> bool {
+    (ratio - ratio.round()).abs() < 1e-9 * ratio.max(1.0) && ratio.round() >= 1.0
+}
+
+/// `number` without the last digits of a product: 0.3 and not 0.30000000000000004.
+fn plain(number: f64) -> f64 {
+    format!("{number:.11e}").parse().unwrap_or(number)
+}
+
+/// Notes what the estimator lacks, what a loop has once at most, and where the periods of sensors do not fit together.
+pub(super) fn check_sensors(
+    root: &mut Section<'_, '_>,
+    sensors: &[Option<SensorSpec>],
+    (estimator, period): (usize, Option<f64>),
+    [has_debris, has_wheels]: [bool; 2],
+) {
+    let kinds: Vec<&str> = sensors.iter().flatten().map(|sensor| sensors::KINDS[sensor.kind].name).collect();
+    if sensors.iter().any(Option::is_none) {
+        return;
+    }
+    let name = estimators::KINDS[estimator].name;
+    let mut needed = if name == "perfect" { Vec::new() } else { vec!["star_tracker"] };
+    needed.extend((name != "perfect" && has_debris).then_some("ground_radar"));
+    needed.extend((name == "raw" && has_wheels).then_some("tachometers"));
+    let sensors: Vec<&SensorSpec> = sensors.iter().flatten().collect();
+    for (place, sensor) in sensors.iter().enumerate() {
+        let kind = &sensors::KINDS[sensor.kind];
+        if let Some(first) = sensors[..place].iter().find(|first| kind.at_most_one && first.kind == sensor.kind) {
+            let allowed = format!(
+                "another kind: a loop has at most one sensor of kind {:?}, and that is {}",
+                kind.name, first.name
+            );
+            let path = format!("sensors.{}.kind", sensor.name);
+            root.document.add(&path, Some(format!("{:?}", kind.name)), allowed, "delete one of the two tables");
+        }
+    }
+    if let Some(period) = period
+        && !root.document.is_reported("sensors")
+        && ticks_per_period(period, sensors.iter().map(|sensor| sensor.period)).is_none()
+    {
+        let fastest = sensors.iter().min_by(|a, b| a.period.total_cmp(&b.period));
+        if let Some(fastest) = fastest {
+            let allowed = format!(
+                "such that all sensors measure at whole multiples of a tick, at most {MOST_TICKS} of which make control.period_s ({period:?})"
+            );
+            let path = format!("sensors.{}.period_s", fastest.name);
+            let remedy = "write periods of which the shorter one divides the longer one";
+            root.document.add(&path, Some(format!("{:?}", fastest.period)), allowed, remedy);
+        }
+    }
+    for kind in needed.iter().filter(|kind| !kinds.contains(kind)) {
+        let allowed = format!("\"perfect\" without a sensor of kind {kind:?}, which this estimator needs");
+        let remedy = format!("add a [[sensors]] table with kind = {kind:?}, or write estimator = \"perfect\"");
+        root.document.add("control.estimator", Some(format!("{name:?}")), allowed, remedy);
+    }
+}

@@ -1,0 +1,199 @@
+//! [`Stability`]: since when a mission has settled, and how steady the attitude is over a window: the relative performance error.
+//!
+//! Source: ECSS-E-ST-60-10C, *Control performance*, 2008, section 3.2: the performance error e(t) is here the rotation vector from the target to the true
+//! attitude; the relative performance error over an interval is e(t) less its mean over that interval.
+
+use super::Judgement;
+use crate::control::vector::norm;
+
+/// What the ticks of a run have shown so far.
+#[derive(Clone, Copy, Debug)]
+pub struct Stability {
+    /// Since when the error has been within the band, whatever the phase, s; NaN while it is not.
+    settled_since: f64,
+    /// Start of the window, s; NaN where it has not begun.
+    start: f64,
+    last: f64,
+    count: f64,
+    /// By axis of the body, rad: mean, sum of the squares of the departures from it, smallest and largest value.
+    mean: [f64; 3],
+    squares: [f64; 3],
+    extremes: [[f64; 2]; 3],
+}
+
+impl Stability {
+    /// Before the first tick.
+    pub const NONE: Stability = Stability {
+        settled_since: f64::NAN,
+        start: f64::NAN,
+        last: f64::NAN,
+        count: 0.0,
+        mean: [0.0; 3],
+        squares: [0.0; 3],
+        extremes: [[f64::INFINITY, f64::NEG_INFINITY]; 3],
+    };
+
+    /// Takes a tick with the error `error`, rad; `None` in a phase without a target.
+    pub fn tick(&mut self, time: f64, error: Option<[f64; 3]>, judgement: &Judgement) {
+        let [from, length] = judgement.stability;
+        let is_settled = error.is_some_and(|error| norm(error) <= judgement.settling_band);
+        if !is_settled {
+            self.settled_since = f64::NAN;
+        } else if self.settled_since.is_nan() {
+            self.settled_since = time;
+        }
+        let start = if from > 0.0 { from } else { self.settled_since };
+        if start.to_bits() != self.start.to_bits() {
+            // out of the band, or in it again: another window
+            *self = Stability { settled_since: self.settled_since, start, ..Stability::NONE };
+        }
+        self.last = time;
+        let slack = 1e-9 * judgement.period;
+        if !(time >= start - slack && (length == 0.0 || time < start + length - slack)) {
+            return;
+        }
+        // without a target the window has no error, and its statistics are NaN
+        let error = error.unwrap_or([f64::NAN; 3]);
+        self.count += 1.0;
+        for (axis, error) in error.into_iter().enumerate() {
+            // B. P. Welford, Technometrics 4(3), 1962
+            let departure = error - self.mean[axis];
+            self.mean[axis] += departure / self.count;
+            self.squares[axis] += departure * (error - self.mean[axis]);
+            let [low, high] = &mut self.extremes[axis];
+            (*low, *high) = (low.min(error), high.max(error));
+        }
+    }
+
+    /// Since when the mission has settled, s; NaN where it has not.
+    pub fn settled_since(&self) -> f64 {
+        self.settled_since
+    }
+
+    /// Root mean square over the window of the magnitude of the relative performance error, rad; NaN of a window that the run has not completed.
+    pub fn rms(&self, judgement: &Judgement) -> f64 {
+        if self.is_complete(judgement) { (self.squares.iter().sum::<f64>() / self.count).sqrt() } else { f64::NAN }
+    }
+
+    /// Largest difference, about an axis of the body, of two errors in the window, rad; NaN of a window that the run has not completed.
+    pub fn peak_to_peak(&self, judgement: &Judgement) -> f64 {
+        if !self.is_complete(judgement) || self.squares.iter().any(|square| square.is_nan()) {
+            return f64::NAN;
+        }
+        self.extremes.iter().fold(0.0, |most: f64, [low, high]| most.max(high - low))
+    }
+
+    /// Whether the run has reached the end of the window: the last tick lasts a period. A window without an end has two ticks.
+    fn is_complete(&self, judgement: &Judgement) -> bool {
+        let [_, length] = judgement.stability;
+        let reached = self.last + (1.0 + 1e-9) * judgement.period;
+        if length == 0.0 { self.count >= 2.0 } else { self.count >= 1.0 && reached >= self.start + length }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::guidance::geometry::LaunchState;
+
+    const PERIOD: f64 = 0.1;
+
+    fn judgement(from: f64, length: f64) -> Judgement {
+        Judgement {
+            launch: LaunchState { distance: 10.0, least_speed: 0.01, approach_axis: [0.0; 3] },
+            keep_out: 0.0,
+            plume: [0.0; 2],
+            settling_band: 0.02,
+            stability: [from, length],
+            period: PERIOD,
+            isp: 0.0,
+        }
+    }
+
+    /// Settling time, rms and peak to peak of `errors`, one a tick.
+    fn found(errors: &[Option<[f64; 3]>], judgement: &Judgement) -> [f64; 3] {
+        let mut stability = Stability::NONE;
+        for (tick, error) in errors.iter().enumerate() {
+            stability.tick(tick as f64 * PERIOD, *error, judgement);
+        }
+        [stability.settled_since(), stability.rms(judgement), stability.peak_to_peak(judgement)]
+    }
+
+    /// The same rms and peak to peak in two passes over the ticks `of`.
+    fn in_two_passes(errors: &[Option<[f64; 3]>], of: std::ops::Range<usize>) -> [f64; 2] {
+        let errors: Vec<[f64; 3]> = errors[of].iter().map(|error| error.expect("a target")).collect();
+        let n = errors.len() as f64;
+        let mean: [f64; 3] = std::array::from_fn(|axis| errors.iter().map(|error| error[axis]).sum::<f64>() / n);
+        let square = |error: &[f64; 3]| (0..3).map(|axis| (error[axis] - mean[axis]).powi(2)).sum::<f64>();
+        let swing = |axis: usize| {
+            let of_axis = || errors.iter().map(|error| error[axis]);
+            of_axis().fold(f64::NEG_INFINITY, f64::max) - of_axis().fold(f64::INFINITY, f64::min)
+        };
+        [(errors.iter().map(square).sum::<f64>() / n).sqrt(), (0..3).map(swing).fold(0.0, f64::max)]
+    }
+
+    /// An error that decays to an offset with a jitter; within the band from tick 35 on.
+    fn settling() -> Vec<Option<[f64; 3]>> {
+        let error = |tick: usize| {
+            let t = tick as f64 * PERIOD;
+            [0.3 * libm::exp(-t) + 1e-3 * libm::sin(7.0 * t), 0.005 + 2e-3 * libm::cos(3.0 * t), -1e-3 * t / 20.0]
+        };
+        (0..200).map(|tick| Some(error(tick))).collect()
+    }
+
+    /// Law: a mission has settled when its error stays within the band to the end, whatever the phase; a tick without a target is not settled.
+    #[test]
+    fn a_mission_settles_where_the_error_stays_in_the_band() {
+        let mut errors = settling();
+        let first = (0..200).find(|tick| errors[*tick..].iter().flatten().all(|error| norm(*error) <= 0.02)).unwrap();
+        assert!((20..40).contains(&first));
+        let plain = judgement(0.0, 0.0);
+        assert_eq!(found(&errors, &plain)[0], first as f64 * PERIOD);
+        errors[120] = Some([0.0, 0.021, 0.0]);
+        assert_eq!(found(&errors, &plain)[0], 121.0 * PERIOD);
+        errors[150] = None;
+        assert_eq!(found(&errors, &plain)[0], 151.0 * PERIOD);
+        errors[199] = Some([0.0, 0.0, 0.03]);
+        assert!(found(&errors, &plain).iter().all(|value| value.is_nan()));
+    }
+
+    /// Law: rms and peak to peak are those of the error less its mean over the window, in two passes; of a window after settling, of an interval, and of
+    /// one without an end. A constant error has none, however large.
+    #[test]
+    fn relative_performance_errors_are_those_of_the_window() {
+        let errors = settling();
+        let first = (found(&errors, &judgement(0.0, 0.0))[0] / PERIOD).round() as usize;
+        for (from, length, ticks) in [
+            (0.0, 0.0, first..200),
+            (0.0, 5.0, first..first + 50),
+            (1.0, 4.0, 10..50),
+            (3.0, 17.0, 30..200),
+            (12.5, 0.0, 125..200),
+        ] {
+            let [_, rms, peak_to_peak] = found(&errors, &judgement(from, length));
+            let expected = in_two_passes(&errors, ticks);
+            for (value, expected) in [rms, peak_to_peak].into_iter().zip(expected) {
+                assert!((value - expected).abs() < 1e-13 * expected, "{from} {length}: {value} {expected}");
+            }
+        }
+        let still = vec![Some([0.3, -0.2, 0.1]); 100];
+        assert!(found(&still, &judgement(2.0, 3.0))[1..].iter().all(|value| value.abs() < 1e-16));
+    }
+
+    /// Law: a window that the run does not complete, or in which a phase has no target, has no value.
+    #[test]
+    fn a_window_is_complete_or_has_no_value() {
+        let mut errors = settling();
+        for (from, length) in [(19.0, 1.1), (0.0, 18.0), (30.0, 0.0), (20.0, 1.0)] {
+            assert!(
+                found(&errors, &judgement(from, length))[1..].iter().all(|value| value.is_nan()),
+                "{from} {length}"
+            );
+        }
+        errors[40] = None;
+        assert!(found(&errors, &judgement(1.0, 4.0))[1..].iter().all(|value| value.is_nan()));
+        assert!(found(&errors, &judgement(5.0, 4.0))[1..].iter().all(|value| value.is_finite()));
+        // the window after settling begins again
+        assert_eq!(found(&errors, &judgement(0.0, 0.0))[0], 41.0 * PERIOD);
+    }
+}

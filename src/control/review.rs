@@ -1,0 +1,233 @@
+//! [`notes`]: what is allowed in a control loop and looks like a mistake.
+
+use std::f64::consts::{PI, TAU};
+
+use super::actuators::modulation;
+use super::allocation::{ThrustAllocation, WheelTorque};
+use super::guidance::phase::Next;
+use super::guidance::target::Target;
+use super::laws::{KINDS as LAWS, KnownBody, LawSettings};
+use super::sensors::KINDS as SENSORS;
+use super::small_matrix::added;
+use super::spec::{LoopSpec, PhaseSpec};
+use super::stability::{axis_gains, stable_share};
+use crate::scene::{ControlInput, DeclaredTable, Scene};
+
+/// Angles that look like degrees from here on, rad: what is an error or a band. Others from a turn on.
+const ANGLES: [(&str, f64); 6] = [
+    ("noise_rad", 1.0),
+    ("attitude_noise_rad", 1.0),
+    ("bias_rad", 1.0),
+    ("misalignment_rad", 1.0),
+    ("settling_band_rad", 1.0),
+    ("plume_half_angle_rad", PI),
+];
+/// A rate of a body or of a slew that looks like degrees a second from here on, rad/s.
+const FAST: f64 = 1.0;
+/// How far a scale may be from one without a note.
+const SCALE: f64 = 0.5;
+
+/// What about the loop `spec` looks like a mistake, a sentence each: with its nominal numbers `numbers`, in the nominal scene `scene`, over `duration`
+/// seconds.
+pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f64) -> Vec<String> {
+    let phases: Vec<(&PhaseSpec, &DeclaredTable)> = spec.phases.iter().zip(&numbers.guidance).collect();
+    let mut notes = order(&spec.phases);
+    for (phase, table) in &phases {
+        notes.extend(condition(phase, table, duration));
+        notes.extend(slew(spec, numbers, (phase, table)));
+        notes.extend(stability(spec, numbers, scene, (phase, table)));
+    }
+    notes.extend(sizes(&numbers.law, "control"));
+    for table in &numbers.sensors {
+        notes.extend(sizes(table, "sensors"));
+        notes.extend(scale(table));
+    }
+    phases.iter().for_each(|(_, table)| notes.extend(sizes(table, "guidance")));
+    notes.extend(fast_wheels(spec, scene));
+    notes
+}
+
+/// The first number of `key`; zero where there is none.
+fn number(table: &DeclaredTable, key: &str) -> f64 {
+    table.named(key).map_or(0.0, |numbers| numbers[0])
+}
+
+/// A number with four significant digits.
+fn digits(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+/// The phases that may follow a phase.
+fn followers(phase: &PhaseSpec) -> Vec<usize> {
+    let next = match phase.next {
+        Next::Phase(next) => Some(next),
+        Next::Stay | Next::Launch => None,
+    };
+    next.into_iter().chain(phase.otherwise).collect()
+}
+
+/// Phases that follow themselves, or one another for ever, or are never reached.
+fn order(phases: &[PhaseSpec]) -> Vec<String> {
+    let grow = |mut set: Vec<bool>, joins: &dyn Fn(usize, &[bool]) -> bool| {
+        while let Some(place) = (0..set.len()).find(|place| !set[*place] && joins(*place, &set)) {
+            set[place] = true;
+        }
+        set
+    };
+    let first = (0..phases.len()).map(|place| place == 0).collect();
+    let reached =
+        grow(first, &|place, set| (0..phases.len()).any(|from| set[from] && followers(&phases[from]).contains(&place)));
+    let last = phases.iter().map(|phase| phase.next == Next::Launch || phase.next == Next::Stay).collect();
+    let ends = grow(last, &|place, set| followers(&phases[place]).iter().any(|next| set[*next]));
+    let mut notes = Vec::new();
+    let mut endless = Vec::new();
+    for (place, phase) in phases.iter().enumerate() {
+        let name = phase.name;
+        if !reached[place] {
+            notes.push(format!("guidance.{name} is never reached: no phase that is flown is followed by it"));
+        } else if phase.next == Next::Phase(place) || phase.otherwise == Some(place) {
+            notes.push(format!(
+                "guidance.{name} follows itself: it begins anew each time, and so do its law, hold_s and timeout_s; without `until` a phase goes on to the end of the run"
+            ));
+        } else if !ends[place] {
+            endless.push(phase.name.as_str());
+        }
+    }
+    if endless.len() > 1 {
+        notes.push(format!(
+            "guidance: {} follow one another for ever: from none of them is there a way to \"launch\", or to a phase without `until`",
+            endless.join(", ")
+        ));
+    }
+    notes
+}
+
+/// A condition that is never met, or always, and one that has no time to hold.
+fn condition(phase: &PhaseSpec, table: &DeclaredTable, duration: f64) -> Vec<String> {
+    let Some(until) = &phase.until else { return Vec::new() };
+    let (name, hold, timeout) = (phase.name, number(table, "hold_s"), number(table, "timeout_s"));
+    let mut notes = Vec::new();
+    let range = until.range(duration);
+    if range == [0.0; 2] && phase.otherwise.is_none() {
+        let what = if timeout > 0.0 { "the mission fails at its timeout_s" } else { "the phase never ends" };
+        notes.push(format!("guidance.{name}.until = {:?} is never met, whatever the motion: {what}", until.text));
+    } else if range == [1.0; 2] && until.asks_for("pointing_error_rad") {
+        notes.push(format!(
+            "guidance.{name}.until = {:?} is always met: angles are 0 to pi, in radians (5 deg are 0.0873)",
+            until.text
+        ));
+    }
+    if timeout > 0.0 && hold > timeout {
+        notes.push(format!("guidance.{name}.hold_s = {hold:?} is beyond its timeout_s = {timeout:?}: the condition never holds for so long"));
+    } else if hold > duration {
+        notes.push(format!("guidance.{name}.hold_s = {hold:?} is beyond campaign.duration_s = {duration:?}: the condition never holds for so long"));
+    }
+    notes
+}
+
+/// A slew that is faster than a star tracker can measure, and one whose rate looks like degrees.
+fn slew(spec: &LoopSpec, numbers: &ControlInput, (phase, table): (&PhaseSpec, &DeclaredTable)) -> Vec<String> {
+    let (name, rate) = (phase.name, number(table, "max_rate_rad_s"));
+    let mut notes = Vec::new();
+    if rate >= FAST {
+        notes.push(format!(
+            "guidance.{name}.max_rate_rad_s = {rate:?} is {} deg/s; degrees are written with their unit, \"{rate} deg/s\"",
+            digits(rate * 360.0 / TAU)
+        ));
+    }
+    let trackers = spec.sensors.iter().zip(&numbers.sensors);
+    let trackers =
+        trackers.filter(|(sensor, _)| SENSORS[sensor.kind].name == "star_tracker" && !spec.knows_the_truth());
+    for (tracker, table) in trackers {
+        let most = number(table, "max_rate_rad_s");
+        if most > 0.0 && rate > most {
+            notes.push(format!(
+                "guidance.{name}.max_rate_rad_s = {rate:?} is above sensors.{}.max_rate_rad_s = {most:?}: the tracker gives nothing in such a slew",
+                tracker.name
+            ));
+        }
+    }
+    notes
+}
+
+/// A law that is not stable for small errors at the period and the delay of the loop.
+fn stability(
+    spec: &LoopSpec,
+    numbers: &ControlInput,
+    scene: &Scene,
+    (phase, table): (&PhaseSpec, &DeclaredTable),
+) -> Option<String> {
+    let law = LAWS[phase.law?];
+    // a slew under a torque limit brakes on a curve that has no gain at its end
+    if number(table, "max_torque_n_m") > 0.0 {
+        return None;
+    }
+    let believed = spec.believed(scene);
+    let axes: Vec<[f64; 3]> = spec.wheels.iter().map(|place| believed.mass.wheels[*place].axis).collect();
+    let by_wheels = WheelTorque::new(&axes).reachable;
+    let mut reach = by_wheels;
+    // pulses do not hold a torque over the period
+    if !spec.thrusters.is_empty() && !modulation::is_on_off(spec.modulation) {
+        let thrusters = ThrustAllocation::of_loop(&believed, &spec.thrusters, by_wheels);
+        let both = added(&reach, &thrusters.two_sided_torques(spec.holds_force));
+        reach = WheelTorque::new(&both).reachable;
+    }
+    let known = KnownBody::of(&believed.mass);
+    let (period, delay) = (spec.period, number(&numbers.law, "delay_s"));
+    let body = (scene.mass.inertia_rotating(), reach);
+    let settings = LawSettings { table, gyroscopic: phase.gyroscopic, period, delay };
+    let gains = axis_gains((law.make)(&settings), &known, phase.target != Target::None, body, period);
+    let share = stable_share(&gains, period, delay)?;
+    let most = if share > 0.0 {
+        format!(
+            "at most {} of its torque would be stable; write lower gains, or a shorter period or delay",
+            digits(share)
+        )
+    } else {
+        "it has too little damping, whatever its gain".to_owned()
+    };
+    Some(format!(
+        "guidance.{}: small errors grow under {} with control.period_s = {period:?} and delay_s = {delay:?}: {most}",
+        phase.name, law.name
+    ))
+}
+
+/// Angles of a table that look like degrees.
+fn sizes(table: &DeclaredTable, header: &str) -> Vec<String> {
+    let note = |(index, parameter): (usize, &crate::scene::LawParameter)| {
+        let facts = &parameter.facts;
+        let largest = table.numbers(index)?.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let limit = ANGLES.iter().find(|(key, _)| *key == facts.key).map_or(TAU, |(_, limit)| *limit);
+        let path =
+            if table.name == crate::scene::Name::NONE { header.to_owned() } else { format!("{header}.{}", table.name) };
+        (facts.unit == "rad" && largest > limit).then(|| {
+            format!(
+                "{path}.{}: {largest:?} rad is {} deg; degrees are written with their unit, \"{largest} deg\"",
+                facts.key,
+                digits(largest * 360.0 / TAU)
+            )
+        })
+    };
+    table.declared.0.iter().enumerate().filter_map(note).collect()
+}
+
+/// A scale of a sensor that turns its sign, or is not near one.
+fn scale(table: &DeclaredTable) -> Option<String> {
+    let wrong = table.named("scale")?.iter().find(|scale| (**scale - 1.0).abs() > SCALE)?;
+    Some(format!(
+        "sensors.{}.scale: {wrong:?} is measured over true; a sensor without error has 1, one with an error of 1% has 1.01",
+        table.name
+    ))
+}
+
+/// Wheels that are above their limit of speed at the start.
+fn fast_wheels(spec: &LoopSpec, scene: &Scene) -> Vec<String> {
+    let wheels = spec.wheel_names.iter().enumerate();
+    let note = |(place, name): (usize, &crate::scene::Name)| {
+        let (rate, limit) = (scene.initial.wheel_rates[place], scene.actuators.wheels[place].speed_limit);
+        (rate.abs() > limit).then(|| {
+            format!("wheels.{name}.rate_rad_s = {rate:?} is above its speed_limit_rad_s = {limit:?} at the start: its motor can only brake it")
+        })
+    };
+    wheels.filter_map(note).collect()
+}

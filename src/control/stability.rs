@@ -1,0 +1,281 @@
+//! Whether a law whose torque is held over control periods, and acts after a delay, is stable for small errors.
+//!
+//! About one axis the body is a double integrator, theta'' = a. At tick k, a period T apart, the law gives a_k = -(k theta_k + c theta'_k + i sum theta),
+//! which acts from t_k + d to t_(k+1) + d, with d = (m + f) T. With angles, rates times T, and accelerations times T^2 the z-transform is
+//!
+//! (z-1)^3 z^(m+1) + c T (z-1)^2 D + (k T^2 (z-1) + i T^2 z) (D + (z-1) B) = 0, D = f + (1-f) z, B = f - f^2/2 + z (1-f)^2/2,
+//!
+//! with a factor z-1 less where there is no integral, and another one less where there is no stiffness: a free integrator is not the law's. A law is
+//! stable where all roots are within the unit circle, which the Schur-Cohn test decides without computing them (E. I. Jury, *Theory and Application of
+//! the z-Transform Method*, 1964). Without delay and integral that is k T < 2 c and c T < 2.
+//!
+//! Exact for small angles and where flight software believes the nominal inertia; limits, friction, and the lag of an estimator are not part of it.
+
+use super::control_loop::SAME_TIME;
+use super::laws::{AttitudeLaw, KnownBody, LawInput};
+use super::rotation::quaternion_of;
+use super::small_matrix::{inverse, multiplied};
+use super::vector::{dot, product, scaled};
+use crate::math::symmetric::principal_axes;
+
+/// Most periods of delay that are judged: the test takes the square of their number.
+const MOST_DELAY: f64 = 200.0;
+/// The error, rad and rad/s, by which the gains of a law are found: the sine of half of it is linear to 4e-14.
+const SMALL: f64 = 1e-6;
+/// An axis about which less than this share of the largest acceleration can be given is not controlled.
+const NOT_CONTROLLED: f64 = 1e-12;
+/// A gain below this share of the others is the rounding of a law that does not have it.
+const NO_GAIN: f64 = 1e-12;
+/// Halvings by which a limit is found.
+const HALVINGS: usize = 40;
+/// The least share of its torque at which a law is tried.
+const LEAST_SHARE: f64 = 1e-3;
+
+/// The gains of a law about one axis: accelerations, rad/s^2, for an error of a radian, for a rate of a radian a second, and for each tick of an error
+/// of a radian.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisGains {
+    /// k, 1/s^2.
+    pub stiffness: f64,
+    /// c, 1/s.
+    pub damping: f64,
+    /// i, 1/s^2 for each tick.
+    pub integral: f64,
+}
+
+impl AxisGains {
+    /// Whether small errors die away at a period of `period` seconds and a delay of `delay` seconds.
+    pub fn is_stable(&self, period: f64, delay: f64) -> bool {
+        let (k, c, i) = (self.stiffness * period * period, self.damping * period, self.integral * period * period);
+        let whole = (delay / period + SAME_TIME).floor();
+        let f = (delay / period - whole).max(0.0);
+        let (d, b) = (vec![1.0 - f, f], vec![0.5 * (1.0 - f) * (1.0 - f), f - 0.5 * f * f]);
+        let step = vec![1.0, -1.0];
+        let times = |a: &[f64], b: &[f64]| {
+            let mut product = vec![0.0; a.len() + b.len() - 1];
+            for (p, x) in a.iter().enumerate() {
+                b.iter().enumerate().for_each(|(q, y)| product[p + q] += x * y);
+            }
+            product
+        };
+        // coefficients of falling powers
+        let late = |a: Vec<f64>| [a, vec![0.0; whole as usize + 1]].concat();
+        let plus = |mut a: Vec<f64>, factor: f64, b: &[f64]| {
+            let first = a.len() - b.len();
+            a[first..].iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
+            a
+        };
+        let square = times(&step, &step);
+        let angle = plus(times(&step, &b), 1.0, &d);
+        let polynomial = if i != 0.0 {
+            let free = plus(late(times(&square, &step)), c, &times(&square, &d));
+            plus(free, 1.0, &times(&[k + i, -k], &angle))
+        } else if k != 0.0 {
+            plus(plus(late(square), c, &times(&step, &d)), k, &angle)
+        } else if c != 0.0 {
+            plus(late(step), c, &d)
+        } else {
+            return true;
+        };
+        is_within_unit_circle(polynomial)
+    }
+
+    fn times(self, share: f64) -> Self {
+        AxisGains { stiffness: share * self.stiffness, damping: share * self.damping, integral: share * self.integral }
+    }
+}
+
+/// Whether all roots of the polynomial with these coefficients, of falling powers, are within the unit circle.
+fn is_within_unit_circle(mut a: Vec<f64>) -> bool {
+    while a.len() > 1 {
+        let last = a.len() - 1;
+        let ratio = a[last] / a[0];
+        if ratio.is_nan() || ratio.abs() >= 1.0 {
+            return false;
+        }
+        a = (0..last).map(|i| a[i] - ratio * a[last - i]).collect();
+    }
+    true
+}
+
+/// The gains of `law`, which knows `known`, about each axis that the torques within the projection `reach` control of a body with the inertia `inertia`
+/// (K, kg m^2), all in F_s; without a target the attitude is free.
+pub fn axis_gains(
+    law: AttitudeLaw,
+    known: &KnownBody,
+    has_target: bool,
+    (inertia, reach): ([[f64; 3]; 3], [[f64; 3]; 3]),
+    period: f64,
+) -> Vec<AxisGains> {
+    let unit = |axis: usize| std::array::from_fn(|i| if i == axis { 1.0 } else { 0.0 });
+    // columns: the torque against an error about each axis
+    let columns =
+        |torque: &dyn Fn([f64; 3]) -> [f64; 3]| [0, 1, 2].map(|axis| scaled(-1.0 / SMALL, torque(unit(axis))));
+    let turned = |axis: [f64; 3]| LawInput { q_ts: quaternion_of(scaled(SMALL, axis)), ..LawInput::AT_TARGET };
+    let torque = |input: &LawInput| {
+        let mut law = law;
+        law.torque(known, input, 0.0)
+    };
+    let stiffness = columns(&|axis| if has_target { torque(&turned(axis)) } else { [0.0; 3] });
+    // without momentum: omega x H is of second order
+    let damping = columns(&|axis| torque(&LawInput { omega_se_s: scaled(SMALL, axis), ..LawInput::AT_TARGET }));
+    let integral = columns(&|axis| {
+        let mut law = law;
+        let input = if has_target { turned(axis) } else { LawInput::AT_TARGET };
+        let [first, second] = [0.0, period].map(|since| law.torque(known, &input, since));
+        std::array::from_fn(|i| second[i] - first[i])
+    });
+    let inverse = inverse(inertia);
+    let (accelerations, axes) = principal_axes::<f64>(multiplied(&multiplied(&reach, &inverse), &reach));
+    let most = accelerations.iter().copied().fold(0.0, f64::max);
+    let controlled = (0..3).filter(|mode| accelerations[*mode] > NOT_CONTROLLED * most);
+    let gains = controlled.map(|mode| {
+        let direction = axes.map(|row| row[mode]);
+        // the axis about which the body turns where the torque is along the direction
+        let turn = product(inverse, direction);
+        let along = |columns: &[[f64; 3]; 3]| (0..3).map(|i| dot(columns[i], direction) * turn[i]).sum::<f64>();
+        let found = [along(&stiffness), along(&damping), along(&integral)];
+        let least = NO_GAIN * found.iter().fold(0.0_f64, |most, gain| most.max(gain.abs()));
+        let [stiffness, damping, integral] = found.map(|gain| if gain.abs() > least { gain } else { 0.0 });
+        AxisGains { stiffness, damping, integral }
+    });
+    gains.collect()
+}
+
+/// The largest share of these gains at which small errors die away about every axis; `None` where all of them are stable as they are, zero where no share
+/// is.
+pub fn stable_share(gains: &[AxisGains], period: f64, delay: f64) -> Option<f64> {
+    let is_stable = |share: f64| gains.iter().all(|gains| gains.times(share).is_stable(period, delay));
+    if delay / period > MOST_DELAY || is_stable(1.0) {
+        return None;
+    }
+    if !is_stable(LEAST_SHARE) {
+        return Some(0.0);
+    }
+    let (mut low, mut high) = (LEAST_SHARE, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if is_stable(middle) { low = middle } else { high = middle }
+    }
+    Some(low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::laws::{Integral, MrpFeedback, QuaternionFeedback, RateDamping};
+
+    /// The size of angle and rate in two windows of a double integrator under a torque that is held, flown from instant to instant: early and late.
+    fn flown(gains: AxisGains, period: f64, delay: f64) -> [f64; 2] {
+        const TICKS: usize = 6000;
+        let (mut angle, mut rate, mut summed) = (1.0, 0.3 / period, 0.0);
+        let mut commands: Vec<(f64, f64)> = Vec::new();
+        let (mut acting, mut next) = (0.0, 0);
+        let mut sizes = [0.0_f64; 2];
+        for tick in 0..TICKS {
+            let (time, end) = (tick as f64 * period, (tick + 1) as f64 * period);
+            summed += angle;
+            let wanted = -gains.stiffness * angle - gains.damping * rate - gains.integral * summed;
+            commands.push((time + delay, wanted));
+            let mut now = time;
+            while now < end {
+                while next < commands.len() && commands[next].0 <= now + 1e-9 * period {
+                    (acting, next) = (commands[next].1, next + 1);
+                }
+                let until = commands.get(next).map_or(end, |(begin, _)| begin.min(end));
+                let h = until - now;
+                (angle, rate, now) = (angle + h * rate + 0.5 * h * h * acting, rate + h * acting, until);
+            }
+            let size = if gains.stiffness == 0.0 { rate.abs() * period } else { angle.abs() + rate.abs() * period };
+            match tick {
+                1000..2000 => sizes[0] = sizes[0].max(size),
+                5000.. => sizes[1] = sizes[1].max(size),
+                _ => {}
+            }
+            if size > 1e100 {
+                return [0.0, f64::INFINITY];
+            }
+        }
+        sizes
+    }
+
+    /// Law: 2% below the limit of the gains errors die away, 2% above it they grow, flown in time: at any delay, with and without stiffness and integral.
+    #[test]
+    fn the_limit_is_where_errors_begin_to_grow() {
+        let mut tried = 0;
+        for period in [0.25, 2.0] {
+            for delay in [0.0, 0.1, 0.5, 1.0, 1.3, 4.0] {
+                for (k, i) in [(0.0, 0.0), (0.05, 0.0), (0.6, 0.0), (0.05, 0.0005)] {
+                    let shape = AxisGains {
+                        stiffness: k / (period * period),
+                        damping: 0.4 / period,
+                        integral: i / (period * period),
+                    };
+                    let large = shape.times(1e3);
+                    let share = match stable_share(&[large], period, delay * period) {
+                        Some(share) if share > 0.0 => share,
+                        // too little damping, whatever the gain
+                        _ => continue,
+                    };
+                    for (factor, grows) in [(0.98, false), (1.02, true)] {
+                        let [early, late] = flown(large.times(factor * share), period, delay * period);
+                        assert_eq!(late > early, grows, "{shape:?} {delay} {factor}: {early:e} {late:e}");
+                    }
+                    tried += 1;
+                }
+            }
+        }
+        assert!(tried >= 24, "{tried} limits");
+    }
+
+    /// Law: without delay the limits are c T = 2 and k T = 2 c; with a delay of a period c T = 1 where the stiffness is small.
+    #[test]
+    fn limits_are_those_of_the_textbook() {
+        let stable =
+            |k: f64, c: f64, delay: f64| AxisGains { stiffness: k, damping: c, integral: 0.0 }.is_stable(1.0, delay);
+        for (k, c, delay) in [(0.0, 2.0, 0.0), (1e-6, 2.0, 0.0), (0.0, 1.0, 1.0)] {
+            assert!(stable(0.999 * k, 0.999 * c, delay), "{k} {c}");
+            assert!(!stable(1.001 * k, 1.001 * c, delay), "{k} {c}");
+        }
+        assert!(stable(0.1998, 0.1, 0.0) && !stable(0.2002, 0.1, 0.0));
+        assert!(!stable(0.1, 0.0, 0.0), "no damping");
+    }
+
+    /// Law: the gains of a law are those of its equation: w^2 and 2 z w about every axis that is controlled; K/(4 J) and P/J; the gain over J.
+    #[test]
+    fn gains_are_those_of_the_law() {
+        let inertia = [[30.0, 2.0, 0.0], [2.0, 36.0, -1.0], [0.0, -1.0, 24.0]];
+        let known = KnownBody { inertia };
+        let all = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let two = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0; 3]];
+        let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.abs();
+        let quaternion = AttitudeLaw::QuaternionFeedback(QuaternionFeedback::new(0.3, 0.8));
+        for (reach, count) in [(all, 3), (two, 2)] {
+            let found = axis_gains(quaternion, &known, true, (inertia, reach), 0.5);
+            assert_eq!(found.len(), count);
+            for one in found {
+                assert!(near(one.stiffness, 0.09) && near(one.damping, 0.48) && one.integral == 0.0, "{one:?}");
+            }
+        }
+        let (moments, _) = principal_axes::<f64>(inertia);
+        let mut smallest_first = moments;
+        smallest_first.sort_by(f64::total_cmp);
+        let law = MrpFeedback::new(4.0, 20.0).with_integral(0.001, f64::INFINITY);
+        for (law, expected) in [
+            (AttitudeLaw::MrpFeedback(law), [1.0, 20.0, 20.0 * 0.001 * 0.5]),
+            (AttitudeLaw::RateDamping(RateDamping { gain: 7.0, integral: Integral::NONE }), [0.0, 7.0, 0.0]),
+        ] {
+            let mut found = axis_gains(law, &known, true, (inertia, all), 0.5);
+            found.sort_by(|a, b| b.damping.total_cmp(&a.damping));
+            for (one, moment) in found.iter().zip(smallest_first) {
+                // the integral of the MRP law has the rate too: P Ki J
+                let of_integral = if expected[2] > 0.0 { 20.0 * 0.001 } else { 0.0 };
+                assert!(near(one.damping, expected[1] / moment + of_integral), "{one:?}");
+                assert!(
+                    near(one.stiffness * moment, expected[0]) && near(one.integral * moment, expected[2]),
+                    "{one:?}"
+                );
+            }
+        }
+    }
+}

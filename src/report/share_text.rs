@@ -1,0 +1,49 @@
+//! Shares of runs in words.
+
+use crate::report::number::short;
+
+/// A share in per cent; near 100 with two digits of what is missing to it.
+fn percent(share: f64) -> String {
+    let (percent, left) = (100.0 * share, 100.0 * (1.0 - share));
+    if (1e-12..1.0).contains(&left) {
+        let digits = (1.0 - libm::floor(libm::log10(left))) as usize;
+        return format!("{percent:.digits$}");
+    }
+    short(percent)
+}
+
+/// A share, or where runs are missing its least and largest value, with its interval in brackets where there is one.
+pub fn with_interval([least, most]: [f64; 2], interval: [f64; 2]) -> String {
+    let share = if least == most {
+        format!("{}%", percent(least))
+    } else {
+        format!("{}% to {}%", percent(least), percent(most))
+    };
+    match interval {
+        [low, high] if low.is_finite() && high.is_finite() => format!("{share} [{}, {}]", percent(low), percent(high)),
+        _ => share,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: a share that is not all is never shown as all; ends of the interval are in order.
+    #[test]
+    fn what_is_left_is_seen() {
+        for (share, text) in [
+            (0.0, "0"),
+            (0.95, "95"),
+            (0.982, "98.20"),
+            (0.9917, "99.17"),
+            (0.999_987, "99.9987"),
+            (1.0, "100"),
+            (1.0 - 2e-9, "99.99999980"),
+        ] {
+            assert_eq!(percent(share), text);
+        }
+        assert_eq!(with_interval([0.95; 2], [0.91, 0.975]), "95% [91, 97.50]");
+        assert_eq!(with_interval([0.25, 0.98], [f64::NAN; 2]), "25% to 98%");
+    }
+}

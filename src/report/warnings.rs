@@ -1,0 +1,58 @@
+//! What a reader has to know before any number of a result: first on the screen, on the page and in `summary.json`.
+
+use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
+use crate::analysis::population::Loss;
+use crate::analysis::statistics::Statistics;
+use crate::campaign::Plan;
+use crate::report::audit_summary::AuditSummary;
+use crate::report::drivers_text::driven_by;
+use crate::report::share_text::with_interval;
+use crate::run::Status;
+
+/// The warnings of a campaign with these `statistics` and the audits `audit`, each a sentence that begins with what it is about in capitals; mostly none.
+/// `failures`: what drives whether a run is computed.
+pub fn warnings(
+    plan: &Plan,
+    statistics: &Statistics,
+    audit: Option<&AuditSummary>,
+    failures: &[InputSensitivity],
+) -> Vec<String> {
+    let mut found: Vec<String> = not_computed(plan, statistics, failures).into_iter().collect();
+    found.extend(audit.map_or_else(Vec::new, AuditSummary::broken_promises));
+    found
+}
+
+/// That many runs have no numbers, and what decides which.
+fn not_computed(plan: &Plan, statistics: &Statistics, failures: &[InputSensitivity]) -> Option<String> {
+    let loss = statistics.loss();
+    let Loss { missing, runs } = loss;
+    if !loss.is_big() {
+        return None;
+    }
+    let ended = Status::ALL
+        .into_iter()
+        .zip(statistics.statuses)
+        .filter(|(status, count)| *count > 0 && ![Status::Done, Status::InvalidSample].contains(status));
+    let ended: Vec<String> = ended.map(|(status, count)| format!("{} {count}", status.name())).collect();
+    let drivers = match driven_by(plan, failures, COMPUTED) {
+        none if none.is_empty() => String::new(),
+        drivers => format!(". Whether a run is computed: {}", drivers.join("; ")),
+    };
+    let others = match runs - missing {
+        0 => "There are no numbers".to_owned(),
+        left => {
+            format!("The numbers below are of the other {left}, which need not be like them, and have no intervals")
+        }
+    };
+    let share = missing as f64 / runs as f64;
+    Some(format!(
+        "NOT COMPUTED: {missing} of {runs} runs, {} ({}). {others}{drivers}",
+        with_interval([share; 2], [f64::NAN; 2]),
+        ended.join(", ")
+    ))
+}
+
+/// Warnings as lines of the screen; nothing where there are none.
+pub fn text(warnings: &[String]) -> String {
+    warnings.iter().map(|one| format!("\n  {one}\n")).collect()
+}

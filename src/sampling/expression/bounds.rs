@@ -1,0 +1,173 @@
+//! What the text of an expression says of its values: whether it is a condition, and in which range they are.
+
+use super::{Binary, Expression, Function, Step};
+
+/// The range of what is not known.
+const ANYTHING: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+impl Expression {
+    /// Whether it is a condition: comparisons, joined by `and` and `or`, chosen by `if`, or the numbers 0 and 1.
+    pub fn is_condition(&self) -> bool {
+        let mut stack: Vec<bool> = Vec::new();
+        for step in &self.steps {
+            let is_condition = match step {
+                Step::Number(number) => *number == 0.0 || *number == 1.0,
+                Step::Variable(_) => false,
+                Step::Binary(operator) => {
+                    let (right, left) = (stack.pop(), stack.pop());
+                    match operator {
+                        Binary::Or | Binary::And => left == Some(true) && right == Some(true),
+                        other => other.compares(),
+                    }
+                }
+                Step::Function(Function::If) => {
+                    let (no, yes, condition) = (stack.pop(), stack.pop(), stack.pop());
+                    [no, yes, condition] == [Some(true); 3]
+                }
+                Step::Negate | Step::Function(Function::One(_)) => stack.pop().is_none(),
+                Step::Function(Function::Two(_)) => (stack.pop(), stack.pop()) == (None, None),
+            };
+            stack.push(is_condition);
+        }
+        stack == [true]
+    }
+
+    /// A range that holds every value, where `variable` gives the range of the variable at each place: that of interval arithmetic, which takes each
+    /// occurrence of a variable for one of its own. Functions other than `abs`, powers, and quotients are not followed: they can be anything.
+    pub fn range(&self, variable: impl Fn(usize) -> [f64; 2]) -> [f64; 2] {
+        let mut stack: Vec<[f64; 2]> = Vec::new();
+        for step in &self.steps {
+            let mut take = || stack.pop().unwrap_or(ANYTHING);
+            let range = match step {
+                Step::Number(number) => [*number; 2],
+                Step::Variable(place) => variable(*place),
+                Step::Negate => {
+                    let [low, high] = take();
+                    [-high, -low]
+                }
+                Step::Binary(operator) => {
+                    let right = take();
+                    operator.range(take(), right)
+                }
+                Step::Function(Function::One(function)) => {
+                    let [low, high] = take();
+                    let largest = low.abs().max(high.abs());
+                    if !std::ptr::fn_addr_eq(*function, f64::abs as fn(f64) -> f64) {
+                        ANYTHING
+                    } else if low <= 0.0 && high >= 0.0 {
+                        [0.0, largest]
+                    } else {
+                        [low.abs().min(high.abs()), largest]
+                    }
+                }
+                Step::Function(Function::Two(_)) => {
+                    take();
+                    take();
+                    ANYTHING
+                }
+                Step::Function(Function::If) => {
+                    let (no, yes) = (take(), take());
+                    take();
+                    [no[0].min(yes[0]), no[1].max(yes[1])]
+                }
+            };
+            stack.push(if range.iter().any(|end| end.is_nan()) { ANYTHING } else { range });
+        }
+        stack.pop().unwrap_or(ANYTHING)
+    }
+}
+
+impl Binary {
+    /// Whether it compares two numbers: its value is 1 or 0.
+    fn compares(self) -> bool {
+        use Binary::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual, NotEqual};
+        matches!(self, Less | LessOrEqual | Greater | GreaterOrEqual | Equal | NotEqual)
+    }
+
+    /// The range of its value, where the operands have the ranges `a` and `b`.
+    fn range(self, a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+        let truth = |always: bool, never: bool| [f64::from(u8::from(always)), f64::from(u8::from(!never))];
+        // whether x < y for all of them, and for none
+        let less = |x: [f64; 2], y: [f64; 2]| truth(x[1] < y[0], x[0] >= y[1]);
+        let at_most = |x: [f64; 2], y: [f64; 2]| truth(x[1] <= y[0], x[0] > y[1]);
+        let is_apart = a[1] < b[0] || b[1] < a[0];
+        let is_same = a[0] == a[1] && a == b;
+        let (is_true, is_zero) = (|x: [f64; 2]| x[0] > 0.0 || x[1] < 0.0, |x: [f64; 2]| x == [0.0, 0.0]);
+        match self {
+            Binary::Or => truth(is_true(a) || is_true(b), is_zero(a) && is_zero(b)),
+            Binary::And => truth(is_true(a) && is_true(b), is_zero(a) || is_zero(b)),
+            Binary::Add => [a[0] + b[0], a[1] + b[1]],
+            Binary::Subtract => [a[0] - b[1], a[1] - b[0]],
+            Binary::Multiply => {
+                let products = [a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]];
+                // a product of zero and infinity is not known
+                let is_known = products.iter().all(|product| !product.is_nan());
+                let least = products.iter().copied().fold(f64::INFINITY, f64::min);
+                if is_known { [least, products.iter().copied().fold(f64::NEG_INFINITY, f64::max)] } else { ANYTHING }
+            }
+            Binary::Divide | Binary::Power => ANYTHING,
+            Binary::Less => less(a, b),
+            Binary::LessOrEqual => at_most(a, b),
+            Binary::Greater => less(b, a),
+            Binary::GreaterOrEqual => at_most(b, a),
+            Binary::Equal => truth(is_same, is_apart),
+            Binary::NotEqual => truth(is_apart, is_same),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: a condition is made of comparisons; a number is none, whatever is done with it.
+    #[test]
+    fn conditions_are_comparisons() {
+        for text in ["a < 1", "a < 1 and b > 2 or c == 3", "1", "if(a < 1, b < 2, 0)", "-a <= abs(b)", "(a != 1)"] {
+            assert!(Expression::parse(text).expect(text).is_condition(), "{text}");
+        }
+        for text in
+            ["a", "a and b < 1", "a < 1 or b", "-(a < 1)", "abs(a < 1)", "2", "if(a < 1, b, 1)", "(a < 1) + (b < 1)"]
+        {
+            assert!(!Expression::parse(text).expect(text).is_condition(), "{text}");
+        }
+    }
+
+    /// Law: the range holds every value, and what it says can never be is never so; it is the exact range where every variable stands there once.
+    #[test]
+    fn ranges_hold_every_value() {
+        let ranges = [[0.0, f64::INFINITY], [0.0, 2.0], [-3.0, -1.0]];
+        for (text, expected) in [
+            ("a < 0", [0.0, 0.0]),
+            ("a <= 0", [0.0, 1.0]),
+            ("a >= 0", [1.0, 1.0]),
+            ("b > 2", [0.0, 0.0]),
+            ("b >= 2 or a < 0", [0.0, 1.0]),
+            ("b < 3 and a < 0", [0.0, 0.0]),
+            ("b - c > 5", [0.0, 0.0]),
+            ("b - c >= 5", [0.0, 1.0]),
+            ("2 * b + 1", [1.0, 5.0]),
+            ("b * c", [-6.0, 0.0]),
+            ("abs(c)", [1.0, 3.0]),
+            ("abs(b - 1)", [0.0, 1.0]),
+            ("-b", [-2.0, 0.0]),
+            ("b == 3", [0.0, 0.0]),
+            ("b != 3", [1.0, 1.0]),
+            ("if(b < 1, b, c)", [-3.0, 2.0]),
+            ("sin(b) > 2", [0.0, 1.0]),
+            ("a - a < 0", [0.0, 1.0]),
+            ("0 * a < 0", [0.0, 1.0]),
+        ] {
+            let expression = Expression::parse(text).expect(text);
+            let place = |place: usize| ["a", "b", "c"].iter().position(|name| expression.variables()[place] == *name);
+            let range = expression.range(|at| ranges[place(at).expect("a name")]);
+            assert_eq!(range, expected, "{text}");
+            for a in [0.0, 0.5, 1e9] {
+                for (b, c) in [(0.0, -3.0), (1.0, -2.0), (2.0, -1.0)] {
+                    let value = expression.value(|at| [a, b, c][place(at).expect("a name")]);
+                    assert!((range[0]..=range[1]).contains(&value), "{text}: {value} of {range:?}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! [`derive`]: makes the files that follow from plan and rows, one after another. A campaign that ends writes them ([`super::finishing`]), and
+//! `verify` compares them with those that are there ([`super::derived_check`]).
+
+use std::fmt::Display;
+
+use crate::analysis::fold::Gathered;
+use crate::analysis::{derived_table, sensitivity_table, statistics_table, trajectories};
+use crate::ensemble::Ensemble;
+use crate::report::page::Page;
+use crate::report::summary::Summary;
+use crate::sampling::SampleId;
+use crate::storage::bands_table;
+use crate::storage::disk::StorageError;
+use crate::storage::folder::Folder;
+use crate::storage::manifest::PartRecord;
+use crate::storage::names::{BANDS, OBSERVABLES, REPORT, SENSITIVITY, STATISTICS, SUMMARY};
+use crate::storage::rows_reader::RowsReader;
+use crate::workflow::analysed::{Analysed, computed};
+use crate::workflow::error::WorkflowError;
+use crate::workflow::page::made_page;
+use crate::workflow::session::Session;
+
+/// Where the files go; called from any thread.
+pub(super) trait Destination: Sync {
+    /// Takes the file `name` with this content.
+    fn take(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError>;
+
+    /// Is told that the dataset has no file `name`.
+    fn leave_out(&self, name: &str) -> Result<(), StorageError>;
+}
+
+impl Destination for Folder {
+    fn take(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError> {
+        self.write(name, bytes)
+    }
+
+    fn leave_out(&self, name: &str) -> Result<(), StorageError> {
+        self.remove(name)
+    }
+}
+
+/// Which page is made.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum PageKind {
+    /// None.
+    Without,
+    /// One of the rows alone.
+    OfRows,
+    /// One that says which share is noise within control loops, by so many scenes that are flown twice.
+    WithNoise(u64),
+}
+
+/// A dataset with all its rows.
+#[derive(Clone, Copy)]
+pub(super) struct Derivation<'a> {
+    pub session: Session<'a>,
+    pub ensemble: &'a Ensemble<'a>,
+    pub reader: &'a RowsReader,
+    pub records: &'a [PartRecord],
+    pub page: PageKind,
+    /// The samples whose time series are made.
+    pub retained: &'a [SampleId],
+}
+
+/// What was made.
+pub(super) struct Derived {
+    pub analysed: Analysed,
+    pub page: Option<Page>,
+    pub summary: Summary,
+}
+
+/// Makes the files from what was `gathered` from the rows, each for `files`.
+///
+/// # Errors
+/// Where a file cannot be read, encoded or taken.
+pub(super) fn derive(
+    job: &Derivation<'_>,
+    gathered: Gathered,
+    files: &dyn Destination,
+) -> Result<Derived, WorkflowError> {
+    let (plan, threads) = (job.ensemble.plan(), job.session.threads);
+    let analysed = computed(plan, job.reader, gathered, threads)?;
+    take(files, STATISTICS, Some(statistics_table::encoded(plan, &analysed.statistics)))?;
+    take(files, SENSITIVITY, Some(sensitivity_table::encoded(plan, &analysed.sensitivities)))?;
+    take(files, OBSERVABLES, derived_table::encoded(plan, job.reader).transpose())?;
+    take(files, BANDS, analysed.bands.as_ref().map(|bands| bands_table::encoded(plan, bands)))?;
+    trajectories::save(plan, job.retained, (job.ensemble.isa(), threads), &|name, bytes| files.take(name, bytes))
+        .map_err(WorkflowError::files)?;
+    let page = match job.page {
+        PageKind::Without => None,
+        PageKind::OfRows => Some(made_page(&job.session, job.ensemble, &analysed, job.records, None)?.0),
+        PageKind::WithNoise(scenes) => {
+            Some(made_page(&job.session, job.ensemble, &analysed, job.records, Some(scenes))?.0)
+        }
+    };
+    take(files, REPORT, page.as_ref().map(|page| Ok::<_, WorkflowError>(page.html.clone().into_bytes())))?;
+    let summary = Summary::new(plan, &analysed.tally, &analysed.statistics, analysed.verdicts.clone())
+        .with_stopping(plan, analysed.stopping.clone())
+        .with_missions(analysed.missions.clone())
+        .with_warnings(analysed.warnings.clone());
+    take(files, SUMMARY, Some(Ok::<_, WorkflowError>(summary.json().into_bytes())))?;
+    Ok(Derived { analysed, page, summary })
+}
+
+/// Gives `files` the file `name`, or says that there is none.
+fn take<E: Display>(
+    files: &dyn Destination,
+    name: &str,
+    encoded: Option<Result<Vec<u8>, E>>,
+) -> Result<(), WorkflowError> {
+    match encoded {
+        None => files.leave_out(name),
+        Some(Ok(bytes)) => files.take(name, &bytes),
+        Some(Err(error)) => return Err(WorkflowError::files(format!("{name}: {error}"))),
+    }
+    .map_err(WorkflowError::files)
+}

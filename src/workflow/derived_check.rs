@@ -1,0 +1,158 @@
+//! [`derived_problems`]: whether the files of a result that follow from plan and rows are what this program makes of them. A checksum alone says only
+//! that a file is the one that the manifest lists, and whoever changes both can list any.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+use crate::analysis::fold::Gathered;
+use crate::analysis::trajectories::file_name;
+use crate::campaign::{FilesRead, data};
+use crate::ensemble::Ensemble;
+use crate::sampling::SampleId;
+use crate::storage::disk::{StorageError, at};
+use crate::storage::found::Found;
+use crate::storage::manifest::{FileRecord, PartRecord};
+use crate::storage::names::{DATA, PLAN, REPORT, SUMMARY, TABLE_LOG, TRAJECTORIES, VERSIONS};
+use crate::storage::parts_read::PartsRead;
+use crate::storage::rows_file::{headings, identity};
+use crate::storage::rows_reader::RowsReader;
+use crate::storage::table_log;
+use crate::workflow::derived::{Derivation, Destination, PageKind, derive};
+use crate::workflow::error::WorkflowError;
+use crate::workflow::finishing::growing;
+use crate::workflow::page::noise_scenes;
+use crate::workflow::session::Session;
+
+/// What was compared, and what is wrong.
+#[derive(Debug, Default)]
+pub(super) struct DerivedCheck {
+    /// Files that were made again.
+    pub files: usize,
+    /// Time series that were not made again.
+    pub left_out: usize,
+    /// What is wrong, file by file.
+    pub problems: Vec<String>,
+}
+
+/// Compares files with those that are listed.
+struct Comparison<'a> {
+    listed: BTreeMap<&'a str, &'a FileRecord>,
+    made: Mutex<BTreeSet<String>>,
+    problems: Mutex<Vec<String>>,
+}
+
+impl Comparison<'_> {
+    fn is_listed(&self, name: &str) -> bool {
+        self.listed.contains_key(name)
+    }
+
+    fn add(&self, name: &str, what: &str) {
+        self.problems.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{name}: {what}"));
+    }
+
+    fn compare(&self, name: &str, bytes: &[u8]) {
+        self.made.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned());
+        match self.listed.get(name) {
+            Some(listed) if **listed == FileRecord::of(name, bytes) => {}
+            Some(_) => self.add(name, "is not what this program makes of plan and rows, though its checksum is right"),
+            None => self.add(name, "is missing, and no line of the manifest lists it"),
+        }
+    }
+}
+
+impl Destination for Comparison<'_> {
+    fn take(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError> {
+        self.compare(name, bytes);
+        Ok(())
+    }
+
+    fn leave_out(&self, name: &str) -> Result<(), StorageError> {
+        if self.is_listed(name) {
+            self.made.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned());
+            self.add(name, "is listed, and plan and rows have no such file");
+        }
+        Ok(())
+    }
+}
+
+/// Makes the files that follow from plan and rows of the result in `root` again, and compares them with those that are listed there; of the time series
+/// those that `chosen` chooses. The parts are `records`; every checksum was compared.
+///
+/// # Errors
+/// Where a file cannot be read.
+pub(super) fn derived_problems(
+    session: &Session<'_>,
+    (root, found): (&Path, &Found),
+    (ensemble, read): (&Ensemble<'_>, &FilesRead),
+    records: &[PartRecord],
+    chosen: &dyn Fn(&[SampleId]) -> Vec<SampleId>,
+) -> Result<DerivedCheck, WorkflowError> {
+    let (storage, plan) = (session.storage, ensemble.plan());
+    let listed = found.written().iter().map(|file| (file.name.as_str(), file)).collect();
+    let files = Comparison { listed, made: Mutex::default(), problems: Mutex::default() };
+    let parts = PartsRead::of(records, |name| root.join(name));
+    let reader = RowsReader::new(storage, parts.rows);
+    let gathered =
+        Gathered::of_files(ensemble, (&reader, &parts.bands), session.threads).map_err(WorkflowError::files)?;
+    let retained = gathered.retained.clone();
+    let made_again = chosen(&retained);
+    let page = match files.listed.get(REPORT) {
+        None => PageKind::Without,
+        Some(page) => {
+            let path = root.join(REPORT);
+            let html = storage.read(&path, page.bytes).map_err(at(&path)).map_err(WorkflowError::files)?;
+            noise_scenes(&html).map_or(PageKind::OfRows, PageKind::WithNoise)
+        }
+    };
+    let job = Derivation { session: *session, ensemble, reader: &reader, records, page, retained: &made_again };
+    derive(&job, gathered, &files)?;
+    files.compare(PLAN, plan.text().as_bytes());
+    let series: BTreeSet<String> =
+        retained.iter().map(|sample| format!("{TRAJECTORIES}/{}", file_name(*sample))).collect();
+    let copies: BTreeSet<String> =
+        read.data.iter().map(|(path, sha256)| format!("{DATA}/{}", data::copy_name(path, sha256))).collect();
+    for name in series.iter().chain(&copies).filter(|name| !files.is_listed(name)) {
+        files.add(name, "is missing, and no line of the manifest lists it");
+    }
+    let is_log = table_log::is_of(
+        (storage, root),
+        &identity(ensemble),
+        &headings(ensemble),
+        (records, growing(ensemble, records)),
+    );
+    if !is_log.map_err(WorkflowError::files)? {
+        files.add(TABLE_LOG, "is not the log of these rows");
+    }
+    let made = files.made.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let mut problems = files.problems.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let is_known = |name: &str| {
+        let folder = name.split('/').next().unwrap_or_default();
+        // the log names its own files
+        made.contains(name) || series.contains(name) || copies.contains(name) || [TABLE_LOG, VERSIONS].contains(&folder)
+    };
+    problems.extend(
+        (files.listed.keys().filter(|name| !is_known(name)))
+            .map(|name| format!("{name}: is listed, and plan and rows have no such file")),
+    );
+    if problems.iter().any(|what| what.starts_with(SUMMARY))
+        && let Some(version) = other_version(session, root)?
+    {
+        problems.push(format!("{SUMMARY}: says that version {version} of the program made it, and this one is {THIS}"));
+    }
+    problems.sort();
+    problems.dedup();
+    Ok(DerivedCheck { files: made.len(), left_out: retained.len() - made_again.len(), problems })
+}
+
+/// The version of this program.
+const THIS: &str = env!("CARGO_PKG_VERSION");
+
+/// The version that the summary in `root` names, where it is not this one.
+fn other_version(session: &Session<'_>, root: &Path) -> Result<Option<String>, WorkflowError> {
+    let path = root.join(SUMMARY);
+    let bytes = session.storage.read(&path, crate::storage::folder::MOST_SUMMARY).map_err(at(&path));
+    let summary: serde_json::Value = serde_json::from_slice(&bytes.map_err(WorkflowError::files)?).unwrap_or_default();
+    let version = summary.get("version").and_then(serde_json::Value::as_str);
+    Ok(version.filter(|version| *version != THIS).map(str::to_owned))
+}

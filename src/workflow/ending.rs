@@ -1,0 +1,59 @@
+//! [`end_of`]: how the campaign of a finished result ended: what its rows say, and that its summary says the same.
+
+use std::path::{Path, PathBuf};
+
+use crate::analysis::ending::ending;
+use crate::campaign::Plan;
+use crate::ensemble::Ensemble;
+use crate::report::shell_word::quoted_path;
+use crate::report::summary::SummaryEnd;
+use crate::storage::claim::Finished;
+use crate::storage::names::{MANIFEST, SUMMARY};
+use crate::storage::parts_read::PartsRead;
+use crate::storage::rows_reader::RowsReader;
+use crate::workflow::error::WorkflowError;
+use crate::workflow::session::Session;
+
+/// How the campaign `plan` ended, by its rows in a finished result. The `summary` in `root` has to say the same: programs read that.
+///
+/// # Errors
+/// Where rows cannot be read, or the summary says something else.
+pub(super) fn end_of(
+    (root, summary): (&Path, &[u8]),
+    plan: &Plan,
+    rows: (&RowsReader, &[PathBuf]),
+    session: &Session<'_>,
+) -> Result<SummaryEnd, WorkflowError> {
+    let ensemble = Ensemble::new(plan, session.isa);
+    let end = SummaryEnd::of(&ending(&ensemble, rows, session.threads).map_err(WorkflowError::files)?);
+    // warnings are words that nothing follows from
+    let said =
+        SummaryEnd::read(summary).map(|said| (said.warnings.clone(), SummaryEnd { warnings: Vec::new(), ..said }));
+    if let Some((warnings, said)) = said
+        && said == end
+    {
+        return Ok(SummaryEnd { warnings, ..end });
+    }
+    Err(WorkflowError::Files(format!(
+        "{}: does not say what the rows say, though it has the checksum that {MANIFEST} lists; this makes it again: spindrift verify {} --repair",
+        root.join(SUMMARY).display(),
+        quoted_path(root)
+    )))
+}
+
+/// The same of a result that was found to be finished and undamaged.
+///
+/// # Errors
+/// As [`end_of`].
+pub(super) fn end_of_finished(
+    session: &Session<'_>,
+    root: &Path,
+    plan: &Plan,
+    finished: &Finished,
+) -> Result<SummaryEnd, WorkflowError> {
+    let rows: u64 = finished.parts.iter().map(|part| part.rows).sum();
+    let read = PartsRead::of(&finished.parts, |name| root.join(name));
+    let reader = RowsReader::new(session.storage, read.rows);
+    let plan = plan.clone().at_look(rows);
+    end_of((root, finished.summary.as_bytes()), &plan, (&reader, &read.bands), session)
+}

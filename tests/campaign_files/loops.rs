@@ -1,0 +1,325 @@
+//! Control loops in campaign files: what is refused, with one problem for one mistake, and how a phase or a sensor is addressed.
+
+use spindrift::campaign::{CampaignError, Overrides, Plan};
+
+use crate::support::scratch_folder::ScratchFolder;
+
+/// A loop of everything that does not need debris.
+pub const LOOP: &str = r#"[campaign]
+name = "loop"
+samples = 1
+seed = 1
+duration_s = 300.0
+[body]
+mass_kg = 100
+center_of_mass_m = [0, 0, 0]
+inertia_kg_m2 = [[30, 0, 0], [0, 36, 0], [0, 0, 24]]
+includes_wheels = true
+[[wheels]]
+name = "w1"
+axis = [1, 0, 0]
+mass_kg = 1
+axial_inertia_kg_m2 = 0.01
+transverse_inertia_kg_m2 = 0.006
+rate_rad_s = 10.0
+speed_limit_rad_s = 600.0
+[[wheels]]
+name = "w2"
+axis = [0, 1, 0]
+mass_kg = 1
+axial_inertia_kg_m2 = 0.01
+transverse_inertia_kg_m2 = 0.006
+[[wheels]]
+name = "w3"
+axis = [0, 0, 1]
+mass_kg = 1
+axial_inertia_kg_m2 = 0.01
+transverse_inertia_kg_m2 = 0.006
+[initial]
+angular_velocity_rad_s = [0.01, 0.02, -0.01]
+[control]
+period_s = 0.25
+delay_s = 0.1
+estimator = "mekf"
+wheels = ["w1", "w2", "w3"]
+settling_band_rad = 0.01
+initial_attitude_sigma_rad = 0.1
+[[sensors]]
+name = "gyro"
+kind = "rate_gyro"
+scale = [1, 1, 1]
+[[sensors]]
+name = "tracker"
+kind = "star_tracker"
+period_s = 0.5
+latency_s = 0.25
+noise_rad = [1e-4, 1e-4, 5e-4]
+max_rate_rad_s = "2 deg/s"
+[[guidance]]
+phase = "damp"
+law = "rate_damping"
+gain_n_m_s = 5.0
+until = "body_rate_rad_s < 0.01"
+hold_s = 1.0
+timeout_s = 100.0
+[[guidance]]
+phase = "slew"
+law = "eigenaxis"
+bandwidth_rad_s = 0.1
+damping = 0.8
+max_rate_rad_s = "1 deg/s"
+target = "attitude"
+attitude = [1, 0, 0, 0]
+until = "pointing_error_rad < 0.01"
+hold_s = 2.0
+next = "hold"
+[[guidance]]
+phase = "hold"
+law = "quaternion_feedback"
+bandwidth_rad_s = 0.2
+damping = 0.7
+target = "attitude"
+attitude = [1, 0, 0, 0]
+"#;
+
+/// What a loop has that depends on it: a dispersion of each table, a requirement, a retained run.
+const DEPENDENTS: &str = r#"[[disperse]]
+parameter = "control.delay_s"
+distribution = "normal"
+std = 0.01
+[[disperse]]
+parameter = "control.initial_attitude_sigma_rad"
+distribution = "uniform"
+min = 0.1
+max = 0.2
+[[disperse]]
+parameter = "sensors.tracker.noise_rad"
+distribution = "normal"
+std = 1e-5
+[[disperse]]
+parameter = "guidance.hold.damping"
+distribution = "normal"
+std = 0.05
+[[require]]
+observable = "pointing_error_final_rad"
+quantile = 0.95
+at_most = 0.1
+[[require]]
+observable = "speed_peak_w1_rad_s"
+quantile = 0.95
+at_most = 600
+[[require]]
+observable = "phase_slew_begin_s"
+quantile = 0.95
+at_most = 100
+[retain]
+trajectories = "worst:1 by pointing_error_final_rad"
+"#;
+
+pub fn plan(text: &str) -> Plan {
+    Plan::from_text("loop.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+fn refused(text: &str) -> CampaignError {
+    Plan::from_text("loop.toml", text, Overrides::default()).expect_err(text)
+}
+
+fn set(settings: &[(&str, &str)]) -> Result<Plan, CampaignError> {
+    let settings = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    Plan::from_text("loop.toml", LOOP, Overrides { settings, ..Overrides::default() })
+}
+
+/// Law: one wrong key of a loop is one problem, whatever depends on it: keys of an estimator, of a modulation, of a law; parameters; columns. A loop
+/// without phases is one problem too.
+#[test]
+fn one_mistake_is_one_problem() {
+    let text = format!("{LOOP}{DEPENDENTS}").replacen("samples = 1\n", "samples = 10\n", 1);
+    plan(&text);
+    for (from, to, key) in [
+        ("period_s = 0.25\n", "period_s = -1\n", "control.period_s"),
+        ("period_s = 0.25\n", "", "control.period_s"),
+        ("delay_s = 0.1", "delay_s = \"soon\"", "control.delay_s"),
+        ("estimator = \"mekf\"", "estimator = \"ekf2\"", "control.estimator"),
+        ("wheels = [\"w1\", \"w2\", \"w3\"]\n", "", "control.wheels"),
+        ("wheels = [\"w1\", \"w2\", \"w3\"]", "wheels = [\"w1\", \"w9\"]", "control.wheels"),
+        ("kind = \"star_tracker\"", "kind = \"tracker\"", "sensors.tracker.kind"),
+        ("noise_rad = [1e-4, 1e-4, 5e-4]", "noise_rad = 3", "sensors.tracker.noise_rad"),
+        ("latency_s = 0.25", "latency_s = 0.3", "sensors.tracker.latency_s"),
+        ("law = \"eigenaxis\"", "law = \"slew\"", "guidance.slew.law"),
+        (
+            "target = \"attitude\"\nattitude = [1, 0, 0, 0]\nuntil",
+            "target = \"line\"\nattitude = [1, 0, 0, 0]\nuntil",
+            "guidance.slew.target",
+        ),
+        ("phase = \"hold\"", "phase = \"hold it\"", "guidance[2].phase"),
+        ("next = \"hold\"", "next = \"held\"", "guidance.slew.next"),
+        ("until = \"body_rate_rad_s < 0.01\"", "until = \"body_rate < 0.01\"", "guidance.damp.until"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let error = refused(&text.replacen(from, to, 1));
+        let keys: Vec<&str> = error.problems.iter().map(|problem| problem.key.as_str()).collect();
+        assert_eq!(keys, [key], "{to}: {error}");
+    }
+    let start = text.find("[[guidance]]").expect("phases");
+    let end = text.find("[[disperse]]").expect("dispersions");
+    let without = format!("{}{}", &text[..start], &text[end..]);
+    let error = refused(&without);
+    assert_eq!(error.problems.iter().map(|problem| problem.key.as_str()).collect::<Vec<_>>(), ["guidance"], "{error}");
+    // beside another mistake it is told too, and so are mistakes that have nothing to do with the loop
+    let several = without.replacen("\"mekf\"", "\"ekf2\"", 1).replacen("mass_kg = 100", "mass_kg = \"heavy\"", 1);
+    let keys: Vec<String> = refused(&several).problems.into_iter().map(|problem| problem.key).collect();
+    assert_eq!(keys, ["body.mass_kg", "control.estimator", "guidance"]);
+}
+
+/// Law: what flight software believes of the inertia is that of a body: symmetric, positive definite, no principal moment above the sum of the others, and
+/// more than the wheels about their axes; the nearest tensors that are so are accepted.
+#[test]
+fn a_believed_inertia_is_that_of_a_body() {
+    let with = |tensor: &str| {
+        LOOP.replacen("[[sensors]]", &format!("[control.model]\ninertia_kg_m2 = {tensor}\n[[sensors]]"), 1)
+    };
+    for (wrong, says, right) in [
+        ("[[-30, 0, 0], [0, 36, 0], [0, 0, 24]]", "positive definite", "[[30, 0, 0], [0, 36, 0], [0, 0, 24]]"),
+        ("[[0, 0, 0], [0, 0, 0], [0, 0, 0]]", "positive definite", "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"),
+        ("[[30, 2, 0], [1, 36, 0], [0, 0, 24]]", "symmetric", "[[30, 2, 0], [2, 36, 0], [0, 0, 24]]"),
+        ("[[30, 40, 0], [40, 36, 0], [0, 0, 24]]", "positive definite", "[[30, 4, 0], [4, 36, 0], [0, 0, 24]]"),
+        ("[[30, 0, 0], [0, 36, 0], [0, 0, 67]]", "exceeds the sum", "[[30, 0, 0], [0, 36, 0], [0, 0, 66]]"),
+        (
+            "[[0.009, 0, 0], [0, 1, 0], [0, 0, 1]]",
+            "more than the axial inertias",
+            "[[0.02, 0, 0], [0, 1, 0], [0, 0, 1]]",
+        ),
+    ] {
+        let error = refused(&with(wrong));
+        let [problem] = &error.problems[..] else { panic!("{error}") };
+        assert!(problem.key == "control.model.inertia_kg_m2" && problem.allowed.contains(says), "{wrong}: {problem}");
+        plan(&with(right));
+    }
+}
+
+/// Law: a loop has one gyro and one set of tachometers; of the other kinds it may have several.
+#[test]
+fn a_second_sensor_of_a_kind_that_is_used_once_is_refused() {
+    let tables = [
+        ("rate_gyro", false, "[[sensors]]\nname = \"a\"\nkind = \"rate_gyro\"\n"),
+        ("tachometers", false, "[[sensors]]\nname = \"a\"\nkind = \"tachometers\"\n"),
+        ("star_tracker", true, "[[sensors]]\nname = \"a\"\nkind = \"star_tracker\"\n"),
+        ("ground_radar", true, "[[sensors]]\nname = \"a\"\nkind = \"ground_radar\"\n"),
+    ];
+    for (kind, may_be_several, table) in tables {
+        let two = format!("{LOOP}{table}{}", table.replace("\"a\"", "\"b\""));
+        let one = if kind == "rate_gyro" { LOOP.to_owned() } else { format!("{LOOP}{table}") };
+        plan(&one);
+        match Plan::from_text("loop.toml", &two, Overrides::default()) {
+            Ok(_) => assert!(may_be_several, "{kind}"),
+            Err(error) => {
+                let said = error.to_string();
+                assert!(
+                    !may_be_several && said.contains("sensors.b.kind") && said.contains("at most one sensor of kind"),
+                    "{kind}: {said}"
+                );
+            }
+        }
+    }
+}
+
+/// Law: a condition compares; a number alone is refused, with what to write.
+#[test]
+fn a_condition_compares() {
+    for wrong in ["body_rate_rad_s", "body_rate_rad_s and time_s > 5", "body_rate_rad_s - 0.01", "2"] {
+        let error = refused(&LOOP.replacen("body_rate_rad_s < 0.01", wrong, 1));
+        let [problem] = &error.problems[..] else { panic!("{error}") };
+        assert!(problem.key == "guidance.damp.until" && problem.allowed.contains("a comparison"), "{wrong}: {problem}");
+    }
+    for right in ["(body_rate_rad_s < 0.01)", "1", "time_s > 5 and (body_rate_rad_s < 1 or time_s > 9)"] {
+        plan(&LOOP.replacen("body_rate_rad_s < 0.01", right, 1));
+    }
+}
+
+/// Law: sensors measure at whole multiples or whole fractions of the control period, whatever the others do, where a tick of a thousandth of it or more is
+/// common to all.
+#[test]
+fn periods_of_sensors_fit_into_the_loop() {
+    let with = |control: &str, gyro: &str, tracker: &str| {
+        LOOP.replacen("period_s = 0.25\n", &format!("period_s = {control}\n"), 1)
+            .replacen("kind = \"rate_gyro\"", &format!("kind = \"rate_gyro\"\nperiod_s = {gyro}"), 1)
+            .replacen("period_s = 0.5\nlatency_s = 0.25\n", &format!("period_s = {tracker}\n"), 1)
+    };
+    for (control, gyro, tracker) in [
+        ("0.5", "2", "5"),
+        ("0.5", "5", "2"),
+        ("0.6", "0.3", "0.2"),
+        ("0.6", "0.2", "3"),
+        ("1", "0.001", "0.5"),
+        ("0.1", "0.3", "0.7"),
+    ] {
+        plan(&with(control, gyro, tracker));
+    }
+    for (control, gyro, tracker, key) in [
+        ("0.5", "0.7", "5", "sensors.gyro.period_s"),
+        ("0.5", "2", "5.1", "sensors.tracker.period_s"),
+        // 1/31 and 1/37 have 1/1147 in common
+        ("1147", "37", "31", "sensors.tracker.period_s"),
+    ] {
+        let error = refused(&with(control, gyro, tracker));
+        assert!(error.problems.len() == 1 && error.problems[0].key == key, "{error}");
+    }
+}
+
+/// Law: what a remedy gives to write is accepted, and never what was refused.
+#[test]
+fn a_remedy_is_accepted() {
+    let mut tried = 0;
+    for (control, key, line) in [
+        ("0.25", "period_s = 0.5", "period_s"),
+        ("0.25", "latency_s = 0.25", "latency_s"),
+        ("1e-4", "latency_s = 0.25", "latency_s"),
+        ("0.1", "period_s = 0.5", "period_s"),
+        ("300.0", "period_s = 0.5", "period_s"),
+    ] {
+        for value in ["0.25", "0.3", "0.375", "0.07", "0.999", "0.1250001", "77.7", "1e-9", "1e12"] {
+            let mut text = LOOP.replacen("period_s = 0.25\n", &format!("period_s = {control}\n"), 1);
+            if line == "period_s" {
+                text = text.replacen("latency_s = 0.25\n", "", 1);
+            } else {
+                text = text.replacen("period_s = 0.5\n", "", 1);
+            }
+            let with = |value: &str| text.replacen(key, &format!("{line} = {value}"), 1);
+            let Err(error) = Plan::from_text("loop.toml", &with(value), Overrides::default()) else { continue };
+            let [problem] = &error.problems[..] else { panic!("{error}") };
+            let written = problem.remedy.strip_prefix("write ").unwrap_or_else(|| panic!("{problem}"));
+            assert_ne!(written.parse::<f64>(), value.parse::<f64>(), "{problem}");
+            plan(&with(written));
+            tried += 1;
+        }
+    }
+    assert!(tried > 20, "{tried} remedies");
+}
+
+/// Law: a phase and a sensor are addressed by their names, as messages and `[[disperse]]` name them, and by their places; a file that extends another
+/// overrides one of them alone.
+#[test]
+fn phases_and_sensors_have_names() {
+    let value =
+        |plan: &Plan, table: usize, key: &str| plan.nominal.control.guidance[table].named(key).expect("a key")[0];
+    for key in ["guidance.hold.bandwidth_rad_s", "guidance[2].bandwidth_rad_s"] {
+        let plan = set(&[(key, "0.15")]).expect(key);
+        assert_eq!((value(&plan, 2, "bandwidth_rad_s"), value(&plan, 1, "bandwidth_rad_s")), (0.15, 0.1));
+    }
+    let noise = set(&[("sensors.tracker.noise_rad", "[1e-3, 2e-3, 3e-3]")]).expect("a sensor");
+    assert_eq!(noise.nominal.control.sensors[1].named("noise_rad"), Some(&[1e-3, 2e-3, 3e-3][..]));
+    let wrong = set(&[("guidance.held.damping", "1")]).expect_err("no such phase").to_string();
+    assert!(wrong.contains("[[guidance]]") && wrong.contains("damp, slew, hold"), "{wrong}");
+    let scratch = ScratchFolder::new("extended-loop");
+    scratch.file("base.toml", LOOP);
+    scratch.file(
+        "variant.toml",
+        "extends = \"base.toml\"\n[[guidance]]\nphase = \"hold\"\nbandwidth_rad_s = 0.15\n[[sensors]]\nname = \"tracker\"\nnoise_rad = [1e-3, 2e-3, 3e-3]\n",
+    );
+    let variant =
+        Plan::load(&scratch.path("variant.toml"), Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let same = set(&[("guidance.hold.bandwidth_rad_s", "0.15"), ("sensors.tracker.noise_rad", "[1e-3, 2e-3, 3e-3]")])
+        .expect("a plan");
+    assert_eq!(variant.hash(), same.hash());
+    assert_eq!(variant.nominal.control.guidance.len(), 3);
+}
