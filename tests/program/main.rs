@@ -76,3 +76,4 @@ mod stopping;
 mod strays;
 mod table_log;
 mod threads_and_shards;
+mod tutorial;

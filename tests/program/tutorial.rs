@@ -1,0 +1,132 @@
+//! `docs/tutorial.md`, done as it stands: its files are written, its commands run, what it says that they print is what they print, and its
+//! pictures are those that they make.
+
+use std::path::{Path, PathBuf};
+
+use crate::support::scratch_folder::ScratchFolder;
+
+/// With this variable pictures that differ are written to `docs/figures`.
+const WRITE: &str = "SPINDRIFT_WRITE_DOCS";
+
+/// One step of the document.
+#[derive(Debug, PartialEq)]
+enum Step<'d> {
+    /// Text that is added to a file of this name.
+    Write { file: &'d str, text: String },
+    /// A line for a shell, and the exit code that the document states.
+    Run { command: &'d str, code: i32 },
+    /// Lines that the commands before print, in this order; `...` stands for lines that are left out.
+    Prints(Vec<&'d str>),
+    /// A figure that the commands before write, and the picture in the document.
+    Picture { figure: &'d str, picture: &'d str },
+}
+
+/// The steps of a document, in order.
+fn steps(document: &str) -> Vec<Step<'_>> {
+    let (mut steps, mut file, mut figure) = (Vec::new(), None, None);
+    let mut lines = document.lines();
+    while let Some(line) = lines.next() {
+        let mark = |name: &str| line.strip_prefix("<!-- ")?.strip_suffix(" -->")?.strip_prefix(name);
+        if let Some(name) = mark("file: ") {
+            file = Some(name);
+        } else if let Some(name) = mark("picture: ") {
+            figure = Some(name);
+        } else if let Some(figure) = figure.filter(|_| line.starts_with("![")).take() {
+            let picture = line.split("](").nth(1).and_then(|rest| rest.strip_suffix(')')).expect("a picture");
+            steps.push(Step::Picture { figure, picture });
+        } else if let Some(language) = line.strip_prefix("```") {
+            let block: Vec<&str> = lines.by_ref().take_while(|line| *line != "```").collect();
+            match language {
+                "toml" => {
+                    let file = file.expect("the name of a file before its first block");
+                    steps.push(Step::Write { file, text: block.join("\n") + "\n\n" });
+                }
+                "sh" => steps.extend(block.into_iter().map(|line| {
+                    let (command, code) = line.split_once("# exit code ").unwrap_or((line, "0"));
+                    Step::Run { command: command.trim(), code: code.parse().expect("an exit code") }
+                })),
+                "text" => steps.push(Step::Prints(block)),
+                other => panic!("a block in {other:?} is not tested"),
+            }
+        }
+    }
+    steps
+}
+
+/// The first of `expected` that is not in `printed` after those before it, each at the start of a line; without `...` between them on the next line.
+fn missing<'d>(printed: &str, expected: &[&'d str]) -> Option<&'d str> {
+    let mut rest = printed.lines();
+    let mut is_free = true;
+    for line in expected {
+        if *line == "..." {
+            is_free = true;
+            continue;
+        }
+        let is_found = |printed: &str| printed.starts_with(line);
+        let found = if is_free { rest.any(is_found) } else { rest.next().is_some_and(is_found) };
+        if !found {
+            return Some(line);
+        }
+        is_free = false;
+    }
+    None
+}
+
+/// Law: a reader who does what the tutorial says gets what it shows.
+#[test]
+fn the_tutorial_does_what_it_says() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let document = std::fs::read_to_string(docs.join("tutorial.md")).unwrap();
+    let scratch = ScratchFolder::new("tutorial");
+    let (mut printed, mut counts, mut wrong) = (String::new(), [0; 4], Vec::new());
+    for step in steps(&document) {
+        match step {
+            Step::Write { file, text } => {
+                let path = scratch.path(file);
+                let before = std::fs::read_to_string(&path).unwrap_or_default();
+                std::fs::write(path, before + &text).unwrap();
+                counts[0] += 1;
+            }
+            Step::Run { command, code } => {
+                let arguments = command.strip_prefix("spindrift ").expect("a command of the program");
+                printed = scratch.prints(arguments, code);
+                counts[1] += 1;
+            }
+            Step::Prints(expected) => {
+                let missing = missing(&printed, &expected);
+                assert!(missing.is_none(), "not printed: {}\n{printed}", missing.unwrap_or_default());
+                counts[2] += 1;
+            }
+            Step::Picture { figure, picture } => {
+                let made = std::fs::read(scratch.path(figure)).unwrap();
+                let shown: PathBuf = docs.join(picture);
+                if std::fs::read(&shown).ok().as_ref() != Some(&made) {
+                    if std::env::var_os(WRITE).is_some() {
+                        std::fs::write(&shown, made).unwrap();
+                    } else {
+                        wrong.push(shown);
+                    }
+                }
+                counts[3] += 1;
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:?} are not the figures of the commands: {WRITE}=1 writes them");
+    assert!(counts[0] >= 5 && counts[1] >= 6 && counts[2] >= 5 && counts[3] == 2, "{counts:?} steps were done");
+}
+
+/// Counter-test: a file, a command, a line and a picture are found as such, and a line that is not printed is missed.
+#[test]
+fn the_steps_of_a_document_are_found() {
+    let document = "<!-- file: a.toml -->\n\n```toml\nx = 1\n```\n```sh\nspindrift check a.toml    # exit code 2\n```\n```text\none\n...\ntwo\n```\n<!-- picture: f/a.svg -->\n\n![A](figures/b.svg)\n";
+    let expected = [
+        Step::Write { file: "a.toml", text: "x = 1\n\n".to_owned() },
+        Step::Run { command: "spindrift check a.toml", code: 2 },
+        Step::Prints(vec!["one", "...", "two"]),
+        Step::Picture { figure: "f/a.svg", picture: "figures/b.svg" },
+    ];
+    assert_eq!(steps(document), expected);
+    assert_eq!(missing("zero\none\nthree\ntwo\n", &["one", "...", "two"]), None);
+    assert_eq!(missing("zero\none\nthree\ntwo\n", &["one", "two"]), Some("two"));
+    assert_eq!(missing("two\none\n", &["one", "...", "two"]), Some("two"));
+}
