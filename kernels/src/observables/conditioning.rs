@@ -38,8 +38,8 @@ use fearless_simd::Simd;
 
 use super::acting::Acting;
 use super::error_sums::{Here, Sums};
-use super::gradient_growth;
 use super::rotor::{Body, adjugate};
+use super::torque_growth;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{constant, constant_matrix, cross, difference, dot, product, scaled, sum};
 use crate::math::{Lanes, Real};
@@ -157,7 +157,7 @@ impl Conditioning {
     ) -> ErrorEstimate {
         let body = Body::of(acting, table, times[filled - 1]);
         let found = self.estimate_of(simd, &body, Some(acting), table, times, filled, local);
-        let exponent = gradient_growth::exponent(acting.scene(), table, times, filled);
+        let exponent = torque_growth::exponent(acting.scene(), table, times, filled);
         if exponent == 0.0 {
             return found;
         }

@@ -30,7 +30,6 @@ mod energies;
 mod error_sums;
 pub mod exchange;
 mod finished_run;
-mod gradient_growth;
 pub mod group;
 pub mod headlines;
 mod inputs;
@@ -50,6 +49,7 @@ mod row_plan;
 mod rows;
 mod spectrum;
 pub mod table;
+mod torque_growth;
 mod weights;
 pub mod window;
 

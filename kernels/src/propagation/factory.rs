@@ -12,7 +12,7 @@ use super::null_space_engine::{ALL_WHEELS, NullSpaceEngine, TWO_WHEELS};
 use super::runge_kutta_engine::RungeKuttaEngine;
 use super::settings::PropagationSettings;
 use super::taylor::engine::TaylorEngine;
-use crate::dynamics::effects::within_arcs::{NoEffects, OnOrbit, WithinArcs};
+use crate::dynamics::effects::within_arcs::{Acting, NoEffects, WithinArcs};
 use crate::dynamics::gyrostat::{RATES_ONLY, WITH_ANGLES, WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST};
 use crate::math::isa::{NarrowWork, WideWork};
 use crate::math::{Isa, Lanes, Real};
@@ -88,7 +88,7 @@ impl NarrowWork for BuildNullSpace<'_> {
 fn taylor<S: Simd, R: Real + Send + 'static>(simd: S, zero: R, settings: &PropagationSettings) -> Box<dyn Engine> {
     if settings.changes_within_arcs() {
         // all integrals by series
-        return Box::new(TaylorEngine::<S, R, OnOrbit<R>, WITH_THRUST, WITH_THRUST, true>::new(simd, zero, settings));
+        return Box::new(TaylorEngine::<S, R, Acting<R>, WITH_THRUST, WITH_THRUST, true>::new(simd, zero, settings));
     }
     match (settings.components(), settings.thrust || settings.motors) {
         (RATES_ONLY, false) => {
@@ -115,7 +115,7 @@ fn gyrostat<S: Simd, R: Real + Send + 'static>(
 ) -> Box<dyn Engine> {
     match integrator {
         _ if settings.changes_within_arcs() => {
-            integrator.visit(OnGyrostats { simd, zero, settings, effects: PhantomData::<OnOrbit<R>> })
+            integrator.visit(OnGyrostats { simd, zero, settings, effects: PhantomData::<Acting<R>> })
         }
         // Only Dormand-Prince has a separate kernel for scenes without actuation: every kernel costs compile time, and the other
         // integrators are for comparison.

@@ -46,7 +46,8 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_
         let mut torque = self.constants.torque;
         if E::ACT {
             let q_eb = [state[ATTITUDE], state[ATTITUDE + 1], state[ATTITUDE + 2], state[ATTITUDE + 3]];
-            torque = sum(torque, self.effects.torque(time, q_eb));
+            let omega = [state[OMEGA], state[OMEGA + 1], state[OMEGA + 2]];
+            torque = sum(torque, self.effects.torque(time, q_eb, omega));
         }
         self.constants.derivative(time, state, torque)
     }

@@ -1,28 +1,29 @@
-//! Which effects each kind of engine integrates: an answer for each effect, without a default, so that a new effect does not compile until every engine
-//! has said so.
+//! Which forms of effects each kind of engine integrates: an answer for each form, without a default, so that a new form does not compile until every
+//! engine has said so.
 //!
 //! A separate file, because the engines know the settings, and the settings do not know the engines.
 
-use crate::dynamics::effects::Effect;
+use crate::dynamics::effects::Form;
 
-/// Taylor methods.
-pub const fn by_taylor(effect: Effect) -> bool {
-    match effect {
-        Effect::ConstantTorque | Effect::GravityGradient | Effect::Gravity => true,
+/// Taylor methods, and the reference solution: what has a series.
+pub const fn by_taylor(form: Form) -> bool {
+    match form {
+        Form::Constant | Form::Series | Form::Translation => true,
+        Form::Evaluated => false,
     }
 }
 
 /// Runge-Kutta methods on the gyrostat.
-pub const fn by_runge_kutta(effect: Effect) -> bool {
-    match effect {
-        Effect::ConstantTorque | Effect::GravityGradient | Effect::Gravity => true,
+pub const fn by_runge_kutta(form: Form) -> bool {
+    match form {
+        Form::Constant | Form::Series | Form::Evaluated | Form::Translation => true,
     }
 }
 
 /// The null-space formulation: what is constant over an arc.
-pub const fn by_null_space(effect: Effect) -> bool {
-    match effect {
-        Effect::ConstantTorque => true,
-        Effect::GravityGradient | Effect::Gravity => false,
+pub const fn by_null_space(form: Form) -> bool {
+    match form {
+        Form::Constant => true,
+        Form::Series | Form::Evaluated | Form::Translation => false,
     }
 }

@@ -49,10 +49,10 @@ impl Method {
     /// Whether the engine of the method integrates every effect of `model`.
     pub fn integrates(self, model: ForceModel) -> bool {
         match self {
-            Method::Auto => self.chosen(model) != self || model.effects().all(by_taylor),
-            Method::Taylor => model.effects().all(by_taylor),
-            Method::Gyrostat(_) => model.effects().all(by_runge_kutta),
-            Method::NullSpace => model.effects().all(by_null_space),
+            Method::Auto => self.chosen(model) != self || model.is_integrated(by_taylor),
+            Method::Taylor => model.is_integrated(by_taylor),
+            Method::Gyrostat(_) => model.is_integrated(by_runge_kutta),
+            Method::NullSpace => model.is_integrated(by_null_space),
         }
     }
 
@@ -60,7 +60,7 @@ impl Method {
     /// effect out; any other as it is.
     #[must_use]
     pub fn chosen(self, model: ForceModel) -> Method {
-        if self != Method::Auto || model.effects().all(by_taylor) {
+        if self != Method::Auto || model.is_integrated(by_taylor) {
             return self;
         }
         let others = [Integrator::Dop853, Integrator::DormandPrince].map(Method::Gyrostat);

@@ -103,7 +103,7 @@ fn of_body(errors: &LocalErrors, table: &StateTable, duration: f64) -> LocalErro
 
 impl<S: Simd, const W: usize, const N: usize> Engine for NullSpaceEngine<S, W, N> {
     fn integrates(&self, model: ForceModel) -> bool {
-        model.effects().all(integrated_effects::by_null_space)
+        model.is_integrated(integrated_effects::by_null_space)
     }
 
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {

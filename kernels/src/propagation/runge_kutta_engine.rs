@@ -126,7 +126,7 @@ impl<S: Simd, R: Real + Send, M: LaneMethod + Send, E: WithinArcs<R> + Send, con
     for RungeKuttaEngine<S, R, M, E, N>
 {
     fn integrates(&self, model: ForceModel) -> bool {
-        model.effects().all(integrated_effects::by_runge_kutta)
+        model.is_integrated(integrated_effects::by_runge_kutta)
     }
 
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {

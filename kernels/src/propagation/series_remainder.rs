@@ -2,7 +2,7 @@
 
 use super::local_error::{rounding, rounding_of_turns};
 use super::taylor::jet::{Reciprocals, Scratch, expand};
-use crate::dynamics::effects::gravity_gradient::GradientSeries;
+use crate::dynamics::effects::ChangingSeries;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
 use crate::math::vector::{scaled, sum};
@@ -22,7 +22,7 @@ pub struct Remainders {
     reciprocals: Reciprocals<f64>,
     scratch: Box<Scratch<f64>>,
     jet: Vec<[f64; N]>,
-    gradient: Option<Box<GradientSeries<f64>>>,
+    effects: Option<Box<ChangingSeries<f64>>>,
 }
 
 impl Remainders {
@@ -33,7 +33,7 @@ impl Remainders {
             reciprocals: Reciprocals::new(0.0, method.order + 1),
             scratch: Box::new(Scratch::new(0.0)),
             jet: vec![[0.0; N]; method.order + 2],
-            gradient: None,
+            effects: None,
         }
     }
 
@@ -69,11 +69,12 @@ impl Remainders {
         constants.momentum = sum(constants.momentum, scaled(since, constants.momentum_rate));
         self.jet[0] = state;
         let order = self.method.order + 1;
-        let gradient = run.orbit.zip(run.gradient).map(|(orbit, own)| {
-            let series = self.gradient.get_or_insert_with(|| Box::new(GradientSeries::new(0.0, order)));
-            series.begin(&own, orbit.mu(), &orbit.state(time), 1.0);
+        let effects = (!run.effects.is_empty()).then(|| {
+            let series = self.effects.get_or_insert_with(|| Box::new(ChangingSeries::new(0.0, order)));
+            let place = run.orbit.map(|orbit| (orbit.mu(), orbit.state(time)));
+            series.begin(&run.effects, place.as_ref(), time, 1.0);
             &mut **series
         });
-        expand::<f64, N, true>(&constants, &self.reciprocals, order, &mut self.scratch, gradient, &mut self.jet);
+        expand::<f64, N, true>(&constants, &self.reciprocals, order, &mut self.scratch, effects, &mut self.jet);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::method::Method;
 use crate::dynamics::actuation::Laws;
-use crate::dynamics::effects::{Effect, ForceModel};
+use crate::dynamics::effects::ForceModel;
 use crate::dynamics::gyrostat::completion::components;
 use crate::dynamics::gyrostat::{WITH_ANGLES, WITH_THRUST};
 use crate::ode::Control;
@@ -67,7 +67,7 @@ impl PropagationSettings {
 
     /// Whether an effect changes within an arc and turns the body, so that the kernel has it.
     pub fn changes_within_arcs(&self) -> bool {
-        self.forces.contains(Effect::GravityGradient)
+        self.forces.changes_within_arcs()
     }
 
     /// Number of components that the gyrostat kernel integrates.

@@ -3,14 +3,15 @@
 //! tau = 3 mu/|r|^5 r x (J r), with J about the centre of mass, wheels locked, and r from the central body, both in the same frame (P. Hughes,
 //! *Spacecraft Attitude Dynamics*, 1986, section 8.1: of first order in size over |r|).
 
+use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::orbit::OrbitState;
-use crate::dynamics::orbit_series::{OrbitSeries, next_of_power};
+use crate::dynamics::orbit_series::next_of_power;
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{
     conjugate, constant_matrix, cross, dcm_from_quaternion, hamilton, product, scaled, sum, transposed_product,
 };
-use crate::scene::{Orbit, Scene};
+use crate::scene::Scene;
 
 /// The gravity gradient of one run, one per lane.
 #[derive(Clone, Copy, Debug)]
@@ -37,11 +38,15 @@ impl<R: Real> GravityGradient<R> {
         }
     }
 
-    /// The torque on a body of attitude `q` (to F_e) at `position` (F_e, m), `distance` from the central body; in the body's frame, N m.
+    /// It depends on where the spacecraft is.
+    pub const NEEDS_ORBIT: bool = true;
+
+    /// The torque on a body, B, N m.
     #[inline(always)]
-    pub fn torque(&self, q: [R; 4], position: [R; 3], distance: R) -> [R; 3] {
+    pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
+        let OrbitState { position, distance, .. } = motion.place;
         let inverse = distance.splat(1.0) / distance;
-        let up = transposed_product(dcm_from_quaternion(q), scaled(inverse, position));
+        let up = transposed_product(dcm_from_quaternion(motion.attitude), scaled(inverse, position));
         let strength = self.strength * (inverse * (inverse * inverse));
         scaled(strength, cross(up, product(self.inertia, up)))
     }
@@ -71,8 +76,6 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
 pub struct GradientSeries<R> {
     /// 3 mu, m^3 per unit of time squared, and J in B, kg m^2.
     gradient: GravityGradient<R>,
-    /// Of the orbit.
-    pub orbit: OrbitSeries<R>,
     /// Of r (x) q.
     turned: Vec<[R; 4]>,
     /// Of v, B, m.
@@ -83,8 +86,6 @@ pub struct GradientSeries<R> {
     lever: Vec<[R; 3]>,
     /// Of g.
     strength: Vec<R>,
-    /// Of the torque and what else acts, B, N m in the unit of time.
-    torque: Vec<[R; 3]>,
 }
 
 impl<R: Real> GradientSeries<R> {
@@ -93,40 +94,35 @@ impl<R: Real> GradientSeries<R> {
         let vectors = vec![[zero; 3]; order + 1];
         GradientSeries {
             gradient: GravityGradient::none(zero),
-            orbit: OrbitSeries::new(zero, order),
             turned: vec![[zero; 4]; order + 1],
             up: vectors.clone(),
             weighed: vectors.clone(),
-            lever: vectors.clone(),
+            lever: vectors,
             strength: vec![zero; order + 1],
-            torque: vectors,
         }
     }
 
-    /// Starts a step at `place`, whose velocity is in m/s, in a unit of time of `unit` seconds.
+    /// Starts a step in a unit of time of `unit` seconds.
     #[inline(always)]
-    pub fn begin(&mut self, gradient: &GravityGradient<R>, mu: R, place: &OrbitState<R>, unit: R) {
-        let unit2 = unit * unit;
-        self.gradient = GravityGradient { strength: gradient.strength * unit2, inertia: gradient.inertia };
-        self.orbit.begin(mu * unit2, place.position, scaled(unit, place.velocity));
+    pub fn begin(&mut self, gradient: &GravityGradient<R>, _time: R, unit: R) {
+        self.gradient = GravityGradient { strength: gradient.strength * (unit * unit), inertia: gradient.inertia };
     }
 
-    /// Coefficient n of the torque, given those of the attitude up to n. Call in ascending order of `n`. `constant` is what acts beside it, for
-    /// [`GradientSeries::torque`].
+    /// Coefficient n of the torque, B, N m in the unit of time. Call in ascending order of `n`.
     #[inline(always)]
-    pub fn extend(&mut self, n: usize, attitude: impl Fn(usize) -> [R; 4], constant: [R; 3]) -> [R; 3] {
-        let GradientSeries { gradient, orbit, turned, up, weighed, lever, strength, torque } = self;
+    pub fn extend(&mut self, n: usize, motion: &MotionSeries<R>) -> [R; 3] {
+        let GradientSeries { gradient, turned, up, weighed, lever, strength } = self;
+        let MotionSeries { attitude, orbit, .. } = motion;
         let zero = gradient.strength.zero();
-        orbit.extend(n);
         let mut of_turned = [zero; 4];
         for m in 0..=n {
             let [x, y, z] = orbit.position()[m];
-            of_turned = added(of_turned, hamilton([zero, x, y, z], attitude(n - m)));
+            of_turned = added(of_turned, hamilton([zero, x, y, z], attitude[n - m]));
         }
         turned[n] = of_turned;
         let mut of_up = [zero; 4];
         for m in 0..=n {
-            of_up = added(of_up, hamilton(conjugate(attitude(m)), turned[n - m]));
+            of_up = added(of_up, hamilton(conjugate(attitude[m]), turned[n - m]));
         }
         up[n] = [of_up[1], of_up[2], of_up[3]];
         weighed[n] = product(gradient.inertia, up[n]);
@@ -147,14 +143,7 @@ impl<R: Real> GradientSeries<R> {
         for m in 0..=n {
             own = sum(own, scaled(strength[m], lever[n - m]));
         }
-        torque[n] = if n == 0 { sum(constant, own) } else { own };
         own
-    }
-
-    /// The coefficients of the torque, with what acts beside it, B, N m in the unit of time.
-    #[inline(always)]
-    pub fn torque(&self) -> &[[R; 3]] {
-        &self.torque
     }
 }
 
@@ -173,8 +162,9 @@ pub fn largest_torque(scene: &Scene) -> f64 {
     1.5 * orbit.mu / (lowest * lowest * lowest) * (most - least)
 }
 
-/// Largest rate of librations on `orbit`, rad/s: sqrt(3 mu/r^3) at the periapsis, that of a dumbbell.
-pub fn largest_rate(orbit: &Orbit) -> f64 {
+/// Largest rate of librations of `scene`, rad/s: sqrt(3 mu/r^3) at the periapsis, that of a dumbbell.
+pub fn largest_rate(scene: &Scene) -> f64 {
+    let Some(orbit) = scene.orbit.as_ref().filter(|_| scene.environment.gravity_gradient) else { return 0.0 };
     let lowest = orbit.shape().periapsis;
     (3.0 * orbit.mu / lowest).sqrt() / lowest
 }
@@ -193,6 +183,10 @@ mod tests {
         let moment = 2.0 * mass * arm * arm;
         let inertia = [[0.0, 0.0, 0.0], [0.0, moment, 0.0], [0.0, 0.0, moment]];
         let gradient = GravityGradient { strength: 3.0 * MU, inertia };
+        let at = |attitude, position| {
+            let place = OrbitState { position, velocity: [0.0; 3], distance: norm(position) };
+            Motion { time: 0.0, attitude, rate: [0.0; 3], place }
+        };
         let position = [3.1e6, -4.7e6, 4.2e6];
         let distance = norm(position);
         for k in 0..20 {
@@ -209,7 +203,7 @@ mod tests {
                     core::array::from_fn(|i| mass * MU / distance.powi(3) * (3.0 * up[i] * up[0] * end - place[i]));
                 torque = crate::math::vector::sum(torque, cross(place, pull));
             }
-            let found = gradient.torque(q, position, distance);
+            let found = gradient.torque(&at(q, position));
             for i in 0..3 {
                 assert!(
                     (found[i] - torque[i]).abs() < 1e-15 * 3.0 * MU / distance.powi(3) * moment,
@@ -217,7 +211,7 @@ mod tests {
                 );
             }
         }
-        let level = gradient.torque([1.0, 0.0, 0.0, 0.0], [0.0, 7e6, 0.0], 7e6);
+        let level = gradient.torque(&at([1.0, 0.0, 0.0, 0.0], [0.0, 7e6, 0.0]));
         assert!(level.iter().all(|torque| *torque == 0.0), "{level:?}");
     }
 }

@@ -1,14 +1,15 @@
 //! Effects: what acts on a spacecraft beside its actuators, under a schedule and under any law alike.
 //!
-//! Each effect is one file, and one line in [`Effect::ALL`]; its parameters are keys of `[environment]` and `[orbit]`
-//! ([`crate::scene::schema`]). The effects that act in a run are its [`ForceModel`]. Every engine says of each effect whether it integrates it
+//! Each effect is one file, and its lines in the list here; its parameters are keys of `[environment]` and `[orbit]` ([`crate::scene::schema`]).
+//! The effects that act in a run are its [`ForceModel`]. Every engine says which [`Form`]s of effects it integrates
 //! (`propagation::integrated_effects`); a run is not given to an engine that leaves one out.
 //!
 //! - `constant_torque`: constant in F_s: a part of every arc of constant actuation, so that all methods have it.
 //! - [`gravity_gradient`]: depends on attitude and position.
-//! - [`within_arcs`]: the effects that change within an arc, as the equations of motion have them.
+//! - [`within_arcs`]: the effects that change within an arc, as the equations of motion have them, and what they depend on.
 //!
-//! A scene without effects costs nothing: its kernel is compiled without them.
+//! A scene without effects costs nothing: its kernel is compiled without them. A scene with effects evaluates only those that act, and its orbit
+//! only where one of them needs it.
 
 mod constant_torque;
 pub mod gravity_gradient;
@@ -29,6 +30,19 @@ pub enum Effect {
     Gravity,
 }
 
+/// What an effect is to an engine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Form {
+    /// A torque that is constant over an arc, and a part of it.
+    Constant,
+    /// A torque that changes within an arc, with recurrences for its Taylor series.
+    Series,
+    /// A torque that changes within an arc and can only be evaluated, because it is not analytic.
+    Evaluated,
+    /// A motion of the centre of mass in closed form, which turns nothing.
+    Translation,
+}
+
 impl Effect {
     /// All effects.
     pub const ALL: [Effect; 3] = [Effect::ConstantTorque, Effect::GravityGradient, Effect::Gravity];
@@ -42,6 +56,15 @@ impl Effect {
         }
     }
 
+    /// What it is to an engine.
+    pub const fn form(self) -> Form {
+        match self {
+            Effect::ConstantTorque => Form::Constant,
+            Effect::GravityGradient => Form::Series,
+            Effect::Gravity => Form::Translation,
+        }
+    }
+
     /// Whether it acts on `scene`.
     pub const fn acts_on(self, scene: &Scene) -> bool {
         match self {
@@ -50,6 +73,10 @@ impl Effect {
             Effect::Gravity => scene.orbit.is_some(),
         }
     }
+}
+
+within_arcs::changing_effects! {
+    gravity_gradient: GravityGradient, GradientSeries;
 }
 
 /// The effects that act in a run.
@@ -81,9 +108,14 @@ impl ForceModel {
         Effect::ALL.into_iter().filter(move |effect| self.contains(*effect))
     }
 
-    /// Whether no effect is here that is not in `others`.
-    pub const fn is_within(self, others: ForceModel) -> bool {
-        self.0 & !others.0 == 0
+    /// Whether every effect has a form that `integrated` says yes to.
+    pub fn is_integrated(self, integrated: impl Fn(Form) -> bool) -> bool {
+        self.effects().all(|effect| integrated(effect.form()))
+    }
+
+    /// Whether an effect changes within an arc and turns the body.
+    pub fn changes_within_arcs(self) -> bool {
+        self.effects().any(|effect| matches!(effect.form(), Form::Series | Form::Evaluated))
     }
 }
 
@@ -105,9 +137,4 @@ pub fn beside_arcs(environment: EnvironmentInput) -> EnvironmentInput {
 pub fn largest_constant_torque(scene: &Scene) -> f64 {
     let torque = with_constant_effects(scene, Actuation::none(f64::INFINITY)).body_torque;
     dot(torque, torque).sqrt()
-}
-
-/// Upper bound of the torque of the effects on `scene` that change within an arc, N m.
-pub fn largest_changing_torque(scene: &Scene) -> f64 {
-    gravity_gradient::largest_torque(scene)
 }

@@ -36,7 +36,7 @@ pub mod wheel;
 
 use crate::dynamics::applied::scheduled_arc;
 use crate::dynamics::arc_record::ArcRecord;
-use crate::dynamics::effects::gravity_gradient::{self, GravityGradient};
+use crate::dynamics::effects::{ChangingEffects, largest_changing_rate};
 use crate::dynamics::orbit::KeplerOrbit;
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
@@ -114,8 +114,8 @@ pub struct Gyrostat<R> {
     pub v_co_e: [R; 3],
     /// The orbit of c, where it is on one: then it is not in the straight line of position and velocity at time zero.
     pub orbit: Option<KeplerOrbit<f64>>,
-    /// The gravity gradient in B, where it acts.
-    pub gradient: Option<GravityGradient<R>>,
+    /// The effects that change within an arc, in B.
+    pub effects: ChangingEffects<R>,
     /// The arcs flown so far, which cover the time from zero to the end of the last without a gap; under a law only those with observation
     /// points, and the last.
     pub arcs: Vec<GyrostatArc<R>>,
@@ -152,7 +152,7 @@ impl<R: Real> Gyrostat<R> {
             r_co_e: z3,
             v_co_e: z3,
             orbit: None,
-            gradient: None,
+            effects: ChangingEffects::none(),
             arcs: Vec::new(),
             flown: ArcRecord::default(),
             passed: 0,
@@ -177,12 +177,10 @@ impl<R: Real> Gyrostat<R> {
         self.r_co_e = sum(exact3(initial.r_po_e), product(c_es, center));
         self.v_co_e = sum(exact3(initial.v_po_e), product(c_es, cross(omega_s, center)));
         self.orbit = scene.orbit.as_ref().map(KeplerOrbit::new);
-        self.gradient = gravity_gradient::of(zero, scene, self.c_sb);
+        self.effects = ChangingEffects::of(zero, scene, self.c_sb);
+        self.rate = self.rate.max(largest_changing_rate(scene));
         if let Some(orbit) = &scene.orbit {
             (self.r_co_e, self.v_co_e) = (exact3(orbit.position), exact3(orbit.velocity));
-            if self.gradient.is_some() {
-                self.rate = self.rate.max(gravity_gradient::largest_rate(orbit));
-            }
         }
         self.set_wheels(zero, scene);
     }

@@ -84,14 +84,14 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         let order = brief.as_ref().map_or(full, |brief| brief.most);
         let unit = zero.splat(1.0) / vectors.per_unit;
         let now = (constants.start + vectors.time) * unit;
-        let gradient = effects.series(now, unit, &mut work.gradient);
-        expand::<R, J, FORCED>(&constants, &work.reciprocals, order, &mut work.scratch, gradient, &mut segment.jet);
+        let effects = effects.series(now, unit, &mut work.effects);
+        expand::<R, J, FORCED>(&constants, &work.reciprocals, order, &mut work.scratch, effects, &mut segment.jet);
         let left = (vectors.length - vectors.time) - vectors.time_low;
         let mut length = zero;
         if order == full {
             let mut start = constants;
             if E::ACT {
-                start.torque = work.gradient.torque()[0];
+                start.torque = work.effects.torque()[0];
             }
             let alpha = if FORCED { Some(start.torque_acceleration()) } else { None };
             let mut proposed = work.rule.step(&segment.jet, alpha);

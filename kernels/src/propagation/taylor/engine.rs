@@ -8,9 +8,8 @@ use super::driver::integrate;
 use super::lanes::RunCallback;
 use super::workspace::{Settings, Workspace};
 use crate::dynamics::actuation::Laws;
-use crate::dynamics::effects::ForceModel;
-use crate::dynamics::effects::gravity_gradient::GradientSeries;
 use crate::dynamics::effects::within_arcs::{NoEffects, WithinArcs};
+use crate::dynamics::effects::{ChangingSeries, ForceModel};
 use crate::dynamics::gyrostat::{Gyrostat, WITH_ATTITUDE};
 use crate::math::Real;
 use crate::propagation::arc_source::ArcSource;
@@ -42,7 +41,7 @@ impl<S: Simd, R: Real + Send + 'static, E: WithinArcs<R>, const N: usize, const 
         own.periodic &= !E::ACT;
         let mut workspace = Workspace::new(zero, own, N, plan.grid.points());
         if E::ACT {
-            workspace.gradient = GradientSeries::new(zero, workspace.rule.order);
+            workspace.effects = ChangingSeries::new(zero, workspace.rule.order);
         }
         TaylorEngine {
             simd,
@@ -121,7 +120,7 @@ impl<S: Simd, R: Real + Send + 'static, E: WithinArcs<R> + Send, const N: usize,
     Engine for TaylorEngine<S, R, E, N, J, FORCED>
 {
     fn integrates(&self, model: ForceModel) -> bool {
-        model.effects().all(integrated_effects::by_taylor)
+        model.is_integrated(integrated_effects::by_taylor)
     }
 
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {

@@ -8,7 +8,7 @@
 //! [`super::thrust`], so that each tests the other.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
-use crate::dynamics::effects::gravity_gradient::GradientSeries;
+use crate::dynamics::effects::ChangingSeries;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_ANGLES,
@@ -65,14 +65,14 @@ impl<R: Real> Scratch<R> {
 /// Fills `jet[1 ..= order]` with the Taylor coefficients of the first `N` components, given `jet[0]`, the state.
 ///
 /// `constants.momentum` is the wheels' momentum *at the start of the step*. Where `FORCED` is false, torques, thrusts and
-/// the rate of the momentum are taken as zero. `gradient` is the gravity gradient, where it acts, at the start of the step.
+/// the rate of the momentum are taken as zero. `effects` are those that change within an arc, where there are any, begun at the start of the step.
 #[inline(always)]
 pub fn expand<R: Real, const N: usize, const FORCED: bool>(
     constants: &Constants<R>,
     reciprocals: &Reciprocals<R>,
     order: usize,
     scratch: &mut Scratch<R>,
-    mut gradient: Option<&mut GradientSeries<R>>,
+    mut effects: Option<&mut ChangingSeries<R>>,
     jet: &mut [[R; N]],
 ) {
     let jet = &mut jet[..=order];
@@ -85,13 +85,8 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
         let omega = [jet[n][OMEGA], jet[n][OMEGA + 1], jet[n][OMEGA + 2]];
         let sums = cauchy_products(jet, n);
         let mut acceleration = angular_acceleration::<R, N, FORCED>(constants, jet, n, sums.rate);
-        if let Some(gradient) = &mut gradient {
-            let torque = gradient.extend(
-                n,
-                #[inline(always)]
-                |m| attitude_of(&jet[m]),
-                constants.torque,
-            );
+        if let Some(effects) = &mut effects {
+            let torque = effects.extend(n, attitude_of(&jet[n]), omega, constants.torque);
             for i in 0..3 {
                 acceleration[i] = constants.inverse[i].mul_add(torque[i], acceleration[i]);
             }
@@ -125,8 +120,8 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
             turned_force[n] = pure_product(q, constants.force);
             turned_torque[n] = pure_product(q, constants.torque);
             let mut spun = dot(constants.torque, omega);
-            if let Some(gradient) = &gradient {
-                (turned_torque[n], spun) = products_of_torque(jet, gradient.torque(), n);
+            if let Some(effects) = &effects {
+                (turned_torque[n], spun) = products_of_torque(jet, effects.torque(), n);
             }
             force_e[n] = turned(jet, turned_force, n);
             let torque_e = turned(jet, turned_torque, n);

@@ -18,13 +18,14 @@ use super::step::StepRule;
 use crate::dynamics::actuation::ActuationLaw;
 use crate::dynamics::applied::next_arc;
 use crate::dynamics::debris;
-use crate::dynamics::effects::gravity_gradient::{GradientSeries, GravityGradient};
+use crate::dynamics::effects::ChangingSeries;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::observed::observed_state;
 use crate::dynamics::gyrostat::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_THRUST,
 };
 use crate::dynamics::orbit::OrbitState;
+use crate::dynamics::orbit_series::OrbitSeries;
 use crate::math::double_double::DoubleDouble;
 use crate::math::isa::NarrowWork;
 use crate::math::vector::{conjugate, difference, dot, hamilton, norm, product, scaled, sum};
@@ -280,7 +281,9 @@ impl Integration<'_, '_> {
         let mut states = Vec::with_capacity(times.len());
         let mut steps = 0;
         let (mut reached, mut is_last) = (0.0, false);
-        let mut orbit = self.run.orbit.map(|orbit| ReferenceOrbit::new(self.run, orbit.mu(), order));
+        let turns = !self.run.effects.is_empty();
+        let mut orbit = self.run.orbit.map(|orbit| ReferenceOrbit::new(self.run, orbit.mu()));
+        let mut series = (turns || orbit.is_some()).then(|| ChangingSeries::new(zero, order));
         while !is_last {
             self.begin_arc(reached, unit, &state);
             let new_unit = self.coarse.time_unit();
@@ -299,7 +302,6 @@ impl Integration<'_, '_> {
             is_last = reached >= grid.duration();
             let start = DoubleDouble::exact(bounds.start);
             let length = (DoubleDouble::exact(bounds.end()) - start) * per_second;
-            let turns = self.run.gradient.is_some();
             let is_forced = turns || arc.force_b.iter().chain(&arc.torque_b).any(|component| component.high != 0.0);
             // a thrust turns with omega where the quaternion turns with omega/2: the series of its integrals need half the step
             let share = DoubleDouble::exact(if is_forced { 0.5 } else { 1.0 });
@@ -310,14 +312,20 @@ impl Integration<'_, '_> {
                 now.momentum = sum(constants.momentum, scaled(time, constants.momentum_rate));
                 now.motor_power = constants.motor_power_rate.mul_add(time, constants.motor_power);
                 jet[0] = state;
-                let gradient = orbit.as_mut().map(|orbit| orbit.begin(unit));
-                expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, gradient, &mut jet);
+                let effects = series.as_mut().map(|series| {
+                    let place = orbit.as_mut().map(|orbit| orbit.begin(unit));
+                    let (unit, now) = (DoubleDouble::exact(unit), start + time * DoubleDouble::exact(unit));
+                    series.begin(&self.run.effects, place.as_ref(), now, unit);
+                    series
+                });
+                expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, effects, &mut jet);
                 let mut proposed = share * rule.step(&jet, Some(constants.torque_acceleration()));
-                if let Some(orbit) = &orbit {
-                    proposed = proposed.smaller(orbit.step(&rule));
-                    if turns {
-                        proposed = proposed.smaller(rule.step_of_impulse(&jet));
-                    }
+                let along = series.as_ref().map(|series| &series.motion.orbit);
+                if let Some(along) = along.filter(|_| orbit.is_some()) {
+                    proposed = proposed.smaller(step_of_orbit(along, &rule));
+                }
+                if turns {
+                    proposed = proposed.smaller(rule.step_of_impulse(&jet));
                 }
                 let left = length - time;
                 lands = !proposed.lt(left);
@@ -330,14 +338,14 @@ impl Integration<'_, '_> {
                     }
                     let mut values = value(&jet, within);
                     scale(&mut values, factors);
-                    if let Some(orbit) = &orbit {
-                        orbit.complete(*at, &orbit.at(within), &mut values);
+                    if let Some((orbit, along)) = orbit.as_ref().zip(along) {
+                        orbit.complete(*at, &orbit.at(along, within), &mut values);
                     }
                     states.push(values);
                 }
                 state = value(&jet, step);
-                if let Some(orbit) = &mut orbit {
-                    orbit.place = orbit.at(step);
+                if let Some((orbit, along)) = orbit.as_mut().zip(along) {
+                    orbit.place = orbit.at(along, step);
                 }
                 if !(state[0].high + state[1].high + state[2].high).is_finite() {
                     return Err(Status::NonFinite);
@@ -357,48 +365,35 @@ impl Integration<'_, '_> {
 struct ReferenceOrbit {
     mass: DoubleDouble,
     mu: DoubleDouble,
-    gradient: GravityGradient<DoubleDouble>,
     start: OrbitState<DoubleDouble>,
     /// At the start of the step.
     place: OrbitState<DoubleDouble>,
     /// The unit of time, s.
     unit: DoubleDouble,
-    series: GradientSeries<DoubleDouble>,
 }
 
 impl ReferenceOrbit {
     /// That of `run` about a body of the gravitational parameter `mu`.
-    fn new(run: &Gyrostat<DoubleDouble>, mu: f64, order: usize) -> Self {
-        let zero = DoubleDouble::exact(0.0);
+    fn new(run: &Gyrostat<DoubleDouble>, mu: f64) -> Self {
         let start = OrbitState { position: run.r_co_e, velocity: run.v_co_e, distance: norm(run.r_co_e) };
         ReferenceOrbit {
             mass: run.mass,
             mu: DoubleDouble::exact(mu),
-            gradient: run.gradient.unwrap_or_else(|| GravityGradient::none(zero)),
             start,
             place: start,
             unit: DoubleDouble::exact(1.0),
-            series: GradientSeries::new(zero, order),
         }
     }
 
-    /// Starts a step in a unit of time of `unit` seconds.
-    #[inline(always)]
-    fn begin(&mut self, unit: f64) -> &mut GradientSeries<DoubleDouble> {
+    /// Starts a step in a unit of time of `unit` seconds: the gravitational parameter, and where the spacecraft is.
+    fn begin(&mut self, unit: f64) -> (DoubleDouble, OrbitState<DoubleDouble>) {
         self.unit = DoubleDouble::exact(unit);
-        self.series.begin(&self.gradient, self.mu, &self.place, self.unit);
-        &mut self.series
+        (self.mu, self.place)
     }
 
-    /// The step that the series of the position allows.
-    fn step(&self, rule: &StepRule) -> DoubleDouble {
-        let position = self.series.orbit.position();
-        rule.step_of_series([0, rule.order - 1, rule.order].map(|n| dot(position[n], position[n])))
-    }
-
-    /// The state `within` units of time after the start of the step, SI.
-    fn at(&self, within: DoubleDouble) -> OrbitState<DoubleDouble> {
-        let place = self.series.orbit.at(within);
+    /// The state `within` units of time after the start of the step, whose series is `along`, SI.
+    fn at(&self, along: &OrbitSeries<DoubleDouble>, within: DoubleDouble) -> OrbitState<DoubleDouble> {
+        let place = along.at(within);
         OrbitState { velocity: scaled(DoubleDouble::exact(1.0) / self.unit, place.velocity), ..place }
     }
 
@@ -415,6 +410,12 @@ impl ReferenceOrbit {
         let fallen = (start.distance - place.distance) / (start.distance * place.distance);
         values[THRUST_WORK] += self.mass * self.mu * fallen;
     }
+}
+
+/// The step that the series of the position allows.
+fn step_of_orbit(along: &OrbitSeries<DoubleDouble>, rule: &StepRule) -> DoubleDouble {
+    let position = along.position();
+    rule.step_of_series([0, rule.order - 1, rule.order].map(|n| dot(position[n], position[n])))
 }
 
 /// Multiplies each component by its factor.

@@ -8,7 +8,7 @@ use super::series_ring::SeriesRing;
 use super::step::StepRule;
 use super::thrust::Quadrature;
 use crate::dynamics::arc_record::ArcRecord;
-use crate::dynamics::effects::gravity_gradient::GradientSeries;
+use crate::dynamics::effects::ChangingSeries;
 use crate::math::Real;
 use crate::run::Trajectory;
 
@@ -38,8 +38,8 @@ pub struct Workspace<R, const J: usize> {
     pub reciprocals: Reciprocals<R>,
     /// Intermediate series of the recurrences.
     pub scratch: Scratch<R>,
-    /// Series of the gravity gradient; of order zero where none acts.
-    pub gradient: GradientSeries<R>,
+    /// Series of the effects that change within an arc; of order zero where none acts.
+    pub effects: ChangingSeries<R>,
     /// Series of the last steps.
     pub ring: SeriesRing<R, J>,
     /// The last points of the run in each lane.
@@ -63,7 +63,7 @@ impl<R: Real, const J: usize> Workspace<R, J> {
             quadrature: Quadrature::new(zero, &rule, settings.tolerance),
             reciprocals: Reciprocals::new(zero, rule.order),
             scratch: Scratch::new(zero),
-            gradient: GradientSeries::new(zero, 0),
+            effects: ChangingSeries::new(zero, 0),
             ring: SeriesRing::new(zero, rule.order),
             points: PointRows::new(R::LANES, components),
             trajectories: (0..R::LANES).map(|_| Trajectory::new(components, points)).collect(),

@@ -1,0 +1,131 @@
+//! [`exponent`]: how much the effects that change within an arc amplify small errors of the rotational state along a run.
+//!
+//! A rotation of the body by theta changes their torque by M theta, a change of omega by D. A body that does not turn relative to what the torque
+//! points to leaves an error like exp(lambda t), lambda^2 the largest eigenvalue of the symmetric part of J^(-1/2) M J^(-1/2) where that is above zero:
+//! below zero it librates. A body that turns with a rate w beside it, or is held by a momentum of J w, sees M change its sign within 1/w, and what is
+//! gained is mostly lost again: the growth is of the second order, lambda^3/w^2. Between both, the exponent of the growth is taken as the integral of
+//! lambda^3/(lambda^2 + w^2); `tests/accuracy/error_estimate.rs` measures the coverage. A torque along omega adds the largest eigenvalue of
+//! J^(-1/2) D J^(-1/2) where that is above zero. What a torque points to is taken to turn with the orbit.
+//!
+//! Not here: the growth of errors in the free motion ([`super::conditioning`]).
+
+use crate::dynamics::effects::within_arcs::Motion;
+use crate::dynamics::effects::{ChangingEffects, ForceModel};
+use crate::dynamics::orbit::{KeplerOrbit, OrbitState};
+use crate::math::symmetric::principal_axes;
+use crate::math::vector::{cross, difference, dot, hamilton, quaternion_from_dcm, scaled, sum, transposed_product};
+use crate::run::{StateField, StateTable};
+use crate::scene::Scene;
+
+/// Points of a run that are examined, at most: several in each half of a libration up to some orbits, a fair sample beyond.
+const POINTS: usize = 128;
+
+/// The rotation, rad, over which a torque is differenced: the error is its square, 1e-8, and rounding 1e-12.
+const ROTATION: f64 = 1e-4;
+
+/// The logarithm of the growth over the first `filled` points of `table`, at `times`, of a run of `scene`; zero where no effect changes within an arc.
+pub(super) fn exponent(scene: &Scene, table: &StateTable, times: &[f64], filled: usize) -> f64 {
+    if !ForceModel::of(scene).changes_within_arcs() {
+        return 0.0;
+    }
+    let last = filled - 1;
+    let (moments, axes) = principal_axes(scene.mass.inertia);
+    let q_sb = quaternion_from_dcm(axes);
+    let effects = ChangingEffects::of(0.0, scene, Some(axes));
+    let orbit = scene.orbit.as_ref().map(KeplerOrbit::new);
+    let size = (moments[0] + moments[1] + moments[2]) / 3.0;
+    let stride = last.div_ceil(POINTS).max(1);
+    let (mut all, mut count) = (0.0, 0.0);
+    for point in (0..=last).step_by(stride) {
+        let place = orbit.as_ref().map_or(OrbitState::unknown(0.0), |orbit| orbit.state(times[point]));
+        let attitude = hamilton(table.at(StateField::Attitude, point), q_sb);
+        let rate = transposed_product(axes, table.at::<3>(StateField::Rate, point));
+        let motion = Motion { time: times[point], attitude, rate, place };
+        let mut beside = rate;
+        if orbit.is_some() {
+            let turning = scaled(1.0 / dot(place.position, place.position), cross(place.position, place.velocity));
+            let [w, x, y, z] = attitude;
+            let [_, x, y, z] =
+                hamilton(hamilton([w, -x, -y, -z], [0.0, turning[0], turning[1], turning[2]]), [w, x, y, z]);
+            beside = difference(rate, [x, y, z]);
+        }
+        let mut held = [0.0; 3];
+        for (wheel, spin) in scene.mass.wheels.iter().enumerate() {
+            held = sum(held, scaled(spin.axial * table.column(StateField::WheelRates, wheel)[point], spin.axis));
+        }
+        let rate2 = dot(beside, beside) + dot(held, held) / (size * size);
+        let unstable =
+            largest_slope(moments, |axis, sign| effects.torque(&turned(&motion, axis, sign * ROTATION))) / ROTATION;
+        if unstable > 0.0 {
+            all += unstable * unstable.sqrt() / (unstable + rate2);
+        }
+        let faster = dot(rate, rate).sqrt().max(1.0 / times[last].max(f64::MIN_POSITIVE)) * ROTATION;
+        let driven =
+            largest_slope(moments, |axis, sign| effects.torque(&hastened(&motion, axis, sign * faster))) / faster;
+        all += driven.max(0.0);
+        count += 1.0;
+    }
+    all / count * times[last]
+}
+
+/// `motion` with the body turned by `angle` about its axis `axis`.
+fn turned(motion: &Motion<f64>, axis: usize, angle: f64) -> Motion<f64> {
+    let (sine, cosine) = libm::sincos(0.5 * angle);
+    let mut turn = [cosine, 0.0, 0.0, 0.0];
+    turn[1 + axis] = sine;
+    Motion { attitude: hamilton(motion.attitude, turn), ..*motion }
+}
+
+/// `motion` with a rate about `axis` larger by `rate`.
+fn hastened(motion: &Motion<f64>, axis: usize, rate: f64) -> Motion<f64> {
+    let mut hastened = *motion;
+    hastened.rate[axis] += rate;
+    hastened
+}
+
+/// The largest eigenvalue of the symmetric part of J^(-1/2) S J^(-1/2), of a body of the principal moments `moments`; column j of S is half the
+/// difference of the torques at a change of `1` and of `-1` along axis j.
+fn largest_slope(moments: [f64; 3], torque: impl Fn(usize, f64) -> [f64; 3]) -> f64 {
+    let columns: [[f64; 3]; 3] =
+        core::array::from_fn(|axis| scaled(0.5, difference(torque(axis, 1.0), torque(axis, -1.0))));
+    let symmetric: [[f64; 3]; 3] = core::array::from_fn(|i| {
+        core::array::from_fn(|j| 0.5 * (columns[j][i] + columns[i][j]) / (moments[i] * moments[j]).sqrt())
+    });
+    let (values, _) = principal_axes(symmetric);
+    values[0].max(values[1]).max(values[2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::effects::gravity_gradient::GravityGradient;
+
+    /// Law: along the vertical the axis of the smallest moment is stable in pitch and roll, and that of the largest is not: there the growth is sqrt(3) of
+    /// the mean motion times the square root of a difference of moments over a moment.
+    #[test]
+    fn a_body_on_its_long_axis_is_stable() {
+        let moments = [90.0, 100.0, 40.0];
+        let inertia = [[90.0, 0.0, 0.0], [0.0, 100.0, 0.0], [0.0, 0.0, 40.0]];
+        // 3 mu/r^3 is one
+        let gradient = GravityGradient { strength: 1.0, inertia };
+        let slope = |position: [f64; 3]| {
+            let place = OrbitState { position, velocity: [0.0; 3], distance: 1.0 };
+            let motion = Motion { time: 0.0, attitude: [1.0, 0.0, 0.0, 0.0], rate: [0.0; 3], place };
+            largest_slope(moments, |axis, sign| gradient.torque(&turned(&motion, axis, sign * ROTATION))) / ROTATION
+        };
+        assert!(slope([0.0, 0.0, 1.0]) <= 1e-10);
+        let (found, expected) = (slope([0.0, 1.0, 0.0]), (100.0 - 40.0) / 90.0);
+        assert!((found - expected).abs() < 2e-8, "{found} {expected}");
+    }
+
+    /// Law: a torque along omega lets an error of omega grow, one against it does not.
+    #[test]
+    fn a_torque_along_omega_drives() {
+        let slope = |coefficient: f64| {
+            largest_slope([2.0, 4.0, 5.0], |axis, sign| {
+                core::array::from_fn(|i| if i == axis { coefficient * sign } else { 0.0 })
+            })
+        };
+        assert!((slope(3.0) - 1.5).abs() < 1e-14 && slope(-3.0) < 0.0);
+    }
+}
