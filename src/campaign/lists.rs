@@ -7,14 +7,14 @@ use crate::sampling::keys::Counts;
 use toml::de::DeValue;
 
 impl Section<'_, '_> {
-    /// A list of finite numbers, if it was written.
-    pub fn numbers(&mut self, key: &str) -> Option<Vec<f64>> {
+    /// A list of finite numbers in `unit`, if it was written.
+    pub fn numbers(&mut self, key: &str, unit: &'static str) -> Option<Vec<f64>> {
         let value = self.take(key)?;
-        let list = numbers(value.get_ref(), self.unit_of(key));
+        let list = numbers(value.get_ref(), unit);
         let (allowed, remedy) = ("an array of finite numbers", "write it like [1.0, 2.0]");
         match (&list, value.get_ref()) {
             (Some(_), _) => {}
-            (None, DeValue::Array(_)) => self.refuse_number(key, value.get_ref(), allowed, remedy),
+            (None, DeValue::Array(_)) => self.refuse_number(key, unit, value.get_ref(), allowed, remedy),
             (None, _) => self.refuse(key, allowed, remedy),
         }
         list

@@ -6,7 +6,7 @@
 //!   serde's derive, which stops at the first error and knows no line of a key that passed.
 //! - [`spec`]: the keys of a campaign file; `scene`: those of the scene, from [`crate::scene::schema`]; `control`, `sensor_tables`, `phase_tables`: those of
 //!   a control loop; [`disperse`],
-//!   [`design`], [`dependence`]: those that say what is drawn; `keys`: how a distribution or a design reads its own;
+//!   [`design`], [`dependence`]: those that say what is drawn; `keys`: rows of keys, read and written;
 //!   [`data`], `data_columns`, `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`compression`]; [`bands`].
 //! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`columns`]: what they can name.
 //!   [`retention`]: which runs keep their time series.

@@ -185,7 +185,7 @@ impl Spec {
 /// The axis of nutation: "s3", "principal", or a direction in F_s.
 fn nutation_axis(section: &mut Section<'_, '_>) -> NutationAxis {
     const KEY: &str = "nutation_axis";
-    if section.is_text(KEY) {
+    if section.plain_text(KEY).is_some() {
         let parse = |text: &str| NUTATION_AXES.iter().find(|(name, _)| *name == text).map(|(_, axis)| *axis);
         return section.name(KEY, &NUTATION_AXES.map(|(name, _)| name), parse).unwrap_or_default();
     }
