@@ -5,29 +5,42 @@ use super::lines::Lines;
 use super::numbers::FINITE;
 use super::section::Section;
 use super::units;
-use crate::sampling::keys::{Counts, Kind, NumberLimit, Presence, Row, Rule, Value, Values, Written};
+use crate::math::vector::norm;
+use crate::sampling::keys::{Counts, Kind, NumberLimit, Presence, Row, Rule, TextLimit, Value, Values, Written};
 use crate::sampling::{DistributionKind, WrittenDistribution};
 
 impl Section<'_, '_> {
     /// What the table says of the keys `rows`, which have to do with each other what `rules` say; `None` where something is wrong, which is then
     /// noted.
-    pub(super) fn rows(&mut self, rows: &'static [Row], rules: &[Rule]) -> Option<Written> {
+    pub(super) fn rows(&mut self, rows: &[Row], rules: &[Rule]) -> Option<Written> {
         let mut is_right = true;
         for rule in rules {
             is_right = self.obeys(rule, is_right) && is_right;
         }
-        let mut written = Written::new(rows);
+        let written = self.right_rows(rows);
+        let is_there = |row: &Row| {
+            written.has(row.multiple_of.map_or(row.key, |(key, _)| key))
+                || !(self.has(row.key) || matches!(row.presence, Presence::Required { .. }))
+        };
+        (is_right && rows.iter().all(is_there)).then_some(written)
+    }
+
+    /// What is right of that; without the keys that are wrong, which are noted.
+    pub(super) fn right_rows(&mut self, rows: &[Row]) -> Written {
+        let mut written = Written::default();
         for row in rows {
             if let Presence::Required { allowed, example } = row.presence {
                 self.require(row.key, allowed, example);
             }
-            let value = self.row(row);
-            is_right &= value.is_some() || !(self.has(row.key) || matches!(row.presence, Presence::Required { .. }));
-            if let Some(value) = value {
-                written = written.with(row.key, value);
+            match (self.row(row), row.multiple_of) {
+                (Some(Value::Numbers(values)), Some((key, divisor))) => {
+                    written.set(key, Value::Numbers(values.over(divisor)));
+                }
+                (Some(value), _) => written.set(row.key, value),
+                (None, _) => {}
             }
         }
-        is_right.then_some(written)
+        written
     }
 
     /// The value of one row, if it was written; of a word the first one otherwise.
@@ -41,7 +54,7 @@ impl Section<'_, '_> {
             Kind::List => self.list(key, own, row.limit),
             Kind::Number => {
                 let limit = row.limit.unwrap_or(FINITE);
-                self.number(key, limit).map(|number| Value::Numbers(Values::All(number)))
+                self.number(key, limit).map(Value::from)
             }
             Kind::Vector => {
                 let vector = self.direction(key).filter(|vector| vector.iter().all(|x| x.is_finite()));
@@ -51,10 +64,17 @@ impl Section<'_, '_> {
                 let matrix = self.matrix(key).filter(|matrix| matrix.as_flattened().iter().all(|x| x.is_finite()));
                 matrix.map(Value::Matrix)
             }
-            Kind::Count(most) => self.count(key, 1..=most).map(|count| Value::Counts(Counts::All(count))),
+            Kind::Count([least, most]) => self.count(key, least..=most).map(Value::from),
+            Kind::Samples(most) => self.samples(key, most).map(|list| Value::Counts(Counts::Each(list))),
+            Kind::Text(limit) => self.limited_text(key, limit).map(Value::from),
+            Kind::Words(words, default) => {
+                let found = |word: &str| words.iter().copied().find(|known| *known == word);
+                self.names(key, words, found, &default()).map(Value::Words)
+            }
+            Kind::WordOrDirection(words) if self.has(key) && self.plain_text(key).is_none() => self.axis(key, words),
             Kind::Counts(most) => self.counts(key, 1..=most).map(Value::Counts),
-            Kind::Word(words) if self.has(key) => self.word(key, words).map(Value::Word),
-            Kind::Word(words) => {
+            Kind::Word(words) | Kind::WordOrDirection(words) if self.has(key) => self.word(key, words).map(Value::Word),
+            Kind::Word(words) | Kind::WordOrDirection(words) => {
                 self.know(key);
                 words.first().map(|word| Value::Word(word))
             }
@@ -76,6 +96,34 @@ impl Section<'_, '_> {
             return None;
         }
         Some(Value::Numbers(Values::Each(list)))
+    }
+
+    /// A text within a limit.
+    fn limited_text(&mut self, key: &str, limit: TextLimit) -> Option<&str> {
+        let text = self.text(key)?;
+        if !(limit.test)(text) {
+            self.refuse(key, limit.allowed, limit.remedy);
+            return None;
+        }
+        Some(text)
+    }
+
+    /// The unit vector along a direction in F_s, in place of one of `words`.
+    fn axis(&mut self, key: &str, words: &[&str]) -> Option<Value> {
+        let direction = self.direction(key)?;
+        let length = norm(direction);
+        if !(length > 0.0 && length.is_finite()) {
+            if direction.iter().all(|x| x.is_finite()) {
+                let names: Vec<String> = words.iter().map(|word| format!("{word:?}")).collect();
+                let allowed = format!("{} or a direction in F_s", names.join(", "));
+                self.refuse(key, allowed, "write it like [0.0, 0.0, 1.0]");
+            }
+            return None;
+        }
+        // a unit vector stays as it is, bit for bit
+        let is_unit = (length - 1.0).abs() <= 4.0 * f64::EPSILON;
+        let axis = if is_unit { direction } else { direction.map(|x| x / length) };
+        Some(Value::Numbers(Values::Each(axis.to_vec())))
     }
 
     /// Whether the table obeys a rule; notes where not. `is_right`: it obeys those before.
@@ -149,6 +197,8 @@ impl Lines {
                 Value::Counts(Counts::All(count)) => self.key(key, count),
                 Value::Counts(Counts::Each(counts)) => self.key(key, counts),
                 Value::Word(word) => self.key(key, word),
+                Value::Words(words) => self.key(key, words),
+                Value::Text(text) => self.text_key(key, text),
                 Value::Distribution(name, written) => {
                     let header = format!("{header}.{key}");
                     self.table(&format!("[{header}]"));

@@ -226,7 +226,7 @@ impl Dispersions {
         self.check_components(index, dispersion, &components, nominal)?;
         let nominals: Vec<f64> = components.iter().filter_map(|(p, c)| p.value(nominal, *c)).collect();
         let WrittenDistribution { kind, written } = distribution;
-        let target = Target { index, nominals: &nominals, written };
+        let target = Target { index, nominals: &nominals, rows: kind.keys(), written };
         let maps: Vec<(Vec<(Parameter, usize)>, Transform)> = match kind.distributions(&target)? {
             Some(list) => components.iter().zip(list).map(|(c, one)| (vec![*c], Transform::Scalar(one))).collect(),
             None => {

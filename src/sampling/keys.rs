@@ -17,8 +17,19 @@ pub struct NumberLimit {
     pub test: fn(f64) -> bool,
 }
 
+/// What a text may be.
+#[derive(Clone, Copy, Debug)]
+pub struct TextLimit {
+    /// In words, to follow `must be`.
+    pub allowed: &'static str,
+    /// What to do otherwise.
+    pub remedy: &'static str,
+    /// Whether a text is allowed.
+    pub test: fn(&str) -> bool,
+}
+
 /// What the value of a key is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Kind {
     /// A finite number, or an array of one for each component, in the unit of what is dispersed.
     Amounts,
@@ -34,12 +45,20 @@ pub enum Kind {
     Vector,
     /// Three rows of three finite numbers.
     Matrix,
-    /// A whole number from 1 to this one.
-    Count(u64),
+    /// A whole number between these two.
+    Count([u64; 2]),
     /// Whole numbers from 1 to this one: one for all dimensions, or a list.
     Counts(u64),
-    /// One of these words.
+    /// Different numbers of samples, ascending, at most so many.
+    Samples(usize),
+    /// A text.
+    Text(TextLimit),
+    /// One of these words; the first one where the key is left out.
     Word(&'static [&'static str]),
+    /// Different ones of these words, at least one; and what holds where the key is left out, in words.
+    Words(&'static [&'static str], fn() -> String),
+    /// One of these words, or three numbers of a direction; the first word where the key is left out.
+    WordOrDirection(&'static [&'static str]),
     /// A table with a distribution of one number.
     Distribution,
     /// A file of numbers: with the keys `sha256` and `column`, one column of it.
@@ -126,6 +145,13 @@ impl Row {
         self
     }
 
+    /// The same row with a limit that has a name.
+    #[must_use]
+    pub const fn limited(mut self, limit: NumberLimit) -> Self {
+        self.limit = Some(limit);
+        self
+    }
+
     /// The same row of zero or more.
     #[must_use]
     pub const fn not_negative(self) -> Self {
@@ -184,7 +210,7 @@ impl Values {
     }
 
     /// The numbers divided by `divisor`.
-    fn over(self, divisor: f64) -> Self {
+    pub fn over(self, divisor: f64) -> Self {
         match self {
             Values::All(value) => Values::All(value / divisor),
             Values::Each(list) => Values::Each(list.into_iter().map(|value| value / divisor).collect()),
@@ -232,8 +258,12 @@ pub enum Value {
     Matrix([[f64; 3]; 3]),
     /// Whole numbers.
     Counts(Counts),
+    /// A text of people.
+    Text(String),
     /// A word.
     Word(&'static str),
+    /// Several words.
+    Words(Vec<&'static str>),
     /// A distribution: its name and its keys.
     Distribution(&'static str, Written),
     /// A column of a file.
@@ -242,39 +272,46 @@ pub enum Value {
     Columns(Vec<DataColumn>),
 }
 
-/// What a campaign file says of the keys of a table.
-#[derive(Clone, Debug, Default)]
-pub struct Written {
-    rows: &'static [Row],
-    values: Vec<(&'static str, Value)>,
-}
-
-impl PartialEq for Written {
-    fn eq(&self, other: &Self) -> bool {
-        self.values == other.values
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Value::Numbers(Values::All(number))
     }
 }
+
+impl From<u64> for Value {
+    fn from(count: u64) -> Self {
+        Value::Counts(Counts::All(count))
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Value::Text(text.to_owned())
+    }
+}
+
+/// What a campaign file says of the keys of a table, in the order of their rows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Written(Vec<(&'static str, Value)>);
 
 impl Written {
-    /// A table with the keys `rows`, none of which is written.
-    pub const fn new(rows: &'static [Row]) -> Self {
-        Written { rows, values: Vec::new() }
-    }
+    /// A table without keys.
+    pub const NONE: Written = Written(Vec::new());
 
-    /// The same table in which `key` is written, as a multiple of another key where its row says so.
+    /// The same table in which `key` is written.
     #[must_use]
-    pub fn with(mut self, key: &'static str, value: Value) -> Self {
-        let multiple_of = self.row(key).and_then(|row| row.multiple_of);
-        self.values.push(match (multiple_of, value) {
-            (Some((of, divisor)), Value::Numbers(values)) => (of, Value::Numbers(values.over(divisor))),
-            (_, value) => (key, value),
-        });
+    pub fn with(mut self, key: &'static str, value: impl Into<Value>) -> Self {
+        self.set(key, value);
         self
     }
 
-    /// The row of `key`.
-    pub fn row(&self, key: &str) -> Option<&'static Row> {
-        self.rows.iter().find(|row| row.key == key)
+    /// Writes `key`, instead of what was there.
+    pub fn set(&mut self, key: &'static str, value: impl Into<Value>) {
+        let value = value.into();
+        match self.0.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, known)) => *known = value,
+            None => self.0.push((key, value)),
+        }
     }
 
     /// Whether `key` is written.
@@ -284,7 +321,7 @@ impl Written {
 
     /// The value of `key`.
     pub fn get(&self, key: &str) -> Option<&Value> {
-        self.values.iter().find(|(known, _)| *known == key).map(|(_, value)| value)
+        self.0.iter().find(|(known, _)| *known == key).map(|(_, value)| value)
     }
 
     /// The numbers of `key`.
@@ -304,15 +341,34 @@ impl Written {
 
     /// The columns of a file that are parameters.
     pub fn columns(&self) -> &[DataColumn] {
-        let columns = self.values.iter().find_map(|(_, value)| match value {
+        let columns = self.0.iter().find_map(|(_, value)| match value {
             Value::Columns(columns) => Some(columns.as_slice()),
             _ => None,
         });
         columns.unwrap_or_default()
     }
 
-    /// The keys that are written, in the order of the rows.
+    /// The number of `key`.
+    pub fn number(&self, key: &str) -> Option<f64> {
+        if let Value::Numbers(Values::All(number)) = self.get(key)? { Some(*number) } else { None }
+    }
+
+    /// The whole number of `key`.
+    pub fn count(&self, key: &str) -> Option<u64> {
+        if let Value::Counts(Counts::All(count)) = self.get(key)? { Some(*count) } else { None }
+    }
+
+    /// The text or the word of `key`.
+    pub fn text(&self, key: &str) -> Option<&str> {
+        match self.get(key)? {
+            Value::Text(text) => Some(text),
+            Value::Word(word) => Some(word),
+            _ => None,
+        }
+    }
+
+    /// The keys that are written.
     pub fn entries(&self) -> impl Iterator<Item = (&'static str, &Value)> {
-        self.rows.iter().filter_map(|row| Some((row.key, self.get(row.key)?)))
+        self.0.iter().map(|(key, value)| (*key, value))
     }
 }

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use spindrift::campaign::{Overrides, Plan};
+use spindrift::campaign::{Overrides, Plan, settings};
 use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
 use spindrift::observables::band_series::band_series;
@@ -221,20 +221,24 @@ fn keys_of_loops() -> String {
     text
 }
 
-/// The keys of distributions and designs, from their rows and rules.
-fn keys_of_draws() -> String {
+/// The keys of settings, distributions and designs, from their rows and rules.
+fn keys_of_tables() -> String {
     let mut text = String::from(
         "| table | key | value | unit | default | limit | meaning |\n| --- | --- | --- | --- | --- | --- | --- |\n",
     );
-    let kinds = DistributionKind::ALL
-        .iter()
-        .map(|kind| (format!("`[[disperse]]`, `distribution = \"{}\"`", kind.name()), kind.keys(), kind.rules()));
+    let kinds = DistributionKind::ALL.iter().map(|kind| {
+        (format!("`[[disperse]]`, `distribution = \"{}\"`", kind.name()), kind.keys().to_vec(), kind.rules())
+    });
     let designs = Design::NAMES.iter().map(|name| {
         let (rows, rules) = Design::keys_of(name).expect("a design");
-        (format!("`[design]`, `kind = \"{name}\"`"), rows, rules)
+        (format!("`[design]`, `kind = \"{name}\"`"), rows.to_vec(), rules)
     });
-    for (table, rows, rules) in kinds.chain(designs) {
-        for row in rows {
+    let settings = settings::HEAD
+        .iter()
+        .chain(&settings::TAIL)
+        .map(|(header, keys)| (format!("`[{header}]`"), keys.to_vec(), &[][..]));
+    for (table, rows, rules) in settings.chain(kinds).chain(designs) {
+        for row in &rows {
             let is_of =
                 |rule: &&Rule| matches!(rule, Rule::One(ways, _) if ways.iter().any(|way| way.contains(&row.key)));
             let one = rules.iter().find(is_of).map(|rule| match rule {
@@ -257,9 +261,14 @@ fn keys_of_draws() -> String {
                 Kind::Number => ("a number".to_owned(), ""),
                 Kind::Vector => ("three numbers".to_owned(), ""),
                 Kind::Matrix => ("three rows of three numbers".to_owned(), ""),
-                Kind::Count(most) => (format!("a whole number from 1 to {most}"), ""),
+                Kind::Count([least, most]) => (format!("a whole number from {least} to {most}"), ""),
+                Kind::Samples(_) => ("ascending whole numbers".to_owned(), ""),
+                Kind::Text(limit) => (limit.allowed.to_owned(), ""),
+                Kind::Words(words, _) => (format!("an array of `\"{}\"`", words.join("\"`, `\"")), ""),
                 Kind::Counts(_) => ("whole numbers above zero".to_owned(), ""),
-                Kind::Word(words) => (format!("`\"{}\"`", words.join("\"` (default), `\"")), ""),
+                Kind::Word(words) | Kind::WordOrDirection(words) => {
+                    (format!("`\"{}\"`", words.join("\"` (default), `\"")), "")
+                }
                 Kind::Distribution => ("a table with a distribution of one number".to_owned(), ""),
                 Kind::Column | Kind::Columns => ("the path of a file".to_owned(), ""),
             };
@@ -310,7 +319,7 @@ fn replaced(document: &str, name: &str, table: &str) -> String {
 fn the_generated_tables_are_up_to_date() {
     let columns = [("columns", columns_of_rows()), ("series", columns_of_series()), ("bands", quantities_over_time())];
     let dependencies = [("dependencies", dependencies())];
-    let parameters = [("parameters", parameters()), ("keys of draws", keys_of_draws())];
+    let parameters = [("parameters", parameters()), ("other keys", keys_of_tables())];
     let loops = [
         ("keys of loops", keys_of_loops()),
         ("quantities", quantities_of_conditions()),

@@ -141,7 +141,7 @@ impl Kind for HaltonDesign {
     }
 
     fn written(&self) -> Written {
-        self.0.written(Self::KEYS)
+        self.0.written()
     }
 
     fn replicates(&self) -> u64 {

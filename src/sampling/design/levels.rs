@@ -66,7 +66,7 @@ impl Levels {
             Levels::Counts(counts) => ("levels", Value::Counts(counts.clone())),
             Levels::Quantiles(list) => ("quantiles", Value::Numbers(Values::Each(list.clone()))),
         };
-        Written::new(&LEVELS).with(key, value)
+        Written::default().with(key, value)
     }
 
     /// That there is one number of levels for each dimension, where they are listed.

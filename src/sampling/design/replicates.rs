@@ -8,7 +8,7 @@
 //! Sample k >= 1 is point (k - 1) / R of replicate (k - 1) mod R: with every R samples more each replicate has one more.
 
 use crate::sampling::error::{DispersionError, Table, error_of};
-use crate::sampling::keys::{Counts, Kind, Row, Value, Written};
+use crate::sampling::keys::{Kind, Row, Written};
 
 use super::traits::{BLOCK, MAX_SAMPLES, by_point};
 
@@ -16,8 +16,11 @@ use super::traits::{BLOCK, MAX_SAMPLES, by_point};
 const MOST: u64 = 1024;
 
 /// The key of the number of replicates.
-pub const REPLICATES: Row =
-    Row::new("replicates", Kind::Count(MOST), "Number of designs of this kind, each scrambled on its own; default: 1");
+pub const REPLICATES: Row = Row::new(
+    "replicates",
+    Kind::Count([1, MOST]),
+    "Number of designs of this kind, each scrambled on its own; default: 1",
+);
 
 /// The number of replicates, at least 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,17 +37,14 @@ impl Replicates {
 
     /// The number that a file says, one where it says none.
     pub(super) fn of_written(written: &Written) -> Self {
-        match written.get(REPLICATES.key) {
-            Some(Value::Counts(Counts::All(count))) => Replicates(*count),
-            _ => Replicates::ONE,
-        }
+        written.count(REPLICATES.key).map_or(Replicates::ONE, Replicates)
     }
 
-    /// What a file with the keys `keys` says of it: nothing where there is one.
-    pub(super) fn written(self, keys: &'static [Row]) -> Written {
+    /// What a file says of it: nothing where there is one.
+    pub(super) fn written(self) -> Written {
         match self.0 {
-            1 => Written::new(keys),
-            count => Written::new(keys).with(REPLICATES.key, Value::Counts(Counts::All(count))),
+            1 => Written::default(),
+            count => Written::default().with(REPLICATES.key, count),
         }
     }
 

@@ -118,7 +118,7 @@ impl Kind for SobolDesign {
     }
 
     fn written(&self) -> Written {
-        self.0.written(Self::KEYS)
+        self.0.written()
     }
 
     fn replicates(&self) -> u64 {

@@ -19,7 +19,7 @@ impl Kind for TableDesign {
     }
 
     fn written(&self) -> Written {
-        Written::new(Self::KEYS).with("file", Value::Columns(self.0.clone()))
+        Written::default().with("file", Value::Columns(self.0.clone()))
     }
 
     fn size(&self, _dimensions: usize) -> Size {

@@ -64,7 +64,7 @@ pub trait Kind: Clone + Debug + PartialEq {
 
     /// What a file says of it.
     fn written(&self) -> Written {
-        Written::new(Self::KEYS)
+        Written::default()
     }
 
     /// Number of points for so many random dimensions.

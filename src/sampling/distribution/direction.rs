@@ -135,7 +135,7 @@ impl<N: Nested> Together for Cone<N> {
     type Map = DirectionMap<N::Quantile>;
 
     fn map(target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
-        let half_angle_rad = target.written.numbers("half_angle_rad").unwrap_or_default()[0];
+        let half_angle_rad = target.written.number("half_angle_rad").unwrap_or(f64::NAN);
         direction_map::<N>(Self::NAME, DirectionSpread::Cone { half_angle_rad }, target)
     }
 }
@@ -154,7 +154,7 @@ impl<N: Nested> Together for VonMisesFisher<N> {
     type Map = DirectionMap<N::Quantile>;
 
     fn map(target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
-        let concentration = target.written.numbers("concentration").unwrap_or_default()[0];
+        let concentration = target.written.number("concentration").unwrap_or(f64::NAN);
         direction_map::<N>(Self::NAME, DirectionSpread::Fisher { concentration }, target)
     }
 }

@@ -90,7 +90,7 @@ impl DistributionKind {
 
     /// Whether a file of its own names the parameters, in place of the key `parameter`.
     pub fn names_parameters(self) -> bool {
-        self.keys().iter().any(|row| row.kind == Kind::Columns)
+        self.keys().iter().any(|row| matches!(row.kind, Kind::Columns))
     }
 }
 
@@ -112,8 +112,8 @@ impl Nested for DistributionKind {
         nominal: f64,
         (name, written): (&str, &Written),
     ) -> Result<Distribution, DispersionError> {
-        let target = Target { index, nominals: &[nominal], written };
-        let found = Self::from_name(name).map_or(Ok(None), |kind| kind.distributions(&target)).map_err(|inner| {
+        let of = |kind: Self| kind.distributions(&Target { index, nominals: &[nominal], rows: kind.keys(), written });
+        let found = Self::from_name(name).map_or(Ok(None), of).map_err(|inner| {
             let value = inner.value.map_or("{ ... }".to_owned(), |value| format!("{{ {} = {value} }}", inner.key));
             error(index, key, value, inner.allowed, inner.remedy)
         })?;

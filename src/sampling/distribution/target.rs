@@ -2,7 +2,7 @@
 //! distributions of several numbers together.
 
 use crate::sampling::error::{DispersionError, error};
-use crate::sampling::keys::{Presence, Values, Written};
+use crate::sampling::keys::{Presence, Row, Values, Written};
 use crate::scene::Parameter;
 use crate::scene::parameter::Shape;
 use crate::scene::schema::Limit;
@@ -14,6 +14,8 @@ pub struct Target<'a> {
     pub index: usize,
     /// One value for each component.
     pub nominals: &'a [f64],
+    /// The keys of the distribution.
+    pub rows: &'static [Row],
     /// What the file says.
     pub written: &'a Written,
 }
@@ -42,7 +44,7 @@ impl Target<'_> {
 
     /// The numbers of `key`, one for each component, within the limit of its row: the written ones, else those that hold by default.
     pub(super) fn each(&self, key: &'static str) -> Numbers {
-        let row = self.written.row(key);
+        let row = self.rows.iter().find(|row| row.key == key);
         let list = match (self.written.values(key), row.map(|row| row.presence)) {
             (Some(values), _) => self.spread_out(key, values)?,
             (None, Some(Presence::Or(default))) => vec![default; self.nominals.len()],
@@ -75,8 +77,8 @@ impl Target<'_> {
 
     /// The medians: the numbers of `key`, where they are amounts, else the nominals, all above zero.
     pub(super) fn positive_or_nominal(&self, key: &'static str) -> Numbers {
-        let row = self.written.row(key);
-        if self.written.has(key) && row.is_some_and(|row| row.presence == Presence::OrNominal) {
+        let is_median = |row: &Row| row.key == key && row.presence == Presence::OrNominal;
+        if self.written.has(key) && self.rows.iter().any(is_median) {
             return self.each(key);
         }
         match self.nominals.iter().find(|x| **x <= 0.0) {
