@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::document::Document;
+use crate::sampling::keys::{Counts, Value, Written};
 
 /// Most samples that are listed one by one.
 pub const MOST_CHOSEN: usize = 100_000;
@@ -19,6 +20,14 @@ impl Chosen {
     pub fn of(samples: Vec<u64>) -> Option<Self> {
         let is_allowed = (1..=MOST_CHOSEN).contains(&samples.len()) && samples.windows(2).all(|pair| pair[0] < pair[1]);
         is_allowed.then(|| Chosen(samples.into()))
+    }
+
+    /// The samples that `campaign`, the table of that name, says.
+    pub(super) fn of_written(campaign: &Written) -> Option<Self> {
+        match campaign.get("only")? {
+            Value::Counts(Counts::Each(samples)) => Chosen::of(samples.clone()),
+            _ => None,
+        }
     }
 
     /// Notes what is wrong with the list in a campaign of `samples` samples, `stops` where it has `[stop]`.

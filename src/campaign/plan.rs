@@ -22,7 +22,6 @@ use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
 use crate::propagation::Method;
 use crate::run::Grid;
-use crate::sampling::keys::{Counts, Value};
 use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws};
 use crate::scene::schedule::applied;
 use crate::scene::{Scene, SceneInput};
@@ -342,10 +341,7 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
         design,
         [grid.times(), &band_times],
     );
-    let chosen = match campaign.get("only") {
-        Some(Value::Counts(Counts::Each(samples))) => Chosen::of(samples.clone()),
-        _ => None,
-    };
+    let chosen = Chosen::of_written(campaign);
     if let Some(chosen) = &chosen {
         chosen.check(dispersions.samples(), spec.analysis.stop.is_some(), document);
     }
