@@ -97,7 +97,7 @@ impl Assessment {
             }
     }
 
-    /// The requirement in words.
+    /// The requirement in words, with the bounds of the values where a mean is judged by them.
     pub fn sentence(&self) -> String {
         let requirement = &self.requirement;
         let unit = if self.shown.unit.is_empty() { String::new() } else { format!(" {}", self.shown.unit) };
@@ -114,7 +114,11 @@ impl Assessment {
             }
             Statement::Quantile(p) => format!("p{} of {name} {limit}", percent(p)),
             Statement::Fraction(fraction) => format!("{}% of runs with {name} {limit}", percent(fraction)),
-            Statement::Mean => format!("mean of {name} {limit}"),
+            Statement::Mean => {
+                let bounded = requirement.bounded.map(|ends| ends.map(|end| self.shown.written(end)));
+                let range = bounded.map(|[low, high]| format!(" (bounded = [{low:?}, {high:?}]{unit})"));
+                format!("mean of {name} {limit}{}", range.unwrap_or_default())
+            }
         };
         format!("{what}, with {confidence}% confidence")
     }

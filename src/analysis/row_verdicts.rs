@@ -296,6 +296,9 @@ mod tests {
         let (bounded, free) = (of(&mean(Some([0.0, 1.0]), 0.5), &spread), of(&mean(None, 0.5), &spread));
         assert_eq!((bounded.word(), free.word()), ("PASS", "PASS"));
         assert_eq!(bounded.room_for_rare_events(), None);
+        // the sentence names what the verdict is from
+        assert!(bounded.sentence().contains(" (bounded = [0.0, 1.0]"), "{}", bounded.sentence());
+        assert!(!free.sentence().contains("bounded"), "{}", free.sentence());
         let room = free.room_for_rare_events().expect("an assumption");
         assert!((room - (0.5 - free.gate.bounds[1])).abs() < 1e-15 && room > 0.0, "{room}");
         assert!(bounded.gate.bounds[1] > free.gate.bounds[1], "what assumes nothing is wider");

@@ -177,7 +177,7 @@ impl Analysis {
 }
 
 fn quantiles(section: &mut Section<'_, '_>) -> Option<Vec<f64>> {
-    let list = section.numbers("quantiles")?;
+    let list = section.numbers("quantiles", "1")?;
     let is_ascending = list.windows(2).all(|pair| pair[0] < pair[1]);
     let is_inside = list.iter().all(|p| *p > 0.0 && *p < 1.0);
     if list.is_empty() || list.len() > MOST_QUANTILES || !is_ascending || !is_inside {

@@ -1,23 +1,15 @@
 //! The `[bands]` table: at how many points quantiles over time are counted.
 
 use super::document::Document;
-use super::section::Section;
 
 /// Points of bands where the file does not say and the grid has more than [`ALL`].
 const POINTS: u64 = 33;
 /// Up to as many points of the grid all have bands: of twice as many points counting them takes a tenth of the time of a run.
 const ALL: u64 = 65;
 /// Most points: counts at a point take some 4 kB for each series in each thread, and a spacecraft with eight wheels has 34 series.
-const MOST_POINTS: u64 = 257;
+pub const MOST_POINTS: u64 = 257;
 /// The key.
 const KEY: &str = "bands.points";
-
-/// `bands.points`, if it was written.
-pub fn read(section: &mut Section<'_, '_>) -> Option<u64> {
-    let points = section.count("points", 0..=MOST_POINTS);
-    section.finish();
-    points
-}
 
 /// The number of points of a campaign whose grid has `grid` points; what is wrong with it is noted.
 pub fn resolve(written: Option<u64>, grid: u64, document: &mut Document<'_>) -> u64 {

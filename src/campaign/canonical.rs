@@ -10,7 +10,9 @@ use super::canonical_draws::{correlation_lines, derivation_lines, design_lines, 
 use super::control;
 use super::lines::Lines;
 use super::plan::Plan;
+use super::settings;
 use crate::observables::request::NutationAxis;
+use crate::sampling::keys::{Counts, Row, Value, Values, Written};
 use crate::scene::table::Table;
 use crate::scene::{ArcErrors, Name};
 use sha2::{Digest, Sha256};
@@ -52,37 +54,7 @@ impl Plan {
     /// The canonical text: `whole`, or the row plan.
     fn text_of(&self, whole: bool) -> String {
         let mut lines = Lines::default();
-        lines.table("[campaign]");
-        if whole {
-            lines.key("name", &self.name);
-            if let Some(description) = &self.description {
-                lines.text_key("description", description);
-            }
-        }
-        if whole || self.design.depends_on_samples().is_some() {
-            lines.key("samples", self.first_samples());
-        }
-        if let Some(chosen) = &self.chosen {
-            lines.key("only", chosen.samples());
-        }
-        lines.key("seed", self.seed);
-        lines.key("duration_s", self.grid.duration());
-        lines.table("[integrator]");
-        lines.key("method", self.method.name());
-        lines.key("relative_tolerance", self.tolerance.relative);
-        lines.key("absolute_tolerance", self.tolerance.absolute);
-        if let Some(step) = self.step_s {
-            lines.key("step_s", step);
-        }
-        lines.key("max_steps", self.max_steps);
-        lines.table("[observe]");
-        lines.key("points", self.grid.points());
-        lines.key("groups", self.groups.iter().map(|group| group.name()).collect::<Vec<_>>());
-        match self.nutation_axis {
-            NutationAxis::SpinAxis => {}
-            NutationAxis::Principal => lines.key("nutation_axis", "principal"),
-            NutationAxis::Along(axis) => lines.key("nutation_axis", axis),
-        }
+        self.write_settings(&settings::HEAD, whole, &mut lines);
         self.write_scene(&mut lines);
         design_lines(&self.design, &mut lines);
         for dispersion in &self.dispersed {
@@ -98,12 +70,7 @@ impl Plan {
         for derivation in &self.derived {
             derivation_lines(derivation, &mut lines);
         }
-        lines.table("[audit]");
-        lines.key("fraction", self.audit_fraction);
-        lines.table("[bands]");
-        lines.key("points", self.band_points);
-        lines.table("[output]");
-        lines.key("compression", self.compression.name());
+        self.write_settings(&settings::TAIL, whole, &mut lines);
         if whole {
             self.analysis.write(&mut lines);
             self.retention.write(&mut lines);
@@ -114,6 +81,52 @@ impl Plan {
     /// SHA-256 of the canonical text, in hexadecimal.
     pub fn hash(&self) -> String {
         digest(&self.text())
+    }
+
+    /// Tables of settings: `whole`, or without the keys that do not change rows.
+    fn write_settings(&self, tables: &[(&str, &[Row])], whole: bool, lines: &mut Lines) {
+        for (header, rows) in tables {
+            lines.table(&format!("[{header}]"));
+            let value = |row: &Row| {
+                let path = format!("{header}.{}", row.key);
+                let is_written = match path.as_str() {
+                    "campaign.samples" => whole || self.design.depends_on_samples().is_some(),
+                    path => whole || !Self::OUTSIDE_ROWS.contains(&path),
+                };
+                self.setting(&path).filter(|_| is_written).map(|value| (row.key, value))
+            };
+            let values = rows.iter().filter_map(value);
+            lines.written(header, &values.fold(Written::default(), |written, (key, value)| written.with(key, value)));
+        }
+    }
+
+    /// The value of a setting, if canonical text has it.
+    fn setting(&self, path: &str) -> Option<Value> {
+        Some(match path {
+            "campaign.name" => self.name.as_str().into(),
+            "campaign.description" => self.description.as_deref()?.into(),
+            "campaign.samples" => self.first_samples().into(),
+            "campaign.only" => Value::Counts(Counts::Each(self.chosen.as_ref()?.samples().to_vec())),
+            "campaign.seed" => self.seed.into(),
+            "campaign.duration_s" => self.grid.duration().into(),
+            "integrator.method" => Value::Word(self.method.name()),
+            "integrator.relative_tolerance" => self.tolerance.relative.into(),
+            "integrator.absolute_tolerance" => self.tolerance.absolute.into(),
+            "integrator.step_s" => self.step_s?.into(),
+            "integrator.max_steps" => self.max_steps.into(),
+            "observe.points" => (self.grid.points() as u64).into(),
+            "observe.groups" => Value::Words(self.groups.iter().map(|group| group.name()).collect()),
+            "observe.nutation_axis" => match self.nutation_axis {
+                NutationAxis::SpinAxis => return None,
+                NutationAxis::Principal => Value::Word("principal"),
+                NutationAxis::Along(axis) => Value::Numbers(Values::Each(axis.to_vec())),
+            },
+            "audit.fraction" => self.audit_fraction.into(),
+            "bands.points" => (self.band_points as u64).into(),
+            "output.compression" => Value::Word(self.compression.name()),
+            // `tolerance` is both of those that are written
+            _ => return None,
+        })
     }
 
     /// The tables of the nominal scene, every key that it has in the order of the schema.

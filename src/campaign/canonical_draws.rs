@@ -8,18 +8,20 @@ use crate::scene::Parameter;
 pub(super) fn dispersion_lines(dispersion: &Dispersion, lines: &mut Lines) {
     lines.table("[[disperse]]");
     match dispersion.component {
-        _ if !dispersion.distribution.columns().is_empty() => {}
+        _ if dispersion.distribution.kind.names_parameters() => {}
         Some(component) => lines.key("parameter", dispersion.parameter.component_name(component)),
         None => lines.key("parameter", dispersion.parameter.name()),
     }
-    dispersion.distribution.write(lines);
+    lines.key("distribution", dispersion.distribution.kind.name());
+    lines.written("disperse", &dispersion.distribution.written);
 }
 
 /// Writes the `[design]` table, if it is not the default.
 pub(super) fn design_lines(design: &Design, lines: &mut Lines) {
     if *design != Design::DEFAULT {
         lines.table("[design]");
-        design.write(lines);
+        lines.key("kind", design.name());
+        lines.written("design", &design.written());
     }
 }
 

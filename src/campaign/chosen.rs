@@ -5,15 +5,11 @@
 
 use std::sync::Arc;
 
-use toml::de::DeValue;
-
 use super::document::Document;
-use super::section::Section;
+use crate::sampling::keys::{Counts, Value, Written};
 
 /// Most samples that are listed one by one.
 pub const MOST_CHOSEN: usize = 100_000;
-/// What the list may be, in words.
-const ALLOWED: &str = "1 to 100000 numbers of samples, ascending and different";
 
 /// The numbers of the samples that run: ascending, different, at least one.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,20 +22,12 @@ impl Chosen {
         is_allowed.then(|| Chosen(samples.into()))
     }
 
-    /// Reads `campaign.only`; `None` where it was not written, or is wrong, which is then noted.
-    pub(super) fn read(section: &mut Section<'_, '_>) -> Option<Self> {
-        let number = |item: &DeValue<'_>| {
-            let integer = item.as_integer()?;
-            u64::from_str_radix(integer.as_str(), integer.radix()).ok()
-        };
-        let list = section.take("only")?.get_ref().as_array();
-        let samples =
-            list.and_then(|list| list.iter().map(|item| number(item.get_ref())).collect::<Option<Vec<u64>>>());
-        let chosen = samples.and_then(Chosen::of);
-        if chosen.is_none() {
-            section.refuse("only", ALLOWED, "write it like [3, 17, 400], or leave it out for all samples");
+    /// The samples that `campaign`, the table of that name, says.
+    pub(super) fn of_written(campaign: &Written) -> Option<Self> {
+        match campaign.get("only")? {
+            Value::Counts(Counts::Each(samples)) => Chosen::of(samples.clone()),
+            _ => None,
         }
-        chosen
     }
 
     /// Notes what is wrong with the list in a campaign of `samples` samples, `stops` where it has `[stop]`.

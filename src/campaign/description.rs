@@ -1,20 +1,23 @@
 //! `campaign.description`: the question that a campaign answers, for people. No row depends on it.
 
-use super::section::Section;
+use crate::sampling::keys::TextLimit;
 
 /// Most characters of a description.
 const LONGEST: usize = 1000;
 
-/// Reads the key.
-pub(super) fn read(section: &mut Section<'_, '_>) -> Option<String> {
-    const ALLOWED: &str = "a text of 1 to 1000 characters";
-    let text = section.text("description")?;
-    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    if text.is_empty() || text.chars().count() > LONGEST || text.chars().any(char::is_control) {
-        section.refuse("description", ALLOWED, "write the question that the campaign answers, or delete the key");
-        return None;
-    }
-    Some(text)
+/// What it may be.
+pub(super) const LIMIT: TextLimit = TextLimit {
+    allowed: "a text of 1 to 1000 characters",
+    remedy: "write the question that the campaign answers, or delete the key",
+    test: |text| {
+        let text = in_one_line(text);
+        !text.is_empty() && text.chars().count() <= LONGEST && !text.chars().any(char::is_control)
+    },
+};
+
+/// The words of a text with one space between them.
+pub(super) fn in_one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// The first sentence of the comments that a file begins with, without "Question:"; `None` where it begins with something else. Lines that
@@ -31,7 +34,7 @@ pub(super) fn of_comment(text: &str) -> Option<String> {
     }
     let found = found.strip_prefix("Question:").unwrap_or(&found);
     let found: String = found.chars().filter(|letter| !letter.is_control()).take(LONGEST).collect();
-    let found = found.split_whitespace().collect::<Vec<_>>().join(" ");
+    let found = in_one_line(&found);
     (!found.is_empty()).then_some(found)
 }
 

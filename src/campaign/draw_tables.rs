@@ -12,12 +12,12 @@ pub(super) struct DrawTables {
 
 impl DrawTables {
     pub(super) fn of(
-        disperse: Vec<Option<Dispersion>>,
-        correlate: Vec<Option<Correlation>>,
-        derive: Vec<Option<Derivation>>,
+        disperse: &[Option<Dispersion>],
+        correlate: &[Option<Correlation>],
+        derive: &[Option<Derivation>],
     ) -> Self {
-        fn indexed<T>(list: Vec<Option<T>>) -> (Vec<usize>, Vec<T>) {
-            list.into_iter().enumerate().filter_map(|(index, item)| item.map(|item| (index, item))).unzip()
+        fn indexed<T: Clone>(list: &[Option<T>]) -> (Vec<usize>, Vec<T>) {
+            list.iter().enumerate().filter_map(|(index, item)| item.clone().map(|item| (index, item))).unzip()
         }
         DrawTables { dispersed: indexed(disperse), correlated: indexed(correlate), derived: indexed(derive) }
     }

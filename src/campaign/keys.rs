@@ -1,90 +1,227 @@
-//! [`KeyReader`] for a table of a campaign file, [`KeyWriter`] for canonical text.
+//! Rows of keys ([`crate::sampling::keys`]) in a table of a campaign file: read from it, and written as canonical text.
 
 use super::data_keys;
-use super::limits::MAX_SAMPLES;
 use super::lines::Lines;
 use super::numbers::FINITE;
 use super::section::Section;
-use crate::sampling::keys::{Counts, KeyReader, KeyWriter};
-use crate::sampling::{DataColumn, Values, WrittenDistribution};
+use super::units;
+use crate::math::vector::norm;
+use crate::sampling::keys::{Counts, Kind, NumberLimit, Presence, Row, Rule, TextLimit, Value, Values, Written};
+use crate::sampling::{DistributionKind, WrittenDistribution};
 
-impl KeyReader for Section<'_, '_> {
-    fn has(&self, key: &str) -> bool {
-        Section::has(self, key)
+impl Section<'_, '_> {
+    /// What the table says of the keys `rows`, which have to do with each other what `rules` say; `None` where something is wrong, which is then
+    /// noted.
+    pub(super) fn rows(&mut self, rows: &[Row], rules: &[Rule]) -> Option<Written> {
+        let mut is_right = true;
+        for rule in rules {
+            is_right = self.obeys(rule, is_right) && is_right;
+        }
+        let written = self.right_rows(rows);
+        let is_there = |row: &Row| {
+            written.has(row.multiple_of.map_or(row.key, |(key, _)| key))
+                || !(self.has(row.key) || matches!(row.presence, Presence::Required { .. }))
+        };
+        (is_right && rows.iter().all(is_there)).then_some(written)
     }
 
-    fn require(&mut self, key: &'static str, allowed: &str, example: &str) {
-        Section::require(self, key, allowed, example);
-    }
-
-    fn refuse(&mut self, key: &str, allowed: &str, remedy: &str) {
-        Section::refuse(self, key, allowed, remedy);
-    }
-
-    fn number(&mut self, key: &'static str) -> Option<f64> {
-        Section::number(self, key, FINITE)
-    }
-
-    fn values(&mut self, key: &'static str) -> Option<Values> {
-        Section::values(self, key)
-    }
-
-    fn numbers(&mut self, key: &'static str) -> Option<Vec<f64>> {
-        Section::numbers(self, key)
-    }
-
-    fn vector(&mut self, key: &'static str) -> Option<[f64; 3]> {
-        Section::direction(self, key).filter(|vector| vector.iter().all(|x| x.is_finite()))
-    }
-
-    fn matrix(&mut self, key: &'static str) -> Option<[[f64; 3]; 3]> {
-        Section::matrix(self, key).filter(|matrix| matrix.as_flattened().iter().all(|x| x.is_finite()))
-    }
-
-    fn choice(&mut self, key: &'static str, names: &[&str]) -> Option<usize> {
-        Section::name(self, key, names, |name| names.iter().position(|known| *known == name))
-    }
-
-    fn count(&mut self, key: &'static str, most: u64) -> Option<u64> {
-        Section::count(self, key, 1..=most)
-    }
-
-    fn counts(&mut self, key: &'static str) -> Option<Counts> {
-        Section::counts(self, key, 1..=MAX_SAMPLES)
-    }
-
-    fn table(&mut self, key: &'static str, read: &mut dyn FnMut(&mut dyn KeyReader)) -> bool {
-        let mut section = self.section(key);
-        let is_present = section.is_present();
-        if is_present {
-            read(&mut section);
-            if section.is_name_of("distribution", WrittenDistribution::NAMES) {
-                section.finish();
+    /// What is right of that; without the keys that are wrong, which are noted.
+    pub(super) fn right_rows(&mut self, rows: &[Row]) -> Written {
+        let mut written = Written::default();
+        for row in rows {
+            if let Presence::Required { allowed, example } = row.presence {
+                self.require(row.key, allowed, example);
+            }
+            match (self.row(row), row.multiple_of) {
+                (Some(Value::Numbers(values)), Some((key, divisor))) => {
+                    written.set(key, Value::Numbers(values.over(divisor)));
+                }
+                (Some(value), _) => written.set(row.key, value),
+                (None, _) => {}
             }
         }
-        is_present
+        written
     }
 
-    fn kind(&mut self, key: &'static str, names: &[&'static str], example: &str) -> Option<&'static str> {
-        Section::require(self, key, &format!("one of {}", names.join(", ")), example);
-        Section::name(self, key, names, |name| names.iter().copied().find(|known| *known == name))
+    /// The value of one row, if it was written; of a word the first one otherwise.
+    fn row(&mut self, row: &Row) -> Option<Value> {
+        let key = row.key;
+        let (of_target, own) = (self.unit, units::in_name(key));
+        match row.kind {
+            Kind::Amounts => self.values(key, of_target).map(Value::Numbers),
+            Kind::Values => self.values(key, own).map(Value::Numbers),
+            Kind::AmountList => self.list(key, of_target, row.limit),
+            Kind::List => self.list(key, own, row.limit),
+            Kind::Number => {
+                let limit = row.limit.unwrap_or(FINITE);
+                self.number(key, limit).map(Value::from)
+            }
+            Kind::Vector => {
+                let vector = self.direction(key).filter(|vector| vector.iter().all(|x| x.is_finite()));
+                vector.map(|vector| Value::Numbers(Values::Each(vector.to_vec())))
+            }
+            Kind::Matrix => {
+                let matrix = self.matrix(key).filter(|matrix| matrix.as_flattened().iter().all(|x| x.is_finite()));
+                matrix.map(Value::Matrix)
+            }
+            Kind::Count([least, most]) => self.count(key, least..=most).map(Value::from),
+            Kind::Samples(most) => self.samples(key, most).map(|list| Value::Counts(Counts::Each(list))),
+            Kind::Text(limit) => self.limited_text(key, limit).map(Value::from),
+            Kind::Words(words, default) => {
+                let found = |word: &str| words.iter().copied().find(|known| *known == word);
+                self.names(key, words, found, &default()).map(Value::Words)
+            }
+            Kind::WordOrDirection(words) if self.has(key) && self.plain_text(key).is_none() => self.axis(key, words),
+            Kind::Counts(most) => self.counts(key, 1..=most).map(Value::Counts),
+            Kind::Word(words) | Kind::WordOrDirection(words) if self.has(key) => self.word(key, words).map(Value::Word),
+            Kind::Word(words) | Kind::WordOrDirection(words) => {
+                self.know(key);
+                words.first().map(|word| Value::Word(word))
+            }
+            Kind::Distribution => {
+                let mut table = self.section(key);
+                let found = if table.is_present() { table.distribution() } else { None };
+                found.map(|found| Value::Distribution(found.kind.name(), found.written))
+            }
+            Kind::Column => data_keys::column(self).map(Value::Column),
+            Kind::Columns => data_keys::columns(self).map(Value::Columns),
+        }
     }
 
-    fn column(&mut self) -> Option<DataColumn> {
-        data_keys::column(self)
+    /// Numbers, any count of them; at least one where they have a limit.
+    fn list(&mut self, key: &str, unit: &'static str, limit: Option<NumberLimit>) -> Option<Value> {
+        let list = self.numbers(key, unit)?;
+        if let Some(limit) = limit.filter(|limit| list.is_empty() || !list.iter().all(|x| (limit.test)(*x))) {
+            self.refuse(key, limit.allowed, limit.remedy);
+            return None;
+        }
+        Some(Value::Numbers(Values::Each(list)))
     }
 
-    fn columns(&mut self) -> Option<Vec<DataColumn>> {
-        data_keys::columns(self)
+    /// A text within a limit.
+    fn limited_text(&mut self, key: &str, limit: TextLimit) -> Option<&str> {
+        let text = self.text(key)?;
+        if !(limit.test)(text) {
+            self.refuse(key, limit.allowed, limit.remedy);
+            return None;
+        }
+        Some(text)
+    }
+
+    /// The unit vector along a direction in F_s, in place of one of `words`.
+    fn axis(&mut self, key: &str, words: &[&str]) -> Option<Value> {
+        let direction = self.direction(key)?;
+        let length = norm(direction);
+        if !(length > 0.0 && length.is_finite()) {
+            if direction.iter().all(|x| x.is_finite()) {
+                let names: Vec<String> = words.iter().map(|word| format!("{word:?}")).collect();
+                let allowed = format!("{} or a direction in F_s", names.join(", "));
+                self.refuse(key, allowed, "write it like [0.0, 0.0, 1.0]");
+            }
+            return None;
+        }
+        // a unit vector stays as it is, bit for bit
+        let is_unit = (length - 1.0).abs() <= 4.0 * f64::EPSILON;
+        let axis = if is_unit { direction } else { direction.map(|x| x / length) };
+        Some(Value::Numbers(Values::Each(axis.to_vec())))
+    }
+
+    /// Whether the table obeys a rule; notes where not. `is_right`: it obeys those before.
+    fn obeys(&mut self, rule: &Rule, is_right: bool) -> bool {
+        let only = |table: &mut Self, written: &[&'static str], all: &[&'static str]| {
+            let Some(second) = written.get(1) else { return true };
+            table.refuse(second, format!("the only one of {}", all.join(", ")), "delete all but one of them");
+            false
+        };
+        match rule {
+            Rule::One(ways, example) => {
+                // a way is called by its first key, or by the first that was written
+                let name = |way: &&[&'static str]| way.iter().copied().find(|key| self.has(key)).unwrap_or(way[0]);
+                let names: Vec<&'static str> = ways.iter().map(name).collect();
+                let written: Vec<&'static str> = names.iter().copied().filter(|key| self.has(key)).collect();
+                if written.is_empty() {
+                    self.require(names[0], &format!("given ({})", names.join(" or ")), example);
+                    return false;
+                }
+                only(self, &written, &names)
+            }
+            Rule::AtMostOne(keys) => {
+                let written: Vec<&'static str> = keys.iter().copied().filter(|key| self.has(key)).collect();
+                only(self, &written, keys)
+            }
+            Rule::Together([(first, of_first), (second, of_second)]) => {
+                if is_right && (self.has(first) || self.has(second)) {
+                    self.require(first, &format!("given together with {second}"), of_first);
+                    self.require(second, &format!("given together with {first}"), of_second);
+                }
+                self.has(first) == self.has(second)
+            }
+        }
+    }
+
+    /// `distribution` and the keys of the distribution that it names.
+    pub(super) fn distribution(&mut self) -> Option<WrittenDistribution> {
+        let name = self.required_word("distribution", DistributionKind::NAMES, "\"normal\"");
+        // without a distribution nobody can say which other keys belong here
+        let kind = DistributionKind::from_name(name?)?;
+        let written = self.rows(kind.keys(), kind.rules());
+        self.finish();
+        written.map(|written| WrittenDistribution { kind, written })
+    }
+
+    /// The one of `words` that `key` gives; it must be there.
+    pub(super) fn required_word(
+        &mut self,
+        key: &str,
+        words: &'static [&'static str],
+        example: &str,
+    ) -> Option<&'static str> {
+        self.require(key, &format!("one of {}", words.join(", ")), example);
+        self.word(key, words)
+    }
+
+    /// The one of `words` that `key` gives, if it was written.
+    fn word(&mut self, key: &str, words: &'static [&'static str]) -> Option<&'static str> {
+        self.name(key, words, |word| words.iter().copied().find(|known| *known == word))
     }
 }
 
-impl KeyWriter for Lines {
-    fn key(&mut self, key: &str, value: &dyn std::fmt::Debug) {
-        Lines::key(self, key, value);
-    }
-
-    fn table(&mut self, key: &str) {
-        Lines::table(self, &format!("[disperse.{key}]"));
+impl Lines {
+    /// The keys of a table. A distribution among them is a table within `[header]` and comes last.
+    pub(super) fn written(&mut self, header: &str, written: &Written) {
+        for (key, value) in written.entries() {
+            match value {
+                Value::Numbers(Values::All(number)) => self.key(key, number),
+                Value::Numbers(Values::Each(list)) => self.key(key, list),
+                Value::Matrix(matrix) => self.key(key, matrix),
+                Value::Counts(Counts::All(count)) => self.key(key, count),
+                Value::Counts(Counts::Each(counts)) => self.key(key, counts),
+                Value::Word(word) => self.key(key, word),
+                Value::Words(words) => self.key(key, words),
+                Value::Text(text) => self.text_key(key, text),
+                Value::Distribution(name, written) => {
+                    let header = format!("{header}.{key}");
+                    self.table(&format!("[{header}]"));
+                    self.key("distribution", name);
+                    self.written(&header, written);
+                }
+                Value::Column(column) => {
+                    self.key(key, &column.file);
+                    self.key("sha256", &column.sha256);
+                    self.key("column", &column.column);
+                }
+                Value::Columns(columns) => {
+                    let Some(first) = columns.first() else { continue };
+                    self.key(key, &first.file);
+                    self.key("sha256", &first.sha256);
+                    let names: Vec<String> = columns.iter().map(|column| column.target_name()).collect();
+                    let own: Vec<&str> = columns.iter().map(|column| column.column.as_str()).collect();
+                    self.key("parameters", &names);
+                    if names != own {
+                        self.key("columns", &own);
+                    }
+                }
+            }
+        }
     }
 }

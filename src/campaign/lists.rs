@@ -4,17 +4,18 @@ use super::numbers::number;
 use super::section::Section;
 use crate::sampling::Numbers;
 use crate::sampling::keys::Counts;
+use toml::Spanned;
 use toml::de::DeValue;
 
 impl Section<'_, '_> {
-    /// A list of finite numbers, if it was written.
-    pub fn numbers(&mut self, key: &str) -> Option<Vec<f64>> {
+    /// A list of finite numbers in `unit`, if it was written.
+    pub fn numbers(&mut self, key: &str, unit: &'static str) -> Option<Vec<f64>> {
         let value = self.take(key)?;
-        let list = numbers(value.get_ref(), self.unit_of(key));
+        let list = numbers(value.get_ref(), unit);
         let (allowed, remedy) = ("an array of finite numbers", "write it like [1.0, 2.0]");
         match (&list, value.get_ref()) {
             (Some(_), _) => {}
-            (None, DeValue::Array(_)) => self.refuse_number(key, value.get_ref(), allowed, remedy),
+            (None, DeValue::Array(_)) => self.refuse_number(key, unit, value.get_ref(), allowed, remedy),
             (None, _) => self.refuse(key, allowed, remedy),
         }
         list
@@ -70,6 +71,24 @@ impl Section<'_, '_> {
             self.refuse(key, allowed, "write it like 5 or [5, 3]");
         }
         counts
+    }
+
+    /// Numbers of samples, ascending and different, at most `most`, if they were written.
+    pub(super) fn samples(&mut self, key: &str, most: usize) -> Option<Vec<u64>> {
+        let list = self.take(key)?.get_ref().as_array();
+        let number = |item: &Spanned<DeValue<'_>>| {
+            let integer = item.get_ref().as_integer()?;
+            u64::from_str_radix(integer.as_str(), integer.radix()).ok()
+        };
+        let samples = list.and_then(|list| list.iter().map(number).collect::<Option<Vec<u64>>>());
+        let is_allowed =
+            |list: &Vec<u64>| (1..=most).contains(&list.len()) && list.windows(2).all(|pair| pair[0] < pair[1]);
+        let samples = samples.filter(is_allowed);
+        if samples.is_none() {
+            let allowed = format!("1 to {most} numbers of samples, ascending and different");
+            self.refuse(key, allowed, "write it like [3, 17, 400], or leave it out for all samples");
+        }
+        samples
     }
 
     /// Yes or no, if it was written.

@@ -4,9 +4,9 @@
 //! - [`input_file`]: regular files of bounded size. [`size`]: how large a campaign file may be.
 //! - [`document`], [`section`], [`numbers`], [`lists`]: a TOML document that is read key by key and remembers the lines. By hand and not by
 //!   serde's derive, which stops at the first error and knows no line of a key that passed.
-//! - [`spec`]: the keys of a campaign file; `scene`: those of the scene, from [`crate::scene::schema`]; `control`, `sensor_tables`, `phase_tables`: those of
+//! - [`spec`]: a campaign file as written; [`settings`]: keys that are no part of the scene; `scene`: those of the scene, from [`crate::scene::schema`]; `control`, `sensor_tables`, `phase_tables`: those of
 //!   a control loop; [`disperse`],
-//!   [`design`], [`dependence`]: those that say what is drawn; `keys`: how a distribution or a design reads its own;
+//!   [`design`], [`dependence`]: those that say what is drawn; `keys`: rows of keys, read and written;
 //!   [`data`], `data_columns`, `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`compression`]; [`bands`].
 //! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`columns`]: what they can name.
 //!   [`retention`]: which runs keep their time series.
@@ -62,6 +62,7 @@ pub mod retention;
 mod scene;
 pub mod section;
 mod sensor_tables;
+pub mod settings;
 pub mod size;
 mod sources;
 pub mod spec;

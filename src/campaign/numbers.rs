@@ -6,16 +6,7 @@ use crate::sampling::Values;
 use crate::scene::schema::Limit;
 use toml::de::DeValue;
 
-/// What a number may be.
-#[derive(Clone, Copy, Debug)]
-pub struct NumberLimit {
-    /// In words, to follow `must be`.
-    pub allowed: &'static str,
-    /// What to do otherwise.
-    pub remedy: &'static str,
-    /// Whether a number is allowed.
-    pub test: fn(f64) -> bool,
-}
+pub use crate::sampling::keys::NumberLimit;
 
 /// Any finite number.
 pub const FINITE: NumberLimit =
@@ -31,43 +22,20 @@ pub const NOT_NEGATIVE: NumberLimit = NumberLimit {
     test: |x| x.is_finite() && x >= 0.0,
 };
 
-/// Keys of distributions whose values are in the unit of what is dispersed.
-pub(super) const DISTANCES: [&str; 15] = [
-    "min",
-    "max",
-    "mode",
-    "mean",
-    "median",
-    "std",
-    "three_sigma",
-    "half_width",
-    "lower",
-    "upper",
-    "offset",
-    "value",
-    "values",
-    "scale",
-    "location",
-];
-
 impl Section<'_, '_> {
     /// Says that every number of this table is in `unit`.
     pub(super) fn measures(&mut self, unit: &'static str) {
         self.every = Some(unit);
     }
 
-    /// Says in which unit the distances of this table are.
+    /// Says in which unit the amounts of this table are.
     pub(super) fn describes(&mut self, unit: &'static str) {
         self.unit = unit;
     }
 
-    /// The unit in which the numbers of `key` are: that of what the table describes, or the one at the end of the key.
+    /// The unit in which the numbers of `key` are: that of all numbers of the table, or the one at the end of the key.
     pub(super) fn unit_of(&self, key: &str) -> &'static str {
-        match self.every {
-            Some(unit) => unit,
-            None if DISTANCES.contains(&key) => self.unit,
-            None => units::in_name(key),
-        }
+        self.every.unwrap_or_else(|| units::in_name(key))
     }
 
     /// The plain number of `key`, if one was written, whether it is allowed or not: for examples near what else was written.
@@ -86,21 +54,23 @@ impl Section<'_, '_> {
                 None
             }
             None => {
-                self.refuse_number(key, value.get_ref(), limit.allowed, remedy_for_text(value.get_ref()));
+                let remedy = remedy_for_text(value.get_ref());
+                self.refuse_number(key, unit, value.get_ref(), limit.allowed, remedy);
                 None
             }
         }
     }
 
-    /// Notes that `value` of `key` is no number or numbers: what is wrong with a unit in it, if there is one, else `allowed` and `remedy`.
+    /// Notes that `value` of `key`, in `unit`, is no number or numbers: what is wrong with a unit in it, if there is one, else `allowed` and `remedy`.
     pub(super) fn refuse_number(
         &mut self,
         key: &str,
+        unit: &'static str,
         value: &DeValue<'_>,
         allowed: impl Into<String>,
         remedy: impl Into<String>,
     ) {
-        match unit_problem(value, self.unit_of(key)) {
+        match unit_problem(value, unit) {
             Some(problem) => self.refuse(key, problem.allowed, problem.remedy),
             None => self.refuse(key, allowed, remedy),
         }
@@ -129,7 +99,7 @@ impl Section<'_, '_> {
                     1 => remedy_for_text(value.get_ref()).to_owned(),
                     count => format!("write it like {}", limit.example(count)),
                 };
-                self.refuse_number(key, value.get_ref(), numbers_in_words(numbers.len()), remedy);
+                self.refuse_number(key, unit, value.get_ref(), numbers_in_words(numbers.len()), remedy);
                 numbers.fill(f64::NAN);
             }
         }
@@ -148,21 +118,18 @@ impl Section<'_, '_> {
         self.fill(key, matrix.as_flattened_mut(), Limit::Finite).then_some(matrix)
     }
 
-    /// One finite number, or an array of them, if written.
-    pub fn values(&mut self, key: &str) -> Option<Values> {
+    /// One finite number in `unit`, or an array of them, if written.
+    pub fn values(&mut self, key: &str, unit: &'static str) -> Option<Values> {
         let value = self.take(key)?;
-        let unit = self.unit_of(key);
         let values = match value.get_ref() {
             DeValue::Array(_) => list(value.get_ref(), unit).map(Values::Each),
             single => number(single, unit).map(Values::All),
         };
-        let finite = |values: &Values| match values {
-            Values::All(x) => x.is_finite(),
-            Values::Each(list) => list.iter().all(|x| x.is_finite()),
-        };
+        let finite = |values: &Values| values.numbers().iter().all(|x| x.is_finite());
         if !values.as_ref().is_some_and(finite) {
             self.refuse_number(
                 key,
+                unit,
                 value.get_ref(),
                 "a finite number, or an array of one for each component",
                 remedy_for_text(value.get_ref()),

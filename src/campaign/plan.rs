@@ -218,7 +218,7 @@ fn read(folder: &Path, file: &str, text: &str, overrides: Overrides) -> Result<(
     let table = document.parse()?;
     let mut spec = Spec::read(&mut document, &table);
     override_spec(&mut spec, &overrides, &mut document);
-    let plan = resolve(spec, &mut document);
+    let plan = resolve(&spec, &mut document);
     let data = std::mem::take(&mut document.files);
     document.verdict()?;
     let plan = plan.ok_or_else(|| unreachable_plan(file))?;
@@ -261,7 +261,8 @@ fn override_spec(spec: &mut Spec, overrides: &Overrides, document: &mut Document
     if let Some(fraction) = overrides.audit_fraction.filter(|fraction| !(FRACTION.test)(*fraction)) {
         document.add("--audit", Some(format!("{fraction:?}")), FRACTION.allowed, FRACTION.remedy);
     }
-    if let (Some(samples), Some(written), Some(design)) = (overrides.samples, spec.samples, &spec.design)
+    if let (Some(samples), Some(written), Some(design)) =
+        (overrides.samples, spec.settings("campaign").count("samples"), &spec.design)
         && samples != written
         && let Some([why, remedy]) = design.depends_on_samples()
     {
@@ -271,29 +272,30 @@ fn override_spec(spec: &mut Spec, overrides: &Overrides, document: &mut Document
         );
         document.add("--samples", Some(samples.to_string()), allowed, remedy);
     }
-    spec.samples = overrides.samples.or(spec.samples);
-    spec.seed = overrides.seed.or(spec.seed);
-    spec.audit_fraction = overrides.audit_fraction.or(spec.audit_fraction);
+    for (key, value) in [("samples", overrides.samples), ("seed", overrides.seed)] {
+        value.into_iter().for_each(|value| spec.set("campaign", key, value));
+    }
+    overrides.audit_fraction.into_iter().for_each(|fraction| spec.set("audit", "fraction", fraction));
 }
 
 /// Fills in the defaults, checks what needs several keys, and calls the checks of the layers below; `None` where something is wrong.
-fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
-    let method = spec.method.unwrap_or(Method::Auto);
-    if spec.method.is_some() {
-        check_step(&spec, method, document);
+fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
+    let (campaign, integrator) = (spec.settings("campaign"), spec.settings("integrator"));
+    let (seed, duration_s, step_s) =
+        (campaign.count("seed"), campaign.number("duration_s"), integrator.number("step_s"));
+    let method = spec.method().unwrap_or(Method::Auto);
+    if spec.method().is_some() {
+        check_step(method, [step_s, duration_s], document);
     }
-    let default = default_tolerance(method);
-    let relative = spec.relative_tolerance.or(spec.tolerance).unwrap_or(default);
-    let absolute = spec.absolute_tolerance.or(spec.tolerance).unwrap_or(default);
-    if spec.tolerance.is_some() && spec.relative_tolerance.is_some() && spec.absolute_tolerance.is_some() {
-        let both = "left out where relative_tolerance and absolute_tolerance are given";
-        document.add(
-            "integrator.tolerance",
-            spec.tolerance.map(|x| format!("{x:?}")),
-            both,
-            "delete it: it has no effect",
-        );
+    let [both, relative, absolute] =
+        ["tolerance", "relative_tolerance", "absolute_tolerance"].map(|key| integrator.number(key));
+    if both.is_some() && relative.is_some() && absolute.is_some() {
+        let allowed = "left out where relative_tolerance and absolute_tolerance are given";
+        let value = both.map(|x| format!("{x:?}"));
+        document.add("integrator.tolerance", value, allowed, "delete it: it has no effect");
     }
+    let default = both.unwrap_or(default_tolerance(method));
+    let tolerance = Tolerance { relative: relative.unwrap_or(default), absolute: absolute.unwrap_or(default) };
 
     match Scene::resolve(&spec.scene) {
         Ok(scene) => forces::check(&scene, method, document),
@@ -307,10 +309,10 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         // what can be dispersed, and named in requirements, depends on it
         return None;
     }
-    let drawn = DrawTables::of(spec.dispersions, spec.correlations, spec.derivations);
+    let drawn = DrawTables::of(&spec.dispersions, &spec.correlations, &spec.derivations);
     let draws = Draws {
-        seed: spec.seed.unwrap_or(0),
-        samples: spec.samples,
+        seed: seed.unwrap_or(0),
+        samples: campaign.count("samples"),
         design: spec.design.as_ref().unwrap_or(&Design::DEFAULT),
         disperse: &drawn.dispersed.1,
         correlate: &drawn.correlated.1,
@@ -325,15 +327,14 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         }
     };
 
-    let mut groups = spec.groups.unwrap_or_else(|| Group::DEFAULT.to_vec());
-    groups.sort_by_key(|group| Group::ALL.iter().position(|known| known == group));
-    let points = spec.points.unwrap_or(POINTS);
-    let band_points = bands::resolve(spec.band_points, points, document);
+    let groups = spec.groups();
+    let points = spec.settings("observe").count("points").unwrap_or(POINTS);
+    let band_points = bands::resolve(spec.settings("bands").count("points"), points, document);
     let dispersions = dispersions?;
-    let acting = acting_scene(spec.duration_s?, &spec.scene, &dispersions);
+    let acting = acting_scene(duration_s?, &spec.scene, &dispersions);
     let known = KnownColumns::new(request(&groups, &acting, method, document.law.as_ref()));
     let design = spec.design.as_ref().unwrap_or(&Design::DEFAULT);
-    let grid = Grid::uniform(spec.duration_s?, usize::try_from(points).ok()?);
+    let grid = Grid::uniform(duration_s?, usize::try_from(points).ok()?);
     let band_times: Vec<f64> =
         grid.evenly(usize::try_from(band_points).ok()?).into_iter().map(|point| grid.times()[point]).collect();
     spec.analysis.check(
@@ -344,53 +345,54 @@ fn resolve(spec: Spec, document: &mut Document<'_>) -> Option<Plan> {
         design,
         [grid.times(), &band_times],
     );
-    if let Some(chosen) = &spec.chosen {
+    let chosen = Chosen::of_written(campaign);
+    if let Some(chosen) = &chosen {
         chosen.check(dispersions.samples(), spec.analysis.stop.is_some(), document);
     }
     Some(Plan {
-        name: spec.name?,
-        description: spec.description,
+        name: campaign.text("name")?.to_owned(),
+        description: campaign.text("description").map(description::in_one_line),
         samples: dispersions.samples(),
-        chosen: spec.chosen,
+        chosen,
         written_samples: None,
-        seed: spec.seed?,
+        seed: seed?,
         grid,
         method,
-        tolerance: Tolerance { relative, absolute },
-        step_s: spec.step_s,
-        max_steps: spec.max_steps.unwrap_or(MAX_STEPS),
+        tolerance,
+        step_s,
+        max_steps: integrator.count("max_steps").unwrap_or(MAX_STEPS),
         groups,
-        nutation_axis: spec.nutation_axis,
-        nominal: spec.scene,
-        design: spec.design?,
+        nutation_axis: spec.nutation_axis(),
+        nominal: spec.scene.clone(),
+        design: spec.design.clone()?,
         dispersed: drawn.dispersed.1,
         correlated: drawn.correlated.1,
         derived: drawn.derived.1,
         dispersions,
-        audit_fraction: spec.audit_fraction.unwrap_or(0.0),
+        audit_fraction: spec.settings("audit").number("fraction").unwrap_or(0.0),
         band_points: usize::try_from(band_points).ok()?,
-        compression: spec.compression.unwrap_or(Compression::Lz4),
-        analysis: spec.analysis,
-        retention: spec.retention.unwrap_or_default(),
+        compression: spec.settings("output").text("compression").and_then(Compression::from_name)?,
+        analysis: spec.analysis.clone(),
+        retention: spec.retention.clone().unwrap_or_default(),
         law: document.law.clone(),
         ignored: std::mem::take(&mut document.ignored),
     })
 }
 
 /// A fixed step where the method has one, and none elsewhere.
-fn check_step(spec: &Spec, method: Method, document: &mut Document<'_>) {
+fn check_step(method: Method, [step_s, duration_s]: [Option<f64>; 2], document: &mut Document<'_>) {
     const KEY: &str = "integrator.step_s";
     if document.is_reported(KEY) {
         return;
     }
     let name = method.name();
-    match (method.has_fixed_step(), spec.step_s) {
+    match (method.has_fixed_step(), step_s) {
         (true, None) => {
             let allowed = format!("the step of method {name:?}, a number > 0");
             document.add(KEY, None, allowed, "add step_s = 0.001 to [integrator]");
         }
-        (true, Some(step)) if spec.duration_s.is_some_and(|duration| step > duration) => {
-            let allowed = format!("at most campaign.duration_s ({:?})", spec.duration_s.unwrap_or(f64::NAN));
+        (true, Some(step)) if duration_s.is_some_and(|duration| step > duration) => {
+            let allowed = format!("at most campaign.duration_s ({:?})", duration_s.unwrap_or(f64::NAN));
             document.add(KEY, Some(format!("{step:?}")), allowed, "write a smaller step");
         }
         (false, Some(step)) => {

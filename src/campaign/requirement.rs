@@ -228,7 +228,7 @@ fn bounded(table: &mut Section<'_, '_>, statement: Option<Statement>, has_unit: 
         table.know("bounded");
         return None;
     }
-    let list = table.numbers("bounded")?;
+    let list = table.numbers("bounded", table.unit_of("bounded"))?;
     if statement != Some(Statement::Mean) {
         let allowed = "left out without mean = true: shares and quantiles need no bounds";
         table.refuse("bounded", allowed, "delete it");

@@ -182,11 +182,6 @@ impl<'d, 'a> Section<'d, 'a> {
         units::written(value.as_str().or(first)?)
     }
 
-    /// Whether `key` was written as a text.
-    pub(super) fn is_text(&self, key: &str) -> bool {
-        self.value(key).is_some_and(|value| value.get_ref().as_str().is_some())
-    }
-
     /// Whether `key` was written as a table.
     pub(super) fn is_table(&self, key: &str) -> bool {
         self.value(key).is_some_and(|value| value.get_ref().as_table().is_some())
@@ -284,10 +279,9 @@ impl<'d, 'a> Section<'d, 'a> {
         Some(parsed)
     }
 
-    /// Whether `key` was written and is one of `names`.
-    pub(super) fn is_name_of(&self, key: &str, names: &[&str]) -> bool {
-        let value = self.value(key).and_then(|value| value.get_ref().as_str());
-        value.is_some_and(|name| names.contains(&name))
+    /// The text of `key`, if it was written as one, without making it a key of this table.
+    pub(super) fn plain_text(&self, key: &str) -> Option<&'d str> {
+        self.value(key)?.get_ref().as_str()
     }
 
     /// Lets `keys` be there without effect: they are those of `owner`, and this table says `chosen`. A note says which were written.

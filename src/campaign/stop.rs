@@ -43,7 +43,7 @@ impl Stop {
             return None;
         }
         let name = |text: &str| NAMES.into_iter().find(|name| *name == text);
-        let is_right = !table.has("when") || table.is_name_of("when", &NAMES);
+        let is_right = !table.has("when") || table.plain_text("when").is_some_and(|when| NAMES.contains(&when));
         let name = table.name("when", &NAMES, name);
         table.require("max_samples", "a whole number above campaign.samples", "100000");
         let max_samples = table.count("max_samples", 2..=MAX_SAMPLES);

@@ -10,30 +10,15 @@ use crate::cli::argument_values::{
     count, fraction, method, sbatch_option, seconds, setting, shard, shards, shift, size, threads, time_limit,
     tolerance,
 };
-use crate::cli::screen;
 use crate::cli::slurm_script::TimeLimit;
+use crate::cli::{help, screen};
 use crate::propagation::Method;
 use crate::report::image::PlotSize;
 use crate::storage::claim::Shard;
 
-/// Shown at the end of every help text.
-const EXIT_CODES: &str = "\
-Exit codes:
-  0  done (also: the same campaign was already complete)
-  1  ran, but some runs failed (their rows say how), or audited errors exceed their estimates more often than promised
-  2  bad input: arguments, campaign file, or a sample that is not physical
-  3  ran, and a requirement failed; of compare: a verdict got worse, or a shift is beyond the tolerance
-  4  input/output error, or the folder has a result that may not be overwritten
-  5  ran, and no requirement failed, but one is undecided, or [stop] did not reach its precision; of verify: the result is not finished
-  129, 130, 138, 143  stopped by SIGHUP, SIGINT, SIGUSR1, SIGTERM; the same command continues
-Where several apply, the first of 2, 4, that of a signal, 3, 5, 1, 0 is returned.
-
-A FILE without a folder, with or without .toml, is also looked for in campaigns/.
-SPINDRIFT_ISA=avx512|avx2|plain selects an instruction set; results do not depend on it.";
-
 /// Monte Carlo analysis of spacecraft attitude dynamics.
 #[derive(Debug, Parser)]
-#[command(name = "spindrift", version, about, after_help = EXIT_CODES, propagate_version = true)]
+#[command(name = "spindrift", version, about, after_help = help::EXIT_CODES, propagate_version = true)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -43,65 +28,64 @@ pub struct Arguments {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Run every sample of a campaign: rows to Parquet files, a summary to the screen.
-    #[command(after_help = EXIT_CODES)]
+    /// Run a campaign: rows, statistics, verdicts and the report page.
+    #[command(after_help = help::CAMPAIGN)]
     Campaign(CampaignOptions),
-    /// Complete a result whose parts several processes have made: check that all parts are there, make the summary.
-    #[command(after_help = EXIT_CODES)]
-    #[command(name = "finish")]
+    /// Merge shards into a finished result.
+    #[command(name = "finish", after_help = help::FINISH)]
     CompleteResult(FinishOptions),
-    /// Write the scripts that run a campaign on a cluster with Slurm, one shard a task, and submit them.
-    #[command(after_help = EXIT_CODES)]
+    /// Write (and submit) the scripts that run a campaign on a Slurm cluster.
+    #[command(after_help = help::SLURM)]
     Slurm(SlurmOptions),
-    /// Check a result: every checksum, for a fraction of the parts every bit of every row, and every file that follows from the rows.
-    #[command(after_help = EXIT_CODES)]
+    /// Check a result: checksums, recomputed rows, and every file derived from the rows.
+    #[command(after_help = help::VERIFY)]
     Verify(VerifyOptions),
-    /// Show what a campaign would run: plan, mass properties, dispersions, what is integrated and why, time and disk space.
-    #[command(after_help = EXIT_CODES)]
+    /// Show what a campaign would run: plan, masses, dispersions, what is integrated and why, time, disk.
+    #[command(after_help = help::CHECK)]
     Check(CheckOptions),
-    /// Compare two results: their plans, and the shift of every statistic, sample by sample where they drew the same samples.
-    #[command(after_help = EXIT_CODES)]
+    /// Compare two results: plans, verdicts, and the shift of every outcome.
+    #[command(after_help = help::COMPARE)]
     Compare(CompareOptions),
-    /// Run one sample as a time series: to a table, a Parquet or CSV file, a plot.
-    #[command(after_help = EXIT_CODES)]
+    /// Run one sample as a time series: a table, a Parquet or CSV file, a plot.
+    #[command(after_help = help::SIMULATE)]
     Simulate(SimulateOptions),
-    /// Sample the dispersed parameters without running: percentiles, a table, a plot of distributions and correlations.
-    #[command(after_help = EXIT_CODES)]
+    /// Draw the dispersed parameters without running: percentiles, a table, histograms and correlations.
+    #[command(after_help = help::SAMPLE)]
     Sample(SampleOptions),
-    /// Make the report page of a finished campaign again, and its figures as files.
-    #[command(after_help = EXIT_CODES)]
+    /// Rebuild the report page of a finished result, and write its figures as files.
+    #[command(after_help = help::REPORT)]
     Report(ReportOptions),
-    /// Measure run time against error for every method and tolerance: a table, a Parquet file, a plot.
-    #[command(after_help = EXIT_CODES)]
+    /// Measure run time against error for methods and tolerances.
+    #[command(after_help = help::PRECISION)]
     Precision(PrecisionOptions),
     /// Write a campaign file to start from.
-    #[command(after_help = EXIT_CODES)]
+    #[command(after_help = help::NEW)]
     New(NewOptions),
-    /// Show the columns of the rows of a result: name, unit, meaning.
-    #[command(after_help = EXIT_CODES)]
+    /// List the columns of the rows: name, unit, meaning.
+    #[command(after_help = help::COLUMNS)]
     Columns(ColumnsOptions),
 }
 
-/// What is changed of a campaign file.
+/// Overrides of a campaign file.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Changed {
-    /// Give a key of the campaign file another value, as messages name it: --set campaign.duration_s=20, --set "wheels.w1.rate_rad_s=20 rpm"; may
-    /// be repeated.
+    /// Override a key, KEY as shown in error messages: --set campaign.duration_s=20, --set "wheels.w1.rate_rad_s=20 rpm"; may be
+    /// repeated.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     pub settings: Vec<(String, String)>,
 }
 
 impl Changed {
-    /// The same for the reader of the file.
+    /// As what the reader of the file takes.
     pub fn overrides(&self) -> Overrides {
         Overrides { settings: self.settings.clone(), ..Overrides::default() }
     }
 }
 
-/// How large files of figures are.
+/// Size of files of figures.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct SizeOptions {
-    /// Width and height of each figure, mm [default: what its panels need]; texts keep their size.
+    /// Width and height of each figure, mm [default: what its panels need]; text keeps its size.
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<[f64; 2]>,
     /// Dots per inch of PNG files.
@@ -121,49 +105,49 @@ impl SizeOptions {
 pub struct CampaignOptions {
     /// The campaign file.
     pub file: PathBuf,
-    /// What is changed of it.
+    /// Overrides.
     #[command(flatten)]
     pub changed: Changed,
-    /// Folder of the result [default: the campaign's name in results/].
+    /// Result folder [default: results/NAME, the campaign's name].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Number of samples instead of the file's.
+    /// Number of samples; overrides the file.
     #[arg(long, value_name = "N", value_parser = count)]
     pub samples: Option<u64>,
-    /// Seed instead of the file's.
+    /// Seed; overrides the file.
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
-    /// Start also what takes more than 24 hours of CPU time, or more than half of what the disk has left.
+    /// Allow campaigns longer than 24 CPU hours, or larger than half of the free disk space.
     #[arg(long)]
     pub yes: bool,
-    /// Number of threads, at most four for each core [default: one for each core]; rows do not depend on it.
+    /// Number of threads, at most four per core [default: one per core]; rows do not depend on it.
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
-    /// Fraction of the samples to compare with a reference solution, instead of the file's.
+    /// Fraction of the samples to compare with a reference solution; overrides the file.
     #[arg(long, value_name = "F")]
     pub audit: Option<f64>,
     /// Replace an existing result, which stays as it is until the new one is complete.
     #[arg(long)]
     pub overwrite: bool,
-    /// Write the verdicts on the requirements to this file, as JUnit XML.
+    /// Write the verdicts to this file as JUnit XML.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
-    /// Run part K of N of the work, for instance on one machine of N; `finish` then completes the result.
+    /// Run share K of N, for instance on one of N machines; `finish` then merges the shares.
     #[arg(long, value_name = "K/N", value_parser = shard, conflicts_with = "overwrite")]
     pub shard: Option<Shard>,
-    /// Run only the samples that failed in this result, with its seed and number of samples, into another folder.
+    /// Run only the samples that failed in this result, into another folder, with its seed and number of samples.
     #[arg(long, value_name = "DIR", requires = "out", conflicts_with_all = ["samples", "seed"])]
     pub only_failed_of: Option<PathBuf>,
-    /// Start no further part after one with a run that failed, and end with code 1; the same command without it continues.
+    /// Stop after the first part with a failed run, with exit code 1; the same command without this option continues.
     #[arg(long)]
     pub fail_fast: bool,
     /// Do not write report.html.
     #[arg(long)]
     pub no_report: bool,
-    /// Write each figure of the report as SVG and PNG into this folder.
+    /// Write every figure of the report to this folder as SVG and PNG.
     #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
     pub figures: Option<PathBuf>,
-    /// How large they are.
+    /// Size of figures.
     #[command(flatten)]
     pub size: SizeOptions,
 }
@@ -171,19 +155,19 @@ pub struct CampaignOptions {
 /// Arguments of `report`.
 #[derive(Debug, Args)]
 pub struct ReportOptions {
-    /// Folder of the result, with plan.toml and runs/.
+    /// The result folder, with plan.toml and runs/.
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Write each figure as SVG and PNG into this folder.
+    /// Write every figure to this folder as SVG and PNG.
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
-    /// How large they are.
+    /// Size of figures.
     #[command(flatten)]
     pub size: SizeOptions,
-    /// Fly so many scenes of a campaign with a control loop twice, with other noise of the sensors, and say which share of the variance is noise.
+    /// Run this many scenes of a control loop twice with different sensor noise, and report the share of the variance that is noise.
     #[arg(long, value_name = "SCENES", value_parser = clap::value_parser!(u64).range(2..))]
     pub noise: Option<u64>,
-    /// Number of threads, at most four for each core [default: one for each core]; the page does not depend on it.
+    /// Number of threads, at most four per core [default: one per core]; the page does not depend on it.
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
 }
@@ -191,21 +175,21 @@ pub struct ReportOptions {
 /// Arguments of `finish`.
 #[derive(Debug, Args)]
 pub struct FinishOptions {
-    /// The folder of the result.
+    /// The result folder.
     pub folder: PathBuf,
-    /// Write the verdicts on the requirements to this file, as JUnit XML.
+    /// Write the verdicts to this file as JUnit XML.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
     /// Do not write report.html.
     #[arg(long)]
     pub no_report: bool,
-    /// Write each figure of the report as SVG and PNG into this folder.
+    /// Write every figure of the report to this folder as SVG and PNG.
     #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
     pub figures: Option<PathBuf>,
-    /// How large they are.
+    /// Size of figures.
     #[command(flatten)]
     pub size: SizeOptions,
-    /// Number of threads, at most four for each core [default: one for each core].
+    /// Number of threads, at most four per core [default: one per core].
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
 }
@@ -215,31 +199,31 @@ pub struct FinishOptions {
 pub struct SlurmOptions {
     /// The campaign file.
     pub file: PathBuf,
-    /// What is changed of it.
+    /// Overrides.
     #[command(flatten)]
     pub changed: Changed,
-    /// Number of tasks: each is a shard, on a node or a share of one.
+    /// Number of tasks; each runs one shard, on a node or a share of one.
     #[arg(long, value_name = "N", value_parser = shards)]
     pub nodes: NonZeroU64,
-    /// Cores of a task.
+    /// Cores per task.
     #[arg(long, value_name = "C")]
     pub cpus: NonZeroU64,
-    /// Time limit of a task, as Slurm reads it: minutes, H:MM:SS, D-HH. A task that meets it continues in another.
+    /// Time limit of a task, as Slurm reads it: minutes, H:MM:SS, D-HH. A task that reaches it is continued by another.
     #[arg(long, value_name = "T", value_parser = time_limit)]
     pub time: TimeLimit,
     /// Submit the scripts with sbatch.
     #[arg(long)]
     pub submit: bool,
-    /// Folder of the result, which every node sees [default: the campaign's name in results/].
+    /// Result folder, visible to every node [default: results/NAME, the campaign's name].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Number of samples instead of the file's.
+    /// Number of samples; overrides the file.
     #[arg(long, value_name = "N")]
     pub samples: Option<u64>,
-    /// Seed instead of the file's.
+    /// Seed; overrides the file.
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
-    /// A further option of both jobs, for instance --sbatch=--partition=long; may be repeated.
+    /// Another option for both jobs, such as --sbatch=--partition=long; may be repeated.
     #[arg(long, value_name = "OPTION", value_parser = sbatch_option)]
     pub sbatch: Vec<String>,
 }
@@ -247,15 +231,15 @@ pub struct SlurmOptions {
 /// Arguments of `verify`.
 #[derive(Debug, Args)]
 pub struct VerifyOptions {
-    /// The folder of the result.
+    /// The result folder.
     pub folder: PathBuf,
-    /// Fraction of the parts whose rows are computed again and compared bit for bit.
+    /// Fraction of the parts whose rows are recomputed and compared bit for bit.
     #[arg(long, value_name = "F", default_value_t = 0.01, value_parser = fraction)]
     pub fraction: f64,
-    /// Make damaged or differing parts again.
+    /// Recompute damaged or differing parts and write them again.
     #[arg(long)]
     pub repair: bool,
-    /// Number of threads, at most four for each core [default: one for each core].
+    /// Number of threads, at most four per core [default: one per core].
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
 }
@@ -265,7 +249,7 @@ pub struct VerifyOptions {
 pub struct CheckOptions {
     /// The campaign file.
     pub file: PathBuf,
-    /// What is changed of it.
+    /// Overrides.
     #[command(flatten)]
     pub changed: Changed,
 }
@@ -273,18 +257,18 @@ pub struct CheckOptions {
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
 pub struct CompareOptions {
-    /// The folder of the first result: the baseline.
+    /// The baseline result folder.
     pub first: PathBuf,
-    /// The folder of the second.
+    /// The result folder to compare with it.
     pub second: PathBuf,
-    /// End with code 3 where a statistic is shifted by more than this fraction of the standard deviation in the first result; 0
+    /// Exit with code 3 if a statistic is shifted by more than this fraction of the standard deviation in the baseline; 0
     /// allows no difference.
     #[arg(long, value_name = "F", value_parser = shift)]
     pub tolerance: Option<f64>,
-    /// Write the whole comparison to a file: every observable, in .json or .parquet; in .json the plans and verdicts too.
+    /// Write the whole comparison to this file (.json or .parquet); .json has the plans and verdicts too.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Number of threads, at most four for each core [default: one for each core].
+    /// Number of threads, at most four per core [default: one per core].
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
 }
@@ -294,14 +278,14 @@ pub struct CompareOptions {
 pub struct SimulateOptions {
     /// The campaign file.
     pub file: PathBuf,
-    /// What is changed of it.
+    /// Overrides.
     #[command(flatten)]
     pub changed: Changed,
-    /// The sample, run exactly as the campaign runs it; 0 is the nominal scene.
+    /// The sample to run, exactly as the campaign runs it; 0 is the nominal scene.
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub sample: u64,
-    /// Times in seconds instead of the campaign's, in any order; the output is ascending, without duplicates. They may
-    /// exceed the campaign's duration.
+    /// Times in seconds, in any order; they override the campaign's grid and may exceed its duration. The output is
+    /// ascending, without duplicates.
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', allow_negative_numbers = true)]
     pub times: Option<Vec<f64>>,
     /// Compare the run with a reference solution and show its errors.
@@ -313,7 +297,7 @@ pub struct SimulateOptions {
     /// Plot states, energies and errors to this file (.svg or .png), on a fine grid or at --times.
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
-    /// How large they are.
+    /// Size of figures.
     #[command(flatten)]
     pub size: SizeOptions,
 }
@@ -323,19 +307,19 @@ pub struct SimulateOptions {
 pub struct SampleOptions {
     /// The campaign file.
     pub file: PathBuf,
-    /// What is changed of it.
+    /// Overrides.
     #[command(flatten)]
     pub changed: Changed,
-    /// Number of samples instead of the file's.
+    /// Number of samples; overrides the file.
     #[arg(long, value_name = "N", value_parser = count)]
     pub samples: Option<u64>,
-    /// Seed instead of the file's.
+    /// Seed; overrides the file.
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
-    /// Start also what takes more than 24 hours of CPU time, or more than half of what the disk has left.
+    /// Allow campaigns longer than 24 CPU hours, or larger than half of the free disk space.
     #[arg(long)]
     pub yes: bool,
-    /// Show the numbers that this sample applies, and nothing else.
+    /// Show only the values that this sample applies.
     #[arg(long, value_name = "K", conflicts_with_all = ["out", "plot"])]
     pub sample: Option<u64>,
     /// Write the dispersed parameters of every sample to this file (.parquet or .csv).
@@ -344,7 +328,7 @@ pub struct SampleOptions {
     /// Plot distributions and rank correlations to this file (.svg or .png).
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
-    /// How large they are.
+    /// Size of figures.
     #[command(flatten)]
     pub size: SizeOptions,
 }
@@ -354,13 +338,13 @@ pub struct SampleOptions {
 pub struct PrecisionOptions {
     /// The campaign file; its own method and tolerance are not used.
     pub file: PathBuf,
-    /// What is changed of it.
+    /// Overrides.
     #[command(flatten)]
     pub changed: Changed,
-    /// Number of samples, starting with the nominal one.
+    /// Number of samples, starting with the nominal scene.
     #[arg(long, value_name = "N", default_value = "64")]
     pub samples: std::num::NonZeroU64,
-    /// Methods, named as in campaign files [default: all].
+    /// Methods, as named in campaign files [default: all].
     #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = method)]
     pub methods: Option<Vec<Method>>,
     /// Tolerances [default: 1e-4 to 1e-16 by decades]. A fixed-step method is run with as many steps, each half the
@@ -370,7 +354,7 @@ pub struct PrecisionOptions {
     /// Timed repetitions of each measurement; the median is reported.
     #[arg(long, value_name = "N", default_value = "5")]
     pub repeats: std::num::NonZeroUsize,
-    /// Start also what takes more than 24 hours of CPU time.
+    /// Allow measurements longer than 24 CPU hours.
     #[arg(long)]
     pub yes: bool,
     /// Integrate only the states that the file's groups of observables need.
@@ -379,10 +363,10 @@ pub struct PrecisionOptions {
     /// Skip settings predicted to take more CPU time than this for one pass over the samples.
     #[arg(long, value_name = "S", default_value = "20", value_parser = seconds)]
     pub limit_s: f64,
-    /// Folder of the result, whose files are replaced [default: the campaign's name and _precision in results/].
+    /// Result folder, whose files are replaced [default: results/NAME_precision].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// How large they are.
+    /// Size of figures.
     #[command(flatten)]
     pub size: SizeOptions,
 }
@@ -390,7 +374,7 @@ pub struct PrecisionOptions {
 /// Arguments of `new`.
 #[derive(Debug, Args)]
 pub struct NewOptions {
-    /// The file that is written; one that is there is not replaced.
+    /// The file to write; an existing file is not replaced.
     #[arg(default_value = "start.toml")]
     pub file: PathBuf,
 }
@@ -398,9 +382,9 @@ pub struct NewOptions {
 /// Arguments of `columns`.
 #[derive(Debug, Args)]
 pub struct ColumnsOptions {
-    /// A group of columns, named as in campaign files, or a word: the columns that have it in name or meaning [default: all].
+    /// A group of columns, as named in campaign files, or a word to find in names and meanings [default: all].
     pub word: Option<String>,
-    /// Show the columns of this campaign, with the names of its wheels, its dispersed values and audits.
+    /// List the columns of this campaign, with the names of its wheels, its dispersed values and audits.
     #[arg(long, value_name = "FILE")]
     pub campaign: Option<PathBuf>,
 }
@@ -430,19 +414,34 @@ mod tests {
         Arguments::command().debug_assert();
     }
 
-    /// Law: every help text lists the exit codes.
+    /// Law: the exit codes stand in the help of the program alone, and that of every command has two examples of it, which are valid.
     #[test]
-    fn every_help_documents_the_exit_codes() {
+    fn every_help_has_what_it_promises() {
         let mut command = Arguments::command();
-        let mut helps = vec![command.render_help().to_string()];
+        let root = command.render_help().to_string();
+        for code in ["0  done", "1  ran", "2  bad input", "3  ran", "4  input/output", "5  ran"] {
+            assert!(root.contains(code), "{root}");
+        }
         // `help` is clap's own
         let ours = command.get_subcommands_mut().filter(|command| command.get_name() != "help");
-        helps.extend(ours.map(|command| command.render_help().to_string()));
-        assert_eq!(helps.len(), 13);
-        for help in helps {
-            for code in ["0  done", "1  ran", "2  bad input", "3  ran", "4  input/output", "5  ran"] {
-                assert!(help.contains(code), "{help}");
+        let mut count = 0;
+        for command in ours {
+            let (name, help) = (command.get_name().to_owned(), command.render_help().to_string());
+            assert!(!help.contains("Exit codes"), "{help}");
+            let (_, examples) = help.split_once("Examples:\n").expect("examples");
+            let examples: Vec<&str> = examples.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+            assert_eq!(examples.len(), 2, "{help}");
+            for example in examples {
+                assert!(example.starts_with(&format!("spindrift {name} ")), "{example}");
+                let parsed = Arguments::try_parse_from(example.split_whitespace());
+                assert!(
+                    parsed.is_ok(),
+                    "{example}: {}",
+                    parsed.err().map(|error| error.to_string()).unwrap_or_default()
+                );
             }
+            count += 1;
         }
+        assert_eq!(count, 12);
     }
 }

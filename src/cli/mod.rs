@@ -1,6 +1,6 @@
 //! Layer 11: the command line.
 //!
-//! - [`arguments`]: commands and options; [`argument_values`]: their values. - [`outputs`]: which files a command may write. - [`workload`]: what a command would
+//! - [`arguments`]: commands and options; [`argument_values`]: their values; [`help`]: what their help texts end with. - [`outputs`]: which files a command may write. - [`workload`]: what a command would
 //!   compute and write, refused where it cannot be done; [`machine`]: what is left of memory and disk.
 //! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`new`], [`precision`], [`report`], [`sample`],
 //!   [`simulate`], [`slurm`]: one command each; [`completed_text`]: what is printed of a result. - [`slurm_script`]: the scripts of Slurm.
@@ -18,6 +18,7 @@ pub mod compare;
 pub mod completed_text;
 pub mod dispersions;
 pub mod finish_campaign;
+pub mod help;
 pub mod machine;
 pub mod new;
 pub mod outputs;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::context::LawContext;
 use super::control_loop::ControlLoop;
 use super::outcome::columns::OutcomeColumns;
-use super::runs::{LawRuns, Runs};
+use super::runs::{LawMaker, LawRuns};
 use super::spec::LoopSpec;
 use crate::dynamics::actuation::ActuationLaw;
 use crate::observables::{LawColumn, LawColumns};
@@ -23,7 +23,7 @@ pub struct ControlLaw {
     commands: Actuated,
     parameters: &'static [LawParameter],
     columns: LawColumns,
-    runs: Arc<dyn Fn() -> Box<dyn LawRuns> + Send + Sync>,
+    make: Arc<LawMaker>,
     /// What the law consists of, where it is the loop of a campaign file.
     spec: Option<Arc<LoopSpec>>,
 }
@@ -55,9 +55,8 @@ impl ControlLaw {
         parameters: &'static [LawParameter],
         make: impl Fn(&LawContext<'_>) -> L + Send + Sync + 'static,
     ) -> Self {
-        let make = Arc::new(make);
-        let runs = Arc::new(move || Box::new(Runs::new(make.clone())) as Box<dyn LawRuns>);
-        ControlLaw { name, commands, parameters, columns: LawColumns::NONE, runs, spec: None }
+        let make: Arc<LawMaker> = Arc::new(move |context: &LawContext<'_>| Box::new(make(context)));
+        ControlLaw { name, commands, parameters, columns: LawColumns::NONE, make, spec: None }
     }
 
     /// The loop `spec` of a campaign file. Its parameters are tables of the scene.
@@ -105,8 +104,8 @@ impl ControlLaw {
     }
 
     /// Memory for the laws of the runs of one worker.
-    pub fn runs(&self) -> Box<dyn LawRuns> {
-        (self.runs)()
+    pub fn runs(&self) -> LawRuns {
+        LawRuns::new(self.make.clone())
     }
 }
 

@@ -1,12 +1,12 @@
 //! Whether a law whose torque is held over control periods, and acts after a delay, is stable for small errors.
 //!
-//! About one axis the body is a double integrator, theta'' = a. At tick k, a period T apart, the law gives a_k = -(k theta_k + c theta'_k + i sum theta),
-//! which acts from t_k + d to t_(k+1) + d, with d = (m + f) T. With angles, rates times T, and accelerations times T^2 the z-transform is
+//! About one axis the body is a double integrator, theta'' = a. At tick k, a period T apart, the law gives
+//! a_k = -(k theta_k + c theta'_k + i sum theta + j sum theta'), which acts from t_k + d to t_(k+1) + d, with d = (m + f) T. With angles, rates times T, and accelerations times T^2 the z-transform is
 //!
-//! (z-1)^3 z^(m+1) + c T (z-1)^2 D + (k T^2 (z-1) + i T^2 z) (D + (z-1) B) = 0, D = f + (1-f) z, B = f - f^2/2 + z (1-f)^2/2,
+//! (z-1)^3 z^(m+1) + (c T (z-1) + j T z) (z-1) D + (k T^2 (z-1) + i T^2 z) (D + (z-1) B) = 0, D = f + (1-f) z, B = f - f^2/2 + z (1-f)^2/2,
 //!
-//! with a factor z-1 less where there is no integral, and another one less where there is no stiffness: a free integrator is not the law's. A law is
-//! stable where all roots are within the unit circle, which the Schur-Cohn test decides without computing them (E. I. Jury, *Theory and Application of
+//! with a factor z-1 less where there is no integral of the angle, and another one less where there is no stiffness and no integral of the rate, which
+//! acts as a stiffness: a free integrator is not the law's. A law is stable where all roots are within the unit circle, which the Schur-Cohn test decides without computing them (E. I. Jury, *Theory and Application of
 //! the z-Transform Method*, 1964). Without delay and integral that is k T < 2 c and c T < 2.
 //!
 //! Exact for small angles and where flight software believes the nominal inertia; limits, friction, and the lag of an estimator are not part of it.
@@ -32,7 +32,7 @@ const HALVINGS: usize = 40;
 const LEAST_SHARE: f64 = 1e-3;
 
 /// The gains of a law about one axis: accelerations, rad/s^2, for an error of a radian, for a rate of a radian a second, and for each tick of an error
-/// of a radian.
+/// of a radian or of a rate of a radian a second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisGains {
     /// k, 1/s^2.
@@ -41,12 +41,15 @@ pub struct AxisGains {
     pub damping: f64,
     /// i, 1/s^2 for each tick.
     pub integral: f64,
+    /// j, 1/s for each tick: the integral of the rate.
+    pub rate_integral: f64,
 }
 
 impl AxisGains {
     /// Whether small errors die away at a period of `period` seconds and a delay of `delay` seconds.
     pub fn is_stable(&self, period: f64, delay: f64) -> bool {
-        let (k, c, i) = (self.stiffness * period * period, self.damping * period, self.integral * period * period);
+        let (k, c) = (self.stiffness * period * period, self.damping * period);
+        let (i, j) = (self.integral * period * period, self.rate_integral * period);
         let whole = (delay / period + SAME_TIME).floor();
         let f = (delay / period - whole).max(0.0);
         let (d, b) = (vec![1.0 - f, f], vec![0.5 * (1.0 - f) * (1.0 - f), f - 0.5 * f * f]);
@@ -67,11 +70,13 @@ impl AxisGains {
         };
         let square = times(&step, &step);
         let angle = plus(times(&step, &b), 1.0, &d);
+        // c (z-1) + j z
+        let of_rate = times(&[c + j, -c], &d);
         let polynomial = if i != 0.0 {
-            let free = plus(late(times(&square, &step)), c, &times(&square, &d));
+            let free = plus(late(times(&square, &step)), 1.0, &times(&of_rate, &step));
             plus(free, 1.0, &times(&[k + i, -k], &angle))
-        } else if k != 0.0 {
-            plus(plus(late(square), c, &times(&step, &d)), k, &angle)
+        } else if k != 0.0 || j != 0.0 {
+            plus(plus(late(square), 1.0, &of_rate), k, &angle)
         } else if c != 0.0 {
             plus(late(step), c, &d)
         } else {
@@ -81,7 +86,12 @@ impl AxisGains {
     }
 
     fn times(self, share: f64) -> Self {
-        AxisGains { stiffness: share * self.stiffness, damping: share * self.damping, integral: share * self.integral }
+        AxisGains {
+            stiffness: share * self.stiffness,
+            damping: share * self.damping,
+            integral: share * self.integral,
+            rate_integral: share * self.rate_integral,
+        }
     }
 }
 
@@ -118,13 +128,16 @@ pub fn axis_gains(
     };
     let stiffness = columns(&|axis| if has_target { torque(&turned(axis)) } else { [0.0; 3] });
     // without momentum: omega x H is of second order
-    let damping = columns(&|axis| torque(&LawInput { omega_se_s: scaled(SMALL, axis), ..LawInput::AT_TARGET }));
-    let integral = columns(&|axis| {
+    let turning = |axis: [f64; 3]| LawInput { omega_se_s: scaled(SMALL, axis), ..LawInput::AT_TARGET };
+    let damping = columns(&|axis| torque(&turning(axis)));
+    // what a tick adds
+    let added = |input: LawInput| -> [f64; 3] {
         let mut law = law;
-        let input = if has_target { turned(axis) } else { LawInput::AT_TARGET };
         let [first, second] = [0.0, period].map(|since| law.torque(known, &input, since));
         std::array::from_fn(|i| second[i] - first[i])
-    });
+    };
+    let integral = columns(&|axis| added(if has_target { turned(axis) } else { LawInput::AT_TARGET }));
+    let rate_integral = columns(&|axis| added(turning(axis)));
     let inverse = inverse(inertia);
     let (accelerations, axes) = principal_axes::<f64>(multiplied(&multiplied(&reach, &inverse), &reach));
     let most = accelerations.iter().copied().fold(0.0, f64::max);
@@ -134,10 +147,11 @@ pub fn axis_gains(
         // the axis about which the body turns where the torque is along the direction
         let turn = product(inverse, direction);
         let along = |columns: &[[f64; 3]; 3]| (0..3).map(|i| dot(columns[i], direction) * turn[i]).sum::<f64>();
-        let found = [along(&stiffness), along(&damping), along(&integral)];
+        let found = [&stiffness, &damping, &integral, &rate_integral].map(along);
         let least = NO_GAIN * found.iter().fold(0.0_f64, |most, gain| most.max(gain.abs()));
-        let [stiffness, damping, integral] = found.map(|gain| if gain.abs() > least { gain } else { 0.0 });
-        AxisGains { stiffness, damping, integral }
+        let [stiffness, damping, integral, rate_integral] =
+            found.map(|gain| if gain.abs() > least { gain } else { 0.0 });
+        AxisGains { stiffness, damping, integral, rate_integral }
     });
     gains.collect()
 }
@@ -168,14 +182,17 @@ mod tests {
     /// The size of angle and rate in two windows of a double integrator under a torque that is held, flown from instant to instant: early and late.
     fn flown(gains: AxisGains, period: f64, delay: f64) -> [f64; 2] {
         const TICKS: usize = 6000;
-        let (mut angle, mut rate, mut summed) = (1.0, 0.3 / period, 0.0);
+        let (mut angle, mut rate, mut summed, mut summed_rate) = (1.0, 0.3 / period, 0.0, 0.0);
         let mut commands: Vec<(f64, f64)> = Vec::new();
         let (mut acting, mut next) = (0.0, 0);
         let mut sizes = [0.0_f64; 2];
         for tick in 0..TICKS {
             let (time, end) = (tick as f64 * period, (tick + 1) as f64 * period);
-            summed += angle;
-            let wanted = -gains.stiffness * angle - gains.damping * rate - gains.integral * summed;
+            (summed, summed_rate) = (summed + angle, summed_rate + rate);
+            let wanted = -gains.stiffness * angle
+                - gains.damping * rate
+                - gains.integral * summed
+                - gains.rate_integral * summed_rate;
             commands.push((time + delay, wanted));
             let mut now = time;
             while now < end {
@@ -199,17 +216,28 @@ mod tests {
         sizes
     }
 
-    /// Law: 2% below the limit of the gains errors die away, 2% above it they grow, flown in time: at any delay, with and without stiffness and integral.
+    /// Law: 2% below the limit of the gains errors die away, 2% above it they grow, flown in time: at any delay, with and without stiffness, integral of the angle and
+    /// integral of the rate.
     #[test]
     fn the_limit_is_where_errors_begin_to_grow() {
         let mut tried = 0;
         for period in [0.25, 2.0] {
             for delay in [0.0, 0.1, 0.5, 1.0, 1.3, 4.0] {
-                for (k, i) in [(0.0, 0.0), (0.05, 0.0), (0.6, 0.0), (0.05, 0.0005)] {
+                for (k, i, j) in [
+                    (0.0, 0.0, 0.0),
+                    (0.05, 0.0, 0.0),
+                    (0.6, 0.0, 0.0),
+                    (0.05, 0.0005, 0.0),
+                    (0.0, 0.0, 0.05),
+                    (0.0, 0.0, 0.6),
+                    (0.05, 0.0, 0.05),
+                    (0.05, 0.0005, 0.05),
+                ] {
                     let shape = AxisGains {
                         stiffness: k / (period * period),
                         damping: 0.4 / period,
                         integral: i / (period * period),
+                        rate_integral: j / period,
                     };
                     let large = shape.times(1e3);
                     let share = match stable_share(&[large], period, delay * period) {
@@ -225,23 +253,32 @@ mod tests {
                 }
             }
         }
-        assert!(tried >= 24, "{tried} limits");
+        assert!(tried >= 60, "{tried} limits");
     }
 
     /// Law: without delay the limits are c T = 2 and k T = 2 c; with a delay of a period c T = 1 where the stiffness is small.
     #[test]
     fn limits_are_those_of_the_textbook() {
-        let stable =
-            |k: f64, c: f64, delay: f64| AxisGains { stiffness: k, damping: c, integral: 0.0 }.is_stable(1.0, delay);
+        let stable = |k: f64, c: f64, delay: f64| {
+            AxisGains { stiffness: k, damping: c, integral: 0.0, rate_integral: 0.0 }.is_stable(1.0, delay)
+        };
         for (k, c, delay) in [(0.0, 2.0, 0.0), (1e-6, 2.0, 0.0), (0.0, 1.0, 1.0)] {
             assert!(stable(0.999 * k, 0.999 * c, delay), "{k} {c}");
             assert!(!stable(1.001 * k, 1.001 * c, delay), "{k} {c}");
         }
         assert!(stable(0.1998, 0.1, 0.0) && !stable(0.2002, 0.1, 0.0));
         assert!(!stable(0.1, 0.0, 0.0), "no damping");
+        // of the rate alone: z^2 - (2 - c - j) z + (1 - c) is within the unit circle where j < 4 - 2 c
+        let with_integral = |c: f64, j: f64| {
+            AxisGains { stiffness: 0.0, damping: c, integral: 0.0, rate_integral: j }.is_stable(1.0, 0.0)
+        };
+        for c in [0.1, 1.0, 1.9] {
+            assert!(with_integral(c, 0.999 * (4.0 - 2.0 * c)) && !with_integral(c, 1.001 * (4.0 - 2.0 * c)), "{c}");
+        }
     }
 
-    /// Law: the gains of a law are those of its equation: w^2 and 2 z w about every axis that is controlled; K/(4 J) and P/J; the gain over J.
+    /// Law: the gains of a law are those of its equation: w^2 and 2 z w about every axis that is controlled; K/(4 J) and P/J; the gain over J, and its integral
+    /// of the rate.
     #[test]
     fn gains_are_those_of_the_law() {
         let inertia = [[30.0, 2.0, 0.0], [2.0, 36.0, -1.0], [0.0, -1.0, 24.0]];
@@ -254,16 +291,24 @@ mod tests {
             let found = axis_gains(quaternion, &known, true, (inertia, reach), 0.5);
             assert_eq!(found.len(), count);
             for one in found {
-                assert!(near(one.stiffness, 0.09) && near(one.damping, 0.48) && one.integral == 0.0, "{one:?}");
+                assert!(
+                    near(one.stiffness, 0.09)
+                        && near(one.damping, 0.48)
+                        && one.integral == 0.0
+                        && one.rate_integral == 0.0,
+                    "{one:?}"
+                );
             }
         }
         let (moments, _) = principal_axes::<f64>(inertia);
         let mut smallest_first = moments;
         smallest_first.sort_by(f64::total_cmp);
+        let integrating = RateDamping { gain: 7.0, integral: Integral::new(0.2, f64::INFINITY) };
         let law = MrpFeedback::new(4.0, 20.0).with_integral(0.001, f64::INFINITY);
         for (law, expected) in [
-            (AttitudeLaw::MrpFeedback(law), [1.0, 20.0, 20.0 * 0.001 * 0.5]),
-            (AttitudeLaw::RateDamping(RateDamping { gain: 7.0, integral: Integral::NONE }), [0.0, 7.0, 0.0]),
+            (AttitudeLaw::MrpFeedback(law), [1.0, 20.0, 20.0 * 0.001 * 0.5, 0.0]),
+            (AttitudeLaw::RateDamping(RateDamping { gain: 7.0, integral: Integral::NONE }), [0.0, 7.0, 0.0, 0.0]),
+            (AttitudeLaw::RateDamping(integrating), [0.0, 7.0, 0.0, 7.0 * 0.2 * 0.5]),
         ] {
             let mut found = axis_gains(law, &known, true, (inertia, all), 0.5);
             found.sort_by(|a, b| b.damping.total_cmp(&a.damping));
@@ -275,6 +320,7 @@ mod tests {
                     near(one.stiffness * moment, expected[0]) && near(one.integral * moment, expected[2]),
                     "{one:?}"
                 );
+                assert!(near(one.rate_integral * moment, expected[3]), "{one:?}");
             }
         }
     }

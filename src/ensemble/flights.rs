@@ -3,7 +3,7 @@
 use crate::campaign::Plan;
 use crate::control::loop_record::SharedRecord;
 use crate::control::{LawContext, LawRuns};
-use crate::dynamics::actuation::{BodyState, Laws, WheelState};
+use crate::dynamics::actuation::{ActuationLaw, BodyState, Laws, WheelState};
 use crate::dynamics::effects::beside_arcs;
 use crate::ensemble::settings::{nominal, propagator};
 use crate::math::Isa;
@@ -29,7 +29,7 @@ pub struct Flights<'p> {
     plan: &'p Plan,
     engine: Box<dyn Engine>,
     /// The laws, and the nominal scene that they know; where the plan has a law.
-    laws: Option<(Box<dyn LawRuns>, Scene)>,
+    laws: Option<(LawRuns, Scene)>,
     /// What the loops of the runs record over time; empty where nothing is.
     over_time: Vec<SharedRecord>,
     times: Vec<f64>,
@@ -58,8 +58,8 @@ impl<'p> Flights<'p> {
     }
 
     /// What the law of run `run` of the last flight has recorded.
-    pub fn telemetry(&mut self, run: usize) -> Option<&Telemetry> {
-        self.laws.as_mut()?.0.telemetry(run)
+    pub fn telemetry(&self, run: usize) -> Option<Telemetry> {
+        self.laws.as_ref()?.0.telemetry(run)
     }
 
     /// Flies `scenes` and passes each to `finish`. `draws` are those of the laws, one for each scene, and nothing where the plan has no law.
@@ -92,24 +92,23 @@ impl<'p> Flights<'p> {
             );
         }
         let over_time = &self.over_time;
-        let mut ends = Vec::with_capacity(scenes.len());
-        self.engine.propagate_under(Laws::Feedback(&mut **laws), scenes, &mut |run| {
+        let mut flown = laws.shared();
+        self.engine.propagate_under(Laws::Feedback(laws), scenes, &mut |run| {
+            // before the run is observed: what the loop knows at the end belongs to it
             if run.outcome.status == Status::Done {
-                ends.push((run.index, run.outcome.time, state_at_end(&scenes[run.index], run.table)));
+                let (body, wheels) = state_at_end(&scenes[run.index], run.table);
+                flown[run.index].end(run.outcome.time, &body, &wheels);
             }
             match over_time.get(run.index) {
                 Some(record) => finish(run, record.lock().values()),
                 None => finish(run, &[]),
             }
         });
-        for (run, time, (body, wheels)) in ends {
-            laws.law(run).end(time, &body, &wheels);
-        }
     }
 
     /// Writes what the law of run `run` of the last flight reports, where the plan has a law.
-    pub fn report(&mut self, run: usize, values: &mut [f64]) {
-        if let Some((laws, _)) = &mut self.laws {
+    pub fn report(&self, run: usize, values: &mut [f64]) {
+        if let Some((laws, _)) = &self.laws {
             laws.report(run, values);
         }
     }

@@ -10,7 +10,8 @@ use crate::control::capacity::Capacity;
 use crate::math::vector::norm;
 use crate::observables::Group;
 use crate::observables::request::{NutationAxis, nearest_principal_axis};
-use crate::sampling::{KeyWriter, SampleId};
+use crate::sampling::SampleId;
+use crate::sampling::keys::{Value, Written};
 use crate::scene::{Parameter, Scene, SceneInput, WheelMode};
 use crate::statistics::quantile::quantile;
 
@@ -63,10 +64,8 @@ pub fn implausible(plan: &Plan) -> Vec<String> {
     notes.extend(driven_wheels(&plan.nominal));
     notes.extend(mass(&plan.nominal));
     notes.extend(plan.dispersed.iter().flat_map(|dispersion| {
-        let mut wide = WideSpreads(Vec::new());
-        dispersion.distribution.write(&mut wide);
         let name = dispersion.parameter.name();
-        wide.0.into_iter().map(move |spread| {
+        wide_spreads(&dispersion.distribution.written).into_iter().map(move |spread| {
             format!("{name}, {spread}: a spread of half of the nominal value and more; percent are written with their unit, \"2 %\"")
         })
     }));
@@ -176,19 +175,18 @@ fn mass(input: &SceneInput) -> Option<String> {
     })
 }
 
-/// The keys of a distribution that are a spread relative to the nominal value, of [`WIDE`] and more.
-struct WideSpreads(Vec<String>);
-
-impl KeyWriter for WideSpreads {
-    fn key(&mut self, key: &str, value: &dyn std::fmt::Debug) {
-        let text = format!("{value:?}");
-        let mut numbers = text.split(['[', ']', ',', ' ']).filter_map(|word| word.parse::<f64>().ok());
-        if key.starts_with("relative_") && numbers.any(|number| number.abs() >= WIDE) {
-            self.0.push(format!("{key} = {text}"));
+/// The keys of a distribution that are a spread relative to the nominal value, of [`WIDE`] and more; those of a distribution within it too.
+fn wide_spreads(written: &Written) -> Vec<String> {
+    let wide = |(key, value): (&str, &Value)| match value {
+        Value::Distribution(_, within) => wide_spreads(within),
+        Value::Numbers(values)
+            if key.starts_with("relative_") && values.numbers().iter().any(|number| number.abs() >= WIDE) =>
+        {
+            vec![format!("{key} = {}", values.text())]
         }
-    }
-
-    fn table(&mut self, _key: &str) {}
+        _ => Vec::new(),
+    };
+    written.entries().flat_map(wide).collect()
 }
 
 /// A number with four significant digits.

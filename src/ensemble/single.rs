@@ -164,7 +164,7 @@ impl<'p> SingleRuns<'p> {
         if matches!(outcome.status, Status::Done | Status::Inaccurate) {
             self.flights.report(0, &mut row[self.request.places_of_law()]);
         }
-        let telemetry = self.flights.telemetry(0).cloned().unwrap_or_default();
+        let telemetry = self.flights.telemetry(0).unwrap_or_default();
         let series = self.series_observer.series().map(|(series, values)| (series, values.collect())).collect();
         Ok(SingleRun {
             scene,

@@ -29,7 +29,7 @@ pub struct Dispersion {
 impl Dispersion {
     /// The components that it writes.
     pub fn components(&self) -> Vec<(Parameter, usize)> {
-        match self.distribution.columns() {
+        match self.distribution.written.columns() {
             [] => components_of(&(self.parameter, self.component)),
             columns => columns.iter().filter_map(|column| column.target).collect(),
         }
@@ -225,12 +225,14 @@ impl Dispersions {
         let components = dispersion.components();
         self.check_components(index, dispersion, &components, nominal)?;
         let nominals: Vec<f64> = components.iter().filter_map(|(p, c)| p.value(nominal, *c)).collect();
-        let target = Target { index, nominals: &nominals };
-        let maps: Vec<(Vec<(Parameter, usize)>, Transform)> = match distribution.distributions(&target)? {
+        let WrittenDistribution { kind, written } = distribution;
+        let target = Target { index, nominals: &nominals, rows: kind.keys(), written };
+        let maps: Vec<(Vec<(Parameter, usize)>, Transform)> = match kind.distributions(&target)? {
             Some(list) => components.iter().zip(list).map(|(c, one)| (vec![*c], Transform::Scalar(one))).collect(),
             None => {
-                let target = JointTarget { index, parameter: *parameter, component: *component, nominals: &nominals };
-                let joint = distribution.joint(&target)?;
+                let target =
+                    JointTarget { index, parameter: *parameter, component: *component, nominals: &nominals, written };
+                let joint = kind.joint(&target)?;
                 joint.map(|joint| (components, Transform::Joint(joint))).into_iter().collect()
             }
         };
@@ -269,7 +271,7 @@ impl Dispersions {
         components: &[(Parameter, usize)],
         nominal: &SceneInput,
     ) -> Result<(), DispersionError> {
-        let key = if dispersion.distribution.columns().is_empty() { "parameter" } else { "parameters" };
+        let key = if dispersion.distribution.written.columns().is_empty() { "parameter" } else { "parameters" };
         let refused = |(parameter, component): (Parameter, usize), allowed: &str, remedy: &str| {
             Err(error(index, key, format!("{:?}", parameter.component_name(component)), allowed, remedy))
         };

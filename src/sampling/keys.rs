@@ -1,9 +1,187 @@
-//! How distributions and designs read and write their keys: [`KeyReader`], [`KeyWriter`], and the values of keys.
+//! The keys of a table of a campaign file as data: [`Row`], one key; [`Rule`], what several keys have to do with each other; [`Written`], what a
+//! file says.
 //!
-//! Campaign files implement both; so a distribution or a design needs no code outside its own file and the list.
+//! A distribution and a design list their rows. Reading, error messages, canonical text and the tables of the documents follow from them.
 
 use crate::scene::Parameter;
 use std::sync::Arc;
+
+/// What a number may be.
+#[derive(Clone, Copy, Debug)]
+pub struct NumberLimit {
+    /// In words, to follow `must be`.
+    pub allowed: &'static str,
+    /// What to do otherwise.
+    pub remedy: &'static str,
+    /// Whether a number is allowed.
+    pub test: fn(f64) -> bool,
+}
+
+/// What a text may be.
+#[derive(Clone, Copy, Debug)]
+pub struct TextLimit {
+    /// In words, to follow `must be`.
+    pub allowed: &'static str,
+    /// What to do otherwise.
+    pub remedy: &'static str,
+    /// Whether a text is allowed.
+    pub test: fn(&str) -> bool,
+}
+
+/// What the value of a key is.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// A finite number, or an array of one for each component, in the unit of what is dispersed.
+    Amounts,
+    /// The same of pure numbers, or in the unit at the end of the key.
+    Values,
+    /// An array of finite numbers, in the unit of what is dispersed.
+    AmountList,
+    /// An array of pure finite numbers.
+    List,
+    /// One finite number.
+    Number,
+    /// Three finite numbers.
+    Vector,
+    /// Three rows of three finite numbers.
+    Matrix,
+    /// A whole number between these two.
+    Count([u64; 2]),
+    /// Whole numbers from 1 to this one: one for all dimensions, or a list.
+    Counts(u64),
+    /// Different numbers of samples, ascending, at most so many.
+    Samples(usize),
+    /// A text.
+    Text(TextLimit),
+    /// One of these words; the first one where the key is left out.
+    Word(&'static [&'static str]),
+    /// Different ones of these words, at least one; and what holds where the key is left out, in words.
+    Words(&'static [&'static str], fn() -> String),
+    /// One of these words, or three numbers of a direction; the first word where the key is left out.
+    WordOrDirection(&'static [&'static str]),
+    /// A table with a distribution of one number.
+    Distribution,
+    /// A file of numbers: with the keys `sha256` and `column`, one column of it.
+    Column,
+    /// A file of numbers: with the keys `sha256`, `parameters` and `columns`, the columns of it that are parameters.
+    Columns,
+}
+
+/// Whether a key must be written, and what holds where it is not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Presence {
+    /// It must be.
+    Required {
+        /// What it must be, in words.
+        allowed: &'static str,
+        /// A value.
+        example: &'static str,
+    },
+    /// It may be left out; the meaning, or a rule of the table, says what holds then.
+    Optional,
+    /// Where it is left out, this number holds.
+    Or(f64),
+    /// Where it is left out, the nominal value holds.
+    OrNominal,
+}
+
+/// One key of a table.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// The key.
+    pub key: &'static str,
+    /// What its value is.
+    pub kind: Kind,
+    /// Whether it must be written.
+    pub presence: Presence,
+    /// What its numbers must satisfy, beside being finite.
+    pub limit: Option<NumberLimit>,
+    /// Where its numbers are multiples of those of another key: that key, and what they are divided by.
+    pub multiple_of: Option<(&'static str, f64)>,
+    /// What it is.
+    pub meaning: &'static str,
+}
+
+impl Row {
+    /// A key that may be left out.
+    pub const fn new(key: &'static str, kind: Kind, meaning: &'static str) -> Self {
+        Row { key, kind, presence: Presence::Optional, limit: None, multiple_of: None, meaning }
+    }
+
+    /// Numbers in the unit of what is dispersed.
+    pub const fn amounts(key: &'static str, meaning: &'static str) -> Self {
+        Row::new(key, Kind::Amounts, meaning)
+    }
+
+    /// Pure numbers, or numbers in the unit at the end of the key.
+    pub const fn values(key: &'static str, meaning: &'static str) -> Self {
+        Row::new(key, Kind::Values, meaning)
+    }
+
+    /// The same row of a key that must be written, with the example `example`.
+    #[must_use]
+    pub const fn required(self, example: &'static str) -> Self {
+        self.required_as("a finite number, or an array of one for each component", example)
+    }
+
+    /// The same where the value is not one number or one for each component; `allowed` says what it is.
+    #[must_use]
+    pub const fn required_as(mut self, allowed: &'static str, example: &'static str) -> Self {
+        self.presence = Presence::Required { allowed, example };
+        self
+    }
+
+    /// The same row where a number or the nominal value holds for a key that is left out.
+    #[must_use]
+    pub const fn or(mut self, presence: Presence) -> Self {
+        self.presence = presence;
+        self
+    }
+
+    /// The same row with a limit.
+    #[must_use]
+    pub const fn within(mut self, allowed: &'static str, remedy: &'static str, test: fn(f64) -> bool) -> Self {
+        self.limit = Some(NumberLimit { allowed, remedy, test });
+        self
+    }
+
+    /// The same row with a limit that has a name.
+    #[must_use]
+    pub const fn limited(mut self, limit: NumberLimit) -> Self {
+        self.limit = Some(limit);
+        self
+    }
+
+    /// The same row of zero or more.
+    #[must_use]
+    pub const fn not_negative(self) -> Self {
+        self.within(">= 0", "drop the minus sign", |x| x >= 0.0)
+    }
+
+    /// The same row of a scale, which is above zero.
+    #[must_use]
+    pub const fn scale(self) -> Self {
+        self.within("> 0", "write it in the parameter's unit", |x| x > 0.0)
+    }
+}
+
+/// The key of a file with columns that are parameters.
+pub const FILE_OF_PARAMETERS: Row = Row::new(
+    "file",
+    Kind::Columns,
+    "File of numbers; with `parameters` (default: all columns of the file), `columns` (default: the names of the parameters), and `sha256`, the checksum of the file",
+);
+
+/// What several keys of a table have to do with each other.
+#[derive(Clone, Copy, Debug)]
+pub enum Rule {
+    /// Exactly one of several ways to say something is written, each with one or several keys; an example for the first key.
+    One(&'static [&'static [&'static str]], &'static str),
+    /// At most one of these is written.
+    AtMostOne(&'static [&'static str]),
+    /// All of these are written, or none; each with an example.
+    Together([(&'static str, &'static str); 2]),
+}
 
 /// One number for all components, or one for each.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +198,22 @@ impl Values {
         match self {
             Values::All(value) => format!("{value:?}"),
             Values::Each(list) => format!("{list:?}"),
+        }
+    }
+
+    /// All of its numbers.
+    pub fn numbers(&self) -> &[f64] {
+        match self {
+            Values::All(value) => std::slice::from_ref(value),
+            Values::Each(list) => list,
+        }
+    }
+
+    /// The numbers divided by `divisor`.
+    pub fn over(self, divisor: f64) -> Self {
+        match self {
+            Values::All(value) => Values::All(value / divisor),
+            Values::Each(list) => Values::Each(list.into_iter().map(|value| value / divisor).collect()),
         }
     }
 }
@@ -55,134 +249,126 @@ impl DataColumn {
     }
 }
 
-/// A table of a campaign file while it is read. A value that is wrong is noted and read as `None`, as one that is not written;
-/// [`KeyReader::has`] tells the two apart.
-pub trait KeyReader {
-    /// Whether `key` was written.
-    fn has(&self, key: &str) -> bool;
-    /// Notes that `key` is missing, unless it was written.
-    fn require(&mut self, key: &'static str, allowed: &str, example: &str);
-    /// Notes that the value of `key` is wrong.
-    fn refuse(&mut self, key: &str, allowed: &str, remedy: &str);
-    /// A finite number.
-    fn number(&mut self, key: &'static str) -> Option<f64>;
-    /// A finite number, or an array of one for each component.
-    fn values(&mut self, key: &'static str) -> Option<Values>;
-    /// Finite numbers, any count.
-    fn numbers(&mut self, key: &'static str) -> Option<Vec<f64>>;
-    /// Three finite numbers.
-    fn vector(&mut self, key: &'static str) -> Option<[f64; 3]>;
-    /// Three rows of three finite numbers.
-    fn matrix(&mut self, key: &'static str) -> Option<[[f64; 3]; 3]>;
-    /// Index of one of `names`.
-    fn choice(&mut self, key: &'static str, names: &[&str]) -> Option<usize>;
-    /// A whole number from 1 to `most`.
-    fn count(&mut self, key: &'static str, most: u64) -> Option<u64>;
-    /// Whole numbers of at least 1: one for all, or a list.
-    fn counts(&mut self, key: &'static str) -> Option<Counts>;
-    /// A table within this one, read by `read`; whether it was written.
-    fn table(&mut self, key: &'static str, read: &mut dyn FnMut(&mut dyn KeyReader)) -> bool;
-    /// The one of `names` that `key` gives; it must be there.
-    fn kind(&mut self, key: &'static str, names: &[&'static str], example: &str) -> Option<&'static str>;
-    /// The column `column` of the file `file`.
-    fn column(&mut self) -> Option<DataColumn>;
-    /// The columns of the file `file` that are parameters: those in `parameters`, else all; where `columns` names them, under these names.
-    fn columns(&mut self) -> Option<Vec<DataColumn>>;
-}
-
-impl dyn KeyReader + '_ {
-    /// Whether exactly one of `keys` was written; notes where not.
-    pub fn is_one_of(&mut self, keys: &[&'static str], example: &str) -> bool {
-        let written: Vec<&'static str> = keys.iter().copied().filter(|key| self.has(key)).collect();
-        match written[..] {
-            [_] => true,
-            [] => {
-                self.require(keys[0], &format!("given ({})", keys.join(" or ")), example);
-                false
-            }
-            [_, second, ..] => {
-                self.refuse(second, &format!("the only one of {}", keys.join(", ")), "delete all but one of them");
-                false
-            }
-        }
-    }
-
-    /// Values that must be there.
-    pub fn required(&mut self, key: &'static str, example: &str) -> Option<Values> {
-        self.require(key, "a finite number, or an array of one for each component", example);
-        self.values(key)
-    }
-
-    /// Values that may be left out; `None` where they are wrong.
-    pub fn optional(&mut self, key: &'static str) -> Option<Option<Values>> {
-        let values = self.values(key);
-        if self.has(key) && values.is_none() { None } else { Some(values) }
-    }
-
-    /// `min` and `max`, both required.
-    pub fn ends(&mut self) -> Option<(Values, Values)> {
-        let min = self.required("min", "0.0");
-        let max = self.required("max", "1.0");
-        min.zip(max)
-    }
-
-    /// `min` and `max`, where one of them was written; the other is then required.
-    pub fn ends_together(&mut self, examples: [&str; 2]) -> Option<(Values, Values)> {
-        if self.has("min") || self.has("max") {
-            self.require("min", "given together with max", examples[0]);
-            self.require("max", "given together with min", examples[1]);
-        }
-        let min = self.values("min");
-        min.zip(self.values("max"))
-    }
-
-    /// An axis, if it was written; `None` where it is wrong.
-    pub fn axis(&mut self) -> Option<Option<[f64; 3]>> {
-        let axis = self.vector("axis");
-        if self.has("axis") && axis.is_none() { None } else { Some(axis) }
-    }
-}
-
-/// A table of canonical text while it is written. Tables within it come last.
-pub trait KeyWriter {
-    /// A key and its value, whose Debug form is TOML: floats, lists of floats, whole numbers, plain text.
-    fn key(&mut self, key: &str, value: &dyn std::fmt::Debug);
-    /// Starts the table `key` within this one.
-    fn table(&mut self, key: &str);
-}
-
-impl dyn KeyWriter + '_ {
-    /// Values.
-    pub fn values(&mut self, key: &str, values: &Values) {
-        match values {
-            Values::All(value) => self.key(key, value),
-            Values::Each(list) => self.key(key, list),
-        }
-    }
-
-    /// Values that may be left out.
-    pub fn optional(&mut self, key: &str, values: Option<&Values>) {
-        if let Some(values) = values {
-            self.values(key, values);
-        }
-    }
-
+/// The value of a key.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// Numbers: one, one for each component, a list, a vector.
+    Numbers(Values),
+    /// A matrix by rows.
+    Matrix([[f64; 3]; 3]),
+    /// Whole numbers.
+    Counts(Counts),
+    /// A text of people.
+    Text(String),
+    /// A word.
+    Word(&'static str),
+    /// Several words.
+    Words(Vec<&'static str>),
+    /// A distribution: its name and its keys.
+    Distribution(&'static str, Written),
+    /// A column of a file.
+    Column(DataColumn),
     /// Columns of one file, each for one number of the scene.
-    pub fn columns(&mut self, columns: &[DataColumn]) {
-        let Some(first) = columns.first() else { return };
-        self.key("file", &first.file);
-        self.key("sha256", &first.sha256);
-        let names: Vec<String> = columns.iter().map(DataColumn::target_name).collect();
-        let own: Vec<&str> = columns.iter().map(|column| column.column.as_str()).collect();
-        self.key("parameters", &names);
-        if names != own {
-            self.key("columns", &own);
+    Columns(Vec<DataColumn>),
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Value::Numbers(Values::All(number))
+    }
+}
+
+impl From<u64> for Value {
+    fn from(count: u64) -> Self {
+        Value::Counts(Counts::All(count))
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Value::Text(text.to_owned())
+    }
+}
+
+/// What a campaign file says of the keys of a table, in the order of their rows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Written(Vec<(&'static str, Value)>);
+
+impl Written {
+    /// A table without keys.
+    pub const NONE: Written = Written(Vec::new());
+
+    /// The same table in which `key` is written.
+    #[must_use]
+    pub fn with(mut self, key: &'static str, value: impl Into<Value>) -> Self {
+        self.set(key, value);
+        self
+    }
+
+    /// Writes `key`, instead of what was there.
+    pub fn set(&mut self, key: &'static str, value: impl Into<Value>) {
+        let value = value.into();
+        match self.0.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, known)) => *known = value,
+            None => self.0.push((key, value)),
         }
     }
 
-    /// `min` and `max`.
-    pub fn ends(&mut self, min: &Values, max: &Values) {
-        self.values("min", min);
-        self.values("max", max);
+    /// Whether `key` is written.
+    pub fn has(&self, key: &str) -> bool {
+        self.get(key).is_some()
+    }
+
+    /// The value of `key`.
+    pub fn get(&self, key: &str) -> Option<&Value> {
+        self.0.iter().find(|(known, _)| *known == key).map(|(_, value)| value)
+    }
+
+    /// The numbers of `key`.
+    pub fn values(&self, key: &str) -> Option<&Values> {
+        self.get(key).and_then(|value| if let Value::Numbers(values) = value { Some(values) } else { None })
+    }
+
+    /// The numbers of `key`, one after the other.
+    pub fn numbers(&self, key: &str) -> Option<&[f64]> {
+        self.values(key).map(Values::numbers)
+    }
+
+    /// The three numbers of `key`.
+    pub fn vector(&self, key: &str) -> Option<[f64; 3]> {
+        self.numbers(key)?.try_into().ok()
+    }
+
+    /// The columns of a file that are parameters.
+    pub fn columns(&self) -> &[DataColumn] {
+        let columns = self.0.iter().find_map(|(_, value)| match value {
+            Value::Columns(columns) => Some(columns.as_slice()),
+            _ => None,
+        });
+        columns.unwrap_or_default()
+    }
+
+    /// The number of `key`.
+    pub fn number(&self, key: &str) -> Option<f64> {
+        if let Value::Numbers(Values::All(number)) = self.get(key)? { Some(*number) } else { None }
+    }
+
+    /// The whole number of `key`.
+    pub fn count(&self, key: &str) -> Option<u64> {
+        if let Value::Counts(Counts::All(count)) = self.get(key)? { Some(*count) } else { None }
+    }
+
+    /// The text or the word of `key`.
+    pub fn text(&self, key: &str) -> Option<&str> {
+        match self.get(key)? {
+            Value::Text(text) => Some(text),
+            Value::Word(word) => Some(word),
+            _ => None,
+        }
+    }
+
+    /// The keys that are written.
+    pub fn entries(&self) -> impl Iterator<Item = (&'static str, &Value)> {
+        self.0.iter().map(|(key, value)| (*key, value))
     }
 }

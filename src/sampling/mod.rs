@@ -11,7 +11,7 @@
 //!
 //! [`correlation`], [`derivation`]: `[[correlate]]` and `[[derive]]` tables as written; [`rank`]: rank correlations; [`columns`]: the
 //! numbers that a draw writes.
-//! [`keys`]: how distributions and designs read and write their keys; [`error`]: why something cannot be drawn.
+//! [`keys`]: the keys of distributions and designs, as data; [`error`]: why something cannot be drawn.
 
 pub mod columns;
 pub mod copula;
@@ -34,9 +34,9 @@ pub use correlation::{Correlation, Measure, Numbers, Replaced};
 pub use derivation::Derivation;
 pub use design::{Design, Points};
 pub use dispersions::{Dispersion, Dispersions, Draws};
-pub use distribution::{Distribution, Joint, NumberWords, WrittenDistribution};
+pub use distribution::{Distribution, DistributionKind, Joint, NumberWords, WrittenDistribution};
 pub use error::{DispersionError, Table};
-pub use keys::{DataColumn, KeyWriter, Values};
+pub use keys::{DataColumn, Values, Written};
 pub use noise::Noise;
 pub use sampler::Sampler;
 pub use stream::{SampleId, Stream};

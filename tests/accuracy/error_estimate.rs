@@ -39,7 +39,9 @@ const COVERAGE: f64 = 0.95;
 /// than the term of order p + 1 of the series says, measured 190 to 910 times and 130; tolerances of the null-space method are held by its
 /// fast wheels, whose errors hardly reach the body: measured 220 times, and 1.4e6 where the wheels' momenta cancel. `docs/results.md` says so.
 ///
-/// `taylor` at 1e-10 in Table I: the estimate adds what 120 steps leave out as if all had one direction; measured 130 times.
+/// `taylor` at 1e-10 in Table I: the estimate adds what 120 steps leave out as if all had one direction; measured 130 times. Under a gravity gradient the
+/// same at tolerances above 1e-8, where steps are parts of a libration and what they leave out changes its sign with it: measured 240 times; and 390 times
+/// with `gauss_legendre_6`, which is symmetric in time.
 fn too_large(method: Method, family: &str) -> f64 {
     match (method, family) {
         (Method::NullSpace, "mixed, forced") => 200.0,
@@ -51,6 +53,8 @@ fn too_large(method: Method, family: &str) -> f64 {
         ) => 3e3,
         (Method::Gyrostat(Integrator::GaussLegendre), "slew by thrusters") => 200.0,
         (Method::Taylor, "spin_sweep" | "no_debris") => 200.0,
+        (Method::Auto | Method::Taylor, "gravity gradient") => 400.0,
+        (Method::Gyrostat(Integrator::GaussLegendre), "gravity gradient") => 600.0,
         _ => 100.0,
     }
 }

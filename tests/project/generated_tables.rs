@@ -6,14 +6,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use spindrift::campaign::{Overrides, Plan};
+use spindrift::campaign::{Overrides, Plan, settings};
 use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
 use spindrift::observables::band_series::band_series;
 use spindrift::observables::request::wheel_names;
 use spindrift::observables::{Group, Groups, LawColumns, LawSeries, Request, table};
-use spindrift::sampling::SampleId;
-use spindrift::scene::schema::Presence;
+use spindrift::sampling::keys::{Kind, Presence, Rule};
+use spindrift::sampling::{Design, DistributionKind, SampleId};
+use spindrift::scene::schema;
 use spindrift::scene::table::Table;
 use spindrift::scene::{Actuated, LawParameter, SceneInput};
 use spindrift::storage::rows_file::{headings, parameter_headings};
@@ -175,8 +176,8 @@ fn parameters() -> String {
         for key in table.keys() {
             let facts = key.facts();
             let default = match facts.presence {
-                Presence::Required(_) => "required".to_owned(),
-                Presence::Optional => key.default_text().map_or("none".to_owned(), |text| format!("`{text}`")),
+                schema::Presence::Required(_) => "required".to_owned(),
+                schema::Presence::Optional => key.default_text().map_or("none".to_owned(), |text| format!("`{text}`")),
             };
             let (components, limit, meaning) = (facts.components.join(", "), facts.limit.words(), cell(facts.meaning));
             let _ =
@@ -215,6 +216,65 @@ fn keys_of_loops() -> String {
             };
             let _ =
                 writeln!(text, "| {table} | `{}` | {} | {default} | {} |", facts.key, facts.unit, cell(facts.meaning));
+        }
+    }
+    text
+}
+
+/// The keys of settings, distributions and designs, from their rows and rules.
+fn keys_of_tables() -> String {
+    let mut text = String::from(
+        "| table | key | value | unit | default | limit | meaning |\n| --- | --- | --- | --- | --- | --- | --- |\n",
+    );
+    let kinds = DistributionKind::ALL.iter().map(|kind| {
+        (format!("`[[disperse]]`, `distribution = \"{}\"`", kind.name()), kind.keys().to_vec(), kind.rules())
+    });
+    let designs = Design::NAMES.iter().map(|name| {
+        let (rows, rules) = Design::keys_of(name).expect("a design");
+        (format!("`[design]`, `kind = \"{name}\"`"), rows.to_vec(), rules)
+    });
+    let settings = settings::HEAD
+        .iter()
+        .chain(&settings::TAIL)
+        .map(|(header, keys)| (format!("`[{header}]`"), keys.to_vec(), &[][..]));
+    for (table, rows, rules) in settings.chain(kinds).chain(designs) {
+        for row in &rows {
+            let is_of =
+                |rule: &&Rule| matches!(rule, Rule::One(ways, _) if ways.iter().any(|way| way.contains(&row.key)));
+            let one = rules.iter().find(is_of).map(|rule| match rule {
+                Rule::One(ways, _) => {
+                    ways.iter().map(|way| format!("`{}`", way.join("`, `"))).collect::<Vec<_>>().join(" or ")
+                }
+                _ => String::new(),
+            });
+            let default = match (row.presence, one) {
+                (Presence::Required { .. }, _) => "required".to_owned(),
+                (Presence::Or(number), _) => format!("`{number:?}`"),
+                (Presence::OrNominal, _) => "the nominal value".to_owned(),
+                (Presence::Optional, one) => one.unwrap_or_default(),
+            };
+            let (value, unit) = match row.kind {
+                Kind::Amounts => ("one number, or one for each component".to_owned(), "of the parameter"),
+                Kind::Values => ("one number, or one for each component".to_owned(), ""),
+                Kind::AmountList => ("an array of numbers".to_owned(), "of the parameter"),
+                Kind::List => ("an array of numbers".to_owned(), ""),
+                Kind::Number => ("a number".to_owned(), ""),
+                Kind::Vector => ("three numbers".to_owned(), ""),
+                Kind::Matrix => ("three rows of three numbers".to_owned(), ""),
+                Kind::Count([least, most]) => (format!("a whole number from {least} to {most}"), ""),
+                Kind::Samples(_) => ("ascending whole numbers".to_owned(), ""),
+                Kind::Text(limit) => (limit.allowed.to_owned(), ""),
+                Kind::Words(words, _) => (format!("an array of `\"{}\"`", words.join("\"`, `\"")), ""),
+                Kind::Counts(_) => ("whole numbers above zero".to_owned(), ""),
+                Kind::Word(words) | Kind::WordOrDirection(words) => {
+                    (format!("`\"{}\"`", words.join("\"` (default), `\"")), "")
+                }
+                Kind::Distribution => ("a table with a distribution of one number".to_owned(), ""),
+                Kind::Column | Kind::Columns => ("the path of a file".to_owned(), ""),
+            };
+            let limit = row.limit.map_or("", |limit| limit.allowed);
+            let meaning = cell(row.meaning);
+            let _ = writeln!(text, "| {table} | `{}` | {value} | {unit} | {default} | {limit} | {meaning} |", row.key);
         }
     }
     text
@@ -259,7 +319,7 @@ fn replaced(document: &str, name: &str, table: &str) -> String {
 fn the_generated_tables_are_up_to_date() {
     let columns = [("columns", columns_of_rows()), ("series", columns_of_series()), ("bands", quantities_over_time())];
     let dependencies = [("dependencies", dependencies())];
-    let parameters = [("parameters", parameters())];
+    let parameters = [("parameters", parameters()), ("other keys", keys_of_tables())];
     let loops = [
         ("keys of loops", keys_of_loops()),
         ("quantities", quantities_of_conditions()),

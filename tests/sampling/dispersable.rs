@@ -10,9 +10,11 @@ use spindrift::math::Isa;
 use spindrift::observables::{Group, Request};
 use spindrift::propagation::Method;
 use spindrift::run::{Grid, StateField, StateTable, Status};
+use spindrift::sampling::Written;
 use spindrift::sampling::dispersions::Draws;
-use spindrift::sampling::distribution::normal::{Normal, Spread};
-use spindrift::sampling::{Design, Dispersion, DispersionError, Dispersions, SampleId, Values, WrittenDistribution};
+use spindrift::sampling::{
+    Design, Dispersion, DispersionError, Dispersions, DistributionKind, SampleId, WrittenDistribution,
+};
 use spindrift::scene::parameter::Shape as ParameterShape;
 use spindrift::scene::{
     DebrisInput, Name, Parameter, PartInput, PartShape, PrincipalInertia, PrincipalMoments, Scene, SceneInput,
@@ -175,7 +177,8 @@ fn dispersions(nominal: &SceneInput, disperse: &[Dispersion]) -> Result<Dispersi
 fn drawn(parameter: Parameter, component: usize, nominal: &SceneInput) -> (SceneInput, Vec<(Parameter, usize, f64)>) {
     let value = parameter.value(nominal, component).expect("the key exists");
     let std = SPREAD * if value == 0.0 { 1.0 } else { value.abs() };
-    let distribution = WrittenDistribution::Normal(Normal(Spread::Absolute(Values::All(std))));
+    let distribution =
+        WrittenDistribution { kind: DistributionKind::Normal, written: Written::default().with("std", std) };
     let list = [Dispersion { parameter, component: Some(component), distribution }];
     let drawn = dispersions(nominal, &list).unwrap_or_else(|errors| panic!("{}", errors[0]));
     let (mut scene, mut applied) = (nominal.clone(), vec![f64::NAN; drawn.columns().len()]);

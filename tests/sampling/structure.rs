@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::sampling::WrittenDistribution;
+use spindrift::sampling::DistributionKind;
 
 use crate::support::draws;
 use crate::support::every_key::{distribution_tables, without_draws};
@@ -73,7 +73,7 @@ fn saltelli_replaces_the_numbers_of_one_distribution_together() {
         assert!(replaced.len() == columns.len() || has_few, "{name}: {replaced:?}");
         names.insert(name);
     }
-    assert_eq!(names, WrittenDistribution::NAMES.iter().copied().collect(), "every distribution is here");
+    assert_eq!(names, DistributionKind::NAMES.iter().copied().collect(), "every distribution is here");
 }
 
 /// The digits of a point in base `base`, the lowest first.

@@ -167,9 +167,7 @@ impl ControlLoop {
         }
         // columns are about the ticks whose commands act, and about the one at which the mission ends
         let is_judged = !is_last || progress != Progress::Flies;
-        if is_judged {
-            self.judge(truth, estimate, begins, &error);
-        }
+        self.judge(truth, estimate, (begins, is_judged), &error);
         // nothing is commanded where the mission ends
         self.latest = ([0.0; MAX_WHEELS], [0.0; MAX_THRUSTERS]);
         match progress {
@@ -200,6 +198,13 @@ impl ControlLoop {
                 commanded: self.latest,
                 measurements: &self.measurements,
             });
+        }
+    }
+
+    /// Records the quantities over time as they are known from `time` on, s.
+    fn record_over_time(&self, time: f64) {
+        if let Some(record) = &self.record {
+            record.lock().take(time - SAME_TIME * self.tick_period, &self.over_time);
         }
     }
 
@@ -235,8 +240,14 @@ impl ControlLoop {
         (truth.time - self.saturated_since > self.timeouts[0]).then_some(Failure::WheelSaturated)
     }
 
-    /// Takes the truth of a tick into the outcome.
-    fn judge(&mut self, truth: &Truth, estimate: &Estimate, begins: bool, believed: &AttitudeError) {
+    /// Takes the truth of a tick into the quantities over time, and into the outcome where the tick is judged; `begins`: with it a phase does.
+    fn judge(
+        &mut self,
+        truth: &Truth,
+        estimate: &Estimate,
+        (begins, is_judged): (bool, bool),
+        believed: &AttitudeError,
+    ) {
         let target = self.phases[self.guidance.phase].target;
         // of perfect knowledge the believed error is the true one
         let knows = self.spec.knows_the_truth();
@@ -258,7 +269,9 @@ impl ControlLoop {
         ] {
             set(&mut self.over_time, series, value);
         }
-        self.outcome.tick(&self.drawn, truth, (error.as_ref(), begins), &errors, &self.judgement);
+        if is_judged {
+            self.outcome.tick(&self.drawn, truth, (error.as_ref(), begins), &errors, &self.judgement);
+        }
     }
 
     /// How the errors of the filters at this tick compare with their covariances.
@@ -275,9 +288,7 @@ impl ActuationLaw for ControlLoop {
             self.at_tick(&truth, false);
         }
         let actuation = if self.has_ended { Actuation::end_of_run() } else { self.applied(time, body, wheels) };
-        if let Some(record) = &self.record {
-            record.lock().take(time - SAME_TIME * self.tick_period, &self.over_time);
-        }
+        self.record_over_time(time);
         actuation
     }
 
@@ -285,6 +296,7 @@ impl ActuationLaw for ControlLoop {
         if self.is_due(time) {
             let truth = Truth::new(&self.drawn, time, body, wheels, self.debris.as_mut());
             self.at_tick(&truth, true);
+            self.record_over_time(time);
         }
     }
 

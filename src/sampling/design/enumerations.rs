@@ -21,19 +21,23 @@ macro_rules! designs {
                 match self { $( Self::$Name(_) => <$Kind as Kind>::NAME, )* }
             }
 
-            /// Reads the keys of the design called `name`; `None` where there is none of that name or something is wrong,
-            /// which is then noted.
-            pub fn read_named(name: &str, keys: &mut dyn KeyReader) -> Option<Self> {
+            /// The keys and the rules of the design called `name`; `None` where there is none of that name.
+            pub fn keys_of(name: &str) -> Option<(&'static [Row], &'static [Rule])> {
+                let all = [$((<$Kind as Kind>::NAME, (<$Kind as Kind>::KEYS, <$Kind as Kind>::RULES)),)*];
+                all.into_iter().find(|(known, _)| *known == name).map(|(_, keys)| keys)
+            }
+
+            /// The design called `name` of what a file says; `None` where there is none of that name.
+            pub fn of(name: &str, written: &Written) -> Option<Self> {
                 $( if name == <$Kind as Kind>::NAME {
-                    return <$Kind as Kind>::read(keys).map(Self::$Name);
+                    return Some(Self::$Name(<$Kind as Kind>::of(written)));
                 } )*
                 None
             }
 
-            /// Writes its name and its keys.
-            pub fn write(&self, keys: &mut dyn KeyWriter) {
-                keys.key("kind", &self.name());
-                match self { $( Self::$Name(kind) => kind.write(keys), )* }
+            /// What a file says of it.
+            pub fn written(&self) -> Written {
+                match self { $( Self::$Name(kind) => kind.written(), )* }
             }
 
             /// See [`Kind::HAS_SIZE`].
@@ -66,20 +70,9 @@ macro_rules! designs {
                 match self { $( Self::$Name(kind) => kind.size(dimensions), )* }
             }
 
-            /// See [`Kind::HAS_REPLICATES`].
-            pub fn has_replicates(&self) -> bool {
-                match self { $( Self::$Name(_) => <$Kind as Kind>::HAS_REPLICATES, )* }
-            }
-
             /// See [`Kind::replicates`].
             pub fn replicates(&self) -> u64 {
                 match self { $( Self::$Name(kind) => kind.replicates(), )* }
-            }
-
-            /// The names of the designs that can have replicates.
-            fn names_with_replicates() -> Vec<&'static str> {
-                let all = [$((<$Kind as Kind>::NAME, <$Kind as Kind>::HAS_REPLICATES)),*];
-                all.into_iter().filter(|(_, has)| *has).map(|(name, _)| name).collect()
             }
 
             /// See [`Kind::check`].

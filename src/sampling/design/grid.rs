@@ -1,9 +1,9 @@
 //! `grid`: all combinations of levels; the first dimension changes fastest.
 
-use super::levels::Levels;
+use super::levels::{LEVELS, Levels, ONE_OF_LEVELS};
 use super::traits::{BLOCK, Dimensions, Kind, PointSource, Size, by_point};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::{Row, Rule, Written};
 
 /// All combinations of levels.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +44,8 @@ impl PointSource for Grid {
 
 impl Kind for GridDesign {
     const NAME: &'static str = "grid";
+    const KEYS: &'static [Row] = &LEVELS;
+    const RULES: &'static [Rule] = &[ONE_OF_LEVELS];
     const HAS_SIZE: bool = true;
     const EXCLUDES_CORRELATION: Option<[&'static str; 2]> = Some([
         "a design for correlated parameters: with [[correlate]] the levels would not be those that were asked",
@@ -51,12 +53,12 @@ impl Kind for GridDesign {
     ]);
     type Points = Grid;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        Levels::read(keys).map(GridDesign)
+    fn of(written: &Written) -> Self {
+        GridDesign(Levels::of(written))
     }
 
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        self.0.write(keys);
+    fn written(&self) -> Written {
+        self.0.written()
     }
 
     fn size(&self, dimensions: usize) -> Size {

@@ -7,11 +7,11 @@
 //! number is uniform, down to about 2^-52.
 
 use super::hash::{below, keyed};
-use super::replicates::{Replicates, by_replicate};
+use super::replicates::{REPLICATES, Replicates, by_replicate};
 use super::sobol::MAX_DIMENSIONS;
 use super::traits::{BLOCK, Dimensions, Kind, PointSource};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::{Row, Written};
 use crate::sampling::stream::key;
 
 /// Number of cells of the finest digit that is scrambled, at most: half a cell is still seen next to one.
@@ -132,16 +132,16 @@ pub struct HaltonDesign(pub Replicates);
 
 impl Kind for HaltonDesign {
     const NAME: &'static str = "halton";
+    const KEYS: &'static [Row] = &[REPLICATES];
     const MAX_DIMENSIONS: usize = MAX_DIMENSIONS;
-    const HAS_REPLICATES: bool = true;
     type Points = HaltonPoints;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        Replicates::read(keys).map(HaltonDesign)
+    fn of(written: &Written) -> Self {
+        HaltonDesign(Replicates::of_written(written))
     }
 
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        self.0.write(keys);
+    fn written(&self) -> Written {
+        self.0.written()
     }
 
     fn replicates(&self) -> u64 {

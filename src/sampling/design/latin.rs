@@ -7,10 +7,10 @@
 //! n = samples - 1, since sample 0 is the nominal scene.
 
 use super::hash::keyed;
-use super::replicates::Replicates;
+use super::replicates::{REPLICATES, Replicates};
 use super::traits::{BLOCK, Dimensions, Kind, PointSource, streams};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::{Row, Written};
 use crate::sampling::stream::{Stream, key};
 
 /// Feistel rounds: four make a pseudorandom permutation of an ideal round function (M. Luby & C. Rackoff, 1988); two more for safety.
@@ -102,6 +102,7 @@ pub struct LatinHypercubeDesign(pub Replicates);
 
 impl Kind for LatinHypercubeDesign {
     const NAME: &'static str = "latin_hypercube";
+    const KEYS: &'static [Row] = &[REPLICATES];
     const DEPENDS_ON_SAMPLES: Option<[&'static str; 2]> = Some([
         "whose strata are 1/(samples - 1) wide",
         "write samples in the file for a hypercube of that size, or use sobol, whose rows stay",
@@ -110,15 +111,14 @@ impl Kind for LatinHypercubeDesign {
         "a design for correlated parameters: with [[correlate]] only the first would stay stratified",
         "delete [[correlate]], or use sobol",
     ]);
-    const HAS_REPLICATES: bool = true;
     type Points = LatinHypercube;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        Replicates::read(keys).map(LatinHypercubeDesign)
+    fn of(written: &Written) -> Self {
+        LatinHypercubeDesign(Replicates::of_written(written))
     }
 
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        self.0.write(keys);
+    fn written(&self) -> Written {
+        self.0.written()
     }
 
     fn replicates(&self) -> u64 {

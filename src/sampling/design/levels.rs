@@ -4,7 +4,26 @@
 //! Levels are computed where they are needed, not stored: a file may ask for any number of them.
 
 use crate::sampling::error::{DispersionError, Table, error_of};
-use crate::sampling::keys::{Counts, KeyReader, KeyWriter};
+use crate::sampling::keys::{Counts, Kind, Row, Rule, Value, Values, Written};
+
+use super::traits::MAX_SAMPLES;
+
+/// Their keys.
+pub const LEVELS: [Row; 2] = [
+    Row::new(
+        "levels",
+        Kind::Counts(MAX_SAMPLES),
+        "So many levels in each dimension, or a list in the order of the file",
+    ),
+    Row::new("quantiles", Kind::List, "The levels of each dimension as quantiles").within(
+        "numbers between 0 and 1, neither included",
+        "write them like [0.05, 0.5, 0.95]",
+        |u| u > 0.0 && u < 1.0,
+    ),
+];
+
+/// One of them is written.
+pub const ONE_OF_LEVELS: Rule = Rule::One(&[&["levels"], &["quantiles"]], "5");
 
 /// The levels of each dimension, as written.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,38 +52,21 @@ impl Levels {
         }
     }
 
-    /// Reads `levels` or `quantiles`; `None` where something is wrong, which is then noted.
-    pub(super) fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let (has_levels, has_quantiles) = (keys.has("levels"), keys.has("quantiles"));
-        if has_levels && has_quantiles {
-            keys.refuse("quantiles", "the only one of levels, quantiles", "delete one of them");
-        }
-        if !has_levels && !has_quantiles {
-            keys.require("levels", "given (levels or quantiles)", "5");
-        }
-        let levels = keys.counts("levels");
-        let quantiles = keys.numbers("quantiles");
-        if let Some(list) = &quantiles
-            && (list.is_empty() || list.iter().any(|u| *u <= 0.0 || *u >= 1.0))
-        {
-            let remedy = "write them like [0.05, 0.5, 0.95]";
-            keys.refuse("quantiles", "numbers between 0 and 1, neither included", remedy);
-            return None;
-        }
-        match (has_levels, has_quantiles) {
-            (true, false) => levels.map(Levels::Counts),
-            (false, true) => quantiles.map(Levels::Quantiles),
-            _ => None,
+    /// The levels that a file says.
+    pub(super) fn of(written: &Written) -> Self {
+        match written.get("levels") {
+            Some(Value::Counts(counts)) => Levels::Counts(counts.clone()),
+            _ => Levels::Quantiles(written.numbers("quantiles").unwrap_or_default().to_vec()),
         }
     }
 
-    /// Writes them.
-    pub(super) fn write(&self, keys: &mut dyn KeyWriter) {
-        match self {
-            Levels::Counts(Counts::All(count)) => keys.key("levels", count),
-            Levels::Counts(Counts::Each(counts)) => keys.key("levels", counts),
-            Levels::Quantiles(list) => keys.key("quantiles", list),
-        }
+    /// What a file says of them.
+    pub(super) fn written(&self) -> Written {
+        let (key, value) = match self {
+            Levels::Counts(counts) => ("levels", Value::Counts(counts.clone())),
+            Levels::Quantiles(list) => ("quantiles", Value::Numbers(Values::Each(list.clone()))),
+        };
+        Written::default().with(key, value)
     }
 
     /// That there is one number of levels for each dimension, where they are listed.

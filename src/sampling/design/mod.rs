@@ -44,7 +44,7 @@ use self::saltelli::SaltelliDesign;
 use self::sobol::SobolDesign;
 use self::table::TableDesign;
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
+use crate::sampling::keys::{DataColumn, Row, Rule, Written};
 use crate::sampling::stream::SampleId;
 
 enumerations::designs! {
@@ -62,19 +62,10 @@ impl Design {
     /// The design of a file that does not say.
     pub const DEFAULT: Design = Design::Random(RandomDesign);
 
-    /// Reads `kind` and the keys of the design that it names.
-    pub fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let name = keys.kind("kind", Self::NAMES, "\"sobol\"")?;
-        let design = Self::read_named(name, keys)?;
-        if !design.has_replicates() && keys.has(replicates::KEY) && keys.counts(replicates::KEY).is_some() {
-            let allowed = format!(
-                "left out with design {name:?}: designs with replicates are {}",
-                Self::names_with_replicates().join(", ")
-            );
-            keys.refuse(replicates::KEY, &allowed, "delete it, or choose one of these designs");
-            return None;
-        }
-        Some(design)
+    /// The names of the designs that have the key `key`.
+    pub fn names_with(key: &str) -> Vec<&'static str> {
+        let has = |name: &&str| Self::keys_of(name).is_some_and(|(keys, _)| keys.iter().any(|row| row.key == key));
+        Self::NAMES.iter().copied().filter(has).collect()
     }
 
     /// The replicate in which `sample` is, from zero ([`replicates`]); `None` for the nominal sample, which is in none.

@@ -1,9 +1,9 @@
 //! `one_at_a_time`: one dimension after the other through its levels, the others nominal.
 
-use super::levels::Levels;
+use super::levels::{LEVELS, Levels, ONE_OF_LEVELS};
 use super::traits::{BLOCK, Dimensions, Kind, NOMINAL, PointSource, Size, by_point};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::{Row, Rule, Written};
 
 /// One parameter after the other through its levels, the others nominal.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +46,8 @@ impl PointSource for OneAtATime {
 
 impl Kind for OneAtATimeDesign {
     const NAME: &'static str = "one_at_a_time";
+    const KEYS: &'static [Row] = &LEVELS;
+    const RULES: &'static [Rule] = &[ONE_OF_LEVELS];
     const HAS_SIZE: bool = true;
     const LEAVES_NOMINAL: bool = true;
     const EXCLUDES_CORRELATION: Option<[&'static str; 2]> = Some([
@@ -54,12 +56,12 @@ impl Kind for OneAtATimeDesign {
     ]);
     type Points = OneAtATime;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        Levels::read(keys).map(OneAtATimeDesign)
+    fn of(written: &Written) -> Self {
+        OneAtATimeDesign(Levels::of(written))
     }
 
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        self.0.write(keys);
+    fn written(&self) -> Written {
+        self.0.written()
     }
 
     fn size(&self, dimensions: usize) -> Size {

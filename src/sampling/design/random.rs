@@ -1,7 +1,7 @@
 //! `random`: independent uniform numbers, one stream for each dimension.
 
 use super::traits::{BLOCK, Dimensions, Kind, PointSource, streams};
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::Written;
 use crate::sampling::stream::Stream;
 
 /// The random design.
@@ -31,11 +31,9 @@ impl Kind for RandomDesign {
     const NAME: &'static str = "random";
     type Points = RandomPoints;
 
-    fn read(_keys: &mut dyn KeyReader) -> Option<Self> {
-        Some(RandomDesign)
+    fn of(_written: &Written) -> Self {
+        RandomDesign
     }
-
-    fn write(&self, _keys: &mut dyn KeyWriter) {}
 
     fn points(&self, dimensions: Dimensions<'_>) -> RandomPoints {
         RandomPoints::new(dimensions)

@@ -8,15 +8,19 @@
 //! Sample k >= 1 is point (k - 1) / R of replicate (k - 1) mod R: with every R samples more each replicate has one more.
 
 use crate::sampling::error::{DispersionError, Table, error_of};
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::{Kind, Row, Written};
 
 use super::traits::{BLOCK, MAX_SAMPLES, by_point};
 
-/// The key of the number of replicates.
-pub const KEY: &str = "replicates";
-
 /// Most replicates: each has its own scrambling in memory, and more than some dozens narrow no interval.
 const MOST: u64 = 1024;
+
+/// The key of the number of replicates.
+pub const REPLICATES: Row = Row::new(
+    "replicates",
+    Kind::Count([1, MOST]),
+    "Number of designs of this kind, each scrambled on its own; default: 1",
+);
 
 /// The number of replicates, at least 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,18 +35,16 @@ impl Replicates {
         (1..=MOST).contains(&count).then_some(Replicates(count))
     }
 
-    /// The number that the key gives, one without it; `None` where it is wrong, which is then noted.
-    pub fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        if !keys.has(KEY) {
-            return Some(Replicates::ONE);
-        }
-        keys.count(KEY, MOST).map(Replicates)
+    /// The number that a file says, one where it says none.
+    pub(super) fn of_written(written: &Written) -> Self {
+        written.count(REPLICATES.key).map_or(Replicates::ONE, Replicates)
     }
 
-    /// Writes the key, where there are several.
-    pub fn write(self, keys: &mut dyn KeyWriter) {
-        if self.0 > 1 {
-            keys.key(KEY, &self.0);
+    /// What a file says of it: nothing where there is one.
+    pub(super) fn written(self) -> Written {
+        match self.0 {
+            1 => Written::default(),
+            count => Written::default().with(REPLICATES.key, count),
         }
     }
 

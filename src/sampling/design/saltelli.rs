@@ -8,7 +8,7 @@
 use super::sobol::{MAX_DIMENSIONS, Sobol};
 use super::traits::{BLOCK, Dimensions, Kind, MAX_SAMPLES, PointSource, by_point};
 use crate::sampling::error::{DispersionError, Table, error_of};
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::Written;
 
 /// The points of the blocks.
 #[derive(Clone, Debug)]
@@ -58,11 +58,9 @@ impl Kind for SaltelliDesign {
     ]);
     type Points = Saltelli;
 
-    fn read(_keys: &mut dyn KeyReader) -> Option<Self> {
-        Some(SaltelliDesign)
+    fn of(_written: &Written) -> Self {
+        SaltelliDesign
     }
-
-    fn write(&self, _keys: &mut dyn KeyWriter) {}
 
     fn check(&self, dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
         let members = members(dimensions.factors);

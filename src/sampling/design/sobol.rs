@@ -8,10 +8,10 @@
 //! scrambled sequence is best in 2^m points, which are 2^m + 1 samples with the nominal one.
 
 use super::hash::keyed;
-use super::replicates::{Replicates, by_replicate};
+use super::replicates::{REPLICATES, Replicates, by_replicate};
 use super::traits::{BLOCK, Dimensions, Kind, PointSource};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::{Row, Written};
 use crate::sampling::stream::{key, unit};
 
 /// Dimensions in the table of directions.
@@ -109,16 +109,16 @@ pub struct SobolDesign(pub Replicates);
 
 impl Kind for SobolDesign {
     const NAME: &'static str = "sobol";
+    const KEYS: &'static [Row] = &[REPLICATES];
     const MAX_DIMENSIONS: usize = MAX_DIMENSIONS;
-    const HAS_REPLICATES: bool = true;
     type Points = SobolPoints;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        Replicates::read(keys).map(SobolDesign)
+    fn of(written: &Written) -> Self {
+        SobolDesign(Replicates::of_written(written))
     }
 
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        self.0.write(keys);
+    fn written(&self) -> Written {
+        self.0.written()
     }
 
     fn replicates(&self) -> u64 {

@@ -2,7 +2,7 @@
 
 use super::random::RandomPoints;
 use super::traits::{Dimensions, Kind, Size};
-use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
+use crate::sampling::keys::{DataColumn, FILE_OF_PARAMETERS, Row, Value, Written};
 
 /// Rows of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,15 +10,16 @@ pub struct TableDesign(pub Vec<DataColumn>);
 
 impl Kind for TableDesign {
     const NAME: &'static str = "table";
+    const KEYS: &'static [Row] = &[FILE_OF_PARAMETERS];
     const HAS_SIZE: bool = true;
     type Points = RandomPoints;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        keys.columns().map(TableDesign)
+    fn of(written: &Written) -> Self {
+        TableDesign(written.columns().to_vec())
     }
 
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.columns(&self.0);
+    fn written(&self) -> Written {
+        Written::default().with("file", Value::Columns(self.0.clone()))
     }
 
     fn size(&self, _dimensions: usize) -> Size {

@@ -1,7 +1,7 @@
 //! What every design implements.
 
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
+use crate::sampling::keys::{DataColumn, Row, Rule, Written};
 use crate::sampling::stream::Stream;
 use std::fmt::Debug;
 
@@ -42,6 +42,10 @@ pub enum Size {
 pub trait Kind: Clone + Debug + PartialEq {
     /// The name in campaign files.
     const NAME: &'static str;
+    /// Its keys.
+    const KEYS: &'static [Row] = &[];
+    /// What its keys have to do with each other.
+    const RULES: &'static [Rule] = &[];
     /// Whether the design has a size of its own, so that the file need not give the number of samples.
     const HAS_SIZE: bool = false;
     /// Whether a dimension may keep its nominal value ([`NOMINAL`]).
@@ -52,16 +56,16 @@ pub trait Kind: Clone + Debug + PartialEq {
     const DEPENDS_ON_SAMPLES: Option<[&'static str; 2]> = None;
     /// Why parameters cannot be correlated, if they cannot; and the remedy.
     const EXCLUDES_CORRELATION: Option<[&'static str; 2]> = None;
-    /// Whether it can have replicates ([`super::replicates`]).
-    const HAS_REPLICATES: bool = false;
     /// Its points.
     type Points: PointSource;
 
-    /// Reads its keys; `None` where something is wrong, which is then noted.
-    fn read(keys: &mut dyn KeyReader) -> Option<Self>;
+    /// The design of what a file says.
+    fn of(written: &Written) -> Self;
 
-    /// Writes its keys.
-    fn write(&self, keys: &mut dyn KeyWriter);
+    /// What a file says of it.
+    fn written(&self) -> Written {
+        Written::default()
+    }
 
     /// Number of points for so many random dimensions.
     fn size(&self, _dimensions: usize) -> Size {

@@ -2,19 +2,15 @@
 //! (`[disperse.angle_rad]`).
 
 use super::target::JointTarget;
-use super::traits::{Map, Nested, NumberWords, Quantile, Together};
+use super::traits::{Map, Nested, NumberWords, Quantile, Together, nested};
 use crate::math::vector::{hamilton, norm, scaled};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::{Kind, Row};
+use std::marker::PhantomData;
 
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct AboutAxis<N> {
-    /// The axis, of any length.
-    pub axis: [f64; 3],
-    /// The distribution of the angle, rad; its nominal is 0.
-    pub angle: Box<N>,
-}
+/// The distribution; that of the angle is one of the list `N`.
+#[derive(Clone, Copy, Debug)]
+pub struct AboutAxis<N>(PhantomData<N>);
 
 /// Ready to be drawn: q = q_0 (x) exp(angle axis/2).
 #[derive(Clone, Debug, PartialEq)]
@@ -26,25 +22,18 @@ pub struct AboutAxisMap<Q> {
 
 impl<N: Nested> Together for AboutAxis<N> {
     const NAME: &'static str = "about_axis";
+    const KEYS: &'static [Row] = &[
+        Row::new("axis", Kind::Vector, "The axis, of any length, in the frame of the body")
+            .required_as("given, an array of 3 finite numbers", "[0, 0, 1]"),
+        Row::new("angle_rad", Kind::Distribution, "The distribution of the angle about it")
+            .required_as("given, a distribution of one number", "{ distribution = \"normal\", std = 0.1 }"),
+    ];
     type Map = AboutAxisMap<N::Quantile>;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        keys.require("axis", "given, an array of 3 finite numbers", "[0, 0, 1]");
-        keys.require("angle_rad", "given, a distribution of one number", "{ distribution = \"normal\", std = 0.1 }");
-        let (axis, angle) = (keys.axis(), N::read_table(keys, "angle_rad"));
-        let (axis, angle) = (axis??, angle??);
-        Some(AboutAxis { axis, angle: Box::new(angle) })
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.key("axis", &self.axis);
-        self.angle.write_table(keys, "angle_rad");
-    }
-
-    fn map(&self, target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
+    fn map(target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
         let nominal = target.attitude(Self::NAME)?;
-        let axis = target.axis(self.axis)?;
-        let angle = self.angle.quantile(target.index, "angle_rad", 0.0)?;
+        let axis = target.axis(target.written.vector("axis").unwrap_or_default())?;
+        let angle = nested::<N>(target, "angle_rad", 0.0)?;
         Ok(AboutAxisMap { nominal, axis: scaled(1.0 / norm(axis), axis), angle })
     }
 }

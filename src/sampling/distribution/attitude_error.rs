@@ -6,16 +6,11 @@ use super::traits::{Map, NumberWords, Together};
 use crate::math::normal::quantile;
 use crate::math::vector::{dot, hamilton, norm, scaled};
 use crate::sampling::error::{DispersionError, error};
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+use crate::sampling::keys::{Kind, Row, Rule, Value, Values};
 
-/// As written: the covariance of the rotation vector.
-#[derive(Clone, Debug, PartialEq)]
-pub enum AttitudeError {
-    /// Independent components with these standard deviations, rad (`std_rad`).
-    Std(Values),
-    /// A covariance matrix, rad^2, by rows (`covariance_rad2`).
-    Covariance([[f64; 3]; 3]),
-}
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct AttitudeError;
 
 /// Ready to be drawn: q = q_0 (x) exp(theta/2) with a normal rotation vector theta of mean zero, in the frame of the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,26 +30,21 @@ impl AttitudeErrorMap {
 
 impl Together for AttitudeError {
     const NAME: &'static str = "attitude_error";
+    const KEYS: &'static [Row] = &[
+        Row::values("std_rad", "Standard deviations of the components of the rotation vector"),
+        Row::new("covariance_rad2", Kind::Matrix, "Covariance matrix of the rotation vector, by rows, rad^2"),
+    ];
+    const RULES: &'static [Rule] = &[Rule::One(&[&["std_rad"], &["covariance_rad2"]], "0.01")];
     type Map = AttitudeErrorMap;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let one = keys.is_one_of(&["std_rad", "covariance_rad2"], "0.01");
-        let (std, covariance) = (keys.values("std_rad"), keys.matrix("covariance_rad2"));
-        if one { std.map(AttitudeError::Std).or(covariance.map(AttitudeError::Covariance)) } else { None }
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        match self {
-            AttitudeError::Std(values) => keys.values("std_rad", values),
-            AttitudeError::Covariance(matrix) => keys.key("covariance_rad2", matrix),
-        }
-    }
-
-    fn map(&self, target: &JointTarget<'_>) -> Result<AttitudeErrorMap, DispersionError> {
+    fn map(target: &JointTarget<'_>) -> Result<AttitudeErrorMap, DispersionError> {
         let nominal = target.attitude(Self::NAME)?;
-        let (key, shown, covariance) = match self {
-            AttitudeError::Std(values) => ("std_rad", values.text(), variances(target.index, values)?),
-            AttitudeError::Covariance(covariance) => ("covariance_rad2", format!("{covariance:?}"), *covariance),
+        let (key, shown, covariance) = match (target.written.values("std_rad"), target.written.get("covariance_rad2")) {
+            (None, Some(Value::Matrix(covariance))) => ("covariance_rad2", format!("{covariance:?}"), *covariance),
+            (std, _) => {
+                let std = std.unwrap_or(&Values::All(0.0));
+                ("std_rad", std.text(), variances(target.index, std)?)
+            }
         };
         match AttitudeErrorMap::new(nominal, covariance) {
             Some(map) => Ok(map),

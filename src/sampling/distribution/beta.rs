@@ -7,46 +7,34 @@ use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::incomplete_beta::logit_quantile;
 use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+use crate::sampling::keys::Row;
 
 /// Allowed shape parameters: outside, the distribution is a spike or two.
 const SHAPES: std::ops::RangeInclusive<f64> = 0.01..=1e4;
 
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Beta {
-    /// First shape parameter.
-    pub alpha: Values,
-    /// Second shape parameter.
-    pub beta: Values,
-    /// Lower end.
-    pub min: Values,
-    /// Upper end.
-    pub max: Values,
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct Beta;
+
+/// A shape parameter.
+const fn shape(key: &'static str, meaning: &'static str) -> Row {
+    let remedy = "1 is a uniform distribution";
+    Row::values(key, meaning).within("a number from 0.01 to 1e4", remedy, |x| SHAPES.contains(&x))
 }
 
 impl Scalar for Beta {
     const NAME: &'static str = "beta";
+    const KEYS: &'static [Row] = &[
+        shape("alpha", "First shape parameter").required("2.0"),
+        shape("beta", "Second shape parameter").required("5.0"),
+        Row::amounts("min", "Lower end").required("0.0"),
+        Row::amounts("max", "Upper end").required("1.0"),
+    ];
     type Quantile = BetaQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let shapes = keys.required("alpha", "2.0").zip(keys.required("beta", "5.0"));
-        keys.ends().zip(shapes).map(|((min, max), (alpha, beta))| Beta { alpha, beta, min, max })
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.values("alpha", &self.alpha);
-        keys.values("beta", &self.beta);
-        keys.ends(&self.min, &self.max);
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<BetaQuantile>, DispersionError> {
-        let shape = |key, values| {
-            let allowed = "a number from 0.01 to 1e4";
-            target.passing(key, values, |x| SHAPES.contains(&x), allowed, "1 is a uniform distribution")
-        };
-        let (alpha, beta) = (shape("alpha", &self.alpha)?, shape("beta", &self.beta)?);
-        let (min, max) = target.ends(&self.min, &self.max)?;
+    fn quantiles(target: &Target<'_>) -> Result<Vec<BetaQuantile>, DispersionError> {
+        let (alpha, beta) = (target.each("alpha")?, target.each("beta")?);
+        let (min, max) = target.ends()?;
         target.all(|k| Ok(BetaQuantile::new(alpha[k], beta[k], min[k], max[k])))
     }
 }

@@ -4,12 +4,12 @@
 use super::target::JointTarget;
 use super::traits::{Map, NumberWords, Together};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
+use crate::sampling::keys::{FILE_OF_PARAMETERS, Row};
 use std::sync::Arc;
 
-/// As written: the columns, each with the number of the scene that it is for; at least one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Bootstrap(pub Vec<DataColumn>);
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct Bootstrap;
 
 /// Ready to be drawn: a row of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,25 +35,14 @@ impl BootstrapMap {
 
 impl Together for Bootstrap {
     const NAME: &'static str = "bootstrap";
-    const NAMES_PARAMETERS: bool = true;
+    const KEYS: &'static [Row] = &[FILE_OF_PARAMETERS];
     type Map = BootstrapMap;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        keys.columns().map(Bootstrap)
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.columns(&self.0);
-    }
-
-    fn columns(&self) -> &[DataColumn] {
-        &self.0
-    }
-
-    fn map(&self, target: &JointTarget<'_>) -> Result<BootstrapMap, DispersionError> {
+    fn map(target: &JointTarget<'_>) -> Result<BootstrapMap, DispersionError> {
+        let columns = target.written.columns();
         let map = BootstrapMap {
-            file: self.0.first().map_or_else(String::new, |column| column.file.clone()),
-            columns: self.0.iter().map(|column| column.values.clone()).collect(),
+            file: columns.first().map_or_else(String::new, |column| column.file.clone()),
+            columns: columns.iter().map(|column| column.values.clone()).collect(),
         };
         if map.rows() == 0 {
             return target.refused("file", format!("{:?}", map.file), "a file with rows", "add rows to the file");

@@ -4,17 +4,12 @@
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::{Kind, Row};
 use std::sync::Arc;
 
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Choice {
-    /// The values.
-    pub values: Vec<f64>,
-    /// Their weights, in proportion.
-    pub weights: Option<Vec<f64>>,
-}
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct Choice;
 
 /// Ready to be drawn: one of a list of values.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,29 +38,20 @@ impl ChoiceQuantile {
 
 impl Scalar for Choice {
     const NAME: &'static str = "choice";
+    const KEYS: &'static [Row] = &[
+        Row::new("values", Kind::AmountList, "The values").required_as("an array of finite numbers", "[1.0, 2.0]"),
+        Row::new("weights", Kind::List, "Their weights, in proportion; default: equal"),
+    ];
     type Quantile = ChoiceQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        keys.require("values", "an array of finite numbers", "[1.0, 2.0]");
-        let (values, weights) = (keys.numbers("values"), keys.numbers("weights"));
-        if keys.has("weights") && weights.is_none() { None } else { values.map(|values| Choice { values, weights }) }
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.key("values", &self.values);
-        if let Some(weights) = &self.weights {
-            keys.key("weights", weights);
-        }
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<ChoiceQuantile>, DispersionError> {
+    fn quantiles(target: &Target<'_>) -> Result<Vec<ChoiceQuantile>, DispersionError> {
         let shown = |list: &[f64]| format!("{list:?}");
-        let values = &self.values;
+        let values = target.written.numbers("values").unwrap_or_default();
         if values.is_empty() || values.iter().any(|x| !x.is_finite()) {
             return target.refused("values", shown(values), "at least one finite number", "write them as [1.0, 2.0]");
         }
         let equal = vec![1.0; values.len()];
-        let weights = self.weights.as_ref().unwrap_or(&equal);
+        let weights = target.written.numbers("weights").unwrap_or(&equal);
         if weights.len() != values.len() {
             let allowed = format!("as many numbers as values ({})", values.len());
             return target.refused("weights", shown(weights), allowed, "give one for each value");

@@ -6,43 +6,28 @@
 //! the axis, is not isotropic (test `usual_mistakes_are_caught` in `tests/sampling/geometric.rs`).
 
 use super::target::JointTarget;
-use super::traits::{Map, Nested, NumberWords, Quantile, Together};
+use super::traits::{Map, Nested, NumberWords, Quantile, Together, nested};
 use crate::math::vector::{cross, norm, scaled};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::{Kind, Row};
 use core::f64::consts::{PI, TAU};
+use std::marker::PhantomData;
 
-/// Axis and magnitude, as written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Direction<N> {
-    /// The axis, of any length; where it is not written, the nominal vector.
-    pub axis: Option<[f64; 3]>,
-    /// The distribution of the magnitude; where it is not written, the nominal's.
-    pub magnitude: Option<Box<N>>,
-}
+/// The distributions; that of the magnitude is one of the list `N`.
+#[derive(Clone, Copy, Debug)]
+pub struct UniformDirection<N>(PhantomData<N>);
 
-/// Uniform over the sphere, as written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct UniformDirection<N>(pub Direction<N>);
+/// Uniform over a cone.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone<N>(PhantomData<N>);
 
-/// Uniform over a cone, as written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Cone<N> {
-    /// Half-angle, rad.
-    pub half_angle_rad: f64,
-    /// Axis and magnitude.
-    pub direction: Direction<N>,
-}
+/// Von Mises-Fisher: density proportional to exp(kappa cos theta) (R. A. Fisher, *Dispersion on a sphere*, Proc. R. Soc. A 217, 1953).
+#[derive(Clone, Copy, Debug)]
+pub struct VonMisesFisher<N>(PhantomData<N>);
 
-/// Von Mises-Fisher, as written: density proportional to exp(kappa cos theta) (R. A. Fisher, *Dispersion on a sphere*, Proc. R. Soc.
-/// A 217, 1953).
-#[derive(Clone, Debug, PartialEq)]
-pub struct VonMisesFisher<N> {
-    /// kappa > 0, pure; about 1/sigma^2 of a narrow distribution.
-    pub concentration: f64,
-    /// Axis and magnitude.
-    pub direction: Direction<N>,
-}
+const AXIS: Row = Row::new("axis", Kind::Vector, "The axis, of any length; default: the nominal vector");
+const MAGNITUDE: Row =
+    Row::new("magnitude", Kind::Distribution, "The distribution of the length; default: the nominal one");
 
 /// Ready to be drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,123 +80,82 @@ impl DirectionSpread {
     }
 }
 
-impl<N: Nested> Direction<N> {
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let (axis, magnitude) = (keys.axis(), N::read_table(keys, "magnitude"));
-        axis.zip(magnitude).map(|(axis, magnitude)| Direction { axis, magnitude: magnitude.map(Box::new) })
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        if let Some(axis) = &self.axis {
-            keys.key("axis", axis);
+/// The map of a direction spread as `spread` about the axis, and its magnitude.
+fn direction_map<N: Nested>(
+    name: &str,
+    spread: DirectionSpread,
+    target: &JointTarget<'_>,
+) -> Result<DirectionMap<N::Quantile>, DispersionError> {
+    let nominal = target.vector(name)?;
+    let length = length_of(nominal);
+    let axis = match target.written.vector("axis") {
+        Some(axis) => target.axis(axis)?,
+        None if length > 0.0 => target.axis(nominal)?,
+        None if spread == DirectionSpread::Sphere => [0.0, 0.0, 1.0],
+        None => {
+            let allowed = "given where the nominal vector is zero and has no direction";
+            return target.lacks("axis", allowed, "add axis = [0, 0, 1]");
         }
-        if let Some(magnitude) = &self.magnitude {
-            magnitude.write_table(keys, "magnitude");
+    };
+    let magnitude = match target.written.has("magnitude") {
+        true if target.is_direction() => {
+            let allowed = format!("left out: the length of {} has no effect", target.parameter.name());
+            return target.refused("magnitude", "{ ... }", allowed, "delete it");
         }
-    }
-
-    fn map(
-        &self,
-        name: &str,
-        spread: DirectionSpread,
-        target: &JointTarget<'_>,
-    ) -> Result<DirectionMap<N::Quantile>, DispersionError> {
-        let nominal = target.vector(name)?;
-        let length = length_of(nominal);
-        let axis = match self.axis {
-            Some(axis) => target.axis(axis)?,
-            None if length > 0.0 => target.axis(nominal)?,
-            None if spread == DirectionSpread::Sphere => [0.0, 0.0, 1.0],
-            None => {
-                let allowed = "given where the nominal vector is zero and has no direction";
-                return target.lacks("axis", allowed, "add axis = [0, 0, 1]");
-            }
-        };
-        let magnitude = match &self.magnitude {
-            Some(_) if target.is_direction() => {
-                let allowed = format!("left out: the length of {} has no effect", target.parameter.name());
-                return target.refused("magnitude", "{ ... }", allowed, "delete it");
-            }
-            Some(magnitude) => Magnitude::Drawn(magnitude.quantile(target.index, "magnitude", length)?),
-            None if length == 0.0 => {
-                let allowed = "given where the nominal vector is zero: every direction of it would be zero";
-                let remedy = "add magnitude = { distribution = \"uniform\", min = 0, max = 1 }";
-                return target.lacks("magnitude", allowed, remedy);
-            }
-            None => Magnitude::Fixed(length),
-        };
-        Ok(DirectionMap { frame: frame(axis), spread, magnitude })
-    }
+        true => Magnitude::Drawn(nested::<N>(target, "magnitude", length)?),
+        false if length == 0.0 => {
+            let allowed = "given where the nominal vector is zero: every direction of it would be zero";
+            let remedy = "add magnitude = { distribution = \"uniform\", min = 0, max = 1 }";
+            return target.lacks("magnitude", allowed, remedy);
+        }
+        false => Magnitude::Fixed(length),
+    };
+    Ok(DirectionMap { frame: frame(axis), spread, magnitude })
 }
 
 impl<N: Nested> Together for UniformDirection<N> {
     const NAME: &'static str = "uniform_direction";
+    const KEYS: &'static [Row] = &[AXIS, MAGNITUDE];
     type Map = DirectionMap<N::Quantile>;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        Direction::read(keys).map(UniformDirection)
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        self.0.write(keys);
-    }
-
-    fn map(&self, target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
-        self.0.map(Self::NAME, DirectionSpread::Sphere, target)
+    fn map(target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
+        direction_map::<N>(Self::NAME, DirectionSpread::Sphere, target)
     }
 }
 
 impl<N: Nested> Together for Cone<N> {
     const NAME: &'static str = "cone";
+    const KEYS: &'static [Row] = &[
+        Row::new("half_angle_rad", Kind::Number, "Half-angle of the cone")
+            .required_as("given, above 0 and at most pi", "0.1")
+            .within("above 0 and at most pi", "write an angle in radians", |x| (f64::MIN_POSITIVE..=PI).contains(&x)),
+        AXIS,
+        MAGNITUDE,
+    ];
     type Map = DirectionMap<N::Quantile>;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        keys.require("half_angle_rad", "given, above 0 and at most pi", "0.1");
-        let half_angle = keys.number("half_angle_rad");
-        let direction = Direction::read(keys);
-        half_angle.zip(direction).map(|(half_angle_rad, direction)| Cone { half_angle_rad, direction })
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.key("half_angle_rad", &self.half_angle_rad);
-        self.direction.write(keys);
-    }
-
-    fn map(&self, target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
-        let half_angle_rad = self.half_angle_rad;
-        target.vector(Self::NAME)?;
-        if !(f64::MIN_POSITIVE..=PI).contains(&half_angle_rad) {
-            let remedy = "write an angle in radians";
-            return target.refused("half_angle_rad", format!("{half_angle_rad:?}"), "above 0 and at most pi", remedy);
-        }
-        self.direction.map(Self::NAME, DirectionSpread::Cone { half_angle_rad }, target)
+    fn map(target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
+        let half_angle_rad = target.written.number("half_angle_rad").unwrap_or(f64::NAN);
+        direction_map::<N>(Self::NAME, DirectionSpread::Cone { half_angle_rad }, target)
     }
 }
 
 impl<N: Nested> Together for VonMisesFisher<N> {
     const NAME: &'static str = "von_mises_fisher";
+    const KEYS: &'static [Row] = &[
+        Row::new("concentration", Kind::Number, "kappa; about 1/sigma^2 of a narrow distribution")
+            .required_as("given, above 0", "100.0")
+            .within("above 0", "1/sigma^2 of a narrow distribution: 100 spreads about 0.1 rad each way", |x| {
+                (f64::MIN_POSITIVE..=f64::MAX).contains(&x)
+            }),
+        AXIS,
+        MAGNITUDE,
+    ];
     type Map = DirectionMap<N::Quantile>;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        keys.require("concentration", "given, above 0", "100.0");
-        let concentration = keys.number("concentration");
-        let direction = Direction::read(keys);
-        concentration.zip(direction).map(|(concentration, direction)| VonMisesFisher { concentration, direction })
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.key("concentration", &self.concentration);
-        self.direction.write(keys);
-    }
-
-    fn map(&self, target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
-        let concentration = self.concentration;
-        target.vector(Self::NAME)?;
-        if !(f64::MIN_POSITIVE..=f64::MAX).contains(&concentration) {
-            let remedy = "1/sigma^2 of a narrow distribution: 100 spreads about 0.1 rad each way";
-            return target.refused("concentration", format!("{concentration:?}"), "above 0", remedy);
-        }
-        self.direction.map(Self::NAME, DirectionSpread::Fisher { concentration }, target)
+    fn map(target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
+        let concentration = target.written.number("concentration").unwrap_or(f64::NAN);
+        direction_map::<N>(Self::NAME, DirectionSpread::Fisher { concentration }, target)
     }
 }
 

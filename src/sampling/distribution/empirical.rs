@@ -3,7 +3,7 @@
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
+use crate::sampling::keys::{Kind, Row, Value};
 use std::sync::Arc;
 
 /// What lies between the values of a file.
@@ -15,22 +15,9 @@ pub enum Interpolation {
     Linear,
 }
 
-impl Interpolation {
-    /// All values.
-    pub const ALL: [Interpolation; 2] = [Interpolation::None, Interpolation::Linear];
-
-    /// The name in campaign files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Interpolation::None => "none",
-            Interpolation::Linear => "linear",
-        }
-    }
-}
-
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Empirical(pub DataColumn, pub Interpolation);
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct Empirical;
 
 /// Ready to be drawn: as the values of a list, each with the same weight.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,26 +38,19 @@ impl EmpiricalQuantile {
 
 impl Scalar for Empirical {
     const NAME: &'static str = "empirical";
+    const KEYS: &'static [Row] = &[
+        Row::new("file", Kind::Column, "File of numbers, with `column`, and `sha256`, the checksum of the file"),
+        Row::new("interpolation", Kind::Word(&["none", "linear"]), "What lies between the values of the file"),
+    ];
     type Quantile = EmpiricalQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let has_interpolation = keys.has("interpolation");
-        let interpolation = keys.choice("interpolation", &Interpolation::ALL.map(Interpolation::name));
-        let data = keys.column()?;
-        let interpolation = if has_interpolation { Interpolation::ALL[interpolation?] } else { Interpolation::None };
-        Some(Empirical(data, interpolation))
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        let Empirical(DataColumn { file, sha256, column, .. }, interpolation) = self;
-        keys.key("file", file);
-        keys.key("sha256", sha256);
-        keys.key("column", column);
-        keys.key("interpolation", &interpolation.name());
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<EmpiricalQuantile>, DispersionError> {
-        let quantile = EmpiricalQuantile::new(&self.0.values, self.1);
+    fn quantiles(target: &Target<'_>) -> Result<Vec<EmpiricalQuantile>, DispersionError> {
+        let Some(Value::Column(data)) = target.written.get("file") else {
+            return target.refused("file", String::new(), "given", "name a file");
+        };
+        let is_linear = target.written.get("interpolation") == Some(&Value::Word("linear"));
+        let interpolation = if is_linear { Interpolation::Linear } else { Interpolation::None };
+        let quantile = EmpiricalQuantile::new(&data.values, interpolation);
         target.all(|_| Ok(quantile.clone()))
     }
 }

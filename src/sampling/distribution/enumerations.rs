@@ -3,64 +3,40 @@
 /// Declares the enumerations over all distributions, and passes each call on to the one that is meant.
 macro_rules! distributions {
     (one number: $($Scalar:ident),* ; several together: $($Name:ident = $Together:ty),* $(,)?) => {
-        /// A distribution as written.
-        #[derive(Clone, Debug, PartialEq)]
-        pub enum WrittenDistribution {
+        /// The kinds of distributions.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum DistributionKind {
             $(
                 #[doc = concat!("See [`", stringify!($Scalar), "`].")]
-                $Scalar($Scalar),
+                $Scalar,
             )*
             $(
                 #[doc = concat!("See [`", stringify!($Name), "`].")]
-                $Name($Together),
+                $Name,
             )*
         }
 
-        impl WrittenDistribution {
+        impl DistributionKind {
+            /// All kinds.
+            pub const ALL: &'static [DistributionKind] = &[$(Self::$Scalar,)* $(Self::$Name,)*];
+
             /// The names in campaign files.
             pub const NAMES: &'static [&'static str] =
                 &[$(<$Scalar as Scalar>::NAME,)* $(<$Together as Together>::NAME,)*];
 
-            /// The name in campaign files.
-            pub fn name(&self) -> &'static str {
+            /// The keys.
+            pub const fn keys(self) -> &'static [Row] {
                 match self {
-                    $( Self::$Scalar(_) => <$Scalar as Scalar>::NAME, )*
-                    $( Self::$Name(_) => <$Together as Together>::NAME, )*
+                    $( Self::$Scalar => <$Scalar as Scalar>::KEYS, )*
+                    $( Self::$Name => <$Together as Together>::KEYS, )*
                 }
             }
 
-            /// Reads the keys of the distribution called `name`; `None` where there is none of that name or something is
-            /// wrong, which is then noted.
-            pub fn read_named(name: &str, keys: &mut dyn KeyReader) -> Option<Self> {
-                $( if name == <$Scalar as Scalar>::NAME {
-                    return <$Scalar as Scalar>::read(keys).map(Self::$Scalar);
-                } )*
-                $( if name == <$Together as Together>::NAME {
-                    return <$Together as Together>::read(keys).map(Self::$Name);
-                } )*
-                None
-            }
-
-            /// The names of those that name their parameters themselves, in place of the key `parameter`.
-            pub fn naming_parameters() -> Vec<&'static str> {
-                let list = [$((<$Together as Together>::NAME, <$Together as Together>::NAMES_PARAMETERS),)*];
-                list.into_iter().filter(|(_, names)| *names).map(|(name, _)| name).collect()
-            }
-
-            /// The columns of a file that it writes to parameters, of a distribution that names them itself.
-            pub fn columns(&self) -> &[DataColumn] {
+            /// What the keys have to do with each other.
+            pub const fn rules(self) -> &'static [Rule] {
                 match self {
-                    $( Self::$Scalar(_) => &[], )*
-                    $( Self::$Name(written) => written.columns(), )*
-                }
-            }
-
-            /// Writes its name and its keys.
-            pub fn write(&self, keys: &mut dyn KeyWriter) {
-                keys.key("distribution", &self.name());
-                match self {
-                    $( Self::$Scalar(written) => written.write(keys), )*
-                    $( Self::$Name(written) => written.write(keys), )*
+                    $( Self::$Scalar => <$Scalar as Scalar>::RULES, )*
+                    $( Self::$Name => <$Together as Together>::RULES, )*
                 }
             }
 
@@ -68,12 +44,12 @@ macro_rules! distributions {
             ///
             /// # Errors
             /// What about its numbers does not fit the target.
-            pub fn distributions(&self, target: &Target<'_>) -> Result<Option<Vec<Distribution>>, DispersionError> {
+            pub fn distributions(self, target: &Target<'_>) -> Result<Option<Vec<Distribution>>, DispersionError> {
                 Ok(match self {
-                    $( Self::$Scalar(written) => {
-                        Some(written.quantiles(target)?.into_iter().map(Distribution::$Scalar).collect())
+                    $( Self::$Scalar => {
+                        Some($Scalar::quantiles(target)?.into_iter().map(Distribution::$Scalar).collect())
                     } )*
-                    $( Self::$Name(_) => None, )*
+                    $( Self::$Name => None, )*
                 })
             }
 
@@ -81,10 +57,10 @@ macro_rules! distributions {
             ///
             /// # Errors
             /// What is wrong with target or numbers.
-            pub fn joint(&self, target: &JointTarget<'_>) -> Result<Option<Joint>, DispersionError> {
+            pub fn joint(self, target: &JointTarget<'_>) -> Result<Option<Joint>, DispersionError> {
                 Ok(match self {
-                    $( Self::$Scalar(_) => None, )*
-                    $( Self::$Name(written) => Some(Joint::$Name(written.map(target)?)), )*
+                    $( Self::$Scalar => None, )*
+                    $( Self::$Name => Some(Joint::$Name(<$Together as Together>::map(target)?)), )*
                 })
             }
         }

@@ -4,16 +4,11 @@
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+use crate::sampling::keys::{Presence, Row};
 
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Exponential {
-    /// Mean above `min`, in the parameter's unit.
-    pub scale: Values,
-    /// Lower end.
-    pub min: Option<Values>,
-}
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct Exponential;
 
 /// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,21 +21,15 @@ pub struct ExponentialQuantile {
 
 impl Scalar for Exponential {
     const NAME: &'static str = "exponential";
+    const KEYS: &'static [Row] = &[
+        Row::amounts("scale", "Mean above `min`").required("0.1").scale(),
+        Row::amounts("min", "Lower end").or(Presence::Or(0.0)),
+    ];
     type Quantile = ExponentialQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let (scale, min) = (keys.required("scale", "0.1"), keys.optional("min"));
-        scale.zip(min).map(|(scale, min)| Exponential { scale, min })
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.values("scale", &self.scale);
-        keys.optional("min", self.min.as_ref());
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<ExponentialQuantile>, DispersionError> {
-        let scale = target.scales("scale", &self.scale)?;
-        let min = target.each_or("min", &self.min, 0.0)?;
+    fn quantiles(target: &Target<'_>) -> Result<Vec<ExponentialQuantile>, DispersionError> {
+        let scale = target.each("scale")?;
+        let min = target.each("min")?;
         target.all(|k| Ok(ExponentialQuantile { scale: scale[k], min: min[k] }))
     }
 }

@@ -7,18 +7,11 @@ use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::incomplete_gamma::log_quantile;
 use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+use crate::sampling::keys::{Presence, Row};
 
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Gamma {
-    /// Shape, pure; 1 is the exponential distribution.
-    pub shape: Values,
-    /// Scale, in the parameter's unit.
-    pub scale: Values,
-    /// Lower end.
-    pub min: Option<Values>,
-}
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct Gamma;
 
 /// Ready to be drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,27 +41,21 @@ impl GammaQuantile {
 
 impl Scalar for Gamma {
     const NAME: &'static str = "gamma";
+    const KEYS: &'static [Row] = &[
+        Row::values("shape", "Shape; 1 is the exponential distribution").required("2.0").within(
+            "a number from 0.01 to 1e4",
+            "1 is the exponential distribution",
+            |x| SHAPES.contains(&x),
+        ),
+        Row::amounts("scale", "Scale above `min`").required("0.1").scale(),
+        Row::amounts("min", "Lower end").or(Presence::Or(0.0)),
+    ];
     type Quantile = GammaQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let (shape, scale) = (keys.required("shape", "2.0"), keys.required("scale", "0.1"));
-        let min = keys.optional("min");
-        let (shape, scale) = shape.zip(scale)?;
-        min.map(|min| Gamma { shape, scale, min })
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.values("shape", &self.shape);
-        keys.values("scale", &self.scale);
-        keys.optional("min", self.min.as_ref());
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<GammaQuantile>, DispersionError> {
-        let remedy = "1 is the exponential distribution";
-        let shape =
-            target.passing("shape", &self.shape, |x| SHAPES.contains(&x), "a number from 0.01 to 1e4", remedy)?;
-        let scale = target.scales("scale", &self.scale)?;
-        let min = target.each_or("min", &self.min, 0.0)?;
+    fn quantiles(target: &Target<'_>) -> Result<Vec<GammaQuantile>, DispersionError> {
+        let shape = target.each("shape")?;
+        let scale = target.each("scale")?;
+        let min = target.each("min")?;
         target.all(|k| Ok(GammaQuantile::new(shape[k], scale[k], min[k])))
     }
 }

@@ -1,19 +1,14 @@
 //! `log_normal`: normal in the natural logarithm, with standard deviation `log_std` and `median`, else the nominal value.
 
-use super::target::Target;
+use super::target::{LOGARITHM, Target};
 use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::normal::{quantile, quantiles};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+use crate::sampling::keys::{Presence, Row};
 
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LogNormal {
-    /// Standard deviation of the natural logarithm.
-    pub log_std: Values,
-    /// Median; the nominal where it is not written.
-    pub median: Option<Values>,
-}
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct LogNormal;
 
 /// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,21 +21,15 @@ pub struct LogNormalQuantile {
 
 impl Scalar for LogNormal {
     const NAME: &'static str = "log_normal";
+    const KEYS: &'static [Row] = &[
+        Row::values("log_std", "Standard deviation of the natural logarithm").required("0.1").not_negative(),
+        Row::amounts("median", "Median").or(Presence::OrNominal).within("> 0", LOGARITHM, |x| x > 0.0),
+    ];
     type Quantile = LogNormalQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let (log_std, median) = (keys.required("log_std", "0.1"), keys.optional("median"));
-        log_std.zip(median).map(|(log_std, median)| LogNormal { log_std, median })
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.values("log_std", &self.log_std);
-        keys.optional("median", self.median.as_ref());
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<LogNormalQuantile>, DispersionError> {
-        let log_std = target.not_negative("log_std", &self.log_std)?;
-        let medians = target.positive_or_nominal("median", &self.median)?;
+    fn quantiles(target: &Target<'_>) -> Result<Vec<LogNormalQuantile>, DispersionError> {
+        let log_std = target.each("log_std")?;
+        let medians = target.positive_or_nominal("median")?;
         target.all(|k| Ok(LogNormalQuantile { median: medians[k], log_std: log_std[k] }))
     }
 }

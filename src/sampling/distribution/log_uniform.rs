@@ -1,23 +1,13 @@
 //! `log_uniform`: uniform in the logarithm, between `min` and `max`, or about the nominal value by `factor`.
 
-use super::target::Target;
+use super::target::{LOGARITHM, Target};
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+use crate::sampling::keys::{Row, Rule};
 
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub enum LogUniform {
-    /// Between two positive numbers in the parameter's unit (`min`, `max`).
-    Between {
-        /// Lower end.
-        min: Values,
-        /// Upper end.
-        max: Values,
-    },
-    /// From the nominal divided by a factor to the nominal times it (`factor`).
-    Around(Values),
-}
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct LogUniform;
 
 /// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,48 +29,34 @@ impl LogUniformQuantile {
 
 impl Scalar for LogUniform {
     const NAME: &'static str = "log_uniform";
+    const KEYS: &'static [Row] = &[
+        Row::amounts("min", "Lower end").within("> 0", LOGARITHM, |x| x > 0.0),
+        Row::amounts("max", "Upper end"),
+        Row::values("factor", "From the nominal value divided by it to the nominal value times it").within(
+            "> 1",
+            "2 means from half to twice the nominal",
+            |x| x > 1.0,
+        ),
+    ];
+    const RULES: &'static [Rule] =
+        &[Rule::One(&[&["factor"], &["min", "max"]], "2.0"), Rule::Together([("min", "0.1"), ("max", "10.0")])];
     type Quantile = LogUniformQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let first = if keys.has("max") && !keys.has("min") { "max" } else { "min" };
-        let one = keys.is_one_of(&["factor", first], "2.0");
-        let factor = keys.values("factor");
-        let ends = if one { keys.ends_together(["0.1", "10.0"]) } else { keys.values("min").zip(keys.values("max")) };
-        match (one, factor, ends) {
-            (true, Some(factor), _) => Some(LogUniform::Around(factor)),
-            (true, None, Some((min, max))) => Some(LogUniform::Between { min, max }),
-            _ => None,
+    fn quantiles(target: &Target<'_>) -> Result<Vec<LogUniformQuantile>, DispersionError> {
+        if !target.written.has("factor") {
+            let (min, max) = target.ends()?;
+            return target.all(|k| Ok(LogUniformQuantile::new(min[k], max[k])));
         }
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        match self {
-            LogUniform::Between { min, max } => keys.ends(min, max),
-            LogUniform::Around(factor) => keys.values("factor", factor),
-        }
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<LogUniformQuantile>, DispersionError> {
-        match self {
-            LogUniform::Between { min, max } => {
-                target.positive("min", min)?;
-                let (min, max) = target.ends(min, max)?;
-                target.all(|k| Ok(LogUniformQuantile::new(min[k], max[k])))
+        let factor = target.each("factor")?;
+        let middle = target.positive_or_nominal("factor")?;
+        target.all(|k| {
+            let (min, max) = (middle[k] / factor[k], middle[k] * factor[k]);
+            if min > 0.0 && max.is_finite() {
+                return Ok(LogUniformQuantile::new(min, max));
             }
-            LogUniform::Around(factor) => {
-                let remedy = "2 means from half to twice the nominal";
-                let factor = target.passing("factor", factor, |x| x > 1.0, "> 1", remedy)?;
-                let middle = target.positive_or_nominal("factor", &None)?;
-                target.all(|k| {
-                    let (min, max) = (middle[k] / factor[k], middle[k] * factor[k]);
-                    if min > 0.0 && max.is_finite() {
-                        return Ok(LogUniformQuantile::new(min, max));
-                    }
-                    let allowed = "such that the ends are positive finite numbers";
-                    target.refused("factor", format!("{:?}", factor[k]), allowed, "write a smaller one")
-                })
-            }
-        }
+            let allowed = "such that the ends are positive finite numbers";
+            target.refused("factor", format!("{:?}", factor[k]), allowed, "write a smaller one")
+        })
     }
 }
 

@@ -61,7 +61,7 @@ use self::uniform::Uniform;
 use self::uniform_attitude::UniformAttitude;
 use self::weibull::Weibull;
 use crate::sampling::error::{DispersionError, error};
-use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
+use crate::sampling::keys::{Kind, Row, Rule, Written};
 
 enumerations::distributions! {
     one number:
@@ -69,45 +69,57 @@ enumerations::distributions! {
         Rayleigh, Exponential, Gamma, Weibull, StudentT;
     several together:
         UniformAttitude = UniformAttitude,
-        UniformDirection = UniformDirection<WrittenDistribution>,
-        Cone = Cone<WrittenDistribution>,
-        VonMisesFisher = VonMisesFisher<WrittenDistribution>,
+        UniformDirection = UniformDirection<DistributionKind>,
+        Cone = Cone<DistributionKind>,
+        VonMisesFisher = VonMisesFisher<DistributionKind>,
         AttitudeError = AttitudeError,
-        AboutAxis = AboutAxis<WrittenDistribution>,
+        AboutAxis = AboutAxis<DistributionKind>,
         Bootstrap = Bootstrap,
 }
 
-impl WrittenDistribution {
-    /// Reads `distribution` and the keys of the distribution that it names.
-    pub fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let name = keys.kind("distribution", Self::NAMES, "\"normal\"")?;
-        Self::read_named(name, keys)
+impl DistributionKind {
+    /// The name in campaign files.
+    pub const fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+
+    /// The kind called `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|kind| kind.name() == name)
+    }
+
+    /// Whether a file of its own names the parameters, in place of the key `parameter`.
+    pub fn names_parameters(self) -> bool {
+        self.keys().iter().any(|row| matches!(row.kind, Kind::Columns))
     }
 }
 
-impl Nested for WrittenDistribution {
+/// A distribution as written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrittenDistribution {
+    /// The kind.
+    pub kind: DistributionKind,
+    /// Its keys.
+    pub written: Written,
+}
+
+impl Nested for DistributionKind {
     type Quantile = Distribution;
 
-    fn read_table(keys: &mut dyn KeyReader, key: &'static str) -> Option<Option<Self>> {
-        let is_written = keys.has(key);
-        let mut found = None;
-        keys.table(key, &mut |table| found = Self::read(table));
-        if is_written { found.map(Some) } else { Some(None) }
-    }
-
-    fn write_table(&self, keys: &mut dyn KeyWriter, key: &str) {
-        keys.table(key);
-        self.write(keys);
-    }
-
-    fn quantile(&self, index: usize, key: &'static str, nominal: f64) -> Result<Distribution, DispersionError> {
-        let found = self.distributions(&Target { index, nominals: &[nominal] }).map_err(|inner| {
+    fn quantile(
+        index: usize,
+        key: &'static str,
+        nominal: f64,
+        (name, written): (&str, &Written),
+    ) -> Result<Distribution, DispersionError> {
+        let of = |kind: Self| kind.distributions(&Target { index, nominals: &[nominal], rows: kind.keys(), written });
+        let found = Self::from_name(name).map_or(Ok(None), of).map_err(|inner| {
             let value = inner.value.map_or("{ ... }".to_owned(), |value| format!("{{ {} = {value} }}", inner.key));
             error(index, key, value, inner.allowed, inner.remedy)
         })?;
         found.and_then(|found| found.into_iter().next()).ok_or_else(|| {
             let remedy = "choose \"normal\" or \"uniform\"";
-            error(index, key, format!("{:?}", self.name()), "a distribution of one number", remedy)
+            error(index, key, format!("{name:?}"), "a distribution of one number", remedy)
         })
     }
 }

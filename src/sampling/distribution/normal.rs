@@ -1,52 +1,24 @@
 //! `normal`: normal about the nominal value, with standard deviation `std` or `relative_std`, or a third of `three_sigma`.
 
-use super::target::{Numbers, Target};
+use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::normal::{quantile, quantiles};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+use crate::sampling::keys::{Row, Rule};
 
-/// A standard deviation as written.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Spread {
-    /// In the parameter's unit (`std`).
-    Absolute(Values),
-    /// As a fraction of the nominal's absolute value (`relative_std`).
-    Relative(Values),
-}
+/// The keys of a standard deviation.
+pub(super) const SPREAD: [Row; 3] = [
+    Row::amounts("std", "Standard deviation").not_negative(),
+    Row::values("relative_std", "Standard deviation as a fraction of the nominal value").not_negative(),
+    Row { multiple_of: Some(("std", 3.0)), ..Row::amounts("three_sigma", "Three times the standard deviation") },
+];
 
-impl Spread {
-    /// Reads `std`, `relative_std` or `three_sigma`, three times the standard deviation.
-    pub(super) fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let one = keys.is_one_of(&["std", "relative_std", "three_sigma"], "0.1");
-        let (absolute, relative) = (keys.values("std"), keys.values("relative_std"));
-        let absolute = absolute.or(keys.values("three_sigma").map(|three| match three {
-            Values::All(value) => Values::All(value / 3.0),
-            Values::Each(list) => Values::Each(list.into_iter().map(|value| value / 3.0).collect()),
-        }));
-        if one { absolute.map(Spread::Absolute).or(relative.map(Spread::Relative)) } else { None }
-    }
+/// One of them is written.
+pub(super) const ONE_SPREAD: Rule = Rule::One(&[&["std"], &["relative_std"], &["three_sigma"]], "0.1");
 
-    /// Writes it.
-    pub(super) fn write(&self, keys: &mut dyn KeyWriter) {
-        match self {
-            Spread::Absolute(values) => keys.values("std", values),
-            Spread::Relative(values) => keys.values("relative_std", values),
-        }
-    }
-
-    /// Standard deviations in the parameter's unit.
-    pub(super) fn deviations(&self, target: &Target<'_>) -> Numbers {
-        match self {
-            Spread::Absolute(values) => target.widths("std", values, None),
-            Spread::Relative(values) => target.widths("relative_std", values, Some("std")),
-        }
-    }
-}
-
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Normal(pub Spread);
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct Normal;
 
 /// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,18 +31,12 @@ pub struct NormalQuantile {
 
 impl Scalar for Normal {
     const NAME: &'static str = "normal";
+    const KEYS: &'static [Row] = &SPREAD;
+    const RULES: &'static [Rule] = &[ONE_SPREAD];
     type Quantile = NormalQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        Spread::read(keys).map(Normal)
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        self.0.write(keys);
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<NormalQuantile>, DispersionError> {
-        let stds = self.0.deviations(target)?;
+    fn quantiles(target: &Target<'_>) -> Result<Vec<NormalQuantile>, DispersionError> {
+        let stds = target.amounts("std", "relative_std")?;
         target.all(|k| Ok(NormalQuantile { mean: target.nominals[k], std: stds[k] }))
     }
 }

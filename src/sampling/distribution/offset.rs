@@ -3,16 +3,11 @@
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+use crate::sampling::keys::{Row, Rule};
 
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Offset {
-    /// In the parameter's unit (`offset`).
-    Absolute(Values),
-    /// As a fraction of the nominal's absolute value (`relative_offset`).
-    Relative(Values),
-}
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct Offset;
 
 /// Ready to be drawn: always this value; takes no u.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,30 +15,15 @@ pub struct Fixed(pub f64);
 
 impl Scalar for Offset {
     const NAME: &'static str = "offset";
+    const KEYS: &'static [Row] = &[
+        Row::amounts("offset", "Difference from the nominal value"),
+        Row::values("relative_offset", "The same as a fraction of the nominal value"),
+    ];
+    const RULES: &'static [Rule] = &[Rule::One(&[&["offset"], &["relative_offset"]], "0.1")];
     type Quantile = Fixed;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let one = keys.is_one_of(&["offset", "relative_offset"], "0.1");
-        let (absolute, relative) = (keys.values("offset"), keys.values("relative_offset"));
-        let offset = absolute.map(Offset::Absolute).or(relative.map(Offset::Relative));
-        if one { offset } else { None }
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        match self {
-            Offset::Absolute(values) => keys.values("offset", values),
-            Offset::Relative(values) => keys.values("relative_offset", values),
-        }
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<Fixed>, DispersionError> {
-        let offsets = match self {
-            Offset::Absolute(values) => target.each("offset", values)?,
-            Offset::Relative(values) => {
-                let fractions = target.each("relative_offset", values)?;
-                target.relative("relative_offset", values, fractions, "offset")?
-            }
-        };
+    fn quantiles(target: &Target<'_>) -> Result<Vec<Fixed>, DispersionError> {
+        let offsets = target.amounts("offset", "relative_offset")?;
         target.all(|k| Ok(Fixed(target.nominals[k] + offsets[k])))
     }
 }

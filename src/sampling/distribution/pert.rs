@@ -9,18 +9,11 @@
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+use crate::sampling::keys::{Presence, Row};
 
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pert {
-    /// Lower end.
-    pub min: Values,
-    /// Upper end.
-    pub max: Values,
-    /// Most likely value; the nominal where it is not written.
-    pub mode: Option<Values>,
-}
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct Pert;
 
 /// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,21 +47,16 @@ impl PertQuantile {
 
 impl Scalar for Pert {
     const NAME: &'static str = "pert";
+    const KEYS: &'static [Row] = &[
+        Row::amounts("min", "Lower end").required("0.0"),
+        Row::amounts("max", "Upper end").required("1.0"),
+        Row::amounts("mode", "Most likely value").or(Presence::OrNominal),
+    ];
     type Quantile = PertQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let (ends, mode) = (keys.ends(), keys.optional("mode"));
-        ends.zip(mode).map(|((min, max), mode)| Pert { min, max, mode })
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.ends(&self.min, &self.max);
-        keys.optional("mode", self.mode.as_ref());
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<PertQuantile>, DispersionError> {
-        let (min, max) = target.ends(&self.min, &self.max)?;
-        let mode = target.mode(&self.mode, &min, &max)?;
+    fn quantiles(target: &Target<'_>) -> Result<Vec<PertQuantile>, DispersionError> {
+        let (min, max) = target.ends()?;
+        let mode = target.mode(&min, &max)?;
         target.all(|k| Ok(PertQuantile::new(min[k], mode[k], max[k])))
     }
 }

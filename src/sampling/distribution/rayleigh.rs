@@ -4,11 +4,11 @@
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+use crate::sampling::keys::Row;
 
-/// As written: standard deviation of each of the two components, in the parameter's unit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Rayleigh(pub Values);
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct Rayleigh;
 
 /// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,19 +25,13 @@ impl RayleighQuantile {
 
 impl Scalar for Rayleigh {
     const NAME: &'static str = "rayleigh";
+    const KEYS: &'static [Row] = &[Row::amounts("scale", "Standard deviation of each of the two components")
+        .required("0.01")
+        .within("> 0", "the standard deviation of each of two components, in the parameter's unit", |x| x > 0.0)];
     type Quantile = RayleighQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        keys.required("scale", "0.01").map(Rayleigh)
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.values("scale", &self.0);
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<RayleighQuantile>, DispersionError> {
-        let remedy = "the standard deviation of each of two components, in the parameter's unit";
-        let scale = target.passing("scale", &self.0, |x| x > 0.0, "> 0", remedy)?;
+    fn quantiles(target: &Target<'_>) -> Result<Vec<RayleighQuantile>, DispersionError> {
+        let scale = target.each("scale")?;
         target.all(|k| Ok(RayleighQuantile::new(scale[k])))
     }
 }

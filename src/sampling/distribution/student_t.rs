@@ -7,25 +7,11 @@ use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::incomplete_beta::logit_quantile;
 use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+use crate::sampling::keys::{Row, Rule};
 
-/// The scale as written.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Scale {
-    /// In the parameter's unit (`scale`).
-    Absolute(Values),
-    /// As a fraction of the nominal's absolute value (`relative_scale`).
-    Relative(Values),
-}
-
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StudentT {
-    /// Degrees of freedom nu, pure; 1 is the Cauchy distribution.
-    pub degrees_of_freedom: Values,
-    /// Of (value - nominal)/scale = t.
-    pub scale: Scale,
-}
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct StudentT;
 
 /// Ready to be drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,37 +58,20 @@ impl StudentTQuantile {
 
 impl Scalar for StudentT {
     const NAME: &'static str = "student_t";
+    const KEYS: &'static [Row] =
+        &[
+            Row::values("degrees_of_freedom", "Degrees of freedom; 1 is the Cauchy distribution")
+                .required("5.0")
+                .within("a number from 0.5 to 1e4", "above 1e4 use a normal distribution", |x| DEGREES.contains(&x)),
+            Row::amounts("scale", "Scale about the nominal value").not_negative(),
+            Row::values("relative_scale", "Scale as a fraction of the nominal value").not_negative(),
+        ];
+    const RULES: &'static [Rule] = &[Rule::One(&[&["scale"], &["relative_scale"]], "0.1")];
     type Quantile = StudentTQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let degrees_of_freedom = keys.required("degrees_of_freedom", "5.0");
-        let one = keys.is_one_of(&["scale", "relative_scale"], "0.1");
-        let (absolute, relative) = (keys.values("scale"), keys.values("relative_scale"));
-        let scale = absolute.map(Scale::Absolute).or(relative.map(Scale::Relative)).filter(|_| one);
-        degrees_of_freedom.zip(scale).map(|(degrees_of_freedom, scale)| StudentT { degrees_of_freedom, scale })
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.values("degrees_of_freedom", &self.degrees_of_freedom);
-        match &self.scale {
-            Scale::Absolute(values) => keys.values("scale", values),
-            Scale::Relative(values) => keys.values("relative_scale", values),
-        }
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<StudentTQuantile>, DispersionError> {
-        let (allowed, remedy) = ("a number from 0.5 to 1e4", "above 1e4 use a normal distribution");
-        let degrees = target.passing(
-            "degrees_of_freedom",
-            &self.degrees_of_freedom,
-            |x| DEGREES.contains(&x),
-            allowed,
-            remedy,
-        )?;
-        let scale = match &self.scale {
-            Scale::Absolute(values) => target.widths("scale", values, None)?,
-            Scale::Relative(values) => target.widths("relative_scale", values, Some("scale"))?,
-        };
+    fn quantiles(target: &Target<'_>) -> Result<Vec<StudentTQuantile>, DispersionError> {
+        let degrees = target.each("degrees_of_freedom")?;
+        let scale = target.amounts("scale", "relative_scale")?;
         target.all(|k| Ok(StudentTQuantile::new(degrees[k], target.nominals[k], scale[k])))
     }
 }

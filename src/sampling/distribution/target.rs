@@ -2,7 +2,7 @@
 //! distributions of several numbers together.
 
 use crate::sampling::error::{DispersionError, error};
-use crate::sampling::keys::Values;
+use crate::sampling::keys::{Presence, Row, Values, Written};
 use crate::scene::Parameter;
 use crate::scene::parameter::Shape;
 use crate::scene::schema::Limit;
@@ -14,7 +14,14 @@ pub struct Target<'a> {
     pub index: usize,
     /// One value for each component.
     pub nominals: &'a [f64],
+    /// The keys of the distribution.
+    pub rows: &'static [Row],
+    /// What the file says.
+    pub written: &'a Written,
 }
+
+/// The remedy where a logarithm is taken.
+pub(super) const LOGARITHM: &str = "a logarithm needs a positive number";
 
 pub(super) type Numbers = Result<Vec<f64>, DispersionError>;
 
@@ -35,8 +42,23 @@ impl Target<'_> {
         (0..self.nominals.len()).map(of).collect()
     }
 
+    /// The numbers of `key`, one for each component, within the limit of its row: the written ones, else those that hold by default.
+    pub(super) fn each(&self, key: &'static str) -> Numbers {
+        let row = self.rows.iter().find(|row| row.key == key);
+        let list = match (self.written.values(key), row.map(|row| row.presence)) {
+            (Some(values), _) => self.spread_out(key, values)?,
+            (None, Some(Presence::Or(default))) => vec![default; self.nominals.len()],
+            (None, Some(Presence::OrNominal)) => return Ok(self.nominals.to_vec()),
+            (None, _) => return self.refused(key, String::new(), "given", "write it"),
+        };
+        match row.and_then(|row| row.limit).and_then(|limit| Some((limit, list.iter().find(|x| !(limit.test)(**x))?))) {
+            Some((limit, x)) => self.refused(key, format!("{x:?}"), limit.allowed, limit.remedy),
+            None => Ok(list),
+        }
+    }
+
     /// One number for each component, or what is wrong.
-    pub(super) fn each(&self, key: &'static str, values: &Values) -> Numbers {
+    fn spread_out(&self, key: &'static str, values: &Values) -> Numbers {
         let width = self.nominals.len();
         let list = match values {
             Values::All(value) => vec![*value; width],
@@ -53,82 +75,39 @@ impl Target<'_> {
         }
     }
 
-    /// The same, of numbers that pass a test.
-    pub(super) fn passing(
-        &self,
-        key: &'static str,
-        values: &Values,
-        test: impl Fn(f64) -> bool,
-        allowed: &str,
-        remedy: &str,
-    ) -> Numbers {
-        let list = self.each(key, values)?;
-        match list.iter().find(|x| !test(**x)) {
-            Some(x) => self.refused(key, format!("{x:?}"), allowed, remedy),
-            None => Ok(list),
-        }
-    }
-
-    /// The written values, else `default` for each.
-    pub(super) fn each_or(&self, key: &'static str, values: &Option<Values>, default: f64) -> Numbers {
-        values.as_ref().map_or_else(|| Ok(vec![default; self.nominals.len()]), |values| self.each(key, values))
-    }
-
-    /// Scales in the parameter's unit: above zero, each.
-    pub(super) fn scales(&self, key: &'static str, values: &Values) -> Numbers {
-        self.passing(key, values, |x| x > 0.0, "> 0", "write it in the parameter's unit")
-    }
-
-    /// Zero or above, each.
-    pub(super) fn not_negative(&self, key: &'static str, values: &Values) -> Numbers {
-        self.passing(key, values, |x| x >= 0.0, ">= 0", "drop the minus sign")
-    }
-
-    /// Above zero, each.
-    pub(super) fn positive(&self, key: &'static str, values: &Values) -> Numbers {
-        self.passing(key, values, |x| x > 0.0, "> 0", "a logarithm needs a positive number")
-    }
-
-    /// The written values, else the nominals, all above zero.
-    pub(super) fn positive_or_nominal(&self, key: &'static str, values: &Option<Values>) -> Numbers {
-        if let Some(values) = values {
-            return self.positive(key, values);
+    /// The medians: the numbers of `key`, where they are amounts, else the nominals, all above zero.
+    pub(super) fn positive_or_nominal(&self, key: &'static str) -> Numbers {
+        let is_median = |row: &Row| row.key == key && row.presence == Presence::OrNominal;
+        if self.written.has(key) && self.rows.iter().any(is_median) {
+            return self.each(key);
         }
         match self.nominals.iter().find(|x| **x <= 0.0) {
             Some(x) => {
                 let allowed = "used where the nominal is > 0, since it is the median";
-                self.refused(
-                    key,
-                    format!("nominal {x:?}"),
-                    allowed,
-                    "disperse a positive parameter, or use another distribution",
-                )
+                let remedy = "disperse a positive parameter, or use another distribution";
+                self.refused(key, format!("nominal {x:?}"), allowed, remedy)
             }
             None => Ok(self.nominals.to_vec()),
         }
     }
 
-    /// Fractions of the nominal in the parameter's unit.
-    pub(super) fn relative(&self, key: &'static str, written: &Values, fractions: Vec<f64>, absolute: &str) -> Numbers {
+    /// The numbers of the key `absolute` in the parameter's unit, or those of `relative` as fractions of the nominals.
+    pub(super) fn amounts(&self, absolute: &'static str, relative: &'static str) -> Numbers {
+        if self.written.has(absolute) {
+            return self.each(absolute);
+        }
+        let fractions = self.each(relative)?;
         if self.nominals.iter().all(|nominal| *nominal == 0.0) {
+            let written = self.written.values(relative).map_or(String::new(), Values::text);
             let allowed = "relative to a nominal value other than 0";
-            return self.refused(key, written.text(), allowed, format!("use {absolute} in the parameter's unit"));
+            return self.refused(relative, written, allowed, format!("use {absolute} in the parameter's unit"));
         }
         Ok(fractions.iter().zip(self.nominals).map(|(x, nominal)| x * nominal.abs()).collect())
     }
 
-    /// Widths in the parameter's unit: not negative, and relative ones relative to something.
-    pub(super) fn widths(&self, key: &'static str, values: &Values, relative: Option<&str>) -> Numbers {
-        let list = self.not_negative(key, values)?;
-        match relative {
-            Some(absolute) => self.relative(key, values, list, absolute),
-            None => Ok(list),
-        }
-    }
-
     /// `min` < `max` for each component.
-    pub(super) fn ends(&self, min: &Values, max: &Values) -> Result<(Vec<f64>, Vec<f64>), DispersionError> {
-        let (min, max) = (self.each("min", min)?, self.each("max", max)?);
+    pub(super) fn ends(&self) -> Result<(Vec<f64>, Vec<f64>), DispersionError> {
+        let (min, max) = (self.each("min")?, self.each("max")?);
         match min.iter().zip(&max).find(|(min, max)| min >= max) {
             Some((low, high)) => {
                 let remedy = if low > high { "swap min and max" } else { "make max larger, or delete this table" };
@@ -139,11 +118,8 @@ impl Target<'_> {
     }
 
     /// The most likely value of each component, between its ends.
-    pub(super) fn mode(&self, mode: &Option<Values>, min: &[f64], max: &[f64]) -> Numbers {
-        let modes = match mode {
-            Some(mode) => self.each("mode", mode)?,
-            None => self.nominals.to_vec(),
-        };
+    pub(super) fn mode(&self, min: &[f64], max: &[f64]) -> Numbers {
+        let modes = self.each("mode")?;
         for ((mode, min), max) in modes.iter().zip(min).zip(max) {
             if mode < min || mode > max {
                 let allowed = format!("from min ({min:?}) to max ({max:?}); without mode the nominal is meant");
@@ -165,6 +141,8 @@ pub struct JointTarget<'a> {
     pub component: Option<usize>,
     /// The nominal values of all components.
     pub nominals: &'a [f64],
+    /// What the file says.
+    pub written: &'a Written,
 }
 
 impl JointTarget<'_> {

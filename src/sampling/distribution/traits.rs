@@ -2,7 +2,7 @@
 
 use super::target::{JointTarget, Target};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{DataColumn, KeyReader, KeyWriter};
+use crate::sampling::keys::{Row, Rule, Value, Written};
 use std::fmt::Debug;
 
 /// How a distribution in words writes its numbers.
@@ -14,24 +14,22 @@ pub struct NumberWords<'a> {
     pub number: &'a dyn Fn(f64) -> String,
 }
 
-/// A distribution of one number, as written; of a parameter with components, each has it.
-pub trait Scalar: Clone + Debug + PartialEq {
+/// A distribution of one number; of a parameter with components, each has it.
+pub trait Scalar {
     /// The name in campaign files.
     const NAME: &'static str;
+    /// Its keys.
+    const KEYS: &'static [Row];
+    /// What its keys have to do with each other.
+    const RULES: &'static [Rule] = &[];
     /// What it becomes.
     type Quantile: Quantile;
-
-    /// Reads its keys; `None` where something is wrong, which is then noted.
-    fn read(keys: &mut dyn KeyReader) -> Option<Self>;
-
-    /// Writes its keys.
-    fn write(&self, keys: &mut dyn KeyWriter);
 
     /// The quantile function of each component.
     ///
     /// # Errors
     /// What about its numbers does not fit the target.
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<Self::Quantile>, DispersionError>;
+    fn quantiles(target: &Target<'_>) -> Result<Vec<Self::Quantile>, DispersionError>;
 }
 
 /// For [`Quantile::of_scores`] of a distribution whose value is the function `of` of the normal score: the value of each.
@@ -83,31 +81,22 @@ pub trait Quantile: Clone + Debug + PartialEq {
     fn text(&self, words: NumberWords<'_>) -> String;
 }
 
-/// A distribution of all components of a vector or an attitude together, or of the numbers that it names itself, as written.
-pub trait Together: Clone + Debug + PartialEq {
+/// A distribution of all components of a vector or an attitude together, or of the numbers that a file of its own names.
+pub trait Together {
     /// The name in campaign files.
     const NAME: &'static str;
-    /// Whether it names its parameters itself ([`Together::columns`]), in place of the key `parameter`.
-    const NAMES_PARAMETERS: bool = false;
+    /// Its keys.
+    const KEYS: &'static [Row];
+    /// What its keys have to do with each other.
+    const RULES: &'static [Rule] = &[];
     /// What it becomes.
     type Map: Map;
-
-    /// Reads its keys; `None` where something is wrong, which is then noted.
-    fn read(keys: &mut dyn KeyReader) -> Option<Self>;
-
-    /// Writes its keys.
-    fn write(&self, keys: &mut dyn KeyWriter);
-
-    /// The columns of a file, each for one number of the scene, of a distribution that names its parameters itself.
-    fn columns(&self) -> &[DataColumn] {
-        &[]
-    }
 
     /// The map to be drawn.
     ///
     /// # Errors
     /// What is wrong with target or numbers.
-    fn map(&self, target: &JointTarget<'_>) -> Result<Self::Map, DispersionError>;
+    fn map(target: &JointTarget<'_>) -> Result<Self::Map, DispersionError>;
 }
 
 /// A map from several u in (0, 1) to the values of several components.
@@ -133,20 +122,31 @@ pub trait Map: Clone + Debug + PartialEq {
 /// Largest number of u of one distribution.
 pub const MAX_DIMENSIONS: usize = 8;
 
-/// A distribution of one number within another, as written: of a magnitude, of an angle. The list of distributions is one.
-pub trait Nested: Clone + Debug + PartialEq {
-    /// What it becomes.
+/// The distributions of one number that others have within them: of a magnitude, of an angle. The list of distributions is one.
+pub trait Nested {
+    /// What they become.
     type Quantile: Quantile;
 
-    /// Reads the table `key` of `keys`; `None` where it is wrong, `Some(None)` where it is not written.
-    fn read_table(keys: &mut dyn KeyReader, key: &'static str) -> Option<Option<Self>>;
-
-    /// Writes the table `key`.
-    fn write_table(&self, keys: &mut dyn KeyWriter, key: &str);
-
-    /// Its quantile function.
+    /// The quantile function about `nominal` of the distribution with this name and these keys, which the table `key` has.
     ///
     /// # Errors
     /// That it is not a distribution of one number, or what about its numbers does not fit.
-    fn quantile(&self, index: usize, key: &'static str, nominal: f64) -> Result<Self::Quantile, DispersionError>;
+    fn quantile(
+        index: usize,
+        key: &'static str,
+        nominal: f64,
+        distribution: (&str, &Written),
+    ) -> Result<Self::Quantile, DispersionError>;
+}
+
+/// The distribution in the table `key` of a distribution of several numbers, about `nominal`.
+pub(super) fn nested<N: Nested>(
+    target: &JointTarget<'_>,
+    key: &'static str,
+    nominal: f64,
+) -> Result<N::Quantile, DispersionError> {
+    match target.written.get(key) {
+        Some(Value::Distribution(name, written)) => N::quantile(target.index, key, nominal, (name, written)),
+        _ => target.lacks(key, "given", "write a distribution of one number"),
+    }
 }

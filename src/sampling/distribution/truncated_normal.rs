@@ -1,58 +1,29 @@
 //! `truncated_normal`: normal about the nominal value under the condition that it lies between two bounds.
 
-use super::normal::Spread;
+use super::normal::{ONE_SPREAD, SPREAD};
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::math::normal::{probability, quantile, quantiles};
 use crate::sampling::error::{DispersionError, error};
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
-
-/// One bound of a truncated normal distribution.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Bound {
-    /// In the parameter's unit (`lower`, `upper`).
-    Absolute(Values),
-    /// From the nominal, as a fraction of its absolute value (`relative_lower`, `relative_upper`; the lower is below zero).
-    Relative(Values),
-    /// So many standard deviations from the nominal (`lower_sigmas`, `upper_sigmas`).
-    Sigmas(Values),
-}
-
-/// Where a normal distribution is cut off.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Truncation {
-    /// At so many standard deviations on both sides of the nominal (`sigmas`).
-    Sigmas(Values),
-    /// At bounds; at least one is given.
-    Bounds {
-        /// Lower bound.
-        lower: Option<Bound>,
-        /// Upper bound.
-        upper: Option<Bound>,
-    },
-}
-
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TruncatedNormal(pub Spread, pub Truncation);
+use crate::sampling::keys::{Row, Rule, Written};
 
 /// The keys of a lower and of an upper bound: absolute, relative, in sigmas.
 const LOWER_KEYS: [&str; 3] = ["lower", "relative_lower", "lower_sigmas"];
 const UPPER_KEYS: [&str; 3] = ["upper", "relative_upper", "upper_sigmas"];
+const BOTH_KEYS: [&str; 6] = [LOWER_KEYS[0], LOWER_KEYS[1], LOWER_KEYS[2], UPPER_KEYS[0], UPPER_KEYS[1], UPPER_KEYS[2]];
+
+/// A number of standard deviations.
+const fn sigmas(key: &'static str, meaning: &'static str) -> Row {
+    Row::values(key, meaning).within("> 0", "3 cuts off 0.27% of the normal distribution", |x| x > 0.0)
+}
+
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct TruncatedNormal;
 
 /// The key that stands for both bounds in a message.
-fn cut_key(cut: &Truncation) -> &'static str {
-    let key = |bound: &Bound, keys: [&'static str; 3]| match bound {
-        Bound::Absolute(_) => keys[0],
-        Bound::Relative(_) => keys[1],
-        Bound::Sigmas(_) => keys[2],
-    };
-    match cut {
-        Truncation::Sigmas(_) => "sigmas",
-        Truncation::Bounds { lower: Some(lower), .. } => key(lower, LOWER_KEYS),
-        Truncation::Bounds { upper: Some(upper), .. } => key(upper, UPPER_KEYS),
-        Truncation::Bounds { .. } => "lower",
-    }
+fn cut_key(written: &Written) -> &'static str {
+    ["sigmas"].into_iter().chain(BOTH_KEYS).find(|key| written.has(key)).unwrap_or("lower")
 }
 
 /// Ready to be drawn: normal under the condition that the value lies between two bounds. Truncated, not clamped: the bounds carry no
@@ -112,103 +83,64 @@ impl TruncatedNormalQuantile {
 
 impl Scalar for TruncatedNormal {
     const NAME: &'static str = "truncated_normal";
+    const KEYS: &'static [Row] = &[
+        SPREAD[0],
+        SPREAD[1],
+        SPREAD[2],
+        sigmas("sigmas", "Both bounds, so many standard deviations from the nominal value"),
+        Row::amounts("lower", "Lower bound"),
+        Row::values("relative_lower", "Lower bound from the nominal value, as a fraction of it: below zero"),
+        sigmas("lower_sigmas", "Lower bound, so many standard deviations from the nominal value"),
+        Row::amounts("upper", "Upper bound"),
+        Row::values("relative_upper", "Upper bound from the nominal value, as a fraction of it"),
+        sigmas("upper_sigmas", "Upper bound, so many standard deviations from the nominal value"),
+    ];
+    const RULES: &'static [Rule] = &[
+        ONE_SPREAD,
+        Rule::One(&[&["sigmas"], &BOTH_KEYS], "3"),
+        Rule::AtMostOne(&LOWER_KEYS),
+        Rule::AtMostOne(&UPPER_KEYS),
+    ];
     type Quantile = TruncatedNormalQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let (spread, truncation) = (Spread::read(keys), read_truncation(keys));
-        spread.zip(truncation).map(|(spread, truncation)| TruncatedNormal(spread, truncation))
+    fn quantiles(target: &Target<'_>) -> Result<Vec<TruncatedNormalQuantile>, DispersionError> {
+        let stds = target.amounts("std", "relative_std")?;
+        let (lower, upper) = bounds(target, &stds)?;
+        target.all(|k| truncated(target, target.nominals[k], stds[k], lower[k], upper[k]))
     }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        self.0.write(keys);
-        match &self.1 {
-            Truncation::Sigmas(sigmas) => keys.values("sigmas", sigmas),
-            Truncation::Bounds { lower, upper } => {
-                for (bound, names) in [(lower, LOWER_KEYS), (upper, UPPER_KEYS)] {
-                    match bound {
-                        Some(Bound::Absolute(values)) => keys.values(names[0], values),
-                        Some(Bound::Relative(values)) => keys.values(names[1], values),
-                        Some(Bound::Sigmas(values)) => keys.values(names[2], values),
-                        None => {}
-                    }
-                }
-            }
-        }
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<TruncatedNormalQuantile>, DispersionError> {
-        let stds = self.0.deviations(target)?;
-        let (lower, upper) = bounds(target, &self.1, &stds)?;
-        target.all(|k| truncated(target, &self.1, target.nominals[k], stds[k], lower[k], upper[k]))
-    }
-}
-
-fn read_truncation(keys: &mut dyn KeyReader) -> Option<Truncation> {
-    let first = LOWER_KEYS.into_iter().chain(UPPER_KEYS).find(|key| keys.has(key)).unwrap_or(LOWER_KEYS[0]);
-    let one = keys.is_one_of(&["sigmas", first], "3");
-    let sigmas = keys.optional("sigmas");
-    let (lower, upper) = (read_bound(keys, LOWER_KEYS), read_bound(keys, UPPER_KEYS));
-    let (sigmas, (lower, upper)) = sigmas.zip(lower.zip(upper))?;
-    match (one, sigmas) {
-        (false, _) => None,
-        (true, Some(sigmas)) => Some(Truncation::Sigmas(sigmas)),
-        (true, None) => Some(Truncation::Bounds { lower, upper }),
-    }
-}
-
-/// The bound that one of three keys gives, if any; `None` where what is written is wrong.
-fn read_bound(keys: &mut dyn KeyReader, names: [&'static str; 3]) -> Option<Option<Bound>> {
-    let written: Vec<&'static str> = names.into_iter().filter(|key| keys.has(key)).collect();
-    if let [_, second, ..] = written[..] {
-        keys.refuse(second, &format!("the only one of {}", names.join(", ")), "delete all but one of them");
-    }
-    let kinds: [fn(Values) -> Bound; 3] = [Bound::Absolute, Bound::Relative, Bound::Sigmas];
-    let bounds: Vec<Bound> =
-        names.into_iter().zip(kinds).filter_map(|(key, kind)| keys.values(key).map(kind)).collect();
-    (written.len() <= 1 && bounds.len() == written.len()).then(|| bounds.into_iter().next())
 }
 
 /// Lower and upper bound of each component.
-fn bounds(target: &Target<'_>, cut: &Truncation, stds: &[f64]) -> Result<(Vec<f64>, Vec<f64>), DispersionError> {
-    let so_many = |key, values: &Values| {
-        target.passing(key, values, |x| x > 0.0, "> 0", "3 cuts off 0.27% of the normal distribution")
+fn bounds(target: &Target<'_>, stds: &[f64]) -> Result<(Vec<f64>, Vec<f64>), DispersionError> {
+    let end = |[absolute, relative, sigmas]: [&'static str; 3], sign: f64| {
+        let away = if target.written.has(sigmas) {
+            target.each(sigmas)?.iter().zip(stds).map(|(sigmas, std)| sign * sigmas * std).collect()
+        } else if target.written.has(relative) {
+            target.amounts(absolute, relative)?
+        } else if target.written.has(absolute) {
+            return target.each(absolute);
+        } else {
+            return Ok(vec![sign * f64::INFINITY; stds.len()]);
+        };
+        Ok(target.nominals.iter().zip(away).map(|(nominal, away): (&f64, f64)| nominal + away).collect())
     };
-    let sigmas_away = |sigmas: &[f64], sign: f64| -> Vec<f64> {
-        (0..stds.len()).map(|k| target.nominals[k] + sign * sigmas[k] * stds[k]).collect()
-    };
-    match cut {
-        Truncation::Sigmas(sigmas) => {
-            let sigmas = so_many("sigmas", sigmas)?;
-            Ok((sigmas_away(&sigmas, -1.0), sigmas_away(&sigmas, 1.0)))
+    if target.written.has("sigmas") {
+        let both = ["", "", "sigmas"];
+        return Ok((end(both, -1.0)?, end(both, 1.0)?));
+    }
+    let (lower, upper) = (end(LOWER_KEYS, -1.0)?, end(UPPER_KEYS, 1.0)?);
+    match lower.iter().zip(&upper).find(|(lower, upper)| lower >= upper) {
+        Some((low, high)) => {
+            let larger = "make upper larger, or delete this table";
+            let remedy = if low > high { "swap lower and upper" } else { larger };
+            target.refused(cut_key(target.written), format!("{low:?}"), format!("< upper ({high:?})"), remedy)
         }
-        Truncation::Bounds { lower, upper } => {
-            let end = |bound: &Option<Bound>, keys: [&'static str; 3], sign: f64| match bound {
-                None => Ok(vec![sign * f64::INFINITY; stds.len()]),
-                Some(Bound::Absolute(values)) => target.each(keys[0], values),
-                Some(Bound::Relative(values)) => {
-                    let away = target.relative(keys[1], values, target.each(keys[1], values)?, keys[0])?;
-                    Ok(target.nominals.iter().zip(away).map(|(x, away)| x + away).collect())
-                }
-                Some(Bound::Sigmas(values)) => Ok(sigmas_away(&so_many(keys[2], values)?, sign)),
-            };
-            let lower = end(lower, LOWER_KEYS, -1.0)?;
-            let upper = end(upper, UPPER_KEYS, 1.0)?;
-            match lower.iter().zip(&upper).find(|(lower, upper)| lower >= upper) {
-                Some((low, high)) => {
-                    let allowed = format!("< upper ({high:?})");
-                    let larger = "make upper larger, or delete this table";
-                    let remedy = if low > high { "swap lower and upper" } else { larger };
-                    target.refused(cut_key(cut), format!("{low:?}"), allowed, remedy)
-                }
-                None => Ok((lower, upper)),
-            }
-        }
+        None => Ok((lower, upper)),
     }
 }
 
 fn truncated(
     target: &Target<'_>,
-    cut: &Truncation,
     mean: f64,
     std: f64,
     lower: f64,
@@ -219,7 +151,7 @@ fn truncated(
             "bounds with some of the normal distribution of mean {mean:?} and standard deviation {std:?} between them"
         );
         let remedy = "move the bounds to the nominal, or widen them";
-        error(target.index, cut_key(cut), format!("{lower:?} to {upper:?}"), allowed, remedy)
+        error(target.index, cut_key(target.written), format!("{lower:?} to {upper:?}"), allowed, remedy)
     };
     // A nominal that is not a number is the scene's error, and is reported as such.
     if !(mean + std).is_finite() {

@@ -3,23 +3,11 @@
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+use crate::sampling::keys::{Row, Rule};
 
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Uniform {
-    /// Between two numbers in the parameter's unit (`min`, `max`).
-    Between {
-        /// Lower end.
-        min: Values,
-        /// Upper end.
-        max: Values,
-    },
-    /// So far on both sides of the nominal, in the parameter's unit (`half_width`).
-    Around(Values),
-    /// So far on both sides, as a fraction of the nominal's absolute value (`relative_half_width`).
-    AroundRelative(Values),
-}
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct Uniform;
 
 /// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,43 +20,28 @@ pub struct UniformQuantile {
 
 impl Scalar for Uniform {
     const NAME: &'static str = "uniform";
+    const KEYS: &'static [Row] = &[
+        Row::amounts("half_width", "So far on both sides of the nominal value").not_negative(),
+        Row::values("relative_half_width", "The same as a fraction of the nominal value").not_negative(),
+        Row::amounts("min", "Lower end"),
+        Row::amounts("max", "Upper end"),
+    ];
+    const RULES: &'static [Rule] = &[
+        Rule::One(&[&["half_width"], &["relative_half_width"], &["min", "max"]], "0.1"),
+        Rule::Together([("min", "0.0"), ("max", "1.0")]),
+    ];
     type Quantile = UniformQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let first = if keys.has("max") && !keys.has("min") { "max" } else { "min" };
-        let one = keys.is_one_of(&["half_width", "relative_half_width", first], "0.1");
-        let (half, relative) = (keys.values("half_width"), keys.values("relative_half_width"));
-        let ends = if one { keys.ends_together(["0.0", "1.0"]) } else { keys.values("min").zip(keys.values("max")) };
-        match (half, relative, ends) {
-            _ if !one => None,
-            (Some(half), ..) => Some(Uniform::Around(half)),
-            (_, Some(relative), _) => Some(Uniform::AroundRelative(relative)),
-            (.., Some((min, max))) => Some(Uniform::Between { min, max }),
-            _ => None,
+    fn quantiles(target: &Target<'_>) -> Result<Vec<UniformQuantile>, DispersionError> {
+        if target.written.has("min") {
+            let (min, max) = target.ends()?;
+            return target.all(|k| Ok(UniformQuantile { min: min[k], max: max[k] }));
         }
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        match self {
-            Uniform::Between { min, max } => keys.ends(min, max),
-            Uniform::Around(half) => keys.values("half_width", half),
-            Uniform::AroundRelative(half) => keys.values("relative_half_width", half),
-        }
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<UniformQuantile>, DispersionError> {
-        let half = match self {
-            Uniform::Between { min, max } => {
-                let (min, max) = target.ends(min, max)?;
-                return target.all(|k| Ok(UniformQuantile { min: min[k], max: max[k] }));
-            }
-            Uniform::Around(half) => target.widths("half_width", half, None)?,
-            Uniform::AroundRelative(half) => target.widths("relative_half_width", half, Some("half_width"))?,
-        };
+        let half = target.amounts("half_width", "relative_half_width")?;
         target.all(|k| {
             let nominal = target.nominals[k];
             if !(nominal.abs() + half[k]).is_finite() && nominal.is_finite() {
-                let key = if matches!(self, Uniform::Around(_)) { "half_width" } else { "relative_half_width" };
+                let key = if target.written.has("half_width") { "half_width" } else { "relative_half_width" };
                 let allowed = "such that its ends are finite numbers";
                 return target.refused(key, format!("{:?}", half[k]), allowed, "write a smaller one");
             }

@@ -3,7 +3,7 @@
 use super::target::JointTarget;
 use super::traits::{Map, NumberWords, Together};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter};
+use crate::sampling::keys::Row;
 use core::f64::consts::TAU;
 
 /// As written, and ready to be drawn.
@@ -12,15 +12,10 @@ pub struct UniformAttitude;
 
 impl Together for UniformAttitude {
     const NAME: &'static str = "uniform_attitude";
+    const KEYS: &'static [Row] = &[];
     type Map = UniformAttitude;
 
-    fn read(_keys: &mut dyn KeyReader) -> Option<Self> {
-        Some(UniformAttitude)
-    }
-
-    fn write(&self, _keys: &mut dyn KeyWriter) {}
-
-    fn map(&self, target: &JointTarget<'_>) -> Result<UniformAttitude, DispersionError> {
+    fn map(target: &JointTarget<'_>) -> Result<UniformAttitude, DispersionError> {
         target.attitude(Self::NAME).map(|_| UniformAttitude)
     }
 }

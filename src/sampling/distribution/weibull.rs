@@ -4,18 +4,11 @@
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{KeyReader, KeyWriter, Values};
+use crate::sampling::keys::{Presence, Row};
 
-/// As written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Weibull {
-    /// Shape, pure; 1 is the exponential distribution, 2 that of Rayleigh.
-    pub shape: Values,
-    /// Scale above `min`, in the parameter's unit: 63% of the values are below.
-    pub scale: Values,
-    /// Lower end.
-    pub min: Option<Values>,
-}
+/// The distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct Weibull;
 
 /// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,27 +26,20 @@ const SHAPES: std::ops::RangeInclusive<f64> = 0.05..=1e4;
 
 impl Scalar for Weibull {
     const NAME: &'static str = "weibull";
+    const KEYS: &'static [Row] =
+        &[
+            Row::values("shape", "Shape; 1 is the exponential distribution, 2 that of Rayleigh")
+                .required("2.0")
+                .within("a number from 0.05 to 1e4", "1 is the exponential distribution", |x| SHAPES.contains(&x)),
+            Row::amounts("scale", "Scale above `min`: 63% of the values are below").required("0.1").scale(),
+            Row::amounts("min", "Lower end").or(Presence::Or(0.0)),
+        ];
     type Quantile = WeibullQuantile;
 
-    fn read(keys: &mut dyn KeyReader) -> Option<Self> {
-        let (shape, scale) = (keys.required("shape", "2.0"), keys.required("scale", "0.1"));
-        let min = keys.optional("min");
-        let (shape, scale) = shape.zip(scale)?;
-        min.map(|min| Weibull { shape, scale, min })
-    }
-
-    fn write(&self, keys: &mut dyn KeyWriter) {
-        keys.values("shape", &self.shape);
-        keys.values("scale", &self.scale);
-        keys.optional("min", self.min.as_ref());
-    }
-
-    fn quantiles(&self, target: &Target<'_>) -> Result<Vec<WeibullQuantile>, DispersionError> {
-        let remedy = "1 is the exponential distribution";
-        let shape =
-            target.passing("shape", &self.shape, |x| SHAPES.contains(&x), "a number from 0.05 to 1e4", remedy)?;
-        let scale = target.scales("scale", &self.scale)?;
-        let min = target.each_or("min", &self.min, 0.0)?;
+    fn quantiles(target: &Target<'_>) -> Result<Vec<WeibullQuantile>, DispersionError> {
+        let shape = target.each("shape")?;
+        let scale = target.each("scale")?;
+        let min = target.each("min")?;
         target.all(|k| Ok(WeibullQuantile { shape: shape[k], scale: scale[k], min: min[k] }))
     }
 }

@@ -1,0 +1,91 @@
+//! The keys of `[campaign]`, `[integrator]`, `[observe]`, `[audit]`, `[bands]` and `[output]` as rows, from which reading, messages, canonical text
+//! and the table in the documents follow. What needs several keys is checked in [`super::plan`].
+
+use super::bands::MOST_POINTS as MOST_BAND_POINTS;
+use super::chosen::MOST_CHOSEN;
+use super::compression::Compression;
+use super::description;
+use super::limits::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, TOLERANCE};
+use super::numbers::POSITIVE;
+use crate::observables::Group;
+use crate::propagation::Method;
+use crate::sampling::keys::{Kind, Row, TextLimit};
+
+/// The names of all values of a type, in their order.
+macro_rules! names {
+    ($Type:ty) => {{
+        let mut names = [""; <$Type>::ALL.len()];
+        let mut place = 0;
+        while place < names.len() {
+            names[place] = <$Type>::ALL[place].name();
+            place += 1;
+        }
+        names
+    }};
+}
+const METHODS: [&str; Method::ALL.len()] = names!(Method);
+const GROUPS: [&str; Group::ALL.len()] = names!(Group);
+const COMPRESSIONS: [&str; Compression::ALL.len()] = names!(Compression);
+
+/// The groups of a campaign that names none, in words.
+fn default_groups() -> String {
+    let others = Group::ALL.into_iter().filter(|group| !Group::DEFAULT.contains(group));
+    format!("all of them but {}", others.map(Group::name).collect::<Vec<_>>().join(" and "))
+}
+
+/// A name that is a folder's name on every system.
+const NAME: TextLimit = TextLimit {
+    allowed: "1 to 100 letters, digits, _, - or . (the first one a letter, a digit or _)",
+    remedy: "it names the folder of results, and is a word of commands: write it without spaces and slashes",
+    test: |name| {
+        let is_plain = name.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c));
+        is_plain && !name.starts_with(['.', '-']) && (1..=100).contains(&name.len())
+    },
+};
+
+/// The settings above the scene, table by table.
+#[rustfmt::skip]
+pub const HEAD: [(&str, &[Row]); 3] = [
+    ("campaign", &[
+        Row::new("name", Kind::Text(NAME), "Name of the campaign and of its folder of results")
+            .required_as(NAME.allowed, "\"my_campaign\""),
+        Row::new("description", Kind::Text(description::LIMIT),
+            "The question that the campaign answers; default: the first sentence of the comments at the top of the file"),
+        Row::new("samples", Kind::Count([1, MAX_SAMPLES]),
+            "Number of samples, the nominal one included; may be left out where the design has a size of its own"),
+        Row::new("only", Kind::Samples(MOST_CHOSEN), "The numbers of the samples that run; default: all"),
+        Row::new("seed", Kind::Count([0, LARGEST_SEED]), "Seed of every draw").required_as("a whole number of at least 0", "1"),
+        Row::new("duration_s", Kind::Number, "Duration of each run").limited(POSITIVE).required_as(POSITIVE.allowed, "10.0"),
+    ]),
+    ("integrator", &[
+        Row::new("method", Kind::Word(&METHODS), "Equations and integrator"),
+        Row::new("tolerance", Kind::Number, "Both of the following; default: 1e-14 of auto and taylor, 1e-10 of other methods")
+            .limited(TOLERANCE),
+        Row::new("relative_tolerance", Kind::Number, "Relative tolerance of local errors").limited(TOLERANCE),
+        Row::new("absolute_tolerance", Kind::Number, "Absolute tolerance of local errors").limited(TOLERANCE),
+        Row::new("step_s", Kind::Number, "The step of a method with a fixed step, which needs it").limited(POSITIVE),
+        Row::new("max_steps", Kind::Count([1, LARGEST_SEED]), "Most steps of a run; default: 10 million"),
+    ]),
+    ("observe", &[
+        Row::new("points", Kind::Count([2, MAX_POINTS]),
+            "Number of points of the uniform grid of times from 0 to the duration; default: 101"),
+        Row::new("groups", Kind::Words(&GROUPS, default_groups),
+            "Groups of columns that are observed; default: all but motion and mass_properties"),
+        Row::new("nutation_axis", Kind::WordOrDirection(&["s3", "principal"]),
+            "Whose angle from the angular momentum nutation is; or a direction in F_s"),
+    ]),
+];
+
+/// The settings below the draws, table by table.
+#[rustfmt::skip]
+pub const TAIL: [(&str, &[Row]); 3] = [
+    ("audit", &[
+        Row::new("fraction", Kind::Number, "Share of the samples that are compared with a reference solution; default: 0")
+            .limited(FRACTION),
+    ]),
+    ("bands", &[
+        Row::new("points", Kind::Count([0, MOST_BAND_POINTS]),
+            "Points at which quantiles over time are counted, 0 for none; default: all of a grid of up to 65 points, else 33"),
+    ]),
+    ("output", &[Row::new("compression", Kind::Word(&COMPRESSIONS), "Compression of the files of rows")]),
+];
