@@ -24,6 +24,8 @@ const ANGLES: [(&str, f64); 6] = [
 ];
 /// A rate of a body or of a slew that looks like degrees a second from here on, rad/s.
 const FAST: f64 = 1.0;
+/// Times that differ by less, relative to the duration, are one: a sum of two of them has an error of 1e-16.
+const SAME: f64 = 1e-12;
 /// How far a scale may be from one without a note.
 const SCALE: f64 = 0.5;
 
@@ -44,7 +46,21 @@ pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f
     }
     phases.iter().for_each(|(_, table)| notes.extend(sizes(table, "guidance")));
     notes.extend(fast_wheels(spec, scene));
+    notes.extend(window(&numbers.law, duration));
     notes
+}
+
+/// A window of stability that the run does not complete.
+fn window(table: &DeclaredTable, duration: f64) -> Option<String> {
+    let (from, window) = (number(table, "stability_from_s"), number(table, "stability_window_s"));
+    let end = if window > 0.0 { from + window } else { from };
+    let is_beyond = end > duration * (1.0 + SAME) || from > 0.0 && from >= duration;
+    is_beyond.then(|| {
+        let columns = "relative_performance_error_rms_rad and relative_performance_error_peak_to_peak_rad are null in every run";
+        let start = if from > 0.0 { format!("stability_from_s = {from:?}") } else { "the start".to_owned() };
+        let last = if window > 0.0 { format!(", stability_window_s = {window:?}") } else { String::new() };
+        format!("control: the window of stability from {start}{last} is not over at campaign.duration_s = {duration:?}: {columns}")
+    })
 }
 
 /// The first number of `key`; zero where there is none.

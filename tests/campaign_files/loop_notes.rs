@@ -38,6 +38,24 @@ const CASES: &[(&str, &str, &[&str], &str)] = &[
         &["guidance.slew.hold_s = 301.0 is beyond campaign.duration_s = 300.0"],
         "hold_s = 300.0",
     ),
+    (
+        "settling_band_rad = 0.01",
+        "settling_band_rad = 0.01\nstability_from_s = 299.9\nstability_window_s = 0.2",
+        &["stability_from_s = 299.9, stability_window_s = 0.2 is not over at campaign.duration_s = 300.0"],
+        "settling_band_rad = 0.01\nstability_from_s = 299.9\nstability_window_s = 0.1",
+    ),
+    (
+        "settling_band_rad = 0.01",
+        "settling_band_rad = 0.01\nstability_window_s = 300.5",
+        &["from the start, stability_window_s = 300.5 is not over"],
+        "settling_band_rad = 0.01\nstability_window_s = 300",
+    ),
+    (
+        "settling_band_rad = 0.01",
+        "settling_band_rad = 0.01\nstability_from_s = 300",
+        &["stability_from_s = 300.0 is not over"],
+        "settling_band_rad = 0.01\nstability_from_s = 299.5",
+    ),
     // conditions
     (
         "body_rate_rad_s < 0.01",

@@ -31,7 +31,7 @@ fn steps(document: &str) -> Vec<Step<'_>> {
             file = Some(name);
         } else if let Some(name) = mark("picture: ") {
             figure = Some(name);
-        } else if let Some(figure) = figure.filter(|_| line.starts_with("![")).take() {
+        } else if let Some(figure) = figure.take_if(|_| line.starts_with("![")) {
             let picture = line.split("](").nth(1).and_then(|rest| rest.strip_suffix(')')).expect("a picture");
             steps.push(Step::Picture { figure, picture });
         } else if let Some(language) = line.strip_prefix("```") {

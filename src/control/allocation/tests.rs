@@ -1,7 +1,7 @@
 //! What thrusts are allocated, against linear programs solved by other means.
 
-use super::ThrustAllocation;
-use crate::control::vector::{cross, difference, dot};
+use super::{ThrustAllocation, WheelTorque};
+use crate::control::vector::{cross, difference, dot, norm, scaled};
 use crate::scene::thruster::{REPORT_DIRECTIONS, report_offset};
 use crate::scene::{MAX_THRUSTERS, Thruster};
 
@@ -220,6 +220,45 @@ fn oblique_wheels_have_a_plane() {
         let [force, torque] = [numbers.three(), normal.map(|x| sign * x)];
         let [_, given] = allocation.given(&allocation.allocate(Some(force), torque));
         assert!((dot(given, normal) - sign).abs() < 1e-13, "{given:?}");
+    }
+}
+
+/// Law: rounding fires no thruster. Thrusters whose lines meet c turn nothing, whatever their directions; what wheels about three oblique axes give is given
+/// by them alone; and of a torque across two wheels no thruster gives more than that of it.
+#[test]
+fn rounding_fires_nothing() {
+    let mut numbers = Numbers(11);
+    for index in 0..200 {
+        let center = numbers.three();
+        let through_center: Vec<Thruster> = (0..4)
+            .map(|_| {
+                let (direction, along) = (numbers.three(), 10.0 * numbers.one());
+                let position = std::array::from_fn(|i| center[i] + along * direction[i]);
+                Thruster { position, direction }
+            })
+            .collect();
+        let idle = ThrustAllocation::new(&through_center, center, &[FREE; 4], NONE);
+        assert_eq!(idle.allocate(None, numbers.three()), [0.0; MAX_THRUSTERS], "{index}");
+        let axes: Vec<[f64; 3]> = (0..4).map(|_| numbers.three()).map(|axis| scaled(1.0 / norm(axis), axis)).collect();
+        let (all, two) = (WheelTorque::new(&axes), WheelTorque::new(&axes[..2]));
+        let torque = numbers.three();
+        assert_eq!(all.out_of_reach(torque), [0.0; 3], "{index}");
+        let normal = cross(axes[0], axes[1]);
+        if norm(normal) < 0.1 {
+            continue;
+        }
+        // thrusters in pairs, each pair about one axis of the plane or about its normal
+        let level = scaled(1.0 / norm(normal), normal);
+        let arms = [axes[0], cross(level, axes[0]), level];
+        let pairs = (0..3).flat_map(|i| {
+            let (arm, direction) = (arms[(i + 1) % 3], arms[(i + 2) % 3]);
+            [1.0, -1.0].map(|sign| Thruster { position: scaled(sign, arm), direction })
+        });
+        let pairs: Vec<Thruster> = pairs.collect();
+        let allocation = ThrustAllocation::new(&pairs, [0.0; 3], &[FREE; 6], two.reachable);
+        let thrust = allocation.allocate(None, two.out_of_reach(torque));
+        let fired = thrust.iter().filter(|thrust| **thrust > 0.0).count();
+        assert_eq!(fired, 1, "{index}: {thrust:?}");
     }
 }
 

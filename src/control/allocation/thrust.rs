@@ -10,8 +10,9 @@
 //!
 //! It is a linear program (`super::simplex`). Berdoz's P1, P2, P3 with a wanted force have a closed form in three cases.
 
+use super::ROUNDING;
 use super::simplex::{COLUMNS, Column, ROWS, least};
-use crate::control::vector::{cross, difference, dot};
+use crate::control::vector::{cross, difference, dot, norm, scaled};
 use crate::math::list::List;
 use crate::math::symmetric::principal_axes;
 use crate::scene::thruster::report_offset;
@@ -70,7 +71,9 @@ impl ThrustAllocation {
         let mut wrenches = List::empty([[0.0; 3]; 2]);
         for thruster in thrusters {
             let torque = cross(difference(thruster.position, center), thruster.direction);
-            wrenches.push([thruster.direction, torque]);
+            // the difference of two positions has their rounding
+            let least = ROUNDING * (norm(thruster.position) + norm(center)) * norm(thruster.direction);
+            wrenches.push([thruster.direction, torque.map(|torque| if torque.abs() <= least { 0.0 } else { torque })]);
         }
         let of_force = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| (axis, FORCE));
         let mut rows = List::empty(Row { axis: [0.0; 3], level: TOTAL, scale: 0.0 });
@@ -223,10 +226,15 @@ impl ThrustAllocation {
 pub(super) struct Rows<'a>(&'a [Row]);
 
 impl Rows<'_> {
-    /// Those of `wrench`, in units of their scales and of `size`.
+    /// Those of `wrench`, in units of their scales and of `size`; what is rounding is zero.
     fn of(&self, wrench: &Wrench, size: f64) -> [f64; ROWS] {
+        let [force, torque] = wrench.map(|part| ROUNDING * norm(part));
         let mut found = [0.0; ROWS];
-        found.iter_mut().zip(self.0).for_each(|(entry, row)| *entry = row.of(wrench) / row.scale / size);
+        for (entry, row) in found.iter_mut().zip(self.0) {
+            let component = row.of(wrench);
+            let least = if row.level == FORCE { force } else { torque };
+            *entry = if component.abs() <= least { 0.0 } else { component / row.scale / size };
+        }
         found
     }
 
@@ -257,12 +265,23 @@ impl Rows<'_> {
     }
 }
 
-/// Three orthogonal axes of which each is within the span of the projection `by_wheels` or across it: those of F_s where these are.
+/// Three orthogonal axes of which each is within the span of the projection `by_wheels` or across it: those of F_s where `by_wheels` is diagonal. Otherwise
+/// the one axis that is alone, n, within or across; the direction within the plane across n that is nearest to an axis of F_s, to the first of them where
+/// several are as near; and their cross product.
 fn torque_axes(by_wheels: [[f64; 3]; 3]) -> [([f64; 3], usize); 3] {
-    let (moments, c_sb) = match (0..3).map(|i| by_wheels[i][i]).sum::<f64>().round() as usize {
-        0 => principal_axes([[0.0; 3]; 3]),
-        3 => principal_axes([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
-        _ => principal_axes(by_wheels),
-    };
-    std::array::from_fn(|i| (c_sb.map(|row| row[i]), if moments[i] > 0.5 { WITHIN } else { ACROSS }))
+    let of_frame = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let within = (0..3).map(|i| by_wheels[i][i]).sum::<f64>().round() as usize;
+    let is_diagonal = (0..3).all(|i| (0..3).all(|j| i == j || by_wheels[i][j] == 0.0));
+    if within == 0 || within == 3 || is_diagonal {
+        let is_within = |i: usize| within == 3 || (within > 0 && by_wheels[i][i] > 0.5);
+        return std::array::from_fn(|i| (of_frame[i], if is_within(i) { WITHIN } else { ACROSS }));
+    }
+    let (moments, c_sb) = principal_axes(by_wheels);
+    let (alone, others) = if within == 1 { (WITHIN, ACROSS) } else { (ACROSS, WITHIN) };
+    let place = (0..3).find(|i| (moments[*i] > 0.5) == (within == 1)).expect("one of three is alone");
+    let normal = c_sb.map(|row| row[place]);
+    let nearest = (1..3).fold(0, |best, i| if normal[i].abs() < normal[best].abs() - NOTHING { i } else { best });
+    let level = difference(of_frame[nearest], scaled(normal[nearest], normal));
+    let level = scaled(1.0 / norm(level), level);
+    [(normal, alone), (level, others), (cross(normal, level), others)]
 }

@@ -1,6 +1,7 @@
 //! [`WheelTorque`]: torques of wheels' motors that give a wanted torque on the body, with the least norm.
 
-use crate::control::vector::{dot, product, scaled, sum};
+use super::ROUNDING;
+use crate::control::vector::{dot, norm, product, scaled, sum};
 use crate::math::list::List;
 use crate::math::symmetric::principal_axes;
 use crate::scene::{MAX_WHEELS, Scene};
@@ -19,6 +20,8 @@ pub struct WheelTorque {
     gains: List<[f64; 3], MAX_WHEELS>,
     /// The projection onto the span of the axes, F_s: torques on the body that the wheels can give.
     pub reachable: [[f64; 3]; 3],
+    /// Unit vectors, orthogonal, along which no wheel gives a torque, F_s.
+    across: List<[f64; 3], 3>,
 }
 
 impl WheelTorque {
@@ -31,8 +34,13 @@ impl WheelTorque {
         let (moments, c_sb) = principal_axes::<f64>(gram);
         let least = NOT_REACHED * moments.iter().copied().fold(0.0, f64::max);
         let (mut inverse, mut reachable) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
-        for (column, moment) in moments.iter().enumerate().filter(|(_, moment)| **moment > least) {
+        let mut across = List::empty([0.0; 3]);
+        for (column, moment) in moments.iter().enumerate() {
             let direction = c_sb.map(|row| row[column]);
+            if *moment <= least {
+                across.push(direction);
+                continue;
+            }
             for i in 0..3 {
                 inverse[i] = sum(inverse[i], scaled(direction[i] / moment, direction));
                 reachable[i] = sum(reachable[i], scaled(direction[i], direction));
@@ -40,12 +48,21 @@ impl WheelTorque {
         }
         let mut gains = List::empty([0.0; 3]);
         axes.iter().for_each(|axis| gains.push(scaled(-1.0, product(inverse, *axis))));
-        WheelTorque { gains, reachable }
+        WheelTorque { gains, reachable, across }
     }
 
     /// That of the wheels at the places `used` of those of `scene` that turn, in a control loop.
     pub fn of_loop(scene: &Scene, used: &[usize]) -> Self {
         Self::new(&used.iter().map(|place| scene.mass.wheels[*place].axis).collect::<Vec<_>>())
+    }
+
+    /// The part of the torque `torque_s` (F_s, N m) that no wheel can give; a component of it that is rounding is zero.
+    pub fn out_of_reach(&self, torque_s: [f64; 3]) -> [f64; 3] {
+        let least = ROUNDING * norm(torque_s);
+        let components = self.across.iter().map(|axis| (dot(*axis, torque_s), axis));
+        components
+            .filter(|(along, _)| along.abs() > least)
+            .fold([0.0; 3], |all, (along, axis)| sum(all, scaled(along, *axis)))
     }
 
     /// The torques of the motors on the wheels (N m, in the order of the axes) for the torque `torque_s` on the body, F_s, N m: of its part within reach.

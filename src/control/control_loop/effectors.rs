@@ -9,7 +9,7 @@ use crate::control::laws::LawInput;
 use crate::control::loop_record::set;
 use crate::control::outcome::ArcApplied;
 use crate::control::truth::Truth;
-use crate::control::vector::{difference, dot, product, scaled, sum};
+use crate::control::vector::{difference, dot, scaled, sum};
 use crate::dynamics::actuation::{Actuation, BodyState, WheelState};
 use crate::observables::Series;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, WheelMode};
@@ -42,16 +42,12 @@ impl ControlLoop {
         s3_e: [f64; 3],
     ) {
         let mass = &self.believed.mass;
-        let mut momenta = [0.0; MAX_WHEELS];
-        for (i, wheel) in mass.wheels.iter().enumerate() {
-            momenta[i] = wheel.axial * (dot(wheel.axis, estimate.omega_se_s) + estimate.wheel_rates[i]);
-        }
         let input = LawInput {
             q_ts: error.q_ts,
             omega_se_s: estimate.omega_se_s,
             omega_te_s: error.omega_te_s,
             acceleration_te_s: [0.0; 3],
-            momentum_s: self.known.momentum(mass, estimate.omega_se_s, &momenta[..mass.wheels.len()]),
+            momentum_s: self.known.momentum(mass, estimate.omega_se_s, &estimate.wheel_rates),
         };
         let phase = &self.phases[self.guidance.phase];
         // zero at the first tick of a phase
@@ -60,8 +56,7 @@ impl ControlLoop {
         let begin = time + self.delay;
         let (mut by_thrusters, mut mean) = ([0.0; 3], [0.0; MAX_THRUSTERS]);
         if let Some(allocation) = &self.thrusters {
-            let by_wheels = self.wheels.as_ref().map_or([0.0; 3], |wheels| product(wheels.reachable, torque));
-            let mut wanted = difference(torque, by_wheels);
+            let mut wanted = self.wheels.as_ref().map_or(torque, |wheels| wheels.out_of_reach(torque));
             if let Some(unloading) = &phase.unloading {
                 let stored = stored_momentum(&self.believed, estimate);
                 wanted = sum(wanted, unloading.torque(stored, self.two_sided));

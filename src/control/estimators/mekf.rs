@@ -14,6 +14,7 @@ use super::rigid_body_filter::{BodyObservation, BodyStep, RigidBodyFilter};
 use super::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
 use super::{Consistency, Estimator, EstimatorContext, EstimatorKind, Update, center_of};
 use crate::control::estimate::Estimate;
+use crate::control::laws::wheel_momenta;
 use crate::control::measurement::{Measurement, PointMotion};
 use crate::control::rotation::{quaternion_of, vector_of};
 use crate::control::sensors::number;
@@ -22,7 +23,7 @@ use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
 use crate::control::truth::{DebrisState, Truth};
 use crate::control::vector::{conjugate, dcm_from_quaternion, difference, dot, hamilton, product, scaled, sum};
 use crate::scene::schema::Limit;
-use crate::scene::{LawParameter, MAX_WHEELS, MassProperties};
+use crate::scene::{LawParameter, MAX_WHEELS, MassProperties, WheelMode};
 
 pub(super) const KIND: EstimatorKind =
     EstimatorKind { name: "mekf", parameters: &PARAMETERS, make: |context| Box::new(Mekf::new(context)) };
@@ -222,12 +223,7 @@ impl Mekf {
                 filter.propagate(GyroStep { rotation_s, rate_s: turned.rate, interval });
             }
             Attitude::WithoutGyro(filter) => {
-                let momenta = self
-                    .mass
-                    .wheels
-                    .iter()
-                    .zip(self.wheel_rates)
-                    .map(|(wheel, rate)| scaled(wheel.axial * (rate + dot(wheel.axis, before.1)), wheel.axis));
+                let momenta = wheel_momenta(&self.mass, before.1, &self.wheel_rates);
                 let momentum = momenta.fold([0.0; 3], sum);
                 filter.propagate(BodyStep { torque: update.torque_s, momentum, interval });
             }
@@ -247,7 +243,8 @@ impl Mekf {
             filter.propagate(BodyStep { torque: [0.0; 3], momentum: [0.0; 3], interval });
         }
         let of_body = difference(after.1, before.1);
-        for (index, wheel) in self.mass.wheels.iter().enumerate() {
+        let turning = self.mass.wheels.iter().enumerate();
+        for (index, wheel) in turning.filter(|(_, wheel)| wheel.mode != WheelMode::SpeedHeld) {
             let of_motor = interval * update.motor_torques[index] / wheel.axial;
             self.wheel_rates[index] += of_motor - dot(wheel.axis, of_body);
         }

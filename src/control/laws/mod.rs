@@ -18,8 +18,8 @@ pub use mrp_feedback::MrpFeedback;
 pub use quaternion_feedback::QuaternionFeedback;
 pub use rate_damping::RateDamping;
 
-use crate::control::vector::{cross, difference, product, scaled, sum};
-use crate::scene::{DeclaredTable, LawParameter, MassProperties};
+use crate::control::vector::{cross, difference, dot, product, scaled, sum};
+use crate::scene::{DeclaredTable, LawParameter, MassProperties, WheelMode};
 
 /// The laws of attitude that a campaign can name.
 pub static KINDS: &[LawKind] = &[rate_damping::KIND, quaternion_feedback::KIND, mrp_feedback::KIND, eigenaxis::KIND];
@@ -151,12 +151,23 @@ impl KnownBody {
         KnownBody { inertia: mass.inertia_rotating() }
     }
 
-    /// H = K omega + sum h_i a_i, in F_s, N m s: of the body at the rate `omega` (rad/s), with the wheels of `mass` at the momenta `momenta` relative to
-    /// F_e.
-    pub fn momentum(&self, mass: &MassProperties, omega: [f64; 3], momenta: &[f64]) -> [f64; 3] {
-        let of_wheels = mass.wheels.iter().zip(momenta).map(|(wheel, momentum)| scaled(*momentum, wheel.axis));
-        of_wheels.fold(product(self.inertia, omega), sum)
+    /// H = K omega + sum h_i a_i, in F_s, N m s: of the body at the rate `omega` (rad/s), with the wheels of `mass` at the rates `rates` (rad/s).
+    pub fn momentum(&self, mass: &MassProperties, omega: [f64; 3], rates: &[f64]) -> [f64; 3] {
+        wheel_momenta(mass, omega, rates).fold(product(self.inertia, omega), sum)
     }
+}
+
+/// What the wheels of `mass` add to K omega, h_i a_i by wheel, in F_s, N m s, at the rate `omega` of the body and the rates `rates` of the wheels, rad/s:
+/// h_i = J_i (a_i . omega + Omega_i) of a free wheel, and J_i Omega_i of one whose speed is held, because K has the rest of it.
+pub fn wheel_momenta<'a>(
+    mass: &'a MassProperties,
+    omega: [f64; 3],
+    rates: &'a [f64],
+) -> impl Iterator<Item = [f64; 3]> + 'a {
+    mass.wheels.iter().zip(rates).map(move |(wheel, rate)| {
+        let carried = if wheel.mode == WheelMode::SpeedHeld { 0.0 } else { dot(wheel.axis, omega) };
+        scaled(wheel.axial * (carried + rate), wheel.axis)
+    })
 }
 
 #[cfg(test)]
@@ -220,7 +231,7 @@ mod tests {
     use super::*;
     use crate::control::rotation::{quaternion_of, vector_of};
     use crate::control::vector::{conjugate, dcm_from_quaternion, hamilton, norm, transposed_product};
-    use crate::scene::Name;
+    use crate::scene::{Name, Scene, SceneInput};
 
     /// Law: every law of the list is made from its table, has units and names of its own, and takes energy out of a body that turns at its target.
     #[test]
@@ -307,6 +318,27 @@ mod tests {
             // a part of what balances the torque: of MRP P Ki times the limit, else of the error itself
             let limited = left(0.03, if kind.name == "mrp_feedback" { 0.05 } else { 1e-3 });
             assert!(limited > 0.1 * without && limited < 0.97 * without, "{}: {limited:e} of {without:e}", kind.name);
+        }
+    }
+
+    /// Law: H of the laws is that of the whole spacecraft, J omega + sum J_i Omega_i a_i, whichever wheels turn freely, are held or are locked.
+    #[test]
+    fn momentum_is_that_of_the_whole_spacecraft() {
+        let omega = [0.3, -0.2, 0.5];
+        for modes in 0..9 {
+            let mut input = SceneInput::report();
+            let mode = |k: usize| [WheelMode::Free, WheelMode::SpeedHeld, WheelMode::Locked][k];
+            for (wheel, k) in input.wheels.iter_mut().zip([modes % 3, modes / 3]) {
+                (wheel.mode, wheel.axis) = (mode(k), [0.48, -0.6, 0.64]);
+            }
+            let mass = Scene::resolve(&input).expect("a physical scene").mass;
+            let rates = [70.0, -40.0];
+            let found = KnownBody::of(&mass).momentum(&mass, omega, &rates[..mass.wheels.len()]);
+            let mut expected = product(mass.inertia, omega);
+            for (wheel, rate) in mass.wheels.iter().zip(rates) {
+                expected = sum(expected, scaled(wheel.axial * rate, wheel.axis));
+            }
+            assert!(norm(difference(found, expected)) < 1e-15 * norm(expected), "{modes}: {found:?} {expected:?}");
         }
     }
 }
