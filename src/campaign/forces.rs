@@ -17,7 +17,7 @@ pub fn allowed_methods(method: Method, model: ForceModel) -> Option<String> {
     Some(format!("a method that integrates {}: one of {}", left_out.join(" and "), able.join(", ")))
 }
 
-/// Refuses a method that leaves out an effect on `scene`, and a thrust that would change its orbit.
+/// Refuses a method that leaves out an effect on `scene`, a thrust that would change its orbit, and a filter that would not know it.
 pub(super) fn check(scene: &Scene, method: Method, document: &mut Document<'_>) {
     let model = ForceModel::of(scene);
     if let Some(allowed) = allowed_methods(method, model) {
@@ -28,5 +28,11 @@ pub(super) fn check(scene: &Scene, method: Method, document: &mut Document<'_>) 
     if model.contains(Effect::Gravity) && (scene.commands_thrust || commands) {
         let allowed = "left out where thrusters act: the orbit is that of two bodies, which a thrust would change";
         document.add("orbit", Some("given".to_owned()), allowed, "delete [orbit], or command no thrust");
+    }
+    let spec = document.law.as_ref().and_then(|law| law.spec());
+    if model.contains(Effect::Gravity) && spec.is_some_and(|spec| spec.has_filter() && spec.has_radar()) {
+        let allowed =
+            "\"perfect\" or \"raw\" with a ground_radar on an [orbit]: the translation filter does not know gravity";
+        document.add("control.estimator", Some("\"mekf\"".to_owned()), allowed, "delete the radar, or [orbit]");
     }
 }

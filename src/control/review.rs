@@ -11,6 +11,7 @@ use super::sensors::KINDS as SENSORS;
 use super::small_matrix::added;
 use super::spec::{LoopSpec, PhaseSpec};
 use super::stability::{axis_gains, stable_share};
+use crate::dynamics::effects::{Effect, ForceModel, Form};
 use crate::scene::{ControlInput, DeclaredTable, Scene};
 
 /// Angles that look like degrees from here on, rad: what is an error or a band. Others from a turn on.
@@ -47,7 +48,17 @@ pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f
     phases.iter().for_each(|(_, table)| notes.extend(sizes(table, "guidance")));
     notes.extend(fast_wheels(spec, scene));
     notes.extend(window(&numbers.law, duration));
+    notes.extend(unknown_effects(scene));
     notes
+}
+
+/// What acts on the spacecraft and is not known to the filters and laws.
+fn unknown_effects(scene: &Scene) -> Option<String> {
+    let unknown: Vec<&str> =
+        ForceModel::of(scene).effects().filter(|effect| effect.form() != Form::Translation).map(Effect::key).collect();
+    (!unknown.is_empty()).then(|| {
+        format!("control: filters and laws of the loop do not know {}: it acts on the spacecraft, and is a disturbance to them", unknown.join(" and "))
+    })
 }
 
 /// A window of stability that the run does not complete.

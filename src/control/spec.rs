@@ -140,6 +140,11 @@ impl LoopSpec {
         super::estimators::KINDS[self.estimator].name == "perfect"
     }
 
+    /// Whether a radar sees the spacecraft.
+    pub fn has_radar(&self) -> bool {
+        self.sensors.iter().any(|sensor| super::sensors::KINDS[sensor.kind].name == "ground_radar")
+    }
+
     /// Whether a camera sees the debris.
     pub fn has_camera(&self) -> bool {
         self.sensors.iter().any(|sensor| super::sensors::KINDS[sensor.kind].name == "relative_camera")

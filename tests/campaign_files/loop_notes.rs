@@ -56,6 +56,19 @@ const CASES: &[(&str, &str, &[&str], &str)] = &[
         &["stability_from_s = 300.0 is not over"],
         "settling_band_rad = 0.01\nstability_from_s = 299.5",
     ),
+    // the environment
+    (
+        "[initial]",
+        "[environment]\nbody_torque_n_m = [1e-4, 0, 0]\n[initial]",
+        &["filters and laws of the loop do not know environment.body_torque_n_m"],
+        "[environment]\n[initial]",
+    ),
+    (
+        "[initial]",
+        "[orbit]\nsemi_major_axis_m = 7e6\n[environment]\ngravity_gradient = true\n[initial]",
+        &["filters and laws of the loop do not know environment.gravity_gradient"],
+        "[orbit]\nsemi_major_axis_m = 7e6\n[initial]",
+    ),
     // conditions
     (
         "body_rate_rad_s < 0.01",
