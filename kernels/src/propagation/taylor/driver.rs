@@ -83,8 +83,8 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         };
         let order = brief.as_ref().map_or(full, |brief| brief.most);
         let unit = zero.splat(1.0) / vectors.per_unit;
-        let now = (constants.start + vectors.time) * unit;
-        let effects = effects.series(now, unit, &mut work.effects);
+        let (now, low) = two_sum(constants.start, vectors.time);
+        let effects = effects.series([now * unit, (low + vectors.time_low) * unit], unit, &mut work.effects);
         expand::<R, J, FORCED>(&constants, &work.reciprocals, order, &mut work.scratch, effects, &mut segment.jet);
         let left = (vectors.length - vectors.time) - vectors.time_low;
         let mut length = zero;
