@@ -2,7 +2,7 @@
 //! ([`NoEffects`]), or those of the list ([`ChangingEffects`], [`ChangingSeries`]).
 //!
 //! The file of such an effect has its constants for one run per lane, with the torque, and the series of the torque; the list in the parent module names
-//! both. [`changing_effects`] says what they must have.
+//! both. `changing_effects` says what they must have.
 
 use super::ChangingEffects;
 use super::ChangingSeries;

@@ -312,13 +312,12 @@ impl Integration<'_, '_> {
                 now.momentum = sum(constants.momentum, scaled(time, constants.momentum_rate));
                 now.motor_power = constants.motor_power_rate.mul_add(time, constants.motor_power);
                 jet[0] = state;
-                let effects = series.as_mut().map(|series| {
+                if let Some(series) = &mut series {
                     let place = orbit.as_mut().map(|orbit| orbit.begin(unit));
                     let (unit, now) = (DoubleDouble::exact(unit), start + time * DoubleDouble::exact(unit));
                     series.begin(&self.run.effects, place.as_ref(), now, unit);
-                    series
-                });
-                expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, effects, &mut jet);
+                }
+                expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, series.as_mut(), &mut jet);
                 let mut proposed = share * rule.step(&jet, Some(constants.torque_acceleration()));
                 let along = series.as_ref().map(|series| &series.motion.orbit);
                 if let Some(along) = along.filter(|_| orbit.is_some()) {
