@@ -12,7 +12,7 @@ use crate::control::actuators::modulation;
 use crate::control::guidance::phase::{MANEUVERS, Next};
 use crate::control::guidance::target::{TARGETS, Target};
 use crate::control::spec::{LoopSpec, ModelSpec};
-use crate::control::{ControlLaw, estimators, laws, parameters, sensors};
+use crate::control::{ControlLaw, estimators, parameters, sensors};
 use crate::math::symmetric::is_positive_definite;
 use crate::scene::schema::Limit;
 use crate::scene::schema::control::kept;
@@ -266,8 +266,8 @@ pub(super) fn write(spec: &LoopSpec, scene: &SceneInput, lines: &mut Lines) {
         lines.table("[[guidance]]");
         lines.key("phase", phase.name);
         if let Some(law) = phase.law {
-            lines.key("law", laws::KINDS[law].name);
-            if laws::KINDS[law].name == GYROSCOPIC {
+            lines.key("law", law.name);
+            if law.name == GYROSCOPIC {
                 lines.key("gyroscopic", phase.gyroscopic);
             }
         }

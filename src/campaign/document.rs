@@ -9,6 +9,7 @@ use super::problem::{CampaignError, Problem, SHOWN};
 use super::size;
 use super::sources::{SourceText, Sources, lay_over, moved_table, put, value_at};
 use crate::control::ControlLaw;
+use crate::control::laws::LawKind;
 use crate::scene::SceneInput;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -57,8 +58,10 @@ pub struct Document<'a> {
     pub(super) data: (usize, u64),
     /// The scene of the document, once it is read: names of parameters are those of its tables.
     pub(super) scene: SceneInput,
-    /// The control law that the program brings.
+    /// The control law that the program brings, or the loop of the file.
     pub(super) law: Option<ControlLaw>,
+    /// The law of attitude that the program brings, for phases.
+    pub(super) attitude_law: Option<&'static LawKind>,
     /// Whether the file has a control loop of which too little could be read to say its columns and parameters.
     pub(super) is_loop_unknown: bool,
     /// Keys that are there without effect, a sentence each.
@@ -93,15 +96,16 @@ impl<'a> Document<'a> {
             data: (0, 0),
             scene: SceneInput::blank(),
             law: None,
+            attitude_law: None,
             is_loop_unknown: false,
             ignored: Vec::new(),
             units: Vec::new(),
         }
     }
 
-    /// The same document of a program that brings the control law `law`.
-    pub fn under(self, law: Option<ControlLaw>) -> Self {
-        Document { law, ..self }
+    /// The same document of a program that brings the control law `law`, or a law of attitude for phases.
+    pub fn under(self, law: Option<ControlLaw>, attitude_law: Option<&'static LawKind>) -> Self {
+        Document { law, attitude_law, ..self }
     }
 
     /// The folder from which a path counts that is written at the byte `offset`.

@@ -5,8 +5,9 @@ use super::tables::{ignore_others, read_keys};
 use crate::control::guidance::phase::{MANEUVERS, Maneuver, Next};
 use crate::control::guidance::situation::Condition;
 use crate::control::guidance::target::{TARGETS, Target};
+use crate::control::laws::{self, LawKind};
+use crate::control::parameters;
 use crate::control::spec::PhaseSpec;
-use crate::control::{laws, parameters};
 use crate::scene::schema::control::kept;
 use crate::scene::table::Table;
 use crate::scene::{DeclaredTable, Name, SceneInput};
@@ -56,10 +57,11 @@ pub(super) fn read_phase(
         section.rename("guidance", own.as_str());
     }
     let has_debris = scene.debris.is_some();
-    let law_names: Vec<&str> = laws::KINDS.iter().map(|kind| kind.name).collect();
-    let law = section.name("law", &law_names, |name| law_names.iter().position(|known| *known == name));
+    let kinds: Vec<&'static LawKind> = laws::KINDS.iter().chain(section.document.attitude_law).collect();
+    let law_names: Vec<&str> = kinds.iter().map(|kind| kind.name).collect();
+    let law = section.name("law", &law_names, |name| kinds.iter().find(|kind| kind.name == name).copied());
     let gyroscopic = section.flag("gyroscopic").unwrap_or(false);
-    if section.has("gyroscopic") && law.is_some_and(|law| laws::KINDS[law].name != GYROSCOPIC) {
+    if section.has("gyroscopic") && law.is_some_and(|law| law.name != GYROSCOPIC) {
         section.refuse("gyroscopic", format!("left out where the law is not {GYROSCOPIC:?}"), "delete this line");
     }
     let targets: Vec<(&str, Target)> =
@@ -109,14 +111,15 @@ pub(super) fn read_phase(
         }
     }
     let mut lists = parameters::of_phase(target, thrust, [section.has("until"), has_thrusters]);
-    lists.extend(law.map(|law| laws::KINDS[law].parameters));
+    lists.extend(law.map(|law| law.parameters));
     scene.control.guidance.push(DeclaredTable::of(own, kept(&lists)));
     let place = scene.control.guidance.len() - 1;
     read_keys(section, Table::Guidance, place, scene);
     if !is_known {
         return None;
     }
-    ignore_others(section, "law", law, laws::KINDS.iter().map(|kind| (kind.name, kind.parameters)));
+    let place = law.and_then(|law| kinds.iter().position(|kind| *kind == law));
+    ignore_others(section, "law", place, kinds.iter().map(|kind| (kind.name, kind.parameters)));
     section.finish();
     let spec = PhaseSpec { name: own, law, gyroscopic, target, thrust, until, next: Next::Stay, otherwise: None };
     name.map(|_| ReadPhase { spec, next, otherwise })

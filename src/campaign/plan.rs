@@ -17,6 +17,7 @@ use super::size;
 use super::sources::Sources;
 use super::spec::Spec;
 use crate::control::ControlLaw;
+use crate::control::laws::LawKind;
 use crate::observables::request::NutationAxis;
 use crate::observables::window::MAX_WINDOWS;
 use crate::observables::{Group, Request};
@@ -120,6 +121,8 @@ pub struct Overrides {
     pub settings: Vec<(String, String)>,
     /// The control law that the program brings: `[control]` of the file has its parameters.
     pub law: Option<ControlLaw>,
+    /// The law of attitude that the program brings: phases may name it.
+    pub attitude_law: Option<&'static LawKind>,
 }
 
 /// Observation points where the file does not say.
@@ -214,7 +217,7 @@ impl Plan {
 /// The plan of a text, and the files that the text names.
 fn read(folder: &Path, file: &str, text: &str, overrides: Overrides) -> Result<(Plan, FilesRead), CampaignError> {
     let sources = Sources::read(folder, file, text, &overrides.settings)?;
-    let mut document = Document::new(&sources).under(overrides.law.clone());
+    let mut document = Document::new(&sources).under(overrides.law.clone(), overrides.attitude_law);
     let table = document.parse()?;
     let mut spec = Spec::read(&mut document, &table);
     override_spec(&mut spec, &overrides, &mut document);

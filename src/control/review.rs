@@ -6,7 +6,7 @@ use super::actuators::modulation;
 use super::allocation::{ThrustAllocation, WheelTorque};
 use super::guidance::phase::Next;
 use super::guidance::target::Target;
-use super::laws::{KINDS as LAWS, KnownBody, LawSettings};
+use super::laws::{KnownBody, LawSettings};
 use super::sensors::KINDS as SENSORS;
 use super::small_matrix::added;
 use super::spec::{LoopSpec, PhaseSpec};
@@ -184,7 +184,7 @@ fn stability(
     scene: &Scene,
     (phase, table): (&PhaseSpec, &DeclaredTable),
 ) -> Option<String> {
-    let law = LAWS[phase.law?];
+    let law = phase.law?;
     // a slew under a torque limit brakes on a curve that has no gain at its end
     if number(table, "max_torque_n_m") > 0.0 {
         return None;
@@ -203,7 +203,7 @@ fn stability(
     let (period, delay) = (spec.period, number(&numbers.law, "delay_s"));
     let body = (scene.mass.inertia_rotating(), reach);
     let settings = LawSettings { table, gyroscopic: phase.gyroscopic, period, delay };
-    let gains = axis_gains((law.make)(&settings), &known, phase.target != Target::None, body, period);
+    let gains = axis_gains(&(law.make)(&settings), &known, phase.target != Target::None, body, period);
     let share = stable_share(&gains, period, delay)?;
     let most = if share > 0.0 {
         format!(

@@ -3,6 +3,7 @@
 use super::guidance::phase::{Maneuver, Next};
 use super::guidance::situation::Condition;
 use super::guidance::target::Target;
+use super::laws::LawKind;
 use crate::observables::{LawSeries, Series};
 use crate::scene::{Name, Scene};
 
@@ -77,8 +78,8 @@ pub fn ticks_per_period(period: f64, sensors: impl Iterator<Item = f64>) -> Opti
 pub struct PhaseSpec {
     /// Its name.
     pub name: Name,
-    /// Its control law, by its place in the list; `None` for no torque.
-    pub law: Option<usize>,
+    /// Its control law; `None` for no torque.
+    pub law: Option<&'static LawKind>,
     /// Whether its law `mrp_feedback` has the term omega x H.
     pub gyroscopic: bool,
     /// The attitude that it wants; the quaternion of an attitude is a parameter.

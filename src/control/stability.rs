@@ -111,7 +111,7 @@ fn is_within_unit_circle(mut a: Vec<f64>) -> bool {
 /// The gains of `law`, which knows `known`, about each axis that the torques within the projection `reach` control of a body with the inertia `inertia`
 /// (K, kg m^2), all in F_s; without a target the attitude is free.
 pub fn axis_gains(
-    law: AttitudeLaw,
+    law: &AttitudeLaw,
     known: &KnownBody,
     has_target: bool,
     (inertia, reach): ([[f64; 3]; 3], [[f64; 3]; 3]),
@@ -122,17 +122,14 @@ pub fn axis_gains(
     let columns =
         |torque: &dyn Fn([f64; 3]) -> [f64; 3]| [0, 1, 2].map(|axis| scaled(-1.0 / SMALL, torque(unit(axis))));
     let turned = |axis: [f64; 3]| LawInput { q_ts: quaternion_of(scaled(SMALL, axis)), ..LawInput::AT_TARGET };
-    let torque = |input: &LawInput| {
-        let mut law = law;
-        law.torque(known, input, 0.0)
-    };
+    let torque = |input: &LawInput| law.clone().torque(known, input, 0.0);
     let stiffness = columns(&|axis| if has_target { torque(&turned(axis)) } else { [0.0; 3] });
     // without momentum: omega x H is of second order
     let turning = |axis: [f64; 3]| LawInput { omega_se_s: scaled(SMALL, axis), ..LawInput::AT_TARGET };
     let damping = columns(&|axis| torque(&turning(axis)));
     // what a tick adds
     let added = |input: LawInput| -> [f64; 3] {
-        let mut law = law;
+        let mut law = law.clone();
         let [first, second] = [0.0, period].map(|since| law.torque(known, &input, since));
         std::array::from_fn(|i| second[i] - first[i])
     };
@@ -288,7 +285,7 @@ mod tests {
         let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.abs();
         let quaternion = AttitudeLaw::QuaternionFeedback(QuaternionFeedback::new(0.3, 0.8));
         for (reach, count) in [(all, 3), (two, 2)] {
-            let found = axis_gains(quaternion, &known, true, (inertia, reach), 0.5);
+            let found = axis_gains(&quaternion, &known, true, (inertia, reach), 0.5);
             assert_eq!(found.len(), count);
             for one in found {
                 assert!(
@@ -310,7 +307,7 @@ mod tests {
             (AttitudeLaw::RateDamping(RateDamping { gain: 7.0, integral: Integral::NONE }), [0.0, 7.0, 0.0, 0.0]),
             (AttitudeLaw::RateDamping(integrating), [0.0, 7.0, 0.0, 7.0 * 0.2 * 0.5]),
         ] {
-            let mut found = axis_gains(law, &known, true, (inertia, all), 0.5);
+            let mut found = axis_gains(&law, &known, true, (inertia, all), 0.5);
             found.sort_by(|a, b| b.damping.total_cmp(&a.damping));
             for (one, moment) in found.iter().zip(smallest_first) {
                 // the integral of the MRP law has the rate too: P Ki J

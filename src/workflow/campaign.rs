@@ -53,7 +53,7 @@ pub struct Campaign<'a> {
 impl<'a> Campaign<'a> {
     /// The campaign of `file`, which may be given without folder and extension.
     pub fn from_file(file: impl Into<PathBuf>, session: Session<'a>) -> Self {
-        let overrides = Overrides { law: session.law.cloned(), ..Overrides::default() };
+        let overrides = session.overrides();
         Campaign {
             session,
             file: file.into(),

@@ -4,7 +4,9 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 
 use super::error::WorkflowError;
+use crate::campaign::Overrides;
 use crate::control::ControlLaw;
+use crate::control::laws::LawKind;
 use crate::ensemble::Supervision;
 use crate::ensemble::runner::threads;
 use crate::math::Isa;
@@ -60,6 +62,8 @@ pub struct Session<'a> {
     pub threads: Option<NonZeroUsize>,
     /// The control law that the program brings, for campaigns that fly one.
     pub law: Option<&'a ControlLaw>,
+    /// The law of attitude that the program brings, for phases that name it.
+    pub attitude_law: Option<&'static LawKind>,
     /// Who is told.
     pub watch: &'a dyn Watch,
 }
@@ -70,7 +74,7 @@ impl<'a> Session<'a> {
     /// # Errors
     /// Where the environment names an instruction set that is not available.
     pub fn new(watch: &'a dyn Watch) -> Result<Self, WorkflowError> {
-        Ok(Session { storage: &Disk, isa: isa()?, threads: None, law: None, watch })
+        Ok(Session { storage: &Disk, isa: isa()?, threads: None, law: None, attitude_law: None, watch })
     }
 
     /// The same on so many threads.
@@ -83,6 +87,17 @@ impl<'a> Session<'a> {
     #[must_use]
     pub fn under(self, law: &'a ControlLaw) -> Self {
         Session { law: Some(law), ..self }
+    }
+
+    /// The same for campaigns with a control loop whose phases may name `law`, and their results.
+    #[must_use]
+    pub fn with_attitude_law(self, law: &'static LawKind) -> Self {
+        Session { attitude_law: Some(law), ..self }
+    }
+
+    /// What plans are read with: the laws that the program brings.
+    pub(super) fn overrides(&self) -> Overrides {
+        Overrides { law: self.law.cloned(), attitude_law: self.attitude_law, ..Overrides::default() }
     }
 
     /// The number of threads that read files.

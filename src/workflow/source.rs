@@ -46,7 +46,7 @@ pub fn plan_and_files(file: &Path, overrides: Overrides) -> Result<(Plan, FilesR
 /// # Errors
 /// Where the plan is missing or wrong.
 pub fn plan_in(session: &Session<'_>, root: &Path, found: &Found) -> Result<(Plan, FilesRead), WorkflowError> {
-    let overrides = Overrides { law: session.law.cloned(), ..Overrides::default() };
+    let overrides = session.overrides();
     let path = root.join(PLAN);
     let remedy = "the campaign's command with its file writes it again";
     if found.plan.is_empty() {

@@ -50,6 +50,7 @@ mod observation;
 mod observation_columns;
 mod observation_golden;
 mod observed_tables;
+mod own_laws;
 mod page_cards;
 mod page_marks;
 mod page_numbers;

@@ -14,7 +14,7 @@ use crate::control::guidance::Guidance;
 use crate::control::guidance::geometry::LaunchState;
 use crate::control::guidance::phase::Phase;
 use crate::control::guidance::target::Target;
-use crate::control::laws::{AttitudeLaw, KINDS as LAWS, KnownBody, LawSettings, MomentumUnloading};
+use crate::control::laws::{AttitudeLaw, KnownBody, LawSettings, MomentumUnloading};
 use crate::control::loop_record::NOTHING_KNOWN;
 use crate::control::outcome::columns::OutcomeColumns;
 use crate::control::outcome::{Judgement, MissionOutcome};
@@ -131,7 +131,7 @@ impl ControlLoop {
         let delay = number_or(numbers, "delay_s", 0.0);
         let law = |(phase, table): (&PhaseSpec, &DeclaredTable)| {
             let settings = LawSettings { table, gyroscopic: phase.gyroscopic, period: spec.period, delay };
-            phase.law.map_or(AttitudeLaw::None, |law| (LAWS[law].make)(&settings))
+            phase.law.map_or(AttitudeLaw::None, |law| (law.make)(&settings))
         };
         let laws: Vec<AttitudeLaw> = spec.phases.iter().zip(&context.parameters.guidance).map(law).collect();
         let launch = launch_state(numbers);
@@ -146,7 +146,7 @@ impl ControlLoop {
             known: KnownBody::of(&believed.mass),
             estimator,
             guidance: Guidance::new(&phases),
-            law: laws[0],
+            law: laws[0].clone(),
             laws,
             phases,
             wheels,

@@ -162,7 +162,7 @@ impl ControlLoop {
         };
         let begins = starts || std::mem::take(&mut self.guidance.has_changed);
         if begins {
-            self.law = self.laws[self.guidance.phase];
+            self.law = self.laws[self.guidance.phase].clone();
             (error, velocity_to_go) = self.wanted(estimate, geometry.as_ref(), truth.time);
         }
         // columns are about the ticks whose commands act, and about the one at which the mission ends

@@ -18,13 +18,42 @@ pub use mrp_feedback::MrpFeedback;
 pub use quaternion_feedback::QuaternionFeedback;
 pub use rate_damping::RateDamping;
 
+use std::fmt;
+
 use crate::control::vector::{cross, difference, dot, product, scaled, sum};
 use crate::scene::{DeclaredTable, LawParameter, MassProperties, WheelMode};
 
 /// The laws of attitude that a campaign can name.
 pub static KINDS: &[LawKind] = &[rate_damping::KIND, quaternion_feedback::KIND, mrp_feedback::KIND, eigenaxis::KIND];
 
-/// A law of attitude that a campaign can name.
+/// A law of attitude that a campaign can name. Your own one is a static of your program, which its session brings
+/// ([`crate::workflow::session::Session::with_attitude_law`]): phases of `[[guidance]]` then name it as they do the others.
+///
+/// ```
+/// use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
+/// use spindrift::scene::LawParameter;
+/// use spindrift::scene::schema::Limit;
+///
+/// /// u = -c omega.
+/// #[derive(Clone, Debug)]
+/// struct Brake {
+///     gain: f64,
+/// }
+///
+/// impl PhaseLaw for Brake {
+///     fn torque(&mut self, _body: &KnownBody, input: &LawInput, _period: f64) -> [f64; 3] {
+///         input.omega_se_s.map(|rate| -self.gain * rate)
+///     }
+/// }
+///
+/// static PARAMETERS: [LawParameter; 1] = [LawParameter::number("brake_n_m_s", "N m s", "Torque over rate", Limit::Positive)];
+/// static BRAKE: LawKind = LawKind {
+///     name: "brake",
+///     parameters: &PARAMETERS,
+///     make: |settings: &LawSettings<'_>| AttitudeLaw::own(Brake { gain: settings.table.named("brake_n_m_s").map_or(0.0, |c| c[0]) }),
+/// };
+/// assert_eq!(BRAKE.name, "brake");
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct LawKind {
     /// Its name, as in `kind` of a campaign file.
@@ -33,6 +62,40 @@ pub struct LawKind {
     pub parameters: &'static [LawParameter],
     /// Makes the law of a run.
     pub make: fn(&LawSettings<'_>) -> AttitudeLaw,
+}
+
+/// Laws of one name are one law.
+impl PartialEq for LawKind {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+/// A law of attitude that a program brings, in a run. It is made for each phase that names it, and begins anew with the phase.
+pub trait PhaseLaw {
+    /// The wanted torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first of the phase).
+    fn torque(&mut self, body: &KnownBody, input: &LawInput, period: f64) -> [f64; 3];
+}
+
+/// A [`PhaseLaw`] that can be copied without knowing its type.
+trait ClonedLaw: PhaseLaw + fmt::Debug + Send {
+    fn cloned(&self) -> Box<dyn ClonedLaw>;
+}
+
+impl<L: PhaseLaw + Clone + fmt::Debug + Send + 'static> ClonedLaw for L {
+    fn cloned(&self) -> Box<dyn ClonedLaw> {
+        Box::new(self.clone())
+    }
+}
+
+/// The law of a program in a run.
+#[derive(Debug)]
+pub struct OwnLaw(Box<dyn ClonedLaw>);
+
+impl Clone for OwnLaw {
+    fn clone(&self) -> Self {
+        OwnLaw(self.0.cloned())
+    }
 }
 
 /// What the law of a phase is made from.
@@ -51,7 +114,7 @@ pub struct LawSettings<'a> {
 /// A law of attitude in a run, with what it remembers.
 // a run has one for each phase, and a box would be allocated
 #[allow(clippy::large_enum_variant)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum AttitudeLaw {
     /// No torque.
     None,
@@ -63,6 +126,8 @@ pub enum AttitudeLaw {
     MrpFeedback(MrpFeedback),
     /// A slew about one axis.
     Eigenaxis(Eigenaxis),
+    /// One that the program brings.
+    Own(OwnLaw),
 }
 
 impl AttitudeLaw {
@@ -74,7 +139,13 @@ impl AttitudeLaw {
             AttitudeLaw::QuaternionFeedback(law) => law.torque(body, input, period),
             AttitudeLaw::MrpFeedback(law) => law.torque(body, input, period),
             AttitudeLaw::Eigenaxis(law) => law.torque(body, input, period),
+            AttitudeLaw::Own(law) => law.0.torque(body, input, period),
         }
+    }
+
+    /// The law `law` of a program.
+    pub fn own(law: impl PhaseLaw + Clone + fmt::Debug + Send + 'static) -> Self {
+        AttitudeLaw::Own(OwnLaw(Box::new(law)))
     }
 }
 
@@ -109,13 +180,13 @@ impl LawInput {
     }
 
     /// The vector part of the attitude, of the shorter rotation: q_v sign(q_0).
-    fn error_vector(&self) -> [f64; 3] {
+    pub fn error_vector(&self) -> [f64; 3] {
         let [w, x, y, z] = self.q_ts;
         if w < 0.0 { [-x, -y, -z] } else { [x, y, z] }
     }
 
     /// omega x H + K (omega_te' - omega x omega_te): the torque that keeps the rate relative to the target, F_s, N m.
-    fn feedforward(&self, body: &KnownBody) -> [f64; 3] {
+    pub fn feedforward(&self, body: &KnownBody) -> [f64; 3] {
         let carried = difference(self.acceleration_te_s, cross(self.omega_se_s, self.omega_te_s));
         sum(product(body.inertia, carried), cross(self.omega_se_s, self.momentum_s))
     }
@@ -281,7 +352,7 @@ mod tests {
             norm(vector_of(hamilton(conjugate(q_et), body.q_es)))
         };
         for law in laws {
-            let (coarse, fine) = (follow(law, 0.1, true), follow(law, 0.05, true));
+            let (coarse, fine) = (follow(law.clone(), 0.1, true), follow(law.clone(), 0.05, true));
             assert!(fine < 1e-4 && (coarse / fine - 2.0).abs() < 0.1, "{coarse} {fine}");
             assert!(follow(law, 0.1, false) > 0.1);
         }
