@@ -360,7 +360,14 @@ pub fn on(
     work: impl FnOnce(&Session<'_>) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let watch = Quiet::default();
-    work(&Session { storage, isa: Isa::best(), threads: NonZeroUsize::new(1), law: None, attitude_law: None, watch: &watch })
+    work(&Session {
+        storage,
+        isa: Isa::best(),
+        threads: NonZeroUsize::new(1),
+        law: None,
+        attitude_law: None,
+        watch: &watch,
+    })
 }
 
 /// The reason of a failure.

@@ -36,6 +36,7 @@ mod loop_columns;
 mod loop_filters;
 mod loop_ignorance;
 mod loop_laws;
+mod loop_maneuvers;
 mod loop_noise;
 mod loop_phases;
 mod loop_sensors;

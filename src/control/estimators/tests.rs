@@ -96,7 +96,7 @@ fn attitude_runs(runs: u64, omega: [f64; 3], told: f64) -> Found {
 }
 
 /// What is known at a tick without actuation.
-fn update<'a>(tick: u64, period: f64, measurements: &'a [(usize, Measurement)], truth: &'a Truth) -> Update<'a> {
+pub fn update<'a>(tick: u64, period: f64, measurements: &'a [(usize, Measurement)], truth: &'a Truth) -> Update<'a> {
     Update {
         interval: if tick == 0 { 0.0 } else { period },
         measurements,
@@ -232,7 +232,10 @@ impl Nominal {
 /// the truth starts apart from the nominal scene.
 fn errors_without_noise(name: &str, gyro_period: u64) -> (crate::control::estimate::EstimateErrors, Estimate) {
     let input = SceneInput::report().with_debris(DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 100.0 });
-    let nominal = &Scene::resolve(&input).expect("a valid scene");
+    let mut nominal = Scene::resolve(&input).expect("a valid scene");
+    // p turns about c: where c is relative to it depends on when it was seen
+    nominal.mass.center = [0.4, -0.3, 0.2];
+    let nominal = &nominal;
     let mut sensors = Nominal::new(gyro_period);
     let kind = kind(name).expect("a kind");
     let parameters = &table("estimator", kind.parameters, &[]);
