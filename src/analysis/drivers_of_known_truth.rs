@@ -1,12 +1,15 @@
 //! Tests of the rankings on runs whose causes are known.
 
 use crate::analysis::drivers::{Question, rankings};
-use crate::analysis::effects::{Dependence, Direction};
+use crate::analysis::effects::{Dependence, Direction, TestedInput, on_event};
+use crate::analysis::event::{Event, Occurs};
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::observed::Observed;
 use crate::analysis::sensitivity::Prepared;
 use crate::analysis::small_plan::small_plan;
 use crate::campaign::Plan;
+use crate::statistics::contingency::Occurrence;
+use crate::statistics::correlation::{Estimate, ascending_order};
 
 /// SplitMix64: uniform in [0, 1).
 struct Uniform(u64);
@@ -190,4 +193,36 @@ fn limits_that_all_meet_have_no_causes() {
     let few: Vec<Vec<f64>> = inputs.iter().map(|input| input[..70].to_vec()).collect();
     let noise: Vec<f64> = (0..70).map(|_| random.next()).collect();
     assert_eq!(drivers(&few, &noise, false), [None, Some(Vec::new())]);
+}
+
+/// Law: of an input that has nothing to do with an event, the p-value is at most 0.05 in at most 5% of the cases, over a list: inputs of two, three and five
+/// values, one that is mostly one value, and a uniform one. Six standard deviations of 2,000 cases are allowed: a test without its correction for several
+/// levels, or for two questions, has 8% and more.
+#[test]
+fn effects_on_an_event_are_seldom_false() {
+    const CASES: usize = 2000;
+    const ROWS: usize = 150;
+    let draw = |kind: usize, u: f64| match kind {
+        0..=2 => (u * [2.0, 3.0, 5.0][kind]).floor(),
+        3 => (u - 0.7).max(0.0),
+        _ => u,
+    };
+    let mut random = Uniform(11);
+    for kind in 0..5 {
+        let mut found = 0;
+        for _ in 0..CASES {
+            let values: Vec<f64> = (0..ROWS).map(|_| draw(kind, random.next())).collect();
+            let marked: Vec<bool> = (0..ROWS).map(|_| random.next() < 0.2).collect();
+            let events = marked.iter().filter(|is_marked| **is_marked).count() as u64;
+            let of = Occurrence { events, runs: ROWS as u64 };
+            let event = Event { occurs: Occurs::Missed, of, has_few_values: false };
+            let inputs = [TestedInput::new(&values, &ascending_order(&values))];
+            let share = |_| Some(Estimate { value: 0.0, lower: 0.0, upper: 0.0 });
+            let effects = on_event(&inputs, (event, &marked), share, 1, 0.95);
+            found += usize::from(effects[0].as_ref().is_some_and(|effect| effect.p_value <= ALPHA));
+        }
+        let most = CASES as f64 * ALPHA + 6.0 * (CASES as f64 * ALPHA * (1.0 - ALPHA)).sqrt();
+        assert!(found as f64 <= most, "kind {kind}: {found} of {CASES}");
+        assert!(found > CASES / 200, "kind {kind}: {found} of {CASES}: a test that never finds anything is none");
+    }
 }
