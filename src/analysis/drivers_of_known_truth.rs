@@ -226,3 +226,35 @@ fn effects_on_an_event_are_seldom_false() {
         assert!(found > CASES / 200, "kind {kind}: {found} of {CASES}: a test that never finds anything is none");
     }
 }
+
+/// Law: a shift is told by the medians of the runs with the event, then of the others, and by the chance that an input with it is larger than one without:
+/// recomputed from all pairs, for events where the input is large and where it is small.
+#[test]
+fn shifts_are_medians_and_chances() {
+    let mut random = Uniform(5);
+    let values: Vec<f64> = (0..301).map(|_| random.next()).collect();
+    for is_large in [true, false] {
+        let marked: Vec<bool> =
+            values.iter().map(|x| random.next() < 0.1 + 0.6 * if is_large { *x } else { 1.0 - x }).collect();
+        let events = marked.iter().filter(|is_marked| **is_marked).count() as u64;
+        let of = Occurrence { events, runs: 301 };
+        let event = Event { occurs: Occurs::Missed, of, has_few_values: false };
+        let share = |_| Some(Estimate { value: 0.0, lower: 0.0, upper: 0.0 });
+        let inputs = [TestedInput::new(&values, &ascending_order(&values))];
+        let effects = on_event(&inputs, (event, &marked), share, 1, 0.95);
+        let found = &effects[0].as_ref().expect("an effect").dependence;
+        let Dependence::Shift { chance, medians } = found else { panic!("{found:?}") };
+        let of = |wanted: bool| {
+            let mut of: Vec<f64> =
+                values.iter().zip(&marked).filter(|(_, is)| **is == wanted).map(|(x, _)| *x).collect();
+            of.sort_by(f64::total_cmp);
+            of
+        };
+        let [with, without] = [of(true), of(false)];
+        let median = |of: &[f64]| 0.5 * (of[(of.len() - 1) / 2] + of[of.len() / 2]);
+        assert_eq!(*medians, [median(&with), median(&without)]);
+        let wins = with.iter().map(|a| without.iter().filter(|b| a > b).count()).sum::<usize>();
+        let expected = wins as f64 / (with.len() * without.len()) as f64;
+        assert!((chance - expected).abs() < 1e-12 && (*chance > 0.6) == is_large, "{chance} {expected}");
+    }
+}
