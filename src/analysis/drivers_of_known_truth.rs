@@ -1,7 +1,7 @@
 //! Tests of the rankings on runs whose causes are known.
 
 use crate::analysis::drivers::{Question, rankings};
-use crate::analysis::effects::{Dependence, Direction, TestedInput, on_event};
+use crate::analysis::effects::{Dependence, Direction, TestedInput, on_event, on_spread};
 use crate::analysis::event::{Event, Occurs};
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::observed::Observed;
@@ -256,5 +256,30 @@ fn shifts_are_medians_and_chances() {
         let wins = with.iter().map(|a| without.iter().filter(|b| a > b).count()).sum::<usize>();
         let expected = wins as f64 / (with.len() * without.len()) as f64;
         assert!((chance - expected).abs() < 1e-12 && (*chance > 0.6) == is_large, "{chance} {expected}");
+    }
+}
+
+/// Law: where several questions are asked of the same runs, the p-value of one input is that of one question times their number (C. Bonferroni, 1936), on
+/// events and on the spread.
+#[test]
+fn questions_are_counted() {
+    let mut random = Uniform(6);
+    let values: Vec<f64> = (0..200).map(|_| random.next()).collect();
+    let y: Vec<f64> = values.iter().map(|x| 0.25 * x + random.next()).collect();
+    let marked: Vec<bool> = y.iter().map(|y| *y > 0.9).collect();
+    let of = Occurrence { events: marked.iter().filter(|is_marked| **is_marked).count() as u64, runs: 200 };
+    let event = Event { occurs: Occurs::Missed, of, has_few_values: false };
+    let share = |_| Some(Estimate { value: 0.0, lower: 0.0, upper: 0.0 });
+    let inputs = [TestedInput::new(&values, &ascending_order(&values))];
+    let found = |asked: usize| {
+        let of_event = on_event(&inputs, (event, &marked), share, asked, 0.95)[0].as_ref().expect("an effect").p_value;
+        [of_event, on_spread(&inputs, &y, asked)[0].expect("a p-value")]
+    };
+    let one = found(1);
+    assert!(one.iter().all(|p| *p > 0.0 && *p < 0.1), "{one:?}");
+    for asked in [2, 9, 1000] {
+        for (of_many, of_one) in found(asked).into_iter().zip(one) {
+            assert!((of_many - (asked as f64 * of_one).min(1.0)).abs() < 1e-15, "{asked}: {of_many} {of_one}");
+        }
     }
 }
