@@ -283,3 +283,16 @@ fn questions_are_counted() {
         }
     }
 }
+
+/// Law: an outcome with limits on both sides is missed where it is beyond either.
+#[test]
+fn either_limit_is_missed() {
+    let name = Observed::all(&small_plan(7, ""))[0].quantity.name().to_owned();
+    let limit = |words: &str| format!("{{ observable = \"{name}\", {words}, fraction = 0.5 }}");
+    let plan = small_plan(7, &format!("require = [{}, {}]", limit("at_most = 0.75"), limit("at_least = 0.2")));
+    let mut random = Uniform(4);
+    let y: Vec<f64> = (0..300).map(|_| random.next()).collect();
+    let (event, marked) = Event::of(&plan, &name, &y).expect("an event");
+    let expected: Vec<bool> = y.iter().map(|y| *y > 0.75 || *y < 0.2).collect();
+    assert_eq!((event.occurs, marked), (Occurs::Missed, expected));
+}

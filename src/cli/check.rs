@@ -179,12 +179,14 @@ fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
         _ => String::new(),
     };
     format!(
-        "\n== Estimate, from {count} runs\n\
-         {:.3} ms per run on one core; {} samples{looks} on {cores} cores: about {} s\n\
+        "\n== Estimate, from {count} run{}\n\
+         {:.3} ms per run on one core; {} sample{}{looks} on {cores} cores: about {} s\n\
          {} columns; {parts} file{} of rows: about {}; memory: at most {}\n\
          {failed}",
+        if count == 1 { "" } else { "s" },
         probe.seconds * 1e3,
         plan.rows(),
+        if plan.rows() == 1 { "" } else { "s" },
         short(probe.seconds * plan.rows() as f64 / cores as f64),
         headings(ensemble).len(),
         if parts == 1 { "" } else { "s" },

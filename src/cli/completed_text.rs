@@ -54,5 +54,9 @@ fn headline(completed: &Completed) -> String {
         }
         _ => String::new(),
     };
-    format!("{name}: {samples} samples ({}){run}, seed {seed}", completed.summary.samples())
+    format!(
+        "{name}: {samples} {} ({}){run}, seed {seed}",
+        if samples == 1 { "sample" } else { "samples" },
+        completed.summary.samples()
+    )
 }
