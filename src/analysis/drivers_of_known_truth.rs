@@ -296,3 +296,23 @@ fn either_limit_is_missed() {
     let expected: Vec<bool> = y.iter().map(|y| *y > 0.75 || *y < 0.2).collect();
     assert_eq!((event.occurs, marked), (Occurs::Missed, expected));
 }
+
+/// Law: where no limit is missed, the worst runs are the twentieth with the largest values of an outcome that has to stay below a limit, with the smallest of
+/// one that has to stay above.
+#[test]
+fn the_worst_runs_are_on_the_side_of_the_limit() {
+    let name = Observed::all(&small_plan(7, ""))[0].quantity.name().to_owned();
+    let mut random = Uniform(9);
+    let y: Vec<f64> = (0..400).map(|_| random.next()).collect();
+    let mut sorted = y.clone();
+    sorted.sort_by(f64::total_cmp);
+    for (words, is_worst) in [
+        ("at_most = 5.0", (|y, sorted| y >= sorted[380]) as fn(f64, &[f64]) -> bool),
+        ("at_least = -5.0", |y, sorted| y <= sorted[19]),
+    ] {
+        let plan = small_plan(7, &format!("require = [{{ observable = \"{name}\", {words}, fraction = 0.95 }}]"));
+        let (event, marked) = Event::of(&plan, &name, &y).expect("an event");
+        assert!(matches!(event.occurs, Occurs::Worst(share) if (share - 0.05).abs() < 1e-12), "{event:?}");
+        assert!(y.iter().zip(marked).all(|(y, is_marked)| is_worst(*y, &sorted) == is_marked), "{words}");
+    }
+}
