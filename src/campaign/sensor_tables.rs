@@ -3,6 +3,7 @@
 use super::numbers::{NOT_NEGATIVE, POSITIVE};
 use super::section::Section;
 use super::tables::{read_keys, read_name};
+use crate::control::measurement::Observes;
 use crate::control::spec::{MOST_TICKS, SensorSpec, ticks_per_period};
 use crate::control::{estimators, sensors};
 use crate::scene::table::Table;
@@ -21,8 +22,8 @@ pub(super) fn read_sensor(
     let name = read_name(section, Table::Sensors, &taken);
     let names: Vec<&str> = sensors::KINDS.iter().map(|kind| kind.name).collect();
     section.require("kind", &format!("one of {}", names.join(", ")), "\"rate_gyro\"");
-    let seen: Vec<&str> =
-        names.iter().copied().filter(|name| scene.debris.is_some() || *name != "relative_camera").collect();
+    let is_seen = |kind: &&sensors::SensorKind| scene.debris.is_some() || !kind.observes.needs_debris();
+    let seen: Vec<&str> = sensors::KINDS.iter().filter(is_seen).map(|kind| kind.name).collect();
     let kind = section.name("kind", &seen, |name| names.iter().position(|known| *known == name));
     let own_period = section.number("period_s", POSITIVE).or(period);
     let latency = section.number("latency_s", NOT_NEGATIVE).unwrap_or(0.0);
@@ -34,7 +35,7 @@ pub(super) fn read_sensor(
     let place = scene.control.sensors.len() - 1;
     read_keys(section, Table::Sensors, place, scene);
     section.finish();
-    if latency > 0.0 && !sensors::KINDS[kind].has_latency {
+    if latency > 0.0 && !sensors::KINDS[kind].observes.has_latency() {
         section.refuse("latency_s", "left out: this sensor delivers at once", "delete this line");
     }
     if let (Some(period), Some(own)) = (period, own_period) {
@@ -80,18 +81,16 @@ pub(super) fn check_sensors(
     (estimator, period): (usize, Option<f64>),
     [has_debris, has_wheels]: [bool; 2],
 ) {
-    let kinds: Vec<&str> = sensors.iter().flatten().map(|sensor| sensors::KINDS[sensor.kind].name).collect();
     if sensors.iter().any(Option::is_none) {
         return;
     }
-    let name = estimators::KINDS[estimator].name;
-    let mut needed = if name == "perfect" { Vec::new() } else { vec!["star_tracker"] };
-    needed.extend((name != "perfect" && has_debris).then_some("ground_radar"));
-    needed.extend((name == "raw" && has_wheels).then_some("tachometers"));
+    let kind = &estimators::KINDS[estimator];
     let sensors: Vec<&SensorSpec> = sensors.iter().flatten().collect();
     for (place, sensor) in sensors.iter().enumerate() {
         let kind = &sensors::KINDS[sensor.kind];
-        if let Some(first) = sensors[..place].iter().find(|first| kind.at_most_one && first.kind == sensor.kind) {
+        if let Some(first) =
+            sensors[..place].iter().find(|first| kind.observes.at_most_one() && first.kind == sensor.kind)
+        {
             let allowed = format!(
                 "another kind: a loop has at most one sensor of kind {:?}, and that is {}",
                 kind.name, first.name
@@ -114,9 +113,31 @@ pub(super) fn check_sensors(
             root.document.add(&path, Some(format!("{:?}", fastest.period)), allowed, remedy);
         }
     }
-    for kind in needed.iter().filter(|kind| !kinds.contains(kind)) {
-        let allowed = format!("\"perfect\" without a sensor of kind {kind:?}, which this estimator needs");
-        let remedy = format!("add a [[sensors]] table with kind = {kind:?}, or write estimator = \"perfect\"");
-        root.document.add("control.estimator", Some(format!("{name:?}")), allowed, remedy);
+    if kind.knows_the_truth {
+        return;
+    }
+    for sensor in sensors.iter().filter(|sensor| !(kind.uses)(&sensor.observes())) {
+        let what = sensor.observes().text();
+        let allowed = format!("a kind that the estimator {:?} uses: it has no use for {what}", kind.name);
+        let path = format!("sensors.{}.kind", sensor.name);
+        let value = format!("{:?}", sensors::KINDS[sensor.kind].name);
+        root.document.add(&path, Some(value), allowed, "delete the table, or write another estimator");
+    }
+    let needs: [(bool, fn(&Observes) -> bool); 3] = [
+        (true, |observes| matches!(observes, Observes::Attitude(_) | Observes::Direction(_))),
+        (has_debris, |observes| matches!(observes, Observes::Motion(_))),
+        (has_wheels && !kind.has_filter, |observes| matches!(observes, Observes::WheelRates)),
+    ];
+    for (_, meets) in needs.iter().filter(|(is_needed, _)| *is_needed) {
+        let meets = |observes: Observes| meets(&observes) && (kind.uses)(&observes);
+        if sensors.iter().any(|sensor| meets(sensor.observes())) {
+            continue;
+        }
+        let able = sensors::KINDS.iter().filter(|kind| meets(kind.observes));
+        let able: Vec<String> = able.map(|kind| format!("{:?}", kind.name)).collect();
+        let able = able.join(" or ");
+        let allowed = format!("\"perfect\" without a sensor of kind {able}, which this estimator needs");
+        let remedy = format!("add a [[sensors]] table with kind = {able}, or write estimator = \"perfect\"");
+        root.document.add("control.estimator", Some(format!("{:?}", kind.name)), allowed, remedy);
     }
 }

@@ -60,6 +60,30 @@ impl EstimateErrors {
 }
 
 impl Estimate {
+    /// The true state itself.
+    pub fn perfect(truth: &Truth) -> Self {
+        Estimate {
+            q_es: truth.body.q_es,
+            omega_se_s: truth.body.omega_se_s,
+            gyro_bias_s: [0.0; 3],
+            r_co_e: truth.body.r_co_e,
+            v_co_e: truth.body.v_co_e,
+            wheel_rates: truth.wheels.rates,
+            debris: truth.debris,
+        }
+    }
+
+    /// Whether all of it is finite.
+    pub fn is_finite(&self) -> bool {
+        let own = self.q_es.iter().chain(&self.omega_se_s).chain(&self.gyro_bias_s).chain(&self.wheel_rates);
+        let own: f64 = own.chain(&self.r_co_e).chain(&self.v_co_e).sum();
+        let of_debris: f64 = self.debris.as_ref().map_or(0.0, |debris| {
+            let motion = debris.r_gdo_e.iter().chain(&debris.v_gdo_e);
+            motion.chain(&debris.q_ed).chain(&debris.omega_de_d).sum()
+        });
+        (own + of_debris).is_finite()
+    }
+
     /// Its errors where the state is `truth`.
     pub fn errors(&self, truth: &Truth) -> EstimateErrors {
         let angle = |a, b| norm(vector_of(hamilton(conjugate(a), b)));

@@ -1,6 +1,53 @@
-//! [`Measurement`]: what a sensor delivers at a tick.
+//! [`Measurement`]: what a sensor delivers at a tick; [`Observes`]: what it says of the state, for estimators.
+//!
+//! A measurement is numbers whose meaning its kind owns ([`super::sensors::SensorKind::quantities`]). Estimators do not ask for kinds: they take what a kind
+//! observes, of which there are as many forms as an estimator has ways to use one.
 
-use crate::scene::MAX_WHEELS;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use super::estimators::attitude_innovation::AttitudeInnovation;
+use super::sensors::rate_gyro::GyroNoise;
+use crate::scene::DeclaredTable;
+
+/// Most numbers of a measurement.
+pub const MAX_VALUES: usize = 12;
+
+/// The numbers of a measurement, in the order of its kind's quantities; NaN beyond them, and where one is not known.
+pub type Values = [f64; MAX_VALUES];
+
+/// `parts`, one after another.
+///
+/// # Panics
+/// Where they are more than [`MAX_VALUES`].
+pub fn values(parts: &[&[f64]]) -> Values {
+    let mut all = [f64::NAN; MAX_VALUES];
+    let mut at = 0;
+    for part in parts {
+        all[at..at + part.len()].copy_from_slice(part);
+        at += part.len();
+    }
+    all
+}
+
+/// The N numbers of `values` from `first` on.
+///
+/// # Panics
+/// Where there are not so many.
+pub fn part<const N: usize>(values: &Values, first: usize) -> [f64; N] {
+    std::array::from_fn(|i| values[first + i])
+}
+
+/// What a sensor delivers at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measurement {
+    /// The sensor, by its place in the loop.
+    pub sensor: usize,
+    /// Its numbers.
+    pub values: Values,
+    /// How long ago it was measured, s.
+    pub age: f64,
+}
 
 /// Position and velocity of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,59 +58,63 @@ pub struct PointMotion {
     pub v_e: [f64; 3],
 }
 
-/// What a sensor delivers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Measurement {
-    /// Of a rate-integrating gyro: the rotation vector of F_s over the last `interval` seconds, rad, in F_s. It is the same in F_s before and after.
-    Rotation {
-        /// The rotation vector, rad.
-        rotation_s: [f64; 3],
-        /// The interval over which it was measured, s.
-        interval: f64,
-    },
-    /// Of a star tracker: attitude quaternion F_s -> F_e, scalar first, `age` seconds ago.
-    Attitude {
-        /// The measured attitude.
-        q_es: [f64; 4],
-        /// How long ago, s.
-        age: f64,
-    },
-    /// Of a ground radar: motion in F_e of the base point p, and of the debris's centre of mass where there is one.
-    Radar {
-        /// Of p.
-        base: PointMotion,
-        /// Of the debris.
-        debris: Option<PointMotion>,
-        /// How long ago, s.
-        age: f64,
-    },
-    /// Of a camera on the spacecraft: attitude of the debris relative to the spacecraft F_d -> F_s, scalar first, and its angular velocity relative to the
-    /// spacecraft in F_d, rad/s.
-    Camera {
-        /// The relative attitude.
-        q_sd: [f64; 4],
-        /// The relative rate.
-        omega_ds_d: [f64; 3],
-        /// How long ago, s.
-        age: f64,
-    },
-    /// Of the wheels' tachometers: rates relative to the body, rad/s.
-    WheelRates {
-        /// The rates, in the order of the wheels that turn.
-        rates: [f64; MAX_WHEELS],
-    },
+impl PointMotion {
+    /// That of the six numbers of `values` from `first` on; `None` where they are not known.
+    pub fn of(values: &Values, first: usize) -> Option<Self> {
+        let motion = PointMotion { r_e: part(values, first), v_e: part(values, first + 3) };
+        (!motion.r_e[0].is_nan()).then_some(motion)
+    }
 }
 
-impl Measurement {
-    /// The same of `age` seconds ago; rotations of gyros and rates of wheels are delivered at once.
-    #[must_use]
-    pub fn aged(mut self, new: f64) -> Self {
-        match &mut self {
-            Measurement::Attitude { age, .. } | Measurement::Radar { age, .. } | Measurement::Camera { age, .. } => {
-                *age = new;
-            }
-            Measurement::Rotation { .. } | Measurement::WheelRates { .. } => {}
+/// How a filter takes a measurement of the attitude: as flight software believes the sensor, by its nominal parameters.
+pub trait AttitudeSensor: Debug + Send + Sync {
+    /// The innovation of `values` where the attitude is estimated as `q_es` (F_s -> F_e, scalar first).
+    fn innovation(&self, values: &Values, q_es: [f64; 4]) -> AttitudeInnovation;
+}
+
+/// What the sensors of a kind say of the state, with how the nominal parameters of one say how exactly.
+#[derive(Clone, Copy, Debug)]
+pub enum Observes {
+    /// The rotation vector of F_s since the sample before, in F_s, rad: the same before and after it.
+    Rotation(fn(&DeclaredTable) -> GyroNoise),
+    /// The attitude: quaternion F_s -> F_e, scalar first.
+    Attitude(fn(&DeclaredTable) -> Arc<dyn AttitudeSensor>),
+    /// A part of the attitude, as the direction of the Sun in F_s is.
+    Direction(fn(&DeclaredTable) -> Arc<dyn AttitudeSensor>),
+    /// Position and velocity of the base point p in F_e, and of the debris's centre of mass; standard deviations in m and m/s.
+    Motion(fn(&DeclaredTable) -> [f64; 2]),
+    /// Attitude of the debris relative to the spacecraft F_d -> F_s, scalar first, and its rate relative to the spacecraft in F_d, rad/s; standard deviations in
+    /// rad and rad/s.
+    DebrisAttitude(fn(&DeclaredTable) -> [f64; 2]),
+    /// Rates of the wheels relative to the body, in the order of those that turn, rad/s.
+    WheelRates,
+}
+
+impl Observes {
+    /// What it is, in messages.
+    pub fn text(&self) -> &'static str {
+        match self {
+            Observes::Rotation(_) => "the rotation of the body",
+            Observes::Attitude(_) => "the attitude",
+            Observes::Direction(_) => "a direction",
+            Observes::Motion(_) => "positions and velocities",
+            Observes::DebrisAttitude(_) => "attitude and rate of the debris",
+            Observes::WheelRates => "rates of wheels",
         }
-        self
+    }
+
+    /// Whether it is about the debris alone.
+    pub fn needs_debris(&self) -> bool {
+        matches!(self, Observes::DebrisAttitude(_))
+    }
+
+    /// Whether measurements may be delivered later, with their age: filters take the others when they come.
+    pub fn has_latency(&self) -> bool {
+        !matches!(self, Observes::Rotation(_) | Observes::WheelRates)
+    }
+
+    /// Whether a loop has one of it at most: estimators use a single one.
+    pub fn at_most_one(&self) -> bool {
+        matches!(self, Observes::Rotation(_) | Observes::WheelRates)
     }
 }

@@ -3,7 +3,8 @@
 //! - [`law`]: [`ControlLaw`], a law that a plan can fly: its name, its parameters, and how it is made for a run from a [`LawContext`]
 //!   (in [`context`]).
 //! - [`runs`]: the laws of the runs that an engine propagates together.
-//! - [`spec`]: what a loop of a campaign file consists of; [`parameters`]: its numbers. [`control_loop`]: it in a run. [`outcome`]: what comes of a run;
+//! - [`spec`]: what a loop of a campaign file consists of; [`parameters`]: its numbers. [`control_loop`]: it in a run, where the truth ([`plant`]) and what flies it ([`flight_software`])
+//!   meet. [`outcome`]: what comes of a run;
 //!   [`recorder`]: its telemetry; [`loop_record`]: quantities over time at the observation points.
 //! - [`truth`]: the true state at a tick. [`sensors`]: what is measured of it ([`measurement`]).
 //! - [`estimators`]: from measurements to an [`estimate`].
@@ -23,6 +24,7 @@ pub mod context;
 pub mod control_loop;
 pub mod estimate;
 pub mod estimators;
+pub mod flight_software;
 pub mod guidance;
 pub mod law;
 pub mod laws;
@@ -30,6 +32,7 @@ pub mod loop_record;
 pub mod measurement;
 pub mod outcome;
 pub mod parameters;
+pub mod plant;
 pub mod recorder;
 pub mod review;
 pub mod rotation;

@@ -5,7 +5,8 @@ use super::estimate::Estimate;
 use super::estimators::Consistency;
 use super::estimators::kalman::NormalizedSquare;
 use super::measurement::Measurement;
-use super::spec::LoopSpec;
+use super::sensors::{Components, KINDS as SENSORS, MeasuredQuantity};
+use super::spec::{LoopSpec, SensorSpec};
 use super::vector::difference;
 use crate::run::{Quantity, Telemetry};
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS};
@@ -28,11 +29,18 @@ struct Parts {
     thrusters: Vec<usize>,
     has_debris: bool,
     has_filter: bool,
-    gyro: bool,
-    tracker: bool,
-    radar: bool,
-    camera: bool,
-    tachometers: bool,
+    has_camera: bool,
+    sensors: Vec<MeasuredColumns>,
+}
+
+/// The columns of a sensor.
+#[derive(Clone, Debug)]
+struct MeasuredColumns {
+    /// In the names of its columns: its own name where a loop has several of its kind.
+    prefix: String,
+    quantities: &'static [MeasuredQuantity],
+    /// Its period, s.
+    period: f64,
 }
 
 /// What is recorded at a tick.
@@ -50,24 +58,28 @@ pub struct Tick<'a> {
     pub consistency: &'a Consistency,
     /// Commanded motor torques, N m, and mean thrusts, N.
     pub commanded: ([f64; MAX_WHEELS], [f64; MAX_THRUSTERS]),
-    /// What was delivered since the control tick before, with the places of the sensors.
-    pub measurements: &'a [(usize, Measurement)],
+    /// What was delivered at the tick.
+    pub measurements: &'a [Measurement],
 }
 
 impl Recorder {
     /// Of a run under `spec`.
     pub fn new(spec: &LoopSpec) -> Self {
-        let has = |kind: &str| spec.sensors.iter().any(|sensor| super::sensors::KINDS[sensor.kind].name == kind);
+        let columns = |sensor: &SensorSpec| {
+            let is_alone = spec.sensors.iter().filter(|other| other.kind == sensor.kind).count() == 1;
+            MeasuredColumns {
+                prefix: if is_alone { String::new() } else { format!("{}_", sensor.name) },
+                quantities: SENSORS[sensor.kind].quantities,
+                period: sensor.period,
+            }
+        };
         let parts = Parts {
             wheels: spec.wheels.clone(),
             thrusters: spec.thrusters.clone(),
             has_debris: spec.has_debris,
             has_filter: spec.has_filter(),
-            gyro: has("rate_gyro"),
-            tracker: has("star_tracker"),
-            radar: has("ground_radar"),
-            camera: has("relative_camera"),
-            tachometers: has("tachometers"),
+            has_camera: spec.has_camera(),
+            sensors: spec.sensors.iter().map(columns).collect(),
         };
         let quantities = parts.quantities(spec);
         let same = SAME_TIME * spec.period;
@@ -145,7 +157,7 @@ impl Parts {
             let of = ["attitude", "motion"]
                 .into_iter()
                 .chain(self.has_debris.then_some("debris_motion"))
-                .chain(self.camera.then_some("debris"));
+                .chain(self.has_camera.then_some("debris"));
             for of in of {
                 add(
                     of,
@@ -156,69 +168,16 @@ impl Parts {
                 );
             }
         }
-        let null = "null where none was delivered.";
-        if self.gyro {
-            add(
-                "measured_rate_s",
-                XYZ,
-                "rad/s",
-                "rad_s",
-                &format!("Rotation measured by a gyro over its interval, in F_s; {null}"),
-            );
-        }
-        if self.tracker {
-            add(
-                "measured_q_es",
-                WXYZ,
-                "",
-                "",
-                &format!("Attitude quaternion measured by a star tracker, F_s -> F_e; {null}"),
-            );
-        }
-        if self.radar {
-            add("measured_r_po_e", XYZ, "m", "m", &format!("Position of p measured by the radar, in F_e; {null}"));
-            add("measured_v_po_e", XYZ, "m/s", "m_s", &format!("Velocity of p measured by the radar, in F_e; {null}"));
-            add(
-                "measured_r_gdo_e",
-                XYZ,
-                "m",
-                "m",
-                &format!("Position of the debris measured by the radar, in F_e; {null}"),
-            );
-            add(
-                "measured_v_gdo_e",
-                XYZ,
-                "m/s",
-                "m_s",
-                &format!("Velocity of the debris measured by the radar, in F_e; {null}"),
-            );
-        }
-        if self.camera {
-            add(
-                "measured_q_sd",
-                WXYZ,
-                "",
-                "",
-                &format!("Attitude quaternion of the debris measured by the camera, F_d -> F_s; {null}"),
-            );
-            add(
-                "measured_omega_ds_d",
-                XYZ,
-                "rad/s",
-                "rad_s",
-                &format!(
-                    "Angular velocity of the debris relative to the spacecraft measured by the camera, in F_d; {null}"
-                ),
-            );
-        }
-        if self.tachometers {
-            add(
-                "measured_rate",
-                &names,
-                "rad/s",
-                "rad_s",
-                &format!("Rate of this wheel measured by its tachometer; {null}"),
-            );
+        for sensor in &self.sensors {
+            for quantity in sensor.quantities {
+                let components = match quantity.components {
+                    Components::Named(components) => components,
+                    Components::Wheels => &names,
+                };
+                let (name, [unit, suffix]) = (format!("{}{}", sensor.prefix, quantity.name), quantity.unit);
+                let meaning = format!("{}; null where none was delivered.", quantity.meaning);
+                add(&name, components, unit, suffix, &meaning);
+            }
         }
         add("commanded_torque", &names, "N m", "n_m", "Commanded torque of the motor of this wheel.");
         let names: Vec<&str> = self.thrusters.iter().map(|place| spec.thruster_names[*place].as_str()).collect();
@@ -248,7 +207,7 @@ impl Parts {
                 (true, [of.attitude, of.attitude_innovation]),
                 (true, [of.motion, of.motion_innovation]),
                 (self.has_debris, [of.debris_motion, of.debris_motion_innovation]),
-                (self.camera, [of.debris, of.debris_innovation]),
+                (self.has_camera, [of.debris, of.debris_innovation]),
             ];
             let shown = all.into_iter().filter(|(is_shown, _)| *is_shown).flat_map(|(_, squares)| squares);
             row.extend(shown.map(|square| square.map_or(f64::NAN, per_degree)));
@@ -260,34 +219,23 @@ impl Parts {
         row
     }
 
-    /// The last measurement of each kind.
-    fn measured(&self, measurements: &[(usize, Measurement)], row: &mut Vec<f64>) {
-        let (mut gyro, mut tracker, mut radar) = ([f64::NAN; 3], [f64::NAN; 4], [f64::NAN; 12]);
-        let (mut camera, mut tachometers) = ([f64::NAN; 7], [f64::NAN; MAX_WHEELS]);
-        for (_, measurement) in measurements {
-            match measurement {
-                Measurement::Rotation { rotation_s, interval } => gyro = rotation_s.map(|turn| turn / interval),
-                Measurement::Attitude { q_es, .. } => tracker = *q_es,
-                Measurement::Radar { base, debris, .. } => {
-                    radar[..3].copy_from_slice(&base.r_e);
-                    radar[3..6].copy_from_slice(&base.v_e);
-                    if let Some(debris) = debris {
-                        radar[6..9].copy_from_slice(&debris.r_e);
-                        radar[9..].copy_from_slice(&debris.v_e);
-                    }
-                }
-                Measurement::Camera { q_sd, omega_ds_d, .. } => {
-                    camera[..4].copy_from_slice(q_sd);
-                    camera[4..].copy_from_slice(omega_ds_d);
-                }
-                Measurement::WheelRates { rates } => tachometers = *rates,
+    /// The last measurement of each sensor.
+    fn measured(&self, measurements: &[Measurement], row: &mut Vec<f64>) {
+        for (place, sensor) in self.sensors.iter().enumerate() {
+            let last = measurements.iter().rev().find(|measurement| measurement.sensor == place);
+            let mut next = 0;
+            for quantity in sensor.quantities {
+                let places: Vec<usize> = match quantity.components {
+                    Components::Named(components) => (next..next + components.len()).collect(),
+                    Components::Wheels => self.wheels.iter().map(|wheel| next + wheel).collect(),
+                };
+                let interval = if quantity.is_over_period { sensor.period } else { 1.0 };
+                row.extend(places.iter().map(|at| last.map_or(f64::NAN, |last| last.values[*at] / interval)));
+                next += match quantity.components {
+                    Components::Named(components) => components.len(),
+                    Components::Wheels => MAX_WHEELS,
+                };
             }
-        }
-        let shown: [(bool, &[f64]); 4] =
-            [(self.gyro, &gyro), (self.tracker, &tracker), (self.radar, &radar), (self.camera, &camera)];
-        shown.into_iter().filter(|(is_there, _)| *is_there).for_each(|(_, values)| row.extend(values));
-        if self.tachometers {
-            row.extend(self.wheels.iter().map(|place| tachometers[*place]));
         }
     }
 }

@@ -7,7 +7,7 @@ use super::allocation::{ThrustAllocation, WheelTorque};
 use super::guidance::phase::Next;
 use super::guidance::target::Target;
 use super::laws::{KnownBody, LawSettings};
-use super::sensors::KINDS as SENSORS;
+use super::measurement::Observes;
 use super::small_matrix::added;
 use super::spec::{LoopSpec, PhaseSpec};
 use super::stability::{axis_gains, stable_share};
@@ -164,7 +164,7 @@ fn slew(spec: &LoopSpec, numbers: &ControlInput, (phase, table): (&PhaseSpec, &D
     }
     let trackers = spec.sensors.iter().zip(&numbers.sensors);
     let trackers =
-        trackers.filter(|(sensor, _)| SENSORS[sensor.kind].name == "star_tracker" && !spec.knows_the_truth());
+        trackers.filter(|(sensor, _)| matches!(sensor.observes(), Observes::Attitude(_)) && !spec.knows_the_truth());
     for (tracker, table) in trackers {
         let most = number(table, "max_rate_rad_s");
         if most > 0.0 && rate > most {

@@ -4,6 +4,7 @@ use super::guidance::phase::{Maneuver, Next};
 use super::guidance::situation::Condition;
 use super::guidance::target::Target;
 use super::laws::LawKind;
+use super::measurement::Observes;
 use crate::observables::{LawSeries, Series};
 use crate::scene::{Name, Scene};
 
@@ -47,6 +48,13 @@ pub struct SensorSpec {
     pub period: f64,
     /// Time from a measurement to its delivery, s.
     pub latency: f64,
+}
+
+impl SensorSpec {
+    /// What it says of the state.
+    pub fn observes(&self) -> Observes {
+        super::sensors::KINDS[self.kind].observes
+    }
 }
 
 /// Most ticks in a control period, and control periods in a latency.
@@ -133,22 +141,22 @@ impl LoopSpec {
 
     /// Whether the estimator has filters.
     pub fn has_filter(&self) -> bool {
-        super::estimators::KINDS[self.estimator].name == "mekf"
+        super::estimators::KINDS[self.estimator].has_filter
     }
 
     /// Whether the state is known without sensors.
     pub fn knows_the_truth(&self) -> bool {
-        super::estimators::KINDS[self.estimator].name == "perfect"
+        super::estimators::KINDS[self.estimator].knows_the_truth
     }
 
     /// Whether a radar sees the spacecraft.
     pub fn has_radar(&self) -> bool {
-        self.sensors.iter().any(|sensor| super::sensors::KINDS[sensor.kind].name == "ground_radar")
+        self.sensors.iter().any(|sensor| matches!(sensor.observes(), Observes::Motion(_)))
     }
 
     /// Whether a camera sees the debris.
     pub fn has_camera(&self) -> bool {
-        self.sensors.iter().any(|sensor| super::sensors::KINDS[sensor.kind].name == "relative_camera")
+        self.sensors.iter().any(|sensor| matches!(sensor.observes(), Observes::DebrisAttitude(_)))
     }
 
     /// Whether the launch axis plays a part.

@@ -244,3 +244,24 @@ fn repair(
     let job = Finishing { session: *session, ensemble, ready: &ready, root, outputs: &outputs, made: None };
     complete(&job, None).map(|completed| Repair::Done(Box::new(completed)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: a choice has its share of a list, rounded up, and is spread over all of it: each of as many stretches of equal length has one, and none has two.
+    #[test]
+    fn a_choice_is_spread_over_the_list() {
+        for length in [1, 7, 10, 100, 1_001] {
+            let list: Vec<usize> = (0..length).collect();
+            for fraction in [0.0, 1e-6, 0.1, 0.3, 0.5, 1.0] {
+                let chosen = choice(&list, fraction);
+                assert_eq!(chosen.len(), (fraction * length as f64).ceil() as usize);
+                for (stretch, at) in chosen.iter().enumerate() {
+                    let of = |stretch: usize| stretch * length / chosen.len();
+                    assert!((of(stretch)..of(stretch + 1)).contains(at), "{at} of {length} in stretch {stretch}");
+                }
+            }
+        }
+    }
+}

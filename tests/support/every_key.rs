@@ -299,7 +299,7 @@ pub fn every_loop() -> Vec<String> {
     for kind in &spindrift::control::sensors::KINDS {
         let name = kind.name;
         sensors += &format!("[[sensors]]\nname = \"a_{name}\"\nkind = \"{name}\"\nperiod_s = 0.5\n");
-        sensors += if kind.has_latency { "latency_s = 0.25\n" } else { "" };
+        sensors += if kind.observes.has_latency() { "latency_s = 0.25\n" } else { "" };
     }
     let laws = spindrift::control::laws::KINDS.iter().map(|kind| (kind.name, numbers(kind.parameters)));
     let laws: Vec<_> = laws.collect();

@@ -7,20 +7,16 @@
 //!
 //! Not here: measurements that come late ([`super::delayed`]).
 
+use std::sync::Arc;
+
+use super::attitude_innovation::AttitudeInnovation;
 use super::delayed::Filter;
-use super::kalman::{Gain, NormalizedSquare, blocks, corners, halves, normalized_square, symmetric};
+use super::kalman::{NormalizedSquare, blocks, corners, halves, normalized_square, symmetric};
+use crate::control::measurement::{AttitudeSensor, Values};
 use crate::control::rotation::{quaternion_of, vector_of};
+use crate::control::sensors::rate_gyro::GyroNoise;
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
 use crate::control::vector::{conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, scaled, sum};
-
-/// The noise of a gyro, as the filter believes it: Farrenkopf's sv, rad/sqrt(s), and su, rad/s/sqrt(s).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GyroNoise {
-    /// Angular random walk sv.
-    pub angular_random_walk: f64,
-    /// Random walk of the bias su.
-    pub bias_random_walk: f64,
-}
 
 /// A step by a measured rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,13 +29,30 @@ pub struct GyroStep {
     pub interval: f64,
 }
 
-/// A measured attitude.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A measurement of the attitude, or of a part of it.
+#[derive(Clone, Debug)]
 pub struct AttitudeObservation {
-    /// Attitude quaternion, F_s -> F_e, scalar first.
-    pub q_es: [f64; 4],
-    /// Covariance of its error in F_s, rad^2.
-    pub covariance: [[f64; 3]; 3],
+    /// Its numbers.
+    pub values: Values,
+    /// The sensor, as the filter believes it.
+    pub sensor: Arc<dyn AttitudeSensor>,
+}
+
+impl AttitudeObservation {
+    /// The attitude `q_es` (F_s -> F_e, scalar first) with an error of this covariance in F_s, rad^2.
+    #[cfg(test)]
+    pub fn whole(q_es: [f64; 4], covariance: [[f64; 3]; 3]) -> Self {
+        use super::attitude_innovation::WholeAttitude;
+        AttitudeObservation {
+            values: crate::control::measurement::values(&[&q_es]),
+            sensor: Arc::new(WholeAttitude(covariance)),
+        }
+    }
+
+    /// Its innovation where the attitude is estimated as `q_es`.
+    pub fn innovation(&self, q_es: [f64; 4]) -> AttitudeInnovation {
+        self.sensor.innovation(&self.values, q_es)
+    }
 }
 
 /// Attitude, gyro bias and their covariance.
@@ -56,10 +69,6 @@ pub struct AttitudeFilter {
     /// The noise of the gyro.
     pub noise: GyroNoise,
 }
-
-/// What a measured attitude sees of the error.
-pub(super) const ATTITUDE_ONLY: [[f64; 6]; 3] =
-    [[1.0, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]];
 
 impl AttitudeFilter {
     /// Attitude `q_es` with an error of standard deviation `attitude_sigma` (rad) about each axis, no bias with one of `bias_sigma` (rad/s).
@@ -120,12 +129,11 @@ impl Filter for AttitudeFilter {
     }
 
     fn update(&mut self, observation: &AttitudeObservation) -> Option<NormalizedSquare> {
-        let innovation = vector_of(hamilton(conjugate(self.q_es), observation.q_es));
-        let gain = Gain::of(&mut self.covariance, &ATTITUDE_ONLY, &observation.covariance)?;
-        let (turn, bias) = halves(gain.correction(innovation));
+        let (correction, square) = observation.innovation(self.q_es).update(&mut self.covariance)?;
+        let (turn, bias) = halves(correction);
         self.q_es = normalized(hamilton(self.q_es, quaternion_of(turn)));
         self.bias_s = sum(self.bias_s, bias);
-        Some(gain.square(innovation))
+        Some(square)
     }
 }
 
@@ -184,7 +192,7 @@ mod tests {
         for (sv, su, sn, t) in [(1e-4, 1e-5, 5e-4, 0.5), (1e-6, 2e-7, 2.5e-5, 2.0)] {
             let noise = GyroNoise { angular_random_walk: sv, bias_random_walk: su };
             let mut filter = AttitudeFilter::new(REST, 1e-2, 1e-4, noise);
-            let seen = AttitudeObservation { q_es: REST, covariance: diagonal([sn * sn; 3]) };
+            let seen = AttitudeObservation::whole(REST, diagonal([sn * sn; 3]));
             let mut before = filter.covariance;
             for _ in 0..1_500 {
                 filter.propagate(&GyroStep { rotation_s: [0.0; 3], rate_s: [0.0; 3], interval: t });
@@ -265,7 +273,7 @@ mod tests {
                 filter.propagate(GyroStep { rotation_s, rate_s: [0.0; 3], interval });
             }
             for seen in golden.attitudes.iter().filter(|seen| seen.taken + seen.age == tick) {
-                filter.update(AttitudeObservation { q_es: seen.q_es, covariance }, seen.age).expect("an innovation");
+                filter.update(AttitudeObservation::whole(seen.q_es, covariance), seen.age).expect("an innovation");
             }
             let now = filter.now();
             let c_es = dcm_from_quaternion(now.q_es);

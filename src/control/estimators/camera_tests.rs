@@ -1,8 +1,8 @@
 //! What a camera's image says of the debris is as uncertain, and about the same axes, as the attitude through which it was seen.
 
-use super::tests::update;
+use super::tests::{at_once, observes, update};
 use super::*;
-use crate::control::measurement::Measurement;
+use crate::control::measurement::values;
 use crate::control::rotation::quaternion_of;
 use crate::control::sensors;
 use crate::control::sensors::bench::{table, truth};
@@ -31,7 +31,8 @@ fn an_image_is_as_uncertain_as_the_attitude() {
     let declared = |kind: &str| sensors::kind(kind).expect("a kind").parameters;
     let tracker = &table("tracker", declared("star_tracker"), &[("noise_rad", &TRACKER)]);
     let camera = &table("camera", declared("relative_camera"), &[("attitude_noise_rad", &[CAMERA])]);
-    let known = |kind, parameters| KnownSensor { kind, period: 0.1, latency: 0.0, parameters };
+    let known =
+        |kind: &str, parameters| KnownSensor { observes: observes(kind), period: 0.1, latency: 0.0, parameters };
     let list = [known("star_tracker", tracker), known("relative_camera", camera)];
     for turn in [[0.0; 3], [1.2, 0.0, 0.0], [0.4, -0.9, 1.7]] {
         let context = EstimatorContext { nominal, parameters, sensors: &list, tick: 0.1 };
@@ -41,11 +42,8 @@ fn an_image_is_as_uncertain_as_the_attitude() {
         let mut at = truth(0.0, q_es, [0.0; 3]);
         let debris = |q_ed| DebrisState { r_gdo_e: [0.0; 3], v_gdo_e: [0.0; 3], q_ed, omega_de_d: [0.0; 3] };
         at.debris = Some(debris(hamilton(q_es, q_sd)));
-        let seen = [
-            (0, Measurement::Attitude { q_es, age: 0.0 }),
-            (1, Measurement::Camera { q_sd, omega_ds_d: [0.0; 3], age: 0.0 }),
-        ];
-        let estimate = estimator.update(&update(0, 0.1, &seen, &at));
+        let seen = [at_once(0, values(&[&q_es])), at_once(1, values(&[&q_sd, &[0.0; 3]]))];
+        let estimate = estimator.update(&update(0, 0.1, &seen));
         let found = estimate.debris.expect("debris");
         for axis in 0..3 {
             let mut unit = [0.0; 3];

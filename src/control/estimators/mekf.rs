@@ -4,29 +4,37 @@
 //!
 //! They start at the nominal state, at no bias, and believe the nominal noise of the sensors. Measurements are taken at their time. The debris is seen through the
 //! estimated attitude and rate of the spacecraft: their covariance adds to the camera's noise, as if it were white, which it is not.
-//! The first gyro is used; where it measures less often than the loop ticks, the rotation in between is predicted at its last rate and put right when it
+//! Where the gyro measures less often than the loop ticks, the rotation in between is predicted at its last rate and put right when it
 //! measures. Rates of wheels follow the commanded torques of motors from one tachometer reading to the next.
 
-use super::attitude_filter::{AttitudeFilter, AttitudeObservation, GyroNoise, GyroStep};
+use std::sync::Arc;
+
+use super::attitude_filter::{AttitudeFilter, AttitudeObservation, GyroStep};
 use super::delayed::Delayed;
 use super::kalman::{NormalizedSquare, corners};
-use super::rigid_body_filter::{BodyObservation, BodyStep, RigidBodyFilter};
+use super::rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter};
 use super::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
-use super::{Consistency, Estimator, EstimatorContext, EstimatorKind, Update, center_of};
+use super::{Consistency, Estimator, EstimatorContext, EstimatorKind, KnownSensor, Update, center_of};
 use crate::control::estimate::Estimate;
 use crate::control::laws::wheel_momenta;
-use crate::control::measurement::{Measurement, PointMotion};
+use crate::control::measurement::{AttitudeSensor, Measurement, Observes, PointMotion, part};
 use crate::control::rotation::{quaternion_of, vector_of};
 use crate::control::sensors::number;
-use crate::control::sensors::star_tracker::covariance_s;
+use crate::control::sensors::rate_gyro::GyroNoise;
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
 use crate::control::truth::{DebrisState, Truth};
 use crate::control::vector::{conjugate, dcm_from_quaternion, difference, dot, hamilton, product, scaled, sum};
 use crate::scene::schema::Limit;
 use crate::scene::{LawParameter, MAX_WHEELS, MassProperties, WheelMode};
 
-pub(super) const KIND: EstimatorKind =
-    EstimatorKind { name: "mekf", parameters: &PARAMETERS, make: |context| Box::new(Mekf::new(context)) };
+pub(super) const KIND: EstimatorKind = EstimatorKind {
+    name: "mekf",
+    knows_the_truth: false,
+    has_filter: true,
+    uses: |_| true,
+    parameters: &PARAMETERS,
+    make: |context| Box::new(Mekf::new(context)),
+};
 
 const fn belief(key: &'static str, unit: &'static str, meaning: &'static str, default: &'static [f64]) -> LawParameter {
     LawParameter::number(key, unit, meaning, Limit::NotNegative).or(default)
@@ -73,29 +81,41 @@ static PARAMETERS: [LawParameter; 13] = [
     ),
 ];
 
-/// What the filters believe of a sensor.
-#[derive(Clone, Copy, Debug)]
-enum Believed {
-    /// The gyro that is used.
-    Gyro,
-    /// Covariance of an attitude, rad^2.
-    Tracker([[f64; 3]; 3]),
+/// A sensor as the filters believe it.
+#[derive(Clone, Debug)]
+enum SensorModel {
+    /// The gyro; its period, s.
+    Gyro(GyroNoise, f64),
+    /// The attitude, or a part of it.
+    Attitude(Arc<dyn AttitudeSensor>),
     /// Standard deviations of position, m, and velocity, m/s.
-    Radar([f64; 2]),
-    /// Variances of relative attitude, rad^2, and rate, rad^2/s^2.
-    Camera([f64; 2]),
-    /// It measures rates of wheels, or something that the filters do not use.
-    Other,
+    Motion([f64; 2]),
+    /// Standard deviations of relative attitude, rad, and rate, rad/s.
+    DebrisAttitude([f64; 2]),
+    WheelRates,
+}
+
+impl SensorModel {
+    fn of(sensor: &KnownSensor<'_>) -> Self {
+        let table = sensor.parameters;
+        match sensor.observes {
+            Observes::Rotation(noise) => SensorModel::Gyro(noise(table), sensor.period),
+            Observes::Attitude(model) | Observes::Direction(model) => SensorModel::Attitude(model(table)),
+            Observes::Motion(sigmas) => SensorModel::Motion(sigmas(table)),
+            Observes::DebrisAttitude(sigmas) => SensorModel::DebrisAttitude(sigmas(table)),
+            Observes::WheelRates => SensorModel::WheelRates,
+        }
+    }
 }
 
 /// The filter of the spacecraft's attitude.
 enum Attitude {
-    WithGyro(Delayed<AttitudeFilter>, Turned),
+    WithGyro(Delayed<AttitudeFilter>, GyroPropagation),
     WithoutGyro(Delayed<RigidBodyFilter>),
 }
 
 /// What the gyro has told.
-struct Turned {
+struct GyroPropagation {
     /// The rotation since its last measurement, as predicted.
     predicted: [f64; 4],
     /// Its last rate, with the bias, rad/s.
@@ -104,55 +124,55 @@ struct Turned {
     variance: f64,
 }
 
+/// The innovations of one filter.
+#[derive(Clone, Copy, Debug, Default)]
+struct InnovationSum {
+    /// Of all measurements of this tick together: squares and degrees of freedom add.
+    of_tick: Option<NormalizedSquare>,
+    /// Sum and number of the normalised squares since the start, each over its degrees of freedom.
+    sum: f64,
+    count: f64,
+}
+
+/// The innovations of all filters.
+#[derive(Clone, Copy, Debug, Default)]
+struct Innovations {
+    attitude: InnovationSum,
+    motion: InnovationSum,
+    debris_motion: InnovationSum,
+    debris: InnovationSum,
+}
+
 struct Mekf {
     mass: MassProperties,
     tick: f64,
-    believed: Vec<Believed>,
+    sensors: Vec<SensorModel>,
     attitude: Attitude,
     motion: Delayed<TranslationFilter>,
     debris_motion: Option<Delayed<TranslationFilter>>,
     debris: Option<Delayed<RigidBodyFilter>>,
     wheel_rates: [f64; MAX_WHEELS],
-    innovations: Consistency,
-    /// Sum and number of the normalised squares of the innovations since the start, over their degrees of freedom.
-    innovation_sums: [[f64; 2]; 4],
+    innovations: Innovations,
 }
 
 impl Mekf {
     fn new(context: &EstimatorContext<'_>) -> Self {
         let (start, mass) = (context.start(), context.nominal.mass);
         let own = |key: &str| number(context.parameters, key);
-        let mut gyro = None;
-        let mut believed = Vec::new();
-        let mut oldest = 0;
-        for sensor in context.sensors {
-            let table = sensor.parameters;
-            let square = |key: &str| number(table, key) * number(table, key);
-            believed.push(match sensor.kind {
-                "rate_gyro" if gyro.is_none() => {
-                    gyro = Some(sensor);
-                    Believed::Gyro
-                }
-                "star_tracker" => Believed::Tracker(covariance_s(table)),
-                "ground_radar" => {
-                    Believed::Radar([number(table, "position_noise_m"), number(table, "velocity_noise_m_s")])
-                }
-                "relative_camera" => Believed::Camera([square("attitude_noise_rad"), square("rate_noise_rad_s")]),
-                _ => Believed::Other,
-            });
-            oldest = oldest.max(ticks(sensor.latency, context.tick));
-        }
+        let sensors: Vec<SensorModel> = context.sensors.iter().map(SensorModel::of).collect();
+        let gyro = sensors.iter().find_map(|sensor| match sensor {
+            SensorModel::Gyro(noise, period) => Some((*noise, *period)),
+            _ => None,
+        });
+        let latencies = context.sensors.iter().map(|sensor| ticks(sensor.latency, context.tick));
+        let oldest = latencies.max().unwrap_or(0);
         let sigma = own("initial_attitude_sigma_rad");
         let attitude = match gyro {
-            Some(sensor) => {
-                let table = sensor.parameters;
-                let angular_random_walk = number(table, "angular_random_walk_rad_sqrt_s");
-                let noise =
-                    GyroNoise { angular_random_walk, bias_random_walk: number(table, "bias_random_walk_rad_s_sqrt_s") };
+            Some((noise, period)) => {
                 let mut filter = AttitudeFilter::new(start.q_es, sigma, own("initial_bias_sigma_rad_s"), noise);
                 filter.rate_s = start.omega_se_s;
-                let variance = angular_random_walk * angular_random_walk / sensor.period;
-                let turned = Turned { predicted: [1.0, 0.0, 0.0, 0.0], rate: start.omega_se_s, variance };
+                let variance = noise.angular_random_walk * noise.angular_random_walk / period;
+                let turned = GyroPropagation { predicted: [1.0, 0.0, 0.0, 0.0], rate: start.omega_se_s, variance };
                 Attitude::WithGyro(Delayed::new(filter, oldest), turned)
             }
             None => {
@@ -180,14 +200,13 @@ impl Mekf {
         Mekf {
             mass,
             tick: context.tick,
-            believed,
+            sensors,
             attitude,
             motion: translation(start.r_co_e, start.v_co_e, sigmas.0, sigmas.1, "velocity_random_walk_m_s_sqrt_s"),
             debris_motion,
             debris,
             wheel_rates: start.wheel_rates,
-            innovations: Consistency::default(),
-            innovation_sums: [[0.0; 2]; 4],
+            innovations: Innovations::default(),
         }
     }
 
@@ -219,7 +238,7 @@ impl Mekf {
         let before = self.attitude_at(0);
         match &mut self.attitude {
             Attitude::WithGyro(filter, turned) => {
-                let rotation_s = turned.rotation(&self.believed, update);
+                let rotation_s = turned.rotation(&self.sensors, update);
                 filter.propagate(GyroStep { rotation_s, rate_s: turned.rate, interval });
             }
             Attitude::WithoutGyro(filter) => {
@@ -251,48 +270,54 @@ impl Mekf {
     }
 
     /// Takes what is seen through the attitude of the spacecraft.
-    fn take(&mut self, measurement: &Measurement, believed: Believed) {
-        match (*measurement, believed) {
-            (Measurement::Radar { base, debris, age }, Believed::Radar(sigmas)) => {
-                let age = ticks(age, self.tick);
-                let (q_es, omega) = self.attitude_at(age);
-                let motion = center_of(base, self.mass.center, q_es, omega);
-                self.innovations.motion_innovation = self.motion.update(MotionObservation { motion, sigmas }, age);
-                if let (Some(motion), Some(filter)) = (debris, &mut self.debris_motion) {
-                    self.innovations.debris_motion_innovation =
-                        filter.update(MotionObservation { motion, sigmas }, age);
+    fn take(&mut self, measurement: &Measurement) {
+        let (age, values) = (ticks(measurement.age, self.tick), &measurement.values);
+        match &self.sensors[measurement.sensor] {
+            SensorModel::Motion(sigmas) => {
+                let sigmas = *sigmas;
+                if let Some(base) = PointMotion::of(values, 0) {
+                    let (q_es, omega) = self.attitude_at(age);
+                    let motion = center_of(base, self.mass.center, q_es, omega);
+                    let square = self.motion.update(MotionObservation { motion, sigmas }, age);
+                    self.innovations.motion.take(square);
+                }
+                if let (Some(motion), Some(filter)) = (PointMotion::of(values, 6), &mut self.debris_motion) {
+                    self.innovations.debris_motion.take(filter.update(MotionObservation { motion, sigmas }, age));
                 }
             }
-            (Measurement::Camera { q_sd, omega_ds_d, age }, Believed::Camera([of_turn, of_rate])) => {
-                let age = ticks(age, self.tick);
+            SensorModel::DebrisAttitude(sigmas) => {
+                let [of_turn, of_rate] = sigmas.map(|sigma| sigma * sigma);
+                let (q_sd, omega_ds_d): ([f64; 4], [f64; 3]) = (part(values, 0), part(values, 4));
                 let (q_es, omega) = self.attitude_at(age);
                 let [turn_covariance, rate_covariance] = self.covariances_at(age);
                 let c_ds = dcm_from_quaternion(conjugate(q_sd));
                 let in_debris = |p: [[f64; 3]; 3]| multiplied(&multiplied(&c_ds, &p), &transposed(&c_ds));
                 let noise = |variance| diagonal([variance; 3]);
-                let covariance = in_debris(added(&turn_covariance, &noise(of_turn)));
-                let attitude = AttitudeObservation { q_es: hamilton(q_es, q_sd), covariance };
-                let rate = sum(omega_ds_d, product(c_ds, omega));
-                let of_both = added(&in_debris(rate_covariance), &noise(of_rate));
+                let seen = MeasuredMotion {
+                    q: hamilton(q_es, q_sd),
+                    attitude_covariance: in_debris(added(&turn_covariance, &noise(of_turn))),
+                    omega: sum(omega_ds_d, product(c_ds, omega)),
+                    rate_covariance: added(&in_debris(rate_covariance), &noise(of_rate)),
+                };
                 if let Some(filter) = &mut self.debris {
-                    let observation = BodyObservation::AttitudeAndRate(attitude, rate, of_both);
-                    self.innovations.debris_innovation = filter.update(observation, age);
+                    self.innovations.debris.take(filter.update(BodyObservation::AttitudeAndRate(seen), age));
                 }
             }
-            (Measurement::WheelRates { rates }, _) => self.wheel_rates = rates,
-            _ => {}
+            SensorModel::WheelRates => self.wheel_rates = part(values, 0),
+            // propagated by, and taken before
+            SensorModel::Gyro(..) | SensorModel::Attitude(_) => {}
         }
     }
 }
 
-impl Turned {
+impl GyroPropagation {
     /// The rotation of a tick as measured, or as predicted where the gyro did not measure.
-    fn rotation(&mut self, believed: &[Believed], update: &Update<'_>) -> [f64; 3] {
+    fn rotation(&mut self, sensors: &[SensorModel], update: &Update<'_>) -> [f64; 3] {
         let mut measured = ([1.0, 0.0, 0.0, 0.0], 0.0);
-        for (sensor, measurement) in update.measurements {
-            if let (Measurement::Rotation { rotation_s, interval }, Believed::Gyro) = (*measurement, believed[*sensor])
-            {
-                measured = (hamilton(measured.0, quaternion_of(rotation_s)), measured.1 + interval);
+        for measurement in update.measurements {
+            if let SensorModel::Gyro(_, period) = sensors[measurement.sensor] {
+                let rotation = quaternion_of(part(&measurement.values, 0));
+                measured = (hamilton(measured.0, rotation), measured.1 + period);
             }
         }
         if measured.1 > 0.0 {
@@ -307,6 +332,34 @@ impl Turned {
     }
 }
 
+impl InnovationSum {
+    /// Takes the innovation of a measurement.
+    fn take(&mut self, square: Option<NormalizedSquare>) {
+        let Some(square) = square else { return };
+        (self.sum, self.count) = (self.sum + square.value / square.degrees as f64, self.count + 1.0);
+        self.of_tick = Some(self.of_tick.map_or(square, |before| NormalizedSquare {
+            value: before.value + square.value,
+            degrees: before.degrees + square.degrees,
+        }));
+    }
+
+    fn mean(&self) -> Option<f64> {
+        (self.count > 0.0).then(|| self.sum / self.count)
+    }
+}
+
+impl Innovations {
+    fn begin_tick(&mut self) {
+        for all in [&mut self.attitude, &mut self.motion, &mut self.debris_motion, &mut self.debris] {
+            all.of_tick = None;
+        }
+    }
+
+    fn means(&self) -> [Option<f64>; 4] {
+        [&self.attitude, &self.motion, &self.debris_motion, &self.debris].map(InnovationSum::mean)
+    }
+}
+
 /// The nearest number of ticks to a time.
 fn ticks(time: f64, tick: f64) -> usize {
     (time / tick).round() as usize
@@ -317,28 +370,19 @@ impl Estimator for Mekf {
         if update.interval > 0.0 {
             self.propagate(update);
         }
-        self.innovations = Consistency::default();
-        for (sensor, measurement) in update.measurements {
-            if let (Measurement::Attitude { q_es, age }, Believed::Tracker(covariance)) =
-                (*measurement, self.believed[*sensor])
-            {
-                let (observation, age) = (AttitudeObservation { q_es, covariance }, ticks(age, self.tick));
-                self.innovations.attitude_innovation = match &mut self.attitude {
+        self.innovations.begin_tick();
+        for measurement in update.measurements {
+            if let SensorModel::Attitude(sensor) = &self.sensors[measurement.sensor] {
+                let observation = AttitudeObservation { values: measurement.values, sensor: sensor.clone() };
+                let age = ticks(measurement.age, self.tick);
+                self.innovations.attitude.take(match &mut self.attitude {
                     Attitude::WithGyro(filter, _) => filter.update(observation, age),
                     Attitude::WithoutGyro(filter) => filter.update(BodyObservation::Attitude(observation), age),
-                };
+                });
             }
         }
-        for (sensor, measurement) in update.measurements {
-            self.take(measurement, self.believed[*sensor]);
-        }
-        let now = &self.innovations;
-        let squares =
-            [now.attitude_innovation, now.motion_innovation, now.debris_motion_innovation, now.debris_innovation];
-        for ([sum, count], square) in self.innovation_sums.iter_mut().zip(squares) {
-            if let Some(square) = square {
-                (*sum, *count) = (*sum + square.value / square.degrees as f64, *count + 1.0);
-            }
+        for measurement in update.measurements {
+            self.take(measurement);
         }
         let (q_es, omega_se_s) = self.attitude_at(0);
         let motion = self.motion.now().motion;
@@ -374,8 +418,11 @@ impl Estimator for Mekf {
             debris: debris
                 .zip(self.debris.as_ref())
                 .and_then(|(debris, filter)| filter.now().error_square(debris.q_ed, debris.omega_de_d)),
-            mean_innovations: self.innovation_sums.map(|[sum, count]| (count > 0.0).then(|| sum / count)),
-            ..self.innovations
+            attitude_innovation: self.innovations.attitude.of_tick,
+            motion_innovation: self.innovations.motion.of_tick,
+            debris_motion_innovation: self.innovations.debris_motion.of_tick,
+            debris_innovation: self.innovations.debris.of_tick,
+            mean_innovations: self.innovations.means(),
         }
     }
 }

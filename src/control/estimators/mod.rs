@@ -3,9 +3,10 @@
 //! - `perfect`: the true state. `raw`: the last measurements. `mekf`: filters.
 //! - [`attitude_filter`], [`rigid_body_filter`], [`translation_filter`]: the filters, with [`kalman`], and [`delayed`] for measurements that come late.
 //!
-//! An estimator knows the nominal scene, its own parameters, and the nominal parameters of the sensors; only `perfect` reads the truth.
+//! An estimator knows the nominal scene, its own parameters, and the nominal parameters of the sensors; the truth reaches it in measurements alone.
 
 pub mod attitude_filter;
+pub mod attitude_innovation;
 pub mod delayed;
 pub mod kalman;
 mod mekf;
@@ -15,7 +16,7 @@ pub mod rigid_body_filter;
 pub mod translation_filter;
 
 use super::estimate::Estimate;
-use super::measurement::{Measurement, PointMotion};
+use super::measurement::{Measurement, Observes, PointMotion};
 use super::truth::{DebrisState, Truth};
 use crate::control::vector::{cross, dcm_from_quaternion, product, sum};
 use crate::scene::{DeclaredTable, LawParameter, MAX_WHEELS, Scene};
@@ -26,16 +27,16 @@ use kalman::NormalizedSquare;
 pub struct Update<'a> {
     /// Time since the tick before, s; 0 at the first.
     pub interval: f64,
-    /// What was delivered, each with the index of its sensor.
-    pub measurements: &'a [(usize, Measurement)],
+    /// What was delivered.
+    pub measurements: &'a [Measurement],
     /// Mean acceleration by the thrust that was commanded since the tick before, in F_s, m/s^2.
     pub acceleration_s: [f64; 3],
     /// Mean torque on the body that was commanded since the tick before, by thrusters and by the reaction of motors, in F_s, N m.
     pub torque_s: [f64; 3],
     /// Torques of the motors on the wheels that were commanded since the tick before, N m.
     pub motor_torques: [f64; MAX_WHEELS],
-    /// The truth.
-    pub truth: &'a Truth,
+    /// The true state, where the loop has perfect knowledge.
+    pub perfect: Option<&'a Estimate>,
 }
 
 /// How well the errors of a filter agree with its covariance: normalised squares of errors (NEES) and of the innovations of this tick; `None` where the
@@ -77,8 +78,8 @@ pub trait Estimator: Send {
 /// What an estimator knows of a sensor.
 #[derive(Clone, Copy, Debug)]
 pub struct KnownSensor<'a> {
-    /// Its kind.
-    pub kind: &'a str,
+    /// What it says of the state.
+    pub observes: Observes,
     /// Time from sample to sample, s.
     pub period: f64,
     /// Time from a measurement to its delivery, s.
@@ -137,6 +138,12 @@ fn center_of(base: PointMotion, center: [f64; 3], q_es: [f64; 4], omega_se_s: [f
 pub struct EstimatorKind {
     /// As in `estimator` of `[control]`.
     pub name: &'static str,
+    /// Whether it is told the true state, and reads no sensor.
+    pub knows_the_truth: bool,
+    /// Whether it has filters, whose covariances can be compared with their errors.
+    pub has_filter: bool,
+    /// Whether it uses what a sensor observes.
+    pub uses: fn(&Observes) -> bool,
     /// Its keys.
     pub parameters: &'static [LawParameter],
     /// The estimator of a run.

@@ -4,17 +4,26 @@
 
 use super::{Estimator, EstimatorContext, EstimatorKind, Update, center_of};
 use crate::control::estimate::Estimate;
-use crate::control::measurement::Measurement;
+use crate::control::measurement::{Observes, PointMotion, part};
 use crate::control::rotation::vector_of;
 use crate::control::vector::{conjugate, dcm_from_quaternion, hamilton, product, scaled, sum};
 
-pub(super) const KIND: EstimatorKind =
-    EstimatorKind { name: "raw", parameters: &[], make: |context| Box::new(Raw::new(context)) };
+pub(super) const KIND: EstimatorKind = EstimatorKind {
+    name: "raw",
+    knows_the_truth: false,
+    has_filter: false,
+    // a direction is no attitude
+    uses: |observes| !matches!(observes, Observes::Direction(_)),
+    parameters: &[],
+    make: |context| Box::new(Raw::new(context)),
+};
 
 struct Raw {
     estimate: Estimate,
     /// Centre of mass from p in F_s, nominal, m.
     center: [f64; 3],
+    /// What each sensor observes, and its period, s.
+    sensors: Vec<(Observes, f64)>,
     has_gyro: bool,
     time: f64,
     /// When the last attitude was taken, and which it was.
@@ -26,7 +35,8 @@ impl Raw {
         Raw {
             estimate: context.start(),
             center: context.nominal.mass.center,
-            has_gyro: context.sensors.iter().any(|sensor| sensor.kind == "rate_gyro"),
+            sensors: context.sensors.iter().map(|sensor| (sensor.observes, sensor.period)).collect(),
+            has_gyro: context.sensors.iter().any(|sensor| matches!(sensor.observes, Observes::Rotation(_))),
             time: 0.0,
             last: None,
         }
@@ -37,13 +47,12 @@ impl Estimator for Raw {
     fn update(&mut self, update: &Update<'_>) -> Estimate {
         self.time += update.interval;
         let estimate = &mut self.estimate;
-        for (_, measurement) in update.measurements {
-            match *measurement {
-                Measurement::Rotation { rotation_s, interval } => {
-                    estimate.omega_se_s = scaled(1.0 / interval, rotation_s);
-                }
-                Measurement::Attitude { q_es, age } => {
-                    let taken = self.time - age;
+        for measurement in update.measurements {
+            let values = &measurement.values;
+            match self.sensors[measurement.sensor] {
+                (Observes::Rotation(_), period) => estimate.omega_se_s = scaled(1.0 / period, part(values, 0)),
+                (Observes::Attitude(_), _) => {
+                    let (q_es, taken) = (part(values, 0), self.time - measurement.age);
                     if let Some((before, q)) = self.last.replace((taken, q_es))
                         && !self.has_gyro
                         && taken > before
@@ -53,25 +62,29 @@ impl Estimator for Raw {
                     }
                     estimate.q_es = q_es;
                 }
-                Measurement::Radar { .. } | Measurement::Camera { .. } => {}
-                Measurement::WheelRates { rates } => estimate.wheel_rates = rates,
+                (Observes::WheelRates, _) => estimate.wheel_rates = part(values, 0),
+                (Observes::Motion(_) | Observes::DebrisAttitude(_) | Observes::Direction(_), _) => {}
             }
         }
         // those that are seen through the attitude of this tick, whatever the order of the sensors
         let (q_es, omega_se_s) = (estimate.q_es, estimate.omega_se_s);
-        for (_, measurement) in update.measurements {
-            match (*measurement, &mut estimate.debris) {
-                (Measurement::Radar { base, debris, .. }, believed) => {
-                    let center = center_of(base, self.center, q_es, omega_se_s);
-                    (estimate.r_co_e, estimate.v_co_e) = (center.r_e, center.v_e);
-                    if let (Some(seen), Some(believed)) = (debris, believed) {
+        for measurement in update.measurements {
+            let values = &measurement.values;
+            match (self.sensors[measurement.sensor].0, &mut estimate.debris) {
+                (Observes::Motion(_), believed) => {
+                    if let Some(base) = PointMotion::of(values, 0) {
+                        let center = center_of(base, self.center, q_es, omega_se_s);
+                        (estimate.r_co_e, estimate.v_co_e) = (center.r_e, center.v_e);
+                    }
+                    if let (Some(seen), Some(believed)) = (PointMotion::of(values, 6), believed) {
                         (believed.r_gdo_e, believed.v_gdo_e) = (seen.r_e, seen.v_e);
                     }
                 }
-                (Measurement::Camera { q_sd, omega_ds_d, .. }, Some(believed)) => {
+                (Observes::DebrisAttitude(_), Some(believed)) => {
+                    let q_sd = part(values, 0);
                     believed.q_ed = hamilton(q_es, q_sd);
                     let of_spacecraft = product(dcm_from_quaternion(conjugate(q_sd)), omega_se_s);
-                    believed.omega_de_d = sum(omega_ds_d, of_spacecraft);
+                    believed.omega_de_d = sum(part(values, 4), of_spacecraft);
                 }
                 _ => {}
             }

@@ -4,7 +4,7 @@
 //! The body follows Euler's equation K omega' = H x omega + u, H = K omega + h, with known torque u and momentum h of its wheels; what is not known of them is
 //! white noise, a random walk of the rate. Errors as in [`super::attitude_filter`]: a rotation vector in the frame of the body, and true minus estimated rate.
 
-use super::attitude_filter::{ATTITUDE_ONLY, AttitudeObservation, normalized};
+use super::attitude_filter::{AttitudeObservation, normalized};
 use super::delayed::Filter;
 use super::kalman::{Gain, NormalizedSquare, blocks, halves, normalized_square, symmetric, transported};
 use crate::control::rotation::{quaternion_of, vector_of};
@@ -23,12 +23,25 @@ pub struct BodyStep {
 }
 
 /// What is measured of a body: the attitude, and where it is seen the rate.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum BodyObservation {
-    /// The attitude of the body relative to F_e, with the covariance of its error in the body's frame.
+    /// The attitude of the body relative to F_e, or a part of it.
     Attitude(AttitudeObservation),
-    /// The same, and the rate relative to F_e in the body's frame with its covariance, rad/s.
-    AttitudeAndRate(AttitudeObservation, [f64; 3], [[f64; 3]; 3]),
+    /// Attitude and rate.
+    AttitudeAndRate(MeasuredMotion),
+}
+
+/// A measured attitude and rate, with the covariances of their errors in the body's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeasuredMotion {
+    /// Attitude quaternion, body -> F_e, scalar first.
+    pub q: [f64; 4],
+    /// Covariance of its error, rad^2.
+    pub attitude_covariance: [[f64; 3]; 3],
+    /// Angular velocity relative to F_e in the body's frame, rad/s.
+    pub omega: [f64; 3],
+    /// Covariance of its error, rad^2/s^2.
+    pub rate_covariance: [[f64; 3]; 3],
 }
 
 /// Attitude, rate and their covariance.
@@ -124,17 +137,13 @@ impl Filter for RigidBodyFilter {
     }
 
     fn update(&mut self, observation: &BodyObservation) -> Option<NormalizedSquare> {
-        let (BodyObservation::Attitude(attitude) | BodyObservation::AttitudeAndRate(attitude, ..)) = observation;
-        let [x, y, z] = vector_of(hamilton(conjugate(self.q), attitude.q_es));
         let (correction, square) = match observation {
-            BodyObservation::Attitude(_) => {
-                let gain = Gain::of(&mut self.covariance, &ATTITUDE_ONLY, &attitude.covariance)?;
-                (gain.correction([x, y, z]), gain.square([x, y, z]))
-            }
-            BodyObservation::AttitudeAndRate(_, omega, of_rate) => {
-                let [u, v, w] = difference(*omega, self.omega);
+            BodyObservation::Attitude(attitude) => attitude.innovation(self.q).update(&mut self.covariance)?,
+            BodyObservation::AttitudeAndRate(seen) => {
+                let [x, y, z] = vector_of(hamilton(conjugate(self.q), seen.q));
+                let [u, v, w] = difference(seen.omega, self.omega);
                 let zero = diagonal([0.0; 3]);
-                let noise = blocks(attitude.covariance, zero, zero, *of_rate);
+                let noise = blocks(seen.attitude_covariance, zero, zero, seen.rate_covariance);
                 let gain = Gain::of(&mut self.covariance, &diagonal([1.0; 6]), &noise)?;
                 let innovation = [x, y, z, u, v, w];
                 (gain.correction(innovation), gain.square(innovation))

@@ -1,10 +1,11 @@
 //! Filters against models of sensors and against their own assumptions: consistency over many runs, and estimates without noise.
 
 use super::delayed::Filter;
-use super::rigid_body_filter::{BodyObservation, BodyStep, RigidBodyFilter};
+use super::rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter};
 use super::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
 use super::*;
 use crate::control::laws::plant::Body;
+use crate::control::measurement::{Values, values};
 use crate::control::rotation::quaternion_of;
 use crate::control::sensors::bench::{chi_square, sensor, table, truth};
 use crate::control::sensors::{self, Sensor};
@@ -60,7 +61,8 @@ fn attitude_runs(runs: u64, omega: [f64; 3], told: f64) -> Found {
     let gyro = &table("gyro", declared("rate_gyro"), &GYRO);
     let believed = TRACKER_NOISE.map(|noise| told * noise);
     let tracker = &table("tracker", declared("star_tracker"), &[("noise_rad", &believed)]);
-    let known = |kind, parameters| KnownSensor { kind, period: 1.0, latency: 0.0, parameters };
+    let known =
+        |kind: &str, parameters| KnownSensor { observes: observes(kind), period: 1.0, latency: 0.0, parameters };
     let sensors = [known("rate_gyro", gyro), known("star_tracker", tracker)];
     let context = EstimatorContext { nominal, parameters, sensors: &sensors, tick: 1.0 };
     let mut found = Found { errors: [0.0; TIMES], innovations: [0.0; TIMES], bias: 0.0 };
@@ -75,11 +77,11 @@ fn attitude_runs(runs: u64, omega: [f64; 3], told: f64) -> Found {
         for tick in 0..2 * TIMES as u64 {
             let truth = &truth(tick as f64, q, omega);
             let mut measurements: Vec<_> =
-                gyro.measure(tick, truth).map(|rotation| (0, rotation)).into_iter().collect();
+                gyro.measure(tick, truth).map(|values| at_once(0, values)).into_iter().collect();
             if tick % 2 == 1 {
-                measurements.extend(tracker.measure(tick / 2, truth).map(|attitude| (1, attitude)));
+                measurements.extend(tracker.measure(tick / 2, truth).map(|values| at_once(1, values)));
             }
-            let estimate = filter.update(&update(tick, 1.0, &measurements, truth));
+            let estimate = filter.update(&update(tick, 1.0, &measurements));
             if tick % 2 == 1 {
                 let time = (tick / 2) as usize;
                 let consistency = filter.consistency(truth, gyro.bias_s());
@@ -96,15 +98,25 @@ fn attitude_runs(runs: u64, omega: [f64; 3], told: f64) -> Found {
 }
 
 /// What is known at a tick without actuation.
-pub fn update<'a>(tick: u64, period: f64, measurements: &'a [(usize, Measurement)], truth: &'a Truth) -> Update<'a> {
+pub fn update(tick: u64, period: f64, measurements: &[Measurement]) -> Update<'_> {
     Update {
         interval: if tick == 0 { 0.0 } else { period },
         measurements,
         acceleration_s: [0.0; 3],
         torque_s: [0.0; 3],
         motor_torques: [0.0; MAX_WHEELS],
-        truth,
+        perfect: None,
     }
+}
+
+/// What the sensor at the place `sensor` delivers without latency.
+pub fn at_once(sensor: usize, values: Values) -> Measurement {
+    Measurement { sensor, values, age: 0.0 }
+}
+
+/// What sensors of the kind called `kind` observe.
+pub fn observes(kind: &str) -> Observes {
+    sensors::kind(kind).expect("a kind").observes
 }
 
 /// H0: NEES and innovations of 1,000 runs at 20 times are chi-square; family-wise alpha 0.05 with the other rate, seeds 5 and 8. A mean that is wrong by 10%
@@ -184,8 +196,9 @@ fn translation_and_debris_are_consistent() {
             let rate = sum(body.omega, draws.vector(body_noise[1]));
             if !(5..12).contains(&time) {
                 let [of_turn, of_rate] = body_noise.map(|sigma| diagonal([sigma * sigma; 3]));
-                let attitude = attitude_filter::AttitudeObservation { q_es, covariance: of_turn };
-                let square = body_filter.update(&BodyObservation::AttitudeAndRate(attitude, rate, of_rate));
+                let seen =
+                    MeasuredMotion { q: q_es, attitude_covariance: of_turn, omega: rate, rate_covariance: of_rate };
+                let square = body_filter.update(&BodyObservation::AttitudeAndRate(seen));
                 sums[3] += square.expect("an innovation").value;
             }
             sums[2] += body_filter.error_square(body.q_es, body.omega).expect("NEES").value;
@@ -204,12 +217,12 @@ struct Nominal {
     /// Period and latency, s.
     times: Vec<[f64; 2]>,
     tables: Vec<crate::scene::DeclaredTable>,
-    instruments: Vec<sensors::Instrument>,
+    sampled: Vec<sensors::SampledSensor>,
 }
 
 impl Nominal {
     fn new(gyro_period: u64) -> Self {
-        let mut all = Nominal { names: Vec::new(), times: Vec::new(), tables: Vec::new(), instruments: Vec::new() };
+        let mut all = Nominal { names: Vec::new(), times: Vec::new(), tables: Vec::new(), sampled: Vec::new() };
         if gyro_period > 0 {
             all.add("rate_gyro", gyro_period, 0, &[GYRO[0], ("bias_rad_s", &[2e-4, 0.0, -1e-4])]);
         }
@@ -224,7 +237,7 @@ impl Nominal {
         self.times.push([every, latency].map(|ticks| 0.1 * ticks as f64));
         self.tables.push(table("nominal", sensors::kind(kind).expect("a kind").parameters, values));
         let model: Box<dyn Sensor> = sensor(kind, values, 0.1 * every as f64, 0);
-        self.instruments.push(sensors::Instrument::new(model, every, latency, 0.1));
+        self.sampled.push(sensors::SampledSensor::new(model, every, latency, 0.1));
     }
 }
 
@@ -240,7 +253,7 @@ fn errors_without_noise(name: &str, gyro_period: u64) -> (crate::control::estima
     let kind = kind(name).expect("a kind");
     let parameters = &table("estimator", kind.parameters, &[]);
     let known = |((kind, [period, latency]), parameters): ((&'static str, [f64; 2]), _)| KnownSensor {
-        kind,
+        observes: observes(kind),
         period,
         latency,
         parameters,
@@ -268,10 +281,12 @@ fn errors_without_noise(name: &str, gyro_period: u64) -> (crate::control::estima
         let r_gdo_e = sum(r_gdo, scaled(at.time, v_gdo));
         at.debris = Some(DebrisState { r_gdo_e, v_gdo_e: v_gdo, q_ed: debris.q_es, omega_de_d: debris.omega });
         let mut measurements = Vec::new();
-        for (index, instrument) in sensors.instruments.iter_mut().enumerate() {
-            measurements.extend(instrument.deliver(tick, &at).map(|measurement| (index, measurement)));
+        for (place, sensor) in sensors.sampled.iter_mut().enumerate() {
+            measurements.extend(sensor.deliver(place, tick, &at));
         }
-        let estimate = estimator.update(&Update { acceleration_s, ..update(tick, 0.1, &measurements, &at) });
+        let state = Estimate::perfect(&at);
+        let perfect = kind.knows_the_truth.then_some(&state);
+        let estimate = estimator.update(&Update { acceleration_s, perfect, ..update(tick, 0.1, &measurements) });
         last = Some((estimate.errors(&at), estimate));
         debris.step([0.0; 3], 0.1, 4);
         let q_after = hamilton(q, quaternion_of(scaled(0.1, omega)));
@@ -357,14 +372,13 @@ fn wheels_follow_their_motors_and_fast_gyros_are_joined() {
     let nominal = &Scene::resolve(&SceneInput::report()).expect("a valid scene");
     let mekf = kind("mekf").expect("a kind");
     let parameters = &table("mekf", mekf.parameters, &[]);
-    let at = &truth(0.0, [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
     let mut estimator = (mekf.make)(&EstimatorContext { nominal, parameters, sensors: &[], tick: 0.1 });
     let wheel = nominal.mass.wheels[0];
     let (torque_s, mut motor_torques) = (scaled(-0.4, wheel.axis), [0.0; MAX_WHEELS]);
     motor_torques[0] = 0.4;
     let mut last = None;
     for tick in 0..=50 {
-        last = Some(estimator.update(&Update { torque_s, motor_torques, ..update(tick, 0.1, &[], at) }));
+        last = Some(estimator.update(&Update { torque_s, motor_torques, ..update(tick, 0.1, &[]) }));
     }
     let last = last.expect("ticks");
     let of_body = crate::control::vector::dot(wheel.axis, last.omega_se_s);
@@ -375,13 +389,13 @@ fn wheels_follow_their_motors_and_fast_gyros_are_joined() {
     let context = EstimatorContext {
         nominal,
         parameters,
-        sensors: &[KnownSensor { kind: "rate_gyro", period: 0.05, latency: 0.0, parameters: gyro }],
+        sensors: &[KnownSensor { observes: observes("rate_gyro"), period: 0.05, latency: 0.0, parameters: gyro }],
         tick: 0.1,
     };
     let mut estimator = (mekf.make)(&context);
     let rotations = [[0.3, 0.0, 0.1], [0.0, -0.4, 0.2]];
-    let measurements = rotations.map(|rotation_s| (0, Measurement::Rotation { rotation_s, interval: 0.05 }));
-    let estimate = estimator.update(&update(1, 0.1, &measurements, at));
+    let measurements = rotations.map(|rotation_s| at_once(0, values(&[&rotation_s])));
+    let estimate = estimator.update(&update(1, 0.1, &measurements));
     let q = rotations.iter().fold(nominal.initial.q_es, |q, rotation| hamilton(q, quaternion_of(*rotation)));
     assert!(estimate.q_es.iter().zip(q).all(|(a, b)| (a - b).abs() < 4e-16), "{:?} for {q:?}", estimate.q_es);
 }

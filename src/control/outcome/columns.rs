@@ -1,7 +1,7 @@
 //! [`OutcomeColumns`]: the columns of rows that say what a run under a loop has come to.
 
 use super::stability::Stability;
-use super::{AtLaunch, Judgement, MissionOutcome, STANDARD_GRAVITY};
+use super::{AtLaunch, MissionCriteria, MissionOutcome, STANDARD_GRAVITY};
 use crate::control::estimators::Consistency;
 use crate::control::estimators::kalman::NormalizedSquare;
 use crate::control::guidance::{Failure, Guidance};
@@ -72,14 +72,20 @@ impl OutcomeColumns {
     }
 
     /// Writes their values of a run.
-    pub fn report(&self, outcome: &MissionOutcome, guidance: &Guidance, judgement: &Judgement, values: &mut [f64]) {
+    pub fn report(
+        &self,
+        outcome: &MissionOutcome,
+        guidance: &Guidance,
+        criteria: &MissionCriteria,
+        values: &mut [f64],
+    ) {
         for (value, column) in values.iter_mut().zip(&self.0) {
-            *value = (column.value)(outcome, guidance, judgement);
+            *value = (column.value)(outcome, guidance, criteria);
         }
     }
 }
 
-type Value = Box<dyn Fn(&MissionOutcome, &Guidance, &Judgement) -> f64 + Send + Sync>;
+type Value = Box<dyn Fn(&MissionOutcome, &Guidance, &MissionCriteria) -> f64 + Send + Sync>;
 type Add<'a> = dyn FnMut(String, &str, String, Value) + 'a;
 
 /// Adds a column whose value needs the outcome alone.
@@ -141,11 +147,11 @@ fn pointing(add: &mut Add<'_>) {
         "Time from the start of the run until the pointing error stayed within control.settling_band_rad to the end, in all phases from then on; null where it did not.",
         |o| o.stability.settled_since(),
     );
-    let mut over_window = |name: &str, what: &str, value: fn(&Stability, &Judgement) -> f64| {
+    let mut over_window = |name: &str, what: &str, value: fn(&Stability, &MissionCriteria) -> f64| {
         let meaning = format!(
             "Relative performance error (ECSS-E-ST-60-10C), {what}, of the rotation vector from the target to the true attitude less its mean over the ticks of the window of control.stability_from_s and control.stability_window_s; null where the run does not complete it, or a phase in it has no target."
         );
-        add(name.into(), "rad", meaning, Box::new(move |o, _, judgement| value(&o.stability, judgement)));
+        add(name.into(), "rad", meaning, Box::new(move |o, _, criteria| value(&o.stability, criteria)));
     };
     over_window("relative_performance_error_rms_rad", "root mean square of the magnitude", Stability::rms);
     over_window(
@@ -215,8 +221,8 @@ fn thrust(spec: &LoopSpec, add: &mut Add<'_>) {
     plain(add, "delta_v_m_s", "m/s", "Integral of the magnitude of the acceleration by thrust.", |o| o.velocity_change);
     let meaning =
         "Propellant used at control.isp_s; null where that is not known. The mass of the spacecraft is constant.";
-    let propellant = |o: &MissionOutcome, _: &Guidance, judgement: &Judgement| {
-        finite(o.impulse.iter().sum::<f64>() / (STANDARD_GRAVITY * judgement.isp))
+    let propellant = |o: &MissionOutcome, _: &Guidance, criteria: &MissionCriteria| {
+        finite(o.impulse.iter().sum::<f64>() / (STANDARD_GRAVITY * criteria.isp))
     };
     add("propellant_kg".into(), "kg", meaning.into(), Box::new(propellant));
     if spec.approaches() {

@@ -16,7 +16,7 @@ use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 
 /// The numbers of a run with which its outcome is judged.
 #[derive(Clone, Copy, Debug)]
-pub struct Judgement {
+pub struct MissionCriteria {
     /// The launch state.
     pub launch: LaunchState,
     /// Distance from the debris below which the mission fails, m.
@@ -127,11 +127,11 @@ impl MissionOutcome {
         truth: &Truth,
         (error, begins): (Option<&AttitudeError>, bool),
         errors: &EstimateErrors,
-        judgement: &Judgement,
+        criteria: &MissionCriteria,
     ) {
-        self.stability.tick(truth.time, error.map(|error| vector_of(error.q_ts)), judgement);
+        self.stability.tick(truth.time, error.map(|error| vector_of(error.q_ts)), criteria);
         if let Some(error) = error {
-            self.pointing(truth.time, error, begins, judgement.settling_band);
+            self.pointing(truth.time, error, begins, criteria.settling_band);
         }
         let mut momentum = [0.0; 3];
         for (i, wheel) in scene.mass.wheels.iter().enumerate() {
@@ -193,10 +193,10 @@ impl MissionOutcome {
         scene: &Scene,
         truth: &Truth,
         thrust: &[f64; MAX_THRUSTERS],
-        judgement: &Judgement,
+        criteria: &MissionCriteria,
     ) -> bool {
         let firing = scene.thrusters.iter().zip(thrust).filter(|(_, thrust)| **thrust > 0.0);
-        firing.into_iter().any(|(thruster, _)| plume_hits(truth, thruster.direction, judgement.plume))
+        firing.into_iter().any(|(thruster, _)| plume_hits(truth, thruster.direction, criteria.plume))
     }
 
     /// A command is no finite number at `time`, s.

@@ -3,7 +3,7 @@
 //! Source: ECSS-E-ST-60-10C, *Control performance*, 2008, section 3.2: the performance error e(t) is here the rotation vector from the target to the true
 //! attitude; the relative performance error over an interval is e(t) less its mean over that interval.
 
-use super::Judgement;
+use super::MissionCriteria;
 use crate::control::vector::norm;
 
 /// What the ticks of a run have shown so far.
@@ -34,9 +34,9 @@ impl Stability {
     };
 
     /// Takes a tick with the error `error`, rad; `None` in a phase without a target.
-    pub fn tick(&mut self, time: f64, error: Option<[f64; 3]>, judgement: &Judgement) {
-        let [from, length] = judgement.stability;
-        let is_settled = error.is_some_and(|error| norm(error) <= judgement.settling_band);
+    pub fn tick(&mut self, time: f64, error: Option<[f64; 3]>, criteria: &MissionCriteria) {
+        let [from, length] = criteria.stability;
+        let is_settled = error.is_some_and(|error| norm(error) <= criteria.settling_band);
         if !is_settled {
             self.settled_since = f64::NAN;
         } else if self.settled_since.is_nan() {
@@ -48,7 +48,7 @@ impl Stability {
             *self = Stability { settled_since: self.settled_since, start, ..Stability::NONE };
         }
         self.last = time;
-        let slack = 1e-9 * judgement.period;
+        let slack = 1e-9 * criteria.period;
         if !(time >= start - slack && (length == 0.0 || time < start + length - slack)) {
             return;
         }
@@ -71,22 +71,22 @@ impl Stability {
     }
 
     /// Root mean square over the window of the magnitude of the relative performance error, rad; NaN of a window that the run has not completed.
-    pub fn rms(&self, judgement: &Judgement) -> f64 {
-        if self.is_complete(judgement) { (self.squares.iter().sum::<f64>() / self.count).sqrt() } else { f64::NAN }
+    pub fn rms(&self, criteria: &MissionCriteria) -> f64 {
+        if self.is_complete(criteria) { (self.squares.iter().sum::<f64>() / self.count).sqrt() } else { f64::NAN }
     }
 
     /// Largest difference, about an axis of the body, of two errors in the window, rad; NaN of a window that the run has not completed.
-    pub fn peak_to_peak(&self, judgement: &Judgement) -> f64 {
-        if !self.is_complete(judgement) || self.squares.iter().any(|square| square.is_nan()) {
+    pub fn peak_to_peak(&self, criteria: &MissionCriteria) -> f64 {
+        if !self.is_complete(criteria) || self.squares.iter().any(|square| square.is_nan()) {
             return f64::NAN;
         }
         self.extremes.iter().fold(0.0, |most: f64, [low, high]| most.max(high - low))
     }
 
     /// Whether the run has reached the end of the window: the last tick lasts a period. A window without an end has two ticks.
-    fn is_complete(&self, judgement: &Judgement) -> bool {
-        let [_, length] = judgement.stability;
-        let reached = self.last + (1.0 + 1e-9) * judgement.period;
+    fn is_complete(&self, criteria: &MissionCriteria) -> bool {
+        let [_, length] = criteria.stability;
+        let reached = self.last + (1.0 + 1e-9) * criteria.period;
         if length == 0.0 { self.count >= 2.0 } else { self.count >= 1.0 && reached >= self.start + length }
     }
 }
@@ -98,8 +98,8 @@ mod tests {
 
     const PERIOD: f64 = 0.1;
 
-    fn judgement(from: f64, length: f64) -> Judgement {
-        Judgement {
+    fn criteria(from: f64, length: f64) -> MissionCriteria {
+        MissionCriteria {
             launch: LaunchState { distance: 10.0, least_speed: 0.01, approach_axis: [0.0; 3] },
             keep_out: 0.0,
             plume: [0.0; 2],
@@ -111,12 +111,12 @@ mod tests {
     }
 
     /// Settling time, rms and peak to peak of `errors`, one a tick.
-    fn found(errors: &[Option<[f64; 3]>], judgement: &Judgement) -> [f64; 3] {
+    fn found(errors: &[Option<[f64; 3]>], criteria: &MissionCriteria) -> [f64; 3] {
         let mut stability = Stability::NONE;
         for (tick, error) in errors.iter().enumerate() {
-            stability.tick(tick as f64 * PERIOD, *error, judgement);
+            stability.tick(tick as f64 * PERIOD, *error, criteria);
         }
-        [stability.settled_since(), stability.rms(judgement), stability.peak_to_peak(judgement)]
+        [stability.settled_since(), stability.rms(criteria), stability.peak_to_peak(criteria)]
     }
 
     /// The same rms and peak to peak in two passes over the ticks `of`.
@@ -147,7 +147,7 @@ mod tests {
         let mut errors = settling();
         let first = (0..200).find(|tick| errors[*tick..].iter().flatten().all(|error| norm(*error) <= 0.02)).unwrap();
         assert!((20..40).contains(&first));
-        let plain = judgement(0.0, 0.0);
+        let plain = criteria(0.0, 0.0);
         assert_eq!(found(&errors, &plain)[0], first as f64 * PERIOD);
         errors[120] = Some([0.0, 0.021, 0.0]);
         assert_eq!(found(&errors, &plain)[0], 121.0 * PERIOD);
@@ -162,7 +162,7 @@ mod tests {
     #[test]
     fn relative_performance_errors_are_those_of_the_window() {
         let errors = settling();
-        let first = (found(&errors, &judgement(0.0, 0.0))[0] / PERIOD).round() as usize;
+        let first = (found(&errors, &criteria(0.0, 0.0))[0] / PERIOD).round() as usize;
         for (from, length, ticks) in [
             (0.0, 0.0, first..200),
             (0.0, 5.0, first..first + 50),
@@ -170,14 +170,14 @@ mod tests {
             (3.0, 17.0, 30..200),
             (12.5, 0.0, 125..200),
         ] {
-            let [_, rms, peak_to_peak] = found(&errors, &judgement(from, length));
+            let [_, rms, peak_to_peak] = found(&errors, &criteria(from, length));
             let expected = in_two_passes(&errors, ticks);
             for (value, expected) in [rms, peak_to_peak].into_iter().zip(expected) {
                 assert!((value - expected).abs() < 1e-13 * expected, "{from} {length}: {value} {expected}");
             }
         }
         let still = vec![Some([0.3, -0.2, 0.1]); 100];
-        assert!(found(&still, &judgement(2.0, 3.0))[1..].iter().all(|value| value.abs() < 1e-16));
+        assert!(found(&still, &criteria(2.0, 3.0))[1..].iter().all(|value| value.abs() < 1e-16));
     }
 
     /// Law: a window that the run does not complete, or in which a phase has no target, has no value.
@@ -185,15 +185,12 @@ mod tests {
     fn a_window_is_complete_or_has_no_value() {
         let mut errors = settling();
         for (from, length) in [(19.0, 1.1), (0.0, 18.0), (30.0, 0.0), (20.0, 1.0)] {
-            assert!(
-                found(&errors, &judgement(from, length))[1..].iter().all(|value| value.is_nan()),
-                "{from} {length}"
-            );
+            assert!(found(&errors, &criteria(from, length))[1..].iter().all(|value| value.is_nan()), "{from} {length}");
         }
         errors[40] = None;
-        assert!(found(&errors, &judgement(1.0, 4.0))[1..].iter().all(|value| value.is_nan()));
-        assert!(found(&errors, &judgement(5.0, 4.0))[1..].iter().all(|value| value.is_finite()));
+        assert!(found(&errors, &criteria(1.0, 4.0))[1..].iter().all(|value| value.is_nan()));
+        assert!(found(&errors, &criteria(5.0, 4.0))[1..].iter().all(|value| value.is_finite()));
         // the window after settling begins again
-        assert_eq!(found(&errors, &judgement(0.0, 0.0))[0], 41.0 * PERIOD);
+        assert_eq!(found(&errors, &criteria(0.0, 0.0))[0], 41.0 * PERIOD);
     }
 }

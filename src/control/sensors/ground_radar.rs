@@ -1,16 +1,21 @@
 //! A radar on the ground: positions and velocities in F_e of the base point p and, where there is one, of the debris's centre of mass.
 
-use super::{AXES, NormalErrors, Sensor, SensorContext, SensorKind, optional};
-use crate::control::measurement::{Measurement, PointMotion};
+use super::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, XYZ, number, optional};
+use crate::control::measurement::{Observes, Values, values};
 use crate::control::truth::Truth;
 use crate::control::vector::sum;
 use crate::scene::LawParameter;
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "ground_radar",
-    has_latency: true,
-    at_most_one: false,
     parameters: &PARAMETERS,
+    quantities: &[
+        position("measured_r_po_e", "Position of p measured by the radar, in F_e"),
+        velocity("measured_v_po_e", "Velocity of p measured by the radar, in F_e"),
+        position("measured_r_gdo_e", "Position of the debris measured by the radar, in F_e"),
+        velocity("measured_v_gdo_e", "Velocity of the debris measured by the radar, in F_e"),
+    ],
+    observes: Observes::Motion(|table| [number(table, "position_noise_m"), number(table, "velocity_noise_m_s")]),
     make: |context| Box::new(GroundRadar::new(context)),
 };
 
@@ -18,6 +23,14 @@ static PARAMETERS: [LawParameter; 2] = [
     optional("position_noise_m", "m", "Standard deviation of each component of a position"),
     optional("velocity_noise_m_s", "m/s", "Standard deviation of each component of a velocity"),
 ];
+
+const fn position(name: &'static str, meaning: &'static str) -> MeasuredQuantity {
+    MeasuredQuantity::new(name, XYZ, ["m", "m"], meaning)
+}
+
+const fn velocity(name: &'static str, meaning: &'static str) -> MeasuredQuantity {
+    MeasuredQuantity::new(name, XYZ, ["m/s", "m_s"], meaning)
+}
 
 /// Noise of one point.
 struct PointNoise {
@@ -49,22 +62,21 @@ impl GroundRadar {
 }
 
 impl Sensor for GroundRadar {
-    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Measurement> {
+    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
         let (position, velocity) = ([self.position; 3], [self.velocity; 3]);
-        let measured = |noise: &mut PointNoise, r_e, v_e| PointMotion {
-            r_e: sum(r_e, noise.position.scaled(count, position)),
-            v_e: sum(v_e, noise.velocity.scaled(count, velocity)),
+        let measured = |noise: &mut PointNoise, r_e, v_e| {
+            [sum(r_e, noise.position.scaled(count, position)), sum(v_e, noise.velocity.scaled(count, velocity))]
         };
         let base = measured(&mut self.base, truth.r_po_e, truth.v_po_e);
         let debris = truth.debris.map(|debris| measured(&mut self.debris, debris.r_gdo_e, debris.v_gdo_e));
-        Some(Measurement::Radar { base, debris, age: 0.0 })
+        Some(values(&[base.as_flattened(), debris.as_ref().map_or(&[], |debris| debris.as_flattened())]))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::bench::{assert_normal, sensor, truth};
-    use super::*;
+    use crate::control::measurement::PointMotion;
     use crate::control::truth::DebrisState;
     use crate::control::vector::difference;
 
@@ -84,9 +96,9 @@ mod tests {
             sensor("ground_radar", &[("position_noise_m", &[0.5]), ("velocity_noise_m_s", &[0.01])], 1.0, 3);
         let mut errors: [Vec<f64>; 12] = Default::default();
         for count in 0..4_000 {
-            let Some(Measurement::Radar { base, debris: Some(seen), .. }) = radar.measure(count, &at) else {
-                panic!("both points are seen")
-            };
+            let all = radar.measure(count, &at).expect("a measurement");
+            let (base, seen) = (PointMotion::of(&all, 0), PointMotion::of(&all, 6));
+            let (base, seen) = (base.expect("p is seen"), seen.expect("the debris is seen"));
             let parts = [
                 scaled_errors(base.r_e, at.r_po_e, 0.5),
                 scaled_errors(base.v_e, at.v_po_e, 0.01),
@@ -103,7 +115,8 @@ mod tests {
             assert_normal(&both, std::f64::consts::SQRT_2, 1e-4);
         }
         at.debris = None;
-        assert!(matches!(radar.measure(0, &at), Some(Measurement::Radar { debris: None, .. })));
+        let alone = radar.measure(0, &at).expect("a measurement");
+        assert!(PointMotion::of(&alone, 0).is_some() && PointMotion::of(&alone, 6).is_none());
     }
 
     fn scaled_errors(measured: [f64; 3], real: [f64; 3], deviation: f64) -> [f64; 3] {

@@ -1,22 +1,22 @@
 //! Models of sensors: from the true state to measurements. One file for each kind, one line for each in [`KINDS`].
 //!
-//! A sensor measures at its own period; [`Instrument`] says when, and delivers each measurement after the latency. Noise is addressed by the sensor's own
+//! A sensor measures at its own period; [`SampledSensor`] says when, and delivers each measurement after the latency. Noise is addressed by the sensor's own
 //! count, so that it depends neither on other sensors nor on measurements that were lost. The nominal run has no noise; biases, scales and
 //! misalignments stay.
 //!
 //! Not here: what is made of a measurement ([`super::estimators`]).
 
 mod ground_radar;
-mod instrument;
-mod rate_gyro;
+pub mod rate_gyro;
 mod relative_camera;
-pub mod star_tracker;
+mod sampled;
+mod star_tracker;
 mod tachometers;
 
-pub use instrument::Instrument;
 pub use rate_gyro::RateGyro;
+pub use sampled::SampledSensor;
 
-use super::measurement::Measurement;
+use super::measurement::{Observes, Values};
 use super::truth::Truth;
 use crate::sampling::{Noise, SampleId};
 use crate::scene::schema::Limit;
@@ -24,8 +24,8 @@ use crate::scene::{DeclaredTable, LawParameter, Scene};
 
 /// A model of a sensor in one run.
 pub trait Sensor: Send {
-    /// What it measures of `truth`; `None` where it gives nothing. `count` is the number of its samples before this one: 0 at the start of the run.
-    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Measurement>;
+    /// What it measures of `truth`, in the order of its kind's quantities; `None` where it gives nothing. `count` is the number of its samples before this one: 0 at the start of the run.
+    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values>;
 
     /// The true bias of a gyro at its last sample, in F_s, rad/s: what an estimate of it is judged by.
     fn bias_s(&self) -> Option<[f64; 3]> {
@@ -100,14 +100,54 @@ impl<const N: usize> NormalErrors<N> {
 pub struct SensorKind {
     /// As in `kind` of `[[sensors]]`.
     pub name: &'static str,
-    /// Whether a measurement may be delivered later, with its age.
-    pub has_latency: bool,
-    /// Whether a loop has one of it at most: estimators use a single one.
-    pub at_most_one: bool,
     /// The keys of its table; `period_s` and `latency_s` are those of every sensor.
     pub parameters: &'static [LawParameter],
+    /// What it measures: the numbers of a measurement in their order, and columns of telemetry.
+    pub quantities: &'static [MeasuredQuantity],
+    /// What it says of the state.
+    pub observes: Observes,
     /// The sensor of a run.
     pub make: fn(&SensorContext<'_>) -> Box<dyn Sensor>,
+}
+
+/// A vector that a sensor measures.
+#[derive(Clone, Copy, Debug)]
+pub struct MeasuredQuantity {
+    /// Its name, without unit, and its components: numbers of a measurement, one after another.
+    pub name: &'static str,
+    /// Its components.
+    pub components: Components,
+    /// Its unit, and how that stands in the name of a column.
+    pub unit: [&'static str; 2],
+    /// Whether telemetry shows it over the period of the sensor: of rotations their mean rate.
+    pub is_over_period: bool,
+    /// What it is, as a sentence without its end.
+    pub meaning: &'static str,
+}
+
+/// The components of a measured vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Components {
+    /// Those with these names.
+    Named(&'static [&'static str]),
+    /// One for each wheel that turns.
+    Wheels,
+}
+
+/// The components of vectors and of quaternions.
+const XYZ: Components = Components::Named(&AXES);
+const WXYZ: Components = Components::Named(&["w", "x", "y", "z"]);
+
+impl MeasuredQuantity {
+    /// `name` with `components`, in `unit`, which stands in the names of columns as `suffix`.
+    const fn new(
+        name: &'static str,
+        components: Components,
+        [unit, suffix]: [&'static str; 2],
+        meaning: &'static str,
+    ) -> Self {
+        MeasuredQuantity { name, components, unit: [unit, suffix], is_over_period: false, meaning }
+    }
 }
 
 /// All kinds.
@@ -218,6 +258,7 @@ pub(super) mod bench {
 mod tests {
     use super::bench::{sensor, truth};
     use super::*;
+    use crate::control::measurement::part;
 
     /// Law: every kind has a name of its own; every key has a default, and its components a number each.
     #[test]
@@ -240,14 +281,17 @@ mod tests {
         let noise: [(&str, &[f64]); 1] = [("noise_rad", &[1e-3, 2e-3, 3e-3])];
         let at = truth(0.0, [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
         let mut tracker = sensor("star_tracker", &noise, 0.5, 3);
-        let all: Vec<_> = (0..20).map(|count| tracker.measure(count, &at)).collect();
+        let seen = |tracker: &mut Box<dyn Sensor>, count| -> [f64; 4] {
+            part(&tracker.measure(count, &at).expect("an attitude"), 0)
+        };
+        let all: Vec<_> = (0..20).map(|count| seen(&mut tracker, count)).collect();
         let mut late = sensor("star_tracker", &noise, 0.5, 3);
         for count in [7, 19, 2, 2] {
-            assert_eq!(late.measure(count, &at), all[count as usize]);
+            assert_eq!(seen(&mut late, count), all[count as usize]);
         }
         let mut other = sensor("star_tracker", &noise, 0.5, 4);
-        assert!((0..20).all(|count| other.measure(count, &at) != all[count as usize]));
+        assert!((0..20).all(|count| seen(&mut other, count) != all[count as usize]));
         let mut nominal = sensor("star_tracker", &noise, 0.5, 0);
-        assert_eq!(nominal.measure(7, &at), Some(Measurement::Attitude { q_es: at.body.q_es, age: 0.0 }));
+        assert_eq!(seen(&mut nominal, 7), at.body.q_es);
     }
 }

@@ -5,19 +5,27 @@
 //! sv^2 T + su^2 T^3/12 about the mean of the biases at both ends. A turn of more than half a revolution between samples reads as the shorter one.
 
 use super::NormalErrors;
-use super::{AXES, Sensor, SensorContext, SensorKind, axes, optional};
-use crate::control::measurement::Measurement;
+use super::{AXES, MeasuredQuantity, Sensor, SensorContext, SensorKind, XYZ, axes, number, optional};
+use crate::control::measurement::{Observes, Values, values};
 use crate::control::rotation::{turned, vector_of};
 use crate::control::truth::Truth;
 use crate::control::vector::{conjugate, hamilton, scaled, sum};
-use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
+use crate::scene::{DeclaredTable, LawParameter};
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "rate_gyro",
-    has_latency: false,
-    at_most_one: true,
     parameters: &PARAMETERS,
+    quantities: &[MeasuredQuantity {
+        is_over_period: true,
+        ..MeasuredQuantity::new(
+            "measured_rate_s",
+            XYZ,
+            ["rad/s", "rad_s"],
+            "Rotation measured by a gyro over its interval, in F_s",
+        )
+    }],
+    observes: Observes::Rotation(GyroNoise::of),
     make: |context| Box::new(RateGyro::new(context)),
 };
 
@@ -40,6 +48,25 @@ static PARAMETERS: [LawParameter; 7] = [
     optional("quantization_rad", "rad", "Angle of one count; the remainder is carried to the next sample; 0: none"),
     optional("max_rate_rad_s", "rad/s", "Largest mean rate about each axis that it measures; 0: no limit"),
 ];
+
+/// The noise of a gyro, as flight software believes it: Farrenkopf's sv, rad/sqrt(s), and su, rad/s/sqrt(s).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GyroNoise {
+    /// Angular random walk sv.
+    pub angular_random_walk: f64,
+    /// Random walk of the bias su.
+    pub bias_random_walk: f64,
+}
+
+impl GyroNoise {
+    /// That of a gyro with the numbers of `table`.
+    fn of(table: &DeclaredTable) -> Self {
+        GyroNoise {
+            angular_random_walk: number(table, "angular_random_walk_rad_sqrt_s"),
+            bias_random_walk: number(table, "bias_random_walk_rad_s_sqrt_s"),
+        }
+    }
+}
 
 /// A rate-integrating gyro in one run.
 #[derive(Debug)]
@@ -99,7 +126,7 @@ impl RateGyro {
 
 impl Sensor for RateGyro {
     /// The rotation since the sample before; nothing at the first sample.
-    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Measurement> {
+    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
         let now = truth.body.q_es;
         let before = self.before.replace(now)?;
         let rotation = turned(vector_of(hamilton(conjugate(before), now)), self.misalignment.map(|angle| -angle));
@@ -108,8 +135,8 @@ impl Sensor for RateGyro {
         self.bias = after;
         let noise = self.white.scaled(count, [self.white_deviation; 3]);
         let errors = sum(of_bias, noise);
-        let rotation_s = std::array::from_fn(|i| self.counted(i, self.scale[i] * rotation[i] + errors[i]));
-        Some(Measurement::Rotation { rotation_s, interval: self.period })
+        let rotation_s: [f64; 3] = std::array::from_fn(|i| self.counted(i, self.scale[i] * rotation[i] + errors[i]));
+        Some(values(&[&rotation_s]))
     }
 
     fn bias_s(&self) -> Option<[f64; 3]> {
@@ -121,6 +148,7 @@ impl Sensor for RateGyro {
 mod tests {
     use super::super::bench::{assert_normal, sensor, truth};
     use super::*;
+    use crate::control::measurement::part;
     use crate::control::rotation::quaternion_of;
     use crate::control::vector::difference;
 
@@ -132,11 +160,11 @@ mod tests {
         let mut all = Vec::new();
         for count in 0..=samples {
             match gyro.measure(count, &truth(period * count as f64, q, omega)) {
-                Some(Measurement::Rotation { rotation_s, interval }) => {
-                    assert_eq!(interval, period);
+                Some(measured) => {
+                    let rotation_s = part(&measured, 0);
                     all.push((rotation_s, gyro.bias_s().expect("a bias")));
                 }
-                _ => assert_eq!(count, 0, "a rotation at every sample but the first"),
+                None => assert_eq!(count, 0, "a rotation at every sample but the first"),
             }
             q = hamilton(q, quaternion_of(scaled(period, omega)));
         }

@@ -1,7 +1,7 @@
 //! A camera on the spacecraft: attitude and rate of the debris relative to the spacecraft, within a range.
 
-use super::{AXES, NormalErrors, Sensor, SensorContext, SensorKind, optional};
-use crate::control::measurement::Measurement;
+use super::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, WXYZ, XYZ, number, optional};
+use crate::control::measurement::{Observes, Values, values};
 use crate::control::rotation::quaternion_of;
 use crate::control::truth::Truth;
 use crate::control::vector::{conjugate, dcm_from_quaternion, difference, hamilton, norm, product, sum};
@@ -9,9 +9,24 @@ use crate::scene::LawParameter;
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "relative_camera",
-    has_latency: true,
-    at_most_one: false,
     parameters: &PARAMETERS,
+    quantities: &[
+        MeasuredQuantity::new(
+            "measured_q_sd",
+            WXYZ,
+            ["", ""],
+            "Attitude quaternion of the debris measured by the camera, F_d -> F_s",
+        ),
+        MeasuredQuantity::new(
+            "measured_omega_ds_d",
+            XYZ,
+            ["rad/s", "rad_s"],
+            "Angular velocity of the debris relative to the spacecraft measured by the camera, in F_d",
+        ),
+    ],
+    observes: Observes::DebrisAttitude(|table| {
+        [number(table, "attitude_noise_rad"), number(table, "rate_noise_rad_s")]
+    }),
     make: |context| Box::new(RelativeCamera::new(context)),
 };
 
@@ -46,7 +61,7 @@ impl RelativeCamera {
 }
 
 impl Sensor for RelativeCamera {
-    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Measurement> {
+    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
         let (body, debris) = (&truth.body, truth.debris?);
         if self.max_range > 0.0 && norm(difference(debris.r_gdo_e, body.r_co_e)) > self.max_range {
             return None;
@@ -54,11 +69,9 @@ impl Sensor for RelativeCamera {
         let q_sd = hamilton(conjugate(body.q_es), debris.q_ed);
         let c_ds = dcm_from_quaternion(conjugate(q_sd));
         let omega_ds_d = difference(debris.omega_de_d, product(c_ds, body.omega_se_s));
-        Some(Measurement::Camera {
-            q_sd: hamilton(quaternion_of(self.attitude_noise.scaled(count, [self.attitude; 3])), q_sd),
-            omega_ds_d: sum(omega_ds_d, self.rate_noise.scaled(count, [self.rate; 3])),
-            age: 0.0,
-        })
+        let seen = hamilton(quaternion_of(self.attitude_noise.scaled(count, [self.attitude; 3])), q_sd);
+        let rate = sum(omega_ds_d, self.rate_noise.scaled(count, [self.rate; 3]));
+        Some(values(&[&seen, &rate]))
     }
 }
 
@@ -66,6 +79,7 @@ impl Sensor for RelativeCamera {
 mod tests {
     use super::super::bench::{assert_normal, sensor, truth};
     use super::*;
+    use crate::control::measurement::part;
     use crate::control::rotation::vector_of;
     use crate::control::truth::DebrisState;
 
@@ -85,17 +99,15 @@ mod tests {
         let mut camera = sensor("relative_camera", &values, 1.0, 8);
         let (mut turns, mut rates) = (Vec::new(), Vec::new());
         for count in 0..4_000 {
-            let Some(Measurement::Camera { q_sd: seen, omega_ds_d, .. }) = camera.measure(count, &at) else {
-                panic!("within range")
-            };
-            turns.extend(vector_of(hamilton(seen, conjugate(q_sd))));
-            rates.extend(omega_ds_d);
+            let seen = camera.measure(count, &at).expect("within range");
+            turns.extend(vector_of(hamilton(part(&seen, 0), conjugate(q_sd))));
+            rates.extend(part::<3>(&seen, 4));
         }
         assert_normal(&turns, 1e-3, 1e-3);
         assert_normal(&rates, 1e-4, 1e-3);
         at.debris = Some(DebrisState { r_gdo_e: [0.0, 31.0, 0.0], ..debris });
-        assert_eq!(camera.measure(0, &at), None);
+        assert!(camera.measure(0, &at).is_none());
         at.debris = None;
-        assert_eq!(camera.measure(0, &at), None);
+        assert!(camera.measure(0, &at).is_none());
     }
 }

@@ -3,8 +3,11 @@
 //! The third axis of the tracker, F_t, is its boresight, about which a tracker measures least exactly (C. C. Liebe, IEEE Transactions on Aerospace and
 //! Electronic Systems 38(2), 2002). The others are s1 and s2, turned with s3 to the boresight the shortest way: they are s1 and s2 where it is s3.
 
-use super::{AXES, NormalErrors, Sensor, SensorContext, SensorKind, axes, optional};
-use crate::control::measurement::Measurement;
+use super::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, WXYZ, axes, optional};
+use std::sync::Arc;
+
+use crate::control::estimators::attitude_innovation::WholeAttitude;
+use crate::control::measurement::{Observes, Values, values};
 use crate::control::rotation::{from_s3_to, quaternion_of};
 use crate::control::small_matrix::{diagonal, multiplied, transposed};
 use crate::control::truth::Truth;
@@ -14,9 +17,14 @@ use crate::scene::{DeclaredTable, LawParameter};
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "star_tracker",
-    has_latency: true,
-    at_most_one: false,
     parameters: &PARAMETERS,
+    quantities: &[MeasuredQuantity::new(
+        "measured_q_es",
+        WXYZ,
+        ["", ""],
+        "Attitude quaternion measured by a star tracker, F_s -> F_e",
+    )],
+    observes: Observes::Attitude(|table| Arc::new(WholeAttitude(covariance_s(table)))),
     make: |context| Box::new(StarTracker::new(context)),
 };
 
@@ -38,7 +46,7 @@ fn c_st(table: &DeclaredTable) -> [[f64; 3]; 3] {
 }
 
 /// The covariance of the noise of a tracker with the numbers of `table`, in F_s, rad^2.
-pub fn covariance_s(table: &DeclaredTable) -> [[f64; 3]; 3] {
+fn covariance_s(table: &DeclaredTable) -> [[f64; 3]; 3] {
     let c_st = c_st(table);
     let in_tracker = diagonal(super::vector(table, "noise_rad").map(|sigma| sigma * sigma));
     multiplied(&multiplied(&c_st, &in_tracker), &transposed(&c_st))
@@ -68,13 +76,13 @@ impl StarTracker {
 }
 
 impl Sensor for StarTracker {
-    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Measurement> {
+    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
         if self.max_rate > 0.0 && norm(truth.body.omega_se_s) > self.max_rate {
             return None;
         }
         let noise_s = product(self.c_st, self.noise.scaled(count, self.deviations));
         let error = hamilton(self.bias, quaternion_of(noise_s));
-        Some(Measurement::Attitude { q_es: hamilton(truth.body.q_es, error), age: 0.0 })
+        Some(values(&[&hamilton(truth.body.q_es, error)]))
     }
 }
 
@@ -82,6 +90,7 @@ impl Sensor for StarTracker {
 mod tests {
     use super::super::bench::{assert_normal, sensor, table, truth};
     use super::*;
+    use crate::control::measurement::part;
     use crate::control::rotation::vector_of;
     use crate::control::vector::{conjugate, difference, dot, scaled};
 
@@ -89,10 +98,8 @@ mod tests {
 
     /// The error of sample `count` about the axes of the body.
     fn error(tracker: &mut dyn Sensor, count: u64, q: [f64; 4], rate: f64) -> Option<[f64; 3]> {
-        match tracker.measure(count, &truth(0.0, q, [0.0, rate, 0.0])) {
-            Some(Measurement::Attitude { q_es, .. }) => Some(vector_of(hamilton(conjugate(q), q_es))),
-            _ => None,
-        }
+        let measured = tracker.measure(count, &truth(0.0, q, [0.0, rate, 0.0]))?;
+        Some(vector_of(hamilton(conjugate(q), part(&measured, 0))))
     }
 
     /// Law: noise about the boresight is about that direction of the body, whichever it is, and of unit length or not; across it there is none where the

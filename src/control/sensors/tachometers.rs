@@ -1,16 +1,21 @@
 //! Tachometers of the wheels: their rates relative to the body.
 
-use super::{NormalErrors, Sensor, SensorContext, SensorKind, optional};
-use crate::control::measurement::Measurement;
+use super::{Components, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, optional};
+use crate::control::measurement::{Observes, Values, values};
 use crate::control::truth::Truth;
 use crate::scene::schema::Limit;
 use crate::scene::{LawParameter, MAX_WHEELS};
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "tachometers",
-    has_latency: false,
-    at_most_one: true,
     parameters: &PARAMETERS,
+    quantities: &[MeasuredQuantity::new(
+        "measured_rate",
+        Components::Wheels,
+        ["rad/s", "rad_s"],
+        "Rate of this wheel measured by its tachometer",
+    )],
+    observes: Observes::WheelRates,
     make: |context| Box::new(Tachometers::new(context)),
 };
 
@@ -39,10 +44,11 @@ impl Tachometers {
 }
 
 impl Sensor for Tachometers {
-    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Measurement> {
+    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
         let errors = self.noise.scaled(count, self.deviations);
-        let rates = std::array::from_fn(|wheel| self.scale * truth.wheels.rates[wheel] + errors[wheel]);
-        Some(Measurement::WheelRates { rates })
+        let rates: [f64; MAX_WHEELS] =
+            std::array::from_fn(|wheel| self.scale * truth.wheels.rates[wheel] + errors[wheel]);
+        Some(values(&[&rates]))
     }
 }
 
@@ -50,6 +56,7 @@ impl Sensor for Tachometers {
 mod tests {
     use super::super::bench::{assert_normal, sensor, truth};
     use super::*;
+    use crate::control::measurement::part;
 
     /// Law: each rate is scaled and has noise of its own (4,000 samples, alpha 1e-3, seed 5); a wheel that is not there reads zero.
     #[test]
@@ -60,7 +67,7 @@ mod tests {
         let mut tachometers = sensor("tachometers", &[("noise_rad_s", &[0.2]), ("scale", &[1.01])], 0.1, 2);
         let mut errors = [Vec::new(), Vec::new()];
         for count in 0..4_000 {
-            let Some(Measurement::WheelRates { rates }) = tachometers.measure(count, &at) else { panic!("rates") };
+            let rates: [f64; MAX_WHEELS] = part(&tachometers.measure(count, &at).expect("rates"), 0);
             errors[0].push(rates[0] - 101.0);
             errors[1].push(rates[1] + 50.5);
             assert_eq!(rates[2..], [0.0; MAX_WHEELS][2..]);

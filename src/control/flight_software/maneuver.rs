@@ -1,8 +1,8 @@
 //! What guidance has before it at a tick: geometry, the maneuver that is left, the attitude that is wanted.
 
-use super::ControlLoop;
+use super::FlightSoftware;
 use crate::control::estimate::Estimate;
-use crate::control::guidance::geometry::{Centers, LaunchGeometry, transfer};
+use crate::control::guidance::geometry::{Centers, LaunchGeometry, LaunchState, transfer};
 use crate::control::guidance::phase::{Maneuver, Phase};
 use crate::control::guidance::situation::{Situation, s3_of};
 use crate::control::guidance::target::{AttitudeError, VelocityToGo};
@@ -15,20 +15,17 @@ pub(super) fn stored_momentum(scene: &Scene, estimate: &Estimate) -> [f64; 3] {
     wheels.fold([0.0; 3], |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
 }
 
-impl ControlLoop {
-    pub(super) fn geometry_of(&self, estimate: &Estimate) -> Option<LaunchGeometry> {
-        let debris = estimate.debris.as_ref()?;
-        let centers = Centers {
-            r_co_e: estimate.r_co_e,
-            v_co_e: estimate.v_co_e,
-            r_gdo_e: debris.r_gdo_e,
-            v_gdo_e: debris.v_gdo_e,
-        };
-        Some(self.launch.geometry(&centers))
-    }
+/// The geometry of the launch from the state `launch` as estimated; `None` without debris.
+pub(super) fn geometry_of(launch: &LaunchState, estimate: &Estimate) -> Option<LaunchGeometry> {
+    let debris = estimate.debris.as_ref()?;
+    let centers =
+        Centers { r_co_e: estimate.r_co_e, v_co_e: estimate.v_co_e, r_gdo_e: debris.r_gdo_e, v_gdo_e: debris.v_gdo_e };
+    Some(launch.geometry(&centers))
+}
 
+impl FlightSoftware {
     /// The impulse per mass that is left of the maneuver of the phase.
-    pub(super) fn velocity_to_go(&self, geometry: Option<&LaunchGeometry>, time: f64) -> VelocityToGo {
+    pub fn velocity_to_go(&self, geometry: Option<&LaunchGeometry>, time: f64) -> VelocityToGo {
         let Some(geometry) = geometry else { return VelocityToGo::default() };
         let phase = &self.phases[self.guidance.phase];
         match phase.maneuver() {
@@ -56,7 +53,7 @@ impl ControlLoop {
 
     /// The impulse per mass, in F_e, m/s, of thrust that is commanded and has not acted yet at `time`, at the attitude `q_es`.
     fn on_its_way(&self, q_es: [f64; 4], time: f64) -> [f64; 3] {
-        let (acting, waiting) = self.thrust_commands.all();
+        let (acting, waiting) = self.under_way.thrust.all();
         let mut impulse = [0.0; MAX_THRUSTERS];
         for &i in &self.spec.thrusters {
             let left = (acting.begin + acting.on_time[i] - time).clamp(0.0, acting.on_time[i]);
@@ -70,12 +67,8 @@ impl ControlLoop {
     }
 
     /// The attitude relative to the target of the phase, and the velocity to go (m/s, F_e).
-    pub(super) fn wanted(
-        &self,
-        estimate: &Estimate,
-        geometry: Option<&LaunchGeometry>,
-        time: f64,
-    ) -> (AttitudeError, [f64; 3]) {
+    pub(super) fn wanted(&self, geometry: Option<&LaunchGeometry>, time: f64) -> (AttitudeError, [f64; 3]) {
+        let estimate = &self.estimate;
         let mut to_go = self.velocity_to_go(geometry, time);
         let Phase { target, thrust, .. } = self.phases[self.guidance.phase];
         if thrust != Maneuver::None {
@@ -84,7 +77,9 @@ impl ControlLoop {
         (target.error(estimate.q_es, geometry, &to_go), to_go.velocity_e)
     }
 
-    pub(super) fn situation(&self, time: f64, estimate: &Estimate, geometry: Option<LaunchGeometry>) -> Situation {
+    /// What the conditions of phases can ask for, but for the error and the velocity to go.
+    pub(super) fn situation(&self, time: f64, geometry: Option<LaunchGeometry>) -> Situation {
+        let estimate = &self.estimate;
         let rates = &estimate.wheel_rates[..self.believed.mass.wheels.len()];
         Situation {
             time,

@@ -1,0 +1,169 @@
+//! [`Mission`]: a run judged by the truth: what it comes to, what ends it, and its quantities over time. Nothing of it goes back to flight software.
+
+use std::sync::Arc;
+
+use crate::control::estimate::EstimateErrors;
+use crate::control::flight_software::{FlightSoftware, Guided};
+use crate::control::guidance::target::Target;
+use crate::control::guidance::{Failure, Guidance};
+use crate::control::loop_record::{KnownOverTime, NOTHING_KNOWN, SharedRecord, set};
+use crate::control::outcome::columns::OutcomeColumns;
+use crate::control::outcome::{ArcApplied, MissionCriteria, MissionOutcome, centers_of};
+use crate::control::plant::{Applied, Plant};
+use crate::control::recorder::{Recorder, Tick};
+use crate::control::spec::LoopSpec;
+use crate::control::truth::Truth;
+use crate::control::vector::{difference, norm};
+use crate::dynamics::actuation::{BodyState, WheelState};
+use crate::observables::Series;
+use crate::run::Telemetry;
+use crate::scene::{MAX_THRUSTERS, Scene, WheelMode};
+
+/// What a run comes to.
+pub struct Mission {
+    spec: Arc<LoopSpec>,
+    criteria: MissionCriteria,
+    outcome: MissionOutcome,
+    recorder: Option<Recorder>,
+    /// What is known of the quantities over time, and where it is recorded.
+    over_time: KnownOverTime,
+    record: Option<SharedRecord>,
+    /// Time at the limit of speed after which a run fails, s; infinite where there is none.
+    saturation_timeout: f64,
+    saturated_since: f64,
+}
+
+impl Mission {
+    /// That of a run under `spec`, judged by `criteria`; it fails after `saturation_timeout` seconds at the limit of speed.
+    pub fn new(
+        spec: &Arc<LoopSpec>,
+        criteria: MissionCriteria,
+        saturation_timeout: f64,
+        (recorder, record): (Option<Recorder>, Option<SharedRecord>),
+    ) -> Self {
+        Mission {
+            spec: spec.clone(),
+            criteria,
+            outcome: MissionOutcome::new(),
+            recorder,
+            over_time: NOTHING_KNOWN,
+            record,
+            saturation_timeout,
+            saturated_since: f64::NAN,
+        }
+    }
+
+    /// Whether the debris is too near.
+    pub fn keep_out(&self, truth: &Truth) -> Option<Failure> {
+        let debris = truth.debris.as_ref()?;
+        let distance = norm(difference(debris.r_gdo_e, truth.body.r_co_e));
+        (distance < self.criteria.keep_out).then_some(Failure::KeepOut)
+    }
+
+    /// Whether a wheel has been at its limit of speed for too long.
+    pub fn saturation(&self, time: f64) -> Option<Failure> {
+        (time - self.saturated_since > self.saturation_timeout).then_some(Failure::WheelSaturated)
+    }
+
+    /// Takes the truth of a control tick into the quantities over time, and into the outcome where the tick is judged.
+    pub fn judge(
+        &mut self,
+        (plant, truth): (&Plant, &Truth),
+        software: &FlightSoftware,
+        guided: &Guided,
+        is_judged: bool,
+    ) {
+        let target = software.phase().target;
+        // of perfect knowledge the believed error is the true one
+        let knows = self.spec.knows_the_truth();
+        let error = (target != Target::None).then(|| {
+            if knows {
+                return guided.error;
+            }
+            let geometry = centers_of(truth).map(|centers| self.criteria.launch.geometry(&centers));
+            let to_go = software.velocity_to_go(geometry.as_ref(), truth.time);
+            target.error(truth.body.q_es, geometry.as_ref(), &to_go)
+        });
+        let errors = if knows { EstimateErrors::NONE } else { software.estimate().errors(truth) };
+        for (series, value) in [
+            (Series::PointingError, error.map_or(f64::NAN, |error| error.angle())),
+            (Series::AttitudeEstimateError, errors.attitude),
+            (Series::RateEstimateError, errors.rate),
+            (Series::PositionEstimateError, errors.relative_position),
+            (Series::VelocityEstimateError, errors.relative_velocity),
+        ] {
+            set(&mut self.over_time, series, value);
+        }
+        if is_judged {
+            self.outcome.tick(plant.scene(), truth, (error.as_ref(), guided.begins), &errors, &self.criteria);
+        }
+    }
+
+    /// The mission has launched, or failed.
+    pub fn ends(&mut self, scene: &Scene, truth: &Truth, failure: Failure) {
+        self.outcome.ends(scene, truth, failure, &self.criteria.launch);
+    }
+
+    /// A command is no finite number at `time`, s.
+    pub fn diverges(&mut self, time: f64) {
+        self.outcome.diverges(time);
+    }
+
+    /// Records the tick, where this run is to be recorded.
+    pub fn record(&mut self, (plant, truth): (&Plant, &Truth), software: &FlightSoftware, guided: &Guided) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.tick(&Tick {
+                time: truth.time,
+                phase: software.guidance().phase,
+                pointing_error: guided.error.angle(),
+                estimate: software.estimate(),
+                consistency: &software.consistency(truth, plant.gyro_bias_s()),
+                commanded: software.latest_commands(),
+                measurements: plant.measurements(truth.time).delivered,
+            });
+        }
+    }
+
+    /// Takes how the errors of the filters compare with their covariances.
+    pub fn compare_filters(&mut self, (plant, truth): (&Plant, &Truth), software: &FlightSoftware) {
+        self.outcome.consistency = software.consistency(truth, plant.gyro_bias_s());
+    }
+
+    /// Takes what the actuators make of the commands over an arc from `time` on, at whose start the motion is this one.
+    pub fn arc(&mut self, time: f64, plant: &mut Plant, applied: &Applied, (body, wheels): (&BodyState, &WheelState)) {
+        for (i, wheel) in plant.scene().mass.wheels.iter().enumerate() {
+            if wheel.mode == WheelMode::Free {
+                set(&mut self.over_time, Series::MotorTorque.of_wheel(i), applied.actuation.motor_torque[i]);
+            }
+        }
+        if !applied.saturated[1] {
+            self.saturated_since = f64::NAN;
+        } else if self.saturated_since.is_nan() {
+            self.saturated_since = time;
+        }
+        let thrust = applied.actuation.thrust;
+        let hits = thrust != [0.0; MAX_THRUSTERS] && self.spec.approaches() && {
+            let truth = plant.truth(time, body, wheels);
+            self.outcome.plume_hits(plant.scene(), &truth, &thrust, &self.criteria)
+        };
+        let Applied { length, saturated, torque_excess, .. } = *applied;
+        self.outcome.arc(plant.scene(), &ArcApplied { length, thrust, hits, saturated, torque_excess });
+    }
+
+    /// Records the quantities over time as they are known from `time` on, s.
+    pub fn record_over_time(&self, time: f64) {
+        if let Some(record) = &self.record {
+            record.lock().take(time, &self.over_time);
+        }
+    }
+
+    /// The columns of the row.
+    pub fn report(&self, columns: &OutcomeColumns, guidance: &Guidance, values: &mut [f64]) {
+        columns.report(&self.outcome, guidance, &self.criteria, values);
+    }
+
+    /// What was recorded.
+    pub fn telemetry(&self) -> Option<&Telemetry> {
+        self.recorder.as_ref().map(Recorder::telemetry)
+    }
+}

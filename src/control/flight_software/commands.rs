@@ -1,0 +1,174 @@
+//! From a wanted torque and force to commands; which of them act.
+
+use super::maneuver::stored_momentum;
+use super::{CommandedImpulse, FlightSoftware, Guided};
+use crate::control::actuators::DelayQueue;
+use crate::control::control_loop::SAME_TIME;
+use crate::control::guidance::phase::Maneuver;
+use crate::control::guidance::situation::s3_of;
+use crate::control::guidance::target::Target;
+use crate::control::laws::LawInput;
+use crate::control::vector::{dcm_from_quaternion, difference, dot, scaled, sum};
+use crate::scene::{MAX_THRUSTERS, MAX_WHEELS};
+
+/// What the motors are commanded, N m, by wheel.
+pub type MotorCommand = [f64; MAX_WHEELS];
+
+/// What the thrusters are commanded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulses {
+    /// When they begin, s.
+    pub begin: f64,
+    /// Thrusts while they last, N, by thruster.
+    pub thrust: [f64; MAX_THRUSTERS],
+    /// How long each lasts, s.
+    pub on_time: [f64; MAX_THRUSTERS],
+}
+
+/// No thruster fires.
+pub const NO_PULSES: Pulses = Pulses { begin: 0.0, thrust: [0.0; MAX_THRUSTERS], on_time: [0.0; MAX_THRUSTERS] };
+
+/// Commands that act, or will.
+#[derive(Clone, Debug)]
+pub struct CommandsUnderWay {
+    pub(super) motors: DelayQueue<MotorCommand>,
+    /// Nothing is pushed in a loop without thrusters.
+    pub(super) thrust: DelayQueue<Pulses>,
+}
+
+impl CommandsUnderWay {
+    /// None, with room for those of a loop with this delay and period, s.
+    pub fn new(delay: f64, period: f64) -> Self {
+        CommandsUnderWay {
+            motors: DelayQueue::new([0.0; MAX_WHEELS], delay, period),
+            thrust: DelayQueue::new(NO_PULSES, delay, period),
+        }
+    }
+}
+
+/// The commands that act at a time.
+#[derive(Clone, Copy, Debug)]
+pub struct ActingCommands<'a> {
+    /// Of the motors, N m.
+    pub motor_torque: &'a MotorCommand,
+    /// Of the thrusters; `None` in a loop without them.
+    pub pulses: Option<&'a Pulses>,
+    /// Until when they act, s.
+    pub until: f64,
+}
+
+/// A command is no finite number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotFinite;
+
+impl FlightSoftware {
+    /// Commands what the law and the maneuver want.
+    ///
+    /// # Errors
+    /// Where a command is no finite number: none is given.
+    pub fn command(&mut self, time: f64, guided: &Guided) -> Result<(), NotFinite> {
+        let (estimate, error) = (&self.estimate, &guided.error);
+        let mass = &self.believed.mass;
+        let input = LawInput {
+            q_ts: error.q_ts,
+            omega_se_s: estimate.omega_se_s,
+            omega_te_s: error.omega_te_s,
+            acceleration_te_s: [0.0; 3],
+            momentum_s: self.body.momentum(mass, estimate.omega_se_s, &estimate.wheel_rates),
+        };
+        let phase = &self.phases[self.guidance.phase];
+        // zero at the first tick of a phase
+        let since = if self.guidance.since == time { 0.0 } else { self.spec.period };
+        let torque = self.law.torque(&self.body, &input, since);
+        let begin = time + self.delay;
+        let (mut by_thrusters, mut mean) = ([0.0; 3], [0.0; MAX_THRUSTERS]);
+        if let Some(allocation) = &self.thrusters {
+            let mut wanted = self.wheels.as_ref().map_or(torque, |wheels| wheels.out_of_reach(torque));
+            if let Some(unloading) = &phase.unloading {
+                let stored = stored_momentum(&self.believed, estimate);
+                wanted = sum(wanted, unloading.torque(stored, self.two_sided));
+            }
+            let force = match phase.thrust {
+                Maneuver::None => self.spec.holds_force.then_some([0.0; 3]),
+                _ => {
+                    let s3_e = s3_of(dcm_from_quaternion(estimate.q_es));
+                    let along = mass.total * dot(guided.velocity_to_go, s3_e) / self.spec.period;
+                    // where s3 is turned for the thruster that pushes along it, none brakes
+                    let only_forward = matches!(phase.target, Target::Transfer | Target::Stop);
+                    Some([0.0, 0.0, if only_forward { along.max(0.0) } else { along }])
+                }
+            };
+            let thrust = allocation.allocate(force, wanted);
+            let mut pulses = Pulses { begin, ..NO_PULSES };
+            for &i in &self.spec.thrusters {
+                let period = self.spec.period;
+                let pulse = self.thruster_drives[i].over(thrust[i], period, &mut self.pulses[i]);
+                (pulses.thrust[i], pulses.on_time[i]) = (pulse.thrust, pulse.on_time);
+                mean[i] = pulse.thrust * pulse.on_time / period;
+            }
+            by_thrusters = self.believed.thruster_torque_s(mean);
+            self.under_way.thrust.push(begin, pulses);
+        }
+        let mut motor_torque = [0.0; MAX_WHEELS];
+        if let Some(allocation) = &self.wheels {
+            let motors = allocation.motors(difference(torque, by_thrusters));
+            self.spec.wheels.iter().zip(motors).for_each(|(place, motor)| motor_torque[*place] = motor);
+        }
+        let total =
+            motor_torque.iter().sum::<f64>() + self.spec.thrusters.iter().map(|place| mean[*place]).sum::<f64>();
+        if !total.is_finite() {
+            return Err(NotFinite);
+        }
+        self.under_way.motors.push(begin, motor_torque);
+        self.latest = (motor_torque, mean);
+        Ok(())
+    }
+
+    /// The commands that act at `time`, s, which does not descend.
+    pub fn acting(&mut self, time: f64) -> ActingCommands<'_> {
+        let same = SAME_TIME * self.spec.period;
+        let (motor_torque, mut until) = self.under_way.motors.at(time + same);
+        let mut pulses = None;
+        if !self.spec.thrusters.is_empty() {
+            let (acting, next) = self.under_way.thrust.at(time + same);
+            (pulses, until) = (Some(acting), until.min(next));
+            for &i in &self.spec.thrusters {
+                let end = acting.begin + acting.on_time[i];
+                if acting.thrust[i] > 0.0 && end > time + same {
+                    until = until.min(end);
+                }
+            }
+        }
+        ActingCommands { motor_torque, pulses, until }
+    }
+
+    /// Counts what acted for `length` seconds from `time` on, as commanded: what estimators are told.
+    pub fn count(&mut self, time: f64, length: f64) {
+        if self.spec.knows_the_truth() {
+            // only filters ask what was commanded
+            return;
+        }
+        let same = SAME_TIME * self.spec.period;
+        if !self.spec.thrusters.is_empty() {
+            let (pulses, _) = self.under_way.thrust.all();
+            let mut thrust = [0.0; MAX_THRUSTERS];
+            for &i in &self.spec.thrusters {
+                if pulses.begin + pulses.on_time[i] > time + same {
+                    thrust[i] = pulses.thrust[i];
+                }
+            }
+            if thrust != [0.0; MAX_THRUSTERS] {
+                let CommandedImpulse { force_s, torque_s, .. } = &mut self.commanded;
+                *force_s = sum(*force_s, scaled(length, self.believed.thruster_force_s(thrust)));
+                *torque_s = sum(*torque_s, scaled(length, self.believed.thruster_torque_s(thrust)));
+            }
+        }
+        let (motor_torque, _) = self.under_way.motors.all();
+        for (i, wheel) in self.believed.mass.wheels.iter().enumerate() {
+            let most = self.believed.actuators.wheels[i].torque_limit;
+            let impulse = length * motor_torque[i].clamp(-most, most);
+            self.commanded.torque_s = difference(self.commanded.torque_s, scaled(impulse, wheel.axis));
+            self.commanded.motors[i] += impulse;
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! [`FlightSoftware`]: estimator, guidance, law and allocation of one run. What it knows is the nominal scene as it is believed ([`LoopSpec::believed`]), its
+//! own drawn numbers, what its sensors deliver, and what it has commanded: no field of it and no argument of its tick is the truth.
+//!
+//! - [`maneuver`]: what guidance has before it at a tick. [`commands`]: from a wanted torque and force to commands.
+
+pub mod commands;
+mod maneuver;
+
+use std::sync::Arc;
+
+use self::commands::CommandsUnderWay;
+pub use self::commands::{ActingCommands, MotorCommand, Pulses};
+use super::actuators::{PulseState, ThrusterDrive};
+use super::allocation::thrust::ThrustAllocation;
+use super::allocation::wheel_torque::WheelTorque;
+use super::control_loop::SAME_TIME;
+use super::estimate::Estimate;
+use super::estimators::{Consistency, Estimator, Update};
+use super::guidance::geometry::{LaunchGeometry, LaunchState};
+use super::guidance::phase::Phase;
+use super::guidance::target::AttitudeError;
+use super::guidance::{Failure, Guidance, Progress};
+use super::laws::{AttitudeLaw, KnownBody};
+use super::measurement::{Observes, PointMotion};
+use super::plant::Measurements;
+use super::spec::LoopSpec;
+use super::truth::Truth;
+use crate::control::vector::scaled;
+use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
+
+/// What guidance has decided at a control tick.
+#[derive(Clone, Copy, Debug)]
+pub struct Guided {
+    /// How the mission goes on.
+    pub progress: Progress,
+    /// Whether a phase begins with this tick.
+    pub begins: bool,
+    /// The estimated attitude relative to the target.
+    pub error: AttitudeError,
+    /// The velocity that the maneuver still has to change, in F_e, m/s.
+    pub velocity_to_go: [f64; 3],
+}
+
+/// What was commanded since the last tick.
+#[derive(Clone, Copy, Debug)]
+struct CommandedImpulse {
+    /// Of force, in F_s, N s.
+    force_s: [f64; 3],
+    /// Of torque on the body, in F_s, N m s.
+    torque_s: [f64; 3],
+    /// Of the motors, N m s.
+    motors: [f64; MAX_WHEELS],
+}
+
+const NO_IMPULSE: CommandedImpulse =
+    CommandedImpulse { force_s: [0.0; 3], torque_s: [0.0; 3], motors: [0.0; MAX_WHEELS] };
+
+/// The flight software of one run.
+pub struct FlightSoftware {
+    spec: Arc<LoopSpec>,
+    believed: Scene,
+    body: KnownBody,
+    estimator: Box<dyn Estimator>,
+    estimate: Estimate,
+    phases: Vec<Phase>,
+    /// The law of the phase, and those of all phases as they begin.
+    law: AttitudeLaw,
+    laws: Vec<AttitudeLaw>,
+    guidance: Guidance,
+    wheels: Option<WheelTorque>,
+    thrusters: Option<ThrustAllocation>,
+    /// The projection onto the torques that the thrusters give in both directions.
+    two_sided: [[f64; 3]; 3],
+    thruster_drives: [ThrusterDrive; MAX_THRUSTERS],
+    pulses: [PulseState; MAX_THRUSTERS],
+    launch: LaunchState,
+    /// The geometry of the launch as estimated at the control tick; `None` without debris.
+    geometry: Option<LaunchGeometry>,
+    /// Time without the target after which it is lost, s; infinite where there is no limit.
+    lost_target_timeout: f64,
+    /// From a command to its action, s.
+    delay: f64,
+    under_way: CommandsUnderWay,
+    /// What was commanded at the last control tick: motor torques, N m, and mean thrusts, N.
+    latest: (MotorCommand, [f64; MAX_THRUSTERS]),
+    commanded: CommandedImpulse,
+    /// When the debris was last measured, s.
+    debris_seen: f64,
+    has_camera: bool,
+    started: bool,
+    last_update: f64,
+}
+
+/// The parts of flight software, as a loop is made.
+pub struct Parts {
+    /// The nominal scene as it is believed.
+    pub believed: Scene,
+    /// The estimator.
+    pub estimator: Box<dyn Estimator>,
+    /// Phases and their laws.
+    pub phases: Vec<(Phase, AttitudeLaw)>,
+    /// The launch state.
+    pub launch: LaunchState,
+    /// How each thruster is driven.
+    pub thruster_drives: [ThrusterDrive; MAX_THRUSTERS],
+    /// Time without the target after which it is lost, s.
+    pub lost_target_timeout: f64,
+    /// From a command to its action, s.
+    pub delay: f64,
+    /// The nominal state at the start.
+    pub start: Estimate,
+}
+
+impl FlightSoftware {
+    /// That of the loop `spec`.
+    pub fn new(spec: &Arc<LoopSpec>, parts: Parts) -> Self {
+        let Parts { believed, estimator, phases, launch, thruster_drives, lost_target_timeout, delay, start } = parts;
+        let (phases, laws): (Vec<Phase>, Vec<AttitudeLaw>) = phases.into_iter().unzip();
+        let wheels = (!spec.wheels.is_empty()).then(|| WheelTorque::of_loop(&believed, &spec.wheels));
+        let by_wheels = wheels.map_or([[0.0; 3]; 3], |wheels| wheels.reachable);
+        let thrusters =
+            (!spec.thrusters.is_empty()).then(|| ThrustAllocation::of_loop(&believed, &spec.thrusters, by_wheels));
+        FlightSoftware {
+            body: KnownBody::of(&believed.mass),
+            estimator,
+            estimate: start,
+            guidance: Guidance::new(&phases),
+            law: laws[0].clone(),
+            laws,
+            phases,
+            wheels,
+            two_sided: thrusters.as_ref().map_or([[0.0; 3]; 3], |all| all.two_sided_torques(spec.holds_force)),
+            thrusters,
+            thruster_drives,
+            pulses: [PulseState::default(); MAX_THRUSTERS],
+            launch,
+            geometry: None,
+            lost_target_timeout,
+            delay,
+            under_way: CommandsUnderWay::new(delay, spec.period),
+            latest: ([0.0; MAX_WHEELS], [0.0; MAX_THRUSTERS]),
+            commanded: NO_IMPULSE,
+            debris_seen: 0.0,
+            has_camera: spec.has_camera(),
+            started: false,
+            last_update: 0.0,
+            believed,
+            spec: spec.clone(),
+        }
+    }
+
+    /// A tick: the estimate from what is measured and from what was commanded.
+    pub fn tick(&mut self, measurements: &Measurements<'_>) {
+        self.note_debris(measurements);
+        let interval = measurements.time - self.last_update;
+        let mean = |impulse: [f64; 3]| if interval > 0.0 { scaled(1.0 / interval, impulse) } else { [0.0; 3] };
+        let motor_torques = self.commanded.motors.map(|impulse| if interval > 0.0 { impulse / interval } else { 0.0 });
+        self.estimate = self.estimator.update(&Update {
+            interval,
+            measurements: measurements.delivered,
+            acceleration_s: scaled(1.0 / self.believed.mass.total, mean(self.commanded.force_s)),
+            torque_s: mean(self.commanded.torque_s),
+            motor_torques,
+            perfect: measurements.perfect,
+        });
+        (self.last_update, self.commanded) = (measurements.time, NO_IMPULSE);
+    }
+
+    /// Notes when the debris was seen: where there is a camera, it has to see it; elsewhere the radar.
+    fn note_debris(&mut self, measurements: &Measurements<'_>) {
+        if measurements.perfect.is_some() {
+            self.debris_seen = measurements.time;
+        }
+        for measurement in measurements.delivered {
+            let sees = match self.spec.sensors[measurement.sensor].observes() {
+                Observes::DebrisAttitude(_) => true,
+                Observes::Motion(_) => !self.has_camera && PointMotion::of(&measurement.values, 6).is_some(),
+                _ => false,
+            };
+            if sees {
+                self.debris_seen = measurements.time - measurement.age;
+            }
+        }
+    }
+
+    /// Decides at a control tick how the mission goes on, and begins a phase where one follows; `failure`: what ends it whatever the phase.
+    pub fn guide(&mut self, time: f64, failure: Option<Failure>) -> Guided {
+        let geometry = self.geometry;
+        let mut situation = self.situation(time, geometry);
+        let (mut error, mut velocity_to_go) = self.wanted(geometry.as_ref(), time);
+        (situation.error, situation.velocity_to_go) = (error, velocity_to_go);
+        let progress = match failure {
+            Some(failure) => Progress::Fails(failure),
+            None => self.guidance.decide(&self.phases, &situation, SAME_TIME * self.spec.period),
+        };
+        // a phase begins with the run, or where guidance has changed it
+        let begins = !std::mem::replace(&mut self.started, true) || std::mem::take(&mut self.guidance.has_changed);
+        if begins {
+            self.law = self.laws[self.guidance.phase].clone();
+            (error, velocity_to_go) = self.wanted(geometry.as_ref(), time);
+        }
+        // nothing is commanded where the mission ends
+        self.latest = ([0.0; MAX_WHEELS], [0.0; MAX_THRUSTERS]);
+        Guided { progress, begins, error, velocity_to_go }
+    }
+
+    /// What flight software sees at a control tick that ends the mission; before [`FlightSoftware::guide`].
+    pub fn failure(&mut self, time: f64) -> Option<Failure> {
+        self.geometry = maneuver::geometry_of(&self.launch, &self.estimate);
+        if !self.estimate.is_finite() {
+            return Some(Failure::Diverged);
+        }
+        if self.spec.needs_axis() && !self.geometry.is_some_and(|geometry| geometry.has_axis()) {
+            return Some(Failure::NoAxis);
+        }
+        (self.spec.has_debris && time - self.debris_seen > self.lost_target_timeout).then_some(Failure::LostTarget)
+    }
+
+    /// The estimate of this tick.
+    pub fn estimate(&self) -> &Estimate {
+        &self.estimate
+    }
+
+    /// Which phase the run is in.
+    pub fn guidance(&self) -> &Guidance {
+        &self.guidance
+    }
+
+    /// The phase that the run is in.
+    pub fn phase(&self) -> &Phase {
+        &self.phases[self.guidance.phase]
+    }
+
+    /// What was commanded at the last control tick: motor torques, N m, and mean thrusts, N.
+    pub fn latest_commands(&self) -> (MotorCommand, [f64; MAX_THRUSTERS]) {
+        self.latest
+    }
+
+    /// How the errors of the filters compare with their covariances, by the truth: flight software is judged by it, and does not keep it.
+    pub fn consistency(&self, truth: &Truth, gyro_bias_s: Option<[f64; 3]>) -> Consistency {
+        self.estimator.consistency(truth, gyro_bias_s)
+    }
+}

@@ -1,0 +1,145 @@
+//! [`Plant`]: the truth of one run: the scene that is flown, its sensors, and what its actuators make of commands.
+//!
+//! Flight software sees [`Measurements`] and gives [`ActingCommands`]; nothing else passes between the two.
+
+use std::sync::Arc;
+
+use super::actuators::WheelDrive;
+use super::control_loop::SAME_TIME;
+use super::estimate::Estimate;
+use super::flight_software::ActingCommands;
+use super::measurement::Measurement;
+use super::sensors::SampledSensor;
+use super::spec::LoopSpec;
+use super::truth::{DebrisMotion, Truth};
+use crate::dynamics::actuation::{Actuation, BodyState, WheelState};
+use crate::scene::{MAX_THRUSTERS, Scene, WheelMode};
+
+/// What flight software is told at a tick.
+#[derive(Clone, Copy, Debug)]
+pub struct Measurements<'a> {
+    /// Time since the start of the run, s.
+    pub time: f64,
+    /// What the sensors deliver.
+    pub delivered: &'a [Measurement],
+    /// Perfect knowledge: the true state, where the loop is given it instead of sensors.
+    pub perfect: Option<&'a Estimate>,
+}
+
+/// What the actuators make of commands over an arc.
+#[derive(Clone, Copy, Debug)]
+pub struct Applied {
+    /// Torques and thrusts, and the end of the arc.
+    pub actuation: Actuation,
+    /// The length of the arc, s: to its end or that of the run.
+    pub length: f64,
+    /// Whether a motor was limited by its torque, and by the speed of its wheel.
+    pub saturated: [bool; 2],
+    /// Largest commanded torque beyond a limit, N m.
+    pub torque_excess: f64,
+}
+
+/// The truth of one run.
+pub struct Plant {
+    spec: Arc<LoopSpec>,
+    drawn: Scene,
+    debris: Option<DebrisMotion>,
+    sensors: Vec<SampledSensor>,
+    wheel_drives: Vec<WheelDrive>,
+    /// Whether thrusters are on or off.
+    is_on_off: bool,
+    /// The end of the run, s.
+    duration: f64,
+    delivered: Vec<Measurement>,
+    perfect: Option<Estimate>,
+}
+
+impl Plant {
+    /// A run of the scene `drawn` for `duration` seconds, measured by `sensors`, with a motor for each wheel that turns.
+    pub fn new(
+        spec: &Arc<LoopSpec>,
+        drawn: Scene,
+        (sensors, wheel_drives): (Vec<SampledSensor>, Vec<WheelDrive>),
+        duration: f64,
+    ) -> Self {
+        Plant {
+            debris: DebrisMotion::of(&drawn),
+            delivered: Vec::with_capacity(sensors.len()),
+            is_on_off: super::actuators::modulation::is_on_off(spec.modulation),
+            spec: spec.clone(),
+            drawn,
+            sensors,
+            wheel_drives,
+            duration,
+            perfect: None,
+        }
+    }
+
+    /// The scene that is flown.
+    pub fn scene(&self) -> &Scene {
+        &self.drawn
+    }
+
+    /// The true state at `time`, s, where the engine has this motion. Times do not descend.
+    pub fn truth(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Truth {
+        Truth::new(&self.drawn, time, body, wheels, self.debris.as_mut())
+    }
+
+    /// What is delivered at tick number `tick`, in order.
+    pub fn measure(&mut self, tick: u64, truth: &Truth) -> Measurements<'_> {
+        self.delivered.clear();
+        for (place, sensor) in self.sensors.iter_mut().enumerate() {
+            self.delivered.extend(sensor.deliver(place, tick, truth));
+        }
+        self.perfect = self.spec.knows_the_truth().then(|| Estimate::perfect(truth));
+        self.measurements(truth.time)
+    }
+
+    /// What was delivered last, at `time`, s.
+    pub fn measurements(&self, time: f64) -> Measurements<'_> {
+        Measurements { time, delivered: &self.delivered, perfect: self.perfect.as_ref() }
+    }
+
+    /// The true bias of the gyro, in F_s, rad/s; `None` without one.
+    pub fn gyro_bias_s(&self) -> Option<[f64; 3]> {
+        self.sensors.iter().find_map(|sensor| sensor.sensor().bias_s())
+    }
+
+    /// What the actuators make of `commands` from `time` on.
+    pub fn apply(&self, time: f64, commands: &ActingCommands<'_>, wheels: &WheelState) -> Applied {
+        let same = SAME_TIME * self.spec.period;
+        let mut until = commands.until;
+        let mut thrust = [0.0; MAX_THRUSTERS];
+        if let Some(pulses) = commands.pulses {
+            for &i in &self.spec.thrusters {
+                let valve = &self.drawn.actuators.thrusters[i];
+                let (level, least) = if self.is_on_off {
+                    (valve.max_thrust, valve.min_on_time)
+                } else {
+                    (pulses.thrust[i].min(valve.max_thrust), 0.0)
+                };
+                let end = pulses.begin + pulses.on_time[i].max(least);
+                if pulses.thrust[i] > 0.0 && end > time + same {
+                    thrust[i] = self.drawn.actuators.thrusters[i].thrust_scale * level;
+                    until = until.min(end);
+                }
+            }
+        }
+        // the run ends an arc too
+        let length = until.min(self.duration) - time;
+        let mut actuation = Actuation { thrust, ..Actuation::none(until) };
+        let (mut saturated, mut torque_excess) = ([false; 2], 0.0_f64);
+        // a wheel whose speed is held has a motor of its own
+        for (i, drive) in self.wheel_drives.iter().enumerate() {
+            if self.drawn.mass.wheels[i].mode != WheelMode::Free {
+                continue;
+            }
+            let driven = drive.over(commands.motor_torque[i], wheels.rates[i], length);
+            actuation.motor_torque[i] = driven.torque;
+            saturated[0] |= driven.is_torque_limited;
+            saturated[1] |= driven.is_speed_limited;
+            torque_excess = torque_excess.max(driven.excess);
+        }
+        Applied { actuation, length, saturated, torque_excess }
+    }
+}
