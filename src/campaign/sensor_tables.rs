@@ -123,14 +123,13 @@ pub(super) fn check_sensors(
         let value = format!("{:?}", sensors::KINDS[sensor.kind].name);
         root.document.add(&path, Some(value), allowed, "delete the table, or write another estimator");
     }
-    let needs: [(bool, fn(&Observes) -> bool); 3] = [
-        (true, |observes| matches!(observes, Observes::Attitude(_) | Observes::Direction(_))),
-        (has_debris, |observes| matches!(observes, Observes::Motion(_))),
-        (has_wheels && !kind.has_filter, |observes| matches!(observes, Observes::WheelRates)),
-    ];
-    for (_, meets) in needs.iter().filter(|(is_needed, _)| *is_needed) {
+    type Meets = fn(&Observes) -> bool;
+    let attitude: Meets = |observes| matches!(observes, Observes::Attitude(_) | Observes::Direction(_));
+    let motion: Meets = |observes| matches!(observes, Observes::Motion(_));
+    let wheel_rates: Meets = |observes| matches!(observes, Observes::WheelRates);
+    for (is_needed, meets) in [(true, attitude), (has_debris, motion), (has_wheels && !kind.has_filter, wheel_rates)] {
         let meets = |observes: Observes| meets(&observes) && (kind.uses)(&observes);
-        if sensors.iter().any(|sensor| meets(sensor.observes())) {
+        if !is_needed || sensors.iter().any(|sensor| meets(sensor.observes())) {
             continue;
         }
         let able = sensors::KINDS.iter().filter(|kind| meets(kind.observes));

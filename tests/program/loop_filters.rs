@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, Matrix3, Vector3};
 use spindrift::control::estimators::attitude_filter::AttitudeObservation;
 use spindrift::control::estimators::delayed::Filter;
-use spindrift::control::estimators::rigid_body_filter::{BodyObservation, BodyStep, RigidBodyFilter};
+use spindrift::control::estimators::rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter};
 use spindrift::control::estimators::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
 use spindrift::control::measurement::PointMotion;
 
@@ -64,11 +64,16 @@ fn a_body_at_rest_converges_to_the_riccati_solution() {
     {
         let inertia = [[30.0, 0.0, 0.0], [0.0, 36.0, 0.0], [0.0, 0.0, 24.0]];
         let mut filter = RigidBodyFilter::new(inertia, rest, [0.0; 3], [0.01, 0.01], walk);
-        let attitude = AttitudeObservation { q_es: rest, covariance: diagonal(sigma * sigma) };
+        let covariance = diagonal(sigma * sigma);
         let observation = if of_rate.is_finite() {
-            BodyObservation::AttitudeAndRate(attitude, [0.0; 3], diagonal(of_rate * of_rate))
+            BodyObservation::AttitudeAndRate(MeasuredMotion {
+                q: rest,
+                attitude_covariance: covariance,
+                omega: [0.0; 3],
+                rate_covariance: diagonal(of_rate * of_rate),
+            })
         } else {
-            BodyObservation::Attitude(attitude)
+            BodyObservation::Attitude(AttitudeObservation::whole(rest, covariance))
         };
         for _ in 0..UPDATES {
             filter.propagate(&BodyStep { torque: [0.0; 3], momentum: [0.0; 3], interval: t });

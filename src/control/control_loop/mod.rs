@@ -6,7 +6,7 @@
 //! one: the run can launch or fail there, and nothing that it commands acts.
 //!
 //! The truth is [`super::plant`]'s, and flight software is [`super::flight_software`]: measurements go from one to the other and commands back, and here is
-//! the only place that knows both. [`mission`] judges the run by the truth.
+//! the only place that knows both. `mission` judges the run by the truth.
 
 mod construction;
 mod mission;

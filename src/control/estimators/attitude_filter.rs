@@ -9,10 +9,10 @@
 
 use std::sync::Arc;
 
-use super::attitude_innovation::AttitudeInnovation;
+use super::attitude_innovation::{AttitudeInnovation, WholeAttitude};
 use super::delayed::Filter;
 use super::kalman::{NormalizedSquare, blocks, corners, halves, normalized_square, symmetric};
-use crate::control::measurement::{AttitudeSensor, Values};
+use crate::control::measurement::{AttitudeSensor, Values, values};
 use crate::control::rotation::{quaternion_of, vector_of};
 use crate::control::sensors::rate_gyro::GyroNoise;
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
@@ -40,13 +40,8 @@ pub struct AttitudeObservation {
 
 impl AttitudeObservation {
     /// The attitude `q_es` (F_s -> F_e, scalar first) with an error of this covariance in F_s, rad^2.
-    #[cfg(test)]
     pub fn whole(q_es: [f64; 4], covariance: [[f64; 3]; 3]) -> Self {
-        use super::attitude_innovation::WholeAttitude;
-        AttitudeObservation {
-            values: crate::control::measurement::values(&[&q_es]),
-            sensor: Arc::new(WholeAttitude(covariance)),
-        }
+        AttitudeObservation { values: values(&[&q_es]), sensor: Arc::new(WholeAttitude(covariance)) }
     }
 
     /// Its innovation where the attitude is estimated as `q_es`.

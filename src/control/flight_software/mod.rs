@@ -4,7 +4,7 @@
 //! - [`maneuver`]: what guidance has before it at a tick. [`commands`]: from a wanted torque and force to commands.
 
 pub mod commands;
-mod maneuver;
+pub mod maneuver;
 
 use std::sync::Arc;
 
