@@ -164,6 +164,15 @@ mod tests {
         assert!(bins(&[]).0.is_empty());
     }
 
+    /// Law: a value at an edge between two bars is in the upper one, as the stem of its probability is; the last edge is in the last bar.
+    #[test]
+    fn an_edge_is_in_the_bar_above_it() {
+        let edges = [0.0, 1.0, 2.0, 4.0];
+        assert_eq!(counts(&[0.0, 1.0, 1.0, 2.0, 4.0], &edges), [1.0, 2.0, 2.0]);
+        let Mark::Points { x, y, .. } = stems(&[(1.0, 0.25), (4.0, 0.75)], 4, &edges) else { panic!("stems") };
+        assert_eq!((x, y), (vec![1.0, 4.0], vec![1.0, 3.0]));
+    }
+
     /// Law: the axis is that of the samples where the nominal value is far from them, and contains it where it is near.
     #[test]
     fn a_far_nominal_value_does_not_widen_the_axis() {

@@ -65,6 +65,23 @@ mod tests {
     use super::*;
     use crate::campaign::Overrides;
 
+    /// Known: of rows drawn with replacement each value has the share of the rows that have it, wherever these stand in the file.
+    #[test]
+    fn values_of_rows_have_their_shares() {
+        let folder = std::env::temp_dir().join(format!("spindrift-rows-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join("walls.csv"), "body.parts.fuselage.wall_thickness_m\n0.02\n0.03\n0.02\n0.02\n")
+            .unwrap();
+        let (nominal, _) = include_str!("../../campaigns/no_debris.toml").split_once("[[disperse]]").unwrap();
+        let rows = "distribution = \"bootstrap\"\nfile = \"walls.csv\"";
+        let text = format!("{nominal}\n[[disperse]]\n{rows}\n");
+        let plan = Plan::from_text_in(&folder, "c.toml", &text, Overrides::default());
+        std::fs::remove_dir_all(&folder).unwrap();
+        let plan = plan.unwrap();
+        let Some(Asked::Values(found)) = of_column(&plan, 0) else { panic!("values") };
+        assert_eq!(*found, [(0.02, 0.75), (0.03, 0.25)]);
+    }
+
     /// Edges of ten bars, and how many of a thousand values are expected in each.
     fn expected(asked: &Asked<'_>, low: f64, high: f64) -> Vec<f64> {
         let edges: Vec<f64> = (0..=10).map(|k| low + 0.1 * f64::from(k) * (high - low)).collect();

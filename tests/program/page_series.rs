@@ -188,6 +188,38 @@ fn scatter_is(found: &Found, figure: &Value, outcomes: &[&str]) {
     assert_eq!(all.len(), columns[0].len() - 1, "every dispersed run once");
 }
 
+/// Law: where a page has not all runs, the points of its scatter plots are still those of the samples that they name.
+#[test]
+fn thinned_points_are_of_their_samples() {
+    const SAMPLES: usize = 17_000;
+    let campaign = super::small_campaign::campaign().replace("samples = 600", &format!("samples = {SAMPLES}"));
+    let found = found("series-thinned", &campaign);
+    let figures = found.data["figures"].as_array().expect("figures");
+    let mut points = 0;
+    for figure in figures.iter().filter(|figure| text_of_scatter(figure).is_some()) {
+        let (outcome, input) = text_of_scatter(figure).expect("a scatter plot");
+        let columns = found.all(&[&input, &outcome]);
+        let scales = ["x", "y"].map(|axis| scale(&figure[axis]));
+        for mark in figure["marks"].as_array().expect("marks").iter().filter(|mark| text(mark, "kind") == "points") {
+            let [samples, x, y] = ["samples", "x", "y"].map(|key| found.array(&mark[key]));
+            assert!(samples.iter().any(|sample| *sample > 16_384.0), "of all runs");
+            for ((sample, x), y) in samples.iter().zip(x).zip(y) {
+                near(x, columns[0][*sample as usize] * scales[0], 1e-12, &input);
+                near(y.abs(), columns[1][*sample as usize].abs() * scales[1], 1e-12, &outcome);
+                points += 1;
+            }
+        }
+    }
+    assert!(points >= 2_000, "{points}");
+}
+
+/// Outcome and input of a scatter plot of an input of the small campaign.
+fn text_of_scatter(figure: &Value) -> Option<(String, String)> {
+    let name = text(figure, "name").strip_prefix("scatter_")?;
+    let at = name.find("_initial_")?;
+    Some((name[..at].to_owned(), name[at + 1..].to_owned()))
+}
+
 /// Law: any two columns that a reader may choose are those of the rows, in the unit that is shown, and those of runs that failed are marked.
 #[test]
 fn chosen_columns_are_of_the_rows() {

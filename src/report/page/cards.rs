@@ -279,6 +279,27 @@ mod tests {
         }
     }
 
+    /// Law: equal ratios are equally far apart where the axis is by decades, equal differences where it is not.
+    #[test]
+    fn places_are_those_of_the_axis() {
+        let places = |low: f64, estimate: f64, high: f64| {
+            let html = card(Judged::Pass, estimate, [low, high], None).html();
+            let number = |text: &str| -> f64 {
+                let (_, rest) = html.split_once(text).expect("a mark");
+                rest.split('"').next().expect("an end").parse().expect("a number")
+            };
+            [number("class=\"whisker\" x1=\""), number("class=\"dot\" cx=\"")]
+        };
+        for (low, estimate, high) in [(1e-9, 1e-6, 1e-3), (1.0, 2.0, 3.0)] {
+            let [left, dot] = places(low, estimate, high);
+            assert!((dot - 160.0).abs() < 0.11 && left < 60.0, "{left} and {dot}");
+        }
+        // 3 of 4 decades
+        let [left, dot] = places(1e-4, 1e-1, 1.0);
+        let right = 320.0 - left;
+        assert!((dot - (left + 0.75 * (right - left))).abs() < 0.2, "{left}, {dot}, {right}");
+    }
+
     /// Law: a verdict is a word and a shape of its own; text is escaped; no number on the card is NaN.
     #[test]
     fn verdicts_have_word_and_shape() {

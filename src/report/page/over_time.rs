@@ -407,6 +407,12 @@ fn spectrum(times: &[f64], body: &[f64]) -> Option<Figure> {
 mod tests {
     use super::*;
 
+    /// Law: what a body has gained is above zero.
+    #[test]
+    fn a_gain_is_positive() {
+        assert_eq!(changes(&[2.0, 5.0, 1.0]), [0.0, 3.0, -1.0]);
+    }
+
     /// Law: a curve of the drift has the name of its quantity.
     #[test]
     fn drifts_have_their_names() {
