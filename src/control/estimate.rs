@@ -75,13 +75,13 @@ impl Estimate {
 
     /// Whether all of it is finite.
     pub fn is_finite(&self) -> bool {
-        let own = self.q_es.iter().chain(&self.omega_se_s).chain(&self.gyro_bias_s).chain(&self.wheel_rates);
-        let own: f64 = own.chain(&self.r_co_e).chain(&self.v_co_e).sum();
-        let of_debris: f64 = self.debris.as_ref().map_or(0.0, |debris| {
-            let motion = debris.r_gdo_e.iter().chain(&debris.v_gdo_e);
-            motion.chain(&debris.q_ed).chain(&debris.omega_de_d).sum()
+        // a product by zero is NaN of what is not finite, and a sum cannot overflow
+        let zero = |numbers: &[f64]| numbers.iter().fold(0.0, |sum, number| sum + 0.0 * number);
+        let own = zero(&self.q_es) + zero(&self.omega_se_s) + zero(&self.gyro_bias_s) + zero(&self.wheel_rates);
+        let of_debris = self.debris.as_ref().map_or(0.0, |debris| {
+            zero(&debris.r_gdo_e) + zero(&debris.v_gdo_e) + zero(&debris.q_ed) + zero(&debris.omega_de_d)
         });
-        (own + of_debris).is_finite()
+        own + zero(&self.r_co_e) + zero(&self.v_co_e) + of_debris == 0.0
     }
 
     /// Its errors where the state is `truth`.

@@ -13,12 +13,12 @@ pub type KnownOverTime = [f64; LawSeries::COUNT];
 /// Nothing is known.
 pub const NOTHING_KNOWN: KnownOverTime = [f64::NAN; LawSeries::COUNT];
 
-/// Sets the value of `series`.
+/// The place of `series`.
 ///
 /// # Panics
 /// Where no control loop records it.
-pub fn set(known: &mut KnownOverTime, series: Series, value: f64) {
-    known[LawSeries::place(series).expect("a control loop records the series")] = value;
+pub fn place(series: Series) -> usize {
+    LawSeries::place(series).expect("a control loop records the series")
 }
 
 /// The record of one run.
@@ -92,8 +92,8 @@ mod tests {
         };
         let known = |error: f64, torque: f64| {
             let mut known = NOTHING_KNOWN;
-            set(&mut known, Series::PointingError, error);
-            set(&mut known, Series::MotorTorque.of_wheel(7), torque);
+            known[place(Series::PointingError)] = error;
+            known[place(Series::MotorTorque.of_wheel(7))] = torque;
             known
         };
         for (time, error) in [(0.2, 1.0), (0.5, 2.0), (0.5, 3.0), (0.9, 4.0), (1.5, 5.0)] {

@@ -132,6 +132,7 @@ fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: 
     let parts = Parts {
         estimator: (ESTIMATORS[spec.estimator].make)(&of_run),
         start: of_run.start(),
+        is_recorded: context.records,
         phases: phases(spec, &context.parameters.guidance).into_iter().zip(laws).collect(),
         launch: launch_state(numbers),
         thruster_drives: believed.actuators.thrusters.map(|model| ThrusterDrive {

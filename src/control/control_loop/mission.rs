@@ -6,7 +6,7 @@ use crate::control::estimate::EstimateErrors;
 use crate::control::flight_software::{FlightSoftware, Guided};
 use crate::control::guidance::target::Target;
 use crate::control::guidance::{Failure, Guidance};
-use crate::control::loop_record::{KnownOverTime, NOTHING_KNOWN, SharedRecord, set};
+use crate::control::loop_record::{KnownOverTime, NOTHING_KNOWN, SharedRecord, place};
 use crate::control::outcome::columns::OutcomeColumns;
 use crate::control::outcome::{ArcApplied, MissionCriteria, MissionOutcome, centers_of};
 use crate::control::plant::{Applied, Plant};
@@ -17,7 +17,7 @@ use crate::control::vector::{difference, norm};
 use crate::dynamics::actuation::{BodyState, WheelState};
 use crate::observables::Series;
 use crate::run::Telemetry;
-use crate::scene::{MAX_THRUSTERS, Scene, WheelMode};
+use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene, WheelMode};
 
 /// What a run comes to.
 pub struct Mission {
@@ -28,6 +28,8 @@ pub struct Mission {
     /// What is known of the quantities over time, and where it is recorded.
     over_time: KnownOverTime,
     record: Option<SharedRecord>,
+    /// Where the torque of each motor is among them.
+    motor_places: [usize; MAX_WHEELS],
     /// Time at the limit of speed after which a run fails, s; infinite where there is none.
     saturation_timeout: f64,
     saturated_since: f64,
@@ -48,6 +50,7 @@ impl Mission {
             recorder,
             over_time: NOTHING_KNOWN,
             record,
+            motor_places: std::array::from_fn(|wheel| place(Series::MotorTorque.of_wheel(wheel))),
             saturation_timeout,
             saturated_since: f64::NAN,
         }
@@ -92,7 +95,7 @@ impl Mission {
             (Series::PositionEstimateError, errors.relative_position),
             (Series::VelocityEstimateError, errors.relative_velocity),
         ] {
-            set(&mut self.over_time, series, value);
+            self.over_time[place(series)] = value;
         }
         if is_judged {
             self.outcome.tick(plant.scene(), truth, (error.as_ref(), guided.begins), &errors, &self.criteria);
@@ -131,9 +134,11 @@ impl Mission {
 
     /// Takes what the actuators make of the commands over an arc from `time` on, at whose start the motion is this one.
     pub fn arc(&mut self, time: f64, plant: &mut Plant, applied: &Applied, (body, wheels): (&BodyState, &WheelState)) {
-        for (i, wheel) in plant.scene().mass.wheels.iter().enumerate() {
+        for ((wheel, place), torque) in
+            plant.scene().mass.wheels.iter().zip(self.motor_places).zip(applied.actuation.motor_torque)
+        {
             if wheel.mode == WheelMode::Free {
-                set(&mut self.over_time, Series::MotorTorque.of_wheel(i), applied.actuation.motor_torque[i]);
+                self.over_time[place] = torque;
             }
         }
         if !applied.saturated[1] {

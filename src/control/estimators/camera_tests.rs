@@ -36,14 +36,14 @@ fn an_image_is_as_uncertain_as_the_attitude() {
     let list = [known("star_tracker", tracker), known("relative_camera", camera)];
     for turn in [[0.0; 3], [1.2, 0.0, 0.0], [0.4, -0.9, 1.7]] {
         let context = EstimatorContext { nominal, parameters, sensors: &list, tick: 0.1 };
-        let mut estimator = (mekf.make)(&context);
+        let (mut estimator, mut estimate) = ((mekf.make)(&context), context.start());
         let q_es = nominal.initial.q_es;
         let q_sd = quaternion_of(turn);
         let mut at = truth(0.0, q_es, [0.0; 3]);
         let debris = |q_ed| DebrisState { r_gdo_e: [0.0; 3], v_gdo_e: [0.0; 3], q_ed, omega_de_d: [0.0; 3] };
         at.debris = Some(debris(hamilton(q_es, q_sd)));
         let seen = [at_once(0, values(&[&q_es])), at_once(1, values(&[&q_sd, &[0.0; 3]]))];
-        let estimate = estimator.update(&update(0, 0.1, &seen));
+        estimator.update(&update(0, 0.1, &seen), &mut estimate);
         let found = estimate.debris.expect("debris");
         for axis in 0..3 {
             let mut unit = [0.0; 3];

@@ -366,7 +366,7 @@ fn ticks(time: f64, tick: f64) -> usize {
 }
 
 impl Estimator for Mekf {
-    fn update(&mut self, update: &Update<'_>) -> Estimate {
+    fn update(&mut self, update: &Update<'_>, estimate: &mut Estimate) {
         if update.interval > 0.0 {
             self.propagate(update);
         }
@@ -397,7 +397,7 @@ impl Estimator for Mekf {
             Attitude::WithoutGyro(_) => [0.0; 3],
         };
         let (r_co_e, v_co_e) = (motion.r_e, motion.v_e);
-        Estimate { q_es, omega_se_s, gyro_bias_s, r_co_e, v_co_e, wheel_rates: self.wheel_rates, debris }
+        *estimate = Estimate { q_es, omega_se_s, gyro_bias_s, r_co_e, v_co_e, wheel_rates: self.wheel_rates, debris };
     }
 
     fn consistency(&self, truth: &Truth, gyro_bias_s: Option<[f64; 3]>) -> Consistency {

@@ -66,8 +66,8 @@ pub struct Consistency {
 
 /// An estimator in one run.
 pub trait Estimator: Send {
-    /// The estimate at this tick. Called once for each tick, in order.
-    fn update(&mut self, update: &Update<'_>) -> Estimate;
+    /// Moves `estimate`, that of the tick before, to this tick. Called once for each tick, in order.
+    fn update(&mut self, update: &Update<'_>, estimate: &mut Estimate);
 
     /// How well its errors agree with its covariance, after the update of the same tick; `gyro_bias_s` is the true bias, where there is a gyro, rad/s.
     fn consistency(&self, _truth: &Truth, _gyro_bias_s: Option<[f64; 3]>) -> Consistency {

@@ -9,17 +9,15 @@ pub(super) const KIND: EstimatorKind = EstimatorKind {
     has_filter: false,
     uses: |_| false,
     parameters: &[],
-    make: |context| Box::new(Perfect(context.start())),
+    make: |_| Box::new(Perfect),
 };
 
-/// The state as it was told last.
-struct Perfect(Estimate);
+struct Perfect;
 
 impl Estimator for Perfect {
-    fn update(&mut self, update: &Update<'_>) -> Estimate {
+    fn update(&mut self, update: &Update<'_>, estimate: &mut Estimate) {
         if let Some(state) = update.perfect {
-            self.0 = *state;
+            *estimate = *state;
         }
-        self.0
     }
 }

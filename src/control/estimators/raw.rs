@@ -19,7 +19,6 @@ pub(super) const KIND: EstimatorKind = EstimatorKind {
 };
 
 struct Raw {
-    estimate: Estimate,
     /// Centre of mass from p in F_s, nominal, m.
     center: [f64; 3],
     /// What each sensor observes, and its period, s.
@@ -33,7 +32,6 @@ struct Raw {
 impl Raw {
     fn new(context: &EstimatorContext<'_>) -> Self {
         Raw {
-            estimate: context.start(),
             center: context.nominal.mass.center,
             sensors: context.sensors.iter().map(|sensor| (sensor.observes, sensor.period)).collect(),
             has_gyro: context.sensors.iter().any(|sensor| matches!(sensor.observes, Observes::Rotation(_))),
@@ -44,9 +42,8 @@ impl Raw {
 }
 
 impl Estimator for Raw {
-    fn update(&mut self, update: &Update<'_>) -> Estimate {
+    fn update(&mut self, update: &Update<'_>, estimate: &mut Estimate) {
         self.time += update.interval;
-        let estimate = &mut self.estimate;
         for measurement in update.measurements {
             let values = &measurement.values;
             match self.sensors[measurement.sensor] {
@@ -89,6 +86,5 @@ impl Estimator for Raw {
                 _ => {}
             }
         }
-        *estimate
     }
 }

@@ -73,7 +73,7 @@ fn attitude_runs(runs: u64, omega: [f64; 3], told: f64) -> Found {
         let mut gyro = sensor("rate_gyro", &[GYRO[0], GYRO[1], ("bias_rad_s", &bias)], 1.0, run);
         let mut tracker = sensor("star_tracker", &[("noise_rad", &TRACKER_NOISE)], 2.0, run);
         let mut filter = (kind("mekf").expect("a kind").make)(&context);
-        let mut error = 0.0;
+        let (mut error, mut estimate) = (0.0, context.start());
         for tick in 0..2 * TIMES as u64 {
             let truth = &truth(tick as f64, q, omega);
             let mut measurements: Vec<_> =
@@ -81,7 +81,7 @@ fn attitude_runs(runs: u64, omega: [f64; 3], told: f64) -> Found {
             if tick % 2 == 1 {
                 measurements.extend(tracker.measure(tick / 2, truth).map(|values| at_once(1, values)));
             }
-            let estimate = filter.update(&update(tick, 1.0, &measurements));
+            filter.update(&update(tick, 1.0, &measurements), &mut estimate);
             if tick % 2 == 1 {
                 let time = (tick / 2) as usize;
                 let consistency = filter.consistency(truth, gyro.bias_s());
@@ -260,7 +260,8 @@ fn errors_without_noise(name: &str, gyro_period: u64) -> (crate::control::estima
     };
     let names = sensors.names.iter().copied().zip(sensors.times.iter().copied());
     let tables: Vec<_> = names.zip(&sensors.tables).map(known).collect();
-    let mut estimator = (kind.make)(&EstimatorContext { nominal, parameters, sensors: &tables, tick: 0.1 });
+    let context = EstimatorContext { nominal, parameters, sensors: &tables, tick: 0.1 };
+    let (mut estimator, mut estimate) = ((kind.make)(&context), context.start());
     let body = nominal.mass.debris.as_ref().expect("debris").inertia;
     let mut debris =
         Body { inertia: [body[0][0], body[1][1], body[2][2]], q_es: [0.8, 0.6, 0.0, 0.0], omega: [0.03, -0.02, 0.04] };
@@ -286,7 +287,7 @@ fn errors_without_noise(name: &str, gyro_period: u64) -> (crate::control::estima
         }
         let state = Estimate::perfect(&at);
         let perfect = kind.knows_the_truth.then_some(&state);
-        let estimate = estimator.update(&Update { acceleration_s, perfect, ..update(tick, 0.1, &measurements) });
+        estimator.update(&Update { acceleration_s, perfect, ..update(tick, 0.1, &measurements) }, &mut estimate);
         last = Some((estimate.errors(&at), estimate));
         debris.step([0.0; 3], 0.1, 4);
         let q_after = hamilton(q, quaternion_of(scaled(0.1, omega)));
@@ -372,15 +373,14 @@ fn wheels_follow_their_motors_and_fast_gyros_are_joined() {
     let nominal = &Scene::resolve(&SceneInput::report()).expect("a valid scene");
     let mekf = kind("mekf").expect("a kind");
     let parameters = &table("mekf", mekf.parameters, &[]);
-    let mut estimator = (mekf.make)(&EstimatorContext { nominal, parameters, sensors: &[], tick: 0.1 });
+    let context = EstimatorContext { nominal, parameters, sensors: &[], tick: 0.1 };
+    let (mut estimator, mut last) = ((mekf.make)(&context), context.start());
     let wheel = nominal.mass.wheels[0];
     let (torque_s, mut motor_torques) = (scaled(-0.4, wheel.axis), [0.0; MAX_WHEELS]);
     motor_torques[0] = 0.4;
-    let mut last = None;
     for tick in 0..=50 {
-        last = Some(estimator.update(&Update { torque_s, motor_torques, ..update(tick, 0.1, &[]) }));
+        estimator.update(&Update { torque_s, motor_torques, ..update(tick, 0.1, &[]) }, &mut last);
     }
-    let last = last.expect("ticks");
     let of_body = crate::control::vector::dot(wheel.axis, last.omega_se_s);
     let momentum = wheel.axial * (last.wheel_rates[0] + of_body);
     assert!((momentum - 0.4 * 5.0).abs() < 1e-12 && of_body < 0.0, "{momentum}");
@@ -392,10 +392,10 @@ fn wheels_follow_their_motors_and_fast_gyros_are_joined() {
         sensors: &[KnownSensor { observes: observes("rate_gyro"), period: 0.05, latency: 0.0, parameters: gyro }],
         tick: 0.1,
     };
-    let mut estimator = (mekf.make)(&context);
+    let (mut estimator, mut estimate) = ((mekf.make)(&context), context.start());
     let rotations = [[0.3, 0.0, 0.1], [0.0, -0.4, 0.2]];
     let measurements = rotations.map(|rotation_s| at_once(0, values(&[&rotation_s])));
-    let estimate = estimator.update(&update(1, 0.1, &measurements));
+    estimator.update(&update(1, 0.1, &measurements), &mut estimate);
     let q = rotations.iter().fold(nominal.initial.q_es, |q, rotation| hamilton(q, quaternion_of(*rotation)));
     assert!(estimate.q_es.iter().zip(q).all(|(a, b)| (a - b).abs() < 4e-16), "{:?} for {q:?}", estimate.q_es);
 }

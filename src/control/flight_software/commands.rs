@@ -120,7 +120,9 @@ impl FlightSoftware {
             return Err(NotFinite);
         }
         self.under_way.motors.push(begin, motor_torque);
-        self.latest = (motor_torque, mean);
+        if self.is_recorded {
+            self.latest = (motor_torque, mean);
+        }
         Ok(())
     }
 

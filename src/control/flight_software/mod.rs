@@ -78,6 +78,8 @@ pub struct FlightSoftware {
     geometry: Option<LaunchGeometry>,
     /// Time without the target after which it is lost, s; infinite where there is no limit.
     lost_target_timeout: f64,
+    /// Whether somebody asks what was commanded.
+    is_recorded: bool,
     /// From a command to its action, s.
     delay: f64,
     under_way: CommandsUnderWay,
@@ -109,12 +111,14 @@ pub struct Parts {
     pub delay: f64,
     /// The nominal state at the start.
     pub start: Estimate,
+    /// Whether the run is recorded ([`FlightSoftware::latest_commands`]).
+    pub is_recorded: bool,
 }
 
 impl FlightSoftware {
     /// That of the loop `spec`.
     pub fn new(spec: &Arc<LoopSpec>, parts: Parts) -> Self {
-        let Parts { believed, estimator, phases, launch, thruster_drives, lost_target_timeout, delay, start } = parts;
+        let Parts { believed, estimator, phases, launch, start, .. } = parts;
         let (phases, laws): (Vec<Phase>, Vec<AttitudeLaw>) = phases.into_iter().unzip();
         let wheels = (!spec.wheels.is_empty()).then(|| WheelTorque::of_loop(&believed, &spec.wheels));
         let by_wheels = wheels.map_or([[0.0; 3]; 3], |wheels| wheels.reachable);
@@ -131,13 +135,14 @@ impl FlightSoftware {
             wheels,
             two_sided: thrusters.as_ref().map_or([[0.0; 3]; 3], |all| all.two_sided_torques(spec.holds_force)),
             thrusters,
-            thruster_drives,
+            thruster_drives: parts.thruster_drives,
             pulses: [PulseState::default(); MAX_THRUSTERS],
             launch,
             geometry: None,
-            lost_target_timeout,
-            delay,
-            under_way: CommandsUnderWay::new(delay, spec.period),
+            lost_target_timeout: parts.lost_target_timeout,
+            is_recorded: parts.is_recorded,
+            delay: parts.delay,
+            under_way: CommandsUnderWay::new(parts.delay, spec.period),
             latest: ([0.0; MAX_WHEELS], [0.0; MAX_THRUSTERS]),
             commanded: NO_IMPULSE,
             debris_seen: 0.0,
@@ -155,15 +160,19 @@ impl FlightSoftware {
         let interval = measurements.time - self.last_update;
         let mean = |impulse: [f64; 3]| if interval > 0.0 { scaled(1.0 / interval, impulse) } else { [0.0; 3] };
         let motor_torques = self.commanded.motors.map(|impulse| if interval > 0.0 { impulse / interval } else { 0.0 });
-        self.estimate = self.estimator.update(&Update {
+        let update = Update {
             interval,
             measurements: measurements.delivered,
             acceleration_s: scaled(1.0 / self.believed.mass.total, mean(self.commanded.force_s)),
             torque_s: mean(self.commanded.torque_s),
             motor_torques,
             perfect: measurements.perfect,
-        });
-        (self.last_update, self.commanded) = (measurements.time, NO_IMPULSE);
+        };
+        self.estimator.update(&update, &mut self.estimate);
+        self.last_update = measurements.time;
+        if measurements.perfect.is_none() {
+            self.commanded = NO_IMPULSE;
+        }
     }
 
     /// Notes when the debris was seen: where there is a camera, it has to see it; elsewhere the radar.
@@ -199,8 +208,10 @@ impl FlightSoftware {
             self.law = self.laws[self.guidance.phase].clone();
             (error, velocity_to_go) = self.wanted(geometry.as_ref(), time);
         }
-        // nothing is commanded where the mission ends
-        self.latest = ([0.0; MAX_WHEELS], [0.0; MAX_THRUSTERS]);
+        if self.is_recorded {
+            // nothing is commanded where the mission ends
+            self.latest = ([0.0; MAX_WHEELS], [0.0; MAX_THRUSTERS]);
+        }
         Guided { progress, begins, error, velocity_to_go }
     }
 
@@ -231,7 +242,7 @@ impl FlightSoftware {
         &self.phases[self.guidance.phase]
     }
 
-    /// What was commanded at the last control tick: motor torques, N m, and mean thrusts, N.
+    /// What was commanded at the last control tick, of a run that is recorded: motor torques, N m, and mean thrusts, N.
     pub fn latest_commands(&self) -> (MotorCommand, [f64; MAX_THRUSTERS]) {
         self.latest
     }
