@@ -49,7 +49,19 @@ pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f
     notes.extend(fast_wheels(spec, scene));
     notes.extend(window(&numbers.law, duration));
     notes.extend(unknown_effects(scene));
+    notes.extend(directions_alone(spec));
     notes
+}
+
+/// Directions without a sensor of the whole attitude: nothing measures the rotation about them.
+fn directions_alone(spec: &LoopSpec) -> Option<String> {
+    let any = |is: fn(&Observes) -> bool| spec.sensors.iter().any(|sensor| is(&sensor.observes()));
+    let is_alone = any(|observes| matches!(observes, Observes::Direction(_)))
+        && !any(|observes| matches!(observes, Observes::Attitude(_)));
+    (is_alone && !spec.knows_the_truth()).then(|| {
+        "control: no sensor measures the whole attitude: the estimate drifts about the direction that is measured"
+            .to_owned()
+    })
 }
 
 /// What acts on the spacecraft and is not known to the filters and laws.

@@ -151,6 +151,12 @@ const CASES: &[(&str, &str, &[&str], &str)] = &[
         &["wheels.w1.rate_rad_s = -601.0 is above its speed_limit_rad_s = 600.0"],
         "rate_rad_s = -600",
     ),
+    (
+        "kind = \"star_tracker\"\nperiod_s = 0.5\nlatency_s = 0.25\nnoise_rad = [1e-4, 1e-4, 5e-4]\nmax_rate_rad_s = \"2 deg/s\"",
+        "kind = \"sun_sensor\"",
+        &["no sensor measures the whole attitude"],
+        "kind = \"star_tracker\"\n[[sensors]]\nname = \"sun\"\nkind = \"sun_sensor\"",
+    ),
     // keys of another kind
     (
         "estimator = \"mekf\"",

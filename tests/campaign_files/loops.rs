@@ -129,6 +129,33 @@ fn set(settings: &[(&str, &str)]) -> Result<Plan, CampaignError> {
     Plan::from_text("loop.toml", LOOP, Overrides { settings, ..Overrides::default() })
 }
 
+/// Law: a sensor for which an estimator has no use is refused by its name, over all kinds of both; perfect knowledge, which reads none, has a note instead.
+#[test]
+fn a_sensor_that_nobody_uses_is_refused() {
+    let raw = LOOP.replacen("initial_attitude_sigma_rad = 0.1\n", "", 1);
+    let tachometers = "[[sensors]]\nname = \"tach\"\nkind = \"tachometers\"\n";
+    let mut refusals = 0;
+    for estimator in &spindrift::control::estimators::KINDS {
+        for kind in &spindrift::control::sensors::KINDS {
+            if kind.observes.needs_debris() || kind.observes.at_most_one() {
+                continue;
+            }
+            let name = estimator.name;
+            let sensor = format!("[[sensors]]\nname = \"unused\"\nkind = \"{}\"\n", kind.name);
+            let text = format!("{}{tachometers}{sensor}", raw.replacen("\"mekf\"", &format!("\"{name}\""), 1));
+            if estimator.knows_the_truth || (estimator.uses)(&kind.observes) {
+                plan(&text);
+            } else {
+                let said = refused(&text).to_string();
+                assert!(said.contains(&format!("sensors.unused.kind = \"{}\"", kind.name)), "{said}");
+                assert!(said.contains(&format!("the estimator \"{name}\" uses")), "{said}");
+                refusals += 1;
+            }
+        }
+    }
+    assert_eq!(refusals, 1, "a Sun sensor and raw measurements");
+}
+
 /// Law: a filter of the translation, which does not know gravity, is refused on an orbit; perfect knowledge is not, nor is a filter of the attitude alone.
 #[test]
 fn a_filter_that_does_not_know_gravity_is_refused() {

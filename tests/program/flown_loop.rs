@@ -4,7 +4,7 @@ use spindrift::campaign::Plan;
 use spindrift::control::spec::LoopSpec;
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
-use spindrift::math::vector::{dcm_from_quaternion, dot};
+use spindrift::math::vector::{conjugate, dcm_from_quaternion, dot};
 use spindrift::run::{Grid, StateField};
 use spindrift::sampling::SampleId;
 use spindrift::scene::Arc;
@@ -44,6 +44,11 @@ impl State {
     /// The vector `v` of F_s in F_e.
     pub fn to_e(&self, v: [f64; 3]) -> [f64; 3] {
         dcm_from_quaternion(self.q_es).map(|row| dot(row, v))
+    }
+
+    /// The vector `v` of F_e in F_s.
+    pub fn to_s(&self, v: [f64; 3]) -> [f64; 3] {
+        dcm_from_quaternion(conjugate(self.q_es)).map(|row| dot(row, v))
     }
 
     /// The debris.

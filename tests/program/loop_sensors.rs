@@ -31,9 +31,24 @@ const GYRO_WALK: f64 = 1e-4;
 const TRACKER: [f64; 2] = [1.0, 0.5];
 const RADAR: [f64; 2] = [2.0, 1.0];
 const CAMERA: [f64; 2] = [1.5, 1.0];
+const SUN: [f64; 2] = [2.5, 1.5];
+/// The Sun, the boresight of its sensor, and the error of both angles.
+const SUN_E: [f64; 3] = [-0.48, 0.6, 0.64];
+const BORESIGHT: [f64; 3] = [0.0, 1.0, 0.0];
+const SUN_BIAS: f64 = 2e-3;
+const SUN_NOISE: f64 = 1e-3;
 /// Rate and range beyond which tracker and camera give nothing: both are passed in the run.
 const TRACKER_RATE: f64 = 0.015;
 const CAMERA_RANGE: f64 = 38.0;
+
+/// The Sun sensor of the file.
+fn sun_sensor() -> String {
+    format!(
+        "[[sensors]]\nname = \"sun\"\nkind = \"sun_sensor\"\nperiod_s = {:?}\nlatency_s = {:?}\nnoise_rad = {SUN_NOISE:?}\nbias_rad = {SUN_BIAS:?}\n\
+         boresight = {BORESIGHT:?}\nsun_direction = {SUN_E:?}\n",
+        SUN[0], SUN[1]
+    )
+}
 
 /// `net_launch.toml` for some minutes, with these sensors and boxes of debris.
 fn file() -> String {
@@ -60,6 +75,7 @@ fn file() -> String {
         CAMERA_NOISE[0],
         CAMERA_NOISE[1]
     );
+    let sensors = sun_sensor() + &sensors;
     let text = format!("{}{sensors}{}", &NET_LAUNCH[..start], &NET_LAUNCH[end..draws]);
     let text = changed(
         &text,
@@ -99,6 +115,11 @@ fn expected(kind: &str, flown: &FlownLoop, tick: usize) -> Option<Vec<f64>> {
             let half = scaled((0.5 * size).sin() / size, TRACKER_BIAS);
             Some(hamilton(state.q_es, [(0.5 * size).cos(), half[0], half[1], half[2]]).to_vec())
         }
+        "sun_sensor" => {
+            // the boresight is s2: s3 turned to it the shortest way, about s1, so that t1 is s1 and t2 is -s3
+            let sun_s = delivered(flown, tick, SUN)?.to_s(SUN_E);
+            (sun_s[1] > 0.0).then(|| [sun_s[0], -sun_s[2]].map(|x| x.atan2(sun_s[1]) + SUN_BIAS).to_vec())
+        }
         "ground_radar" => {
             let state = delivered(flown, tick, RADAR)?;
             let arm = flown.run.scene.mass.center;
@@ -127,6 +148,7 @@ fn names(kind: &str) -> Vec<String> {
     match kind {
         "rate_gyro" => of("measured_rate_s", "xyz", "_rad_s"),
         "star_tracker" => of("measured_q_es", "wxyz", ""),
+        "sun_sensor" => of("measured_sun_angle", "xy", "_rad"),
         "ground_radar" => [("r_po", "_m"), ("v_po", "_m_s"), ("r_gdo", "_m"), ("v_gdo", "_m_s")]
             .map(|(name, unit)| of(&format!("measured_{name}_e"), "xyz", unit))
             .concat(),
@@ -146,6 +168,7 @@ fn errors(kind: &str, found: &[f64], expected: &[f64]) -> Vec<f64> {
             let turn = rotation_vector(hamilton(conjugate(q(expected)), q(found)));
             turn.iter().zip(TRACKER_NOISE).map(|(error, deviation)| error / deviation).collect()
         }
+        "sun_sensor" => found.iter().zip(expected).map(over(SUN_NOISE)).collect(),
         "ground_radar" => {
             let both = found.iter().zip(expected).enumerate();
             both.map(|(place, pair)| over(RADAR_NOISE[place / 3 % 2])(pair)).collect()
@@ -211,7 +234,7 @@ fn every_sensor_measures_the_true_state() {
 /// tick puts in front of p.
 #[test]
 fn raw_estimates_are_the_last_measurements() {
-    let text = without_filters(&file(), "raw");
+    let text = without_filters(&file().replace(&sun_sensor(), ""), "raw");
     let flown = FlownLoop::new(&text, 2);
     let nominal = Scene::resolve(&flown.plan.nominal).expect("physical");
     let (attitudes, rates) =

@@ -34,6 +34,7 @@ mod loop_authority;
 mod loop_cases;
 mod loop_columns;
 mod loop_filters;
+mod loop_fusion;
 mod loop_ignorance;
 mod loop_laws;
 mod loop_maneuvers;

@@ -295,12 +295,15 @@ fn on_orbit(keys: &str) -> String {
 /// Files with a control loop each: every estimator, modulation, sensor, law, target and maneuver, with each of the keys that they declare.
 pub fn every_loop() -> Vec<String> {
     let base = every_table_of_loops();
-    let mut sensors = String::new();
-    for kind in &spindrift::control::sensors::KINDS {
-        let name = kind.name;
-        sensors += &format!("[[sensors]]\nname = \"a_{name}\"\nkind = \"{name}\"\nperiod_s = 0.5\n");
-        sensors += if kind.observes.has_latency() { "latency_s = 0.25\n" } else { "" };
-    }
+    let sensors_of = |estimator: &spindrift::control::estimators::EstimatorKind| {
+        let kinds = spindrift::control::sensors::KINDS.iter();
+        let used = kinds.filter(|kind| estimator.knows_the_truth || (estimator.uses)(&kind.observes));
+        used.fold(String::new(), |text, kind| {
+            let name = kind.name;
+            let latency = if kind.observes.has_latency() { "latency_s = 0.25\n" } else { "" };
+            format!("{text}[[sensors]]\nname = \"a_{name}\"\nkind = \"{name}\"\nperiod_s = 0.5\n{latency}")
+        })
+    };
     let laws = spindrift::control::laws::KINDS.iter().map(|kind| (kind.name, numbers(kind.parameters)));
     let laws: Vec<_> = laws.collect();
     let mut phases = String::new();
@@ -321,7 +324,7 @@ pub fn every_loop() -> Vec<String> {
     let mut files = Vec::new();
     for estimator in &spindrift::control::estimators::KINDS {
         for modulation in spindrift::control::actuators::modulation::NAMES {
-            let estimator = estimator.name;
+            let (sensors, estimator) = (sensors_of(estimator), estimator.name);
             files.push(format!(
                 "{base}[control]\nperiod_s = 0.25\nestimator = \"{estimator}\"\nwheels = [\"w1\"]\nthrusters = [\"p1\"]\n\
                  modulation = \"{modulation}\"\nhold_force = true\n[control.model]\nmass_kg = 2000.0\ncenter_of_mass_m = [0, 0, 1.5]\n\

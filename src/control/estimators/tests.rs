@@ -399,3 +399,48 @@ fn wheels_follow_their_motors_and_fast_gyros_are_joined() {
     let q = rotations.iter().fold(nominal.initial.q_es, |q, rotation| hamilton(q, quaternion_of(*rotation)));
     assert!(estimate.q_es.iter().zip(q).all(|(a, b)| (a - b).abs() < 4e-16), "{:?} for {q:?}", estimate.q_es);
 }
+
+/// Law: each kind of sensor that an estimator is said to use changes its estimate, and no other does: what nobody uses is refused by `check`, not ignored.
+#[test]
+fn each_sensor_that_is_used_changes_the_estimate() {
+    let input = SceneInput::report().with_debris(DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 100.0 });
+    let nominal = &Scene::resolve(&input).expect("a valid scene");
+    let half = std::f64::consts::FRAC_PI_2;
+    let quarters = [[0.1, 0.0, 0.0], [half, 0.1, 0.0], [0.1, half, 0.0], [-half, 0.0, 0.1], [0.0, -half, 0.1]];
+    let mut pairs = 0;
+    for estimator in KINDS.iter().filter(|kind| !kind.knows_the_truth) {
+        let parameters = &table("estimator", estimator.parameters, &[]);
+        for kind in &sensors::KINDS {
+            let known = table("unit", kind.parameters, &[]);
+            let sensors = [KnownSensor { observes: kind.observes, period: 0.1, latency: 0.0, parameters: &known }];
+            let context = EstimatorContext { nominal, parameters, sensors: &sensors, tick: 0.1 };
+            // an attitude at which a sensor with a field of view sees what it looks for
+            let delivered = quarters.iter().find_map(|turn| {
+                let mut model = sensor(kind.name, &[], 0.1, 0);
+                let mut at = truth(0.0, quaternion_of(*turn), [0.03, -0.02, 0.01]);
+                at.wheels.rates = [12.0; MAX_WHEELS];
+                (at.r_po_e, at.v_po_e) = ([4.0, 5.0, 6.0], [0.1, 0.2, 0.3]);
+                let debris = DebrisState {
+                    r_gdo_e: [20.0, 3.0, 1.0],
+                    v_gdo_e: [0.0, 0.1, 0.0],
+                    q_ed: quaternion_of([0.7, 0.2, 0.1]),
+                    omega_de_d: [0.02, 0.01, 0.03],
+                };
+                at.debris = Some(debris);
+                model.measure(0, &at);
+                at.body.q_es = hamilton(at.body.q_es, quaternion_of(scaled(0.1, at.body.omega_se_s)));
+                model.measure(1, &at)
+            });
+            let delivered = [at_once(0, delivered.unwrap_or_else(|| panic!("{} measures nothing", kind.name)))];
+            let after = |measurements: &[Measurement]| {
+                let (mut made, mut estimate) = ((estimator.make)(&context), context.start());
+                made.update(&update(1, 0.1, measurements), &mut estimate);
+                estimate
+            };
+            let is_used = (estimator.uses)(&kind.observes);
+            assert_eq!(after(&delivered) != after(&[]), is_used, "{} of {}", kind.name, estimator.name);
+            pairs += usize::from(is_used);
+        }
+    }
+    assert!(pairs > sensors::KINDS.len(), "{pairs}");
+}

@@ -11,6 +11,7 @@ pub mod rate_gyro;
 mod relative_camera;
 mod sampled;
 mod star_tracker;
+mod sun_sensor;
 mod tachometers;
 
 pub use rate_gyro::RateGyro;
@@ -151,8 +152,14 @@ impl MeasuredQuantity {
 }
 
 /// All kinds.
-pub static KINDS: [SensorKind; 5] =
-    [rate_gyro::KIND, star_tracker::KIND, ground_radar::KIND, relative_camera::KIND, tachometers::KIND];
+pub static KINDS: [SensorKind; 6] = [
+    rate_gyro::KIND,
+    star_tracker::KIND,
+    sun_sensor::KIND,
+    ground_radar::KIND,
+    relative_camera::KIND,
+    tachometers::KIND,
+];
 
 /// The kind called `name`.
 pub fn kind(name: &str) -> Option<&'static SensorKind> {
