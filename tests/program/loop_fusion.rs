@@ -95,8 +95,7 @@ fn each_sensor_lowers_the_error_as_theory_says() {
 /// and one that is as believed (50 of 1) it is 3; the last of each tick alone would be 2.5. The filter's own uncertainty is some per cent of it.
 #[test]
 fn the_mean_of_innovations_is_of_all_measurements() {
-    let doubled =
-        "[[disperse]]\nparameter = \"sensors.coarse.noise_rad\"\ndistribution = \"offset\"\noffset = [1e-3, 2e-3, 2e-2]\n";
+    let doubled = "[[disperse]]\nparameter = \"sensors.coarse.noise_rad\"\ndistribution = \"offset\"\noffset = [1e-3, 2e-3, 2e-2]\n";
     let text = format!("{AT_REST}{SECOND}{doubled}");
     let plan = Plan::from_text("c.toml", &text, Overrides::default()).expect("a plan");
     let table = rows(&plan);
