@@ -374,7 +374,7 @@ fn wrong_loops_are_refused() {
         ("wheels = [\"w1\", \"w2\"]", "wheels = [\"w3\"]", "control.wheels", "did you mean"),
         ("max_thrust_n = 20.0\n", delete, "thrusters.p1.max_thrust_n is missing", "pulse_width"),
         ("min_on_time_s = 0.02", "min_on_time_s = 0.6", "thrusters.p1.min_on_time_s", "at most control.period_s"),
-        ("kind = \"star_tracker\"", "kind = \"sun_sensor\"", "sensors.tracker.kind", "star_tracker"),
+        ("kind = \"star_tracker\"", "kind = \"sun_sensors\"", "sensors.tracker.kind", "star_tracker"),
         ("latency_s = 1.0", "latency_s = 0.7", "sensors.radar.latency_s", "whole multiple of control.period_s"),
         ("period_s = 2.0", "period_s = 0.7", "sensors.radar.period_s", "whole multiple"),
         ("period_s = 2.0", "period_s = 1e-300", "sensors.radar.period_s", "whole multiple"),
