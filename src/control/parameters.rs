@@ -82,7 +82,7 @@ const WANTED_ATTITUDE: LawParameter = LawParameter {
     facts: Facts {
         key: "attitude",
         unit: "1",
-        meaning: "Attitude quaternion that is wanted, F_s -> F_e, scalar first",
+        meaning: "Attitude quaternion that is wanted, scalar first: F_s -> F_e, of an orbital attitude F_s -> F_o",
         components: &["w", "x", "y", "z"],
         shape: Shape::Quaternion,
         presence: Presence::Required("[1, 0, 0, 0]"),
@@ -115,7 +115,7 @@ pub fn of_phase(
     if thrust == Maneuver::Transfer || target == Target::Transfer {
         lists.push(&net_launch::parameters::TRANSFER);
     }
-    if matches!(target, Target::Attitude(_)) {
+    if matches!(target, Target::Attitude(_) | Target::Orbital(_)) {
         lists.push(&ATTITUDE);
     }
     lists

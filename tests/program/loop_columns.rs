@@ -5,7 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use spindrift::control::guidance::phase::Maneuver;
 use spindrift::control::guidance::target::Target;
-use spindrift::math::vector::{conjugate, cross, difference, dot, hamilton, norm, product, scaled, sum};
+use spindrift::math::vector::{
+    conjugate, cross, difference, dot, hamilton, norm, product, quaternion_from_dcm, scaled, sum,
+};
 
 use super::flown_loop::{FlownLoop, State, angle_between, rotation_vector};
 use super::loop_actuators::driven_wheels;
@@ -55,6 +57,18 @@ fn error_vector(flown: &FlownLoop, place: usize, state: &State, arrival: f64) ->
             let Some(&[w, x, y, z]) = flown.guidance(place, "attitude") else { panic!("an attitude") };
             return Some(rotation_vector(hamilton(conjugate([w, x, y, z]), state.q_es)));
         }
+        Target::Orbital(_) => {
+            let Some(&[w, x, y, z]) = flown.guidance(place, "attitude") else { panic!("an attitude") };
+            // from F_o to the target: the columns of C_eo are the axes of the orbital frame
+            let o3 = scaled(-1.0 / norm(state.r_co_e), state.r_co_e);
+            let normal = cross(state.r_co_e, state.v_co_e);
+            let o2 = scaled(-1.0 / norm(normal), normal);
+            let o1 = cross(o2, o3);
+            let c_eo = std::array::from_fn(|i| [o1[i], o2[i], o3[i]]);
+            let q_et = hamilton(quaternion_from_dcm(c_eo), [w, x, y, z]);
+            return Some(rotation_vector(hamilton(conjugate(q_et), state.q_es)));
+        }
+        Target::Nadir => scaled(-1.0, state.r_co_e),
         Target::LineToDebris => to_debris(state),
         Target::LaunchAxis => axis(flown, state),
         Target::Velocity => relative_velocity(state),

@@ -54,6 +54,7 @@ fn phases(spec: &LoopSpec, tables: &[DeclaredTable]) -> Vec<Phase> {
         timeout: limit(PhaseNumbers::of(table).timeout),
         target: match phase.target {
             Target::Attitude(_) => Target::Attitude(AttitudeNumbers::of(table).attitude),
+            Target::Orbital(_) => Target::Orbital(AttitudeNumbers::of(table).attitude),
             target => target,
         },
         thrust: phase.thrust,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::control::estimate::EstimateErrors;
 use crate::control::flight_software::{FlightSoftware, Guided};
-use crate::control::guidance::target::Target;
+use crate::control::guidance::target::{OrbitMotion, Target, TargetInput};
 use crate::control::guidance::{Failure, Guidance};
 use crate::control::loop_record::{KnownOverTime, NOTHING_KNOWN, SharedRecord, place};
 use crate::control::net_launch::launch::centers_of;
@@ -86,7 +86,8 @@ impl Mission {
             }
             let geometry = centers_of(truth).map(|centers| self.criteria.launch.geometry(&centers));
             let to_go = software.velocity_to_go(geometry.as_ref(), truth.time);
-            target.error(truth.body.q_es, geometry.as_ref(), &to_go)
+            let orbit = Some(OrbitMotion { r_e: truth.body.r_co_e, v_e: truth.body.v_co_e });
+            target.error(truth.body.q_es, &TargetInput { geometry: geometry.as_ref(), to_go: &to_go, orbit })
         });
         let errors = if knows { EstimateErrors::NONE } else { software.estimate().errors(truth) };
         for (series, value) in [

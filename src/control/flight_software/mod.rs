@@ -17,7 +17,7 @@ use super::estimate::Estimate;
 use super::estimators::{Consistency, Estimator, Update};
 use super::guidance::condition::GuidanceInput;
 use super::guidance::phase::Phase;
-use super::guidance::target::AttitudeError;
+use super::guidance::target::{AttitudeError, OrbitMotion};
 use super::guidance::{Failure, Guidance, Progress};
 use super::laws::{AttitudeLaw, KnownBody};
 use super::measurement::{Observes, PointMotion};
@@ -27,6 +27,7 @@ use super::plant::Measurements;
 use super::spec::LoopSpec;
 use super::truth::Truth;
 use crate::control::vector::{dcm_from_quaternion, norm, product, scaled, sum};
+use crate::dynamics::orbit::{KeplerOrbit, OrbitState};
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 
 /// The momentum of the wheels of `scene` relative to the body at the estimated rates, in F_s, N m s.
@@ -81,6 +82,8 @@ pub struct FlightSoftware {
     thruster_drives: [ThrusterDrive; MAX_THRUSTERS],
     pulses: [PulseState; MAX_THRUSTERS],
     launch: LaunchState,
+    /// The nominal orbit.
+    orbit: Option<KeplerOrbit<f64>>,
     /// The geometry of the launch as estimated at the control tick; `None` without debris.
     geometry: Option<LaunchGeometry>,
     /// Time without the target after which it is lost, s; infinite where there is no limit.
@@ -145,6 +148,7 @@ impl FlightSoftware {
             thruster_drives: parts.thruster_drives,
             pulses: [PulseState::default(); MAX_THRUSTERS],
             launch,
+            orbit: believed.orbit.as_ref().map(KeplerOrbit::new),
             geometry: None,
             lost_target_timeout: parts.lost_target_timeout,
             is_recorded: parts.is_recorded,
@@ -252,6 +256,16 @@ impl FlightSoftware {
             debris_age: if self.spec.has_debris { time - self.debris_seen } else { f64::NAN },
             debris_rate: estimate.debris.map_or(f64::NAN, |debris| norm(debris.omega_de_d)),
         }
+    }
+
+    /// The orbit as flight software knows it: that of the nominal scene at `time`, s; with perfect knowledge the true one. `None` without an orbit.
+    pub(in crate::control) fn orbit_motion(&self, time: f64) -> Option<OrbitMotion> {
+        let orbit = self.orbit.as_ref()?;
+        if self.spec.knows_the_truth() {
+            return Some(OrbitMotion { r_e: self.estimate.r_co_e, v_e: self.estimate.v_co_e });
+        }
+        let OrbitState { position, velocity, .. } = orbit.state(time);
+        Some(OrbitMotion { r_e: position, v_e: velocity })
     }
 
     /// The estimate of this tick.

@@ -3,6 +3,7 @@
 use crate::control::net_launch::geometry::LaunchGeometry;
 use crate::control::rotation::quaternion_of;
 use crate::control::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilton, norm, scaled, transposed_product};
+use crate::math::vector::quaternion_from_dcm;
 
 /// The attitude that a phase wants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +12,10 @@ pub enum Target {
     None,
     /// The attitude q_et of a frame fixed in F_e, F_t -> F_e, scalar first.
     Attitude([f64; 4]),
+    /// The attitude q_os of the body relative to the local orbital frame, F_s -> F_o, scalar first.
+    Orbital([f64; 4]),
+    /// s3 points at the central body.
+    Nadir,
     /// s3 points at the debris.
     LineToDebris,
     /// s3 along the axis A_d.
@@ -24,9 +29,11 @@ pub enum Target {
 }
 
 /// The names of the targets in campaign files; an attitude has a key of its own.
-pub const TARGETS: [(&str, Target); 7] = [
+pub const TARGETS: [(&str, Target); 9] = [
     ("none", Target::None),
     ("attitude", Target::Attitude([1.0, 0.0, 0.0, 0.0])),
+    ("orbital_attitude", Target::Orbital([1.0, 0.0, 0.0, 0.0])),
+    ("nadir", Target::Nadir),
     ("line_to_debris", Target::LineToDebris),
     ("launch_axis", Target::LaunchAxis),
     ("transfer", Target::Transfer),
@@ -41,6 +48,40 @@ pub struct AttitudeError {
     pub q_ts: [f64; 4],
     /// Angular velocity of the target relative to F_e, in F_s, rad/s.
     pub omega_te_s: [f64; 3],
+}
+
+/// Where the spacecraft is from the central body, and how it moves, in F_e.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrbitMotion {
+    /// Position of its centre of mass, m.
+    pub r_e: [f64; 3],
+    /// Velocity, m/s.
+    pub v_e: [f64; 3],
+}
+
+impl OrbitMotion {
+    /// The attitude q_eo of the local orbital frame F_o, F_o -> F_e, scalar first, and its angular velocity r x v/(r . r) in F_e, rad/s: o3 points at the
+    /// central body, o2 against the normal of the orbit, and o1 completes them, ahead on a circular orbit (J. R. Wertz, *Spacecraft Attitude Determination and
+    /// Control*, 1978, section 2.2: roll, pitch and yaw axes).
+    fn local_frame(&self) -> ([f64; 4], [f64; 3]) {
+        let normal = cross(self.r_e, self.v_e);
+        let o3 = scaled(-1.0 / norm(self.r_e), self.r_e);
+        let o2 = scaled(-1.0 / norm(normal), normal);
+        let o1 = cross(o2, o3);
+        let c_eo = std::array::from_fn(|i| [o1[i], o2[i], o3[i]]);
+        (quaternion_from_dcm(c_eo), scaled(1.0 / dot(self.r_e, self.r_e), normal))
+    }
+}
+
+/// What a target is defined by, beside the attitude.
+#[derive(Clone, Copy, Debug)]
+pub struct TargetInput<'a> {
+    /// Where the spacecraft is relative to the launch state; `None` without debris.
+    pub geometry: Option<&'a LaunchGeometry>,
+    /// The impulse of the maneuver.
+    pub to_go: &'a VelocityToGo,
+    /// The orbit; `None` without one.
+    pub orbit: Option<OrbitMotion>,
 }
 
 /// The impulse per mass that is left of a maneuver.
@@ -66,16 +107,32 @@ impl AttitudeError {
 impl Target {
     /// Whether it is defined by the debris.
     pub fn needs_debris(self) -> bool {
-        !matches!(self, Target::None | Target::Attitude(_))
+        !matches!(self, Target::None | Target::Attitude(_)) && !self.needs_orbit()
     }
 
-    /// The attitude `q_es` relative to the target, where the spacecraft is at `geometry`; `to_go` is the impulse of the maneuver.
-    pub fn error(self, q_es: [f64; 4], geometry: Option<&LaunchGeometry>, to_go: &VelocityToGo) -> AttitudeError {
+    /// Whether it is defined by the orbit.
+    pub fn needs_orbit(self) -> bool {
+        matches!(self, Target::Orbital(_) | Target::Nadir)
+    }
+
+    /// The attitude `q_es` relative to the target, which `input` defines.
+    pub fn error(self, q_es: [f64; 4], input: &TargetInput<'_>) -> AttitudeError {
+        let TargetInput { geometry, to_go, orbit } = *input;
         let fixed = |direction: [f64; 3]| pointing(q_es, direction, [0.0; 3]);
         match (self, geometry) {
             (Target::Attitude(q_et), _) => {
                 AttitudeError { q_ts: hamilton(conjugate(q_et), q_es), ..AttitudeError::NONE }
             }
+            (Target::Orbital(q_os), _) => orbit.map_or(AttitudeError::NONE, |orbit| {
+                let (q_eo, omega_oe_e) = orbit.local_frame();
+                AttitudeError {
+                    q_ts: hamilton(conjugate(hamilton(q_eo, q_os)), q_es),
+                    omega_te_s: transposed_product(dcm_from_quaternion(q_es), omega_oe_e),
+                }
+            }),
+            (Target::Nadir, _) => orbit.map_or(AttitudeError::NONE, |OrbitMotion { r_e, v_e }| {
+                pointing(q_es, scaled(-1.0, r_e), turn_of(r_e, v_e))
+            }),
             (Target::LineToDebris, Some(geometry)) => {
                 let line = geometry.to_debris;
                 // the spacecraft moves with the relative velocity, and the line against it
@@ -121,10 +178,59 @@ fn pointing(q_es: [f64; 4], direction: [f64; 3], turn: [f64; 3]) -> AttitudeErro
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::control::rotation::vector_of;
     use crate::control::vector::{difference, product, sum};
 
     fn geometry(to_debris: [f64; 3], relative_velocity: [f64; 3]) -> LaunchGeometry {
         LaunchGeometry { axis: [0.0, 0.0, 1.0], to_debris, from_station: [0.0; 3], relative_velocity }
+    }
+
+    const NO_IMPULSE: VelocityToGo = VelocityToGo { velocity_e: [0.0; 3], change_e: [0.0; 3] };
+    const NOTHING: TargetInput<'_> = TargetInput { geometry: None, to_go: &NO_IMPULSE, orbit: None };
+
+    fn near(geometry: &LaunchGeometry) -> TargetInput<'_> {
+        TargetInput { geometry: Some(geometry), ..NOTHING }
+    }
+
+    /// Law: without error s3 points at the central body and, where the whole attitude is wanted, the axes are those of the orbital frame as turned; what
+    /// the target turns by is how its attitude changes along the orbit.
+    #[test]
+    fn targets_of_an_orbit_turn_with_it() {
+        let mu = 3.986e14;
+        let (r_e, v_e) = ([7e6, 1e5, -2e5], [200.0, 5_000.0, 5_700.0]);
+        let pull = scaled(-mu / norm(r_e).powi(3), r_e);
+        // two-body motion to second order
+        let at = |time: f64| {
+            let r_e = sum(sum(r_e, scaled(time, v_e)), scaled(0.5 * time * time, pull));
+            TargetInput { orbit: Some(OrbitMotion { r_e, v_e: sum(v_e, scaled(time, pull)) }), ..NOTHING }
+        };
+        let q_os = quaternion_of([0.2, -0.5, 0.3]);
+        for (target, q_es) in
+            [(Target::Orbital(q_os), [1.0, 0.0, 0.0, 0.0]), (Target::Nadir, quaternion_of([0.5, 2.0, 0.1]))]
+        {
+            let error = target.error(q_es, &at(0.0));
+            let q_et = hamilton(q_es, conjugate(error.q_ts));
+            // at the target there is no error, and s3 points where it must
+            assert!(target.error(q_et, &at(0.0)).angle() < 1e-14);
+            let down = scaled(-1.0 / norm(r_e), r_e);
+            let in_target = transposed_product(dcm_from_quaternion(q_et), down);
+            let wanted = match target {
+                Target::Orbital(q_os) => transposed_product(dcm_from_quaternion(q_os), [0.0, 0.0, 1.0]),
+                _ => [0.0, 0.0, 1.0],
+            };
+            assert!(norm(difference(in_target, wanted)) < 1e-14, "{in_target:?}");
+            // q_et(t)' q_et(t + h) is the rotation by omega_te h; of nadir the part across it
+            let h = 1e-2;
+            let moved = [-h, h].map(|time| target.error(q_et, &at(time)).q_ts);
+            let slope = scaled(-0.5 / h, difference(vector_of(moved[1]), vector_of(moved[0])));
+            let rate = target.error(q_et, &at(0.0)).omega_te_s;
+            assert!(norm(difference(slope, rate)) < 1e-9, "{target:?}: {slope:?} for {rate:?}");
+            assert!(norm(rate) > 1e-4);
+        }
+        let (q_eo, _) = at(0.0).orbit.expect("an orbit").local_frame();
+        let [ahead, across] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|axis| product(dcm_from_quaternion(q_eo), axis));
+        assert!(dot(ahead, v_e) > 0.9 * norm(v_e) && dot(across, cross(r_e, v_e)) < 0.0);
+        assert!(dot(across, r_e).abs() < 1e-8 && dot(across, v_e).abs() < 1e-11);
     }
 
     /// Law: after the rotation back by the error, s3 points at the target, and the angle of the error is that between s3 and the target.
@@ -132,7 +238,7 @@ mod tests {
     fn the_error_leads_to_the_target() {
         for q_es in [[1.0, 0.0, 0.0, 0.0], quaternion_of([0.3, -1.0, 2.0]), quaternion_of([3.0, 0.5, 0.0])] {
             for line in [[1.0, 2.0, -0.5], [0.0, 0.0, -3.0], [0.0, 0.0, 4.0], [-1.0, 1e-9, 0.0]] {
-                let error = Target::LineToDebris.error(q_es, Some(&geometry(line, [0.0; 3])), &VelocityToGo::default());
+                let error = Target::LineToDebris.error(q_es, &near(&geometry(line, [0.0; 3])));
                 let q_et = hamilton(q_es, conjugate(error.q_ts));
                 let s3 = product(dcm_from_quaternion(q_et), [0.0, 0.0, 1.0]);
                 let wanted = scaled(1.0 / norm(line), line);
@@ -148,8 +254,7 @@ mod tests {
     #[test]
     fn the_line_turns_with_the_relative_velocity() {
         let (line, velocity, h) = ([3.0, 4.0, 1.0], [0.1, -0.05, 0.2], 1e-4);
-        let error =
-            Target::LineToDebris.error([1.0, 0.0, 0.0, 0.0], Some(&geometry(line, velocity)), &VelocityToGo::default());
+        let error = Target::LineToDebris.error([1.0, 0.0, 0.0, 0.0], &near(&geometry(line, velocity)));
         let unit = |v: [f64; 3]| scaled(1.0 / norm(v), v);
         // the spacecraft moves with the velocity, so that the line changes against it
         let slope =
@@ -161,10 +266,9 @@ mod tests {
     #[test]
     fn an_attitude_is_its_own_target() {
         let q = quaternion_of([0.2, 0.1, -0.4]);
-        assert!(Target::Attitude(q).error(q, None, &VelocityToGo::default()).angle() < 1e-15);
-        let off =
-            Target::Attitude(q).error(hamilton(q, quaternion_of([0.0, 0.01, 0.0])), None, &VelocityToGo::default());
+        assert!(Target::Attitude(q).error(q, &NOTHING).angle() < 1e-15);
+        let off = Target::Attitude(q).error(hamilton(q, quaternion_of([0.0, 0.01, 0.0])), &NOTHING);
         assert!((off.angle() - 0.01).abs() < 1e-15 && off.q_ts[2] > 0.0);
-        assert_eq!(Target::None.error(q, None, &VelocityToGo::default()), AttitudeError::NONE);
+        assert_eq!(Target::None.error(q, &NOTHING), AttitudeError::NONE);
     }
 }

@@ -4,7 +4,7 @@ use super::geometry::{Centers, LaunchGeometry, LaunchState, transfer};
 use crate::control::estimate::Estimate;
 use crate::control::flight_software::FlightSoftware;
 use crate::control::guidance::phase::{Maneuver, Phase};
-use crate::control::guidance::target::{AttitudeError, VelocityToGo};
+use crate::control::guidance::target::{AttitudeError, TargetInput, VelocityToGo};
 use crate::control::vector::{dcm_from_quaternion, difference, product, scaled};
 use crate::scene::MAX_THRUSTERS;
 
@@ -67,6 +67,7 @@ impl FlightSoftware {
         if thrust != Maneuver::None {
             to_go.velocity_e = difference(to_go.velocity_e, self.on_its_way(estimate.q_es, time));
         }
-        (target.error(estimate.q_es, geometry, &to_go), to_go.velocity_e)
+        let orbit = if target.needs_orbit() { self.orbit_motion(time) } else { None };
+        (target.error(estimate.q_es, &TargetInput { geometry, to_go: &to_go, orbit }), to_go.velocity_e)
     }
 }
