@@ -3,6 +3,7 @@
 use super::problem::nearest;
 use super::units;
 use crate::control::ControlLaw;
+use crate::dynamics::effects::ForceModel;
 use crate::observables::band_series::band_series;
 use crate::observables::request::NutationAxis;
 use crate::observables::window::{NO_WINDOWS, Window};
@@ -19,6 +20,7 @@ pub fn request(groups: &[Group], acting: &SceneInput, method: Method, law: Optio
         groups: groups.iter().copied().collect(),
         debris: acting.debris.is_some(),
         actuated: Actuated::of(acting).and(commanded),
+        effects: ForceModel::of_input(acting),
         constrained: method == Method::NullSpace,
         wheels: acting.turning_wheels(),
         nutation_axis: NutationAxis::SpinAxis,

@@ -70,7 +70,7 @@ pub const HEAD: [(&str, &[Row]); 3] = [
         Row::new("points", Kind::Count([2, MAX_POINTS]),
             "Number of points of the uniform grid of times from 0 to the duration; default: 101"),
         Row::new("groups", Kind::Words(&GROUPS, default_groups),
-            "Groups of columns that are observed; default: all but motion and mass_properties"),
+            "Groups of columns that are observed; default: all but motion, mass_properties and orbit"),
         Row::new("nutation_axis", Kind::WordOrDirection(&["s3", "principal"]),
             "Whose angle from the angular momentum nutation is; or a direction in F_s"),
     ]),

@@ -52,6 +52,7 @@ mod observation;
 mod observation_columns;
 mod observation_golden;
 mod observed_tables;
+mod orbit_columns;
 mod own_laws;
 mod page_cards;
 mod page_marks;

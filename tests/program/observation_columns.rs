@@ -4,10 +4,12 @@
 use super::observed_tables::{
     Motion, done, free_row, golden_table, motion_table, observation, request, rotation, row, table1,
 };
+use spindrift::dynamics::effects::{Effect, ForceModel};
 use spindrift::math::Isa;
 use spindrift::math::vector::dcm_from_quaternion;
 use spindrift::observables::{Column, Group, Groups, Observer, Request, Series};
 use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
+use spindrift::scene::Orbit;
 
 #[test]
 fn padding_leaves_no_trace() {
@@ -63,7 +65,10 @@ fn fraction_and_net_are_relative_to_the_right_points() {
 /// Law: every column of every kind of scene has a value, whether its group is observed alone or with all others.
 #[test]
 fn every_column_of_every_kind_of_scene_has_a_value() {
-    let (_, scene) = table1();
+    let (_, mut scene) = table1();
+    let orbit = Orbit { mu: 1.0, position: [1.0, 2.0, 3.0], velocity: [0.1, 0.0, 0.0] };
+    scene.orbit = Some(orbit);
+    let effects = ForceModel::NONE.with(Effect::Gravity).with(Effect::GravityGradient);
     let grid = Grid::uniform(10.0, 101);
     let every_field = StateField::ALL.into_iter().fold(StateFields::NONE, StateFields::with);
     let mut table = StateTable::new(every_field, 2, grid.points());
@@ -75,6 +80,7 @@ fn every_column_of_every_kind_of_scene_has_a_value() {
         table.set(StateField::Rate, point, [0.1, 1.8, 2.4 + 0.1 * libm::sin(*time)]);
         table.set(StateField::WheelRates, point, [40.0 + time, 50.0]);
         table.set(StateField::ComVelocity, point, [1.0, 2.0, 3.0 + 0.1 * time]);
+        table.set(StateField::ComPosition, point, [1.0, 2.0, 3.0 + 0.1 * time]);
         table.set(StateField::DebrisAttitude, point, rotation([1.0, 0.0, 0.0], *time));
         table.set(StateField::DebrisRate, point, [1.0, 0.0, 0.0]);
         table.set(StateField::DebrisVelocity, point, [1.0, 0.0, 0.0]);
@@ -85,7 +91,7 @@ fn every_column_of_every_kind_of_scene_has_a_value() {
         let [debris, actuated, constrained] = [kind & 1, kind & 2, kind & 4].map(|bit| bit != 0);
         let alone = Group::ALL.into_iter().map(|group| Groups::NONE.with(group));
         for groups in alone.chain([Groups::ALL]) {
-            let request = Request { constrained, ..request(groups, debris, actuated) };
+            let request = Request { constrained, effects, ..request(groups, debris, actuated) };
             for (name, value) in row(Isa::best(), request, &grid, &scene, &table) {
                 assert!(value.is_finite(), "{name} of {request:?} is {value}");
                 seen.insert(name);

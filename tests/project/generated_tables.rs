@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use spindrift::campaign::{Overrides, Plan, settings};
+use spindrift::dynamics::effects::{Effect, ForceModel};
 use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
 use spindrift::observables::band_series::band_series;
@@ -91,6 +92,7 @@ fn quantities_over_time() -> String {
         groups: Groups::ALL,
         debris: true,
         actuated: Actuated::ALL,
+        effects: ForceModel::NONE.with(Effect::Gravity).with(Effect::GravityGradient),
         constrained: false,
         wheels: wheel_names(&["w1"]),
         nutation_axis: spindrift::observables::request::NutationAxis::SpinAxis,

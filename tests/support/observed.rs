@@ -20,6 +20,7 @@ pub fn request(groups: Groups, wheels: usize, debris: bool, actuated: bool, cons
         groups,
         debris,
         actuated,
+        effects: spindrift::dynamics::effects::ForceModel::NONE,
         constrained,
         wheels: wheel_names(&NAMES[..wheels]),
         nutation_axis: NutationAxis::SpinAxis,

@@ -93,6 +93,7 @@ mod tests {
             groups: [Group::EnergyConservation, Group::MomentumConservation, Group::Numerics].into_iter().collect(),
             debris: true,
             actuated: Actuated::NONE,
+            effects: crate::dynamics::effects::ForceModel::NONE,
             constrained: true,
             wheels: wheel_names(&[]),
             nutation_axis: crate::observables::request::NutationAxis::SpinAxis,

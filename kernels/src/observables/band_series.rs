@@ -168,6 +168,7 @@ mod tests {
             groups,
             debris: true,
             actuated: thrusters,
+            effects: crate::dynamics::effects::ForceModel::NONE,
             constrained: false,
             wheels: wheel_names(wheels),
             nutation_axis: crate::observables::request::NutationAxis::SpinAxis,

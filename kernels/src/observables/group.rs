@@ -27,15 +27,16 @@ pub enum Group {
     /// campaign names it.
     Motion,
     /// Mass, centre of mass and principal moments of inertia of the spacecraft, as dispersed. Only where a campaign names it.
-    /// campaign names it.
     MassProperties,
+    /// Distance from the central body, angle of s3 from nadir, torque of the gravity gradient. Only where a campaign names it.
+    Orbit,
     /// What the control law of the campaign reports at the end of a run. There where the law has columns; a campaign cannot name it.
     Control,
 }
 
 impl Group {
     /// All groups that a campaign can name, in the order of the columns.
-    pub const ALL: [Group; 12] = [
+    pub const ALL: [Group; 13] = [
         Group::EnergyConservation,
         Group::MomentumConservation,
         Group::Attitude,
@@ -48,12 +49,13 @@ impl Group {
         Group::Numerics,
         Group::Motion,
         Group::MassProperties,
+        Group::Orbit,
     ];
 
-    /// The groups of a campaign that names none: all but [`Group::Motion`], whose angles cost about as much as a run, and
+    /// The groups of a campaign that names none: all but [`Group::Motion`] and [`Group::Orbit`], whose angles cost about as much as a run, and
     /// [`Group::MassProperties`], which follow from the dispersed values.
     pub const DEFAULT: [Group; 10] = {
-        let [a, b, c, d, e, f, g, h, i, j, Group::Motion, Group::MassProperties] = Group::ALL else {
+        let [a, b, c, d, e, f, g, h, i, j, Group::Motion, Group::MassProperties, Group::Orbit] = Group::ALL else {
             panic!("the groups that a campaign must name are the last ones")
         };
         [a, b, c, d, e, f, g, h, i, j]
@@ -74,6 +76,7 @@ impl Group {
             Group::Numerics => "numerics",
             Group::Motion => "motion",
             Group::MassProperties => "mass_properties",
+            Group::Orbit => "orbit",
             Group::Control => "control",
         }
     }

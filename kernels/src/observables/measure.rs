@@ -1,6 +1,6 @@
 //! States to series: the computation of each source, where one of its series is observed.
 //!
-//! Not here: the computations ([`super::energies`], [`super::momenta`], [`super::attitude`], [`super::motion`]), and the reduction of series to
+//! Not here: the computations ([`super::energies`], [`super::momenta`], [`super::attitude`], [`super::motion`], [`super::orbit`]), and the reduction of series to
 //! numbers ([`super::reduce`]).
 
 use fearless_simd::Simd;
@@ -10,6 +10,7 @@ use super::energies::energies;
 use super::law_columns::LawSeries;
 use super::momenta::{angular_momentum, debris_momenta, linear_momentum};
 use super::motion::motion;
+use super::orbit::orbit;
 use super::points::{Column, MeasuredRun, SeriesTable, needed};
 use super::rows::SeriesSource;
 use super::table::Series;
@@ -27,6 +28,7 @@ pub(super) fn measure<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesT
             SeriesSource::DebrisMomenta => debris_momenta(simd, run, out),
             SeriesSource::Residuals => residuals(run, out),
             SeriesSource::Motion => motion(simd, run, out),
+            SeriesSource::Orbit => orbit(simd, run, out),
             SeriesSource::Law => recorded(run, out),
         }
     }

@@ -140,7 +140,7 @@ fn debris_direction<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTab
 
 /// atan2(y, x) of each lane.
 #[inline(always)]
-fn angle<S: Simd>(y: Lanes<S>, x: Lanes<S>, out: &mut [f64; WIDTH]) {
+pub(super) fn angle<S: Simd>(y: Lanes<S>, x: Lanes<S>, out: &mut [f64; WIDTH]) {
     for ((out, y), x) in out.iter_mut().zip(y.to_array()).zip(x.to_array()) {
         *out = libm::atan2(y, x);
     }

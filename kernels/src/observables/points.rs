@@ -34,6 +34,8 @@ pub(super) struct MeasuredRun<'a> {
     pub(super) nominal: Option<&'a NominalAttitude>,
     /// The axis of nutation in F_s, where it is not s3.
     pub(super) nutation_axis: Option<[f64; 3]>,
+    /// Gravitational parameter of the central body, m^3/s^2; NaN without an orbit.
+    pub(super) mu: f64,
     /// What the control law has recorded, series by series ([`super::law_columns::LawSeries`]) and point by point; empty where it records nothing.
     pub(super) of_law: &'a [f64],
     /// The states.

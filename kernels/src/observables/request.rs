@@ -8,6 +8,7 @@ use super::reduction::{Passes, Reduction, Stored};
 use super::rows::{Scenes, SeriesSource};
 use super::table::{self, Column, ColumnId, Series};
 use super::window::Windows;
+use crate::dynamics::effects::{Effect, ForceModel};
 use crate::math::list::List;
 use crate::math::symmetric::principal_axes;
 use crate::run::{StateField, StateFields};
@@ -22,6 +23,8 @@ pub struct Request {
     pub debris: bool,
     /// What acts at some time of a run.
     pub actuated: Actuated,
+    /// The effects that act on its runs.
+    pub effects: ForceModel,
     /// Whether the method integrates constraints (and the DCM itself): the null-space method.
     pub constrained: bool,
     /// The names of the wheels that turn.
@@ -229,6 +232,8 @@ impl Request {
             Scenes::Unconstrained => !self.constrained,
             Scenes::Wheels => !self.wheels.is_empty(),
             Scenes::SeveralWheels => self.wheels.len() > 1,
+            Scenes::Orbit => self.effects.contains(Effect::Gravity),
+            Scenes::GravityGradient => self.effects.contains(Effect::GravityGradient),
         }
     }
 
@@ -260,6 +265,7 @@ mod tests {
             groups: groups.iter().copied().collect(),
             debris,
             actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
+            effects: ForceModel::NONE,
             constrained,
             wheels: wheel_names(&["w1", "w2"]),
             nutation_axis: crate::observables::request::NutationAxis::SpinAxis,
@@ -332,6 +338,7 @@ mod tests {
             groups: Groups::ALL,
             debris: true,
             actuated: Actuated::ALL,
+            effects: ForceModel::NONE,
             constrained: true,
             wheels: wheel_names(&["w1", "w2"]),
             nutation_axis: crate::observables::request::NutationAxis::SpinAxis,

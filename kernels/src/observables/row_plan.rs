@@ -123,6 +123,7 @@ mod tests {
                 groups: Groups::ALL,
                 debris,
                 actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
+                effects: crate::dynamics::effects::ForceModel::NONE,
                 constrained,
                 wheels: wheel_names(&["w1", "w2", "w3"]),
                 nutation_axis: crate::observables::request::NutationAxis::SpinAxis,

@@ -44,6 +44,10 @@ pub(super) enum Scenes {
     Wheels,
     /// With several of them.
     SeveralWheels,
+    /// On an orbit.
+    Orbit,
+    /// With a gravity gradient.
+    GravityGradient,
 }
 
 /// A field of the state table that a value is computed from, for which scenes, and why.
@@ -72,13 +76,15 @@ pub(super) enum SeriesSource {
     Residuals,
     /// [`super::motion`].
     Motion,
+    /// [`super::orbit`].
+    Orbit,
     /// What the control law has recorded at the points ([`super::law_columns::LawSeries`]).
     Law,
 }
 
 impl SeriesSource {
     /// Every source, in the order of the computation.
-    pub(super) const ALL: [SeriesSource; 8] = [
+    pub(super) const ALL: [SeriesSource; 9] = [
         SeriesSource::Energies,
         SeriesSource::LinearMomentum,
         SeriesSource::AngularMomentum,
@@ -86,6 +92,7 @@ impl SeriesSource {
         SeriesSource::DebrisMomenta,
         SeriesSource::Residuals,
         SeriesSource::Motion,
+        SeriesSource::Orbit,
         SeriesSource::Law,
     ];
 }

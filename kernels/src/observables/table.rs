@@ -55,6 +55,8 @@ impl Column {
             Scenes::Unconstrained => "not the null-space method",
             Scenes::Wheels => "with wheels that turn",
             Scenes::SeveralWheels => "with several wheels",
+            Scenes::Orbit => "on an orbit",
+            Scenes::GravityGradient => "with a gravity gradient",
         }
     }
 
@@ -344,6 +346,11 @@ mod needs {
         need(StateField::ComPosition, Scenes::Debris, "direction of the debris"),
         need(StateField::DebrisPosition, Scenes::Debris, "direction of the debris"),
     ];
+    pub(super) const ORBIT: &[Need] = &[
+        need(StateField::ComPosition, Scenes::Orbit, "place on the orbit"),
+        need(StateField::Dcm, Scenes::Constrained, "direction of nadir in the body"),
+        need(StateField::Attitude, Scenes::Unconstrained, "direction of nadir in the body"),
+    ];
     pub(super) const RESIDUALS: &[Need] = &[need(StateField::Residuals, Scenes::Constrained, "residuals of the constraints")];
     pub(super) const FINAL_STATE: &[Need] = &[
         need(StateField::Attitude, Scenes::All, "attitude at the end"),
@@ -363,8 +370,8 @@ mod needs {
 }
 use needs::{
     ANGULAR, BODIES, DEBRIS_ANGULAR, DEBRIS_DIRECTION, DEBRIS_ENERGY, DEBRIS_LINEAR, DEBRIS_NUMERICS, FINAL_STATE,
-    FROM_INITIAL, FROM_NOMINAL, LINEAR, NUMERICS, ORTHONORMALITY, RATE, REDUNDANT, RESIDUALS, SPIN, SPIN_AXIS, TOTAL,
-    WORK,
+    FROM_INITIAL, FROM_NOMINAL, LINEAR, NUMERICS, ORBIT, ORTHONORMALITY, RATE, REDUNDANT, RESIDUALS, SPIN, SPIN_AXIS,
+    TOTAL, WORK,
 };
 
 #[rustfmt::skip]
@@ -402,6 +409,9 @@ series! {
     WheelSpeed [MAX_WHEELS]: Motion, Square, None, [SPIN], Some(("speed_{wheel}_rad_s", "rad/s")), "Magnitude of the rate of wheel {wheel} relative to the body.";
     WheelMomentum [MAX_WHEELS]: Motion, Square, None, [SPIN], Some(("momentum_{wheel}_n_m_s", "N m s")), "Magnitude of the angular momentum of wheel {wheel} about its axis relative to F_e.";
     DebrisDirection [1]: Motion, Quantity, None, [SPIN_AXIS, DEBRIS_DIRECTION], Some(("spin_axis_debris_angle_rad", "rad")), "Angle between s3 and the line from the spacecraft's centre of mass to the debris (0 where they coincide).";
+    OrbitDistance [1]: Orbit, Quantity, None, [ORBIT], Some(("orbit_distance_m", "m")), "Distance of the spacecraft's centre of mass from the centre of the central body.";
+    NadirAngle [1]: Orbit, Quantity, None, [ORBIT], Some(("nadir_angle_rad", "rad")), "Angle between s3 and nadir, the direction from the spacecraft's centre of mass to the central body.";
+    GradientTorqueSquare [1]: Orbit, Square, None, [ORBIT], Some(("gravity_gradient_torque_n_m", "N m")), "Magnitude of the torque of the gravity gradient on the spacecraft.";
     PointingError [1]: Law, Quantity, None, [], Some(("pointing_error_rad", "rad")), "Angle of the rotation from the true attitude to the target of the phase, at the last tick of the control loop; null in a phase without a target.";
     AttitudeEstimateError [1]: Law, Quantity, None, [], Some(("attitude_estimate_error_rad", "rad")), "Angle between estimated and true attitude, at the last tick of the control loop.";
     RateEstimateError [1]: Law, Quantity, None, [], Some(("rate_estimate_error_rad_s", "rad/s")), "Magnitude of the error of the estimated angular velocity, at the last tick of the control loop.";
@@ -534,6 +544,14 @@ static FAMILIES: &[&[Column]] = &[
         direct!(MassProperties, All, Float, SmallestMoment, "principal_moment_smallest_kg_m2", "kg m^2", "Smallest principal moment of inertia of the spacecraft about its centre of mass, with locked wheels."),
         direct!(MassProperties, All, Float, MiddleMoment, "principal_moment_middle_kg_m2", "kg m^2", "Middle principal moment of inertia of the spacecraft about its centre of mass, with locked wheels."),
         direct!(MassProperties, All, Float, LargestMoment, "principal_moment_largest_kg_m2", "kg m^2", "Largest principal moment of inertia of the spacecraft about its centre of mass, with locked wheels."),
+    ],
+    &[
+        of!(Orbit, Orbit, OrbitDistance, Value(ValueStatistic::Min), ["orbit_distance_min_m"], "m", ["Minimum distance of the spacecraft's centre of mass from the centre of the central body on the grid."]),
+        of!(Orbit, Orbit, OrbitDistance, Value(ValueStatistic::Max), ["orbit_distance_max_m"], "m", ["Maximum distance of the spacecraft's centre of mass from the centre of the central body on the grid."]),
+        of!(Orbit, Orbit, NadirAngle, Value(ValueStatistic::Max), ["nadir_angle_max_rad"], "rad", ["Maximum angle between s3 and nadir on the grid."]),
+        of!(Orbit, Orbit, NadirAngle, Value(ValueStatistic::Mean), ["nadir_angle_mean_rad"], "rad", ["Mean over the points of the angle between s3 and nadir."]),
+        of!(Orbit, Orbit, NadirAngle, Value(ValueStatistic::Final), ["nadir_angle_final_rad"], "rad", ["Angle between s3 and nadir at the last point."]),
+        of!(Orbit, GravityGradient, GradientTorqueSquare, Order(OrderStatistic::Max), ["gravity_gradient_torque_max_n_m"], "N m", ["Maximum magnitude of the torque of the gravity gradient on the grid."]),
     ],
 ];
 

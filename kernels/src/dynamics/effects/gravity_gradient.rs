@@ -47,6 +47,12 @@ impl<R: Real> GravityGradient<R> {
         let OrbitState { position, distance, .. } = motion.place;
         let inverse = distance.splat(1.0) / distance;
         let up = transposed_product(dcm_from_quaternion(motion.attitude), scaled(inverse, position));
+        self.torque_at(up, inverse)
+    }
+
+    /// The same where `up` is the unit vector from the central body, B, and `inverse` one over the distance, 1/m.
+    #[inline(always)]
+    pub fn torque_at(&self, up: [R; 3], inverse: R) -> [R; 3] {
         let strength = self.strength * (inverse * (inverse * inverse));
         scaled(strength, cross(up, product(self.inertia, up)))
     }

@@ -17,7 +17,7 @@ pub mod within_arcs;
 
 use super::actuation::sum;
 use crate::math::vector::dot;
-use crate::scene::{Actuation, EnvironmentInput, Scene};
+use crate::scene::{Actuation, EnvironmentInput, Scene, SceneInput};
 
 /// An effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -90,6 +90,16 @@ impl ForceModel {
     /// The effects on `scene`.
     pub fn of(scene: &Scene) -> Self {
         Effect::ALL.into_iter().filter(|effect| effect.acts_on(scene)).fold(Self::NONE, Self::with)
+    }
+
+    /// Those that act on the scenes of `input`.
+    pub fn of_input(input: &SceneInput) -> Self {
+        let acts = |effect: &Effect| match effect {
+            Effect::ConstantTorque => input.environment.body_torque_n_m.is_some(),
+            Effect::GravityGradient => input.environment.gravity_gradient,
+            Effect::Gravity => input.orbit.is_some(),
+        };
+        Effect::ALL.into_iter().filter(acts).fold(Self::NONE, Self::with)
     }
 
     /// These and one more.

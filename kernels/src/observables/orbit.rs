@@ -1,0 +1,41 @@
+//! Where a spacecraft on an orbit is and how it is turned to the central body: its distance, the angle of s3 from nadir, and the torque of the
+//! gravity gradient.
+//!
+//! Nadir is the direction from the centre of mass to the central body. The torque is that of [`crate::dynamics::effects::gravity_gradient`] at the
+//! states of the table.
+
+use fearless_simd::Simd;
+
+use super::attitude::Attitude;
+use super::motion::angle;
+use super::points::{MeasuredRun, SeriesTable, constant_matrix, needed, three};
+use super::table::Series;
+use crate::dynamics::effects::gravity_gradient::GravityGradient;
+use crate::math::vector::{dot, norm, scaled, transposed_product};
+use crate::math::{Lanes, Real};
+use crate::run::StateField;
+
+/// The series of the orbit.
+#[inline(always)]
+pub(super) fn orbit<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let (table, vectors) = (run.table, run.vectors());
+    let position: [_; 3] = needed(table, StateField::ComPosition, vectors);
+    let attitude = Attitude::of(table, vectors);
+    let gradient = GravityGradient {
+        strength: Lanes::broadcast(simd, 3.0 * run.mu),
+        inertia: constant_matrix(simd, run.mass.inertia),
+    };
+    let [distances, nadirs, torques] =
+        out.write([Series::OrbitDistance, Series::NadirAngle, Series::GradientTorqueSquare], vectors);
+    for at in 0..vectors {
+        let r = three(simd, position, at);
+        let distance = norm(r);
+        let inverse = Lanes::broadcast(simd, 1.0) / distance;
+        let up = transposed_product(attitude.c_es(simd, at), scaled(inverse, r));
+        let [x, y, z] = up;
+        angle(x.mul_add(x, y * y).sqrt(), -z, &mut nadirs[at]);
+        let torque = gradient.torque_at(up, inverse);
+        dot(torque, torque).store(&mut torques[at]);
+        distance.store(&mut distances[at]);
+    }
+}

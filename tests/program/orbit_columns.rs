@@ -1,0 +1,91 @@
+//! The group `orbit`: distance, angle of s3 from nadir, and torque of the gravity gradient, against closed forms.
+
+use std::collections::HashMap;
+use std::f64::consts::PI;
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::ensemble::{Ensemble, Part, PartId, Rows, Supervision};
+use spindrift::math::Isa;
+use spindrift::observables::Group;
+use spindrift::sampling::SampleId;
+
+/// Of the Earth, as `orbit.mu_m3_s2` where a file does not say, m^3/s^2.
+const MU: f64 = 3.986004418e14;
+const AXIS: f64 = 7e6;
+
+/// The nominal row, by column name, of a body at rest with s3 along -e1 on an orbit that starts at its perigee on e1.
+fn row(more: &str, duration: f64, points: usize, of_body: &str) -> HashMap<String, f64> {
+    let text = format!(
+        "[campaign]\nname = \"orbit\"\nsamples = 1\nseed = 1\nduration_s = {duration:?}\n\
+         [observe]\npoints = {points}\ngroups = [\"orbit\"]\n\
+         [body]\nmass_kg = 300.0\n{of_body}\n\
+         [orbit]\nsemi_major_axis_m = {AXIS:?}\n{more}"
+    );
+    let plan = Plan::from_text("orbit", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let ensemble = Ensemble::new(&plan, Isa::best());
+    let mut rows: Rows = ensemble.rows(1);
+    let part = Part { id: PartId(0), first: SampleId(0), count: 1 };
+    ensemble.worker().run(part, &mut rows, Supervision::progress(&|_| {}));
+    let columns = ensemble.request().columns();
+    let names = columns.iter().map(|column| column.quantity.name().to_owned());
+    names.enumerate().map(|(index, name)| (name, rows.observable(index)[0])).collect()
+}
+
+/// s3 along -e1: a turn of -90 degrees about e2.
+const DOWN: &str = "attitude = [0.7071067811865476, 0.0, -0.7071067811865476, 0.0]";
+
+/// Law: s3 that is fixed in F_e leaves nadir by the angle that a circular orbit has passed; an ellipse has the distances a (1 - e) and a (1 + e).
+#[test]
+fn a_body_at_rest_is_left_by_nadir() {
+    let inertia = "principal_moments_kg_m2 = [90.0, 100.0, 40.0]";
+    let body = format!("{inertia}\n[initial]\n{DOWN}\nangular_velocity_rad_s = [0.0, 0.0, 0.0]");
+    let rate = (MU / AXIS.powi(3)).sqrt();
+    for passed in [0.1, 1.0, 2.5] {
+        let row = row("", passed / rate, 33, &body);
+        let (last, most, mean) =
+            (row["nadir_angle_final_rad"], row["nadir_angle_max_rad"], row["nadir_angle_mean_rad"]);
+        assert!((last - passed).abs() < 1e-13 && most == last, "{passed}: {last}, {most}");
+        assert!((mean - 0.5 * passed).abs() < 1e-12, "{passed}: {mean}");
+        assert!(!row.contains_key("gravity_gradient_torque_max_n_m"), "nothing turns the body");
+        for name in ["orbit_distance_min_m", "orbit_distance_max_m"] {
+            assert!((row[name] / AXIS - 1.0).abs() < 1e-14, "{name} {}", row[name]);
+        }
+    }
+    // beyond half an orbit the angle falls again
+    let far = row("", 4.0 / rate, 4_001, &body);
+    assert!((far["nadir_angle_final_rad"] - (2.0 * PI - 4.0)).abs() < 1e-13);
+    assert!((far["nadir_angle_max_rad"] - PI).abs() < 1e-3);
+    let ellipse = row("eccentricity = 0.05", 2.0 * PI / rate, 201, &body);
+    for (name, distance) in [("orbit_distance_min_m", 0.95 * AXIS), ("orbit_distance_max_m", 1.05 * AXIS)] {
+        assert!((ellipse[name] / distance - 1.0).abs() < 1e-12, "{name} {}", ellipse[name]);
+    }
+}
+
+/// Law: a body that is turned by t about a principal axis has the torque 3 mu/(2 r^3) |J3 - J1| sin 2t.
+#[test]
+fn the_torque_is_that_of_the_textbook() {
+    for turned in [0.2_f64, PI / 4.0, 1.2, 3.0] {
+        // s3 is `turned` from -e1, about e2
+        let half = 0.5 * (-PI / 2.0 + turned);
+        let (w, y) = (half.cos(), half.sin());
+        let body = format!(
+            "principal_moments_kg_m2 = [90.0, 100.0, 40.0]\n[initial]\nattitude = [{w:?}, 0.0, {y:?}, 0.0]\nangular_velocity_rad_s = [0.0, 0.0, 0.0]\n\
+             [environment]\ngravity_gradient = true"
+        );
+        let row = row("", 1e-3, 2, &body);
+        let expected = 1.5 * MU / AXIS.powi(3) * 50.0 * (2.0 * turned).sin().abs();
+        let torque = row["gravity_gradient_torque_max_n_m"];
+        assert!((torque / expected - 1.0).abs() < 1e-5, "{turned}: {torque} for {expected}");
+        assert!((row["nadir_angle_max_rad"] - turned).abs() < 1e-5, "{turned}: {}", row["nadir_angle_max_rad"]);
+    }
+}
+
+/// Law: only where a file names it, and only on an orbit.
+#[test]
+fn the_group_is_of_scenes_on_an_orbit() {
+    assert!(!Group::DEFAULT.contains(&Group::Orbit));
+    let text = "[campaign]\nname = \"none\"\nsamples = 1\nseed = 1\nduration_s = 1.0\n[observe]\ngroups = [\"orbit\", \"effort\"]\n\
+                [body]\nmass_kg = 1.0\nprincipal_moments_kg_m2 = [1.0, 2.0, 2.5]\n";
+    let plan = Plan::from_text("none", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(plan.request().columns().iter().all(|column| column.group != Group::Orbit));
+}
