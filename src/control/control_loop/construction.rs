@@ -20,7 +20,6 @@ use crate::control::recorder::Recorder;
 use crate::control::sensors::{KINDS as SENSORS, SampledSensor, SensorContext};
 use crate::control::small_matrix::inverse;
 use crate::control::spec::{LoopSpec, PhaseSpec, SensorSpec, ticks_per_period};
-use crate::control::vector::{norm, scaled};
 use crate::scene::{DeclaredTable, Scene};
 
 /// The number called `key` of `table`; `otherwise` where it has none.
@@ -48,20 +47,6 @@ fn wheel_drives(scene: &Scene) -> Vec<WheelDrive> {
         torque_bias: model.torque_bias,
     });
     drives.collect()
-}
-
-/// The launch state of the numbers of `[control]`.
-fn launch_state(table: &DeclaredTable) -> LaunchState {
-    let axis = match table.named("approach_axis") {
-        Some(&[x, y, z]) => [x, y, z],
-        _ => [0.0; 3],
-    };
-    let length = norm(axis);
-    LaunchState {
-        distance: number_or(table, "launch_distance_m", 0.0),
-        least_speed: number_or(table, "least_debris_speed_m_s", 0.0),
-        approach_axis: if length > 0.0 { scaled(1.0 / length, axis) } else { axis },
-    }
 }
 
 /// The phases of `spec` with the numbers of `tables`.
@@ -134,7 +119,7 @@ fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: 
         start: of_run.start(),
         is_recorded: context.records,
         phases: phases(spec, &context.parameters.guidance).into_iter().zip(laws).collect(),
-        launch: launch_state(numbers),
+        launch: LaunchState::of(numbers),
         thruster_drives: believed.actuators.thrusters.map(|model| ThrusterDrive {
             mode: modulation::mode(spec.modulation, numbers),
             most: model.max_thrust,
@@ -151,7 +136,7 @@ fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: 
 fn mission(spec: &Arc<LoopSpec>, context: &LawContext<'_>) -> Mission {
     let numbers = &context.parameters.law;
     let criteria = MissionCriteria {
-        launch: launch_state(numbers),
+        launch: LaunchState::of(numbers),
         keep_out: number_or(numbers, "keep_out_m", 0.0),
         plume: [number_or(numbers, "plume_range_m", 0.0), number_or(numbers, "plume_half_angle_rad", 0.0)],
         settling_band: number_or(numbers, "settling_band_rad", 0.0),
