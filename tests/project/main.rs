@@ -9,4 +9,5 @@ mod accuracy_document;
 mod architecture;
 mod documents;
 mod examples;
+mod gallery;
 mod generated_tables;
