@@ -12,7 +12,7 @@ use crate::control::actuators::modulation;
 use crate::control::guidance::phase::{MANEUVERS, Next};
 use crate::control::guidance::target::{TARGETS, Target};
 use crate::control::spec::{LoopSpec, ModelSpec};
-use crate::control::{ControlLaw, estimators, parameters, sensors};
+use crate::control::{ControlLaw, estimators, net_launch, parameters, sensors};
 use crate::math::symmetric::is_positive_definite;
 use crate::scene::schema::Limit;
 use crate::scene::schema::control::kept;
@@ -69,7 +69,7 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
         );
     }
     if has_debris {
-        lists.push(&parameters::DEBRIS);
+        lists.push(&net_launch::parameters::DEBRIS);
     }
     scene.control.law = DeclaredTable::of(Name::NONE, kept(&lists));
     read_keys(&mut section, Table::Control, 0, scene);

@@ -2,8 +2,8 @@
 
 use super::section::Section;
 use super::tables::{ignore_others, read_keys};
+use crate::control::guidance::condition::Condition;
 use crate::control::guidance::phase::{MANEUVERS, Maneuver, Next};
-use crate::control::guidance::situation::Condition;
 use crate::control::guidance::target::{TARGETS, Target};
 use crate::control::laws::{self, LawKind};
 use crate::control::parameters;

@@ -3,13 +3,14 @@
 //! - [`law`]: [`ControlLaw`], a law that a plan can fly: its name, its parameters, and how it is made for a run from a [`LawContext`]
 //!   (in [`context`]).
 //! - [`runs`]: the laws of the runs that an engine propagates together.
-//! - [`spec`]: what a loop of a campaign file consists of; [`parameters`]: its numbers. [`control_loop`]: it in a run, where the truth ([`plant`]) and what flies it ([`flight_software`])
+//! - [`spec`]: what a loop of a campaign file consists of; [`parameters`]: its numbers (`declared`: how a part says its own). [`control_loop`]: it in a run, where the truth ([`plant`]) and what flies it ([`flight_software`])
 //!   meet. [`outcome`]: what comes of a run;
 //!   [`recorder`]: its telemetry; [`loop_record`]: quantities over time at the observation points.
 //! - [`truth`]: the true state at a tick. [`sensors`]: what is measured of it ([`measurement`]).
 //! - [`estimators`]: from measurements to an [`estimate`].
 //! - [`guidance`]: which phase a run is in, and the attitude and the maneuver that it wants.
 //! - [`laws`]: from an estimate to a wanted torque.
+//! - [`net_launch`]: what guidance and outcome have of the launch of a net at debris, and nothing else.
 //! - [`allocation`]: from a wanted torque and force to wheels and thrusters. [`actuators`]: what these make of it.
 //! - [`capacity`]: whether the momentum of a scene fits into the wheels of its loop.
 //! - [`review`]: what in a loop looks like a mistake; [`stability`]: whether a sampled law is stable for small errors.
@@ -22,6 +23,7 @@ pub mod allocation;
 pub mod capacity;
 pub mod context;
 pub mod control_loop;
+pub(crate) mod declared;
 pub mod estimate;
 pub mod estimators;
 pub mod flight_software;
@@ -30,6 +32,7 @@ pub mod law;
 pub mod laws;
 pub mod loop_record;
 pub mod measurement;
+pub mod net_launch;
 pub mod outcome;
 pub mod parameters;
 pub mod plant;

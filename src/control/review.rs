@@ -8,6 +8,7 @@ use super::guidance::phase::Next;
 use super::guidance::target::Target;
 use super::laws::{KnownBody, LawSettings};
 use super::measurement::Observes;
+use super::parameters::{ConditionNumbers, LoopNumbers, PhaseNumbers};
 use super::small_matrix::added;
 use super::spec::{LoopSpec, PhaseSpec};
 use super::stability::{axis_gains, stable_share};
@@ -75,7 +76,7 @@ fn unknown_effects(scene: &Scene) -> Option<String> {
 
 /// A window of stability that the run does not complete.
 fn window(table: &DeclaredTable, duration: f64) -> Option<String> {
-    let (from, window) = (number(table, "stability_from_s"), number(table, "stability_window_s"));
+    let LoopNumbers { stability_from: from, stability_window: window, .. } = LoopNumbers::of(table);
     let end = if window > 0.0 { from + window } else { from };
     let is_beyond = end > duration * (1.0 + SAME) || from > 0.0 && from >= duration;
     is_beyond.then(|| {
@@ -86,7 +87,7 @@ fn window(table: &DeclaredTable, duration: f64) -> Option<String> {
     })
 }
 
-/// The first number of `key`; zero where there is none.
+/// The first number of `key`, which tables of several kinds have; zero where this one does not.
 fn number(table: &DeclaredTable, key: &str) -> f64 {
     table.named(key).map_or(0.0, |numbers| numbers[0])
 }
@@ -144,7 +145,7 @@ fn order(phases: &[PhaseSpec]) -> Vec<String> {
 /// A condition that is never met, or always, and one that has no time to hold.
 fn condition(phase: &PhaseSpec, table: &DeclaredTable, duration: f64) -> Vec<String> {
     let Some(until) = &phase.until else { return Vec::new() };
-    let (name, hold, timeout) = (phase.name, number(table, "hold_s"), number(table, "timeout_s"));
+    let (name, hold, timeout) = (phase.name, ConditionNumbers::of(table).hold, PhaseNumbers::of(table).timeout);
     let mut notes = Vec::new();
     let range = until.range(duration);
     if range == [0.0; 2] && phase.otherwise.is_none() {
@@ -212,7 +213,7 @@ fn stability(
         reach = WheelTorque::new(&both).reachable;
     }
     let known = KnownBody::of(&believed.mass);
-    let (period, delay) = (spec.period, number(&numbers.law, "delay_s"));
+    let (period, delay) = (spec.period, LoopNumbers::of(&numbers.law).delay);
     let body = (scene.mass.inertia_rotating(), reach);
     let settings = LawSettings { table, gyroscopic: phase.gyroscopic, period, delay };
     let gains = axis_gains(&(law.make)(&settings), &known, phase.target != Target::None, body, period);

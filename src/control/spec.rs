@@ -1,7 +1,7 @@
 //! [`LoopSpec`]: what a control loop consists of, as a campaign file says it; its numbers, which can be dispersed, are parameters of the scene.
 
+use super::guidance::condition::Condition;
 use super::guidance::phase::{Maneuver, Next};
-use super::guidance::situation::Condition;
 use super::guidance::target::Target;
 use super::laws::LawKind;
 use super::measurement::Observes;

@@ -189,13 +189,13 @@ fn parameters() -> String {
 
 /// The keys that parts of control loops declare: a table for each list.
 fn keys_of_loops() -> String {
-    use spindrift::control::{actuators::modulation, estimators, laws, parameters, sensors};
+    use spindrift::control::{actuators::modulation, estimators, laws, net_launch, parameters, sensors};
     let mut lists: Vec<(String, &[LawParameter])> =
         vec![("`[control]`".into(), &parameters::LOOP), ("`[control]` with thrusters".into(), &parameters::THRUSTERS)];
     for (place, name) in modulation::NAMES.iter().enumerate() {
         lists.push((format!("`[control]`, `modulation = \"{name}\"`"), modulation::parameters(place)));
     }
-    lists.push(("`[control]` with debris".into(), &parameters::DEBRIS));
+    lists.push(("`[control]` with debris".into(), &net_launch::parameters::DEBRIS));
     let named = |table: &str, key: &str, name: &str| format!("`{table}`, `{key} = \"{name}\"`");
     lists.extend(estimators::KINDS.iter().map(|kind| (named("[control]", "estimator", kind.name), kind.parameters)));
     lists.extend(sensors::KINDS.iter().map(|kind| (named("[[sensors]]", "kind", kind.name), kind.parameters)));
@@ -203,7 +203,7 @@ fn keys_of_loops() -> String {
     lists.push(("`[[guidance]]`".into(), &parameters::PHASE));
     lists.push(("`[[guidance]]` with `until`".into(), &parameters::CONDITION));
     lists.push(("`[[guidance]]` with thrusters".into(), &parameters::UNLOADING));
-    lists.push(("`[[guidance]]`, target or thrust \"transfer\"".into(), &parameters::TRANSFER));
+    lists.push(("`[[guidance]]`, target or thrust \"transfer\"".into(), &net_launch::parameters::TRANSFER));
     lists.push(("`[[guidance]]`, `target = \"attitude\"`".into(), &parameters::ATTITUDE));
     let mut text = String::from("| table | key | unit | default | meaning |\n| --- | --- | --- | --- | --- |\n");
     for (table, list) in lists {
@@ -283,7 +283,7 @@ fn keys_of_tables() -> String {
 /// The quantities of conditions.
 fn quantities_of_conditions() -> String {
     let mut text = String::from("| name | meaning | only |\n| --- | --- | --- |\n");
-    for quantity in &spindrift::control::guidance::situation::QUANTITIES {
+    for quantity in &spindrift::control::guidance::condition::QUANTITIES {
         let only = if quantity.needs_debris { "with debris" } else { "" };
         let _ = writeln!(text, "| `{}` | {} | {only} |", quantity.name, cell(quantity.meaning));
     }

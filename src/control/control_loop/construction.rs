@@ -7,31 +7,26 @@ use super::{Clock, ControlLoop};
 use crate::control::actuators::wheel_drive::relative_inertia;
 use crate::control::actuators::{ThrusterDrive, WheelDrive, modulation};
 use crate::control::context::LawContext;
+use crate::control::declared::limit;
 use crate::control::estimators::{EstimatorContext, KINDS as ESTIMATORS, KnownSensor};
 use crate::control::flight_software::{FlightSoftware, Parts};
-use crate::control::guidance::geometry::LaunchState;
 use crate::control::guidance::phase::Phase;
 use crate::control::guidance::target::Target;
 use crate::control::laws::{AttitudeLaw, LawSettings, MomentumUnloading};
+use crate::control::net_launch::geometry::LaunchState;
+use crate::control::net_launch::launch::PlumeCone;
+use crate::control::net_launch::parameters::{DebrisNumbers, TransferNumbers};
 use crate::control::outcome::MissionCriteria;
 use crate::control::outcome::columns::OutcomeColumns;
+use crate::control::parameters::{
+    AttitudeNumbers, ConditionNumbers, LoopNumbers, PhaseNumbers, ThrusterNumbers, UnloadingNumbers,
+};
 use crate::control::plant::Plant;
 use crate::control::recorder::Recorder;
 use crate::control::sensors::{KINDS as SENSORS, SampledSensor, SensorContext};
 use crate::control::small_matrix::inverse;
 use crate::control::spec::{LoopSpec, PhaseSpec, SensorSpec, ticks_per_period};
 use crate::scene::{DeclaredTable, Scene};
-
-/// The number called `key` of `table`; `otherwise` where it has none.
-fn number_or(table: &DeclaredTable, key: &str, otherwise: f64) -> f64 {
-    table.named(key).map_or(otherwise, |numbers| numbers[0])
-}
-
-/// The same, where zero stands for no limit.
-fn limit(table: &DeclaredTable, key: &str) -> f64 {
-    let number = number_or(table, key, 0.0);
-    if number > 0.0 { number } else { f64::INFINITY }
-}
 
 /// The motors and bearings of the wheels of `scene`.
 fn wheel_drives(scene: &Scene) -> Vec<WheelDrive> {
@@ -55,19 +50,18 @@ fn phases(spec: &LoopSpec, tables: &[DeclaredTable]) -> Vec<Phase> {
         until: phase.until.clone(),
         next: phase.next,
         otherwise: phase.otherwise,
-        hold: number_or(table, "hold_s", 0.0),
-        timeout: limit(table, "timeout_s"),
-        target: match (phase.target, table.named("attitude")) {
-            (Target::Attitude(_), Some(&[w, x, y, z])) => Target::Attitude([w, x, y, z]),
-            (target, _) => target,
+        hold: ConditionNumbers::of(table).hold,
+        timeout: limit(PhaseNumbers::of(table).timeout),
+        target: match phase.target {
+            Target::Attitude(_) => Target::Attitude(AttitudeNumbers::of(table).attitude),
+            target => target,
         },
         thrust: phase.thrust,
-        transfer_time: number_or(table, "transfer_time_s", 0.0),
-        unloading: Some(MomentumUnloading {
-            dead_band: number_or(table, "unloading_dead_band_n_m_s", 0.0),
-            time_constant: number_or(table, "unloading_time_s", 0.0),
-        })
-        .filter(|unloading| unloading.time_constant > 0.0),
+        transfer_time: TransferNumbers::of(table).time,
+        unloading: {
+            let UnloadingNumbers { time, dead_band } = UnloadingNumbers::of(table);
+            (time > 0.0).then_some(MomentumUnloading { dead_band, time_constant: time })
+        },
     };
     spec.phases.iter().zip(tables).map(phase).collect()
 }
@@ -108,7 +102,7 @@ fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: 
         sensors: &sensors,
         tick: tick_period,
     };
-    let delay = number_or(numbers, "delay_s", 0.0);
+    let delay = LoopNumbers::of(numbers).delay;
     let law = |(phase, table): (&PhaseSpec, &DeclaredTable)| {
         let settings = LawSettings { table, gyroscopic: phase.gyroscopic, period: spec.period, delay };
         phase.law.map_or(AttitudeLaw::None, |law| (law.make)(&settings))
@@ -125,7 +119,7 @@ fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: 
             most: model.max_thrust,
             least_on: model.min_on_time,
         }),
-        lost_target_timeout: limit(numbers, "lost_target_timeout_s"),
+        lost_target_timeout: limit(DebrisNumbers::of(numbers).lost_target_timeout),
         delay,
         believed: believed.clone(),
     };
@@ -135,18 +129,19 @@ fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: 
 /// What the run of `context` is judged by.
 fn mission(spec: &Arc<LoopSpec>, context: &LawContext<'_>) -> Mission {
     let numbers = &context.parameters.law;
+    let (of_loop, near_debris) = (LoopNumbers::of(numbers), DebrisNumbers::of(numbers));
     let criteria = MissionCriteria {
         launch: LaunchState::of(numbers),
-        keep_out: number_or(numbers, "keep_out_m", 0.0),
-        plume: [number_or(numbers, "plume_range_m", 0.0), number_or(numbers, "plume_half_angle_rad", 0.0)],
-        settling_band: number_or(numbers, "settling_band_rad", 0.0),
-        stability: ["stability_from_s", "stability_window_s"].map(|key| number_or(numbers, key, 0.0)),
+        keep_out: near_debris.keep_out,
+        plume: PlumeCone { range: near_debris.plume_range, half_angle: near_debris.plume_half_angle },
+        settling_band: of_loop.settling_band,
+        stability: [of_loop.stability_from, of_loop.stability_window],
         period: spec.period,
-        isp: number_or(numbers, "isp_s", 0.0),
+        isp: ThrusterNumbers::of(numbers).isp,
     };
     let recorder = context.records.then(|| Recorder::new(spec));
     let record = context.record.cloned().inspect(|record| record.lock().restart());
-    Mission::new(spec, criteria, limit(numbers, "saturation_timeout_s"), (recorder, record))
+    Mission::new(spec, criteria, limit(of_loop.saturation_timeout), (recorder, record))
 }
 
 impl ControlLoop {

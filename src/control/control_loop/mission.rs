@@ -7,8 +7,9 @@ use crate::control::flight_software::{FlightSoftware, Guided};
 use crate::control::guidance::target::Target;
 use crate::control::guidance::{Failure, Guidance};
 use crate::control::loop_record::{KnownOverTime, NOTHING_KNOWN, SharedRecord, place};
+use crate::control::net_launch::launch::centers_of;
 use crate::control::outcome::columns::OutcomeColumns;
-use crate::control::outcome::{ArcApplied, MissionCriteria, MissionOutcome, centers_of};
+use crate::control::outcome::{ArcApplied, MissionCriteria, MissionOutcome};
 use crate::control::plant::{Applied, Plant};
 use crate::control::recorder::{Recorder, Tick};
 use crate::control::spec::LoopSpec;
@@ -149,7 +150,7 @@ impl Mission {
         let thrust = applied.actuation.thrust;
         let hits = thrust != [0.0; MAX_THRUSTERS] && self.spec.approaches() && {
             let truth = plant.truth(time, body, wheels);
-            self.outcome.plume_hits(plant.scene(), &truth, &thrust, &self.criteria)
+            self.criteria.plume.hits(plant.scene(), &truth, &thrust)
         };
         let Applied { length, saturated, torque_excess, .. } = *applied;
         self.outcome.arc(plant.scene(), &ArcApplied { length, thrust, hits, saturated, torque_excess });

@@ -15,11 +15,11 @@ use super::kalman::{NormalizedSquare, corners};
 use super::rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter};
 use super::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
 use super::{Consistency, Estimator, EstimatorContext, EstimatorKind, KnownSensor, Update, center_of};
+use crate::control::declared::declared;
 use crate::control::estimate::Estimate;
 use crate::control::laws::wheel_momenta;
 use crate::control::measurement::{AttitudeSensor, Measurement, Observes, PointMotion, part};
 use crate::control::rotation::{quaternion_of, vector_of};
-use crate::control::sensors::number;
 use crate::control::sensors::rate_gyro::GyroNoise;
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
 use crate::control::truth::{DebrisState, Truth};
@@ -40,46 +40,49 @@ const fn belief(key: &'static str, unit: &'static str, meaning: &'static str, de
     LawParameter::number(key, unit, meaning, Limit::NotNegative).or(default)
 }
 
-static PARAMETERS: [LawParameter; 13] = [
-    belief("initial_attitude_sigma_rad", "rad", "Initial standard deviation of the attitude, about each axis", &[0.1]),
-    belief(
+declared! {
+    /// What the filters believe at the start, and of what they do not know.
+    Beliefs = PARAMETERS {
+        attitude_sigma: f64 = belief("initial_attitude_sigma_rad", "rad", "Initial standard deviation of the attitude, about each axis", &[0.1]);
+        bias_sigma: f64 = belief(
         "initial_bias_sigma_rad_s",
         "rad/s",
         "Initial standard deviation of the gyro bias, first estimated as zero",
         &[1e-4],
-    ),
-    belief("initial_rate_sigma_rad_s", "rad/s", "Initial standard deviation of the rate; without a gyro", &[0.1]),
-    belief(
+    );
+        rate_sigma: f64 = belief("initial_rate_sigma_rad_s", "rad/s", "Initial standard deviation of the rate; without a gyro", &[0.1]);
+        rate_walk: f64 = belief(
         "rate_random_walk_rad_s_sqrt_s",
         "rad/s/sqrt(s)",
         "Process noise of the rate: unknown torque; without a gyro",
         &[1e-4],
-    ),
-    belief("initial_position_sigma_m", "m", "Initial standard deviation of the position, along each axis", &[10.0]),
-    belief("initial_velocity_sigma_m_s", "m/s", "Initial standard deviation of the velocity, along each axis", &[0.1]),
-    belief(
+    );
+        position_sigma: f64 = belief("initial_position_sigma_m", "m", "Initial standard deviation of the position, along each axis", &[10.0]);
+        velocity_sigma: f64 = belief("initial_velocity_sigma_m_s", "m/s", "Initial standard deviation of the velocity, along each axis", &[0.1]);
+        velocity_walk: f64 = belief(
         "velocity_random_walk_m_s_sqrt_s",
         "m/s/sqrt(s)",
         "Process noise of the velocity: unknown acceleration",
         &[1e-4],
-    ),
-    belief("debris_position_sigma_m", "m", "Initial standard deviation of the debris's position", &[10.0]),
-    belief("debris_velocity_sigma_m_s", "m/s", "Initial standard deviation of the debris's velocity", &[0.1]),
-    belief(
+    );
+        debris_position_sigma: f64 = belief("debris_position_sigma_m", "m", "Initial standard deviation of the debris's position", &[10.0]);
+        debris_velocity_sigma: f64 = belief("debris_velocity_sigma_m_s", "m/s", "Initial standard deviation of the debris's velocity", &[0.1]);
+        debris_velocity_walk: f64 = belief(
         "debris_velocity_random_walk_m_s_sqrt_s",
         "m/s/sqrt(s)",
         "Process noise of the debris's velocity: unknown acceleration",
         &[1e-5],
-    ),
-    belief("debris_attitude_sigma_rad", "rad", "Initial standard deviation of the debris's attitude", &[1.0]),
-    belief("debris_rate_sigma_rad_s", "rad/s", "Initial standard deviation of the debris's rate", &[0.1]),
-    belief(
+    );
+        debris_attitude_sigma: f64 = belief("debris_attitude_sigma_rad", "rad", "Initial standard deviation of the debris's attitude", &[1.0]);
+        debris_rate_sigma: f64 = belief("debris_rate_sigma_rad_s", "rad/s", "Initial standard deviation of the debris's rate", &[0.1]);
+        debris_rate_walk: f64 = belief(
         "debris_rate_random_walk_rad_s_sqrt_s",
         "rad/s/sqrt(s)",
         "Process noise of the debris's rate: unknown torque",
         &[1e-5],
-    ),
-];
+    );
+    }
+}
 
 /// A sensor as the filters believe it.
 #[derive(Clone, Debug)]
@@ -158,7 +161,7 @@ struct Mekf {
 impl Mekf {
     fn new(context: &EstimatorContext<'_>) -> Self {
         let (start, mass) = (context.start(), context.nominal.mass);
-        let own = |key: &str| number(context.parameters, key);
+        let believed = Beliefs::of(context.parameters);
         let sensors: Vec<SensorModel> = context.sensors.iter().map(SensorModel::of).collect();
         let gyro = sensors.iter().find_map(|sensor| match sensor {
             SensorModel::Gyro(noise, period) => Some((*noise, *period)),
@@ -166,43 +169,41 @@ impl Mekf {
         });
         let latencies = context.sensors.iter().map(|sensor| ticks(sensor.latency, context.tick));
         let oldest = latencies.max().unwrap_or(0);
-        let sigma = own("initial_attitude_sigma_rad");
+        let sigma = believed.attitude_sigma;
         let attitude = match gyro {
             Some((noise, period)) => {
-                let mut filter = AttitudeFilter::new(start.q_es, sigma, own("initial_bias_sigma_rad_s"), noise);
+                let mut filter = AttitudeFilter::new(start.q_es, sigma, believed.bias_sigma, noise);
                 filter.rate_s = start.omega_se_s;
                 let variance = noise.angular_random_walk * noise.angular_random_walk / period;
                 let turned = GyroPropagation { predicted: [1.0, 0.0, 0.0, 0.0], rate: start.omega_se_s, variance };
                 Attitude::WithGyro(Delayed::new(filter, oldest), turned)
             }
             None => {
-                let sigmas = [sigma, own("initial_rate_sigma_rad_s")];
-                let walk = own("rate_random_walk_rad_s_sqrt_s");
+                let sigmas = [sigma, believed.rate_sigma];
+                let walk = believed.rate_walk;
                 let filter = RigidBodyFilter::new(mass.inertia_rotating(), start.q_es, start.omega_se_s, sigmas, walk);
                 Attitude::WithoutGyro(Delayed::new(filter, oldest))
             }
         };
-        let translation = |r_e, v_e, position: &str, velocity: &str, walk: &str| {
-            let motion = PointMotion { r_e, v_e };
-            Delayed::new(TranslationFilter::new(motion, [own(position), own(velocity)], own(walk)), oldest)
+        let translation = |r_e, v_e, sigmas: [f64; 2], walk| {
+            Delayed::new(TranslationFilter::new(PointMotion { r_e, v_e }, sigmas, walk), oldest)
         };
         let debris_motion = start.debris.map(|debris| {
-            let sigmas = ("debris_position_sigma_m", "debris_velocity_sigma_m_s");
-            let walk = "debris_velocity_random_walk_m_s_sqrt_s";
-            translation(debris.r_gdo_e, debris.v_gdo_e, sigmas.0, sigmas.1, walk)
+            let sigmas = [believed.debris_position_sigma, believed.debris_velocity_sigma];
+            translation(debris.r_gdo_e, debris.v_gdo_e, sigmas, believed.debris_velocity_walk)
         });
         let debris = start.debris.zip(mass.debris).map(|(debris, body)| {
-            let sigmas = [own("debris_attitude_sigma_rad"), own("debris_rate_sigma_rad_s")];
-            let walk = own("debris_rate_random_walk_rad_s_sqrt_s");
+            let sigmas = [believed.debris_attitude_sigma, believed.debris_rate_sigma];
+            let walk = believed.debris_rate_walk;
             Delayed::new(RigidBodyFilter::new(body.inertia, debris.q_ed, debris.omega_de_d, sigmas, walk), oldest)
         });
-        let sigmas = ("initial_position_sigma_m", "initial_velocity_sigma_m_s");
+        let sigmas = [believed.position_sigma, believed.velocity_sigma];
         Mekf {
             mass,
             tick: context.tick,
             sensors,
             attitude,
-            motion: translation(start.r_co_e, start.v_co_e, sigmas.0, sigmas.1, "velocity_random_walk_m_s_sqrt_s"),
+            motion: translation(start.r_co_e, start.v_co_e, sigmas, believed.velocity_walk),
             debris_motion,
             debris,
             wheel_rates: start.wheel_rates,

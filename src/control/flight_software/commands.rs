@@ -1,14 +1,13 @@
 //! From a wanted torque and force to commands; which of them act.
 
-use super::maneuver::stored_momentum;
+use super::stored_momentum;
 use super::{CommandedImpulse, FlightSoftware, Guided};
 use crate::control::actuators::DelayQueue;
 use crate::control::control_loop::SAME_TIME;
 use crate::control::guidance::phase::Maneuver;
-use crate::control::guidance::situation::s3_of;
 use crate::control::guidance::target::Target;
 use crate::control::laws::LawInput;
-use crate::control::vector::{dcm_from_quaternion, difference, dot, scaled, sum};
+use crate::control::vector::{dcm_from_quaternion, difference, dot, product, scaled, sum};
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS};
 
 /// What the motors are commanded, N m, by wheel.
@@ -33,7 +32,7 @@ pub const NO_PULSES: Pulses = Pulses { begin: 0.0, thrust: [0.0; MAX_THRUSTERS],
 pub struct CommandsUnderWay {
     pub(super) motors: DelayQueue<MotorCommand>,
     /// Nothing is pushed in a loop without thrusters.
-    pub(super) thrust: DelayQueue<Pulses>,
+    pub(in crate::control) thrust: DelayQueue<Pulses>,
 }
 
 impl CommandsUnderWay {
@@ -91,7 +90,7 @@ impl FlightSoftware {
             let force = match phase.thrust {
                 Maneuver::None => self.spec.holds_force.then_some([0.0; 3]),
                 _ => {
-                    let s3_e = s3_of(dcm_from_quaternion(estimate.q_es));
+                    let s3_e = product(dcm_from_quaternion(estimate.q_es), [0.0, 0.0, 1.0]);
                     let along = mass.total * dot(guided.velocity_to_go, s3_e) / self.spec.period;
                     // where s3 is turned for the thruster that pushes along it, none brakes
                     let only_forward = matches!(phase.target, Target::Transfer | Target::Stop);

@@ -1,10 +1,9 @@
 //! [`FlightSoftware`]: estimator, guidance, law and allocation of one run. What it knows is the nominal scene as it is believed ([`LoopSpec::believed`]), its
 //! own drawn numbers, what its sensors deliver, and what it has commanded: no field of it and no argument of its tick is the truth.
 //!
-//! - [`maneuver`]: what guidance has before it at a tick. [`commands`]: from a wanted torque and force to commands.
+//! [`commands`]: from a wanted torque and force to commands.
 
 pub mod commands;
-pub mod maneuver;
 
 use std::sync::Arc;
 
@@ -16,17 +15,25 @@ use super::allocation::wheel_torque::WheelTorque;
 use super::control_loop::SAME_TIME;
 use super::estimate::Estimate;
 use super::estimators::{Consistency, Estimator, Update};
-use super::guidance::geometry::{LaunchGeometry, LaunchState};
+use super::guidance::condition::GuidanceInput;
 use super::guidance::phase::Phase;
 use super::guidance::target::AttitudeError;
 use super::guidance::{Failure, Guidance, Progress};
 use super::laws::{AttitudeLaw, KnownBody};
 use super::measurement::{Observes, PointMotion};
+use super::net_launch::geometry::{LaunchGeometry, LaunchState};
+use super::net_launch::maneuver::geometry_of;
 use super::plant::Measurements;
 use super::spec::LoopSpec;
 use super::truth::Truth;
-use crate::control::vector::scaled;
+use crate::control::vector::{dcm_from_quaternion, norm, product, scaled, sum};
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
+
+/// The momentum of the wheels of `scene` relative to the body at the estimated rates, in F_s, N m s.
+fn stored_momentum(scene: &Scene, estimate: &Estimate) -> [f64; 3] {
+    let wheels = scene.mass.wheels.iter().zip(estimate.wheel_rates);
+    wheels.fold([0.0; 3], |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
+}
 
 /// What guidance has decided at a control tick.
 #[derive(Clone, Copy, Debug)]
@@ -57,16 +64,16 @@ const NO_IMPULSE: CommandedImpulse =
 
 /// The flight software of one run.
 pub struct FlightSoftware {
-    spec: Arc<LoopSpec>,
-    believed: Scene,
+    pub(in crate::control) spec: Arc<LoopSpec>,
+    pub(in crate::control) believed: Scene,
     body: KnownBody,
     estimator: Box<dyn Estimator>,
-    estimate: Estimate,
-    phases: Vec<Phase>,
+    pub(in crate::control) estimate: Estimate,
+    pub(in crate::control) phases: Vec<Phase>,
     /// The law of the phase, and those of all phases as they begin.
     law: AttitudeLaw,
     laws: Vec<AttitudeLaw>,
-    guidance: Guidance,
+    pub(in crate::control) guidance: Guidance,
     wheels: Option<WheelTorque>,
     thrusters: Option<ThrustAllocation>,
     /// The projection onto the torques that the thrusters give in both directions.
@@ -82,7 +89,7 @@ pub struct FlightSoftware {
     is_recorded: bool,
     /// From a command to its action, s.
     delay: f64,
-    under_way: CommandsUnderWay,
+    pub(in crate::control) under_way: CommandsUnderWay,
     /// What was commanded at the last control tick: motor torques, N m, and mean thrusts, N.
     latest: (MotorCommand, [f64; MAX_THRUSTERS]),
     commanded: CommandedImpulse,
@@ -195,12 +202,12 @@ impl FlightSoftware {
     /// Decides at a control tick how the mission goes on, and begins a phase where one follows; `failure`: what ends it whatever the phase.
     pub fn guide(&mut self, time: f64, failure: Option<Failure>) -> Guided {
         let geometry = self.geometry;
-        let mut situation = self.situation(time, geometry);
+        let mut input = self.guidance_input(time, geometry);
         let (mut error, mut velocity_to_go) = self.wanted(geometry.as_ref(), time);
-        (situation.error, situation.velocity_to_go) = (error, velocity_to_go);
+        (input.error, input.velocity_to_go) = (error, velocity_to_go);
         let progress = match failure {
             Some(failure) => Progress::Fails(failure),
-            None => self.guidance.decide(&self.phases, &situation, SAME_TIME * self.spec.period),
+            None => self.guidance.decide(&self.phases, &input, SAME_TIME * self.spec.period),
         };
         // a phase begins with the run, or where guidance has changed it
         let begins = !std::mem::replace(&mut self.started, true) || std::mem::take(&mut self.guidance.has_changed);
@@ -217,7 +224,7 @@ impl FlightSoftware {
 
     /// What flight software sees at a control tick that ends the mission; before [`FlightSoftware::guide`].
     pub fn failure(&mut self, time: f64) -> Option<Failure> {
-        self.geometry = maneuver::geometry_of(&self.launch, &self.estimate);
+        self.geometry = geometry_of(&self.launch, &self.estimate);
         if !self.estimate.is_finite() {
             return Some(Failure::Diverged);
         }
@@ -225,6 +232,26 @@ impl FlightSoftware {
             return Some(Failure::NoAxis);
         }
         (self.spec.has_debris && time - self.debris_seen > self.lost_target_timeout).then_some(Failure::LostTarget)
+    }
+
+    /// What the conditions of phases can ask for, but for the error and the velocity to go.
+    fn guidance_input(&self, time: f64, geometry: Option<LaunchGeometry>) -> GuidanceInput {
+        let estimate = &self.estimate;
+        let rates = &estimate.wheel_rates[..self.believed.mass.wheels.len()];
+        GuidanceInput {
+            time,
+            time_in_phase: time - self.guidance.since,
+            body_rate: norm(estimate.omega_se_s),
+            error: AttitudeError::NONE,
+            wheel_speed: rates.iter().fold(0.0, |most, rate| most.max(rate.abs())),
+            wheel_momentum: norm(stored_momentum(&self.believed, estimate)),
+            geometry,
+            velocity_to_go: [0.0; 3],
+            s3_e: product(dcm_from_quaternion(estimate.q_es), [0.0, 0.0, 1.0]),
+            time_to_station: self.guidance.arrival - time,
+            debris_age: if self.spec.has_debris { time - self.debris_seen } else { f64::NAN },
+            debris_rate: estimate.debris.map_or(f64::NAN, |debris| norm(debris.omega_de_d)),
+        }
     }
 
     /// The estimate of this tick.

@@ -1,16 +1,15 @@
 //! Guidance: a state machine of phases, whose conditions stand in the campaign file.
 //!
-//! - [`phase`]: what a phase is. [`target`]: the attitude that it wants. [`situation`]: what its conditions can ask for.
-//! - [`geometry`]: the launch state, and the transfer to it.
+//! - [`phase`]: what a phase is. [`target`]: the attitude that it wants. [`condition`]: what ends it, and what conditions can ask for.
 //! - Here: [`Guidance`], which phase a run is in.
 
-pub mod geometry;
+pub mod condition;
 pub mod phase;
-pub mod situation;
+
 pub mod target;
 
+use condition::GuidanceInput;
 use phase::{Maneuver, Next, Phase};
-use situation::Situation;
 
 /// Why a mission has failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,13 +99,13 @@ impl Guidance {
         }
     }
 
-    /// Decides at a tick whether the phase goes on, from `situation`, which is that of the phase; `same` is a time below which ticks are one, s. At most one change a tick, so that a phase lasts at
+    /// Decides at a tick whether the phase goes on, from `input`, which is that of the phase; `same` is a time below which ticks are one, s. At most one change a tick, so that a phase lasts at
     /// least one, and no list of phases makes a circle within a tick.
-    pub fn decide(&mut self, phases: &[Phase], situation: &Situation, same: f64) -> Progress {
+    pub fn decide(&mut self, phases: &[Phase], input: &GuidanceInput, same: f64) -> Progress {
         self.has_changed = false;
         let phase = &phases[self.phase];
-        let time = situation.time;
-        let is_met = phase.until.as_ref().is_some_and(|condition| condition.is_met(situation));
+        let time = input.time;
+        let is_met = phase.until.as_ref().is_some_and(|condition| condition.is_met(input));
         if is_met && self.met_since.is_nan() {
             self.met_since = time;
         } else if !is_met {
@@ -137,11 +136,11 @@ impl Guidance {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use situation::Condition;
+    use condition::Condition;
     use target::Target;
 
-    fn situation(time: f64, body_rate: f64) -> Situation {
-        Situation {
+    fn input(time: f64, body_rate: f64) -> GuidanceInput {
+        GuidanceInput {
             time,
             time_in_phase: 0.0,
             body_rate,
@@ -182,7 +181,7 @@ mod tests {
         let rates = [2.0, 0.5, 0.5, 2.0, 0.5, 0.5, 0.5, 0.5, 0.5];
         for (tick, rate) in rates.into_iter().enumerate() {
             let time = 0.1 * tick as f64;
-            assert_eq!(guidance.decide(&phases, &situation(time, rate), 1e-9), Progress::Flies);
+            assert_eq!(guidance.decide(&phases, &input(time, rate), 1e-9), Progress::Flies);
             assert_eq!(guidance.phase, usize::from(tick >= 7), "tick {tick}");
             assert_eq!(guidance.has_changed, tick == 7);
         }
@@ -200,16 +199,16 @@ mod tests {
         (again.thrust, again.transfer_time) = (Maneuver::Transfer, 30.0);
         let phases = [check, again];
         let mut guidance = Guidance::new(&phases);
-        assert_eq!(guidance.decide(&phases, &situation(0.0, 2.0), 1e-9), Progress::Flies);
+        assert_eq!(guidance.decide(&phases, &input(0.0, 2.0), 1e-9), Progress::Flies);
         assert_eq!((guidance.phase, guidance.arrival), (1, 30.0));
-        assert_eq!(guidance.decide(&phases, &situation(1.0, 2.0), 1e-9), Progress::Flies);
+        assert_eq!(guidance.decide(&phases, &input(1.0, 2.0), 1e-9), Progress::Flies);
         assert_eq!(guidance.phase, 1);
-        assert_eq!(guidance.clone().decide(&phases, &situation(6.0, 2.0), 1e-9), Progress::Flies);
+        assert_eq!(guidance.clone().decide(&phases, &input(6.0, 2.0), 1e-9), Progress::Flies);
         let mut late = guidance.clone();
         late.since = -5.0;
-        assert_eq!(late.decide(&phases, &situation(5.0, 2.0), 1e-9), Progress::Fails(Failure::Timeout));
-        guidance.decide(&phases, &situation(6.0, 2.0), 1e-9);
-        assert_eq!(guidance.decide(&phases, &situation(6.1, 0.5), 1e-9), Progress::Launches);
+        assert_eq!(late.decide(&phases, &input(5.0, 2.0), 1e-9), Progress::Fails(Failure::Timeout));
+        guidance.decide(&phases, &input(6.0, 2.0), 1e-9);
+        assert_eq!(guidance.decide(&phases, &input(6.1, 0.5), 1e-9), Progress::Launches);
         assert_eq!(Failure::NAMES[Failure::KeepOut as usize], "keep_out");
     }
 
@@ -217,7 +216,7 @@ mod tests {
     #[test]
     fn unknown_values_meet_no_condition() {
         for text in ["debris_age_s < 5", "debris_age_s > 5", "time_to_station_s <= 1 and time_s >= 0"] {
-            assert!(!Condition::parse(text, true).expect(text).is_met(&situation(1.0, 0.0)), "{text}");
+            assert!(!Condition::parse(text, true).expect(text).is_met(&input(1.0, 0.0)), "{text}");
         }
         assert!(Condition::parse("debris_age_s < 5", false).is_err_and(|error| error.contains("not \"debris_age_s\"")));
         assert!(Condition::parse("body_rate < 5", true).is_err_and(|error| error.contains("body_rate_rad_s")));

@@ -1,6 +1,6 @@
 //! [`Phase`]: one phase of guidance, as the file says it, with the numbers of a run.
 
-use super::situation::Condition;
+use super::condition::Condition;
 use super::target::Target;
 use crate::control::laws::MomentumUnloading;
 

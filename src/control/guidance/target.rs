@@ -1,6 +1,6 @@
 //! [`Target`]: the attitude that a phase wants.
 
-use super::geometry::LaunchGeometry;
+use crate::control::net_launch::geometry::LaunchGeometry;
 use crate::control::rotation::quaternion_of;
 use crate::control::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilton, norm, scaled, transposed_product};
 

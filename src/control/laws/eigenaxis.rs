@@ -2,7 +2,8 @@
 
 use super::integral::{self, Integral};
 use super::slew::Slew;
-use super::{AttitudeLaw, KnownBody, LawInput, LawKind, limit, number};
+use super::{AttitudeLaw, KnownBody, LawInput, LawKind};
+use crate::control::declared::{declared, limit};
 use crate::control::vector::{norm, product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
@@ -31,28 +32,31 @@ pub struct Eigenaxis {
     slew: Slew,
 }
 
-/// Its keys in campaign files.
-pub static PARAMETERS: [LawParameter; 6] = [
-    LawParameter::number("bandwidth_rad_s", "rad/s", "Natural frequency w of small errors: k = 2 w^2", Limit::Positive),
-    LawParameter::number("damping", "1", "Damping ratio z of small errors: c = 2 z w", Limit::Positive),
-    LawParameter::number("max_rate_rad_s", "rad/s", "Largest rate of a slew; zero: no limit", Limit::NotNegative)
-        .or(&[0.0]),
-    LawParameter::number("max_torque_n_m", "N m", "Largest torque of a slew; zero: no limit", Limit::NotNegative)
-        .or(&[0.0]),
-    integral::GAIN,
-    integral::LIMIT,
-];
+declared! {
+    /// Its numbers in campaign files.
+    EigenaxisNumbers = PARAMETERS {
+        bandwidth: f64 = LawParameter::number("bandwidth_rad_s", "rad/s", "Natural frequency w of small errors: k = 2 w^2", Limit::Positive);
+        damping: f64 = LawParameter::number("damping", "1", "Damping ratio z of small errors: c = 2 z w", Limit::Positive);
+        max_rate: f64 = LawParameter::number("max_rate_rad_s", "rad/s", "Largest rate of a slew; zero: no limit", Limit::NotNegative)
+            .or(&[0.0]);
+        max_torque: f64 = LawParameter::number("max_torque_n_m", "N m", "Largest torque of a slew; zero: no limit", Limit::NotNegative)
+            .or(&[0.0]);
+        integral_gain: f64 = integral::GAIN;
+        integral_limit: f64 = integral::LIMIT;
+    }
+}
 
 /// Its place in the list of laws.
 pub const KIND: LawKind = LawKind {
     name: "eigenaxis",
     parameters: &PARAMETERS,
     make: |settings| {
-        let [bandwidth, damping] = ["bandwidth_rad_s", "damping"].map(|key| number(settings.table, key));
+        let numbers = EigenaxisNumbers::of(settings.table);
+        let (bandwidth, damping) = (numbers.bandwidth, numbers.damping);
         AttitudeLaw::Eigenaxis(Eigenaxis {
-            largest_rate: limit(settings.table, "max_rate_rad_s"),
-            largest_torque: limit(settings.table, "max_torque_n_m"),
-            integral: Integral::of(settings, "integral_limit"),
+            largest_rate: limit(numbers.max_rate),
+            largest_torque: limit(numbers.max_torque),
+            integral: Integral::new(numbers.integral_gain, limit(numbers.integral_limit)),
             slew: Slew::new(settings.period, settings.delay),
             ..Eigenaxis::new(2.0 * bandwidth * bandwidth, 2.0 * damping * bandwidth)
         })

@@ -1,6 +1,5 @@
 //! [`Integral`]: what a law adds to its error, so that a constant torque leaves none.
 
-use super::{LawSettings, limit, number};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
@@ -47,11 +46,6 @@ impl Integral {
     /// With this gain and limit.
     pub const fn new(gain: f64, limit: f64) -> Self {
         Integral { gain, limit, sum: [0.0; 3] }
-    }
-
-    /// That of the keys of a law; `limit_key` is the one of the limit.
-    pub(super) fn of(settings: &LawSettings<'_>, limit_key: &str) -> Self {
-        Integral::new(number(settings.table, "integral_1_s"), limit(settings.table, limit_key))
     }
 
     /// e + z, at a tick `period` seconds after the last one (zero at the first, or where the integral is to rest).

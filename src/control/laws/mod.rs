@@ -192,23 +192,6 @@ impl LawInput {
     }
 }
 
-/// The number of the parameter `key` of a law.
-///
-/// # Panics
-/// Where `table` does not declare it as a number.
-fn number(table: &DeclaredTable, key: &str) -> f64 {
-    match table.named(key) {
-        Some([number]) => *number,
-        _ => panic!("the law declares no number {key}"),
-    }
-}
-
-/// The limit `key` of a law: zero is none.
-fn limit(table: &DeclaredTable, key: &str) -> f64 {
-    let limit = number(table, key);
-    if limit == 0.0 { f64::INFINITY } else { limit }
-}
-
 /// The constants of the spacecraft that a law knows: of the nominal scene.
 #[derive(Clone, Copy, Debug)]
 pub struct KnownBody {

@@ -1,9 +1,6 @@
 //! [`MomentumUnloading`]: a torque of thrusters that takes momentum out of the wheels.
 
-use super::number;
 use crate::control::vector::{norm, product, scaled};
-use crate::scene::schema::Limit;
-use crate::scene::{DeclaredTable, LawParameter};
 
 /// The torque -(|h| - h_0)/T h/|h| on the body for the momentum h of the wheels along the axes on which thrusters have torque; none where |h| is within the
 /// dead band h_0. The law of attitude then asks the wheels for as much less, so that they give their momentum to it: h decays to the dead band with the time
@@ -16,33 +13,7 @@ pub struct MomentumUnloading {
     pub time_constant: f64,
 }
 
-/// Its keys in campaign files.
-pub static PARAMETERS: [LawParameter; 2] = [
-    LawParameter::number(
-        "unloading_time_s",
-        "s",
-        "Time constant with which momentum leaves the wheels",
-        Limit::Positive,
-    ),
-    LawParameter::number(
-        "unloading_dead_band_n_m_s",
-        "N m s",
-        "Momentum that may stay in the wheels",
-        Limit::NotNegative,
-    )
-    .or(&[0.0]),
-];
-
 impl MomentumUnloading {
-    /// With the parameters of `table`.
-    ///
-    /// # Panics
-    /// Where `table` does not declare them.
-    pub fn of(table: &DeclaredTable) -> Self {
-        let dead_band = number(table, "unloading_dead_band_n_m_s");
-        MomentumUnloading { dead_band, time_constant: number(table, "unloading_time_s") }
-    }
-
     /// The wanted change of the momentum `wheels_s` of the wheels relative to the body, sum J_i Omega_i a_i, both in F_s, N m s: to the dead band.
     pub fn change(&self, wheels_s: [f64; 3]) -> [f64; 3] {
         let size = norm(wheels_s);

@@ -1,6 +1,7 @@
 //! [`MrpFeedback`]: proportional to the modified Rodrigues parameters of the error, to the rate, and to an integral.
 
-use super::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, limit, number};
+use super::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings};
+use crate::control::declared::{declared, limit};
 use crate::control::rotation::mrp_of;
 use crate::control::vector::{cross, difference, norm, product, scaled, sum};
 use crate::scene::LawParameter;
@@ -26,27 +27,30 @@ pub struct MrpFeedback {
     summed: [f64; 3],
 }
 
-/// Its keys in campaign files.
-pub static PARAMETERS: [LawParameter; 4] = [
-    LawParameter::number("stiffness_n_m", "N m", "Torque against an MRP of one: K", Limit::Positive),
-    LawParameter::number("damping_n_m_s", "N m s", "Torque against a rate of 1 rad/s: P", Limit::NotNegative),
-    LawParameter::number("integral_1_n_m_s", "1/(N m s)", "Gain of the integral: Ki", Limit::NotNegative).or(&[0.0]),
-    LawParameter::number(
-        "integral_limit_n_m_s",
-        "N m s",
-        "Largest magnitude of each component of the integral of K s; zero: no limit",
-        Limit::NotNegative,
-    )
-    .or(&[0.0]),
-];
+declared! {
+    /// Its numbers in campaign files.
+    MrpNumbers = PARAMETERS {
+        stiffness: f64 = LawParameter::number("stiffness_n_m", "N m", "Torque against an MRP of one: K", Limit::Positive);
+        damping: f64 = LawParameter::number("damping_n_m_s", "N m s", "Torque against a rate of 1 rad/s: P", Limit::NotNegative);
+        integral: f64 = LawParameter::number("integral_1_n_m_s", "1/(N m s)", "Gain of the integral: Ki", Limit::NotNegative).or(&[0.0]);
+        integral_limit: f64 = LawParameter::number(
+            "integral_limit_n_m_s",
+            "N m s",
+            "Largest magnitude of each component of the integral of K s; zero: no limit",
+            Limit::NotNegative,
+        )
+        .or(&[0.0]);
+    }
+}
 
 /// Its place in the list of laws.
 pub const KIND: LawKind = LawKind {
     name: "mrp_feedback",
     parameters: &PARAMETERS,
     make: |LawSettings { table, gyroscopic, .. }| {
-        let law = MrpFeedback::new(number(table, "stiffness_n_m"), number(table, "damping_n_m_s"));
-        let law = law.with_integral(number(table, "integral_1_n_m_s"), limit(table, "integral_limit_n_m_s"));
+        let numbers = MrpNumbers::of(table);
+        let law = MrpFeedback::new(numbers.stiffness, numbers.damping);
+        let law = law.with_integral(numbers.integral, limit(numbers.integral_limit));
         AttitudeLaw::MrpFeedback(MrpFeedback { gyroscopic: *gyroscopic, ..law })
     },
 };

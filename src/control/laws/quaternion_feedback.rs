@@ -1,7 +1,8 @@
 //! [`QuaternionFeedback`]: proportional to the quaternion of the error, and to the rate.
 
 use super::integral::{self, Integral};
-use super::{AttitudeLaw, KnownBody, LawInput, LawKind, number};
+use super::{AttitudeLaw, KnownBody, LawInput, LawKind};
+use crate::control::declared::{declared, limit};
 use crate::control::vector::{product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
@@ -19,21 +20,24 @@ pub struct QuaternionFeedback {
     pub integral: Integral,
 }
 
-/// Its keys in campaign files.
-pub static PARAMETERS: [LawParameter; 4] = [
-    LawParameter::number("bandwidth_rad_s", "rad/s", "Natural frequency of small errors", Limit::Positive),
-    LawParameter::number("damping", "1", "Damping ratio of small errors", Limit::NotNegative),
-    integral::GAIN,
-    integral::LIMIT,
-];
+declared! {
+    /// Its numbers in campaign files.
+    QuaternionNumbers = PARAMETERS {
+        bandwidth: f64 = LawParameter::number("bandwidth_rad_s", "rad/s", "Natural frequency of small errors", Limit::Positive);
+        damping: f64 = LawParameter::number("damping", "1", "Damping ratio of small errors", Limit::NotNegative);
+        integral_gain: f64 = integral::GAIN;
+        integral_limit: f64 = integral::LIMIT;
+    }
+}
 
 /// Its place in the list of laws.
 pub const KIND: LawKind = LawKind {
     name: "quaternion_feedback",
     parameters: &PARAMETERS,
     make: |settings| {
-        let [bandwidth, damping] = ["bandwidth_rad_s", "damping"].map(|key| number(settings.table, key));
-        let integral = Integral::of(settings, "integral_limit");
+        let QuaternionNumbers { bandwidth, damping, integral_gain, integral_limit } =
+            QuaternionNumbers::of(settings.table);
+        let integral = Integral::new(integral_gain, limit(integral_limit));
         AttitudeLaw::QuaternionFeedback(QuaternionFeedback { bandwidth, damping, integral })
     },
 };

@@ -1,7 +1,8 @@
 //! [`RateDamping`]: a torque against the rate.
 
 use super::integral::{self, Integral};
-use super::{AttitudeLaw, LawInput, LawKind, number};
+use super::{AttitudeLaw, LawInput, LawKind};
+use crate::control::declared::{declared, limit};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
@@ -15,20 +16,22 @@ pub struct RateDamping {
     pub integral: Integral,
 }
 
-/// Its keys in campaign files.
-pub static PARAMETERS: [LawParameter; 3] = [
-    LawParameter::number("gain_n_m_s", "N m s", "Torque against a rate of 1 rad/s", Limit::Positive),
-    integral::GAIN,
-    integral::RATE_LIMIT,
-];
+declared! {
+    /// Its numbers in campaign files.
+    RateDampingNumbers = PARAMETERS {
+        gain: f64 = LawParameter::number("gain_n_m_s", "N m s", "Torque against a rate of 1 rad/s", Limit::Positive);
+        integral_gain: f64 = integral::GAIN;
+        integral_limit: f64 = integral::RATE_LIMIT;
+    }
+}
 
 /// Its place in the list of laws.
 pub const KIND: LawKind = LawKind {
     name: "rate_damping",
     parameters: &PARAMETERS,
     make: |settings| {
-        let gain = number(settings.table, "gain_n_m_s");
-        AttitudeLaw::RateDamping(RateDamping { gain, integral: Integral::of(settings, "integral_limit_rad_s") })
+        let RateDampingNumbers { gain, integral_gain, integral_limit } = RateDampingNumbers::of(settings.table);
+        AttitudeLaw::RateDamping(RateDamping { gain, integral: Integral::new(integral_gain, limit(integral_limit)) })
     },
 };
 

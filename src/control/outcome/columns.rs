@@ -1,10 +1,11 @@
 //! [`OutcomeColumns`]: the columns of rows that say what a run under a loop has come to.
 
 use super::stability::Stability;
-use super::{AtLaunch, MissionCriteria, MissionOutcome, STANDARD_GRAVITY};
+use super::{MissionCriteria, MissionOutcome, STANDARD_GRAVITY};
 use crate::control::estimators::Consistency;
 use crate::control::estimators::kalman::NormalizedSquare;
 use crate::control::guidance::{Failure, Guidance};
+use crate::control::net_launch::launch::AtLaunch;
 use crate::control::spec::LoopSpec;
 use crate::observables::{ColumnKind, LawColumn, LawColumns};
 use crate::run::Quantity;

@@ -7,11 +7,12 @@ use self::stability::Stability;
 use super::estimate::EstimateErrors;
 use super::estimators::Consistency;
 use super::guidance::Failure;
-use super::guidance::geometry::{Centers, LaunchState};
 use super::guidance::target::AttitudeError;
+use super::net_launch::geometry::LaunchState;
+use super::net_launch::launch::{AtLaunch, PlumeCone};
 use super::truth::Truth;
 use crate::control::rotation::vector_of;
-use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, product, scaled};
+use crate::control::vector::{dot, norm, scaled};
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 
 /// The numbers of a run with which its outcome is judged.
@@ -21,8 +22,8 @@ pub struct MissionCriteria {
     pub launch: LaunchState,
     /// Distance from the debris below which the mission fails, m.
     pub keep_out: f64,
-    /// Distance and half angle of a plume that hits the debris, m and rad.
-    pub plume: [f64; 2],
+    /// Where plumes hit the debris.
+    pub plume: PlumeCone,
     /// Pointing error of an attitude that has settled, rad.
     pub settling_band: f64,
     /// Start and length of the window of the relative performance error, s; zero: from settling on, and to the end.
@@ -35,18 +36,6 @@ pub struct MissionCriteria {
 
 /// Standard gravity, by which a specific impulse is an exhaust velocity, m/s^2 (ISO 80000-3).
 const STANDARD_GRAVITY: f64 = 9.806_65;
-
-/// What is true at the launch.
-#[derive(Clone, Copy, Debug)]
-struct AtLaunch {
-    pointing_error: f64,
-    axis_offset: f64,
-    distance_error: f64,
-    relative_speed: f64,
-    body_rate: f64,
-    momentum_angle: f64,
-    speed_margin: f64,
-}
 
 /// What a run has come to.
 #[derive(Clone, Debug)]
@@ -187,18 +176,6 @@ impl MissionOutcome {
         self.plume_time += if applied.hits { applied.length } else { 0.0 };
     }
 
-    /// Whether the plume of a thruster that fires at `thrust` in the state `truth` hits the debris.
-    pub fn plume_hits(
-        &self,
-        scene: &Scene,
-        truth: &Truth,
-        thrust: &[f64; MAX_THRUSTERS],
-        criteria: &MissionCriteria,
-    ) -> bool {
-        let firing = scene.thrusters.iter().zip(thrust).filter(|(_, thrust)| **thrust > 0.0);
-        firing.into_iter().any(|(thruster, _)| plume_hits(truth, thruster.direction, criteria.plume))
-    }
-
     /// A command is no finite number at `time`, s.
     pub fn diverges(&mut self, time: f64) {
         (self.end, self.failure) = (time, Failure::Diverged);
@@ -209,52 +186,9 @@ impl MissionOutcome {
         self.end = truth.time;
         self.failure = failure;
         if failure == Failure::None {
-            self.at_launch = at_launch(scene, truth, launch);
+            self.at_launch = AtLaunch::of(scene, truth, launch);
         }
     }
-}
-
-/// Whether the plume of a thruster that pushes along `direction` (F_s) hits the debris: it leaves against its push.
-fn plume_hits(truth: &Truth, direction: [f64; 3], [range, half_angle]: [f64; 2]) -> bool {
-    let Some(debris) = &truth.debris else { return false };
-    let to_debris = crate::control::vector::difference(debris.r_gdo_e, truth.body.r_co_e);
-    let distance = norm(to_debris);
-    let plume = scaled(-1.0, product(dcm_from_quaternion(truth.body.q_es), direction));
-    distance < range && libm::atan2(norm(cross(plume, to_debris)), dot(plume, to_debris)) < half_angle
-}
-
-/// The angle between two vectors, rad.
-fn angle_between(a: [f64; 3], b: [f64; 3]) -> f64 {
-    libm::atan2(norm(cross(a, b)), dot(a, b))
-}
-
-/// The centres of mass at `truth`; `None` without debris.
-pub fn centers_of(truth: &Truth) -> Option<Centers> {
-    let debris = truth.debris.as_ref()?;
-    let body = &truth.body;
-    Some(Centers { r_co_e: body.r_co_e, v_co_e: body.v_co_e, r_gdo_e: debris.r_gdo_e, v_gdo_e: debris.v_gdo_e })
-}
-
-fn at_launch(scene: &Scene, truth: &Truth, launch: &LaunchState) -> Option<AtLaunch> {
-    let geometry = launch.geometry(&centers_of(truth)?);
-    let (body, debris) = (scene.mass.debris.as_ref()?, truth.debris.as_ref()?);
-    let s3 = product(dcm_from_quaternion(truth.body.q_es), [0.0, 0.0, 1.0]);
-    let momentum = product(dcm_from_quaternion(debris.q_ed), product(body.inertia, debris.omega_de_d));
-    let margin = |(i, model): (usize, &crate::scene::WheelModel)| model.speed_limit - truth.wheels.rates[i].abs();
-    let wheels = scene.actuators.wheels[..scene.mass.wheels.len()].iter().enumerate();
-    Some(AtLaunch {
-        pointing_error: angle_between(s3, geometry.to_debris),
-        axis_offset: geometry.axis_offset(),
-        distance_error: geometry.distance_error(),
-        relative_speed: norm(geometry.relative_velocity),
-        body_rate: norm(truth.body.omega_se_s),
-        // a line has no direction: 0 to pi/2
-        momentum_angle: {
-            let angle = angle_between(momentum, geometry.axis);
-            if momentum == [0.0; 3] { f64::NAN } else { angle.min(core::f64::consts::PI - angle) }
-        },
-        speed_margin: wheels.map(margin).fold(f64::INFINITY, f64::min),
-    })
 }
 
 impl Default for MissionOutcome {

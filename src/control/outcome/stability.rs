@@ -94,7 +94,8 @@ impl Stability {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::control::guidance::geometry::LaunchState;
+    use crate::control::net_launch::geometry::LaunchState;
+    use crate::control::net_launch::launch::PlumeCone;
 
     const PERIOD: f64 = 0.1;
 
@@ -102,7 +103,7 @@ mod tests {
         MissionCriteria {
             launch: LaunchState { distance: 10.0, least_speed: 0.01, approach_axis: [0.0; 3] },
             keep_out: 0.0,
-            plume: [0.0; 2],
+            plume: PlumeCone { range: 0.0, half_angle: 0.0 },
             settling_band: 0.02,
             stability: [from, length],
             period: PERIOD,

@@ -1,10 +1,10 @@
 //! A radar on the ground: positions and velocities in F_e of the base point p and, where there is one, of the debris's centre of mass.
 
-use super::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, XYZ, number, optional};
+use super::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, XYZ, optional};
+use crate::control::declared::declared;
 use crate::control::measurement::{Observes, Values, values};
 use crate::control::truth::Truth;
 use crate::control::vector::sum;
-use crate::scene::LawParameter;
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "ground_radar",
@@ -15,14 +15,20 @@ pub(super) const KIND: SensorKind = SensorKind {
         position("measured_r_gdo_e", "Position of the debris measured by the radar, in F_e"),
         velocity("measured_v_gdo_e", "Velocity of the debris measured by the radar, in F_e"),
     ],
-    observes: Observes::Motion(|table| [number(table, "position_noise_m"), number(table, "velocity_noise_m_s")]),
+    observes: Observes::Motion(|table| {
+        let RadarNumbers { position, velocity } = RadarNumbers::of(table);
+        [position, velocity]
+    }),
     make: |context| Box::new(GroundRadar::new(context)),
 };
 
-static PARAMETERS: [LawParameter; 2] = [
-    optional("position_noise_m", "m", "Standard deviation of each component of a position"),
-    optional("velocity_noise_m_s", "m/s", "Standard deviation of each component of a velocity"),
-];
+declared! {
+    /// Its numbers in campaign files.
+    RadarNumbers = PARAMETERS {
+    position: f64 = optional("position_noise_m", "m", "Standard deviation of each component of a position");
+    velocity: f64 = optional("velocity_noise_m_s", "m/s", "Standard deviation of each component of a velocity");
+    }
+}
 
 const fn position(name: &'static str, meaning: &'static str) -> MeasuredQuantity {
     MeasuredQuantity::new(name, XYZ, ["m", "m"], meaning)
@@ -52,12 +58,8 @@ impl GroundRadar {
             position: context.normal(&format!("{point}_position"), AXES),
             velocity: context.normal(&format!("{point}_velocity"), AXES),
         };
-        GroundRadar {
-            position: context.number("position_noise_m"),
-            velocity: context.number("velocity_noise_m_s"),
-            base: noise("base"),
-            debris: noise("debris"),
-        }
+        let RadarNumbers { position, velocity } = RadarNumbers::of(context.parameters);
+        GroundRadar { position, velocity, base: noise("base"), debris: noise("debris") }
     }
 }
 

@@ -50,22 +50,6 @@ pub struct SensorContext<'a> {
 }
 
 impl SensorContext<'_> {
-    /// The number of the parameter called `key`.
-    ///
-    /// # Panics
-    /// Where the sensor does not declare it as a number.
-    pub fn number(&self, key: &str) -> f64 {
-        number(self.parameters, key)
-    }
-
-    /// The three numbers of the parameter called `key`.
-    ///
-    /// # Panics
-    /// Where the sensor does not declare it as three numbers.
-    pub fn vector(&self, key: &str) -> [f64; 3] {
-        vector(self.parameters, key)
-    }
-
     /// Standard normal numbers of this run for the error called `error`, one for each of `components`.
     pub fn normal<const N: usize>(&self, error: &str, components: [&str; N]) -> NormalErrors<N> {
         let stream = |component: &str| {
@@ -177,28 +161,6 @@ const fn axes(key: &'static str, unit: &'static str, meaning: &'static str, limi
 /// A number that a campaign file may leave out: zero.
 const fn optional(key: &'static str, unit: &'static str, meaning: &'static str) -> LawParameter {
     LawParameter::number(key, unit, meaning, Limit::NotNegative).or(&[0.0])
-}
-
-/// The number of the parameter of `table` called `key`.
-///
-/// # Panics
-/// Where it does not declare it as a number.
-pub(super) fn number(table: &DeclaredTable, key: &str) -> f64 {
-    match table.named(key) {
-        Some([number]) => *number,
-        _ => panic!("{} declares no number {key}", table.name),
-    }
-}
-
-/// The three numbers of the parameter of `table` called `key`.
-///
-/// # Panics
-/// Where it does not declare it as three numbers.
-pub(super) fn vector(table: &DeclaredTable, key: &str) -> [f64; 3] {
-    match table.named(key) {
-        Some(&[x, y, z]) => [x, y, z],
-        _ => panic!("{} declares no vector {key}", table.name),
-    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,8 @@
 //! sv^2 T + su^2 T^3/12 about the mean of the biases at both ends. A turn of more than half a revolution between samples reads as the shorter one.
 
 use super::NormalErrors;
-use super::{AXES, MeasuredQuantity, Sensor, SensorContext, SensorKind, XYZ, axes, number, optional};
+use super::{AXES, MeasuredQuantity, Sensor, SensorContext, SensorKind, XYZ, axes, optional};
+use crate::control::declared::declared;
 use crate::control::measurement::{Observes, Values, values};
 use crate::control::rotation::{turned, vector_of};
 use crate::control::truth::Truth;
@@ -29,25 +30,28 @@ pub(super) const KIND: SensorKind = SensorKind {
     make: |context| Box::new(RateGyro::new(context)),
 };
 
-static PARAMETERS: [LawParameter; 7] = [
-    optional(
+declared! {
+    /// Its numbers in campaign files.
+    GyroNumbers = PARAMETERS {
+    angular_random_walk: f64 = optional(
         "angular_random_walk_rad_sqrt_s",
         "rad/sqrt(s)",
         "Deviation of the angle after a second, of white noise of the rate",
-    ),
-    optional(
+    );
+    bias_random_walk: f64 = optional(
         "bias_random_walk_rad_s_sqrt_s",
         "rad/s/sqrt(s)",
         "Deviation of the bias after a second, of its random walk",
-    ),
-    axes("bias_rad_s", "rad/s", "Bias at the start of the run", Limit::Finite),
-    LawParameter::number("scale", "1", "Measured over true rotation about each axis", Limit::Finite)
+    );
+    bias: [f64; 3] = axes("bias_rad_s", "rad/s", "Bias at the start of the run", Limit::Finite);
+    scale: [f64; 3] = LawParameter::number("scale", "1", "Measured over true rotation about each axis", Limit::Finite)
         .with_components(&AXES)
-        .or(&[1.0; 3]),
-    axes("misalignment_rad", "rad", "Rotation vector from the body to the axes of the gyro", Limit::Finite),
-    optional("quantization_rad", "rad", "Angle of one count; the remainder is carried to the next sample; 0: none"),
-    optional("max_rate_rad_s", "rad/s", "Largest mean rate about each axis that it measures; 0: no limit"),
-];
+        .or(&[1.0; 3]);
+    misalignment: [f64; 3] = axes("misalignment_rad", "rad", "Rotation vector from the body to the axes of the gyro", Limit::Finite);
+    count_angle: f64 = optional("quantization_rad", "rad", "Angle of one count; the remainder is carried to the next sample; 0: none");
+    max_rate: f64 = optional("max_rate_rad_s", "rad/s", "Largest mean rate about each axis that it measures; 0: no limit");
+    }
+}
 
 /// The noise of a gyro, as flight software believes it: Farrenkopf's sv, rad/sqrt(s), and su, rad/s/sqrt(s).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,10 +65,8 @@ pub struct GyroNoise {
 impl GyroNoise {
     /// That of a gyro with the numbers of `table`.
     fn of(table: &DeclaredTable) -> Self {
-        GyroNoise {
-            angular_random_walk: number(table, "angular_random_walk_rad_sqrt_s"),
-            bias_random_walk: number(table, "bias_random_walk_rad_s_sqrt_s"),
-        }
+        let GyroNumbers { angular_random_walk, bias_random_walk, .. } = GyroNumbers::of(table);
+        GyroNoise { angular_random_walk, bias_random_walk }
     }
 }
 
@@ -92,17 +94,17 @@ impl RateGyro {
     /// That of `context`.
     pub fn new(context: &SensorContext<'_>) -> Self {
         let period = context.period;
-        let white = context.number("angular_random_walk_rad_sqrt_s");
-        let walk = context.number("bias_random_walk_rad_s_sqrt_s");
+        let numbers = GyroNumbers::of(context.parameters);
+        let (white, walk) = (numbers.angular_random_walk, numbers.bias_random_walk);
         RateGyro {
             period,
             white_deviation: (white * white * period + walk * walk * period.powi(3) / 12.0).sqrt(),
             walk_deviation: walk * period.sqrt(),
-            bias: context.vector("bias_rad_s"),
-            scale: context.vector("scale"),
-            misalignment: context.vector("misalignment_rad"),
-            count_angle: context.number("quantization_rad"),
-            max_rate: context.number("max_rate_rad_s"),
+            bias: numbers.bias,
+            scale: numbers.scale,
+            misalignment: numbers.misalignment,
+            count_angle: numbers.count_angle,
+            max_rate: numbers.max_rate,
             white: context.normal("angular_random_walk", AXES),
             walk: context.normal("bias_random_walk", AXES),
             before: None,

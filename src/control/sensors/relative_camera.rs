@@ -1,11 +1,11 @@
 //! A camera on the spacecraft: attitude and rate of the debris relative to the spacecraft, within a range.
 
-use super::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, WXYZ, XYZ, number, optional};
+use super::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, WXYZ, XYZ, optional};
+use crate::control::declared::declared;
 use crate::control::measurement::{Observes, Values, values};
 use crate::control::rotation::quaternion_of;
 use crate::control::truth::Truth;
 use crate::control::vector::{conjugate, dcm_from_quaternion, difference, hamilton, norm, product, sum};
-use crate::scene::LawParameter;
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "relative_camera",
@@ -25,20 +25,24 @@ pub(super) const KIND: SensorKind = SensorKind {
         ),
     ],
     observes: Observes::DebrisAttitude(|table| {
-        [number(table, "attitude_noise_rad"), number(table, "rate_noise_rad_s")]
+        let CameraNumbers { attitude_noise, rate_noise, .. } = CameraNumbers::of(table);
+        [attitude_noise, rate_noise]
     }),
     make: |context| Box::new(RelativeCamera::new(context)),
 };
 
-static PARAMETERS: [LawParameter; 3] = [
-    optional(
+declared! {
+    /// Its numbers in campaign files.
+    CameraNumbers = PARAMETERS {
+    attitude_noise: f64 = optional(
         "attitude_noise_rad",
         "rad",
         "Standard deviation of the relative attitude about each axis of the spacecraft",
-    ),
-    optional("rate_noise_rad_s", "rad/s", "Standard deviation of each component of the relative rate"),
-    optional("max_range_m", "m", "Distance of the centres of mass beyond which it gives nothing; 0: no limit"),
-];
+    );
+    rate_noise: f64 = optional("rate_noise_rad_s", "rad/s", "Standard deviation of each component of the relative rate");
+    max_range: f64 = optional("max_range_m", "m", "Distance of the centres of mass beyond which it gives nothing; 0: no limit");
+    }
+}
 
 struct RelativeCamera {
     attitude: f64,
@@ -50,10 +54,11 @@ struct RelativeCamera {
 
 impl RelativeCamera {
     fn new(context: &SensorContext<'_>) -> Self {
+        let numbers = CameraNumbers::of(context.parameters);
         RelativeCamera {
-            attitude: context.number("attitude_noise_rad"),
-            rate: context.number("rate_noise_rad_s"),
-            max_range: context.number("max_range_m"),
+            attitude: numbers.attitude_noise,
+            rate: numbers.rate_noise,
+            max_range: numbers.max_range,
             attitude_noise: context.normal("attitude_noise", AXES),
             rate_noise: context.normal("rate_noise", AXES),
         }

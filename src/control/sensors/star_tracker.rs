@@ -6,14 +6,15 @@
 use super::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, WXYZ, axes, optional};
 use std::sync::Arc;
 
+use crate::control::declared::declared;
 use crate::control::estimators::attitude_innovation::WholeAttitude;
 use crate::control::measurement::{Observes, Values, values};
 use crate::control::rotation::{from_s3_to, quaternion_of};
 use crate::control::small_matrix::{diagonal, multiplied, transposed};
 use crate::control::truth::Truth;
 use crate::control::vector::{hamilton, norm, product};
+use crate::scene::DeclaredTable;
 use crate::scene::schema::Limit;
-use crate::scene::{DeclaredTable, LawParameter};
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "star_tracker",
@@ -28,27 +29,26 @@ pub(super) const KIND: SensorKind = SensorKind {
     make: |context| Box::new(StarTracker::new(context)),
 };
 
-static PARAMETERS: [LawParameter; 4] = [
-    axes(
+declared! {
+    /// Its numbers in campaign files.
+    TrackerNumbers = PARAMETERS {
+    noise: [f64; 3] = axes(
         "noise_rad",
         "rad",
         "Standard deviation about each axis of the tracker: two across the boresight, the third about it",
         Limit::NotNegative,
-    ),
-    axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0, 0.0, 1.0]),
-    axes("bias_rad", "rad", "Constant rotation vector from the body to the body as measured", Limit::Finite),
-    optional("max_rate_rad_s", "rad/s", "Rate of the body above which it gives nothing; 0: no limit"),
-];
-
-/// The rotation F_t -> F_s of a tracker with the numbers of `table`.
-fn c_st(table: &DeclaredTable) -> [[f64; 3]; 3] {
-    from_s3_to(super::vector(table, "boresight"))
+    );
+    boresight: [f64; 3] = axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0, 0.0, 1.0]);
+    bias: [f64; 3] = axes("bias_rad", "rad", "Constant rotation vector from the body to the body as measured", Limit::Finite);
+    max_rate: f64 = optional("max_rate_rad_s", "rad/s", "Rate of the body above which it gives nothing; 0: no limit");
+    }
 }
 
 /// The covariance of the noise of a tracker with the numbers of `table`, in F_s, rad^2.
 fn covariance_s(table: &DeclaredTable) -> [[f64; 3]; 3] {
-    let c_st = c_st(table);
-    let in_tracker = diagonal(super::vector(table, "noise_rad").map(|sigma| sigma * sigma));
+    let numbers = TrackerNumbers::of(table);
+    let c_st = from_s3_to(numbers.boresight);
+    let in_tracker = diagonal(numbers.noise.map(|sigma| sigma * sigma));
     multiplied(&multiplied(&c_st, &in_tracker), &transposed(&c_st))
 }
 
@@ -65,11 +65,12 @@ struct StarTracker {
 
 impl StarTracker {
     fn new(context: &SensorContext<'_>) -> Self {
+        let numbers = TrackerNumbers::of(context.parameters);
         StarTracker {
-            deviations: context.vector("noise_rad"),
-            c_st: c_st(context.parameters),
-            bias: quaternion_of(context.vector("bias_rad")),
-            max_rate: context.number("max_rate_rad_s"),
+            deviations: numbers.noise,
+            c_st: from_s3_to(numbers.boresight),
+            bias: quaternion_of(numbers.bias),
+            max_rate: numbers.max_rate,
             noise: context.normal("noise", AXES),
         }
     }

@@ -6,15 +6,16 @@
 
 use std::sync::Arc;
 
-use super::{Components, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, axes, optional, vector};
+use super::{Components, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, axes, optional};
+use crate::control::declared::declared;
 use crate::control::estimators::attitude_innovation::{AttitudeInnovation, Innovation};
 use crate::control::measurement::{AttitudeSensor, Observes, Values, part, values};
 use crate::control::rotation::from_s3_to;
 use crate::control::small_matrix::{multiplied, transposed};
 use crate::control::truth::Truth;
 use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, product, scaled, transposed_product};
+use crate::scene::DeclaredTable;
 use crate::scene::schema::Limit;
-use crate::scene::{DeclaredTable, LawParameter};
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "sun_sensor",
@@ -29,17 +30,20 @@ pub(super) const KIND: SensorKind = SensorKind {
     make: |context| Box::new(SunSensor::new(context)),
 };
 
-static PARAMETERS: [LawParameter; 5] = [
-    optional("noise_rad", "rad", "Standard deviation of each angle"),
-    axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0, 0.0, 1.0]),
-    axes("sun_direction", "1", "Direction of the Sun in F_e", Limit::Direction).or(&[1.0, 0.0, 0.0]),
-    optional(
+declared! {
+    /// Its numbers in campaign files.
+    SunSensorNumbers = PARAMETERS {
+    noise: f64 = optional("noise_rad", "rad", "Standard deviation of each angle");
+    boresight: [f64; 3] = axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0, 0.0, 1.0]);
+    sun_direction: [f64; 3] = axes("sun_direction", "1", "Direction of the Sun in F_e", Limit::Direction).or(&[1.0, 0.0, 0.0]);
+    half_field_of_view: f64 = optional(
         "half_field_of_view_rad",
         "rad",
         "Angle from the boresight beyond which it sees nothing; 0: all before it",
-    ),
-    optional("bias_rad", "rad", "Constant error of both angles"),
-];
+    );
+    bias: f64 = optional("bias_rad", "rad", "Constant error of both angles");
+    }
+}
 
 /// Where a sensor and the Sun are, and how exactly it measures.
 #[derive(Clone, Copy, Debug)]
@@ -54,12 +58,9 @@ struct Geometry {
 
 impl Geometry {
     fn of(table: &DeclaredTable) -> Self {
-        let sun = vector(table, "sun_direction");
-        Geometry {
-            c_st: from_s3_to(vector(table, "boresight")),
-            sun_e: scaled(1.0 / norm(sun), sun),
-            deviation: super::number(table, "noise_rad"),
-        }
+        let numbers = SunSensorNumbers::of(table);
+        let sun = numbers.sun_direction;
+        Geometry { c_st: from_s3_to(numbers.boresight), sun_e: scaled(1.0 / norm(sun), sun), deviation: numbers.noise }
     }
 
     /// The direction of the Sun in F_t at the attitude `q_es`.
@@ -105,11 +106,12 @@ struct SunSensor {
 
 impl SunSensor {
     fn new(context: &SensorContext<'_>) -> Self {
-        let half = context.number("half_field_of_view_rad");
+        let numbers = SunSensorNumbers::of(context.parameters);
+        let half = numbers.half_field_of_view;
         SunSensor {
             geometry: Geometry::of(context.parameters),
             least_cosine: if half > 0.0 { libm::cos(half).max(0.0) } else { 0.0 },
-            bias: context.number("bias_rad"),
+            bias: numbers.bias,
             noise: context.normal("noise", ["x", "y"]),
         }
     }

@@ -1,6 +1,7 @@
 //! Tachometers of the wheels: their rates relative to the body.
 
 use super::{Components, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, optional};
+use crate::control::declared::declared;
 use crate::control::measurement::{Observes, Values, values};
 use crate::control::truth::Truth;
 use crate::scene::schema::Limit;
@@ -19,10 +20,13 @@ pub(super) const KIND: SensorKind = SensorKind {
     make: |context| Box::new(Tachometers::new(context)),
 };
 
-static PARAMETERS: [LawParameter; 2] = [
-    optional("noise_rad_s", "rad/s", "Standard deviation of each rate"),
-    LawParameter::number("scale", "1", "Measured over true rate", Limit::Finite).or(&[1.0]),
-];
+declared! {
+    /// Its numbers in campaign files.
+    TachometerNumbers = PARAMETERS {
+        noise: f64 = optional("noise_rad_s", "rad/s", "Standard deviation of each rate");
+        scale: f64 = LawParameter::number("scale", "1", "Measured over true rate", Limit::Finite).or(&[1.0]);
+    }
+}
 
 struct Tachometers {
     deviations: [f64; MAX_WHEELS],
@@ -33,11 +37,12 @@ struct Tachometers {
 impl Tachometers {
     fn new(context: &SensorContext<'_>) -> Self {
         let names: [String; MAX_WHEELS] = std::array::from_fn(|wheel| (wheel + 1).to_string());
+        let numbers = TachometerNumbers::of(context.parameters);
         let mut deviations = [0.0; MAX_WHEELS];
-        deviations[..context.drawn.mass.wheels.len()].fill(context.number("noise_rad_s"));
+        deviations[..context.drawn.mass.wheels.len()].fill(numbers.noise);
         Tachometers {
             deviations,
-            scale: context.number("scale"),
+            scale: numbers.scale,
             noise: context.normal("noise", std::array::from_fn(|wheel| names[wheel].as_str())),
         }
     }

@@ -5,7 +5,6 @@
 //! at it: with e the unit vector of v_d, position r_d - L e, velocity v_d, s3 = e.
 
 use crate::control::vector::{difference, dot, norm, scaled, sum};
-use crate::scene::DeclaredTable;
 
 /// The centres of mass of spacecraft and debris, as they are or as they are estimated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,21 +44,6 @@ pub struct LaunchGeometry {
 }
 
 impl LaunchState {
-    /// That of the numbers of `[control]`.
-    pub fn of(table: &DeclaredTable) -> Self {
-        let number = |key: &str| table.named(key).map_or(0.0, |numbers| numbers[0]);
-        let axis = match table.named("approach_axis") {
-            Some(&[x, y, z]) => [x, y, z],
-            _ => [0.0; 3],
-        };
-        let length = norm(axis);
-        LaunchState {
-            distance: number("launch_distance_m"),
-            least_speed: number("least_debris_speed_m_s"),
-            approach_axis: if length > 0.0 { scaled(1.0 / length, axis) } else { axis },
-        }
-    }
-
     /// The axis A_d of debris with the velocity `v_gdo_e` (m/s, F_e); `None` where it is too slow and the file names no other.
     pub fn axis(&self, v_gdo_e: [f64; 3]) -> Option<[f64; 3]> {
         let speed = norm(v_gdo_e);

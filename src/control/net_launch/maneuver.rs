@@ -1,22 +1,15 @@
-//! What guidance has before it at a tick: geometry, the maneuver that is left, the attitude that is wanted.
+//! The geometry of the launch as estimated, the impulse that is left of a maneuver, and the attitude that it wants.
 
-use super::FlightSoftware;
+use super::geometry::{Centers, LaunchGeometry, LaunchState, transfer};
 use crate::control::estimate::Estimate;
-use crate::control::guidance::geometry::{Centers, LaunchGeometry, LaunchState, transfer};
+use crate::control::flight_software::FlightSoftware;
 use crate::control::guidance::phase::{Maneuver, Phase};
-use crate::control::guidance::situation::{Situation, s3_of};
 use crate::control::guidance::target::{AttitudeError, VelocityToGo};
-use crate::control::vector::{dcm_from_quaternion, difference, norm, product, scaled, sum};
-use crate::scene::{MAX_THRUSTERS, Scene};
-
-/// The momentum of the wheels of `scene` relative to the body at the estimated rates, in F_s, N m s.
-pub(super) fn stored_momentum(scene: &Scene, estimate: &Estimate) -> [f64; 3] {
-    let wheels = scene.mass.wheels.iter().zip(estimate.wheel_rates);
-    wheels.fold([0.0; 3], |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
-}
+use crate::control::vector::{dcm_from_quaternion, difference, product, scaled};
+use crate::scene::MAX_THRUSTERS;
 
 /// The geometry of the launch from the state `launch` as estimated; `None` without debris.
-pub(super) fn geometry_of(launch: &LaunchState, estimate: &Estimate) -> Option<LaunchGeometry> {
+pub(in crate::control) fn geometry_of(launch: &LaunchState, estimate: &Estimate) -> Option<LaunchGeometry> {
     let debris = estimate.debris.as_ref()?;
     let centers =
         Centers { r_co_e: estimate.r_co_e, v_co_e: estimate.v_co_e, r_gdo_e: debris.r_gdo_e, v_gdo_e: debris.v_gdo_e };
@@ -67,7 +60,7 @@ impl FlightSoftware {
     }
 
     /// The attitude relative to the target of the phase, and the velocity to go (m/s, F_e).
-    pub(super) fn wanted(&self, geometry: Option<&LaunchGeometry>, time: f64) -> (AttitudeError, [f64; 3]) {
+    pub(in crate::control) fn wanted(&self, geometry: Option<&LaunchGeometry>, time: f64) -> (AttitudeError, [f64; 3]) {
         let estimate = &self.estimate;
         let mut to_go = self.velocity_to_go(geometry, time);
         let Phase { target, thrust, .. } = self.phases[self.guidance.phase];
@@ -75,25 +68,5 @@ impl FlightSoftware {
             to_go.velocity_e = difference(to_go.velocity_e, self.on_its_way(estimate.q_es, time));
         }
         (target.error(estimate.q_es, geometry, &to_go), to_go.velocity_e)
-    }
-
-    /// What the conditions of phases can ask for, but for the error and the velocity to go.
-    pub(super) fn situation(&self, time: f64, geometry: Option<LaunchGeometry>) -> Situation {
-        let estimate = &self.estimate;
-        let rates = &estimate.wheel_rates[..self.believed.mass.wheels.len()];
-        Situation {
-            time,
-            time_in_phase: time - self.guidance.since,
-            body_rate: norm(estimate.omega_se_s),
-            error: AttitudeError::NONE,
-            wheel_speed: rates.iter().fold(0.0, |most, rate| most.max(rate.abs())),
-            wheel_momentum: norm(stored_momentum(&self.believed, estimate)),
-            geometry,
-            velocity_to_go: [0.0; 3],
-            s3_e: s3_of(dcm_from_quaternion(estimate.q_es)),
-            time_to_station: self.guidance.arrival - time,
-            debris_age: if self.spec.has_debris { time - self.debris_seen } else { f64::NAN },
-            debris_rate: estimate.debris.map_or(f64::NAN, |debris| norm(debris.omega_de_d)),
-        }
     }
 }

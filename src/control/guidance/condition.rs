@@ -1,13 +1,13 @@
-//! [`Situation`]: what guidance knows at a tick, and the quantities by which its conditions ask for it.
+//! [`GuidanceInput`]: what guidance knows at a tick, and the quantities by which its conditions ask for it.
 
-use super::geometry::LaunchGeometry;
 use super::target::AttitudeError;
-use crate::control::vector::{norm, product};
+use crate::control::net_launch::geometry::LaunchGeometry;
+use crate::control::vector::norm;
 use crate::sampling::expression::Expression;
 
 /// What guidance knows at a tick: of the estimate, never of the truth.
 #[derive(Clone, Copy, Debug)]
-pub struct Situation {
+pub struct GuidanceInput {
     /// Time since the start of the run, s.
     pub time: f64,
     /// Time since the phase began, s.
@@ -57,19 +57,19 @@ pub struct GuidanceQuantity {
     pub needs_debris: bool,
     /// Which numbers it can have.
     pub range: QuantityRange,
-    value: fn(&Situation) -> f64,
+    value: fn(&GuidanceInput) -> f64,
 }
 
 /// The value of `of` at the launch geometry; NaN without one, which fulfils no condition.
-fn with_geometry(situation: &Situation, of: impl Fn(&LaunchGeometry) -> f64) -> f64 {
-    situation.geometry.as_ref().map_or(f64::NAN, of)
+fn with_geometry(input: &GuidanceInput, of: impl Fn(&LaunchGeometry) -> f64) -> f64 {
+    input.geometry.as_ref().map_or(f64::NAN, of)
 }
 
-const fn own(name: &'static str, meaning: &'static str, value: fn(&Situation) -> f64) -> GuidanceQuantity {
+const fn own(name: &'static str, meaning: &'static str, value: fn(&GuidanceInput) -> f64) -> GuidanceQuantity {
     GuidanceQuantity { name, meaning, needs_debris: false, range: QuantityRange::NotNegative, value }
 }
 
-const fn of_debris(name: &'static str, meaning: &'static str, value: fn(&Situation) -> f64) -> GuidanceQuantity {
+const fn of_debris(name: &'static str, meaning: &'static str, value: fn(&GuidanceInput) -> f64) -> GuidanceQuantity {
     GuidanceQuantity { name, meaning, needs_debris: true, range: QuantityRange::NotNegative, value }
 }
 
@@ -169,13 +169,8 @@ impl Condition {
     }
 
     /// Whether it is met. A value that is not known (NaN) meets no condition.
-    pub fn is_met(&self, situation: &Situation) -> bool {
-        let value = self.expression.value(|variable| (QUANTITIES[self.quantities[variable]].value)(situation));
+    pub fn is_met(&self, input: &GuidanceInput) -> bool {
+        let value = self.expression.value(|variable| (QUANTITIES[self.quantities[variable]].value)(input));
         value != 0.0 && !value.is_nan()
     }
-}
-
-/// s3 in F_e at the attitude `c_es`.
-pub fn s3_of(c_es: [[f64; 3]; 3]) -> [f64; 3] {
-    product(c_es, [0.0, 0.0, 1.0])
 }

@@ -1,0 +1,76 @@
+//! [`declared!`]: numbers of a table of a loop, said once: the rows of their keys, and the struct that reads them.
+
+use crate::scene::{DeclaredTable, LawParameter};
+
+/// What the numbers of a key are in a program.
+pub trait DeclaredValue: Sized {
+    /// The numbers of the key of `row` in `table`: its default where the table does not declare it, NaN without one.
+    fn read(table: &DeclaredTable, row: &LawParameter) -> Self;
+}
+
+impl<const N: usize> DeclaredValue for [f64; N] {
+    fn read(table: &DeclaredTable, row: &LawParameter) -> Self {
+        let numbers = table.named(row.facts.key).or(row.default);
+        numbers.and_then(|numbers| numbers.try_into().ok()).unwrap_or([f64::NAN; N])
+    }
+}
+
+impl DeclaredValue for f64 {
+    fn read(table: &DeclaredTable, row: &LawParameter) -> Self {
+        let [number] = DeclaredValue::read(table, row);
+        number
+    }
+}
+
+/// `declared! { /// doc
+/// Name = ROWS { field: f64 = row; other: [f64; 3] = row; } }`: the struct `Name` with these fields, its rows `ROWS` for campaign files, and
+/// `Name::of(&table)`, which reads them.
+macro_rules! declared {
+    ($(#[$about:meta])* $name:ident = $rows:ident { $($field:ident: $type:ty = $row:expr;)+ }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $name {
+            $(#[doc = concat!("Of the key `", stringify!($row), "`.")] pub $field: $type,)+
+        }
+
+        #[doc = concat!("The keys of [`", stringify!($name), "`].")]
+        pub static $rows: [$crate::scene::LawParameter; [$(stringify!($field)),+].len()] = [$($row),+];
+
+        impl $name {
+            /// Those of `table`; a default where it does not declare a key, NaN without one.
+            pub fn of(table: &$crate::scene::DeclaredTable) -> Self {
+                $name { $($field: $crate::control::declared::DeclaredValue::read(table, &$row)),+ }
+            }
+        }
+    };
+}
+pub(crate) use declared;
+
+/// A limit of which zero is none.
+pub fn limit(number: f64) -> f64 {
+    if number == 0.0 { f64::INFINITY } else { number }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::schema::Limit;
+    use crate::scene::{DeclaredTable, LawParameter, Name};
+
+    declared! {
+        /// Of this test.
+        Numbers = ROWS {
+            gain: f64 = LawParameter::number("gain", "1", "Gain", Limit::Positive);
+            bias: [f64; 3] = LawParameter::number("bias", "1", "Bias", Limit::Finite).with_components(&["x", "y", "z"]).or(&[1.0, 2.0, 3.0]);
+        }
+    }
+
+    /// Law: a field has the numbers of its own key; where the table does not have the key, the default, or NaN without one.
+    #[test]
+    fn fields_have_the_numbers_of_their_keys() {
+        let mut table = DeclaredTable::of(Name::NONE, &ROWS);
+        table.values.copy_from_slice(&[5.0, 6.0, 7.0, 8.0]);
+        assert_eq!(Numbers::of(&table), Numbers { gain: 5.0, bias: [6.0, 7.0, 8.0] });
+        let other = Numbers::of(&DeclaredTable::NONE);
+        assert!(other.gain.is_nan() && other.bias == [1.0, 2.0, 3.0]);
+    }
+}

@@ -1,0 +1,87 @@
+//! What is true at the launch of a net, and whether plumes hit the debris before it.
+
+use super::geometry::{Centers, LaunchState};
+use crate::control::truth::Truth;
+use crate::control::vector::{cross, dcm_from_quaternion, difference, dot, norm, product, scaled};
+use crate::scene::{MAX_THRUSTERS, Scene};
+
+/// What is true at the launch.
+#[derive(Clone, Copy, Debug)]
+pub struct AtLaunch {
+    /// Angle between s3 and the line to the debris, rad.
+    pub pointing_error: f64,
+    /// Distance from the line A_d, m.
+    pub axis_offset: f64,
+    /// Distance behind the debris along it, less the wanted one, m.
+    pub distance_error: f64,
+    /// Speed relative to the debris, m/s.
+    pub relative_speed: f64,
+    /// Magnitude of the angular velocity of the body relative to F_e, rad/s.
+    pub body_rate: f64,
+    /// Angle between the angular momentum of the debris and A_d, 0 to pi/2, rad; NaN where it does not turn.
+    pub momentum_angle: f64,
+    /// Smallest difference between the limit of a wheel's speed and its speed, rad/s.
+    pub speed_margin: f64,
+}
+
+/// Where the plume of a thruster counts as hitting the debris.
+#[derive(Clone, Copy, Debug)]
+pub struct PlumeCone {
+    /// Largest distance to the debris, m.
+    pub range: f64,
+    /// Half angle about the direction in which the plume leaves, rad.
+    pub half_angle: f64,
+}
+
+impl PlumeCone {
+    /// Whether the plume of a thruster of `scene` that fires at `thrust` (N) in the state `truth` hits the debris.
+    pub fn hits(&self, scene: &Scene, truth: &Truth, thrust: &[f64; MAX_THRUSTERS]) -> bool {
+        let mut firing = scene.thrusters.iter().zip(thrust).filter(|(_, thrust)| **thrust > 0.0);
+        firing.any(|(thruster, _)| self.hits_from(truth, thruster.direction))
+    }
+
+    /// Whether the plume of a thruster that pushes along `direction` (F_s) hits the debris: it leaves against its push.
+    fn hits_from(&self, truth: &Truth, direction: [f64; 3]) -> bool {
+        let Some(debris) = &truth.debris else { return false };
+        let to_debris = difference(debris.r_gdo_e, truth.body.r_co_e);
+        let plume = scaled(-1.0, product(dcm_from_quaternion(truth.body.q_es), direction));
+        norm(to_debris) < self.range && angle_between(plume, to_debris) < self.half_angle
+    }
+}
+
+/// The angle between two vectors, rad.
+fn angle_between(a: [f64; 3], b: [f64; 3]) -> f64 {
+    libm::atan2(norm(cross(a, b)), dot(a, b))
+}
+
+/// The centres of mass at `truth`; `None` without debris.
+pub fn centers_of(truth: &Truth) -> Option<Centers> {
+    let debris = truth.debris.as_ref()?;
+    let body = &truth.body;
+    Some(Centers { r_co_e: body.r_co_e, v_co_e: body.v_co_e, r_gdo_e: debris.r_gdo_e, v_gdo_e: debris.v_gdo_e })
+}
+
+impl AtLaunch {
+    /// That of the state `truth` of a run of `scene`, judged by the launch state `launch`; `None` without debris.
+    pub fn of(scene: &Scene, truth: &Truth, launch: &LaunchState) -> Option<AtLaunch> {
+        let geometry = launch.geometry(&centers_of(truth)?);
+        let (body, debris) = (scene.mass.debris.as_ref()?, truth.debris.as_ref()?);
+        let s3 = product(dcm_from_quaternion(truth.body.q_es), [0.0, 0.0, 1.0]);
+        let momentum = product(dcm_from_quaternion(debris.q_ed), product(body.inertia, debris.omega_de_d));
+        let margin = |(i, model): (usize, &crate::scene::WheelModel)| model.speed_limit - truth.wheels.rates[i].abs();
+        let wheels = scene.actuators.wheels[..scene.mass.wheels.len()].iter().enumerate();
+        Some(AtLaunch {
+            pointing_error: angle_between(s3, geometry.to_debris),
+            axis_offset: geometry.axis_offset(),
+            distance_error: geometry.distance_error(),
+            relative_speed: norm(geometry.relative_velocity),
+            body_rate: norm(truth.body.omega_se_s),
+            // a line has no direction: 0 to pi/2
+            momentum_angle: {
+                let angle = angle_between(momentum, geometry.axis);
+                if momentum == [0.0; 3] { f64::NAN } else { angle.min(core::f64::consts::PI - angle) }
+            },
+            speed_margin: wheels.map(margin).fold(f64::INFINITY, f64::min),
+        })
+    }
+}
