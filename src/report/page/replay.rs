@@ -5,7 +5,8 @@ use serde_json::{Value, json};
 use crate::analysis::observed::Observed;
 use crate::analysis::outcomes::outcomes;
 use crate::campaign::Plan;
-use crate::control::guidance::geometry::LaunchState;
+use crate::control::net_launch::geometry::LaunchState;
+use crate::control::net_launch::parameters::DebrisNumbers;
 use crate::ensemble::SingleRun;
 use crate::math::vector::{dcm_from_quaternion, difference, product};
 use crate::report::page::errors::sentence;
@@ -198,13 +199,8 @@ pub fn approach_goal(plan: &Plan, run: &SingleRun) -> Option<ApproachGoal> {
 
 /// The radius within which a mission fails, m; zero without one.
 pub fn keep_out(plan: &Plan) -> f64 {
-    plan.nominal
-        .control
-        .named("keep_out_m")
-        .and_then(|numbers| numbers.first())
-        .copied()
-        .filter(|x| *x > 0.0)
-        .unwrap_or(0.0)
+    let spec = plan.law.as_ref().and_then(|law| law.spec());
+    if spec.is_some() { DebrisNumbers::of(&plan.nominal.control.law).keep_out } else { 0.0 }
 }
 
 /// What the run is about: names and values of the outcomes, and of the body's motion at the end, as they are shown.
