@@ -11,3 +11,4 @@ mod documents;
 mod examples;
 mod gallery;
 mod generated_tables;
+mod words;
