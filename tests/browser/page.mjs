@@ -187,6 +187,22 @@ async function checkMission(page, name) {
   problems.push(...wrong.map((text) => `${name}: replay: ${text}`));
 }
 
+// Full screen shows the replay alone, larger than before; leaving it restores the page.
+async function checkFullScreen(page, name) {
+  const height = () => page.$eval(".stage canvas", (canvas) => canvas.getBoundingClientRect().height);
+  const before = await height();
+  const toggle = async (isFull) => {
+    await page.$eval(".replay button[title^='Full screen']", (button) => button.scrollIntoView({ block: "center" }));
+    await page.click(".replay button[title^='Full screen']");
+    await page.waitForFunction((full) => Boolean(document.fullscreenElement?.matches(".replay")) === full, { timeout: 5000 }, isFull);
+    await new Promise((resolve) => setTimeout(resolve, 300));
+  };
+  await toggle(true);
+  if ((await height()) <= before) problems.push(`${name}: full screen is not larger: ${await height()} pixels high instead of ${before}`);
+  await toggle(false);
+  if (Math.abs((await height()) - before) > 2) problems.push(`${name}: after full screen the replay is ${await height()} pixels high instead of ${before}`);
+}
+
 // A figure over time leads the replay: a click goes to that time.
 async function checkCursor(page, name) {
   const plot = await page.$("#time figure .plot");
@@ -300,6 +316,7 @@ async function checked(browser, file) {
   await checkReplay(page, name);
   await checkNumbers(page, name);
   if (await page.$(".replay")) {
+    await checkFullScreen(page, name);
     await checkCursor(page, name);
     await checkStill(page, name);
   }
