@@ -54,6 +54,7 @@ export class Replay {
       this.show();
     });
     new ResizeObserver(() => this.resize()).observe(this.stage);
+    place.addEventListener("fullscreenchange", () => this.resize());
   }
 
   build() {
