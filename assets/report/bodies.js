@@ -7,10 +7,14 @@ function material(three, color, opacity = 1) {
   return new three.MeshLambertMaterial({ color, transparent: opacity < 1, opacity, side: three.DoubleSide, depthWrite: opacity === 1 });
 }
 
+function edges(three, geometry, color) {
+  return new three.LineSegments(new three.EdgesGeometry(geometry, 30), new three.LineBasicMaterial({ color }));
+}
+
 function edged(three, geometry, color, opacity, edge) {
   const group = new three.Group();
   group.add(new three.Mesh(geometry, material(three, color, opacity)));
-  group.add(new three.LineSegments(new three.EdgesGeometry(geometry, 30), new three.LineBasicMaterial({ color: edge })));
+  group.add(edges(three, geometry, edge));
   return group;
 }
 
@@ -36,19 +40,16 @@ function partGeometry(three, part) {
   return new three.SphereGeometry(part.shape === "sphere" ? a : 0.05, 24, 16);
 }
 
-// The body: its parts in F_s, translucent so that the wheels are seen.
-export function bodyGroup(three, scene, palette) {
+// The body: its parts in F_s, translucent so that the wheels are seen; edges alone where `color` is given.
+export function bodyGroup(three, scene, palette, color) {
   const group = new three.Group();
   for (const part of scene.parts) {
-    const object = edged(three, partGeometry(three, part), palette.hues[HUE_PLACES.body], 0.22, palette.hues[HUE_PLACES.body]);
+    const geometry = partGeometry(three, part);
+    const hue = palette.hues[HUE_PLACES.body];
+    const object = color ? edges(three, geometry, color) : edged(three, geometry, hue, 0.22, hue);
     object.position.set(...part.position);
-    if (part.attitude) object.quaternion.copy(quaternionOf(three, part.attitude));
-    if (part.axes) {
-      const [r0, r1, r2] = part.axes;
-      const matrix = new three.Matrix4().set(r0[0], r0[1], r0[2], 0, r1[0], r1[1], r1[2], 0, r2[0], r2[1], r2[2], 0, 0, 0, 0, 1);
-      if (matrix.determinant() < 0) matrix.multiply(new three.Matrix4().makeScale(1, 1, -1));
-      object.quaternion.setFromRotationMatrix(matrix);
-    }
+    const [r0, r1, r2] = part.turn;
+    object.quaternion.setFromRotationMatrix(new three.Matrix4().set(...r0, 0, ...r1, 0, ...r2, 0, 0, 0, 0, 1));
     group.add(object);
   }
   return group;
@@ -116,6 +117,6 @@ export function curve(three, points, radius, color) {
   return new three.Line(geometry, new three.LineBasicMaterial({ color }));
 }
 
-export function sphere(three, radius, color) {
-  return new three.Mesh(new three.SphereGeometry(radius, 24, 12), new three.MeshBasicMaterial({ color, wireframe: true, transparent: true, opacity: 0.09 }));
+export function sphere(three, radius, color, opacity = 0.09) {
+  return new three.Mesh(new three.SphereGeometry(radius, 24, 12), new three.MeshBasicMaterial({ color, wireframe: true, transparent: true, opacity }));
 }

@@ -105,6 +105,13 @@ export class FigureView {
     });
     this.plot.addEventListener("pointerleave", () => this.leave());
     this.plot.addEventListener("blur", () => this.leave());
+    // a figure over time leads the replay, as the replay leads its cursor
+    this.plot.addEventListener("click", (event) => {
+      if (!this.figure.time || !this.chart) return;
+      const box = this.plot.getBoundingClientRect();
+      const at = [event.clientX - box.left, event.clientY - box.top];
+      if (this.chart.containPixel({ gridIndex: 0 }, at)) document.dispatchEvent(new CustomEvent("replaytime", { detail: this.chart.convertFromPixel({ gridIndex: 0 }, at)[0] }));
+    });
     this.plot.addEventListener("dblclick", () => this.chart?.dispatchAction({ type: "dataZoom", start: 0, end: 100 }));
     this.plot.addEventListener("keydown", (event) => {
       const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];

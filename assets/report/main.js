@@ -44,6 +44,7 @@ async function startPage() {
       document.getElementById("replay").scrollIntoView();
     });
   }
+  document.addEventListener("replaytime", async (event) => (await replay())?.goTo(event.detail));
   if (location.hash) document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView();
   // for tests of the page, and for saving it complete
   globalThis.spindriftPage = { drawAll, replay };

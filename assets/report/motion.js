@@ -92,11 +92,28 @@ export class Motion {
       angles: this.mixed(this.run.angles, this.wheels, place),
     };
     if (this.run.debris) {
-      state.debris = this.mixed(this.run.debris.position, 3, place);
+      state.debris = this.mixed(this.run.debris.relative, 3, place);
       const [a, b] = [0, 1].map((next) => Array.from(this.run.debris.attitude.subarray(4 * (place[0] + next), 4 * (place[0] + next) + 4)));
       state.debrisAttitude = product(a, ofVector(turnBetween(a, b, [0, 0, 0]).map((value) => value * place[1])));
     }
     return state;
+  }
+
+  // The spacecraft relative to the debris at the known times; empty without debris.
+  path() {
+    const { debris, times } = this.run;
+    if (!debris) return [];
+    return Array.from(times, (_, index) => [0, 1, 2].map((axis) => -debris.relative[3 * index + axis]));
+  }
+
+  // The components of a number that changes, in the unit that is shown; one that is held keeps its value until the next time.
+  live(number, time) {
+    const [index, part] = this.place(time);
+    const width = Math.max(1, number.components.length);
+    const at = number.held ? (part < 1 ? [index, 0] : [index, 1]) : [index, part];
+    // a value that is not known is not mixed into one that is
+    const values = at[1] === 0 ? Array.from(number.values.subarray(width * index, width * (index + 1))) : this.mixed(number.values, width, at);
+    return values.map((value) => value * number.factor);
   }
 
   // The directions of s3 at the known times.

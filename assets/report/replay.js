@@ -4,8 +4,12 @@ import { moveCursors } from "./figure.js";
 import { readable } from "./numbers.js";
 import { HUE_PLACES, colors, onTheme } from "./theme.js";
 import { Motion, rotated } from "./motion.js";
+import { Approach } from "./approach.js";
+import { LiveNumbers, PhaseMarks } from "./live.js";
 import { arrow, axes, bodyGroup, curve, debrisGroup, pointTo, quaternionOf, sphere, thrusterGroup, wheelGroup } from "./bodies.js";
 
+// the speed at first: all of the run in this time, s
+const WHOLE_IN = 20;
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 50, 100];
 // faster than this a wheel is a blur, and pictures of it seem to stand still or turn backwards
 const FASTEST_SEEN = 2 * Math.PI;
@@ -33,6 +37,9 @@ export class Replay {
     this.time = 0;
     this.isPlaying = false;
     this.camera = new three.PerspectiveCamera(40, 1.6, 0.01 * this.size, 400 * this.size);
+    // the nominal run, where it is one of those that are shown
+    this.nominal = data.runs[0].sample === 0 ? new Motion(data.runs[0], data.scene.wheels.length) : null;
+    this.still = [...place.querySelectorAll(".still")];
     this.camera.up.set(0, 0, 1);
     this.renderer = new three.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.controls = new three.OrbitControls(this.camera, this.renderer.domElement);
@@ -47,6 +54,7 @@ export class Replay {
       this.show();
     });
     new ResizeObserver(() => this.resize()).observe(this.stage);
+    place.addEventListener("fullscreenchange", () => this.resize());
   }
 
   build() {
@@ -66,28 +74,43 @@ export class Replay {
     this.thrusters = data.scene.thrusters.map((thruster) => thrusterGroup(three, thruster, size, palette));
     for (const { group } of [...this.wheels, ...this.thrusters]) inner.add(group);
     this.craft.add(inner, axes(three, 0.75 * size, palette.hues[HUE_PLACES.body]));
-    this.world.add(this.craft, axes(three, 1.5 * size, palette.quiet), sphere(three, 1.6 * size, palette.quiet));
+    this.ghost = new three.Group();
+    const ghost = bodyGroup(three, data.scene, palette, palette.quiet);
+    ghost.position.copy(inner.position);
+    this.ghost.add(ghost);
+    // what is drawn about the spacecraft, and is too large beside an approach at scale
+    this.local = new three.Group();
+    this.local.add(axes(three, 1.5 * size, palette.quiet), sphere(three, 1.6 * size, palette.quiet));
+    this.approach = data.scene.debris ? new Approach(three, data.scene, palette) : null;
+    if (this.approach) this.world.add(this.approach.group);
+    this.world.add(this.craft, this.ghost, this.local);
     this.arrows = { s3: palette.hues[6], momentum: palette.hues[7], omega: palette.hues[HUE_PLACES.omega] };
     for (const [name, color] of Object.entries(this.arrows)) {
       this.arrows[name] = arrow(three, color, 0.012);
-      this.world.add(this.arrows[name]);
+      this.local.add(this.arrows[name]);
     }
     this.debris = data.scene.debris ? debrisGroup(three, data.scene.debris, palette) : null;
     if (this.debris) this.world.add(this.debris);
     // the line of sight, and the launch axis through the debris
     this.sight = this.debris ? arrow(three, palette.quiet, 0.006) : null;
-    this.launchAxis = this.debris && data.runs.some((run) => run.loop && run.loop.axis) ? arrow(three, palette.hues[HUE_PLACES.debris], 0.008) : null;
-    for (const line of [this.sight, this.launchAxis]) if (line) this.world.add(line);
+    this.launchAxis = this.debris && data.runs.some((run) => run.goal) ? arrow(three, palette.hues[HUE_PLACES.debris], 0.008) : null;
+    for (const line of [this.sight, this.launchAxis]) if (line) this.local.add(line);
     this.trailGroup = new three.Group();
-    this.world.add(this.trailGroup);
+    this.local.add(this.trailGroup);
     this.renderer.setClearColor(palette.background);
-    if (this.motion) this.drawTrail();
+    if (this.motion) this.drawPaths();
   }
 
-  drawTrail() {
+  drawPaths() {
+    this.approach?.show(this.motion, this.hasGhost() ? this.nominal : null);
     const points = this.motion.trail();
     this.trailGroup.clear();
     this.trailGroup.add(curve(this.three, points, 1.6 * this.size, this.palette.hues[6]));
+  }
+
+  // Whether the nominal run is shown beside this one.
+  hasGhost() {
+    return Boolean(this.wantsGhost && this.nominal && this.motion.run.sample !== 0);
   }
 
   layout() {
@@ -95,7 +118,7 @@ export class Replay {
     this.stage.append(this.renderer.domElement);
     this.stage.tabIndex = 0;
     this.stage.setAttribute("role", "application");
-    this.stage.setAttribute("aria-label", "Replay in three dimensions. Space plays and pauses, arrows step, 1 2 3 choose the camera.");
+    this.stage.setAttribute("aria-label", "Replay in three dimensions. Space plays and pauses, arrows step, 1 2 3 4 choose the camera.");
     const bar = control("div", { className: "controls" });
     const button = (text, title, action) => {
       const made = control("button", { type: "button", title }, text);
@@ -113,9 +136,13 @@ export class Replay {
     button("▶", "One step forward (right arrow)", () => this.step(1));
     this.speed = control("select", { title: "Speed" });
     this.speed.setAttribute("aria-label", "Speed");
-    SPEEDS.forEach((speed) => this.speed.append(new Option(`${speed} ×`, speed, speed === 1, speed === 1)));
+    this.speed.append(new Option(`all in ${WHOLE_IN} s`, "whole", true, true));
+    SPEEDS.forEach((speed) => this.speed.append(new Option(`${speed} ×`, speed)));
     bar.append(this.speed);
-    for (const name of ["inertial", "body", "chase"]) button(name, `Camera: ${name}`, () => this.view(name)).dataset.camera = name;
+    const cameras = this.data.scene.debris ? ["inertial", "body", "chase", "approach"] : ["inertial", "body", "chase"];
+    for (const name of cameras) button(name, `Camera: ${name}`, () => this.view(name)).dataset.camera = name;
+    this.ghostButton = button("nominal too", "Show the nominal run beside this one", () => this.toggleGhost());
+    if (this.place.requestFullscreen) button("full screen", "Full screen (f)", () => this.fullScreen());
     this.slider = control("input", { type: "range", min: 0, step: "any", value: 0, className: "time" });
     this.slider.setAttribute("aria-label", "Time");
     this.slider.addEventListener("input", () => this.goTo(Number(this.slider.value)));
@@ -134,21 +161,26 @@ export class Replay {
     }));
     paint();
     onTheme(paint);
-    this.numbers = control("dl", { className: "numbers" });
+    this.live = new LiveNumbers();
+    this.marks = new PhaseMarks((time) => this.goTo(time));
+    this.numbers = control("dl", { className: "numbers ends" });
     const beside = control("div", { className: "beside" });
-    beside.append(this.stage, this.numbers);
-    this.place.replaceChildren(bar, beside, this.slider, this.clock, legend, this.notes);
+    const column = control("div");
+    column.append(this.live.box, this.numbers);
+    beside.append(this.stage, column);
+    this.place.replaceChildren(bar, beside, this.slider, this.marks.box, this.clock, legend, this.notes, ...this.still);
     this.stage.addEventListener("keydown", (event) => this.key(event));
     this.resize();
   }
 
   key(event) {
-    const cameras = { 1: "inertial", 2: "body", 3: "chase" };
+    const cameras = { 1: "inertial", 2: "body", 3: "chase", ...(this.approach ? { 4: "approach" } : {}) };
     if (event.key === " ") this.toggle();
     else if (event.key === "ArrowLeft") this.step(-1);
     else if (event.key === "ArrowRight") this.step(1);
     else if (event.key === "Home") this.goTo(0);
     else if (event.key === "End") this.goTo(this.motion.last);
+    else if (event.key === "f") this.fullScreen();
     else if (cameras[event.key]) this.view(cameras[event.key]);
     else return;
     event.preventDefault();
@@ -156,12 +188,31 @@ export class Replay {
 
   resize() {
     const width = Math.max(240, this.stage.clientWidth);
-    const height = Math.round(Math.min(560, 0.6 * width));
+    const isFull = document.fullscreenElement === this.place;
+    const height = Math.round(isFull ? Math.max(240, innerHeight - 230) : Math.min(560, 0.6 * width));
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    this.marks.layout();
     this.render();
+  }
+
+  fullScreen() {
+    if (document.fullscreenElement === this.place) document.exitFullscreen();
+    else this.place.requestFullscreen();
+  }
+
+  // Seconds of the run in a second.
+  rate() {
+    return this.speed.value === "whole" ? this.motion.last / WHOLE_IN : Number(this.speed.value);
+  }
+
+  toggleGhost() {
+    this.wantsGhost = !this.wantsGhost;
+    this.ghostButton.setAttribute("aria-pressed", String(this.wantsGhost));
+    this.drawPaths();
+    this.show();
   }
 
   // Shows the run of this index.
@@ -182,11 +233,19 @@ export class Replay {
     if (this.slowed > 1) notes.push(`Wheels turn at their true ratio, but ${this.slowed} times slower than they are, so that they can be seen.`);
     if (this.data.scene.is_equivalent) notes.push("The body is given by its inertia: it is shown as the box of the same mass and inertia.");
     if (this.data.scene.thrusters.length > 0) notes.push(run.loop ? "Plumes show thrusters that the loop fires." : "Plumes show the nominal schedule.");
-    if (this.launchAxis && run.loop && run.loop.axis) notes.push("The grey line is the line of sight, the line at the debris the launch axis A_d.");
+    if (run.goal) notes.push("The grey line is the line of sight, the line at the debris the launch axis A_d.");
     notes.push("Arrows show directions only; the sphere shows where s3 points in F_e.");
+    if (this.approach) notes.push("The approach is at scale, in the frame of the debris's centre with the axes of F_e.");
+    if (run.sample !== 0 && this.nominal) notes.push("Grey edges: the nominal run at the same time.");
+    this.wantsGhost = run.failed;
+    this.ghostButton.hidden = run.sample === 0 || !this.nominal;
+    this.ghostButton.setAttribute("aria-pressed", String(this.wantsGhost));
     this.notes.textContent = notes.join(" ");
     this.numbers.replaceChildren(...run.numbers.flatMap(([name, value]) => [control("dt", {}, name), control("dd", {}, value)]));
-    this.drawTrail();
+    this.live.choose(this.motion);
+    this.marks.choose(this.motion);
+    this.drawPaths();
+    if (this.cameraName === "approach") this.view("approach");
     this.goTo(Math.min(this.time, this.motion.last));
   }
 
@@ -197,9 +256,12 @@ export class Replay {
 
   view(name) {
     this.cameraName = name;
-    const distance = 5.2 * this.size;
-    this.controls.target.set(0, 0, 0);
-    this.camera.position.set(0.75 * distance, 0.5 * distance, 0.42 * distance);
+    const isApproach = name === "approach";
+    const near = [0.75, 0.5, 0.42].map((value) => 5.2 * value * this.size);
+    this.controls.target.set(...(isApproach ? this.approach.bounds.center : [0, 0, 0]));
+    this.camera.position.set(...(isApproach ? this.approach.camera(this.size) : near));
+    this.camera.far = Math.max(400 * this.size, isApproach ? 20 * this.approach.bounds.reach : 0);
+    this.camera.updateProjectionMatrix();
     for (const button of this.place.querySelectorAll("[data-camera]")) button.setAttribute("aria-pressed", String(button.dataset.camera === name));
     this.controls.update();
     this.show();
@@ -215,7 +277,7 @@ export class Replay {
       if (!this.isPlaying) return;
       const step = before === null ? 0 : (now - before) / 1000;
       before = now;
-      const next = this.time + step * Number(this.speed.value);
+      const next = this.time + step * this.rate();
       this.goTo(Math.min(next, this.motion.last));
       if (next >= this.motion.last) this.toggle();
       else requestAnimationFrame(frame);
@@ -232,12 +294,14 @@ export class Replay {
     this.goTo(times[Math.min(times.length - 1, Math.max(0, next))]);
   }
 
-  goTo(time) {
+  goTo(wanted) {
+    const time = Math.min(this.motion.last, Math.max(0, wanted));
     this.time = time;
     this.slider.value = String(time);
     const { loop } = this.motion.run;
     const phase = loop ? `, phase ${loop.phases[loop.phase[this.motion.place(time)[0]]]}` : "";
     this.clock.textContent = `${time.toFixed(this.motion.last < 100 ? 3 : 1)} s of ${readable(this.motion.run.duration)} s${phase}`;
+    this.live.goTo(time);
     moveCursors(time);
     this.show();
   }
@@ -252,6 +316,11 @@ export class Replay {
     const frame = this.cameraName === "body" ? inverse : [1, 0, 0, 0];
     this.world.quaternion.copy(quaternionOf(three, frame));
     this.craft.quaternion.copy(quaternionOf(three, state.attitude));
+    const isApproach = this.cameraName === "approach";
+    this.local.visible = !isApproach;
+    if (this.approach) this.approach.group.visible = isApproach;
+    this.craft.position.set(...(isApproach ? state.debris.map((value) => -value) : [0, 0, 0]));
+    this.placeGhost(isApproach);
     this.wheels.forEach(({ spinning }, index) => spinning.rotation.set(0, 0, state.angles[index] / this.slowed));
     const arc = this.data.scene.arcs.find((each) => each.start <= this.time && this.time < each.end);
     const { loop } = motion.run;
@@ -266,18 +335,32 @@ export class Replay {
     this.render();
   }
 
+  // The nominal run at the same time, or at its end.
+  placeGhost(isApproach) {
+    this.ghost.visible = this.hasGhost();
+    if (!this.ghost.visible) return;
+    const state = this.nominal.at(Math.min(this.time, this.nominal.last));
+    this.ghost.quaternion.copy(quaternionOf(this.three, state.attitude));
+    this.ghost.position.set(...(isApproach ? state.debris.map((value) => -value) : [0, 0, 0]));
+  }
+
   // The debris to scale; where it is out of the picture, at the edge of the sphere in its direction.
   placeDebris(state) {
     const distance = Math.hypot(...state.debris);
+    this.debris.quaternion.copy(quaternionOf(this.three, state.debrisAttitude));
+    if (this.cameraName === "approach") {
+      this.debris.position.set(0, 0, 0);
+      this.clock.dataset.debris = "";
+      return;
+    }
     const isFar = distance > 1.75 * this.size;
     const place = isFar ? state.debris.map((value) => (value / distance) * 1.75 * this.size) : state.debris;
     this.debris.position.set(...place);
-    this.debris.quaternion.copy(quaternionOf(this.three, state.debrisAttitude));
     if (distance > 0) pointTo(this.three, this.sight, state.debris, Math.hypot(...place));
     if (this.launchAxis) {
-      const { loop } = this.motion.run;
-      this.launchAxis.visible = Boolean(loop && loop.axis);
-      if (this.launchAxis.visible) pointTo(this.three, this.launchAxis, loop.axis, this.size);
+      const { goal } = this.motion.run;
+      this.launchAxis.visible = Boolean(goal);
+      if (goal) pointTo(this.three, this.launchAxis, goal.axis, this.size);
       this.launchAxis.position.set(...place);
     }
     this.clock.dataset.debris = isFar ? `debris ${readable(distance, 4)} m away, shown nearer` : "";
@@ -303,7 +386,7 @@ export function startReplay(data, three) {
   try {
     return new Replay(data, three, place);
   } catch (error) {
-    place.textContent = `This browser shows no 3D graphics (WebGL), so there is no replay here. (${error.message})`;
+    place.querySelector(":scope > p:not(.still)").textContent = `This browser shows no 3D graphics (WebGL), so only a still of the replay is here. (${error.message})`;
     return null;
   }
 }

@@ -134,7 +134,8 @@ impl<'a> Document<'a> {
                     key: key.clone(),
                     value: Some(text.to_owned()),
                     allowed: format!("set where a campaign has the key ({why})"),
-                    remedy: "write the key as messages name it: campaign.duration_s, wheels.w1.rate_rad_s".to_owned(),
+                    remedy: "write the key as shown in error messages: campaign.duration_s, wheels.w1.rate_rad_s"
+                        .to_owned(),
                     excerpt: None,
                 })
             })?;

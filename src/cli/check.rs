@@ -87,7 +87,7 @@ fn computed(text: &mut String, ensemble: &Ensemble<'_>) -> std::fmt::Result {
     for field in StateField::ALL.into_iter().filter(|field| has(ensemble.request(), *field)) {
         let name = field_name(field);
         match reasons.iter().find(|(needed, _)| *needed == field) {
-            Some((_, reason)) => writeln!(text, "{name:<44} needed because of {reason}")?,
+            Some((_, reason)) => writeln!(text, "{name:<44} needed by {reason}")?,
             None => writeln!(text, "{name:<44} not computed: no requested observable needs it")?,
         }
     }
@@ -99,8 +99,8 @@ fn computed(text: &mut String, ensemble: &Ensemble<'_>) -> std::fmt::Result {
         ("wheel motors", !scene.turning_wheels().is_empty(), acting.motors, is_held),
     ] {
         let why = match (scheduled, held) {
-            (true, true) => "needed because they hold the speed of wheels",
-            (true, false) => "needed because of the schedule",
+            (true, true) => "needed to hold the speed of wheels",
+            (true, false) => "needed by the schedule",
             _ => "not computed: no command of the schedule acts",
         };
         if exists {

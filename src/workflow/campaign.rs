@@ -73,7 +73,7 @@ impl<'a> Campaign<'a> {
         Campaign { text: Some(text.to_owned()), ..Self::from_file(name, session) }
     }
 
-    /// With another value for a key of the file, as messages name it: `("wheels.w1.rate_rad_s", "20 rpm")`.
+    /// Overrides a key of the file, named as in error messages: `("wheels.w1.rate_rad_s", "20 rpm")`.
     #[must_use]
     pub fn set(mut self, key: &str, value: &str) -> Self {
         self.overrides.settings.push((key.to_owned(), value.to_owned()));

@@ -69,6 +69,10 @@ async function checkWithoutScripts(browser, file, name) {
   const page = await opened(browser, file, { width: 1300, height: 900 }, "light", false);
   const text = await page.evaluate(() => document.body.innerText);
   for (const part of ["Did it run?", "spindrift", "Statistics"]) if (!text.includes(part)) problems.push(`${name}: without scripts there is no "${part}"`);
+  if (text.includes("The replay needs")) {
+    const still = await page.$eval(".replay svg.still", (element) => element.getBoundingClientRect().height);
+    if (still < 100) problems.push(`${name}: without scripts there is no still of the replay`);
+  }
   const cards = await page.$$eval(".card", (list) => list.map((card) => card.getBoundingClientRect().top));
   if (cards.length === 0) problems.push(`${name}: there is no card`);
   if (cards.some((top) => top > 900)) problems.push(`${name}: a card is below the first screen`);
@@ -140,6 +144,87 @@ async function checkLinks(page, name) {
   }
 }
 
+// The replay is the mission: it starts at a speed that plays in 20 s, its numbers are those of the run at the time of the slider, phases are marked
+// where they begin, the path is the recorded one, and a failed run is beside the nominal one.
+async function checkMission(page, name) {
+  const wrong = await page.evaluate(async () => {
+    const replay = await globalThis.spindriftPage.replay();
+    const found = [];
+    const expect = (isRight, text) => isRight || found.push(text);
+    const near = (value, expected) => Math.abs(value - expected) <= 1e-3 * Math.abs(expected) + 1e-9;
+    expect(near(replay.rate() * 20, replay.motion.last), `it starts at ${replay.rate()} times the speed of ${replay.motion.last} s`);
+    for (const [index, run] of replay.data.runs.entries()) {
+      replay.choose(index);
+      const place = Math.floor(run.times.length / 3);
+      replay.goTo(run.times[place]);
+      const shown = Array.from(document.querySelectorAll(".live dd"), (element) => element.textContent);
+      expect(shown.length === run.live.length && shown.length > 0, `${shown.length} live numbers`);
+      run.live.forEach((number, k) => {
+        const width = Math.max(1, number.components.length);
+        const known = Array.from(number.values.subarray(width * place, width * (place + 1)), (value) => value * number.factor);
+        const texts = width === 1 ? [shown[k]] : shown[k].slice(0, shown[k].length - number.unit.length).split(", ");
+        // numbers with a power of ten are read as they are written
+        const read = texts.map((text) => Number(text.replace(number.unit, "").replaceAll(",", "").replace(/ × 10/, "e").replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]/g, (digit) => "0123456789-"["⁰¹²³⁴⁵⁶⁷⁸⁹⁻".indexOf(digit)])));
+        expect(known.every((value, part) => !Number.isFinite(value) || near(read[part], value)), `${number.name} is ${shown[k]} for ${known}`);
+      });
+      const marks = Array.from(document.querySelectorAll(".marks button"), (button) => [Number(button.dataset.time), parseFloat(button.style.getPropertyValue("--at"))]);
+      expect(marks.length === run.marks.length, `${marks.length} marks for ${run.marks.length}`);
+      marks.forEach(([time, at], k) => expect(time === run.marks[k].time && near(at, Math.min(1, time / replay.motion.last)), `the mark ${run.marks[k].name} is at ${at}`));
+      if (replay.approach) {
+        replay.view("approach");
+        const drawn = replay.approach.line.geometry.attributes.position.array;
+        expect(drawn.length === 3 * run.times.length && drawn.every((value, k) => near(value, -run.debris.relative[k])), "the path is not the recorded one");
+        const craft = replay.craft.position.toArray();
+        expect(craft.every((value, axis) => near(value, -run.debris.relative[3 * place + axis])), `the spacecraft is at ${craft}`);
+        if (run.goal) expect(near(Math.hypot(...replay.approach.station), run.goal.distance), "the station is not at its distance");
+        replay.view("inertial");
+      }
+      expect(replay.ghost.visible === (run.failed && run.sample !== 0 && replay.data.runs[0].sample === 0), `${run.name}: the nominal run is ${replay.ghost.visible ? "" : "not "}beside it`);
+    }
+    replay.choose(0);
+    return found;
+  });
+  problems.push(...wrong.map((text) => `${name}: replay: ${text}`));
+}
+
+// Full screen shows the replay alone, larger than before; leaving it restores the page.
+async function checkFullScreen(page, name) {
+  const before = await page.$eval(".stage canvas", (canvas) => canvas.getBoundingClientRect().height);
+  const toggle = async (isFull) => {
+    await page.$eval(".replay button[title^='Full screen']", (button) => button.scrollIntoView({ block: "center" }));
+    await page.click(".replay button[title^='Full screen']");
+    const isRight = (full, known) => {
+      const { height } = document.querySelector(".stage canvas").getBoundingClientRect();
+      return Boolean(document.fullscreenElement?.matches(".replay")) === full && (full ? height > known : Math.abs(height - known) <= 2);
+    };
+    // the picture follows in one of the next frames, which software rendering makes slowly
+    await page.waitForFunction(isRight, { timeout: 15_000 }, isFull, before).catch(() => problems.push(`${name}: ${isFull ? "full screen is not larger" : "full screen is not left"}`));
+  };
+  await toggle(true);
+  await toggle(false);
+}
+
+// A figure over time leads the replay: a click goes to that time.
+async function checkCursor(page, name) {
+  const plot = await page.$("#time figure .plot");
+  if (!plot) return;
+  await page.evaluate(async () => (await globalThis.spindriftPage.replay())?.goTo(0));
+  await plot.scrollIntoView();
+  const box = await plot.boundingBox();
+  await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
+  const time = await page.evaluate(async () => (await globalThis.spindriftPage.replay())?.time);
+  if (time === 0) problems.push(`${name}: a click into a figure over time does not lead the replay`);
+}
+
+// Without WebGL, and on paper, a still is there instead.
+async function checkStill(page, name) {
+  const isShown = () => page.$eval(".replay svg.still", (still) => getComputedStyle(still).display !== "none" && still.getBoundingClientRect().height > 100);
+  if (await isShown()) problems.push(`${name}: the still is there beside the replay`);
+  await page.emulateMediaType("print");
+  if (!(await isShown())) problems.push(`${name}: there is no still on paper`);
+  await page.emulateMediaType("screen");
+}
+
 // The numbers beside the replay are those of the run that is shown.
 async function checkNumbers(page, name) {
   const shown = await page.evaluate(async () => {
@@ -147,7 +232,7 @@ async function checkNumbers(page, name) {
     if (!replay) return [];
     return replay.data.runs.map((run, index) => {
       replay.choose(index);
-      const text = (tag) => Array.from(document.querySelectorAll(`.numbers ${tag}`), (element) => element.textContent);
+      const text = (tag) => Array.from(document.querySelectorAll(`.numbers.ends ${tag}`), (element) => element.textContent);
       return { expected: run.numbers, names: text("dt"), values: text("dd") };
     });
   });
@@ -193,6 +278,7 @@ async function checkReplay(page, name) {
   const figures = await page.$$eval("#time figure", (list) => list.length);
   if (figures > 0 && cursors === 0) problems.push(`${name}: the time slider does not move the cursors`);
   for (const camera of ["body", "chase", "inertial"]) await page.click(`[data-camera="${camera}"]`);
+  await checkMission(page, name);
   await page.focus(".stage");
   const clock = () => page.$eval(".clock", (element) => element.textContent);
   const time = await clock();
@@ -230,6 +316,11 @@ async function checked(browser, file) {
   await checkTables(page, name);
   await checkReplay(page, name);
   await checkNumbers(page, name);
+  if (await page.$(".replay")) {
+    await checkFullScreen(page, name);
+    await checkCursor(page, name);
+    await checkStill(page, name);
+  }
   await page.mouse.move(0, 0);
   await page.pdf({ path: join(folder, `${name}_print.pdf`), format: "A4", printBackground: true });
   await page.close();

@@ -84,7 +84,7 @@ fn check_shows_what_would_run() {
         "3054.59",
         "J_xy = -integral of x y dm",
         "initial.angular_velocity_rad_s.x",
-        "needed because of",
+        "needed by",
         "not computed: no requested observable needs it",
         "inertia of the spacecraft, wheels locked,",
         "angular momentum of the spacecraft about its centre of mass",

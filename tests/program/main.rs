@@ -57,6 +57,7 @@ mod own_laws;
 mod page_cards;
 mod page_marks;
 mod page_numbers;
+mod page_replay;
 mod page_runs;
 mod page_series;
 #[cfg(target_os = "linux")]

@@ -120,7 +120,7 @@ fn nominal_is_nominal() {
     let mean = inputs.iter().sum::<f64>() / 299.0;
     assert!((center(&middles, &heights) - mean).abs() < edges[1] - edges[0]);
     // the curve of the distribution has its centre at the nominal value, which is the mean of a normal distribution
-    let expected = found.mark("input_initial_angular_velocity_z_rad_s", "expected of the distribution");
+    let expected = found.mark("input_initial_angular_velocity_z_rad_s", "expected counts");
     let [x, y] = ["x", "y"].map(|key| found.array(&expected[key]));
     near(y.iter().sum(), 299.0, 0.02, "expected samples");
     near(center(&x, &y), degrees(columns[2][0]), 0.01, "centre");

@@ -67,13 +67,8 @@ fn blocks(document: &str) -> Vec<Block> {
     blocks
 }
 
-/// The file that a part of a campaign file in `document` is added to: in the README that of `spindrift new` before its dispersions, elsewhere
-/// `spin_sweep.toml`.
-fn base_of_fragments(document: &Path) -> String {
-    if document.ends_with("README.md") {
-        let start = text(&root().join("assets/start.toml"));
-        return start.split("[[disperse]]").next().expect("a beginning").to_owned();
-    }
+/// The file that a part of a campaign file is added to.
+fn base_of_fragments() -> String {
     text(&root().join("campaigns/spin_sweep.toml"))
 }
 
@@ -177,6 +172,23 @@ fn the_readme_is_short() {
     assert!(lines <= README_LINES, "README.md has {lines} lines; move what is long to docs/");
 }
 
+/// Checked: the file that the README shows is the one that `spindrift new` writes, its output is short, and the replay that it shows is animated and
+/// small.
+#[test]
+fn the_readme_shows_what_new_writes() {
+    let readme = text(&root().join("README.md"));
+    let shown = blocks(&readme);
+    let start = text(&root().join("assets/start.toml"));
+    assert!(shown.iter().any(|block| block.language == "toml" && block.text == start), "not the file of `new`");
+    let output = shown.iter().find(|block| block.language == "text").expect("an output");
+    assert!(output.text.lines().count() <= 10, "{}", output.text);
+    let first = shown.iter().find(|block| block.language == "sh").expect("commands");
+    assert!(first.text.starts_with("git clone") && first.text.lines().count() == 4, "{}", first.text);
+    let picture = std::fs::read(root().join("docs/figures/replay.png")).expect("a picture");
+    assert!(readme.contains("(docs/figures/replay.png)") && picture.len() < 1_500_000, "{}", picture.len());
+    assert!(picture.windows(4).any(|four| four == b"acTL"), "it does not move");
+}
+
 /// Checked: every campaign file in the documents is valid. That of the tutorial is written block by block (`tests/program/tutorial.rs`).
 #[test]
 fn every_campaign_file_is_valid() {
@@ -184,7 +196,7 @@ fn every_campaign_file_is_valid() {
     for file in documents().into_iter().filter(|file| !file.ends_with("tutorial.md")) {
         for block in blocks(&text(&file)).into_iter().filter(|block| block.language == "toml") {
             count += 1;
-            let problem = campaign_problem(&block, &base_of_fragments(&file));
+            let problem = campaign_problem(&block, &base_of_fragments());
             assert!(problem.is_none(), "{}: {}\n{}", file.display(), problem.unwrap_or_default(), block.text);
         }
     }
@@ -255,12 +267,17 @@ fn every_name_is_documented() {
             assert!(argument.get_help().is_some(), "{}: no help of {argument}", command.get_name());
         }
     }
-    names.extend(Method::ALL.map(|method| format!("`{}`", method.name())));
-    names.extend(Status::ALL.map(|status| format!("`{}`", status.name())));
     names.retain(|name| !readme.contains(name.as_str()));
     assert!(names.is_empty(), "README.md does not mention {names:?}");
+    let model = text(&root().join("docs/model.md"));
+    let unknown: Vec<_> =
+        Method::ALL.into_iter().filter(|method| !model.contains(&format!("`{}`", method.name()))).collect();
+    assert!(unknown.is_empty(), "docs/model.md does not mention {unknown:?}");
 
     let page = text(&root().join("docs/campaign-files.md"));
+    let unknown: Vec<_> =
+        Status::ALL.into_iter().filter(|status| !page.contains(&format!("`{}`", status.name()))).collect();
+    assert!(unknown.is_empty(), "docs/campaign-files.md does not mention {unknown:?}");
     let files = std::fs::read_dir(root().join("campaigns")).expect("a folder of campaigns");
     let names = files.map(|file| file.expect("an entry").file_name().to_string_lossy().into_owned());
     let unknown: Vec<String> = names.filter(|name| !page.contains(name.as_str())).collect();

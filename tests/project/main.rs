@@ -9,4 +9,6 @@ mod accuracy_document;
 mod architecture;
 mod documents;
 mod examples;
+mod gallery;
 mod generated_tables;
+mod words;

@@ -175,7 +175,7 @@ fn approach(spec: &LoopSpec, add: &mut Add<'_>) {
     }
     let mut at = |name: &str, unit: &str, meaning: &str, value: fn(&AtLaunch) -> f64| {
         let value: Value = Box::new(move |o, _, _| o.at_launch.as_ref().map_or(f64::NAN, value));
-        add(name.to_owned(), unit, format!("{meaning} at the launch; null without one."), value);
+        add(name.to_owned(), unit, format!("{meaning} at the launch; null if not launched."), value);
     };
     at("pointing_error_launch_rad", "rad", "Angle between s3 and the line to the debris", |l| l.pointing_error);
     at(

@@ -160,7 +160,7 @@ pub fn missions(missions: &Missions) -> String {
 const ERRORS: [(&str, &str); 3] = [
     ("energy_error_max", "energy"),
     ("angular_momentum_error_max", "angular momentum"),
-    ("state_error_estimate", "the state, as estimated,"),
+    ("state_error_estimate", "estimated state error"),
 ];
 
 /// How well it was computed, in a sentence; empty where no error was observed.

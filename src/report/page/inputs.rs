@@ -38,8 +38,8 @@ fn input(plan: &Plan, survey: &Survey, index: usize) -> Figure {
     let asked = marginal::of_column(plan, index);
     let line = match asked.as_ref().map(|asked| asked.values().is_some()) {
         None => "",
-        Some(false) => " Line: samples expected of the distribution that was asked for.",
-        Some(true) => " Dots: samples expected of each value.",
+        Some(false) => " Line: expected counts of the requested distribution.",
+        Some(true) => " Dots: expected counts of each value.",
     };
     let histogram = histogram::of_input(&name, unit, &values, column.nominal, asked.as_ref());
     Figure {

@@ -4,7 +4,7 @@
 //!
 //! - `runs`: the runs that are shown in full.
 //! - [`over_time`] (with `envelope`), `errors`, [`influence`], `inputs`: the figures. - `figure_json`: what the scripts need to draw them.
-//! - [`gather`]: what statistics, verdicts, sensitivities and bands are on the page. - [`cards`], `first_screen`, [`tables`], `document`: the HTML. - `replay`: the 3D replay. - `payload`: numbers in the page.
+//! - [`gather`]: what statistics, verdicts, sensitivities and bands are on the page. - [`cards`], `first_screen`, [`tables`], `document`: the HTML. - `replay` (with `live`, `still`): the 3D replay. - `payload`: numbers in the page.
 //!
 //! The scripts and styles are in `assets/report/`.
 
@@ -17,6 +17,7 @@ mod first_screen;
 pub mod gather;
 pub mod influence;
 mod inputs;
+mod live;
 mod outcomes;
 pub mod over_time;
 mod payload;
@@ -25,6 +26,7 @@ mod replay;
 mod runs;
 mod shown_columns;
 mod spectrum;
+mod still;
 pub mod tables;
 
 use serde_json::{Value, json};
@@ -160,7 +162,8 @@ fn sections(
         Some(PageSection { anchor, title, lead: lead.to_owned(), html, has_figures: false, fold: None })
     };
     let pairs = "<details id=\"pairs\"><summary>Plot any two columns against each other</summary><div></div></details>";
-    let replay = "<div class=\"replay\"><p>The replay needs JavaScript and WebGL.</p></div>";
+    let still = shown.iter().find_map(|run| run.run.as_ref()).map_or_else(String::new, |run| still::still(plan, run));
+    let replay = format!("<div class=\"replay\">{still}<p>The replay needs JavaScript and WebGL.</p></div>");
     let table = tables::statistics(&contents.statistics, &plan.analysis.display);
     let is_off = first_screen::is_above_tolerance(plan, &contents.survey);
     [
@@ -170,7 +173,7 @@ fn sections(
             .map(|section| PageSection { fold: Some(is_off), ..section }),
         figures(FigureSection::Influence, "What drives it", "Which uncertain input makes the difference.", pairs),
         plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the worst outcomes. Each is replayed bit for bit by its command.", tables::worst_runs(plan, &contents.survey, shown)),
-        plain("replay", "Replay", "The nominal run and the worst ones in three dimensions.", replay.to_owned()).filter(|_| has_replay),
+        plain("replay", "Replay", "The nominal run and the worst ones in three dimensions.", replay).filter(|_| has_replay),
         figures(FigureSection::Inputs, "Inputs", "What was applied, against what the campaign file asks for.", ""),
         Some(PageSection { anchor: "statistics", title: "Statistics", lead: String::new(), html: table, has_figures: has(FigureSection::Statistics), fold: None }),
         plain("provenance", "Provenance", "", tables::provenance(plan, &contents.survey, &contents.files)),

@@ -92,7 +92,7 @@ fn marked(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow>) -
     median.into_iter().chain(high).copied().collect()
 }
 
-/// The fraction of runs up to a value.
+/// The cumulative distribution.
 fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, has_intervals: bool) -> Figure {
     let (x, y, low, high) = curve(&outcome.sketch);
     let mut marks = Vec::new();
@@ -118,7 +118,7 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
     Figure {
         name: format!("cumulative_{}", outcome.quantity.name()),
         section: FigureSection::Outcome,
-        title: format!("{}: runs up to a value", sentence(&words(&outcome.quantity))),
+        title: format!("{}: cumulative distribution", sentence(&words(&outcome.quantity))),
         caption: format!(
             "Fraction of the {} runs that were computed whose value is at most this. {interval}",
             outcome.sketch.count()

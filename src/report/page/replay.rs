@@ -5,37 +5,63 @@ use serde_json::{Value, json};
 use crate::analysis::observed::Observed;
 use crate::analysis::outcomes::outcomes;
 use crate::campaign::Plan;
+use crate::control::net_launch::geometry::LaunchState;
+use crate::control::net_launch::parameters::DebrisNumbers;
 use crate::ensemble::SingleRun;
 use crate::math::vector::{dcm_from_quaternion, difference, product};
 use crate::report::page::errors::sentence;
+use crate::report::page::live;
 use crate::report::page::payload::Payload;
 use crate::report::page::readable::with_unit;
 use crate::report::page::runs::ShownRun;
 use crate::report::page::shown_columns::words;
 use crate::run::StateField;
+use crate::scene::unit_quaternion::unit_quaternion;
 use crate::scene::{DebrisInput, PartInput, PartShape, Scene, SceneInput, WheelMode};
+
+/// A part of the body as it is drawn.
+#[derive(Clone, Debug)]
+pub struct ShownPart {
+    /// Its name.
+    pub name: String,
+    /// Its shape, as campaign files call it.
+    pub shape: &'static str,
+    /// Radius and length, or sides, m.
+    pub size: Vec<f64>,
+    /// Its centre in F_s, m.
+    pub position: [f64; 3],
+    /// The matrix that turns its own components into those of F_s.
+    pub turn: [[f64; 3]; 3],
+}
+
+/// The parts of the nominal body; the box of its inertia where it is given by that.
+pub fn shown_parts(plan: &Plan) -> Vec<ShownPart> {
+    let input = &plan.nominal;
+    if input.parts.is_empty() {
+        Scene::resolve(input).iter().map(equivalent_box).collect()
+    } else {
+        input.parts.iter().map(part).collect()
+    }
+}
 
 /// The bodies of the nominal scene as shapes in F_s.
 pub fn scene(plan: &Plan) -> Value {
     let (input, resolved) = (&plan.nominal, Scene::resolve(&plan.nominal).ok());
     let center = resolved.as_ref().map_or([0.0; 3], |scene| scene.mass.center);
-    let parts: Vec<Value> = if input.parts.is_empty() {
-        resolved.iter().map(equivalent_box).collect()
-    } else {
-        input.parts.iter().map(part).collect()
-    };
+    let part = |part: ShownPart| json!({ "name": part.name, "shape": part.shape, "size": part.size, "position": part.position, "turn": part.turn });
     json!({
         "center": center,
         "is_equivalent": input.parts.is_empty(),
-        "parts": parts,
+        "parts": shown_parts(plan).into_iter().map(part).collect::<Vec<_>>(),
         "wheels": wheels(input),
         "thrusters": thrusters(input),
         "debris": input.debris.as_ref().map(debris),
         "arcs": arcs(&resolved),
+        "keep_out": keep_out(plan),
     })
 }
 
-fn part(part: &PartInput) -> Value {
+fn part(part: &PartInput) -> ShownPart {
     let size = match part.shape {
         PartShape::HollowCylinder => vec![part.outer_radius_m, part.length_m],
         PartShape::SolidCylinder => vec![part.radius_m, part.length_m],
@@ -43,19 +69,22 @@ fn part(part: &PartInput) -> Value {
         PartShape::Sphere => vec![part.radius_m],
         PartShape::PointMass => vec![],
     };
-    let size: Vec<f64> = size.into_iter().map(|length| length.unwrap_or(0.1)).collect();
-    json!({
-        "name": part.name.as_str(), "shape": part.shape.name(), "size": size, "position": part.position_m, "attitude": part.attitude
-    })
+    ShownPart {
+        name: part.name.as_str().to_owned(),
+        shape: part.shape.name(),
+        size: size.into_iter().map(|length| length.unwrap_or(0.1)).collect(),
+        position: part.position_m,
+        turn: dcm_from_quaternion(unit_quaternion(part.attitude)),
+    }
 }
 
 /// The box that has the mass and the moments of inertia of a body that is given by them: l_x^2 = 6 (I_y + I_z - I_x)/m.
-fn equivalent_box(scene: &Scene) -> Value {
+fn equivalent_box(scene: &Scene) -> ShownPart {
     let body = &scene.mass.body;
-    let (moments, axes) = crate::math::symmetric::principal_axes(body.inertia);
+    let (moments, turn) = crate::math::symmetric::principal_axes(body.inertia);
     let sum: f64 = moments.iter().sum();
     let size = moments.map(|moment| libm::sqrt((6.0 * (sum - 2.0 * moment) / body.mass).max(1e-6)));
-    json!({ "name": "body", "shape": "box", "size": size, "position": body.center, "axes": axes })
+    ShownPart { name: "body".to_owned(), shape: "box", size: size.to_vec(), position: body.center, turn }
 }
 
 fn wheels(input: &SceneInput) -> Vec<Value> {
@@ -117,18 +146,20 @@ pub fn motion(plan: &Plan, shown: &ShownRun, payload: &mut Payload) -> Option<Va
         let attitude = each(&|point| table.at::<4>(StateField::DebrisAttitude, point).to_vec());
         (relative, attitude)
     });
-    let debris = debris.map(|(position, attitude)| json!({ "position": payload.singles(&position), "attitude": payload.singles(&attitude) }));
+    let debris = debris.map(|(position, attitude)| json!({ "relative": payload.singles(&position), "attitude": payload.singles(&attitude) }));
+    let goal = approach_goal(plan, run).map(|goal| json!({ "axis": goal.axis, "distance": goal.distance }));
     let is_nominal = shown.sample.0 == 0;
     let name = if is_nominal { "nominal run".to_owned() } else { format!("sample {}", shown.sample) };
     Some(json!({
         "sample": shown.sample.0, "name": name, "why": shown.why, "status": shown.status.name(), "reason": shown.reason,
         "numbers": numbers(plan, shown), "duration": plan.grid.duration(), "times": payload.singles(&run.grid.times()[..points]),
         "attitude": payload.singles(&attitude), "omega": payload.singles(&omega), "momentum": payload.singles(&momentum),
-        "angles": payload.singles(&angles), "debris": debris, "loop": control(plan, run, points, payload)
+        "angles": payload.singles(&angles), "debris": debris, "goal": goal, "loop": control(plan, run, points, payload),
+        "failed": shown.has_failed(), "live": live::numbers(plan, run, points, payload), "marks": live::marks(plan, run, &shown.row)
     }))
 }
 
-/// What a control loop did in `run`: the phase and the mean commanded thrusts at each point, and the launch axis in F_e; `None` without a loop.
+/// What a control loop did in `run`: the phase and the mean commanded thrusts at each point; `None` without a loop.
 fn control(plan: &Plan, run: &SingleRun, points: usize, payload: &mut Payload) -> Option<Value> {
     let spec = plan.law.as_ref()?.spec()?;
     let held = run.telemetry.held_at(&run.grid.times()[..points]);
@@ -142,17 +173,34 @@ fn control(plan: &Plan, run: &SingleRun, points: usize, payload: &mut Payload) -
     let thrust: Vec<f64> = (0..points)
         .flat_map(|point| thrusts.iter().map(move |thrust| thrust.map_or(0.0, |thrust| thrust[point])))
         .collect();
-    let axis = (spec.needs_axis() && points > 0).then(|| {
-        let start = |key: &str| plan.nominal.control.named(key).map(<[f64]>::to_vec).unwrap_or_default();
-        let velocity: [f64; 3] = run.table.at(StateField::DebrisVelocity, 0);
-        let speed = crate::math::vector::norm(velocity);
-        let least = start("least_debris_speed_m_s").first().copied().unwrap_or(0.0);
-        if speed >= least && speed > 0.0 { velocity.map(|v| v / speed).to_vec() } else { start("approach_axis") }
-    });
     let phases: Vec<&str> = spec.phases.iter().map(|phase| phase.name.as_str()).collect();
-    Some(json!({
-        "phases": phases, "phase": payload.singles(phase), "firing": payload.singles(&thrust), "axis": axis
-    }))
+    Some(json!({ "phases": phases, "phase": payload.singles(phase), "firing": payload.singles(&thrust) }))
+}
+
+/// What an approach leads to, relative to the debris in F_e.
+#[derive(Clone, Copy, Debug)]
+pub struct ApproachGoal {
+    /// The unit vector of the axis A_d at the start.
+    pub axis: [f64; 3],
+    /// The distance of the station behind the debris, m.
+    pub distance: f64,
+}
+
+/// The goal of `run`; `None` without a loop that approaches, or where the debris has no axis.
+pub fn approach_goal(plan: &Plan, run: &SingleRun) -> Option<ApproachGoal> {
+    let spec = plan.law.as_ref()?.spec()?;
+    if !spec.needs_axis() || !run.request.debris {
+        return None;
+    }
+    let launch = LaunchState::of(&plan.nominal.control.law);
+    let axis = launch.axis(run.table.at(StateField::DebrisVelocity, 0))?;
+    Some(ApproachGoal { axis, distance: launch.distance })
+}
+
+/// The radius within which a mission fails, m; zero without one.
+pub fn keep_out(plan: &Plan) -> f64 {
+    let spec = plan.law.as_ref().and_then(|law| law.spec());
+    if spec.is_some() { DebrisNumbers::of(&plan.nominal.control.law).keep_out } else { 0.0 }
 }
 
 /// What the run is about: names and values of the outcomes, and of the body's motion at the end, as they are shown.

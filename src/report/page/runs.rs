@@ -53,6 +53,15 @@ pub struct ShownRun {
     pub run: Option<SingleRun>,
 }
 
+impl ShownRun {
+    /// Whether it was not computed, or its mission failed.
+    pub fn has_failed(&self) -> bool {
+        let is =
+            |name: &str, fails: fn(f64) -> bool| self.row.iter().any(|(column, value)| column == name && fails(*value));
+        self.status != Status::Done || is("failure", |code| code >= 1.0) || is("launched", |launched| launched == 0.0)
+    }
+}
+
 /// The nominal run and the worst ones, run again with all of their states.
 pub fn shown_runs(plan: &Plan, survey: &Survey, isa: Isa) -> Vec<ShownRun> {
     let grid = grid(plan, isa);
@@ -167,7 +176,9 @@ fn grid(plan: &Plan, isa: Isa) -> Grid {
         let rate = |point: usize| crate::math::vector::norm(run.table.at(crate::run::StateField::Rate, point));
         (0..points).map(rate).filter(|rate| rate.is_finite()).fold(0.0, f64::max)
     });
-    let wanted = (fastest * plan.grid.duration() / TURN).clamp(FEWEST as f64, MOST as f64) as usize;
+    // of a mission, whose phases are shorter than its longest duration, as many as there are
+    let fewest = if plan.law.is_some() { MOST } else { FEWEST };
+    let wanted = (fastest * plan.grid.duration() / TURN).clamp(fewest as f64, MOST as f64) as usize;
     let intervals = if given >= wanted { given.min(MOST) } else { given * (wanted / given).max(1) };
     Grid::uniform(plan.grid.duration(), intervals + 1)
 }

@@ -184,7 +184,7 @@ pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> S
         .collect();
     format!(
         "<p>{} samples of plan <code>{}</code>, spindrift {}. Neither the number of threads nor the machine changes a bit of the rows, and the same rows give this page again, byte for byte.</p>
-<p>To make it again, in this folder: <code>spindrift report .</code> from the rows, or <code>spindrift campaign plan.toml --out elsewhere</code> from nothing.</p>
+<p>To make it again, in this folder: <code>spindrift report .</code> from the rows, or <code>spindrift campaign plan.toml --out elsewhere</code> from scratch.</p>
 <details><summary>The whole plan</summary><pre class=\"plan\"><code>{}</code></pre></details>{files}
 <details><summary>What the columns on this page mean</summary><dl class=\"glossary\">{glossary}</dl></details>
 <details><summary>Libraries in this page, and their licences</summary><p>Apache ECharts 6.1.0 (Apache-2.0) with ZRender (BSD-3-Clause) and tslib (0BSD) draws the plots, three.js 0.187.0 (MIT) the replay.</p><pre id=\"licences\" class=\"plan\"></pre></details>\n",

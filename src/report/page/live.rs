@@ -1,0 +1,157 @@
+//! The numbers that change while a run is replayed, and the marks on its slider.
+
+use serde_json::{Value, json};
+
+use crate::campaign::Plan;
+use crate::ensemble::SingleRun;
+use crate::math::vector::{difference, norm};
+use crate::observables::Series;
+use crate::report::mission_text;
+use crate::report::page::errors::sentence;
+use crate::report::page::payload::Payload;
+use crate::report::page::shown_columns::words;
+use crate::run::StateField;
+
+/// A quantity of one or several components over time, as the replay shows it.
+struct LiveNumber {
+    name: String,
+    /// The column of `simulate` whose unit it has.
+    column: String,
+    unit: &'static str,
+    /// The names of its components; one without a name is alone.
+    components: Vec<String>,
+    /// Whether it keeps its value until the next point: it is known at the ticks of a loop.
+    is_held: bool,
+    /// In SI, component by component at each point.
+    values: Vec<f64>,
+}
+
+/// A number of the row of `run`; `None` where it has none.
+fn of_row(run: &SingleRun, name: &str) -> Option<f64> {
+    let place = run.request.columns().iter().position(|column| column.quantity.name() == name)?;
+    run.row.get(place).copied().filter(|value| value.is_finite())
+}
+
+/// What is shown of the first `points` points of `run`, with the place of its numbers.
+pub fn numbers(plan: &Plan, run: &SingleRun, points: usize, payload: &mut Payload) -> Vec<Value> {
+    let shown = |number: LiveNumber| {
+        let unit = plan.analysis.display.of(&number.column, number.unit);
+        json!({
+            "name": number.name, "unit": unit.unit, "factor": unit.value(1.0), "components": number.components,
+            "held": number.is_held, "values": payload.singles(&number.values)
+        })
+    };
+    let list =
+        [pointing_error(run, points), Some(rate(run, points)), wheel_speeds(run, points), propellant(run, points)];
+    list.into_iter().flatten().chain(approach(run, points)).map(shown).collect()
+}
+
+fn pointing_error(run: &SingleRun, points: usize) -> Option<LiveNumber> {
+    let (_, values) = run.series.iter().find(|(series, _)| *series == Series::PointingError)?;
+    let quantity = Series::PointingError.quantity(&run.request.wheels)?;
+    let values = values[..points.min(values.len())].to_vec();
+    values.iter().any(|value| value.is_finite()).then(|| LiveNumber {
+        name: sentence(&words(&quantity)),
+        column: quantity.name().to_owned(),
+        unit: "rad",
+        components: Vec::new(),
+        is_held: true,
+        values,
+    })
+}
+
+fn rate(run: &SingleRun, points: usize) -> LiveNumber {
+    LiveNumber {
+        name: "Angular velocity".to_owned(),
+        column: "angular_rate_rad_s".to_owned(),
+        unit: "rad/s",
+        components: ["s1", "s2", "s3"].map(str::to_owned).to_vec(),
+        is_held: false,
+        values: (0..points).flat_map(|point| run.table.at::<3>(StateField::Rate, point)).collect(),
+    }
+}
+
+fn wheel_speeds(run: &SingleRun, points: usize) -> Option<LiveNumber> {
+    let wheels = &run.request.wheels;
+    let first = wheels.first()?;
+    let at = |point: usize| (0..wheels.len()).map(move |wheel| run.table.column(StateField::WheelRates, wheel)[point]);
+    Some(LiveNumber {
+        name: "Wheel speed".to_owned(),
+        column: format!("rate_{first}_rad_s"),
+        unit: "rad/s",
+        components: wheels.iter().map(ToString::to_string).collect(),
+        is_held: false,
+        values: (0..points).flat_map(at).collect(),
+    })
+}
+
+/// Propellant used since the start, in the ratio that the row has of propellant and impulse; the impulse itself where the specific impulse is not
+/// known. `None` where no thruster fires.
+fn propellant(run: &SingleRun, points: usize) -> Option<LiveNumber> {
+    let ratio = of_row(run, "propellant_kg").zip(of_row(run, "impulse_total_n_s"));
+    let ratio = ratio.filter(|(_, impulse)| *impulse > 0.0).map(|(mass, impulse)| mass / impulse);
+    let force = |arc: &crate::scene::Arc| arc.applied.thrust.iter().sum::<f64>();
+    let firing: Vec<(f64, f64, f64)> = run
+        .arcs
+        .iter()
+        .map(|arc| (arc.start, arc.applied.until, force(arc)))
+        .filter(|(start, until, force)| *force > 0.0 && until > start)
+        .collect();
+    if firing.is_empty() {
+        return None;
+    }
+    let mut used = Vec::with_capacity(points);
+    // the impulse of the arcs that are over, and the first that is not
+    let (mut before, mut next) = (0.0, 0);
+    for time in &run.grid.times()[..points] {
+        while let Some((start, until, force)) = firing.get(next).filter(|(_, until, _)| until <= time) {
+            before += force * (until - start);
+            next += 1;
+        }
+        let running = firing.get(next).map_or(0.0, |(start, _, force)| force * (time - start).max(0.0));
+        used.push((before + running) * ratio.unwrap_or(1.0));
+    }
+    let (name, column, unit) = match ratio {
+        Some(_) => ("Propellant used", "propellant_kg", "kg"),
+        None => ("Impulse of the thrusters", "impulse_total_n_s", "N s"),
+    };
+    Some(LiveNumber {
+        name: name.to_owned(),
+        column: column.to_owned(),
+        unit,
+        components: Vec::new(),
+        is_held: false,
+        values: used,
+    })
+}
+
+/// Distance and speed relative to the debris, of the centres of mass.
+fn approach(run: &SingleRun, points: usize) -> Vec<LiveNumber> {
+    let apart = |[a, b]: [StateField; 2]| -> Vec<f64> {
+        (0..points).map(|point| norm(difference(run.table.at::<3>(a, point), run.table.at::<3>(b, point)))).collect()
+    };
+    let number = |(name, column, unit, fields): (&str, &str, &'static str, [StateField; 2])| LiveNumber {
+        name: name.to_owned(),
+        column: column.to_owned(),
+        unit,
+        components: Vec::new(),
+        is_held: false,
+        values: apart(fields),
+    };
+    let list = [
+        ("Distance to the debris", "debris_distance_m", "m", [StateField::DebrisPosition, StateField::ComPosition]),
+        ("Relative speed", "relative_speed_m_s", "m/s", [StateField::DebrisVelocity, StateField::ComVelocity]),
+    ];
+    list.into_iter().filter(|_| run.request.debris).map(number).collect()
+}
+
+/// The times at which the phases of a loop first began, and at which the mission ended, with their names, by time.
+pub fn marks(plan: &Plan, run: &SingleRun, row: &[(String, f64)]) -> Vec<Value> {
+    let Some(spec) = plan.law.as_ref().and_then(|law| law.spec()) else { return Vec::new() };
+    let begins = |name: &str| Some((of_row(run, &format!("phase_{name}_begin_s"))?, name.to_owned()));
+    let mut marks: Vec<(f64, String)> = spec.phases.iter().filter_map(|phase| begins(phase.name.as_str())).collect();
+    let end = of_row(run, "end_time_s").zip(mission_text::of_row(row));
+    marks.extend(end.map(|(time, text)| (time, text.trim_start_matches("mission ").to_owned())));
+    marks.sort_by(|a, b| a.0.total_cmp(&b.0));
+    marks.into_iter().map(|(time, name)| json!({ "time": time, "name": name })).collect()
+}

@@ -1,0 +1,67 @@
+//! `docs/gallery.md`: every shipped campaign with its question, its answer, a picture and the time that it took.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use spindrift::campaign::{Overrides, Plan};
+
+/// Most bytes of a picture.
+const LARGEST: usize = 200_000;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
+}
+
+/// What is wrong with the entry of the campaign `name`, whose question and number of samples are these.
+fn problem(gallery: &str, name: &str, question: &str, samples: u64) -> Option<String> {
+    let Some((_, entry)) = gallery.split_once(&format!("\n### {name}.toml\n\n")) else {
+        return Some("there is no entry".to_owned());
+    };
+    let entry = entry.split("\n#").next().unwrap_or_default();
+    let mut paragraphs = entry.trim().split("\n\n");
+    let asked = paragraphs.next().unwrap_or_default();
+    let asked = asked.trim_matches('*');
+    if !asked.eq_ignore_ascii_case(question) {
+        return Some(format!("it asks {asked:?} for {question:?}"));
+    }
+    let answer = paragraphs.next().unwrap_or_default();
+    let grouped =
+        if samples >= 1000 { format!("{},{:03}", samples / 1000, samples % 1000) } else { samples.to_string() };
+    let runs = if samples == 1 { " 1 run, ".to_owned() } else { format!(" {grouped} runs, ") };
+    let time = answer.split_once(&runs).and_then(|(_, rest)| rest.strip_suffix(" s."));
+    if time.and_then(|time| time.parse::<f64>().ok()).is_none_or(|time| time <= 0.0) || answer.len() < 30 {
+        return Some(format!("no answer with {runs:?} and a time: {answer:?}"));
+    }
+    let picture = format!("figures/gallery/{name}.svg");
+    if !paragraphs.next().unwrap_or_default().ends_with(&format!("]({picture})")) {
+        return Some("there is no picture".to_owned());
+    }
+    let svg = fs::read_to_string(root().join("docs").join(&picture)).unwrap_or_default();
+    // what spindrift draws says which program drew it by its letters, which are outlines with their text
+    let is_drawn = svg.starts_with("<svg") && svg.contains("aria-label=") && svg.len() < LARGEST;
+    (!is_drawn).then(|| format!("{picture} is no figure of spindrift, or too large: {} bytes", svg.len()))
+}
+
+/// Checked: each shipped campaign has its entry, with the question of its file, and each entry is of a campaign.
+#[test]
+fn every_campaign_is_in_the_gallery() {
+    let gallery = fs::read_to_string(root().join("docs/gallery.md")).expect("a gallery");
+    let files = fs::read_dir(root().join("campaigns")).expect("campaigns").map(|entry| entry.expect("an entry").path());
+    let files: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
+    for file in &files {
+        let text = fs::read_to_string(file).expect("a campaign");
+        let plan =
+            Plan::from_text_in(&root().join("campaigns"), "c.toml", &text, Overrides::default()).expect("a plan");
+        let question = plan.description.clone().expect("a question");
+        let name = file.file_stem().expect("a name").to_string_lossy();
+        let found = problem(&gallery, &name, &question, plan.samples);
+        assert!(found.is_none(), "{name}: {}", found.unwrap_or_default());
+        // another question, another number of runs or no entry would be seen
+        assert!(problem(&gallery, &name, "Is it?", plan.samples).is_some());
+        assert!(problem(&gallery, &name, &question, plan.samples + 1).is_some());
+        assert!(problem(&gallery.replace(&format!("### {name}.toml"), ""), &name, &question, plan.samples).is_some());
+    }
+    assert_eq!(gallery.matches("\n### ").count(), files.len(), "an entry for each campaign");
+    let pictures = fs::read_dir(root().join("docs/figures/gallery")).expect("pictures").count();
+    assert_eq!(pictures, files.len(), "a picture for each campaign");
+}
