@@ -10,6 +10,7 @@ use crate::cli::argument_values::{
     count, fraction, method, sbatch_option, seconds, setting, shard, shards, shift, size, threads, time_limit,
     tolerance,
 };
+use crate::cli::colour::Colour;
 use crate::cli::slurm_script::TimeLimit;
 use crate::cli::{help, screen};
 use crate::propagation::Method;
@@ -23,6 +24,9 @@ pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+    /// Colour verdicts, help and notes; `auto` does on a terminal, unless NO_COLOR is set.
+    #[arg(long, value_name = "WHEN", global = true, value_enum, default_value_t = Colour::Auto, hide_possible_values = true)]
+    pub color: Colour,
 }
 
 /// The commands.
@@ -141,6 +145,9 @@ pub struct CampaignOptions {
     /// Stop after the first part with a failed run, with exit code 1; the same command without this option continues.
     #[arg(long)]
     pub fail_fast: bool,
+    /// Show all that the rows say, not one screen of it.
+    #[arg(long)]
+    pub verbose: bool,
     /// Do not write report.html.
     #[arg(long)]
     pub no_report: bool,
@@ -180,6 +187,9 @@ pub struct FinishOptions {
     /// Write the verdicts to this file as JUnit XML.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
+    /// Show all that the rows say, not one screen of it.
+    #[arg(long)]
+    pub verbose: bool,
     /// Do not write report.html.
     #[arg(long)]
     pub no_report: bool,

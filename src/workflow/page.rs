@@ -10,6 +10,7 @@ use crate::report::image::{self, PlotSize};
 use crate::report::page::gather::Analysis;
 use crate::report::page::{Contents, Page};
 use crate::report::shell_word::quoted_path;
+use crate::report::summary::SummaryEnd;
 use crate::storage::claim::open;
 use crate::storage::folder::relist;
 use crate::storage::manifest::{FileRecord, PartRecord};
@@ -29,6 +30,10 @@ pub struct Remade {
     pub path: PathBuf,
     /// Its size, bytes.
     pub size: u64,
+    /// The question that the campaign answers.
+    pub question: Option<String>,
+    /// How the campaign ended.
+    pub end: SummaryEnd,
     /// The share of noise in the outcomes, where it was asked for.
     pub noise: Vec<NoiseShare>,
 }
@@ -72,7 +77,7 @@ pub fn remade(
     relist(storage, root, (manifest, &found.plan), FileRecord::of(REPORT, page.html.as_bytes()))
         .map_err(WorkflowError::files)?;
     save_figures(session, &page, figures)?;
-    Ok(Remade { path, size: page.html.len() as u64, noise })
+    Ok(Remade { path, size: page.html.len() as u64, question: plan.description.clone(), end: analysed.end(), noise })
 }
 
 /// Begins the mark in a page that says by how many scenes the share of noise was measured, so that the same page can be made again.

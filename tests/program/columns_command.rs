@@ -52,7 +52,7 @@ fn a_new_file_runs() {
     assert_eq!(std::fs::read_to_string(scratch.path("mine.toml")).unwrap(), text);
     // a wheel across the spin: its momentum tilts the spin axis, and a faster spin holds it
     let across = "--set wheels.w1.axis=[0,1,0] --set require[0].at_most=4";
-    let mut command = scratch.command(&format!("campaign mine.toml {across} --no-report --out across"));
+    let mut command = scratch.command(&format!("campaign mine.toml {across} --no-report --out across --verbose"));
     let said = scratch.outputs(command.env("COLUMNS", "200"), 0);
     let drivers = said.lines().find(|line| line.contains("share of the variance")).expect(&said);
     let (of_spin, of_wheel) = drivers

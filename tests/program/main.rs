@@ -10,6 +10,7 @@ mod altered_results;
 mod audit;
 mod audit_limit;
 mod band_requirements;
+mod brief_screen;
 mod campaign_command;
 mod closed_loops;
 mod columns_command;

@@ -141,7 +141,7 @@ fn every_line_of_the_screen_is_the_summary() {
     let summary = found.scratch.summary("r");
     let observables = summary["observables"].as_array().expect("observables");
     for width in ["80", "200"] {
-        let mut command = found.scratch.command("campaign c.toml --out r --overwrite");
+        let mut command = found.scratch.command("campaign c.toml --out r --overwrite --verbose");
         let output = command.env("COLUMNS", width).output().expect("the program starts");
         let said = String::from_utf8_lossy(&output.stdout).into_owned();
         let table = &said[said.find("dispersed runs").expect("a table")..said.find("in brackets:").expect("an end")];
