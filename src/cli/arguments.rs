@@ -44,7 +44,7 @@ pub enum Command {
     /// Check a result: checksums, recomputed rows, and every file derived from the rows.
     #[command(after_help = help::VERIFY)]
     Verify(VerifyOptions),
-    /// Show what a campaign would run: plan, masses, dispersions, what is integrated and why, time, disk.
+    /// Show what a campaign would run: time, disk, dispersions, masses, what is integrated and why.
     #[command(after_help = help::CHECK)]
     Check(CheckOptions),
     /// Compare two results: plans, verdicts, and the shift of every outcome.
@@ -59,6 +59,9 @@ pub enum Command {
     /// Rebuild the report page of a finished result, and write its figures as files.
     #[command(after_help = help::REPORT)]
     Report(ReportOptions),
+    /// List all results below a folder, with verdicts and what changed, also as a page.
+    #[command(after_help = help::INDEX)]
+    Index(IndexOptions),
     /// Measure run time against error for methods and tolerances.
     #[command(after_help = help::PRECISION)]
     Precision(PrecisionOptions),
@@ -259,6 +262,9 @@ pub struct VerifyOptions {
 pub struct CheckOptions {
     /// The campaign file.
     pub file: PathBuf,
+    /// Show the plan too: every key, with the defaults.
+    #[arg(long)]
+    pub plan: bool,
     /// Overrides.
     #[command(flatten)]
     pub changed: Changed,
@@ -341,6 +347,14 @@ pub struct SampleOptions {
     /// Size of figures.
     #[command(flatten)]
     pub size: SizeOptions,
+}
+
+/// Arguments of `index`.
+#[derive(Debug, Args)]
+pub struct IndexOptions {
+    /// The folder with results in it; index.html is written there.
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
 }
 
 /// Arguments of `precision`.
@@ -452,6 +466,6 @@ mod tests {
             }
             count += 1;
         }
-        assert_eq!(count, 12);
+        assert_eq!(count, 13);
     }
 }

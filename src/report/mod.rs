@@ -4,7 +4,7 @@
 //! - [`figure`]: what a figure shows. - [`sheet`]: figures on one picture, drawn with `panel`, `axis`, `legend`, `marks`, `shapes` as `svg`; [`image`]: its files. - [`fitted_text`]: text that is shortened to a width. - `escaped`: text within markup.
 //! - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in [`histogram`]s, with [`expected_counts`], of numbers drawn together by [`marginal`]; [`origin_text`]: in words), [`precision_figure`]: the figures of the commands; [`relative_errors`]: the axis of errors.
 //! - [`comparison_text`]: two results compared. - [`stopping_text`]: looks of a campaign with `[stop]`.
-//! - [`text_table`]: rows of cells that fit a terminal. - [`time_table`]: one run over time on a terminal. - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file.
+//! - [`text_table`]: rows of cells that fit a terminal. - [`time_table`]: one run over time on a terminal. - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file. [`index_page`]: all results of a folder.
 
 pub mod audit_summary;
 mod axis;
@@ -20,6 +20,7 @@ pub mod figure;
 pub mod fitted_text;
 pub mod histogram;
 pub mod image;
+pub mod index_page;
 mod legend;
 pub mod marginal;
 mod marks;

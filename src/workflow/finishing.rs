@@ -118,7 +118,7 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
     let Derived { analysed, page, summary } = derive(&derivation, gathered, folder)?;
     if let Some(page) = page {
         let place = job.outputs.figures.as_ref().map(|(folder, size)| (folder.as_path(), *size));
-        page::save_figures(&session, &page, place)?;
+        page::save_figures(&session, plan, &page, place)?;
     }
     write_junit(plan, &analysed, job.outputs.junit.as_deref())?;
     let end = analysed.end();

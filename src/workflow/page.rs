@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::analysis::fold::Gathered;
 use crate::analysis::noise_share::{NoiseShare, noise_shares};
 use crate::analysis::outcomes::outcomes;
+use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
 use crate::report::image::{self, PlotSize};
 use crate::report::page::gather::Analysis;
@@ -76,7 +77,7 @@ pub fn remade(
     place(storage, &path, page.html.as_bytes()).map_err(WorkflowError::files)?;
     relist(storage, root, (manifest, &found.plan), FileRecord::of(REPORT, page.html.as_bytes()))
         .map_err(WorkflowError::files)?;
-    save_figures(session, &page, figures)?;
+    save_figures(session, &plan, &page, figures)?;
     Ok(Remade { path, size: page.html.len() as u64, question: plan.description.clone(), end: analysed.end(), noise })
 }
 
@@ -129,13 +130,20 @@ fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord], no
     Page::new(ensemble, &contents)
 }
 
-/// Writes the figures of `page` as files of this size into the folder of `place`, if one was named.
+/// Writes the figures of `page`, of the campaign `plan`, as files of this size into the folder of `place`, if one was named.
 ///
 /// # Errors
 /// Where a file cannot be written.
-pub fn save_figures(session: &Session<'_>, page: &Page, place: Option<(&Path, PlotSize)>) -> Result<(), WorkflowError> {
+pub fn save_figures(
+    session: &Session<'_>,
+    plan: &Plan,
+    page: &Page,
+    place: Option<(&Path, PlotSize)>,
+) -> Result<(), WorkflowError> {
     let Some((folder, size)) = place else { return Ok(()) };
-    let count = image::save_all(&page.figures, folder, size).map_err(WorkflowError::files)?;
+    let rows = plan.rows();
+    let of = format!("{}: {rows} run{}.", plan.name, if rows == 1 { "" } else { "s" });
+    let count = image::save_all(&page.figures, &of, folder, size).map_err(WorkflowError::files)?;
     session.watch.note(&format!("{}: {count} files of figures", folder.display()));
     Ok(())
 }

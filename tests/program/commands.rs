@@ -77,14 +77,15 @@ fn sample_draws_the_rows_of_the_campaign() {
 fn check_shows_what_would_run() {
     let scratch = folder("check");
     scratch.file("no_debris.toml", &campaign_without_debris());
-    let said = scratch.prints("check small.toml", 0);
+    let said = scratch.prints("check small.toml --plan", 0);
     for expected in [
+        "small: 600 runs of 1 s, method auto, tolerance 1e-10, no requirement\n",
         "samples = 600",
         "1982.77",
         "3054.59",
         "J_xy = -integral of x y dm",
         "initial.angular_velocity_rad_s.x",
-        "needed because of",
+        "needed by ",
         "not computed: no requested observable needs it",
         "inertia of the spacecraft, wheels locked,",
         "angular momentum of the spacecraft about its centre of mass",

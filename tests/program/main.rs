@@ -28,6 +28,7 @@ mod faults;
 mod faulty_storage;
 mod flown_loop;
 mod hostile_files;
+mod index_command;
 mod interrupted;
 mod judged_columns;
 mod loop_actuators;
