@@ -6,7 +6,7 @@ use crate::analysis::comparison::{ColumnComparison, Comparison};
 use crate::analysis::comparison_table;
 use crate::analysis::population::Population;
 use crate::campaign::difference::KeyDifference;
-use crate::report::number::brief;
+use crate::report::number::{brief, trimmed};
 use crate::report::text_table::{Align, TextTable};
 use crate::report::wrapped::wrapped;
 use crate::statistics::quantile::percent;
@@ -114,11 +114,11 @@ fn observables(comparison: &Comparison, tolerance: Option<f64>, width: usize) ->
             all.len(),
             shifted.len(),
             all.iter().filter(|column| column.p_value.is_some()).count(),
-            brief(comparison.level()),
+            trimmed(comparison.level(), 3),
         ),
         width,
     );
-    let limit = brief(most);
+    let limit = trimmed(most, 3);
     for (title, columns) in [
         (format!("matters: shifted by more than {limit} of the spread"), &matters),
         (format!("detectable, and small: shifted by at most {limit} of the spread"), &detectable),

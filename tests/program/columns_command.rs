@@ -11,10 +11,7 @@ use crate::support::scratch_folder::ScratchFolder;
 #[test]
 fn every_column_is_shown() {
     let scratch = folder("all-columns");
-    let wide = |arguments: &str| {
-        let mut command = scratch.command(arguments);
-        scratch.outputs(command.env("COLUMNS", "1000"), 0)
-    };
+    let wide = |arguments: &str| scratch.prints_wide(arguments, 0);
     let both = wide("columns");
     // those of control loops are the last
     let (all, of_loops) = both.split_once("\ncontrol loop\n").expect("columns of loops");
@@ -88,7 +85,7 @@ fn the_columns_of_a_campaign_are_those_of_its_rows() {
     scratch.prints("campaign small.toml --samples 10 --audit 1 --out r", 0);
     let rows = &scratch.table("r/runs/part-000000.parquet");
     let names: Vec<String> = rows.schema().fields().iter().map(|field| field.name().clone()).collect();
-    let text = scratch.prints("columns --campaign small.toml", 0);
+    let text = scratch.prints_wide("columns --campaign small.toml", 0);
     let shown: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("  ")?.split_whitespace().next()).collect();
     let without_audits: Vec<&String> = names.iter().filter(|name| !name.starts_with("audit_")).collect();
     assert_eq!(shown, without_audits);

@@ -221,7 +221,7 @@ fn a_campaign_counts_what_it_has() {
 fn a_check_estimates_what_is_made() {
     let scratch = ScratchFolder::new("screen-check");
     scratch.file("c.toml", &failing());
-    let said = scratch.prints("check c.toml", 0);
+    let said = scratch.prints_wide("check c.toml", 0);
     scratch.prints("campaign c.toml --out r", 3);
     let columns = scratch.rows("r")[0].num_columns() as f64;
     let sizes: Vec<u64> = scratch.parts("r").iter().map(|(_, bytes)| bytes.len() as u64).collect();
