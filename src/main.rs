@@ -7,8 +7,8 @@ use std::process::ExitCode;
 
 use spindrift::cli::arguments::{Command, arguments};
 use spindrift::cli::{
-    check, columns, command_outcome, compare, finish_campaign, new, precision, report, run_campaign, sample, signals,
-    simulate, slurm, verify,
+    check, columns, command_outcome, compare, finish_campaign, index, new, precision, report, run_campaign, sample,
+    signals, simulate, slurm, verify,
 };
 
 fn main() -> ExitCode {
@@ -20,6 +20,7 @@ fn main() -> ExitCode {
         Command::Check(options) => check::run(&options),
         Command::Compare(options) => compare::run(&options),
         Command::Columns(options) => columns::run(&options),
+        Command::Index(options) => index::run(&options),
         Command::New(options) => new::run(&options),
         Command::Precision(options) => precision::run(&options),
         Command::Report(options) => report::run(&options),

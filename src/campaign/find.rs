@@ -1,6 +1,7 @@
 //! Which file a name on the command line means.
 
 use super::input_file::is_unreadable;
+use super::problem::nearest;
 use std::path::{Path, PathBuf};
 
 /// The folder of shipped campaigns, in which a bare name is looked up.
@@ -34,6 +35,30 @@ fn find_in(start: &Path, name: &Path) -> Result<PathBuf, Vec<PathBuf>> {
     }
 }
 
+/// The campaign file that `name` probably means: the nearest name among those in its folder, and for a bare name also among the shipped ones.
+pub fn nearest_file(name: &Path) -> Option<PathBuf> {
+    nearest_in(Path::new(""), name)
+}
+
+fn nearest_in(start: &Path, name: &Path) -> Option<PathBuf> {
+    let is_bare = name.components().count() == 1;
+    let own = name.parent().unwrap_or(Path::new("")).to_owned();
+    let folders = [Some(own), is_bare.then(|| PathBuf::from(FOLDER))];
+    let stem = |path: &Path| Some(path.file_stem()?.to_str()?.to_owned());
+    let mut files: Vec<(String, PathBuf)> = Vec::new();
+    for folder in folders.into_iter().flatten() {
+        let there = if folder.as_os_str().is_empty() { Path::new(".") } else { &folder };
+        let entries = std::fs::read_dir(start.join(there)).into_iter().flatten().filter_map(Result::ok);
+        let campaigns = entries.map(|entry| folder.join(entry.file_name()));
+        let mut campaigns: Vec<PathBuf> =
+            campaigns.filter(|path| path.extension().is_some_and(|extension| extension == "toml")).collect();
+        campaigns.sort();
+        files.extend(campaigns.into_iter().filter_map(|path| Some((stem(&path)?, path))));
+    }
+    let meant = nearest(&stem(name)?, files.iter().map(|(stem, _)| stem.as_str()))?.to_owned();
+    files.into_iter().find(|(stem, _)| *stem == meant).map(|(_, path)| path)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -48,6 +73,15 @@ mod tests {
         }
         assert_eq!(find_in(&root, Path::new("elsewhere/burn")).map_err(|tried| tried.len()), Err(2));
         assert_eq!(find_in(&root, Path::new("no_such_campaign")).map_err(|tried| tried.len()), Err(4));
+        // the nearest file in its folder, also a shipped one; none for a name like no other
+        std::fs::write(root.join("mine.toml"), "").expect("a file");
+        let meant = |name: &str| nearest_in(&root, Path::new(name));
+        assert_eq!(meant("brun.toml"), Some(PathBuf::from("campaigns/burn.toml")));
+        assert_eq!(
+            [meant("campaigns/bunr"), meant("mime")],
+            [Some("campaigns/burn.toml".into()), Some("mine.toml".into())]
+        );
+        assert_eq!([meant("something_else"), meant("absent/burn")], [None, None]);
         std::fs::remove_dir_all(root).expect("removed");
     }
 }

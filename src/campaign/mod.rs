@@ -75,7 +75,7 @@ pub use compression::Compression;
 pub use derived_observable::DerivedObservable;
 pub use display::{Display, ShownUnit};
 pub use draw::{SceneDraws, draw};
-pub use find::find;
+pub use find::{find, nearest_file};
 pub use plan::{FilesRead, Overrides, Plan};
 pub use problem::{CampaignError, Problem};
 pub use requirement::{Requirement, Statement};

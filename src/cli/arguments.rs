@@ -10,6 +10,7 @@ use crate::cli::argument_values::{
     count, fraction, method, sbatch_option, seconds, setting, shard, shards, shift, size, threads, time_limit,
     tolerance,
 };
+use crate::cli::colour::Colour;
 use crate::cli::slurm_script::TimeLimit;
 use crate::cli::{help, screen};
 use crate::propagation::Method;
@@ -23,6 +24,9 @@ pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+    /// Colour verdicts, help and notes; `auto` does on a terminal, unless NO_COLOR is set.
+    #[arg(long, value_name = "WHEN", global = true, value_enum, default_value_t = Colour::Auto, hide_possible_values = true)]
+    pub color: Colour,
 }
 
 /// The commands.
@@ -40,7 +44,7 @@ pub enum Command {
     /// Check a result: checksums, recomputed rows, and every file derived from the rows.
     #[command(after_help = help::VERIFY)]
     Verify(VerifyOptions),
-    /// Show what a campaign would run: plan, masses, dispersions, what is integrated and why, time, disk.
+    /// Show what a campaign would run: time, disk, dispersions, masses, what is integrated and why.
     #[command(after_help = help::CHECK)]
     Check(CheckOptions),
     /// Compare two results: plans, verdicts, and the shift of every outcome.
@@ -55,6 +59,9 @@ pub enum Command {
     /// Rebuild the report page of a finished result, and write its figures as files.
     #[command(after_help = help::REPORT)]
     Report(ReportOptions),
+    /// List all results below a folder, with verdicts and what changed, also as a page.
+    #[command(after_help = help::INDEX)]
+    Index(IndexOptions),
     /// Measure run time against error for methods and tolerances.
     #[command(after_help = help::PRECISION)]
     Precision(PrecisionOptions),
@@ -141,6 +148,9 @@ pub struct CampaignOptions {
     /// Stop after the first part with a failed run, with exit code 1; the same command without this option continues.
     #[arg(long)]
     pub fail_fast: bool,
+    /// Show all that the rows say, not one screen of it.
+    #[arg(long)]
+    pub verbose: bool,
     /// Do not write report.html.
     #[arg(long)]
     pub no_report: bool,
@@ -180,6 +190,9 @@ pub struct FinishOptions {
     /// Write the verdicts to this file as JUnit XML.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
+    /// Show all that the rows say, not one screen of it.
+    #[arg(long)]
+    pub verbose: bool,
     /// Do not write report.html.
     #[arg(long)]
     pub no_report: bool,
@@ -249,6 +262,9 @@ pub struct VerifyOptions {
 pub struct CheckOptions {
     /// The campaign file.
     pub file: PathBuf,
+    /// Show the plan too: every key, with the defaults.
+    #[arg(long)]
+    pub plan: bool,
     /// Overrides.
     #[command(flatten)]
     pub changed: Changed,
@@ -331,6 +347,14 @@ pub struct SampleOptions {
     /// Size of figures.
     #[command(flatten)]
     pub size: SizeOptions,
+}
+
+/// Arguments of `index`.
+#[derive(Debug, Args)]
+pub struct IndexOptions {
+    /// The folder with results in it; index.html is written there.
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
 }
 
 /// Arguments of `precision`.
@@ -442,6 +466,6 @@ mod tests {
             }
             count += 1;
         }
-        assert_eq!(count, 12);
+        assert_eq!(count, 13);
     }
 }

@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 
+use crate::campaign::Plan;
 use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::workload::Workload;
-use crate::cli::{dispersions, scene_text, screen};
+use crate::cli::{completed_text, dispersions, scene_text, screen};
 use crate::control::capacity::Capacity;
 use crate::ensemble::Ensemble;
 use crate::ensemble::influence;
@@ -15,8 +16,10 @@ use crate::ensemble::run_cost::parts;
 use crate::observables::{Group, Request};
 use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::report::failure_text;
-use crate::report::number::{bytes, short};
-use crate::run::StateField;
+use crate::report::number::{bytes, short, trimmed};
+use crate::report::text_table::{Align, TextTable};
+use crate::report::wrapped::wrapped;
+use crate::run::{StateField, Status};
 use crate::scene::{Scene, WheelMode};
 use crate::storage::rows_file::headings;
 use crate::workflow::isa;
@@ -33,9 +36,18 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
         .map_err(|errors| Failure::Input(errors.iter().map(|error| format!("{error}\n")).collect()))?;
     let probe = RunProbe::new(&ensemble);
     let mut text = if probe.is_hopeless() { failures(&probe) } else { String::new() };
+    text += &summary(&plan);
+    text += &estimate(&ensemble, &probe);
+    text += &audit_estimate(&ensemble);
     let written = (|| {
-        section(&mut text, &format!("Plan (hash {})", plan.hash()))?;
-        text.push_str(&plan.text());
+        let unseen = influence::notes(&plan, ensemble.isa());
+        let notes: Vec<String> = plan.notes().into_iter().chain(implausible(&plan)).chain(unseen).collect();
+        if !notes.is_empty() {
+            section(&mut text, "Notes")?;
+        }
+        notes.iter().try_for_each(|note| writeln!(text, "{note}"))?;
+        section(&mut text, "Dispersions")?;
+        dispersions::table(&mut text, &plan)?;
         section(&mut text, "Mass properties of the nominal scene")?;
         scene_text::masses(&mut text, &plan.nominal, &scene.mass)?;
         section(&mut text, "Momenta and torques of the nominal scene")?;
@@ -44,24 +56,40 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
             section(&mut text, "Torque of the control loop")?;
             Capacity::of(spec, &scene).lines(spec).iter().try_for_each(|line| writeln!(text, "{line}"))?;
         }
-        section(&mut text, "Dispersions")?;
-        dispersions::table(&mut text, &plan)?;
-        let unseen = influence::notes(&plan, ensemble.isa());
-        let notes: Vec<String> = plan.notes().into_iter().chain(implausible(&plan)).chain(unseen).collect();
-        if !notes.is_empty() {
-            section(&mut text, "Notes")?;
-        }
-        notes.iter().try_for_each(|note| writeln!(text, "{note}"))?;
         computed(&mut text, &ensemble)?;
         std::fmt::Result::Ok(())
     })();
     written.map_err(Failure::files)?;
-    screen::print(&text)?;
+    screen::print(&wrapped(&text, screen::width()))?;
+    if options.plan {
+        // as it is in a file
+        screen::print(&format!("\n== Plan (hash {})\n{}", plan.hash(), plan.text()))?;
+    }
     let failed = probe.failed() as u64;
     let outcome = if probe.is_hopeless() { CommandOutcome::SomeFailed(failed) } else { CommandOutcome::Done };
-    screen::print(&estimate(&ensemble, &probe))?;
-    screen::print(&audit_estimate(&ensemble))?;
     Ok(outcome)
+}
+
+/// What the campaign asks, and what it runs.
+fn summary(plan: &Plan) -> String {
+    let steps = match plan.step_s {
+        Some(step) => format!("steps of {} s", trimmed(step, 6)),
+        None => format!("tolerance {:e}", plan.tolerance.relative),
+    };
+    let (rows, seconds) = (plan.rows(), plan.grid.duration());
+    let requirements = match plan.analysis.requirements.len() {
+        0 => "no requirement".to_owned(),
+        1 => "1 requirement".to_owned(),
+        count => format!("{count} requirements"),
+    };
+    format!(
+        "{}{}: {rows} run{} of {seconds} s, method {}, {steps}, {requirements}\nplan {} (all of it: --plan)\n",
+        completed_text::question(plan.description.as_deref()),
+        plan.name,
+        if rows == 1 { "" } else { "s" },
+        plan.method.name(),
+        &plan.hash()[..12],
+    )
 }
 
 /// What the probe found where runs failed: how many, and why.
@@ -84,12 +112,12 @@ fn section(text: &mut String, title: &str) -> std::fmt::Result {
 fn computed(text: &mut String, ensemble: &Ensemble<'_>) -> std::fmt::Result {
     section(text, "What is computed")?;
     let reasons = ensemble.request().reasons();
+    let mut table = TextTable::new([("", Align::Left), ("", Align::Sentence)]);
     for field in StateField::ALL.into_iter().filter(|field| has(ensemble.request(), *field)) {
-        let name = field_name(field);
-        match reasons.iter().find(|(needed, _)| *needed == field) {
-            Some((_, reason)) => writeln!(text, "{name:<44} needed by {reason}")?,
-            None => writeln!(text, "{name:<44} not computed: no requested observable needs it")?,
-        }
+        table.row(match reasons.iter().find(|(needed, _)| *needed == field) {
+            Some((_, reason)) => [field_name(field).to_owned(), format!("needed by {reason}")],
+            None => [field_name(field).to_owned(), "not computed: no requested observable needs it".to_owned()],
+        });
     }
     let scene = &ensemble.plan().nominal;
     let acting = ensemble.request().actuated;
@@ -104,9 +132,10 @@ fn computed(text: &mut String, ensemble: &Ensemble<'_>) -> std::fmt::Result {
             _ => "not computed: no command of the schedule acts",
         };
         if exists {
-            writeln!(text, "{term:<44} {why}")?;
+            table.row([term, why]);
         }
     }
+    text.push_str(&table.text(screen::width()));
     let columns = ensemble.request().columns();
     let has_columns = |group: &&Group| columns.iter().any(|column| column.group == **group);
     let (with, without): (Vec<&Group>, Vec<&Group>) = ensemble.plan().groups.iter().partition(has_columns);
@@ -162,7 +191,11 @@ fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
     if let Some(LongRun { sample, reached }) = probe.too_long {
         let duration = plan.grid.duration();
         let end = if is_out_of_reach(plan.max_steps, reached, duration) {
-            format!("; at that pace integrator.max_steps ({}) does not suffice", plan.max_steps)
+            format!(
+                "; at that pace integrator.max_steps ({}) does not suffice; {}",
+                plan.max_steps,
+                failure_text::remedy(Status::StepLimit).unwrap_or_default()
+            )
         } else {
             String::new()
         };

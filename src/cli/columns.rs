@@ -1,14 +1,14 @@
 //! `spindrift columns`: the columns of the rows of a result, with unit and meaning.
 
-use std::fmt::Write as _;
-
 use crate::campaign::problem::nearest;
 use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::ColumnsOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::screen;
+use crate::control::outcome::columns::OutcomeColumns;
 use crate::ensemble::Ensemble;
 use crate::observables::{Group, table};
+use crate::report::text_table::{Align, TextTable};
 use crate::run::Quantity;
 use crate::storage::rows_file::headings;
 use crate::workflow::isa;
@@ -77,7 +77,12 @@ fn of_all_campaigns() -> Vec<ColumnSection> {
             .map(|column| (column.quantity.clone(), column.scenes()))
             .collect(),
     };
-    Group::ALL.into_iter().map(section).collect()
+    let of_loops = OutcomeColumns::of_all_loops();
+    Group::ALL
+        .into_iter()
+        .map(section)
+        .chain([ColumnSection { title: CONTROL.to_owned(), columns: of_loops }])
+        .collect()
 }
 
 /// The columns of the rows of `plan`: what is of the sample, its groups, and audits.
@@ -101,22 +106,24 @@ fn of_campaign(plan: &Plan) -> Result<Vec<ColumnSection>, Failure> {
 
 /// Title of the columns before the observables.
 const SAMPLE: &str = "the sample and what it applies";
+/// Title of the columns of control loops.
+const CONTROL: &str = "control loop";
 /// Title of the columns after them.
 const AUDIT: &str = "audit";
 
 fn text(sections: &[ColumnSection]) -> String {
-    let all = || sections.iter().flat_map(|section| &section.columns);
-    let width = |text: fn(&Quantity) -> &str| all().map(|(q, _)| text(q).chars().count()).max().unwrap_or(0);
-    let (names, units) = (width(Quantity::name), width(Quantity::unit));
     let mut text = String::new();
     for section in sections {
-        let newline = if text.is_empty() { "" } else { "\n" };
-        let _ = writeln!(text, "{newline}{}", section.title); // writing to a String does not fail
-        for (quantity, scenes) in &section.columns {
-            let only = if scenes.is_empty() { String::new() } else { format!(" ({scenes})") };
-            let (name, unit, meaning) = (quantity.name(), quantity.unit(), quantity.meaning());
-            let _ = writeln!(text, "  {name:<names$}  {unit:<units$}  {meaning}{only}");
+        if !text.is_empty() {
+            text.push('\n');
         }
+        text += &format!("{}\n", section.title);
+        let mut table = TextTable::new([("", Align::Left), ("", Align::Left), ("", Align::Sentence)]);
+        for (quantity, needs) in &section.columns {
+            let needs = if needs.is_empty() { String::new() } else { format!(" ({needs})") };
+            table.row([quantity.name(), quantity.unit(), &(quantity.meaning().to_owned() + &needs)]);
+        }
+        text += &table.text(screen::width());
     }
     text
 }

@@ -63,7 +63,10 @@ pub fn compared(session: &Session<'_>, options: &CompareOptions) -> Result<(Comm
         0 => CommandOutcome::Done,
         failed => CommandOutcome::RequirementsFailed(failed),
     };
-    Ok((outcome, format!("{}\n{}{verdict}{worsened}", names.join(" | "), comparison_text::text(compared))))
+    Ok((
+        outcome,
+        format!("{}\n{}{verdict}{worsened}", names.join(" | "), comparison_text::text(compared, screen::width())),
+    ))
 }
 
 /// The requirements of both results: those of the first in their order, then those that only the second has.

@@ -4,59 +4,77 @@ use std::path::Path;
 
 use crate::cli::screen::width;
 use crate::report::audit_summary::cost;
-use crate::report::drivers_text;
 use crate::report::number::bytes;
 use crate::report::summary::SummaryEnd;
+use crate::report::text_table::{Align, TextTable};
+use crate::report::wrapped::wrapped;
+use crate::report::{brief_text, drivers_text};
 use crate::storage::names::REPORT;
 use crate::workflow::Completed;
 
-/// The result in words; `replayed` is the campaign file as a word of the command `simulate`.
-pub fn text(completed: &Completed, replayed: &str) -> String {
-    let Completed { plan, summary, .. } = completed;
+/// The result in words, on one screen or with all that is known of it; `replayed` is the campaign file as a word of the command `simulate`.
+pub fn text(completed: &Completed, replayed: &str, is_verbose: bool) -> String {
+    let Completed { plan, summary, sensitivities, .. } = completed;
+    let head = question(plan.description.as_deref()) + &headline(completed);
+    let body = if is_verbose {
+        let drivers = drivers_text::text(plan, sensitivities);
+        summary.text(&drivers, replayed, width()) + &files(completed)
+    } else {
+        brief_text::text(plan, summary, sensitivities, replayed, width())
+    };
+    head + &body + &verdict(&completed.end, &completed.root)
+}
+
+/// What a result takes: CPU time of audits, files.
+fn files(completed: &Completed) -> String {
     let seconds = completed.made.unwrap_or_default().seconds;
     let audits = if completed.is_audited && seconds[1] > 0.0 {
         format!("\n  audits: {}\n", cost(seconds))
     } else {
         String::new()
     };
-    format!(
-        "{}\n{}{audits}\n  {}: {} file{} of rows, {}\n{}",
-        headline(completed),
-        summary.text(&drivers_text::text(plan, &completed.sensitivities), replayed, width()),
-        completed.root.display(),
-        completed.files,
-        if completed.files == 1 { "" } else { "s" },
-        bytes(completed.bytes),
-        page(&completed.root),
-    )
+    let (root, files, size) = (completed.root.display(), completed.files, bytes(completed.bytes));
+    format!("{audits}\n  {root}: {files} file{} of rows, {size}\n", if files == 1 { "" } else { "s" })
+}
+
+/// The question of a campaign, which comes first.
+pub fn question(question: Option<&str>) -> String {
+    let Some(first) = question.and_then(|text| text.chars().next()) else { return String::new() };
+    let rest = &question.unwrap_or_default()[first.len_utf8()..];
+    wrapped(&format!("{}{rest}\n", first.to_uppercase()), width())
 }
 
 /// The warnings and verdicts of a finished result in `root`, and its page.
 pub fn of_end(end: &SummaryEnd, root: &Path) -> String {
-    let verdicts: String = end.verdicts.iter().map(|(one, verdict)| format!("  {verdict:<10}{one}\n")).collect();
+    let mut verdicts = TextTable::new([("", Align::Left), ("", Align::Sentence)]);
+    end.verdicts.iter().for_each(|(one, verdict)| verdicts.row([verdict, one]));
     let warnings: String = end.warnings.iter().map(|one| format!("  {one}\n")).collect();
-    warnings + &verdicts + &page(root)
+    wrapped(&warnings, width()) + &verdicts.text(width()) + &verdict(end, root)
 }
 
-/// The name of the page in `root`, where there is one.
-fn page(root: &Path) -> String {
+/// The last line: the verdict, and the page in `root`, where there is one.
+fn verdict(end: &SummaryEnd, root: &Path) -> String {
     let page = root.join(REPORT);
-    if page.is_file() { format!("  {}\n", page.display()) } else { String::new() }
+    end.verdict_line(if page.is_file() { &page } else { root }) + "\n"
 }
 
+/// What ran, how fast.
 fn headline(completed: &Completed) -> String {
-    let (name, samples, seed) = (&completed.plan.name, completed.plan.rows(), completed.plan.seed);
+    let (name, end, seed) = (&completed.plan.name, &completed.end, completed.plan.seed);
+    let ok = if end.failed > 0 { format!("{} of ", end.rows - end.failed) } else { String::new() };
     let run = match completed.made {
         Some(made) if made.samples > 0 => {
             let seconds = made.elapsed.as_secs_f64();
-            let which = if made.samples == samples { String::new() } else { format!("{} of them now, ", made.samples) };
-            format!(", {which}in {seconds:.2} s ({:.0}/s)", made.samples as f64 / seconds.max(1e-9))
+            let which =
+                if made.samples == end.rows { String::new() } else { format!(", {} of them now,", made.samples) };
+            format!("{which} in {seconds:.2} s ({})", rate(made.samples as f64 / seconds.max(1e-9)))
         }
         _ => String::new(),
     };
-    format!(
-        "{name}: {samples} {} ({}){run}, seed {seed}",
-        if samples == 1 { "sample" } else { "samples" },
-        completed.summary.samples()
-    )
+    format!("{name}: {ok}{} run{} computed{run}, seed {seed}\n", end.rows, if end.rows == 1 { "" } else { "s" })
+}
+
+/// A number of samples per second: whole, or with one decimal below ten.
+pub fn rate(rate: f64) -> String {
+    format!("{rate:.*}/s", usize::from(rate < 9.95))
 }

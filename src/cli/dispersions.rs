@@ -3,11 +3,13 @@
 use std::fmt::Write as _;
 
 use crate::campaign::{Plan, SceneDraws, ShownUnit};
+use crate::cli::screen::width;
 use crate::ensemble::drawn::{MASS_COLUMNS, magnitudes, mass_properties};
 use crate::ensemble::magnitude::Magnitude;
 use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::report::number::short;
 use crate::report::origin_text::{origin, unit_of};
+use crate::report::text_table::{Align, TextTable};
 use crate::sampling::{Design, Replaced, SampleId};
 
 /// Draws behind the percentiles: the 1% and 99% lie within a tenth of the distribution's width of their true places.
@@ -43,24 +45,26 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
     let column_of = |magnitude: &Magnitude| columns.iter().position(|column| column.parameter == magnitude.parameter);
     let of_magnitudes = magnitudes.iter().map(|magnitude| column_of(magnitude).unwrap_or(0));
     let units: Vec<ShownUnit> = (0..columns.len()).chain(of_magnitudes).map(|column| unit_of(plan, column)).collect();
-    let widest = units.iter().map(|shown| shown.unit.len()).max().unwrap_or(0).max(4);
-    let title = format!("parameter, of {} draws (sample 0 is nominal)", drawn.count());
-    let width = names.iter().map(String::len).chain([title.len()]).max().unwrap_or(0);
-    writeln!(
-        text,
-        "{title:<width$}  {:<widest$}{:>12}  {:>12}{:>12}{:>12}  distribution",
-        "unit", "nominal", "1%", "50%", "99%"
-    )?;
+    writeln!(text, "percentiles of {} draws (sample 0 is nominal)", drawn.count())?;
+    let mut table = TextTable::new([
+        ("parameter", Align::Left),
+        ("unit", Align::Left),
+        ("nominal", Align::Right),
+        ("1%", Align::Right),
+        ("50%", Align::Right),
+        ("99%", Align::Right),
+        ("distribution", Align::Sentence),
+    ]);
     let percentiles = drawn.quantiles([0.01, 0.5, 0.99]);
     for row in order(plan, &magnitudes) {
         let shown = &units[row];
-        let unit = if shown.unit.is_empty() { "-" } else { &shown.unit };
-        write!(text, "{:<width$}  {unit:<widest$}{:>12}  ", names[row], short(shown.value(drawn.nominal()[row])))?;
+        let unit = if shown.unit.is_empty() { "-".to_owned() } else { shown.unit.clone() };
         let none = ["-".to_owned(), "-".to_owned(), "-".to_owned()];
         let [low, middle, high] = percentiles[row].map_or(none, |values| values.map(|value| short(shown.value(value))));
         let origin = if row < columns.len() { origin(plan, row) } else { "of the components".to_owned() };
-        writeln!(text, "{low:>12}{middle:>12}{high:>12}  {origin}")?;
+        table.row([names[row].clone(), unit, short(shown.value(drawn.nominal()[row])), low, middle, high, origin]);
     }
+    text.push_str(&table.text(width()));
     if !drawn.is_exact() {
         writeln!(text, "percentiles of so many draws are within 0.05% of their distance from the nominal value")?;
     }

@@ -29,12 +29,8 @@ pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
     })?;
     let (outcome, text) = match finished {
         Finished::Now(completed) => (
-            CommandOutcome::of_campaign(
-                completed.failed_runs + completed.not_covered,
-                completed.failed,
-                completed.undecided,
-            ),
-            completed_text::text(&completed, &quoted_path(&root.join(PLAN))),
+            CommandOutcome::of_end(&completed.end),
+            completed_text::text(&completed, &quoted_path(&root.join(PLAN)), options.verbose),
         ),
         Finished::Already(end) => (
             CommandOutcome::of_end(&end),

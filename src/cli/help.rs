@@ -74,6 +74,12 @@ Examples:
   spindrift report results/spin_sweep
   spindrift report results/net_launch --figures figures";
 
+/// Of `index`.
+pub const INDEX: &str = "\
+Examples:
+  spindrift index results
+  spindrift index /data/studies";
+
 /// Of `precision`.
 pub const PRECISION: &str = "\
 Examples:

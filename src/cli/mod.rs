@@ -2,9 +2,9 @@
 //!
 //! - [`arguments`]: commands and options; [`argument_values`]: their values; [`help`]: what their help texts end with. - [`outputs`]: which files a command may write. - [`workload`]: what a command would
 //!   compute and write, refused where it cannot be done; [`machine`]: what is left of memory and disk.
-//! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`new`], [`precision`], [`report`], [`sample`],
+//! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`index`], [`new`], [`precision`], [`report`], [`sample`],
 //!   [`simulate`], [`slurm`]: one command each; [`completed_text`]: what is printed of a result. - [`slurm_script`]: the scripts of Slurm.
-//! - [`dispersions`]: the dispersions of a plan as text. - [`terminal`]: notes and the progress bar; [`screen`]: printing; [`signals`].
+//! - [`dispersions`]: the dispersions of a plan as text. - [`terminal`]: notes and the progress bar; [`screen`]: printing, [`colour`]: in colour; [`signals`].
 //! - [`command_outcome`]: how a command ends, and its exit code.
 //!
 //! Not here: physics, sampling, file formats, and what campaigns and results are (`workflow`).
@@ -12,6 +12,7 @@
 pub mod argument_values;
 pub mod arguments;
 pub mod check;
+pub mod colour;
 pub mod columns;
 pub mod command_outcome;
 pub mod compare;
@@ -19,6 +20,7 @@ pub mod completed_text;
 pub mod dispersions;
 pub mod finish_campaign;
 pub mod help;
+pub mod index;
 pub mod machine;
 pub mod new;
 pub mod outputs;

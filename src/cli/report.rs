@@ -3,8 +3,8 @@
 use crate::cli::arguments::ReportOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::refuse_within;
-use crate::cli::screen;
 use crate::cli::terminal::Terminal;
+use crate::cli::{completed_text, screen};
 use crate::report::noise_text;
 use crate::report::number::bytes;
 use crate::workflow::Session;
@@ -19,8 +19,9 @@ pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {
     refuse_within(&options.folder, &[("--figures", options.figures.as_deref())])?;
     let session = Session::new(&watch)?.on_threads(options.threads);
     let figures = options.figures.as_deref().map(|folder| (folder, options.size.of()));
-    let Remade { path, size, noise } = remade(&session, &options.folder, figures, options.noise)?;
-    screen::print(&noise_text::lines(&noise))?;
-    screen::print(&format!("{}: {}\n", path.display(), bytes(size)))?;
+    let Remade { path, size, question, end, noise } = remade(&session, &options.folder, figures, options.noise)?;
+    let question = completed_text::question(question.as_deref());
+    let verdict = end.verdict_line(&path);
+    screen::print(&format!("{question}{}{verdict} ({})\n", noise_text::lines(&noise), bytes(size)))?;
     Ok(CommandOutcome::Done)
 }

@@ -34,12 +34,8 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     let (plan, root) = (campaign.plan(), campaign.root());
     match campaign.run()? {
         CampaignOutcome::Finished(completed) => {
-            screen::print(&completed_text::text(&completed, &replayed(options, root)))?;
-            Ok(CommandOutcome::of_campaign(
-                completed.failed_runs + completed.not_covered,
-                completed.failed,
-                completed.undecided,
-            ))
+            screen::print(&completed_text::text(&completed, &replayed(options, root), options.verbose))?;
+            Ok(CommandOutcome::of_end(&completed.end))
         }
         CampaignOutcome::AlreadyFinished(end) => {
             let outcome = CommandOutcome::of_end(&end);
@@ -48,7 +44,8 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
                 _ => String::new(),
             };
             screen::print(&format!(
-                "{}: already complete in {} ({} samples{failed}), every checksum verified; nothing to do. --overwrite runs it again.\n{}",
+                "{}{}: already complete in {} ({} samples{failed}), every checksum verified; nothing to do. --overwrite runs it again.\n{}",
+                completed_text::question(plan.description.as_deref()),
                 plan.name,
                 root.display(),
                 end.rows,

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use crate::campaign::excerpt::printable;
+use crate::cli::colour::{self, Kind, coloured};
 use crate::cli::machine::terminal_width;
 
 /// Prints a result on standard output.
@@ -11,7 +12,9 @@ use crate::cli::machine::terminal_width;
 /// Where writing fails; a closed pipe is not an error.
 pub fn print(text: &str) -> io::Result<()> {
     let mut out = io::stdout().lock();
-    match out.write_all(printable(text).as_bytes()).and_then(|()| out.flush()) {
+    let text = printable(text);
+    let text = if colour::is_on(&out) { coloured(&text, Kind::Result).into() } else { text };
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         result => result.map_err(|error| io::Error::new(error.kind(), format!("standard output: {error}"))),
     }
@@ -29,5 +32,8 @@ pub fn width() -> usize {
 
 /// Prints a message on standard error; failure to write it is ignored.
 pub fn note(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{}", printable(text));
+    let mut out = io::stderr().lock();
+    let text = printable(text);
+    let text = if colour::is_on(&out) { coloured(&text, Kind::Note).into() } else { text };
+    let _ = writeln!(out, "{text}");
 }

@@ -1,12 +1,13 @@
 //! [`Terminal`]: what a command tells while it works: notes, and on a terminal a bar with rate and remaining time. Signals stop it.
 
+use std::fmt::Write;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::cli::signals::{self, Signals};
-use crate::cli::{screen, signals::asked};
+use crate::cli::{completed_text, screen, signals::asked};
 use crate::workflow::Watch;
 
 /// Redraws per second; progress is reported far more often.
@@ -38,9 +39,12 @@ impl Watch for Terminal {
     fn begin(&self, samples: u64) {
         signals::watch();
         let bar = ProgressBar::with_draw_target(Some(samples), ProgressDrawTarget::stderr_with_hz(REFRESH_HZ));
-        let template = "{bar:30} {human_pos}/{human_len} samples  {per_sec}  {eta} left";
+        let template = "{bar:30} {human_pos}/{human_len} samples  {rate}  {eta} left";
         if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style.progress_chars("=> "));
+            let rate = |state: &ProgressState, out: &mut dyn Write| {
+                let _ = write!(out, "{}", completed_text::rate(state.per_sec()));
+            };
+            bar.set_style(style.progress_chars("=> ").with_key("rate", rate));
         }
         *self.bar() = Some(bar);
     }

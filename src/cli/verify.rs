@@ -20,7 +20,7 @@ pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
     };
     let Verified { checked, problems, is_finished, unchecked, completed } = &verified;
     let replayed = options.folder.join(PLAN).display().to_string();
-    let completed = completed.as_ref().map(|completed| completed_text::text(completed, &replayed));
+    let completed = completed.as_ref().map(|completed| completed_text::text(completed, &replayed, false));
     let end = match (&completed, is_finished, problems) {
         (Some(_), _, 0) => "sound, and finished now".to_owned(),
         (Some(_), ..) => format!("{problems} problems, repaired"),

@@ -264,7 +264,7 @@ mod tests {
             (
                 work(6e18, 1e9, 6e11),
                 [Some(
-                    "19012.9 years of CPU time, 6000000.0 TB of files in `r`, 1.0 GB of memory: the disk has 1.0 GB left",
+                    "19013 years of CPU time, 6000000.0 TB of files in `r`, 1.0 GB of memory: the disk has 1.0 GB left",
                 ); 3],
             ),
             (work(0.0, 3e9, 60.0), [Some("about 60 s of CPU time, 3.0 GB of memory: the machine has 2.0 GB left"); 3]),

@@ -154,6 +154,20 @@ impl AuditSummary {
         std::iter::once((STATE_ERROR_ESTIMATE.name(), self.estimate)).chain(debris)
     }
 
+    /// A line for each estimate: how many of the true errors it covers.
+    pub fn coverage(&self) -> String {
+        let line = |(name, one): (&str, Estimate)| {
+            format!(
+                "  {name} covers {} of {} ({:.1}%), {} times the error in the median\n",
+                one.covered,
+                one.audited,
+                100.0 * one.coverage.unwrap_or(0.0),
+                one.median_ratio.map_or("-".to_owned(), short),
+            )
+        };
+        self.estimates().map(line).collect()
+    }
+
     /// The estimates that cover the true error in fewer runs than promised, each as a sentence; none where chance may be why.
     pub fn broken_promises(&self) -> Vec<String> {
         let broken = self.estimates().filter(|(_, estimate)| estimate.excess > 0);
@@ -208,15 +222,7 @@ impl Display for AuditSummary {
             }
             writeln!(f)?;
         }
-        for (name, estimate) in self.estimates() {
-            let Estimate { audited, covered, coverage, median_ratio, .. } = estimate;
-            let ratio = median_ratio.map_or("-".to_owned(), short);
-            writeln!(
-                f,
-                "  {name} covers {covered} of {audited} ({:.1}%), {ratio} times the error in the median",
-                100.0 * coverage.unwrap_or(0.0)
-            )?;
-        }
+        f.write_str(&self.coverage())?;
         Ok(())
     }
 }

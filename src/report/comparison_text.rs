@@ -6,12 +6,16 @@ use crate::analysis::comparison::{ColumnComparison, Comparison};
 use crate::analysis::comparison_table;
 use crate::analysis::population::Population;
 use crate::campaign::difference::KeyDifference;
-use crate::report::number::short;
+use crate::report::number::{brief, trimmed};
+use crate::report::text_table::{Align, TextTable};
+use crate::report::wrapped::wrapped;
 use crate::statistics::quantile::percent;
 use crate::storage::described_table;
 
 /// Most observables in a table.
 const MOST_LINES: usize = 40;
+/// A shift that is smaller, as a share of the spread, matters to few: a small effect (J. Cohen, Statistical Power Analysis, 1988, 2.2). `--tolerance` says otherwise.
+const SMALL_EFFECT: f64 = 0.2;
 /// Most keys of plans that are listed.
 const MOST_KEYS: usize = 30;
 
@@ -48,7 +52,7 @@ pub struct Compared<'c> {
 }
 
 /// The text: differences of the plans, how the results are compared, the verdicts, and the observables that are shifted.
-pub fn text(compared: Compared<'_>) -> String {
+pub fn text(compared: Compared<'_>, width: usize) -> String {
     let Compared { comparison, keys, verdicts, tolerance } = compared;
     let mut text = match keys.len() {
         0 => "  the plans are the same\n".to_owned(),
@@ -75,87 +79,90 @@ pub fn text(compared: Compared<'_>) -> String {
             text += &format!("  only in the {which}: {}\n", names.join(", "));
         }
     }
+    text = wrapped(&text, width);
     if !verdicts.is_empty() {
         text += "\n  requirements\n";
     }
+    let heads = [("", Align::Left), ("", Align::Left), ("", Align::Left), ("", Align::Sentence)];
+    let mut requirements = TextTable::new(heads);
     for one in verdicts {
         let [first, second] = one.verdicts.each_ref().map(value);
         let mark = match (one.is_worse(), first == second) {
-            (true, _) => "   WORSE",
+            (true, _) => "WORSE",
             (false, true) => "",
-            (false, false) => "   DIFFERENT",
+            (false, false) => "DIFFERENT",
         };
-        text += &format!("  {first:<10}| {second:<10}{}{mark}\n", one.requirement);
+        requirements.row([first, second, mark.to_owned(), one.requirement.clone()]);
     }
-    text + &observables(comparison, tolerance)
+    text += &requirements.text(width);
+    text + &observables(comparison, tolerance, width)
 }
 
-/// What is said of the observables.
-fn observables(comparison: &Comparison, tolerance: Option<f64>) -> String {
+/// What is said of the observables: shifts that matter, then those that are detectable and small.
+fn observables(comparison: &Comparison, tolerance: Option<f64>, width: usize) -> String {
     let all = &comparison.columns;
     let same = all.iter().filter(|column| column.largest_relative() == 0.0 && column.differing_pairs == 0).count();
     let (shifted, others): (Vec<_>, Vec<_>) = all.iter().partition(|column| comparison.is_shifted(column));
+    let most = tolerance.unwrap_or(SMALL_EFFECT);
+    let (matters, detectable): (Vec<_>, Vec<_>) = shifted.iter().copied().partition(|column| column.is_beyond(most));
     let moved: Vec<_> = others.iter().copied().filter(|column| comparison.is_moved(column)).collect();
     let beyond: Vec<_> =
         others.into_iter().filter(|column| tolerance.is_some_and(|most| column.is_beyond(most))).collect();
-    let mut text = format!(
-        "\n  {same} of {} observables have the same statistics; {} are shifted: p adjusted for {} tests (Holm) is at most {}\n",
-        all.len(),
-        shifted.len(),
-        all.iter().filter(|column| column.p_value.is_some()).count(),
-        short(comparison.level()),
+    let mut text = wrapped(
+        &format!(
+            "\n  {same} of {} observables have the same statistics; {} are shifted: p adjusted for {} tests (Holm) is at most {}\n",
+            all.len(),
+            shifted.len(),
+            all.iter().filter(|column| column.p_value.is_some()).count(),
+            trimmed(comparison.level(), 3),
+        ),
+        width,
     );
-    text += &table(comparison, "shifted", &shifted, tolerance);
-    if !moved.is_empty() {
-        text += &format!(
-            "\n  the runs of {} more moved: most values differ one way, and the distribution is not shown to\n",
-            moved.len()
-        );
-        text += &table(comparison, "moved, not shifted", &moved, tolerance);
+    let limit = trimmed(most, 3);
+    for (title, columns) in [
+        (format!("matters: shifted by more than {limit} of the spread"), &matters),
+        (format!("detectable, and small: shifted by at most {limit} of the spread"), &detectable),
+        ("moved: most runs differ one way, and the distribution is not shown to be shifted".to_owned(), &moved),
+        ("beyond the tolerance, explained by chance".to_owned(), &beyond),
+    ] {
+        text += &table(comparison, &title, columns, tolerance, width);
     }
-    text + &table(comparison, "beyond tolerance, explained by chance", &beyond, tolerance)
+    text
 }
 
 /// A table of some observables; nothing where there are none.
-fn table(comparison: &Comparison, title: &str, columns: &[&ColumnComparison], tolerance: Option<f64>) -> String {
+fn table(
+    comparison: &Comparison,
+    title: &str,
+    columns: &[&ColumnComparison],
+    tolerance: Option<f64>,
+    width: usize,
+) -> String {
     if columns.is_empty() {
         return String::new();
     }
-    let names = columns.iter().map(|column| column.quantity.name().len() + 2 * usize::from(column.is_required));
-    let width = names.chain([title.len()]).max().unwrap_or(0);
     let confidence = percent(comparison.statistics[0].confidence);
-    let mut text = format!(
-        "\n  {title:<width$}{:>12}{:>12}{:>26}{:>11}{:>11}{:>11}   largest shift\n",
-        "mean",
-        "shift",
-        format!("{confidence}% interval"),
-        "p (mean)",
-        "p (dist.)",
-        "adjusted"
-    );
-    let optional = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.2e}"));
+    let mut table = TextTable::new([
+        (format!("{} observable{}", columns.len(), if columns.len() == 1 { "" } else { "s" }), Align::Left),
+        ("mean".to_owned(), Align::Right),
+        (format!("its shift [{confidence}%]"), Align::Right),
+        ("adjusted p".to_owned(), Align::Right),
+        ("largest shift".to_owned(), Align::Sentence),
+    ]);
     for column in columns.iter().take(MOST_LINES) {
         let mean = column.shifts.iter().find(|shift| shift.statistic == "mean").map_or(f64::NAN, |shift| shift.first);
-        let (shift, interval) = match &column.mean {
-            Some(found) => {
-                let interval = format!("[{:.2e}, {:.2e}]", found.shift.lower, found.shift.upper);
-                (short(found.shift.value), interval)
-            }
-            None => ("-".to_owned(), "-".to_owned()),
-        };
+        let shift = column.mean.as_ref().map_or("-".to_owned(), |found| {
+            let [low, high] = [found.shift.lower, found.shift.upper].map(brief);
+            format!("{} [{low}, {high}]", brief(found.shift.value))
+        });
         let worst = column.largest().map_or(String::new(), |shift| {
             let mark = if tolerance.is_some_and(|tolerance| shift.relative > tolerance) { " (beyond)" } else { "" };
-            format!("{} by {:.2e} of the spread{mark}", shift.statistic, shift.relative)
+            format!("{} by {} of the spread{mark}", shift.statistic, brief(shift.relative))
         });
         let name = format!("{}{}", if column.is_required { "* " } else { "" }, column.quantity.name());
-        text += &format!(
-            "  {name:<width$}{:>12}{shift:>12}{interval:>26}{:>11}{:>11}{:>11}   {worst}\n",
-            short(mean),
-            optional(column.mean.map(|found| found.p_value)),
-            optional(column.distribution_p_value),
-            optional(column.adjusted_p_value),
-        );
+        table.row([name, brief(mean), shift, column.adjusted_p_value.map_or("-".to_owned(), brief), worst]);
     }
+    let mut text = format!("\n  {title}\n{}", table.text(width));
     if columns.len() > MOST_LINES {
         text += &format!("  ... and {} more\n", columns.len() - MOST_LINES);
     }

@@ -5,7 +5,7 @@ use crate::analysis::effects::{Dependence, Direction, Level};
 use crate::analysis::event::{Event, Occurs};
 use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
 use crate::campaign::Plan;
-use crate::report::number::short;
+use crate::report::number::{brief, short};
 use crate::sampling::Design;
 use crate::statistics::quantile::percent;
 
@@ -68,16 +68,11 @@ fn of_event(plan: &Plan, verb: &str, event: &Event, ranking: &Ranking<'_>) -> St
                 let first = listed.remove(*most);
                 listed.insert(0, first);
                 let listed: Vec<String> = listed.into_iter().map(level).collect();
-                let end = |end: f64| if end.is_finite() { short(end) } else { "no bound".to_owned() };
+                let end = |end: f64| if end.is_finite() { brief(end) } else { "no bound".to_owned() };
                 let times = if ratio.value.is_finite() {
-                    format!(
-                        "risk ratio {}, {confidence}% interval {} to {}",
-                        short(ratio.value),
-                        end(ratio.lower),
-                        end(ratio.upper)
-                    )
+                    format!("risk ratio {} [{}, {}]", brief(ratio.value), end(ratio.lower), end(ratio.upper))
                 } else {
-                    format!("risk ratio above {} with {confidence}% confidence", short(ratio.lower))
+                    format!("risk ratio above {} with {confidence}% confidence", brief(ratio.lower))
                 };
                 format!("{name} {} ({times})", listed.join("; "))
             }

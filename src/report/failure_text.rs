@@ -1,15 +1,29 @@
 //! Why runs failed, as lines of text.
 
 use crate::ensemble::FailureReason;
+use crate::run::Status;
 
 /// Most reasons that are listed.
 const MOST: usize = 8;
+
+/// What can be done about runs that end with a status; `None` where the reason says it.
+pub fn remedy(status: Status) -> Option<&'static str> {
+    match status {
+        Status::StepLimit => {
+            Some("remedy: more integrator.max_steps, a shorter campaign.duration_s, or a larger integrator.tolerance")
+        }
+        Status::StepFloor => Some("remedy: a larger integrator.tolerance"),
+        Status::Inaccurate => Some("remedy: a smaller integrator.tolerance, or a smaller integrator.step_s"),
+        _ => None,
+    }
+}
 
 /// A line for each of `groups`, as many as are listed: how many runs, how they ended, and the reason of the first.
 pub fn text(groups: &[&FailureReason]) -> String {
     let line = |one: &&FailureReason| {
         let (status, which) = (one.status.name(), if one.count == 1 { "" } else { "first " });
-        format!("  {:>10}  {status}: {} ({which}sample {})\n", one.count, one.text, one.first)
+        let remedy = remedy(one.status).map_or(String::new(), |remedy| format!("{:14}{remedy}\n", ""));
+        format!("  {:>10}  {status}: {} ({which}sample {})\n{remedy}", one.count, one.text, one.first)
     };
     let mut text: String = groups.iter().take(MOST).map(line).collect();
     if groups.len() > MOST {
@@ -22,7 +36,6 @@ pub fn text(groups: &[&FailureReason]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::Status;
     use crate::sampling::SampleId;
 
     /// Law: every run is counted once, in the line of its reason or in that of the others; a run that is alone is not the first of several.
@@ -37,10 +50,13 @@ mod tests {
             };
             let all: Vec<FailureReason> = (1..=groups).map(of).collect();
             let text = text(&all.iter().collect::<Vec<_>>());
-            let counts =
-                text.lines().map(|line| line.split_whitespace().next().and_then(|word| word.parse::<u64>().ok()));
+            let counts = text
+                .lines()
+                .filter(|line| !line.contains("remedy"))
+                .map(|line| line.split_whitespace().next().and_then(|word| word.parse::<u64>().ok()));
             assert_eq!(counts.map(Option::unwrap_or_default).sum::<u64>(), groups * (groups + 1) / 2, "{text}");
             assert_eq!(text.contains(&format!("for {} other reasons", groups.saturating_sub(8))), groups > 8, "{text}");
+            assert_eq!(text.matches("remedy: more integrator.max_steps, ").count() as u64, groups.min(8), "{text}");
             let first = text.lines().filter(|line| line.contains("(first sample ")).count() as u64;
             assert!(text.contains("(sample 101)") && first == groups.min(8) - 1, "{text}");
         }

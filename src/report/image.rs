@@ -83,14 +83,15 @@ impl Sheet {
     }
 }
 
-/// Writes every figure into `folder` as SVG and as PNG; returns the number of files.
+/// Writes every figure into `folder` as SVG and as PNG, each with its caption and what all are `of`: campaign and number of runs; returns the number of files.
 ///
 /// # Errors
 /// [`PlotError`].
-pub fn save_all(figures: &[Figure], folder: &Path, size: PlotSize) -> Result<usize, PlotError> {
+pub fn save_all(figures: &[Figure], of: &str, folder: &Path, size: PlotSize) -> Result<usize, PlotError> {
     std::fs::create_dir_all(folder)?;
     for figure in figures {
-        let sheet = Sheet::of(figure);
+        let caption = format!("{} {of}", figure.caption.trim()).trim().to_owned();
+        let sheet = Sheet::of(&Figure { caption, ..figure.clone() });
         for extension in ["svg", "png"] {
             sheet.save(&folder.join(format!("{}.{extension}", figure.name)), size)?;
         }
@@ -125,17 +126,21 @@ mod tests {
     fn pictures_have_the_size_that_is_asked_for() {
         let curve = Mark::line("a", Hue::Body, Dash::Solid, vec![0.0, 1.0], vec![2.0, 3.0]);
         let figure = Figure::new("Title", Axis::linear("x", "s"), Axis::linear("y", "J"), vec![curve]);
-        let figure = Figure { name: "f".to_owned(), ..figure };
+        let figure = Figure { name: "f".to_owned(), caption: "What it means.".to_owned(), ..figure };
         let folder = std::env::temp_dir().join(format!("spindrift-image-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         for (size_mm, dpi) in [(Some([101.6, 50.8]), 96.0), (Some([101.6, 50.8]), 300.0), (Some([254.0, 76.2]), 100.0)]
         {
             let inches = size_mm.unwrap_or_default().map(|side| side / INCH);
-            save_all(std::slice::from_ref(&figure), &folder, PlotSize { size_mm, dpi }).unwrap();
+            save_all(std::slice::from_ref(&figure), "small: 20 runs.", &folder, PlotSize { size_mm, dpi }).unwrap();
             let pixmap = Pixmap::load_png(folder.join("f.png")).unwrap();
             assert_eq!([pixmap.width(), pixmap.height()], inches.map(|side| (side * dpi).round() as u32));
             let svg = std::fs::read_to_string(folder.join("f.svg")).unwrap();
             let [width, height] = inches.map(|side| (side * SVG_DPI).round());
+            // title, caption and number of runs are texts of the picture
+            for text in ["Title", "What it means.", "small: 20 runs."] {
+                assert!(svg.contains(text), "{text} in {svg}");
+            }
             assert!(svg.contains(&format!(" width=\"{width}\" height=\"{height}\" viewBox")));
         }
         std::fs::remove_dir_all(&folder).unwrap();

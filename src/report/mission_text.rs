@@ -41,6 +41,25 @@ pub fn missing(missions: &Missions) -> Option<String> {
         .then(|| format!("{missing} of {runs} runs were not computed: each share is between none and all of them"))
 }
 
+/// How missions ended in one sentence: the share that launched or did not fail, unless `is_stated` (a verdict says it), and how many ended in another way.
+pub fn brief(missions: &Missions, is_stated: bool) -> String {
+    let Some(MissionShare { missing, .. }) = missions.first() else { return String::new() };
+    let is_good = |one: &&MissionShare| ["launched", "not_failed"].contains(&one.end);
+    let good = missions.iter().find(is_good).filter(|_| !is_stated || *missing > 0);
+    let good = good.map(|one| {
+        let word = if one.end == "launched" { "launched" } else { "did not fail" };
+        format!("{} {word}", share(one))
+    });
+    let of_others = |one: &MissionShare| {
+        let words = words(one.end);
+        format!("{} {}", one.count, words.strip_suffix(" at the end of the run").unwrap_or(words))
+    };
+    let others = missions.iter().filter(|one| !is_good(one)).map(of_others);
+    let not_computed = (*missing > 0).then(|| format!("{missing} not computed"));
+    let said: Vec<String> = good.into_iter().chain(others).chain(not_computed).collect();
+    if said.is_empty() { String::new() } else { format!("  missions: {}\n", said.join("; ")) }
+}
+
 /// A line for each way in which missions ended; nothing without a loop.
 pub fn text(missions: &Missions) -> String {
     let mut text = String::new();
@@ -62,13 +81,13 @@ mod tests {
     fn ends_are_counted() {
         let share = |end, count, interval| MissionShare { end, count, runs: 200, missing: 0, interval };
         let found = text(&vec![share("launched", 190, [0.91, 0.975]), share("keep_out", 10, [f64::NAN; 2])]);
-        assert!(found.contains("190 of 200 missions launched: 95% [91, 97.50]"), "{found}");
+        assert!(found.contains("190 of 200 missions launched: 95% [91, 97.5]"), "{found}");
         assert!(found.contains("10 of 200 missions failed: too close to the debris: 5%\n"), "{found}");
         assert_eq!(text(&Missions::new()), "");
         // 82 of 300 launched, 214 were not computed: from 27% to 99%
         let bounds = MissionShare { runs: 300, missing: 214, ..share("launched", 82, [0.223, 0.997]) };
         let found = text(&vec![bounds]);
-        assert!(found.contains("82 of 300 missions launched: 27.33% to 98.67% [22.30, 99.70]"), "{found}");
+        assert!(found.contains("82 of 300 missions launched: 27.3% to 98.7% [22.3, 99.7]"), "{found}");
         assert!(found.contains("214 of 300 runs were not computed"), "{found}");
     }
 

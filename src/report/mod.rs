@@ -1,13 +1,14 @@
 //! Layer 9: text and figures for people.
 //!
-//! - [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`warnings`]: what comes before them. - [`failure_text`]: why runs failed. [`share_text`]: shares of runs. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. [`noise_text`]: what noise does. - [`precision_text`]: work-precision measurements as text.
+//! - [`brief_text`], [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`warnings`]: what comes before them. - [`failure_text`]: why runs failed. [`share_text`]: shares of runs. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. [`noise_text`]: what noise does. - [`precision_text`]: work-precision measurements as text.
 //! - [`figure`]: what a figure shows. - [`sheet`]: figures on one picture, drawn with `panel`, `axis`, `legend`, `marks`, `shapes` as `svg`; [`image`]: its files. - [`fitted_text`]: text that is shortened to a width. - `escaped`: text within markup.
 //! - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in [`histogram`]s, with [`expected_counts`], of numbers drawn together by [`marginal`]; [`origin_text`]: in words), [`precision_figure`]: the figures of the commands; [`relative_errors`]: the axis of errors.
 //! - [`comparison_text`]: two results compared. - [`stopping_text`]: looks of a campaign with `[stop]`.
-//! - [`time_table`]: one run over time on a terminal. - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file.
+//! - [`text_table`]: rows of cells that fit a terminal. - [`time_table`]: one run over time on a terminal. - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file. [`index_page`]: all results of a folder.
 
 pub mod audit_summary;
 mod axis;
+pub mod brief_text;
 pub mod comparison_text;
 pub mod drawn_columns;
 pub mod drawn_figure;
@@ -19,6 +20,7 @@ pub mod figure;
 pub mod fitted_text;
 pub mod histogram;
 pub mod image;
+pub mod index_page;
 mod legend;
 pub mod marginal;
 mod marks;
@@ -42,6 +44,7 @@ pub mod stopping_text;
 pub mod summary;
 mod summary_text;
 mod svg;
+pub mod text_table;
 pub mod time_table;
 pub mod warnings;
-mod wrapped;
+pub mod wrapped;

@@ -1,19 +1,40 @@
 //! Numbers in text.
 
-/// A number in at most eleven characters: four significant digits, whole numbers below 1e5 in full.
+/// A number in four significant digits, at most eleven characters; whole numbers below 1e5 in full.
 pub fn short(value: f64) -> String {
+    significant(value, 4)
+}
+
+/// A number in three significant digits, for lines that are read at a glance; whole numbers below 1e5 in full.
+pub fn brief(value: f64) -> String {
+    significant(value, 3)
+}
+
+/// A number in so many significant digits; with a power of ten below 1e-3 and from the power on that has two digits more; smaller whole numbers in full.
+pub fn significant(value: f64, digits: usize) -> String {
     let size = value.abs();
     if size == 0.0 {
-        "0".to_owned()
-    } else if !(1e-3..1e5).contains(&size) {
-        format!("{value:.3e}")
+        return "0".to_owned();
+    }
+    let in_powers = format!("{value:.*e}", digits - 1);
+    if !(1e-3..f64::max(1e5, libm::exp10((digits + 1) as f64))).contains(&size) {
+        in_powers
     } else if size == libm::floor(size) {
         format!("{value:.0}")
     } else {
         // of the rounded number: 99.999 is 100.0, not 100.00
-        let rounded = format!("{size:.3e}").parse().unwrap_or(size);
-        let before = libm::floor(libm::log10(rounded)) as i32;
-        format!("{value:.*}", (3 - before).max(1) as usize)
+        let before = in_powers.rsplit('e').next().and_then(|power| power.parse::<i32>().ok()).unwrap_or(0);
+        format!("{value:.*}", (digits as i32 - 1 - before).max(0) as usize)
+    }
+}
+
+/// The same without zeros at the end of its decimals.
+pub fn trimmed(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
     }
 }
 
@@ -47,6 +68,18 @@ mod tests {
         ] {
             assert_eq!(short(value), text);
         }
+        for (value, text) in [
+            (0.0, "0"),
+            (1_982.771_592_697, "1982.77"),
+            (-0.012_345_678, "-0.0123457"),
+            (1_234_567.8, "1234568"),
+            (0.5, "0.5"),
+            (3.0, "3"),
+            (1.234_567_8e-9, "1.23457e-9"),
+        ] {
+            assert_eq!(trimmed(value, 6), text);
+        }
+        assert_eq!([0.909_3, 1094.4, 2174.2, 99_999.9].map(brief), ["0.909", "1094", "2174", "100000"]);
         for value in [f64::MIN, f64::MIN_POSITIVE, f64::NAN, f64::INFINITY] {
             assert!(short(value).len() <= 11, "{value:e}: {}", short(value));
         }

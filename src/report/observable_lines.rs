@@ -107,6 +107,14 @@ impl ObservableLine {
         self.quantiles.iter().any(|one| one.interval != [None; 2])
     }
 
+    /// The share of runs with 1, where no run has another number than 0 and 1, and both may be.
+    pub fn share_of_yes(&self) -> Option<f64> {
+        let is_whole = |value: f64| value == 0.0 || value == 1.0;
+        let ends = [self.min?, self.max?];
+        let mut values = self.quantiles.iter().filter_map(|one| one.value).chain(ends);
+        (self.unit.is_empty() && values.all(is_whole)).then_some(self.mean?)
+    }
+
     fn quantile(&self, p: f64) -> Option<&QuantileLine> {
         self.quantiles.iter().find(|quantile| quantile.p == p)
     }

@@ -10,7 +10,7 @@ use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::report::audit_summary::AuditSummary;
 use crate::report::escaped::escaped;
-use crate::report::number::short;
+use crate::report::number::{brief, short};
 use crate::report::share_text::with_interval;
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::gate::GateLimit;
@@ -92,6 +92,41 @@ pub fn runs_needed(runs: &str) -> String {
     format!(
         "with {runs} runs nine of ten campaigns would decide if the truth were exactly what was seen; as it is not, count on half"
     )
+}
+
+/// The requirement in a few words: `pointing_error_launch_rad <= 2 deg in 95%`.
+pub fn statement(one: &Assessment) -> String {
+    let requirement = &one.requirement;
+    let unit = if one.shown.unit.is_empty() { String::new() } else { format!(" {}", one.shown.unit) };
+    let limit = format!("{:?}", one.shown.written(requirement.limit.value()));
+    let side = if matches!(requirement.limit, GateLimit::AtMost(_)) { "<=" } else { ">=" };
+    let is = format!("{} {side} {}{unit}{}", requirement.name(), limit.trim_end_matches(".0"), requirement.times());
+    match requirement.statement {
+        Statement::Quantile(p) if requirement.window().is_some() => {
+            format!("{is} in {}%", percent(requirement.limit.fraction(p)))
+        }
+        Statement::Quantile(p) => format!("p{} of {is}", percent(p)),
+        Statement::Fraction(fraction) => format!("{is} in {}%", percent(fraction)),
+        Statement::Mean => format!("mean of {is}"),
+    }
+}
+
+/// What a verdict is about, with its interval: the share of the runs within the limit, or the mean.
+pub fn estimate(one: &Assessment) -> String {
+    let estimate = one.gate.estimate;
+    if !estimate.is_finite() {
+        return "-".to_owned();
+    }
+    if one.requirement.statement != Statement::Mean {
+        return with_interval([estimate; 2], one.interval);
+    }
+    let unit = if one.shown.unit.is_empty() { String::new() } else { format!(" {}", one.shown.unit) };
+    let end = |end: f64| if end.is_finite() { brief(one.shown.value(end)) } else { "?".to_owned() };
+    let interval = match one.has_interval() {
+        true => format!(" [{}, {}]", end(one.interval[0]), end(one.interval[1])),
+        false => String::new(),
+    };
+    format!("{}{interval}{unit}", end(estimate))
 }
 
 /// What was found, in words: the estimate with its bounds, and how many runs would decide.

@@ -13,6 +13,9 @@ const TITLE_HEIGHT: f64 = 40.0;
 const EDGE: f64 = 20.0;
 /// Free height at the bottom, pixels.
 const BOTTOM: f64 = 8.0;
+/// Size of the letters of a caption, and height of its lines, pixels.
+const CAPTION: f64 = 11.5;
+const CAPTION_LINE: f64 = 16.0;
 /// Size of a picture of one figure, pixels.
 const ALONE: [f64; 2] = [720.0, 440.0];
 
@@ -41,11 +44,41 @@ impl Sheet {
         Sheet { panels: self.panels.into_iter().map(|panel| panel.in_units(display)).collect(), ..self }
     }
 
-    /// A picture of one figure.
+    /// A picture of one figure with its caption.
     pub fn of(figure: &Figure) -> Self {
         let [width, panel_height] = ALONE;
         let panels = vec![Figure { columns: 12, ..figure.clone() }];
         Sheet { title: String::new(), width, panel_height, has_common_legend: false, panels }
+    }
+
+    /// What stands below the panel of a picture of one figure.
+    fn caption(&self) -> &str {
+        match &self.panels[..] {
+            [figure] if self.title.is_empty() => &figure.caption,
+            _ => "",
+        }
+    }
+
+    /// The caption in lines for a picture so wide, pixels.
+    fn caption_lines(&self, font: &Font, width: f64) -> Vec<String> {
+        let room = width - 2.0 * EDGE;
+        let mut lines: Vec<String> = Vec::new();
+        for word in self.caption().split_whitespace() {
+            match lines.last_mut() {
+                Some(line) if font.width(&format!("{line} {word}"), CAPTION) <= room => {
+                    line.push(' ');
+                    line.push_str(word);
+                }
+                _ => lines.push(font.fitted(word, room, CAPTION)),
+            }
+        }
+        lines
+    }
+
+    /// Free height at the bottom, with the caption, pixels.
+    fn bottom(&self, font: &Font, width: f64) -> f64 {
+        let lines = self.caption_lines(font, width).len();
+        BOTTOM + if lines > 0 { BOTTOM + CAPTION_LINE * lines as f64 } else { 0.0 }
     }
 
     fn legend(&self, font: &Font, width: f64) -> Legend<'_> {
@@ -72,8 +105,9 @@ impl Sheet {
             }
         }
         let usual = rows.iter().map(|row| row.1).sum::<f64>();
-        let height = size.map_or(top + usual + BOTTOM, |size| size[1]);
-        let scale = ((height - top - BOTTOM) / usual).max(0.0);
+        let bottom = self.bottom(font, width);
+        let height = size.map_or(top + usual + bottom, |size| size[1]);
+        let scale = ((height - top - bottom) / usual).max(0.0);
         let (mut y, mut places) = (top, Vec::new());
         for (_, highest, row) in rows {
             places.extend(row.into_iter().map(|([x, _], [width, _])| ([x, y], [width, scale * highest])));
@@ -95,6 +129,11 @@ impl Sheet {
         legend.draw(&mut svg, [EDGE, if self.title.is_empty() { 0.0 } else { TITLE_HEIGHT }]);
         for (panel, (at, size)) in self.panels.iter().zip(places) {
             Panel::draw(&mut svg, panel, at, size, !self.has_common_legend);
+        }
+        let lines = self.caption_lines(&svg.font, size[0]);
+        for (place, line) in lines.iter().rev().enumerate() {
+            let y = size[1] - BOTTOM - CAPTION_LINE * place as f64;
+            svg.text(line, [EDGE, y], CAPTION, Anchor::Start, INK, false);
         }
         svg.finish()
     }

@@ -1,5 +1,7 @@
 //! [`Summary`]: the statistics of a campaign, as `summary.json`; as text on the screen: `summary_text`.
 
+use std::path::Path;
+
 use serde_json::{Map, Value, json};
 
 use crate::analysis::ending::Ending;
@@ -230,6 +232,26 @@ impl SummaryEnd {
         })
     }
 
+    /// The verdicts of the campaign in one line, or how many runs were computed where nothing is required, and where the rest stands: `3 PASS, 1 FAIL ->
+    /// results/x/report.html`.
+    pub fn verdict_line(&self, place: &Path) -> String {
+        let count = |word: &&str| (self.count(word), word.to_string());
+        let found = ["PASS", "FAIL", "UNDECIDED"].iter().map(count).filter(|(count, _)| *count > 0);
+        let mut said: Vec<String> = found.map(|(count, word)| format!("{count} {word}")).collect();
+        let (rows, ok) = (self.rows, self.rows - self.failed);
+        if said.is_empty() || self.failed > 0 {
+            let of = if self.failed > 0 { format!("{ok} of {rows}") } else { rows.to_string() };
+            said.push(format!("{of} run{} computed", if rows == 1 { "" } else { "s" }));
+        }
+        if self.not_covered > 0 {
+            said.push("audit FAILED".to_owned());
+        }
+        if !self.is_reached {
+            said.push("[stop] not reached".to_owned());
+        }
+        format!("{} -> {}", said.join(", "), place.display())
+    }
+
     /// The number of requirements with the verdict `word`.
     pub fn count(&self, word: &str) -> usize {
         self.verdicts.iter().filter(|(_, verdict)| verdict == word).count()
@@ -260,5 +282,25 @@ mod tests {
             br#"{"statuses": {"ok": 9}, "audit": {"estimate": {"excess": 2}, "debris_estimate": {"excess": 3}}}"#;
         assert_eq!(SummaryEnd::read(audited).map(|end| end.not_covered), Some(5));
         assert_eq!(SummaryEnd::read(b"{}"), None);
+    }
+
+    /// Law: the last line counts each verdict, and else the runs; it says what makes a success none, and the place.
+    #[test]
+    fn the_last_line_is_the_verdict() {
+        let end = |words: &[&str], failed: u64| SummaryEnd {
+            rows: 20,
+            failed,
+            not_covered: 0,
+            warnings: Vec::new(),
+            verdicts: words.iter().map(|word| ("p95".to_owned(), (*word).to_owned())).collect(),
+            is_reached: true,
+        };
+        let line = |end: SummaryEnd| end.verdict_line(Path::new("r/report.html"));
+        let mixed = ["PASS", "FAIL", "PASS", "UNDECIDED", "PASS"];
+        assert_eq!(line(end(&mixed, 0)), "3 PASS, 1 FAIL, 1 UNDECIDED -> r/report.html");
+        assert_eq!(line(end(&mixed[..1], 3)), "1 PASS, 17 of 20 runs computed -> r/report.html");
+        assert_eq!(line(end(&[], 0)), "20 runs computed -> r/report.html");
+        let broken = SummaryEnd { not_covered: 2, is_reached: false, ..end(&[], 0) };
+        assert_eq!(line(broken), "20 runs computed, audit FAILED, [stop] not reached -> r/report.html");
     }
 }

@@ -1,4 +1,4 @@
-//! A summary on the screen: the verdicts first, then what was found, then how well it was computed, in some thirty lines.
+//! A summary on the screen: the verdicts first, then what was found, then how well it was computed, with all that is known of it: what `--verbose` prints.
 
 use super::audit_summary::Numerics;
 use super::number::short;
@@ -8,6 +8,7 @@ use super::wrapped::wrapped;
 use super::{failure_text, mission_text, requirements, warnings};
 use crate::analysis::assessment::Assessment;
 use crate::analysis::outcomes::OF_MOTION;
+use crate::analysis::tally::Ended;
 use crate::ensemble::FailureReason;
 use crate::run::Status;
 use crate::sampling::SampleId;
@@ -51,6 +52,25 @@ impl Summary {
         text + &self.replay(file)
     }
 
+    /// Whether a run was computed.
+    pub(super) fn is_computed(&self) -> bool {
+        self.statuses.iter().any(|(name, ended)| *name == Status::Done.name() && ended.count > 0)
+    }
+
+    /// How the runs ended, where not all were computed.
+    pub(super) fn failures(&self) -> String {
+        let is_failed = |(name, ended): &(&str, Ended)| ended.count > 0 && *name != Status::Done.name();
+        if self.statuses.iter().any(is_failed) { self.ended() } else { String::new() }
+    }
+
+    /// The observables that the file requires, names or derives; those of the motion where it does none of that.
+    pub(super) fn outcomes(&self) -> Vec<&ObservableLine> {
+        if self.named.is_empty() {
+            return self.shown();
+        }
+        self.named.iter().filter_map(|name| self.lines.iter().find(|line| line.name == *name)).collect()
+    }
+
     /// How the runs ended.
     fn ended(&self) -> String {
         let ok = Status::Done.name();
@@ -92,11 +112,9 @@ impl Summary {
             return String::new();
         }
         if shown.iter().all(|line| line.is_empty()) {
-            let is_nominal_ok =
-                self.statuses.iter().any(|(name, ended)| *name == Status::Done.name() && ended.count > 0);
             return format!(
                 "\n  no {} was computed: no statistics\n",
-                if is_nominal_ok { "dispersed run" } else { "run" }
+                if self.is_computed() { "dispersed run" } else { "run" }
             );
         }
         let title = if self.without_nominal { "dispersed runs" } else { "nominal run" };
@@ -173,12 +191,18 @@ impl Summary {
         for (why, (sample, error)) in worst {
             text += &format!("  {why} {}: spindrift simulate {file} --sample {sample}\n", short(*error));
         }
-        for (name, ended) in self.statuses.iter().filter(|(name, _)| *name != Status::Done.name()) {
-            if let Some(sample) = ended.first.first() {
-                text += &format!("  the first {name}: spindrift simulate {file} --sample {sample}\n");
-            }
-        }
+        text += &self.first_failures(file);
         if text.is_empty() { text } else { format!("\n{text}") }
+    }
+
+    /// The first run with each status that is not `ok`, with the command that shows it.
+    pub(super) fn first_failures(&self, file: &str) -> String {
+        let failed = self.statuses.iter().filter(|(name, _)| *name != Status::Done.name());
+        let line = |(name, ended): &(&str, Ended)| {
+            let sample = ended.first.first()?;
+            Some(format!("  the first {name}: spindrift simulate {file} --sample {sample}\n"))
+        };
+        failed.filter_map(line).collect()
     }
 }
 
@@ -188,7 +212,6 @@ const EVERY_RUN_IS_OK: &str = "every run was computed";
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::tally::Ended;
     use crate::analysis::verdicts::Verdicts;
     use crate::campaign::ShownUnit;
 

@@ -3,6 +3,8 @@
 use std::num::NonZeroUsize;
 use std::path::Path;
 
+use crate::analysis::audit_tally::AuditTally;
+use crate::analysis::ending::Ending;
 use crate::analysis::fold::Gathered;
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::missions::Missions;
@@ -15,8 +17,10 @@ use crate::analysis::{sensitivity, statistics, verdicts};
 use crate::campaign::Plan;
 use crate::ensemble::Bands;
 use crate::report::audit_summary::AuditSummary;
+use crate::report::summary::SummaryEnd;
 use crate::report::warnings::warnings;
 use crate::report::{requirements, stopping_text};
+use crate::run::Status;
 use crate::storage::atomic;
 use crate::storage::rows_reader::RowsReader;
 use crate::workflow::error::WorkflowError;
@@ -42,6 +46,20 @@ pub struct Analysed {
     pub tally: Tally,
     /// What a reader has to know before any number.
     pub warnings: Vec<String>,
+}
+
+impl Analysed {
+    /// How the campaign ended.
+    pub fn end(&self) -> SummaryEnd {
+        let ending = Ending {
+            rows: Status::ALL.into_iter().map(|status| self.tally.count(status)).sum(),
+            failed: self.tally.failed(),
+            not_covered: self.tally.audits().map_or(0, AuditTally::not_covered),
+            verdicts: self.verdicts.clone(),
+            stopping: self.stopping.clone(),
+        };
+        SummaryEnd { warnings: self.warnings.clone(), ..SummaryEnd::of(&ending) }
+    }
 }
 
 /// What was `gathered` from the rows of `plan` says.

@@ -5,7 +5,6 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::analysis::audit_tally::AuditTally;
 use crate::analysis::fold::Gathered;
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::campaign::{FilesRead, Plan, data};
@@ -66,14 +65,8 @@ pub struct Completed {
     pub summary: Summary,
     /// What drives the main observables.
     pub sensitivities: Vec<InputSensitivity>,
-    /// Number of runs that are not `ok`.
-    pub failed_runs: u64,
-    /// Audited runs whose errors are larger than their estimates, where these are more than promised; else 0.
-    pub not_covered: u64,
-    /// Number of requirements that failed.
-    pub failed: usize,
-    /// Number of requirements that are undecided, a precision among them that `[stop]` did not reach.
-    pub undecided: usize,
+    /// How it ended.
+    pub end: SummaryEnd,
     /// What this process has run of it.
     pub made: Option<Made>,
     /// Whether runs were audited.
@@ -125,12 +118,10 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
     let Derived { analysed, page, summary } = derive(&derivation, gathered, folder)?;
     if let Some(page) = page {
         let place = job.outputs.figures.as_ref().map(|(folder, size)| (folder.as_path(), *size));
-        page::save_figures(&session, &page, place)?;
+        page::save_figures(&session, plan, &page, place)?;
     }
     write_junit(plan, &analysed, job.outputs.junit.as_deref())?;
-    let tally = &analysed.tally;
-    let (failed, undecided) = (analysed.verdicts.failed(), analysed.verdicts.undecided());
-    let is_imprecise = analysed.stopping.as_ref().is_some_and(|found| !found.is_reached());
+    let end = analysed.end();
     let growing = growing(job.ensemble, &records);
     table_log::update(folder, &headings(job.ensemble), growing).map_err(WorkflowError::files)?;
     folder.finish().map_err(WorkflowError::files)?;
@@ -142,12 +133,9 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
         root: job.root.to_owned(),
         summary,
         sensitivities: analysed.sensitivities,
-        failed_runs: tally.failed(),
-        not_covered: tally.audits().map_or(0, AuditTally::not_covered),
-        failed,
-        undecided: undecided + usize::from(is_imprecise),
+        end,
         made: job.made,
-        is_audited: tally.audits().is_some(),
+        is_audited: analysed.tally.audits().is_some(),
         files: records.len(),
         bytes: folder.size(),
     })

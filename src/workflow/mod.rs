@@ -4,7 +4,7 @@
 //!   result to be read.
 //! - [`finishing`]: what is made once all rows are there: [`analysed`], [`page`], `derived`. - `ending`: how a finished campaign ended.
 //! - [`verification`]: whether a result is what was written, and (`derived_check`) what its rows say.
-//! - [`failed_samples`]: samples that failed, again or as the end. - [`source`]: where plans come from. - [`session`]: disk, threads, control law, and who
+//! - [`results_index`]: all results below a folder. - [`failed_samples`]: samples that failed, again or as the end. - [`source`]: where plans come from. - [`session`]: disk, threads, control law, and who
 //!   is told. - [`error`].
 //!
 //! Not here: what is printed, options and exit codes (`cli`).
@@ -20,6 +20,7 @@ pub mod finishing;
 pub mod outcome;
 pub mod page;
 pub mod results;
+pub mod results_index;
 mod running;
 pub mod session;
 pub mod source;

@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 use crate::analysis::fold::Gathered;
 use crate::analysis::noise_share::{NoiseShare, noise_shares};
 use crate::analysis::outcomes::outcomes;
+use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
 use crate::report::image::{self, PlotSize};
 use crate::report::page::gather::Analysis;
 use crate::report::page::{Contents, Page};
 use crate::report::shell_word::quoted_path;
+use crate::report::summary::SummaryEnd;
 use crate::storage::claim::open;
 use crate::storage::folder::relist;
 use crate::storage::manifest::{FileRecord, PartRecord};
@@ -29,6 +31,10 @@ pub struct Remade {
     pub path: PathBuf,
     /// Its size, bytes.
     pub size: u64,
+    /// The question that the campaign answers.
+    pub question: Option<String>,
+    /// How the campaign ended.
+    pub end: SummaryEnd,
     /// The share of noise in the outcomes, where it was asked for.
     pub noise: Vec<NoiseShare>,
 }
@@ -71,8 +77,8 @@ pub fn remade(
     place(storage, &path, page.html.as_bytes()).map_err(WorkflowError::files)?;
     relist(storage, root, (manifest, &found.plan), FileRecord::of(REPORT, page.html.as_bytes()))
         .map_err(WorkflowError::files)?;
-    save_figures(session, &page, figures)?;
-    Ok(Remade { path, size: page.html.len() as u64, noise })
+    save_figures(session, &plan, &page, figures)?;
+    Ok(Remade { path, size: page.html.len() as u64, question: plan.description.clone(), end: analysed.end(), noise })
 }
 
 /// Begins the mark in a page that says by how many scenes the share of noise was measured, so that the same page can be made again.
@@ -124,13 +130,20 @@ fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord], no
     Page::new(ensemble, &contents)
 }
 
-/// Writes the figures of `page` as files of this size into the folder of `place`, if one was named.
+/// Writes the figures of `page`, of the campaign `plan`, as files of this size into the folder of `place`, if one was named.
 ///
 /// # Errors
 /// Where a file cannot be written.
-pub fn save_figures(session: &Session<'_>, page: &Page, place: Option<(&Path, PlotSize)>) -> Result<(), WorkflowError> {
+pub fn save_figures(
+    session: &Session<'_>,
+    plan: &Plan,
+    page: &Page,
+    place: Option<(&Path, PlotSize)>,
+) -> Result<(), WorkflowError> {
     let Some((folder, size)) = place else { return Ok(()) };
-    let count = image::save_all(&page.figures, folder, size).map_err(WorkflowError::files)?;
+    let rows = plan.rows();
+    let of = format!("{}: {rows} run{}.", plan.name, if rows == 1 { "" } else { "s" });
+    let count = image::save_all(&page.figures, &of, folder, size).map_err(WorkflowError::files)?;
     session.watch.note(&format!("{}: {count} files of figures", folder.display()));
     Ok(())
 }

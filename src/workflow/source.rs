@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::campaign::{FilesRead, Overrides, Plan, find};
+use crate::campaign::{FilesRead, Overrides, Plan, find, nearest_file};
 use crate::ensemble::Ensemble;
 use crate::report::shell_word::quoted_path;
 use crate::storage::found::Found;
@@ -36,7 +36,13 @@ pub fn plan_and_files(file: &Path, overrides: Overrides) -> Result<(Plan, FilesR
             ));
         }
         let tried: Vec<String> = tried.iter().map(|path| format!("`{}`", path.display())).collect();
-        WorkflowError::Input(format!("there is no campaign file `{}`; looked for {}", file.display(), tried.join(", ")))
+        let meant = nearest_file(file);
+        let meant = meant.map_or(String::new(), |path| format!("; did you mean {}?", quoted_path(&path)));
+        WorkflowError::Input(format!(
+            "there is no campaign file `{}`; looked for {}{meant}",
+            file.display(),
+            tried.join(", ")
+        ))
     })?;
     Ok(Plan::load_with_files(&path, overrides)?)
 }

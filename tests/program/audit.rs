@@ -379,7 +379,7 @@ fn one_run_is_audited_and_costs_are_estimated() {
     }
     assert!(scratch.says("check", "burn.toml", "", 0).contains("no audit"));
     scratch.file("own.toml", &plan("burn", 100, 0.5).text());
-    let said = scratch.prints("check own.toml", 0);
+    let said = scratch.prints_wide("check own.toml", 0);
     assert!(said.contains("audit of 0.5") && said.contains("ms each"), "{said}");
     let said = scratch.says("campaign", "burn.toml", "--audit 1.5", 2);
     assert!(said.contains("--audit = 1.5: must be a number from 0 to 1"), "{said}");

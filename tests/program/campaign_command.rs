@@ -14,7 +14,7 @@ fn printed_commands_are_quoted() {
         let all = [&["campaign", "it's small.toml", "--samples", "20", "--out"], options].concat();
         scratch.outputs(scratch.command("").args(all), 0)
     };
-    let said = run(&["r out", "--threads", "1"]);
+    let said = run(&["r out", "--threads", "1", "--verbose"]);
     let printed = said.lines().find_map(|line| Some(line.split_once("spindrift simulate ")?.1)).expect("a command");
     assert!(printed.starts_with("'r out/plan.toml' --sample "), "{said}");
     let said = run(&["s out", "--shard", "1/1"]);
@@ -25,7 +25,7 @@ fn printed_commands_are_quoted() {
 fn a_campaign_runs_once_and_then_says_so() {
     let scratch = folder("once");
     let said = scratch.prints("campaign small.toml", 0);
-    assert!(said.contains("small: 600 samples") && said.contains("energy_error_max"), "{said}");
+    assert!(said.contains("small: 600 runs computed in ") && said.contains("energy_error_max"), "{said}");
     let parts = scratch.parts("results/small");
     let names: Vec<&str> = parts.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["part-000000.parquet", "part-000001.parquet", "part-000002.parquet"]);

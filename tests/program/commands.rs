@@ -77,14 +77,15 @@ fn sample_draws_the_rows_of_the_campaign() {
 fn check_shows_what_would_run() {
     let scratch = folder("check");
     scratch.file("no_debris.toml", &campaign_without_debris());
-    let said = scratch.prints("check small.toml", 0);
+    let said = scratch.prints_wide("check small.toml --plan", 0);
     for expected in [
+        "small: 600 runs of 1 s, method auto, tolerance 1e-10, no requirement\n",
         "samples = 600",
         "1982.77",
         "3054.59",
         "J_xy = -integral of x y dm",
         "initial.angular_velocity_rad_s.x",
-        "needed by",
+        "needed by ",
         "not computed: no requested observable needs it",
         "inertia of the spacecraft, wheels locked,",
         "angular momentum of the spacecraft about its centre of mass",
@@ -107,7 +108,7 @@ fn check_shows_what_would_run() {
     assert!((body + kg("wheel w1") + kg("wheel w2") - whole).abs() < 0.02, "{said}");
     let share = numbers(&said, "largest part: body.parts.fuselage, # % of the mass of the spacecraft")[0];
     assert!((share - 100.0 * body / whole).abs() < 0.051, "{share}: {said}");
-    let said = scratch.prints("check no_debris.toml", 0);
+    let said = scratch.prints_wide("check no_debris.toml", 0);
     assert!(said.contains("wheel rates  ") && !said.contains("of the debris"), "{said}");
     assert!(!scratch.path("results").exists(), "check writes nothing");
 }
@@ -119,7 +120,7 @@ fn check_has_no_line_about_what_is_not_there() {
     let bare = "[campaign]\nname = \"bare\"\nsamples = 1\nseed = 0\nduration_s = 2\n[body]\nmass_kg = 10\n\
                 inertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]\n[initial]\nangular_velocity_rad_s = [0, 0, 1]\n";
     scratch.file("bare.toml", bare);
-    let said = scratch.prints("check bare.toml", 0);
+    let said = scratch.prints_wide("check bare.toml", 0);
     assert!(said.contains("inertia of the spacecraft about its centre of mass"), "{said}");
     assert!(said.contains("angular velocity of the body ") && said.contains("attitude quaternion "), "{said}");
     let listed = said.split("== Mass properties").nth(1).expect("mass properties");
@@ -132,7 +133,7 @@ fn check_has_no_line_about_what_is_not_there() {
     let arc = |keys: &str| format!("{bare}{thruster}[[actuation]]\nend_s = 9\nthrust_n = {{ p1 = 1.0 }}\n{keys}\n");
     let says_work = |keys: &str| {
         scratch.file("bare.toml", &arc(keys));
-        let said = scratch.prints("check bare.toml", 0);
+        let said = scratch.prints_wide("check bare.toml", 0);
         let is_computed = !said.contains("not computed: no command of the schedule acts");
         assert_eq!(said.contains("work of actuators") || said.contains("impulse"), is_computed, "{said}");
         is_computed
@@ -150,10 +151,13 @@ fn check_shows_magnitudes_and_implausible_numbers() {
                 [[disperse]]\nparameter = \"wheels.w1.tilt_rad\"\ndistribution = \"normal\"\nstd = 5\n\
                 [[disperse]]\nparameter = \"wheels.w2.rate_rad_s\"\ndistribution = \"normal\"\nstd = 5\n";
     scratch.file("more.toml", &(campaign() + more));
-    let said = scratch.prints("check more.toml", 0);
+    let said = scratch.prints_wide("check more.toml", 0);
     let row = |name: &str| {
-        let line = said.lines().position(|line| line.starts_with(name)).unwrap_or_else(|| panic!("{name} in:\n{said}"));
-        let text = said.lines().nth(line).unwrap().strip_prefix(name).unwrap();
+        let line = said
+            .lines()
+            .position(|line| line.trim_start().starts_with(name))
+            .unwrap_or_else(|| panic!("{name} in:\n{said}"));
+        let text = said.lines().nth(line).unwrap().trim_start().strip_prefix(name).unwrap();
         // the unit comes first
         let numbers: Vec<f64> = text.split_whitespace().skip(1).map_while(|word| word.parse().ok()).collect();
         (line, numbers)
@@ -245,7 +249,7 @@ fn a_file_of_the_current_folder_comes_first() {
     let with_seed = |seed: u32| campaign().replace("seed = 7", &format!("seed = {seed}"));
     let is_meant = |name: &str, seed: u32| {
         let line = format!("\nseed = {seed}\n");
-        let said = scratch.prints(&format!("check {name}"), 0);
+        let said = scratch.prints(&format!("check {name} --plan"), 0);
         assert!(said.contains(&line), "check {name}, {seed}: {said}");
         scratch.prints(&format!("campaign {name} --samples 3 --out r{seed}{name} --no-report"), 0);
         let plan = scratch.text(&format!("r{seed}{name}/plan.toml"));

@@ -332,19 +332,35 @@ fn the_screen_is_the_file() {
         assert_eq!(counts[1..], [observables.len() as f64, shifted, count(&|one| !one["p_value"].is_null())]);
         says(&said, "plans: # keys differ", &[found["differing_keys"].as_array().expect("keys").len() as f64]);
         let mut listed = 0;
-        for line in said.lines().filter(|line| line.contains(" of the spread") && !line.contains("FAIL")) {
+        let mut matters = false;
+        for line in said.lines().filter(|line| !line.contains("FAIL")) {
+            // the titles: what matters stands before what can only be detected
+            if line.starts_with("  matters: ") || line.starts_with("  detectable, ") || line.starts_with("  moved") {
+                matters = line.starts_with("  matters: ");
+                continue;
+            }
+            if line.starts_with("  beyond") || !line.contains(" of the spread") {
+                matters &= !line.starts_with("  beyond");
+                continue;
+            }
             let name = line.trim_start().trim_start_matches("* ").split_whitespace().next().expect("a name");
             let one = observables.iter().find(|one| one["observable"] == name).unwrap_or_else(|| panic!("{name}"));
-            let keys = ["mean_first", "mean_shift", "mean_shift_lower", "mean_shift_upper", "p_value_mean"];
-            let keys = keys.into_iter().chain(["p_value_distribution", "adjusted_p_value", "largest_shift"]);
+            let keys = ["mean_first", "mean_shift", "mean_shift_lower", "mean_shift_upper", "adjusted_p_value"];
+            let keys = keys.into_iter().chain(["largest_shift"]);
             let known: Vec<f64> = keys.filter_map(|key| one[key].as_f64()).collect();
             let found = template(line).1;
             let is_same = |(found, known): (&f64, &f64)| (found - known).abs() <= 6e-3 * known.abs();
             assert!(found.len() == known.len() && found.iter().zip(&known).all(is_same), "{line}: {known:?}");
             assert!(line.contains(&format!(" {} by ", one["largest_shift_of"].as_str().expect("a name"))), "{line}");
             assert_eq!(line.contains("(beyond)"), known.last() > Some(&0.01), "{line}");
+            let is_large = known.last() > Some(&0.01) && one["is_shifted"] == 1;
+            assert_eq!(matters, is_large, "{line}");
             listed += 1;
         }
+        let mut narrow = scratch.command(&format!("compare {first} {second}"));
+        let narrow = scratch.outputs(narrow.env("COLUMNS", "80"), 0);
+        assert!(narrow.lines().all(|line| line.chars().count() <= 80), "{narrow}");
+        assert!(narrow.contains("  matters: shifted by more than 0.2 of the spread"), "{narrow}");
         assert!(listed > 10, "{said}");
     }
 }

@@ -69,7 +69,7 @@ fn exit_codes() {
 #[test]
 fn the_acceptance_campaign_has_every_verdict() {
     let scratch = folder("acceptance");
-    let said = scratch.says("campaign", "acceptance.toml", "--out r --junit junit.xml", 3);
+    let said = scratch.says("campaign", "acceptance.toml", "--out r --junit junit.xml --verbose", 3);
     let summary: serde_json::Value = scratch.summary("r");
     let list = summary["requirements"]["list"].as_array().expect("a list");
     let verdicts: Vec<&str> = list.iter().filter_map(|one| one["verdict"].as_str()).collect();

@@ -134,7 +134,7 @@ fn what_is_out_of_reach_ends_at_once() {
         let text =
             campaign().replace("samples = 600", "samples = 3").replace("\"auto\"", "\"taylor\"").replacen(from, to, 1);
         scratch.file("long.toml", &text);
-        let said = scratch.prints("check long.toml", 0);
+        let said = scratch.prints_wide("check long.toml", 0);
         let (_, why) = said
             .split_once("cannot be estimated: sample 0 needs more than 20000 steps, which lead to ")
             .unwrap_or_else(|| panic!("{to}: {said}"));
@@ -177,7 +177,7 @@ fn outliers_end_alone() {
     let radius = "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"empirical\"\nfile = \"radii.csv\"\ncolumn = \"x\"\n";
     scratch.file("outliers.toml", &format!("{}{radius}", &text[..at]));
     scratch.file("radii.csv", &format!("x\n{}1e9\n1e7\n", "0.25\n0.26\n".repeat(3)));
-    let said = scratch.prints("check outliers.toml", 0);
+    let said = scratch.prints_wide("check outliers.toml", 0);
     assert!(said.contains("cannot be estimated: sample "), "{said}");
     scratch.prints("campaign outliers.toml --out r", 1);
     let rows = &scratch.table("r/runs/part-000000.parquet");

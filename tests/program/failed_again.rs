@@ -42,7 +42,7 @@ fn failed_samples_run_under_another_plan() {
     let failed: Vec<u64> = rows(&scratch, "tight").iter().filter(|(_, row)| row.0 != "ok").map(|(id, _)| *id).collect();
     assert!((20..750).contains(&failed.len()), "{} failed", failed.len());
     let said = scratch.prints("campaign enough.toml --only-failed-of tight --out again", 0);
-    assert!(said.contains(&format!("{} samples", failed.len())), "{said}");
+    assert!(said.contains(&format!("{} runs computed", failed.len())), "{said}");
     let (again, all) = (rows(&scratch, "again"), rows(&scratch, "all"));
     assert_eq!(again.keys().copied().collect::<Vec<_>>(), failed);
     for (sample, row) in &again {
@@ -175,7 +175,8 @@ fn printed_commands_give_the_rows() {
     for options in
         ["", "--samples 300", "--seed 11", "--samples 300 --seed 11", "--audit 0.1", "--only-failed-of tight"]
     {
-        let said = scratch.prints(&format!("campaign small.toml {options} --out r --overwrite --no-report"), 0);
+        let said =
+            scratch.prints(&format!("campaign small.toml {options} --out r --overwrite --no-report --verbose"), 0);
         let rows = scratch.rows("r");
         let samples: Vec<u64> = ended(&rows).into_iter().map(|(sample, _)| sample).collect();
         let drawn = axes.map(|axis| column(&rows, &format!("initial_angular_velocity_{axis}_rad_s")));

@@ -30,7 +30,7 @@ fn reasons_are_said_and_counted() {
     let scratch = folder("grouped-reasons");
     let stuck = campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1");
     scratch.file("stuck.toml", &stuck);
-    let said = scratch.prints("check stuck.toml", 1);
+    let said = scratch.prints_wide("check stuck.toml", 1);
     let first: Vec<&str> = said.lines().take(3).collect();
     assert!(first[0].starts_with("EVERY RUN FAILS"), "{said}");
     let [(count, line)] = reasons(&said, "step_limit")[..] else { panic!("one reason: {said}") };
@@ -39,7 +39,7 @@ fn reasons_are_said_and_counted() {
 
     // nor does a value that no draw makes physical hide the reason
     scratch.file("negative.toml", &[campaign(), NEGATIVE_WALLS.replace("max = 0.04", "max = -0.01")].concat());
-    let said = scratch.prints("check negative.toml", 1);
+    let said = scratch.prints_wide("check negative.toml", 1);
     assert!(said.lines().nth(2).is_some_and(|line| line.contains("wall_thickness_m")), "{said}");
 
     for arguments in ["--out whole", "--out parts --threads 1"] {
@@ -58,7 +58,7 @@ fn reasons_are_said_and_counted() {
 
     // a third of the walls are negative
     scratch.file("thin.toml", &(campaign() + NEGATIVE_WALLS));
-    let said = scratch.prints("check thin.toml", 0);
+    let said = scratch.prints_wide("check thin.toml", 0);
     assert!(!said.contains("EVERY RUN FAILS") && reasons(&said, "invalid_sample").len() == 1, "{said}");
     let said = scratch.prints("campaign thin.toml --out thin", 1);
     let counted: usize = reasons(&said, "invalid_sample").iter().map(|(count, _)| count).sum();

@@ -204,7 +204,7 @@ fn escapes_are_shown_as_text() {
         &campaign().replace("name = \"small\"", &format!("name = \"small\"\ndescription = \"{description}\"")),
     );
     let said = scratch.prints("check \u{1b}[1m.toml", 0) + &scratch.prints("check \u{1b}[2m.toml", 2);
-    assert!(!said.contains(is_obeyed) && said.contains("a\\u{202e}b") && said.contains("`\\u{1b}[2m.toml`"), "{said}");
+    assert!(!said.contains(is_obeyed) && said.contains("A\\u{202e}b") && said.contains("`\\u{1b}[2m.toml`"), "{said}");
 }
 
 /// Law: more tables that name a file of numbers than a limit are refused, with the limit.

@@ -42,7 +42,7 @@ fn canted_thrusters_stop_a_body() {
         assert!(pushed > 0.01, "a net force came with it: {pushed}");
         let scratch = ScratchFolder::new("canted");
         scratch.file("c.toml", &text);
-        let output = scratch.command("check c.toml").output().expect("the program starts");
+        let output = scratch.command("check c.toml").env("COLUMNS", "1000").output().expect("the program starts");
         let said = String::from_utf8_lossy(&output.stdout).into_owned();
         let has =
             |axis: &str| said.contains(&format!("thrusters: torque in both directions about {axis}; 1 N m takes "));

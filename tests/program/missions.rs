@@ -16,7 +16,7 @@ fn ends_are_those_of_the_rows() {
     // some runs are at rest by then, and the nominal one is not
     let text = DETUMBLE.replace("timeout_s = 500.0", "timeout_s = 40.0");
     scratch.file("c.toml", &text);
-    let mut command = scratch.command("campaign c.toml --samples 40 --out r");
+    let mut command = scratch.command("campaign c.toml --samples 40 --out r --verbose");
     let output = command.env("COLUMNS", "200").output().expect("the program starts");
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     let rows = scratch.rows("r");

@@ -52,7 +52,7 @@ fn unpacked(page: &str, id: &str) -> Vec<u8> {
 pub(super) fn found(name: &str, text: &str) -> Found {
     let scratch = ScratchFolder::new(&format!("page-{name}"));
     scratch.file("c.toml", text);
-    let mut command = scratch.command("campaign c.toml --out r --junit junit.xml");
+    let mut command = scratch.command("campaign c.toml --out r --junit junit.xml --verbose");
     let output = command.env("COLUMNS", "200").output().expect("the program starts");
     let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     Found::read(scratch, said)
@@ -211,7 +211,10 @@ fn screen_and_junit_say_what_the_summary_has() {
     let found = found("screen", &motion());
     let summary = found.scratch.summary("r");
     let said = &found.said;
-    assert!(said.find("requirements").unwrap() < said.find("runs were computed").unwrap(), "verdicts first: {said}");
+    assert!(
+        said.find("requirements").expect("verdicts") < said.find("runs were computed").unwrap(),
+        "verdicts first: {said}"
+    );
     assert!(said.find("runs were computed").unwrap() < said.find("dispersed runs").unwrap());
     for absent in ["q_es_w_final", "time_reached_s", "steps"] {
         assert!(!said.contains(absent), "{absent}: {said}");
@@ -332,7 +335,7 @@ fn runs_that_failed_are_left_out() {
     let scratch = ScratchFolder::new("page-left-out");
     let derived = "[[observable]]\nname = \"twice\"\nexpression = \"2 * energy_error_max\"\n";
     scratch.file("c.toml", &(mixed_failures().replace("samples = 600", "samples = 200") + derived));
-    let said = scratch.prints("campaign c.toml --out r", 1);
+    let said = scratch.prints("campaign c.toml --out r --verbose", 1);
     let summary = scratch.summary("r");
     let ok = summary["statuses"]["ok"].as_u64().expect("a count");
     let nominal = 1;

@@ -125,8 +125,8 @@ fn nominal_is_nominal() {
     near(y.iter().sum(), 299.0, 0.02, "expected samples");
     near(center(&x, &y), degrees(columns[2][0]), 0.01, "centre");
     // the printed table of the draws has the same unit
-    let said = found.scratch.prints("check c.toml", 0);
-    let row = said.lines().find(|line| line.starts_with("initial.angular_velocity_rad_s.z ")).expect("a row");
+    let said = found.scratch.prints_wide("check c.toml", 0);
+    let row = said.lines().find(|line| line.starts_with("  initial.angular_velocity_rad_s.z ")).expect("a row");
     let words: Vec<&str> = row.split_whitespace().collect();
     assert_eq!(words[1], "deg/s", "{row}");
     near(words[2].parse().unwrap(), degrees(columns[2][0]), 1e-3, "nominal");
@@ -141,7 +141,7 @@ fn every_line_of_the_screen_is_the_summary() {
     let summary = found.scratch.summary("r");
     let observables = summary["observables"].as_array().expect("observables");
     for width in ["80", "200"] {
-        let mut command = found.scratch.command("campaign c.toml --out r --overwrite");
+        let mut command = found.scratch.command("campaign c.toml --out r --overwrite --verbose");
         let output = command.env("COLUMNS", width).output().expect("the program starts");
         let said = String::from_utf8_lossy(&output.stdout).into_owned();
         let table = &said[said.find("dispersed runs").expect("a table")..said.find("in brackets:").expect("an end")];

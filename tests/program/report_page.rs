@@ -126,7 +126,7 @@ fn the_campaign_of_new_holds_its_tolerance() {
     scratch.prints("new start.toml", 0);
     let above = "above what the tolerance promises";
     for (folder, change) in [("a", ""), ("b", " --set campaign.seed=810"), ("c", " --set campaign.duration_s=600.0")] {
-        let said = scratch.prints(&format!("campaign start.toml --out {folder}{change}"), 0);
+        let said = scratch.prints(&format!("campaign start.toml --verbose --out {folder}{change}"), 0);
         assert!(said.contains("largest errors, relative") && !said.contains("above"), "{said}");
         let page = page(&scratch, folder);
         assert!(visible(&page).contains("Largest relative errors") && !page.contains(above), "{change}");

@@ -58,7 +58,7 @@ fn a_requirement_may_fail_alone() {
     // of 299 at least one half has to be within; exact lower tails of 1/2: 134 within have 4.1%, 133 3.2%, 132 2.5%
     let require = |limit: f64| format!("[[require]]\nobservable = \"spin\"\nfraction = 0.5\nat_most = {limit:?}\n");
     scratch.file("asked.toml", &(text + &require(0.5 * (drawn[132] + drawn[133])) + &require(1e3)));
-    let mut command = scratch.command("campaign asked.toml --out r --no-report --junit junit.xml");
+    let mut command = scratch.command("campaign asked.toml --out r --no-report --junit junit.xml --verbose");
     let said = scratch.outputs(command.env("COLUMNS", "300"), 5);
     let one = &scratch.summary("r")["requirements"]["list"][0];
     assert_eq!((&one["verdict"], &one["violations"]), (&"UNDECIDED".into(), &166.into()));

@@ -173,7 +173,7 @@ quantile = 0.9
 "#;
     let scratch = folder("statistics-drivers");
     scratch.file("spin.toml", &(campaign() + SPIN));
-    let mut command = scratch.command("campaign spin.toml --out r");
+    let mut command = scratch.command("campaign spin.toml --out r --verbose");
     let screen = scratch.outputs(command.env("COLUMNS", "200"), 0);
     let inputs = scratch.table("r/sensitivity.parquet");
     let name = |column: &str, row: usize| {

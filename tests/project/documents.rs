@@ -116,6 +116,7 @@ fn program_problem(words: &[&str]) -> Option<String> {
         // a folder that a campaign has made
         Command::Compare(_)
         | Command::CompleteResult(_)
+        | Command::Index(_)
         | Command::New(_)
         | Command::Report(_)
         | Command::Verify(_) => return None,

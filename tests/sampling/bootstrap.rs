@@ -249,7 +249,7 @@ fn one_sample_is_shown_with_its_row() {
             assert_eq!(line.split_whitespace().nth(1), Some(format!("{value:?}").as_str()), "{sample}: {shown}");
         }
     }
-    let checked = scratch.prints("check rows.toml", 0);
+    let checked = scratch.prints_wide("check rows.toml", 0);
     let told = "one of the 32 rows of insertion.csv, 3 numbers together";
     assert_eq!(checked.matches(told).count(), 3, "{checked}");
 }

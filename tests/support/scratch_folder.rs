@@ -67,6 +67,11 @@ impl ScratchFolder {
         self.outputs(&mut self.command(arguments), code)
     }
 
+    /// The same where no line is broken.
+    pub fn prints_wide(&self, arguments: &str, code: i32) -> String {
+        self.outputs(self.command(arguments).env("COLUMNS", "1000"), code)
+    }
+
     /// The same with a command on a shipped campaign.
     pub fn says(&self, command: &str, campaign: &str, arguments: &str, code: i32) -> String {
         let campaign = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns").join(campaign);

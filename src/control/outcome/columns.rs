@@ -2,13 +2,16 @@
 
 use super::stability::Stability;
 use super::{MissionCriteria, MissionOutcome, STANDARD_GRAVITY};
-use crate::control::estimators::Consistency;
 use crate::control::estimators::kalman::NormalizedSquare;
+use crate::control::estimators::{self, Consistency};
+use crate::control::guidance::phase::{Maneuver, Next};
+use crate::control::guidance::target::Target;
 use crate::control::guidance::{Failure, Guidance};
 use crate::control::net_launch::launch::AtLaunch;
-use crate::control::spec::LoopSpec;
+use crate::control::spec::{LoopSpec, ModelSpec, PhaseSpec};
 use crate::observables::{ColumnKind, LawColumn, LawColumns};
 use crate::run::Quantity;
+use crate::scene::Name;
 
 /// A column: name, unit, meaning, what it is of a run.
 struct OutcomeColumn {
@@ -16,6 +19,22 @@ struct OutcomeColumn {
     kind: ColumnKind,
     codes: &'static [&'static str],
     value: Value,
+    needs: &'static str,
+}
+
+/// What a loop has to have for a column.
+mod need {
+    pub const NOTHING: &str = "";
+    pub const LAUNCH: &str = "needs a phase with next = \"launch\"";
+    pub const TARGET: &str = "needs a phase with a target";
+    pub const APPROACH: &str = "needs debris, and a phase that points or moves relative to it";
+    pub const LAUNCH_AT_DEBRIS: &str = "needs debris, and a phase with next = \"launch\"";
+    pub const LAUNCH_WITH_WHEELS: &str = "needs debris, a phase with next = \"launch\", and wheels";
+    pub const THRUSTERS: &str = "needs thrusters in control.thrusters";
+    pub const PLUMES: &str = "needs debris that a phase approaches, and thrusters in control.thrusters";
+    pub const WHEELS: &str = "needs wheels in control.wheels";
+    pub const FILTER: &str = "needs an estimator with a filter: mekf";
+    pub const FILTER_OF_MOTION: &str = "needs an estimator with a filter: mekf, and debris that a phase approaches";
 }
 
 /// The columns of the runs of a loop.
@@ -36,9 +55,9 @@ impl OutcomeColumns {
     /// Those of runs of `spec`.
     pub fn of(spec: &LoopSpec) -> Self {
         let mut list = Vec::new();
-        let mut add = |name: String, unit: &str, meaning: String, value: Value| {
+        let mut add = |needs: &'static str, name: String, unit: &str, meaning: String, value: Value| {
             let quantity = Quantity::named(name, unit.to_owned(), meaning);
-            list.push(OutcomeColumn { quantity, kind: ColumnKind::Float, codes: &[], value });
+            list.push(OutcomeColumn { quantity, kind: ColumnKind::Float, codes: &[], value, needs });
         };
         mission(spec, &mut add);
         if spec.points() {
@@ -65,6 +84,46 @@ impl OutcomeColumns {
         OutcomeColumns(list)
     }
 
+    /// Those that any loop has, each with what it needs; `<phase>`, `<wheel>` and `<thruster>` stand for names.
+    pub fn of_all_loops() -> Vec<(Quantity, &'static str)> {
+        let [phase, wheel, thruster] = ["phase_name", "wheel_name", "thruster_name"].map(Name::of);
+        let phase = PhaseSpec {
+            name: phase,
+            law: None,
+            gyroscopic: false,
+            target: Target::LineToDebris,
+            thrust: Maneuver::None,
+            until: None,
+            next: Next::Launch,
+            otherwise: None,
+        };
+        let estimator = estimators::KINDS.iter().position(|kind| kind.has_filter).unwrap_or_default();
+        let spec = LoopSpec {
+            period: 1.0,
+            estimator,
+            wheels: vec![0],
+            thrusters: vec![0],
+            modulation: 0,
+            holds_force: false,
+            sensors: Vec::new(),
+            phases: vec![phase],
+            model: ModelSpec::default(),
+            has_debris: true,
+            wheel_names: vec![wheel],
+            thruster_names: vec![thruster],
+        };
+        let placed = |text: &str| {
+            ["phase", "wheel", "thruster"]
+                .iter()
+                .fold(text.to_owned(), |text, what| text.replace(&format!("{what}_name"), &format!("<{what}>")))
+        };
+        let column = |one: OutcomeColumn| {
+            let (name, meaning) = (placed(one.quantity.name()), placed(one.quantity.meaning()));
+            (Quantity::named(name, one.quantity.unit().to_owned(), meaning), one.needs)
+        };
+        OutcomeColumns::of(&spec).0.into_iter().map(column).collect()
+    }
+
     /// As columns of rows.
     pub fn columns(&self) -> LawColumns {
         let column =
@@ -87,39 +146,52 @@ impl OutcomeColumns {
 }
 
 type Value = Box<dyn Fn(&MissionOutcome, &Guidance, &MissionCriteria) -> f64 + Send + Sync>;
-type Add<'a> = dyn FnMut(String, &str, String, Value) + 'a;
+type Add<'a> = dyn FnMut(&'static str, String, &str, String, Value) + 'a;
 
 /// Adds a column whose value needs the outcome alone.
-fn plain(add: &mut Add<'_>, name: &str, unit: &str, meaning: &str, value: fn(&MissionOutcome) -> f64) {
-    add(name.to_owned(), unit, meaning.to_owned(), Box::new(move |outcome, _, _| value(outcome)));
+fn plain(
+    add: &mut Add<'_>,
+    needs: &'static str,
+    name: &str,
+    unit: &str,
+    meaning: &str,
+    value: fn(&MissionOutcome) -> f64,
+) {
+    add(needs, name.to_owned(), unit, meaning.to_owned(), Box::new(move |outcome, _, _| value(outcome)));
 }
 
 fn mission(spec: &LoopSpec, add: &mut Add<'_>) {
     if spec.launches() {
-        plain(add, "launched", "", "Whether the net was launched: 1 or 0.", |o| {
+        plain(add, need::LAUNCH, "launched", "", "Whether the net was launched: 1 or 0.", |o| {
             f64::from(u8::from(o.failure == Failure::None && o.end.is_finite()))
         });
     }
     let codes: Vec<String> = Failure::NAMES.iter().enumerate().map(|(code, name)| format!("{code} {name}")).collect();
     let meaning = format!("Why the mission failed: {}.", codes.join(", "));
-    add("failure".into(), "", meaning, Box::new(|o, _, _| o.failure.code()));
+    add(need::NOTHING, "failure".into(), "", meaning, Box::new(|o, _, _| o.failure.code()));
     let names: Vec<String> =
         spec.phases.iter().enumerate().map(|(place, phase)| format!("{place} {}", phase.name)).collect();
     let meaning = format!("The phase in which the run ended: {}.", names.join(", "));
-    add("phase_final".into(), "", meaning, Box::new(|_, guidance, _| guidance.phase as f64));
-    plain(add, "end_time_s", "s", "Time at which the mission launched or failed; null where it did neither.", |o| {
-        o.end
-    });
+    add(need::NOTHING, "phase_final".into(), "", meaning, Box::new(|_, guidance, _| guidance.phase as f64));
+    plain(
+        add,
+        need::NOTHING,
+        "end_time_s",
+        "s",
+        "Time at which the mission launched or failed; null where it did neither.",
+        |o| o.end,
+    );
     for (place, phase) in spec.phases.iter().enumerate() {
         let meaning = format!("Time at which phase {} first began; null where it did not.", phase.name);
         let value: Value = Box::new(move |_, guidance, _| guidance.first_begun[place]);
-        add(format!("phase_{}_begin_s", phase.name), "s", meaning, value);
+        add(need::NOTHING, format!("phase_{}_begin_s", phase.name), "s", meaning, value);
     }
 }
 
 fn pointing(add: &mut Add<'_>) {
     plain(
         add,
+        need::TARGET,
         "pointing_error_final_rad",
         "rad",
         "Angle of the rotation from the true attitude to the target of the last phase that had one, at the last tick.",
@@ -127,6 +199,7 @@ fn pointing(add: &mut Add<'_>) {
     );
     plain(
         add,
+        need::TARGET,
         "settling_time_s",
         "s",
         "Time from the beginning of the last phase with a target until the pointing error stayed within control.settling_band_rad; null where it did not.",
@@ -134,6 +207,7 @@ fn pointing(add: &mut Add<'_>) {
     );
     plain(
         add,
+        need::TARGET,
         "overshoot_rad",
         "rad",
         "Largest angle beyond the target, against the direction of the error with which the last phase with a target began.",
@@ -143,6 +217,7 @@ fn pointing(add: &mut Add<'_>) {
     );
     plain(
         add,
+        need::TARGET,
         "mission_settling_time_s",
         "s",
         "Time from the start of the run until the pointing error stayed within control.settling_band_rad to the end, in all phases from then on; null where it did not.",
@@ -152,7 +227,7 @@ fn pointing(add: &mut Add<'_>) {
         let meaning = format!(
             "Relative performance error (ECSS-E-ST-60-10C), {what}, of the rotation vector from the target to the true attitude less its mean over the ticks of the window of control.stability_from_s and control.stability_window_s; null where the run does not complete it, or a phase in it has no target."
         );
-        add(name.into(), "rad", meaning, Box::new(move |o, _, criteria| value(&o.stability, criteria)));
+        add(need::TARGET, name.into(), "rad", meaning, Box::new(move |o, _, criteria| value(&o.stability, criteria)));
     };
     over_window("relative_performance_error_rms_rad", "root mean square of the magnitude", Stability::rms);
     over_window(
@@ -165,6 +240,7 @@ fn pointing(add: &mut Add<'_>) {
 fn approach(spec: &LoopSpec, add: &mut Add<'_>) {
     plain(
         add,
+        need::APPROACH,
         "debris_distance_min_m",
         "m",
         "Smallest distance between the centres of mass of spacecraft and debris at the ticks.",
@@ -173,28 +249,43 @@ fn approach(spec: &LoopSpec, add: &mut Add<'_>) {
     if !spec.launches() {
         return;
     }
-    let mut at = |name: &str, unit: &str, meaning: &str, value: fn(&AtLaunch) -> f64| {
+    let mut at = |needs: &'static str, name: &str, unit: &str, meaning: &str, value: fn(&AtLaunch) -> f64| {
         let value: Value = Box::new(move |o, _, _| o.at_launch.as_ref().map_or(f64::NAN, value));
-        add(name.to_owned(), unit, format!("{meaning} at the launch; null if not launched."), value);
+        add(needs, name.to_owned(), unit, format!("{meaning} at the launch; null if not launched."), value);
     };
-    at("pointing_error_launch_rad", "rad", "Angle between s3 and the line to the debris", |l| l.pointing_error);
     at(
+        need::LAUNCH_AT_DEBRIS,
+        "pointing_error_launch_rad",
+        "rad",
+        "Angle between s3 and the line to the debris",
+        |l| l.pointing_error,
+    );
+    at(
+        need::LAUNCH_AT_DEBRIS,
         "axis_offset_launch_m",
         "m",
         "Distance of the centre of mass from the line through the debris along its velocity",
         |l| l.axis_offset,
     );
     at(
+        need::LAUNCH_AT_DEBRIS,
         "distance_error_launch_m",
         "m",
         "Distance behind the debris along that line less control.launch_distance_m",
         |l| l.distance_error,
     );
-    at("relative_speed_launch_m_s", "m/s", "Speed relative to the debris", |l| l.relative_speed);
-    at("body_rate_launch_rad_s", "rad/s", "Magnitude of the angular velocity of the body relative to F_e", |l| {
-        l.body_rate
+    at(need::LAUNCH_AT_DEBRIS, "relative_speed_launch_m_s", "m/s", "Speed relative to the debris", |l| {
+        l.relative_speed
     });
     at(
+        need::LAUNCH_AT_DEBRIS,
+        "body_rate_launch_rad_s",
+        "rad/s",
+        "Magnitude of the angular velocity of the body relative to F_e",
+        |l| l.body_rate,
+    );
+    at(
+        need::LAUNCH_AT_DEBRIS,
         "tumble_axis_angle_launch_rad",
         "rad",
         "Angle, 0 to pi/2, between the angular momentum of the debris and the launch axis",
@@ -202,6 +293,7 @@ fn approach(spec: &LoopSpec, add: &mut Add<'_>) {
     );
     if !spec.wheels.is_empty() {
         at(
+            need::LAUNCH_WITH_WHEELS,
             "wheel_speed_margin_launch_rad_s",
             "rad/s",
             "Smallest difference between the limit of a wheel's speed and its speed",
@@ -214,21 +306,34 @@ fn thrust(spec: &LoopSpec, add: &mut Add<'_>) {
     for &i in &spec.thrusters {
         let name = spec.thruster_names[i];
         let meaning = format!("Impulse of thruster {name}, fired by the loop.");
-        add(format!("impulse_{name}_n_s"), "N s", meaning, Box::new(move |o, _, _| o.impulse[i]));
+        add(need::THRUSTERS, format!("impulse_{name}_n_s"), "N s", meaning, Box::new(move |o, _, _| o.impulse[i]));
     }
-    plain(add, "impulse_total_n_s", "N s", "Sum of the impulses of all thrusters, fired by the loop.", |o| {
-        o.impulse.iter().sum()
-    });
-    plain(add, "delta_v_m_s", "m/s", "Integral of the magnitude of the acceleration by thrust.", |o| o.velocity_change);
+    plain(
+        add,
+        need::THRUSTERS,
+        "impulse_total_n_s",
+        "N s",
+        "Sum of the impulses of all thrusters, fired by the loop.",
+        |o| o.impulse.iter().sum(),
+    );
+    plain(
+        add,
+        need::THRUSTERS,
+        "delta_v_m_s",
+        "m/s",
+        "Integral of the magnitude of the acceleration by thrust.",
+        |o| o.velocity_change,
+    );
     let meaning =
         "Propellant used at control.isp_s; null where that is not known. The mass of the spacecraft is constant.";
     let propellant = |o: &MissionOutcome, _: &Guidance, criteria: &MissionCriteria| {
         finite(o.impulse.iter().sum::<f64>() / (STANDARD_GRAVITY * criteria.isp))
     };
-    add("propellant_kg".into(), "kg", meaning.into(), Box::new(propellant));
+    add(need::THRUSTERS, "propellant_kg".into(), "kg", meaning.into(), Box::new(propellant));
     if spec.approaches() {
         plain(
             add,
+            need::PLUMES,
             "plume_time_s",
             "s",
             "Time in which a thruster fired at debris within control.plume_range_m and control.plume_half_angle_rad of its plume's axis, by the state at the start of each arc.",
@@ -241,10 +346,17 @@ fn wheel(spec: &LoopSpec, add: &mut Add<'_>) {
     for &i in &spec.wheels {
         let name = spec.wheel_names[i];
         let meaning = format!("Largest magnitude of the rate of wheel {name} relative to the body at the ticks.");
-        add(format!("speed_peak_{name}_rad_s"), "rad/s", meaning, Box::new(move |o, _, _| o.speed_peak[i]));
+        add(
+            need::WHEELS,
+            format!("speed_peak_{name}_rad_s"),
+            "rad/s",
+            meaning,
+            Box::new(move |o, _, _| o.speed_peak[i]),
+        );
     }
     plain(
         add,
+        need::WHEELS,
         "wheel_momentum_peak_n_m_s",
         "N m s",
         "Largest magnitude of the wheels' momentum relative to the body at the ticks.",
@@ -252,6 +364,7 @@ fn wheel(spec: &LoopSpec, add: &mut Add<'_>) {
     );
     plain(
         add,
+        need::WHEELS,
         "torque_saturated_s",
         "s",
         "Time in which a motor gave less than was commanded because of its limit of torque.",
@@ -259,6 +372,7 @@ fn wheel(spec: &LoopSpec, add: &mut Add<'_>) {
     );
     plain(
         add,
+        need::WHEELS,
         "speed_saturated_s",
         "s",
         "Time in which a motor gave less than was commanded because of the limit of its wheel's speed.",
@@ -266,6 +380,7 @@ fn wheel(spec: &LoopSpec, add: &mut Add<'_>) {
     );
     plain(
         add,
+        need::WHEELS,
         "torque_excess_max_n_m",
         "N m",
         "Largest torque that was commanded beyond what a motor gave, because of its limit of torque or of its wheel's speed.",
@@ -276,6 +391,7 @@ fn wheel(spec: &LoopSpec, add: &mut Add<'_>) {
 fn estimation(spec: &LoopSpec, add: &mut Add<'_>) {
     plain(
         add,
+        need::NOTHING,
         "attitude_estimate_error_final_rad",
         "rad",
         "Angle between estimated and true attitude at the last tick.",
@@ -283,6 +399,7 @@ fn estimation(spec: &LoopSpec, add: &mut Add<'_>) {
     );
     plain(
         add,
+        need::NOTHING,
         "attitude_estimate_error_max_rad",
         "rad",
         "Largest angle between estimated and true attitude at the ticks.",
@@ -291,6 +408,7 @@ fn estimation(spec: &LoopSpec, add: &mut Add<'_>) {
     if spec.approaches() {
         plain(
             add,
+            need::APPROACH,
             "relative_position_estimate_error_final_m",
             "m",
             "Distance between estimated and true position relative to the debris at the last tick.",
@@ -298,6 +416,7 @@ fn estimation(spec: &LoopSpec, add: &mut Add<'_>) {
         );
         plain(
             add,
+            need::APPROACH,
             "relative_velocity_estimate_error_final_m_s",
             "m/s",
             "Magnitude of the error of the estimated velocity relative to the debris at the last tick.",
@@ -308,9 +427,14 @@ fn estimation(spec: &LoopSpec, add: &mut Add<'_>) {
         return;
     }
     // what the covariance of a filter says of its errors: normalised squares, over their degrees of freedom
-    let mut of_filter = |place: usize, name: &str, what: &str, value: fn(&Consistency) -> Option<NormalizedSquare>| {
+    let mut of_filter = |needs: &'static str,
+                         place: usize,
+                         name: &str,
+                         what: &str,
+                         value: fn(&Consistency) -> Option<NormalizedSquare>| {
         let is = "over its degrees of freedom: 1 on average where the filter is right; null where it is not known";
         add(
+            needs,
             format!("{name}_nees_final"),
             "",
             format!("Normalised square of the estimation error of {what} at the last tick, {is}."),
@@ -319,16 +443,19 @@ fn estimation(spec: &LoopSpec, add: &mut Add<'_>) {
             }),
         );
         add(
+            needs,
             format!("{name}_innovation_mean"),
             "",
             format!("Mean normalised square of the innovations of {what}, {is}."),
             Box::new(move |o, _, _| o.consistency.mean_innovations[place].unwrap_or(f64::NAN)),
         );
     };
-    of_filter(0, "attitude", "attitude and gyro bias (or rate)", |c| c.attitude);
+    of_filter(need::FILTER, 0, "attitude", "attitude and gyro bias (or rate)", |c| c.attitude);
     if spec.approaches() {
-        of_filter(1, "motion", "position and velocity", |c| c.motion);
-        of_filter(2, "debris_motion", "position and velocity of the debris", |c| c.debris_motion);
-        of_filter(3, "debris_attitude", "attitude and rate of the debris", |c| c.debris);
+        of_filter(need::FILTER_OF_MOTION, 1, "motion", "position and velocity", |c| c.motion);
+        of_filter(need::FILTER_OF_MOTION, 2, "debris_motion", "position and velocity of the debris", |c| {
+            c.debris_motion
+        });
+        of_filter(need::FILTER_OF_MOTION, 3, "debris_attitude", "attitude and rate of the debris", |c| c.debris);
     }
 }

@@ -1,0 +1,176 @@
+//! Colour on the terminal: verdicts, headings of help, notes. Words stay as they are; a pipe gets no colour unless it is asked for.
+
+use std::io::IsTerminal;
+
+use clap::ValueEnum;
+
+/// When there is colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Colour {
+    /// On a terminal, unless the variable NO_COLOR is set or the terminal is dumb.
+    Auto,
+    /// Also in a pipe.
+    Always,
+    /// Nowhere.
+    Never,
+}
+
+/// The option, which stands before or after the command.
+const OPTION: &str = "--color";
+
+const RED: &str = "\x1b[31m";
+const GREEN: &str = "\x1b[32m";
+const YELLOW: &str = "\x1b[33m";
+const BOLD: &str = "\x1b[1m";
+const DIM: &str = "\x1b[2m";
+const RESET: &str = "\x1b[0m";
+
+/// Words that are a verdict, with their colour.
+const VERDICTS: [(&str, &str); 7] = [
+    ("PASS", GREEN),
+    ("FAIL", RED),
+    ("FAILED", RED),
+    ("FAILS", RED),
+    ("WORSE", RED),
+    ("UNDECIDED", YELLOW),
+    ("DIFFERENT", YELLOW),
+];
+
+/// The headings of help texts.
+const HEADINGS: [&str; 6] = ["Usage:", "Arguments:", "Options:", "Commands:", "Examples:", "Exit codes:"];
+
+/// What a text is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A result, or help.
+    Result,
+    /// A note beside the result, or the reason of a failure.
+    Note,
+}
+
+impl Colour {
+    /// What the arguments of this process ask for, also where they are wrong: the message that says so is coloured too.
+    fn asked(arguments: impl Iterator<Item = String>) -> Self {
+        let mut asked = Colour::Auto;
+        let mut arguments = arguments.peekable();
+        while let Some(argument) = arguments.next() {
+            let value = match argument.strip_prefix(OPTION) {
+                Some("") => arguments.peek().cloned(),
+                Some(rest) => rest.strip_prefix('=').map(str::to_owned),
+                None => None,
+            };
+            if let Some(colour) = value.and_then(|value| Colour::from_str(&value, false).ok()) {
+                asked = colour;
+            }
+        }
+        asked
+    }
+
+    /// Whether a stream gets colour; `variable` gives the variables of the environment.
+    fn is_on(self, is_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> bool {
+        let is_set = |name: &str| variable(name).is_some_and(|value| !value.is_empty());
+        match self {
+            Colour::Always => true,
+            Colour::Never => false,
+            Colour::Auto => {
+                is_terminal && !is_set("NO_COLOR") && is_set("TERM") && variable("TERM").as_deref() != Some("dumb")
+            }
+        }
+    }
+}
+
+/// Whether `stream` gets colour.
+pub fn is_on(stream: &impl IsTerminal) -> bool {
+    let arguments = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned());
+    Colour::asked(arguments).is_on(stream.is_terminal(), |name| std::env::var(name).ok())
+}
+
+/// `text` with colour.
+pub fn coloured(text: &str, kind: Kind) -> String {
+    text.split_inclusive('\n').map(|line| of_line(line, kind)).collect()
+}
+
+fn of_line(line: &str, kind: Kind) -> String {
+    let content = line.trim_end_matches('\n');
+    let end = &line[content.len()..];
+    if content.is_empty() {
+        return line.to_owned();
+    }
+    if let Some(rest) = content.strip_prefix("error:") {
+        return format!("{RED}{BOLD}error:{RESET}{rest}{end}");
+    }
+    if kind == Kind::Note {
+        return format!("{DIM}{content}{RESET}{end}");
+    }
+    if let Some((heading, rest)) = HEADINGS.iter().find_map(|heading| Some((heading, content.strip_prefix(heading)?))) {
+        return format!("{BOLD}{heading}{RESET}{rest}{end}");
+    }
+    words(content) + end
+}
+
+/// `text` with its verdicts in their colours.
+fn words(text: &str) -> String {
+    let mut painted = String::with_capacity(text.len());
+    let mut rest = text;
+    while !rest.is_empty() {
+        let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
+        let begin = rest.find(is_word).unwrap_or(rest.len());
+        let end = rest[begin..].find(|letter| !is_word(letter)).map_or(rest.len(), |length| begin + length);
+        let word = &rest[begin..end];
+        painted += &rest[..begin];
+        painted += &match VERDICTS.iter().find(|(verdict, _)| *verdict == word) {
+            Some((_, colour)) => format!("{colour}{BOLD}{word}{RESET}"),
+            None => word.to_owned(),
+        };
+        rest = &rest[end..];
+    }
+    painted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `text` without what a terminal obeys.
+    fn plain(text: &str) -> String {
+        [RED, GREEN, YELLOW, BOLD, DIM, RESET].iter().fold(text.to_owned(), |text, code| text.replace(code, ""))
+    }
+
+    /// Law: each verdict has its colour, as a whole word only; the words of a text stay as they are, and whatever begins ends in its line.
+    #[test]
+    fn words_stay_and_verdicts_are_coloured() {
+        let text = "3 PASS, 1 FAIL -> results/x/report.html\n  UNDECIDED  p95 of PASSED_s\n\nUsage: spindrift check\n";
+        let found = coloured(text, Kind::Result);
+        assert_eq!(plain(&found), text);
+        for (word, colour) in [("PASS", GREEN), ("FAIL", RED), ("UNDECIDED", YELLOW)] {
+            assert!(found.contains(&format!("{colour}{BOLD}{word}{RESET}")), "{found:?}");
+        }
+        assert_eq!(found.matches(GREEN).count(), 1, "{found:?}");
+        assert!(found.contains(&format!("{BOLD}Usage:{RESET} spindrift")), "{found:?}");
+        assert!(found.lines().all(|line| line.matches('\x1b').count() % 3 != 1), "{found:?}");
+        let note = coloured("error: no PASS here\na note\n", Kind::Note);
+        assert_eq!(note, format!("{RED}{BOLD}error:{RESET} no PASS here\n{DIM}a note{RESET}\n"));
+    }
+
+    /// Law: with `auto` a terminal has colour and a pipe has none; NO_COLOR and a dumb terminal take it away, an empty NO_COLOR does not; `always` and `never`
+    /// are stronger than both.
+    #[test]
+    fn a_pipe_has_no_colour() {
+        let on = |colour: Colour, is_terminal: bool, no_color: Option<&str>, term: Option<&str>| {
+            colour.is_on(is_terminal, |name| if name == "NO_COLOR" { no_color } else { term }.map(str::to_owned))
+        };
+        assert!(on(Colour::Auto, true, None, Some("xterm")) && on(Colour::Auto, true, Some(""), Some("xterm")));
+        assert!(!on(Colour::Auto, false, None, Some("xterm")) && !on(Colour::Auto, true, Some("1"), Some("xterm")));
+        assert!(!on(Colour::Auto, true, None, Some("dumb")) && !on(Colour::Auto, true, None, None));
+        assert!(on(Colour::Always, false, Some("1"), None) && !on(Colour::Never, true, None, Some("xterm")));
+    }
+
+    /// Law: the option is found in both of its forms, and what is no value of it changes nothing.
+    #[test]
+    fn the_option_is_found() {
+        let asked = |text: &str| Colour::asked(text.split(' ').map(str::to_owned));
+        assert_eq!(asked("spindrift campaign x --color always"), Colour::Always);
+        assert_eq!(asked("spindrift --color=never campaign x"), Colour::Never);
+        assert_eq!([asked("spindrift campaign x"), asked("spindrift --color blue")], [Colour::Auto; 2]);
+    }
+}

@@ -1,0 +1,211 @@
+//! What a campaign has come to, on one screen: verdicts, outcomes in one line each, and what drives them. Everything else is in `summary_text`.
+
+use crate::analysis::assessment::Assessment;
+use crate::analysis::drivers::Question;
+use crate::analysis::input_sensitivity::InputSensitivity;
+use crate::campaign::{Plan, Statement};
+use crate::report::drivers_text::{ranked, sentence};
+use crate::report::number::{brief, significant};
+use crate::report::observable_lines::{ObservableLine, QuantileLine};
+use crate::report::share_text::with_interval;
+use crate::report::summary::Summary;
+use crate::report::text_table::{Align, TextTable};
+use crate::report::wrapped::wrapped;
+use crate::report::{drivers_text, mission_text, requirements, warnings};
+use crate::statistics::binomial::Decision;
+use crate::statistics::quantile::percent;
+
+/// Outcomes whose drivers are named where nothing is required.
+const DRIVEN: usize = 3;
+/// Most quantiles beside the median.
+const MOST_QUANTILES: usize = 2;
+
+/// The text for lines of `width` characters. `file` is the campaign as a word of the commands that show a run.
+pub fn text(plan: &Plan, summary: &Summary, all: &[InputSensitivity], file: &str, width: usize) -> String {
+    let mut text = wrapped(&warnings::text(&summary.warnings), width);
+    text += &requirements_table(summary, width);
+    if let Some((_, stop)) = &summary.stopping {
+        text += &wrapped(&format!("  stop: {stop}\n"), width);
+    }
+    let failures = summary.failures();
+    text += &failures;
+    let is_required = summary.verdicts.list.iter().any(|one| one.requirement.observable() == Some("launched"));
+    text += &wrapped(&mission_text::brief(&summary.missions, is_required), width);
+    let outcomes = outcomes(summary, width);
+    if !text.is_empty() && !outcomes.is_empty() {
+        text.push('\n');
+    }
+    text += &outcomes;
+    text += &wrapped(&drivers(plan, summary, all), width);
+    if let Some(audit) = &summary.audit {
+        text += &wrapped(&audit.coverage(), width);
+    }
+    // commands stay whole, to be copied
+    if failures.is_empty() { text } else { text + &summary.first_failures(file) }
+}
+
+/// A line for each requirement.
+fn requirements_table(summary: &Summary, width: usize) -> String {
+    let list = &summary.verdicts.list;
+    let Some(first) = list.first() else { return String::new() };
+    let confidence = first.requirement.confidence;
+    let is_common = list.iter().all(|one| one.requirement.confidence == confidence);
+    let head = if is_common {
+        format!("requirement, with {}% confidence", percent(confidence))
+    } else {
+        "requirement".to_owned()
+    };
+    let is_share = list.iter().all(|one| one.requirement.statement != Statement::Mean);
+    let found = if is_share { "runs within" } else { "found" };
+    let of = if list.iter().any(Assessment::has_interval) {
+        format!("{found} {}", in_brackets(summary))
+    } else {
+        found.to_owned()
+    };
+    let heads =
+        [(String::new(), Align::Left), (head, Align::Left), (of, Align::Left), (String::new(), Align::Sentence)];
+    let mut table = TextTable::new(heads);
+    for one in list {
+        let confidence = match is_common {
+            true => String::new(),
+            false => format!(" ({}% confidence)", percent(one.requirement.confidence)),
+        };
+        let assumed = requirements::assumed(one);
+        let notes: Vec<&str> = one.reason.iter().chain(&assumed).chain(&one.note).map(String::as_str).collect();
+        table.row([
+            one.word().to_owned(),
+            requirements::statement(one) + &confidence,
+            requirements::estimate(one),
+            notes.join("; "),
+        ]);
+    }
+    let needed = list.iter().filter_map(|one| match one.gate.decision {
+        Decision::Undecided(runs) => runs,
+        _ => None,
+    });
+    let needed = needed.max().map_or(String::new(), |runs| {
+        format!("  {runs} runs would settle what is undecided in 9 of 10 campaigns like this one\n")
+    });
+    table.text(width) + &wrapped(&needed, width)
+}
+
+fn in_brackets(summary: &Summary) -> String {
+    format!("[{}%]", percent(summary.confidence))
+}
+
+/// The table of outcomes: those that the file names, or those of the motion.
+fn outcomes(summary: &Summary, width: usize) -> String {
+    let shown = summary.outcomes();
+    if shown.is_empty() || shown.iter().all(|line| line.is_empty()) {
+        return if summary.is_computed() {
+            String::new()
+        } else {
+            "  no statistics: no dispersed run was computed\n".to_owned()
+        };
+    }
+    let required = summary.verdicts.list.iter().filter_map(|one| match one.requirement.statement {
+        Statement::Quantile(p) => Some(p),
+        _ => None,
+    });
+    let known: Vec<f64> = shown[0].quantiles.iter().map(|one| one.p).filter(|p| *p != 0.5).collect();
+    let mut ps: Vec<f64> = required.filter(|p| known.contains(p)).collect();
+    ps.sort_by(f64::total_cmp);
+    ps.dedup();
+    ps.truncate(MOST_QUANTILES);
+    if ps.is_empty() {
+        ps.extend(known.iter().find(|p| **p == 0.95).or(known.last()));
+    }
+    let mut table = outcome_table(summary, &shown, &ps);
+    while table.width() > width && ps.len() > 1 {
+        ps.pop();
+        table = outcome_table(summary, &shown, &ps);
+    }
+    let notes = shown.iter().flat_map(|line| &line.quantiles).filter(|one| ps.contains(&one.p));
+    let note = notes.filter_map(|one| one.note.as_ref()).max_by_key(|note| note.len());
+    let note = note.map_or(String::new(), |note| wrapped(&format!("  {note}\n"), width));
+    let treatment = match summary.treatment.starts_with(|letter: char| letter.is_ascii_digit()) {
+        true => format!("  {}\n", summary.treatment),
+        false => String::new(),
+    };
+    table.text(width) + &note + &treatment
+}
+
+/// A row for each of `shown`, with the quantiles `ps` beside the median.
+fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64]) -> TextTable {
+    let has_counts = shown.iter().any(|line| line.without_value > 0);
+    let title = if summary.without_nominal { "outcome" } else { "outcome of the nominal run" };
+    let mut heads = vec![(title.to_owned(), Align::Left)];
+    if has_counts {
+        heads.push(("runs".to_owned(), Align::Right));
+    }
+    heads.push(("median".to_owned(), Align::Right));
+    let has_intervals = shown.iter().any(|line| line.has_interval());
+    let interval = if has_intervals { format!(" {}", in_brackets(summary)) } else { String::new() };
+    heads.extend(ps.iter().map(|p| (format!("p{}{interval}", percent(*p)), Align::Right)));
+    heads.push(("max".to_owned(), Align::Right));
+    let mut table = TextTable::new(heads);
+    for line in shown.iter().filter(|line| !is_stated(summary, line)) {
+        // its own unit is the end of its name
+        let is_own = line.shown.unit.is_empty() || line.shown.unit == line.unit;
+        let unit = if is_own { String::new() } else { format!(", {}", line.shown.unit) };
+        let mut cells = vec![line.name.clone() + &unit];
+        if has_counts {
+            cells.push(line.count.to_string());
+        }
+        let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| brief(line.shown.value(value)));
+        let quantile = |p: f64| line.quantiles.iter().find(|one| one.p == p);
+        match line.share_of_yes() {
+            Some(share) => {
+                cells.extend([String::new(), format!("yes in {}", with_interval([share; 2], [f64::NAN; 2]))])
+            }
+            None => {
+                cells.push(number(quantile(0.5).and_then(|one| one.value)));
+                cells.extend(ps.iter().map(|p| quantile(*p).map_or("-".to_owned(), |one| ends(line, one))));
+                cells.push(number(line.max));
+            }
+        }
+        table.row(cells);
+    }
+    table
+}
+
+/// Whether the verdict on the share of runs says all of this outcome: it is yes or no.
+fn is_stated(summary: &Summary, line: &ObservableLine) -> bool {
+    line.share_of_yes().is_some()
+        && summary.verdicts.list.iter().any(|one| one.requirement.observable() == Some(&line.name))
+}
+
+/// A quantile with the ends of its interval, `?` where the runs do not bound it.
+fn ends(line: &ObservableLine, one: &QuantileLine) -> String {
+    let Some(value) = one.value else { return "-".to_owned() };
+    let value = brief(line.shown.value(value));
+    if one.interval == [None; 2] {
+        return value;
+    }
+    // a power of ten takes the place of a digit
+    let short = |text: String| if text.contains('e') { significant(text.parse().unwrap_or(f64::NAN), 2) } else { text };
+    let [low, high] = one.interval.map(|end| end.map_or("?".to_owned(), |end| short(brief(line.shown.value(end)))));
+    format!("{value} [{low}, {high}]")
+}
+
+/// What drives the outcomes: the first one that is not met, or the first ones where nothing is required.
+fn drivers(plan: &Plan, summary: &Summary, all: &[InputSensitivity]) -> String {
+    let is_met = |outcome: &&str| {
+        let mut of = summary.verdicts.list.iter().filter(|one| one.requirement.observable() == Some(outcome));
+        of.all(|one| one.gate.decision == Decision::Pass)
+    };
+    let mut outcomes = drivers_text::outcomes(plan, all);
+    let most = if summary.verdicts.list.is_empty() { DRIVEN } else { 1 };
+    outcomes.sort_by_key(is_met);
+    let said = outcomes.into_iter().filter_map(|outcome| {
+        let mut rankings = ranked(plan, all, outcome);
+        rankings.retain(|ranking| ranking.drivers().next().is_some());
+        rankings.sort_by_key(|ranking| ranking.question == Question::Spread);
+        Some(format!("  drivers of {outcome}: {}\n", sentence(plan, outcome, rankings.first()?)))
+    });
+    let said: String = said.take(most).collect();
+    match (said.is_empty(), all.is_empty()) {
+        (true, false) => format!("  no significant driver found in {} runs\n", summary.samples),
+        _ => said,
+    }
+}

@@ -1,0 +1,165 @@
+//! The table of all results below a folder, as a page that needs no network, and as text.
+
+use std::path::PathBuf;
+
+use crate::report::escaped::escaped;
+use crate::report::summary::SummaryEnd;
+use crate::report::text_table::{Align, TextTable};
+
+/// The style of every page.
+const STYLE: &str = include_str!("../../assets/report/page.css");
+
+/// A finished result.
+#[derive(Clone, Debug)]
+pub struct IndexEntry {
+    /// Its folder, from the one that is indexed.
+    pub folder: PathBuf,
+    /// The name of its campaign.
+    pub campaign: String,
+    /// The question that it answers.
+    pub question: Option<String>,
+    /// How it ended.
+    pub end: SummaryEnd,
+    /// The version of the program that made it.
+    pub version: String,
+    /// The day of its summary, UTC.
+    pub day: String,
+    /// Its page, from the folder that is indexed, where there is one.
+    pub page: Option<PathBuf>,
+    /// What changed since the last run of the same campaign, in words; `None` of the first one.
+    pub changed: Option<String>,
+}
+
+/// A folder of a result that says nothing.
+#[derive(Clone, Debug)]
+pub struct Unreadable {
+    /// The folder, from the one that is indexed.
+    pub folder: PathBuf,
+    /// Why.
+    pub reason: String,
+}
+
+/// The words of verdicts, those that call for attention first.
+const WORDS: [&str; 3] = ["FAIL", "UNDECIDED", "PASS"];
+
+impl IndexEntry {
+    /// The verdicts, counted: `3 PASS, 1 FAIL`; of a campaign without requirements a dash.
+    fn verdicts(&self) -> String {
+        let count = |word: &&str| (self.end.count(word), word.to_string());
+        let found = ["PASS", "FAIL", "UNDECIDED"].iter().map(count).filter(|(count, _)| *count > 0);
+        let found: Vec<String> = found.map(|(count, word)| format!("{count} {word}")).collect();
+        if found.is_empty() { "-".to_owned() } else { found.join(", ") }
+    }
+
+    /// The runs that were computed, of all where some were not.
+    fn runs(&self) -> String {
+        let SummaryEnd { rows, failed, .. } = self.end;
+        if failed > 0 { format!("{} of {rows}", rows - failed) } else { rows.to_string() }
+    }
+
+    /// The class of the verdict that weighs most.
+    fn class(&self) -> String {
+        let worst = WORDS.iter().find(|word| self.end.count(word) > 0);
+        worst.map_or("none".to_owned(), |word| word.to_lowercase())
+    }
+}
+
+/// The table as text for lines of `width` characters.
+pub fn text(entries: &[IndexEntry], unreadable: &[Unreadable], width: usize) -> String {
+    let mut table = TextTable::new([
+        ("result", Align::Left),
+        ("verdicts", Align::Left),
+        ("runs", Align::Right),
+        ("day", Align::Left),
+        ("version", Align::Left),
+        ("since the last run", Align::Sentence),
+    ]);
+    for one in entries {
+        // a folder that has the name of its campaign says it
+        let is_named = one.folder.file_name().is_some_and(|name| name == one.campaign.as_str());
+        let campaign = if is_named { String::new() } else { format!(" ({})", one.campaign) };
+        let cells = [
+            format!("{}{campaign}", one.folder.display()),
+            one.verdicts(),
+            one.runs(),
+            one.day.clone(),
+            one.version.clone(),
+        ];
+        table.row(cells.into_iter().chain([one.changed.clone().unwrap_or_default()]));
+    }
+    let mut text = if entries.is_empty() { String::new() } else { table.text(width) };
+    if !unreadable.is_empty() {
+        text += "\n  not in the table\n";
+        let mut table = TextTable::new([("", Align::Left), ("", Align::Sentence)]);
+        unreadable.iter().for_each(|one| table.row([one.folder.display().to_string(), one.reason.clone()]));
+        text += &table.text(width);
+    }
+    text
+}
+
+/// The page; `title` is the name of the folder.
+pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> String {
+    let row = |one: &IndexEntry| {
+        let folder = escaped(&one.folder.display().to_string());
+        let name = match &one.page {
+            Some(page) => format!("<a href=\"{}\">{folder}</a>", link(&page.display().to_string())),
+            None => folder,
+        };
+        let question = one
+            .question
+            .as_deref()
+            .map_or(String::new(), |text| format!("<br><span class=\"quiet\">{}</span>", escaped(text)));
+        format!(
+            "<tr><td class=\"text\">{name}{question}</td><td class=\"text\">{}</td><td class=\"text verdict {}\">{}</td><td>{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>\n",
+            escaped(&one.campaign),
+            one.class(),
+            escaped(&one.verdicts()),
+            escaped(&one.runs()),
+            escaped(&one.day),
+            escaped(&one.version),
+            escaped(one.changed.as_deref().unwrap_or("first run")),
+        )
+    };
+    let heads = ["Result", "Campaign", "Verdicts", "Runs computed", "Day", "Version", "Changed since the last run"];
+    let heads: String = heads.iter().map(|head| format!("<th scope=\"col\">{head}</th>")).collect();
+    let rows: String = entries.iter().map(row).collect();
+    let left_out: String = unreadable
+        .iter()
+        .map(|one| format!("<li>{}: {}</li>", escaped(&one.folder.display().to_string()), escaped(&one.reason)))
+        .collect();
+    let left_out = if left_out.is_empty() {
+        String::new()
+    } else {
+        format!("<section id=\"unreadable\"><h2>Not in the table</h2><ul>{left_out}</ul></section>\n")
+    };
+    let count = |count: usize| if count == 1 { "1 result".to_owned() } else { format!("{count} results") };
+    let (name, count) = (escaped(title), count(entries.len()));
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{name} - spindrift</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}{OWN_STYLE}</style>\n</head>\n<body>\n<header><h1>{name}</h1><p class=\"facts\">{count}, by campaign, the latest run first</p></header>\n<main>\n<section id=\"results\"><div class=\"scroll\"><table><thead><tr>{heads}</tr></thead><tbody>\n{rows}</tbody></table></div></section>\n{left_out}</main>\n</body>\n</html>\n"
+    )
+}
+
+/// Of the table of results alone.
+const OWN_STYLE: &str = "td.verdict.pass { color: var(--pass); } td.verdict.fail { color: var(--fail); font-weight: 600; } td.verdict.undecided { color: var(--undecided); } td { vertical-align: top; }\n";
+
+/// A relative path as a link: what has a meaning in one is written by its number (RFC 3986, section 2.1).
+fn link(path: &str) -> String {
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte);
+    let separator = |byte: u8| if byte == b'\\' && cfg!(windows) { b'/' } else { byte };
+    // a first part with a colon would be a scheme
+    path.bytes().map(separator).fold("./".to_owned(), |link, byte| {
+        if is_plain(byte) { link + &char::from(byte).to_string() } else { link + &format!("%{byte:02X}") }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: whatever a folder is called, its link leads to it and to nothing else.
+    #[test]
+    fn links_lead_to_their_folders() {
+        assert_eq!(link("a/report.html"), "./a/report.html");
+        assert_eq!(link("javascript:x/\"q\"?#%/é"), "./javascript%3Ax/%22q%22%3F%23%25/%C3%A9");
+    }
+}

@@ -1,0 +1,172 @@
+//! [`indexed`]: all results below a folder, what each says, and what changed since the last run of the same campaign.
+
+use std::path::{Path, PathBuf};
+use std::time::UNIX_EPOCH;
+
+use serde_json::Value;
+
+use crate::campaign::difference::text_differences;
+use crate::report::index_page::{IndexEntry, Unreadable};
+use crate::report::summary::SummaryEnd;
+use crate::storage::folder::MOST_SUMMARY;
+use crate::storage::names::{MANIFEST, PLAN, REPORT, SUMMARY};
+use crate::workflow::error::WorkflowError;
+use crate::workflow::session::Session;
+
+/// Folders are looked at so deep below the first one.
+const DEEPEST: usize = 6;
+/// Keys of plans that are named as changed.
+const MOST_KEYS: usize = 4;
+/// Most bytes of a plan that is read.
+const MOST_PLAN: u64 = 16 << 20;
+
+/// What is below a folder.
+#[derive(Clone, Debug, Default)]
+pub struct ResultsIndex {
+    /// The finished results: by campaign, the latest run of each first.
+    pub entries: Vec<IndexEntry>,
+    /// Folders of results that say nothing, with the reason.
+    pub unreadable: Vec<Unreadable>,
+}
+
+/// What a result says, with what is needed to compare it with the run before.
+struct Found {
+    entry: IndexEntry,
+    seconds: u64,
+    plan: String,
+}
+
+/// All results in `root` and below it. They are read, not verified: `spindrift verify` compares checksums.
+///
+/// # Errors
+/// Where the folder itself cannot be read.
+pub fn indexed(session: &Session<'_>, root: &Path) -> Result<ResultsIndex, WorkflowError> {
+    std::fs::read_dir(root).map_err(|error| WorkflowError::Input(format!("{}: {error}", root.display())))?;
+    let mut folders = Vec::new();
+    visit(root, 0, &mut folders);
+    folders.sort();
+    let (mut found, mut index) = (Vec::new(), ResultsIndex::default());
+    for folder in folders {
+        let name = folder.strip_prefix(root).unwrap_or(&folder).to_owned();
+        match read(session, &folder, &name) {
+            Ok(one) => found.push(one),
+            Err(reason) => index.unreadable.push(Unreadable { folder: name, reason }),
+        }
+    }
+    found.sort_by(|a, b| {
+        let key = |one: &Found| (one.entry.campaign.clone(), std::cmp::Reverse(one.seconds), one.entry.folder.clone());
+        key(a).cmp(&key(b))
+    });
+    let changes: Vec<Option<String>> = (0..found.len())
+        .map(|place| match found.get(place + 1) {
+            Some(before) if before.entry.campaign == found[place].entry.campaign => {
+                Some(changed(before, &found[place]))
+            }
+            _ => None,
+        })
+        .collect();
+    index.entries = found.into_iter().zip(changes).map(|(one, changed)| IndexEntry { changed, ..one.entry }).collect();
+    Ok(index)
+}
+
+/// Collects the folders of results: those with a plan or a manifest. Within a result there is no other.
+fn visit(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) {
+    if [MANIFEST, SUMMARY].iter().any(|name| folder.join(name).is_file()) {
+        found.push(folder.to_owned());
+        return;
+    }
+    let entries = std::fs::read_dir(folder).into_iter().flatten().filter_map(Result::ok);
+    // links may lead in a circle
+    let folders = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()));
+    if depth < DEEPEST {
+        folders.for_each(|entry| visit(&entry.path(), depth + 1, found));
+    }
+}
+
+/// What the result in `folder` says; the reason where it says nothing.
+fn read(session: &Session<'_>, folder: &Path, name: &Path) -> Result<Found, String> {
+    let path = folder.join(SUMMARY);
+    let bytes = session.storage.read(&path, MOST_SUMMARY).map_err(|_| format!("not finished: no {SUMMARY}"))?;
+    let value: Value = serde_json::from_slice(&bytes).map_err(|error| format!("{SUMMARY}: {error}"))?;
+    let end = SummaryEnd::read(&bytes).ok_or_else(|| format!("{SUMMARY} is none of spindrift"))?;
+    let text = |key: &str| value[key].as_str().map(str::to_owned);
+    let campaign = text("campaign").ok_or_else(|| format!("{SUMMARY} names no campaign"))?;
+    let plan = session.storage.read(&folder.join(PLAN), MOST_PLAN).map_err(|error| error.to_string())?;
+    let plan = String::from_utf8(plan).map_err(|_| format!("{PLAN} is no text"))?;
+    let question = toml::from_str::<toml::Table>(&plan)
+        .ok()
+        .and_then(|table| Some(table.get("campaign")?.get("description")?.as_str()?.to_owned()));
+    let modified = path.metadata().and_then(|found| found.modified()).ok();
+    let seconds = modified.and_then(|time| time.duration_since(UNIX_EPOCH).ok()).map_or(0, |since| since.as_secs());
+    let page = folder.join(REPORT).is_file().then(|| name.join(REPORT));
+    let version = text("version").unwrap_or_default();
+    let entry = IndexEntry {
+        folder: name.to_owned(),
+        campaign,
+        question,
+        end,
+        version,
+        day: day(seconds),
+        page,
+        changed: None,
+    };
+    Ok(Found { entry, seconds, plan })
+}
+
+/// What changed from the run `before` to the one `after` it: keys of the plan, then verdicts.
+fn changed(before: &Found, after: &Found) -> String {
+    let value = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
+    let keys = text_differences(&before.plan, &after.plan);
+    let more = keys.len().saturating_sub(MOST_KEYS);
+    let of_key = |key: crate::campaign::difference::KeyDifference| {
+        format!("{}: {} -> {}", key.key, value(key.first), value(key.second))
+    };
+    let mut said: Vec<String> = keys.into_iter().take(MOST_KEYS).map(of_key).collect();
+    if more > 0 {
+        said.push(format!("{more} more keys"));
+    }
+    if before.entry.version != after.entry.version {
+        said.push(format!("version {} -> {}", before.entry.version, after.entry.version));
+    }
+    let verdict = |end: &SummaryEnd, name: &str| {
+        end.verdicts.iter().find(|(known, _)| known == name).map(|(_, verdict)| verdict.clone())
+    };
+    for (name, now) in &after.entry.end.verdicts {
+        if let Some(then) = verdict(&before.entry.end, name).filter(|then| then != now) {
+            said.push(format!("{then} -> {now}: {name}"));
+        }
+    }
+    if said.is_empty() { "nothing".to_owned() } else { said.join("; ") }
+}
+
+/// The day of a time since 1970 in UTC, `2026-11-25` (E. G. Richards, Explanatory Supplement to the Astronomical Almanac, 2013, 15.11).
+fn day(seconds: u64) -> String {
+    let julian = seconds / 86_400 + 2_440_588;
+    let f = julian + 1401 + (4 * julian + 274_277) / 146_097 * 3 / 4 - 38;
+    let e = 4 * f + 3;
+    let h = 5 * (e % 1461 / 4) + 2;
+    let (day, month) = (h % 153 / 5 + 1, (h / 153 + 2) % 12 + 1);
+    let year = e / 1461 - 4716 + (12 + 2 - month) / 12;
+    format!("{year}-{month:02}-{day:02}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: days are those of `date -u -d @SECONDS +%F`.
+    #[test]
+    fn days_are_those_of_the_calendar() {
+        for (seconds, text) in [
+            (0, "1970-01-01"),
+            (951_782_399, "2000-02-28"),
+            (951_782_400, "2000-02-29"),
+            (951_868_800, "2000-03-01"),
+            (1_795_651_200, "2026-11-26"),
+            (4_107_542_399, "2100-02-28"),
+            (4_107_542_400, "2100-03-01"),
+        ] {
+            assert_eq!(day(seconds), text);
+        }
+    }
+}
