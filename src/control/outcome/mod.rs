@@ -34,7 +34,7 @@ pub struct MissionCriteria {
 }
 
 /// Standard gravity, by which a specific impulse is an exhaust velocity, m/s^2 (ISO 80000-3).
-const STANDARD_GRAVITY: f64 = 9.806_65;
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// What is true at the launch.
 #[derive(Clone, Copy, Debug)]

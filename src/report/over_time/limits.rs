@@ -1,0 +1,90 @@
+//! The limits in figures over time: those of requirements, and those of actuators.
+
+use crate::campaign::Plan;
+use crate::report::figure::Mark;
+use crate::report::page::readable::with_unit;
+use crate::statistics::gate::GateLimit;
+
+/// A limit that is larger than the values by this factor is outside of the axis, and named at its edge.
+const FAR: f64 = 3.0;
+/// Where values vary by less than this fraction of the largest, an axis from zero would hide how.
+const VARIES: f64 = 0.5;
+
+/// The limits of the requirements on `names`; `unit` is that of the figure, as the plan computes with it.
+pub fn required(plan: &Plan, names: impl Iterator<Item = String>, unit: &str) -> Vec<Mark> {
+    let names: Vec<String> = names.collect();
+    let mut marks: Vec<Mark> = Vec::new();
+    for requirement in plan.analysis.requirements.iter().filter(|one| names.iter().any(|name| name == one.name())) {
+        let (name, at) = (requirement.name(), requirement.limit.value());
+        let shown = plan.analysis.display.of(name, unit);
+        let word = if matches!(requirement.limit, GateLimit::AtMost(_)) { "at most" } else { "at least" };
+        let when = match name {
+            name if name.contains("_launch_") => " at the launch".to_owned(),
+            name if name.contains("_final_") => " at the end".to_owned(),
+            _ => requirement.times(),
+        };
+        let label = format!("{word} {}{when}", with_unit(shown.written(at), &shown.unit));
+        let mark = Mark::Limit { label, at, vertical: false };
+        if !marks.contains(&mark) {
+            marks.push(mark);
+        }
+    }
+    marks
+}
+
+/// The limits of actuators, a line for each value: those of all alike have no name of an actuator. `signed`: also below zero.
+pub fn of_actuators(what: &str, limits: &[(String, f64)], signed: bool) -> Vec<Mark> {
+    let finite: Vec<&(String, f64)> = limits.iter().filter(|(_, at)| at.is_finite() && *at > 0.0).collect();
+    let mut values: Vec<f64> = finite.iter().map(|(_, at)| *at).collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    let mark = |at: f64| {
+        let names: Vec<&str> = finite.iter().filter(|(_, of)| *of == at).map(|(name, _)| name.as_str()).collect();
+        let of = if names.len() == limits.len() { String::new() } else { format!(" of {}", names.join(", ")) };
+        let below = signed.then(|| Mark::Limit { label: String::new(), at: -at, vertical: false });
+        [Mark::Limit { label: format!("{what}{of}"), at, vertical: false }].into_iter().chain(below)
+    };
+    values.into_iter().flat_map(mark).collect()
+}
+
+/// The range of the vertical axis of `marks`: from zero where no value is negative and they vary, with the limits that are near; `None` where values alone
+/// say it.
+pub fn range(marks: &[Mark], is_error: bool) -> Option<[f64; 2]> {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let mut take = |values: &[f64]| {
+        for value in values.iter().filter(|value| value.is_finite()) {
+            (low, high) = (low.min(*value), high.max(*value));
+        }
+    };
+    for mark in marks {
+        match mark {
+            Mark::Line { y, .. } => take(y),
+            Mark::Band { low, high, .. } => {
+                take(low);
+                take(high);
+            }
+            _ => {}
+        }
+    }
+    let largest = high.abs().max(low.abs());
+    let limits = marks.iter().filter_map(|mark| match mark {
+        Mark::Limit { at, vertical: false, .. } => Some(*at),
+        _ => None,
+    });
+    let near: Vec<f64> = limits.filter(|at| at.abs() <= FAR * largest).collect();
+    if low > high || largest == 0.0 {
+        return None;
+    }
+    let is_positive = low >= 0.0;
+    if is_positive && !is_error && near.is_empty() && high - low < VARIES * high {
+        return None;
+    }
+    let top = near.iter().fold(high, |top, at| top.max(*at));
+    let bottom = near.iter().fold(low, |bottom, at| bottom.min(*at));
+    Some(if is_positive && bottom >= 0.0 {
+        [0.0, 1.06 * top]
+    } else {
+        let free = 0.04 * (top - bottom);
+        [bottom - free, top + free]
+    })
+}
