@@ -70,7 +70,7 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
         if options.sample > 0 {
             screen::print(&dispersions::applied(&plan, SampleId(options.sample), false))?;
         }
-        let (table, points) = (TimeTable::new(&series, screen::width()), series.points());
+        let (table, points) = (TimeTable::new(&plan, &series, screen::width()), series.points());
         screen::print(&table.text)?;
         screen::note(&format!(
             "({} of {points} points; --out X.csv or X.parquet writes all points, columns and digits; --plot X.svg draws them)",

@@ -3,7 +3,7 @@
 use crate::control::STANDARD_GRAVITY;
 use crate::math::vector::{difference, norm};
 use crate::observables::Series;
-use crate::report::figure::{Axis, Dash, Figure, Hue, Mark};
+use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, Scale};
 use crate::report::over_time::curves::{Curves, areas, lines, over_time};
 use crate::report::over_time::figure_list::{ListedFigure, Shows};
 use crate::report::over_time::limits;
@@ -23,9 +23,17 @@ impl Curves<'_> {
         let mut caption = self.caption(&name);
         if !self.is_plot() || !marks.is_empty() {
             marks.extend(lines("3 sigma of the filter", (Hue::Reference, Dash::Long), &self.times(), &bound));
-            caption += " 3 sigma: by the filter's covariance in the nominal run, of three axes together.";
+            caption += " 3 sigma: covariance of the filter in the nominal run.";
         }
-        Some(self.judged(listed, (&name, &unit), (listed.title, caption), marks))
+        let mut figure = self.judged(listed, (&name, &unit), (listed.title, caption), marks);
+        // errors become small by decades
+        let least = bound.into_iter().filter(|bound| *bound > 0.0).fold(f64::INFINITY, f64::min);
+        let largest = figure.marks.iter().map(Mark::largest).fold(0.0, f64::max);
+        if least < largest {
+            figure.y.scale = Scale::Log;
+            figure.y.range = Some([0.03 * least, 1.5 * largest]);
+        }
+        Some(figure)
     }
 
     /// When the run is in which phase.
@@ -187,7 +195,8 @@ impl Curves<'_> {
         };
         let at = |point: usize| norm(difference(table.at::<3>(debris, point), table.at::<3>(own, point)));
         let values: Vec<f64> = (0..self.times().len()).map(at).collect();
-        let mut marks = self.of_run("nominal run", (listed.hue, Dash::Solid), &values);
+        let label = if self.is_plot() { "" } else { "nominal run" };
+        let mut marks = lines(label, (listed.hue, Dash::Solid), &self.times(), &values);
         if is_distance {
             let launches = self.plan.law.as_ref()?.spec()?.launches();
             let station = self.constant("launch_distance_m").filter(|_| launches);

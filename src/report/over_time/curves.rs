@@ -23,9 +23,14 @@ pub struct TimeBands {
     pub quantiles: [Vec<f64>; 5],
     /// How many runs they are of.
     pub runs: u64,
-    /// How many of them are left at the last time: those that a mission has ended before are not.
-    pub left: u64,
+    /// How many of them have not ended at each time, whatever they have of this series.
+    pub in_flight: Vec<u64>,
 }
+
+/// A band is drawn where at least as many runs have a value: the 5% quantile of fewer is their smallest one.
+pub const FEWEST: u64 = 20;
+/// The axis ends where this share of the runs is left: at the 99% quantile of the times at which they end.
+const LEFT: f64 = 0.01;
 
 /// Curves of one run, and bands of the ensemble.
 #[derive(Clone, Debug)]
@@ -141,13 +146,14 @@ impl<'a> Curves<'a> {
         } else {
             String::new()
         };
-        let left = if bands.left < bands.runs {
-            format!(" A run leaves the bands where its mission ends: {} are left at the last time.", bands.left)
-        } else {
-            String::new()
+        let left = match bands.in_flight.last() {
+            Some(left) if *left < bands.runs => {
+                format!(" Runs drop out when their mission ends; bands end where fewer than {FEWEST} remain.")
+            }
+            _ => String::new(),
         };
         format!(
-            "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that were computed, at each of {} times; solid line: median; dashed: nominal run.{left}{aliased}",
+            "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that were computed, at each of {} times.{left}{aliased}",
             bands.runs,
             bands.times.len()
         )
@@ -168,7 +174,26 @@ impl<'a> Curves<'a> {
 
     /// Every figure that the scene calls for, in the order of the list; those that have nothing to show are not visible.
     pub fn figures(&self) -> Vec<Figure> {
-        figures_of(&self.traits, self.place).flat_map(|listed| self.listed(listed)).collect()
+        let figures = figures_of(&self.traits, self.place).flat_map(|listed| self.listed(listed));
+        figures.map(|figure| self.in_flight(figure)).collect()
+    }
+
+    /// The same with the runs in flight, and an axis that ends where all but one in a hundred have ended, and the nominal run.
+    pub(super) fn in_flight(&self, mut figure: Figure) -> Figure {
+        let Some(bands) = self.bands.first().filter(|_| figure.is_over_time) else { return figure };
+        let runs = bands.runs as f64;
+        if bands.in_flight.last().is_none_or(|left| *left == bands.runs) {
+            return figure;
+        }
+        let counts: Vec<f64> = bands.in_flight.iter().map(|count| *count as f64).collect();
+        let place = counts.iter().position(|count| *count <= LEFT * runs).unwrap_or(counts.len() - 1);
+        let end = self.times().last().copied().unwrap_or(0.0).max(bands.times[place]);
+        if end > 0.0 {
+            figure.x = figure.x.within(0.0, end);
+        }
+        let (label, x) = ("runs in flight".to_owned(), bands.times.clone());
+        figure.marks.push(Mark::Flight { label, x, counts, runs });
+        figure
     }
 
     /// What one line of the list is.
@@ -222,7 +247,12 @@ impl<'a> Curves<'a> {
         mut marks: Vec<Mark>,
     ) -> Figure {
         marks.extend(limits::required(self.plan, self.traits.judged(listed.judged_by), unit));
-        let axis = Axis::linear(listed.quantity, unit).showing(self.shown_as(listed, name));
+        let shown_as = self.shown_as(listed, name);
+        if let Some([low, high]) = limits::decades(&marks) {
+            let axis = Axis::log(listed.quantity, unit).showing(shown_as).within(low, high);
+            return over_time(name, title, caption, axis, marks);
+        }
+        let axis = Axis::linear(listed.quantity, unit).showing(shown_as);
         let axis = match limits::range(&marks, self.traits.has_loop) {
             Some([low, high]) => axis.within(low, high),
             None => axis,

@@ -59,7 +59,8 @@ impl Curves<'_> {
                 "{what}, relative to the largest. {} {of_step}rounding of a double: 1.1e-16.",
                 self.caption(&self.name(list[0].0).0)
             );
-            Figure { section: FigureSection::Numerics, ..over_time(name, title, caption, axis, marks) }
+            let figure = over_time(name, title, caption, axis, marks);
+            self.in_flight(Figure { section: FigureSection::Numerics, ..figure })
         };
         vec![
             figure("drift_energy", "Drift of energy", "Change of energy minus work", &energy),
@@ -97,7 +98,7 @@ mod tests {
             times: vec![0.0, 1.0],
             quantiles: [1, 2, 3, 4, 5].map(|p| vec![0.0, f64::from(p) * (1.0 + k as f64)]),
             runs: 9,
-            left: 9,
+            in_flight: vec![9; 2],
         };
         let bands: Vec<TimeBands> = series.iter().enumerate().map(band).collect();
         let figures = Curves::of_page(&plan, None, &bands, &[]).drift();

@@ -7,6 +7,8 @@ use crate::statistics::gate::GateLimit;
 
 /// A limit that is larger than the values by this factor is outside of the axis, and named at its edge.
 const FAR: f64 = 3.0;
+/// A limit that is smaller than the largest value by this factor is on an axis by decades: on a linear one it would be on the axis.
+const SMALL: f64 = 30.0;
 /// Where values vary by less than this fraction of the largest, an axis from zero would hide how.
 const VARIES: f64 = 0.5;
 
@@ -45,6 +47,23 @@ pub fn of_actuators(what: &str, limits: &[(String, f64)], signed: bool) -> Vec<M
         [Mark::Limit { label: format!("{what}{of}"), at, vertical: false }].into_iter().chain(below)
     };
     values.into_iter().flat_map(mark).collect()
+}
+
+/// The range of an axis by decades, where a limit is far below the largest of positive values; `None` where a linear axis shows it.
+pub fn decades(marks: &[Mark]) -> Option<[f64; 2]> {
+    let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
+    let limits = marks.iter().filter_map(|mark| match mark {
+        Mark::Limit { at, vertical: false, .. } => Some(*at),
+        _ => None,
+    });
+    let least = limits.filter(|at| *at > 0.0).reduce(f64::min)?;
+    let is_negative = |values: &Vec<f64>| values.iter().any(|value| *value < 0.0);
+    let is_signed = marks.iter().any(|mark| match mark {
+        Mark::Line { y, .. } => is_negative(y),
+        Mark::Band { low, .. } => is_negative(low),
+        _ => false,
+    });
+    (SMALL * least < largest && largest.is_finite() && !is_signed).then(|| [least / SMALL, 1.5 * largest])
 }
 
 /// The range of the vertical axis of `marks`: from zero where no value is negative and they vary, with the limits that are near; `None` where values alone
