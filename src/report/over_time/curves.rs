@@ -148,7 +148,7 @@ impl<'a> Curves<'a> {
         };
         let left = match bands.in_flight.last() {
             Some(left) if *left < bands.runs => {
-                format!(" Runs drop out when their mission ends; bands end where fewer than {FEWEST} remain.")
+                format!(" Bands end where fewer than {FEWEST} runs are left.")
             }
             _ => String::new(),
         };

@@ -66,9 +66,9 @@ pub fn decades(marks: &[Mark]) -> Option<[f64; 2]> {
     (SMALL * least < largest && largest.is_finite() && !is_signed).then(|| [least / SMALL, 1.5 * largest])
 }
 
-/// The range of the vertical axis of `marks`: from zero where no value is negative and they vary, with the limits that are near; `None` where values alone
-/// say it.
-pub fn range(marks: &[Mark], is_error: bool) -> Option<[f64; 2]> {
+/// The range of the vertical axis of `marks`: from zero where no value is negative and they vary, or belong to a loop, with the limits that are near; `None`
+/// where values alone say it.
+pub fn range(marks: &[Mark], is_controlled: bool) -> Option<[f64; 2]> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let mut take = |values: &[f64]| {
         for value in values.iter().filter(|value| value.is_finite()) {
@@ -95,15 +95,16 @@ pub fn range(marks: &[Mark], is_error: bool) -> Option<[f64; 2]> {
         return None;
     }
     let is_positive = low >= 0.0;
-    if is_positive && !is_error && near.is_empty() && high - low < VARIES * high {
+    if is_positive && !is_controlled && near.is_empty() && high - low < VARIES * high {
         return None;
     }
     let top = near.iter().fold(high, |top, at| top.max(*at));
     let bottom = near.iter().fold(low, |bottom, at| bottom.min(*at));
-    Some(if is_positive && bottom >= 0.0 {
-        [0.0, 1.06 * top]
-    } else {
-        let free = 0.04 * (top - bottom);
-        [bottom - free, top + free]
-    })
+    let bottom = if is_positive { bottom.min(0.0) } else { bottom };
+    // an axis may end with a limit: that is drawn at its edge
+    let free = 0.04 * (top - bottom);
+    Some([
+        if bottom < low && bottom < 0.0 || is_positive { bottom } else { bottom - free },
+        if top > high { top } else { top + free },
+    ])
 }
