@@ -108,3 +108,61 @@ pub fn range(marks: &[Mark], is_controlled: bool) -> Option<[f64; 2]> {
         if top > high { top } else { top + free },
     ])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::figure::{Dash, Hue};
+
+    fn curve(y: &[f64]) -> Mark {
+        Mark::line("", Hue::Body, Dash::Solid, vec![0.0; y.len()], y.to_vec())
+    }
+
+    fn limit(at: f64) -> Mark {
+        Mark::Limit { label: String::new(), at, vertical: false }
+    }
+
+    /// Law: an axis of positive quantities begins at zero, has the limits that are near and all values, and one of a free motion that hardly varies is its own.
+    #[test]
+    fn axes_have_what_matters() {
+        let of = |y: &[f64], limits: &[f64], is_controlled| {
+            let marks: Vec<Mark> = [curve(y)].into_iter().chain(limits.iter().map(|at| limit(*at))).collect();
+            range(&marks, is_controlled)
+        };
+        assert_eq!(of(&[4.0, 5.0], &[], false), None);
+        assert_eq!(of(&[4.0, 5.0], &[], true), Some([0.0, 5.2]));
+        assert_eq!(of(&[1.0, 5.0], &[], false), Some([0.0, 5.2]));
+        assert_eq!(of(&[4.0, 5.0], &[10.0], false), Some([0.0, 10.0]));
+        assert_eq!(of(&[4.0, 5.0], &[15.5], true), Some([0.0, 5.2]), "a limit that is far is named at the edge");
+        assert_eq!(of(&[-3.0, 2.0], &[4.0, -4.0], true), Some([-4.0, 4.0]));
+        assert_eq!(of(&[0.0, 0.0], &[4.0], true), None);
+        let [low, high] = of(&[-3.0, 2.0], &[], true).expect("a range");
+        assert!((low + 3.2).abs() < 1e-12 && (high - 2.2).abs() < 1e-12);
+    }
+
+    /// Law: an axis is by decades where a linear one would lay the limit onto zero, and never where values are negative.
+    #[test]
+    fn small_limits_are_seen_by_decades() {
+        assert_eq!(decades(&[curve(&[0.0, 60.0]), limit(3.0)]), None);
+        assert_eq!(decades(&[curve(&[0.0, 60.0]), limit(1.5)]), Some([0.05, 90.0]));
+        assert_eq!(decades(&[curve(&[-1.0, 60.0]), limit(1.5)]), None);
+        assert_eq!(decades(&[curve(&[0.0, 60.0])]), None);
+    }
+
+    /// Law: actuators with one limit share a line; others are named.
+    #[test]
+    fn actuators_are_named_where_they_differ() {
+        let named = |limits: &[(&str, f64)], signed| -> Vec<(String, f64)> {
+            let limits: Vec<(String, f64)> = limits.iter().map(|(name, at)| ((*name).to_owned(), *at)).collect();
+            let places = of_actuators("limit", &limits, signed).into_iter().map(|mark| match mark {
+                Mark::Limit { label, at, .. } => (label, at),
+                _ => panic!("{mark:?}"),
+            });
+            places.collect()
+        };
+        let text = |name: &str, at| (name.to_owned(), at);
+        assert_eq!(named(&[("a", 4.0), ("b", 4.0)], true), [text("limit", 4.0), text("", -4.0)]);
+        assert_eq!(named(&[("a", 4.0), ("b", 2.0)], false), [text("limit of b", 2.0), text("limit of a", 4.0)]);
+        assert_eq!(named(&[("a", f64::INFINITY), ("b", 2.0)], false), [text("limit of b", 2.0)]);
+    }
+}
