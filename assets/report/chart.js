@@ -5,6 +5,7 @@ import { colors } from "./theme.js";
 
 const LETTER = 6.6; // width of a letter of 12 pixels, about
 const DIGIT = 7.6; // that of a digit, of the widest fonts
+const FLIGHT = 14; // height of the strip of runs in flight
 const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', sans-serif";
 
 // The finite values that an axis has to show.
@@ -157,7 +158,11 @@ function bandSeries(mark, figure, color) {
     const row = [mark.x[k], mark.low[k], mark.high[k]];
     if (row.every(Number.isFinite) && !(figure.x.log && row[0] <= 0) && !(figure.y.log && row[1] <= 0)) rows.push(row);
   }
-  return drawn(rows, { x: 0, y: [1, 2] }, (to) => {
+  return drawn(rows, { x: 0, y: [1, 2] }, (place) => {
+    // between the names of an axis there is nothing: places there are those of the first two names, continued
+    const [first, next] = figure.y.names ? [place(0, 0)[1], place(0, 1)[1]] : [];
+    const step = figure.y.names?.length > 1 ? next - first : 26;
+    const to = figure.y.names ? (x, y) => [place(x, 0)[0], first + y * step] : place;
     const points = [...rows.map(([x, low]) => to(x, low)), ...[...rows].reverse().map(([x, , high]) => to(x, high))];
     return points.length > 2 ? [{ type: "polygon", shape: { points }, style: { fill: color, opacity: mark.opacity } }] : [];
   });
@@ -205,10 +210,14 @@ function rowOf(mark, figure, place, box) {
   return 0;
 }
 
+// The value in the middle of an axis.
+function middleOf(axis) {
+  return axis.type === "category" ? 0 : axis.type === "log" ? Math.sqrt(axis.min * axis.max) : 0.5 * (axis.min + axis.max);
+}
+
 function limitSeries(mark, figure, palette, [xs, ys]) {
-  const middle = (axis) => (axis.type === "category" ? 0 : axis.type === "log" ? Math.sqrt(axis.min * axis.max) : 0.5 * (axis.min + axis.max));
   // the series has a point within the axes: one outside of them would not be drawn
-  const data = [[middle(xs), middle(ys)]];
+  const data = [[middleOf(xs), middleOf(ys)]];
   return drawn(data, { x: 0, y: 1 }, (to, box) => {
     const [x, y] = to(...(mark.vertical ? [mark.at, data[0][1]] : [data[0][0], mark.at]));
     const dash = { stroke: palette.quiet, lineWidth: 1, lineDash: [5, 4] };
@@ -236,6 +245,23 @@ function limitSeries(mark, figure, palette, [xs, ys]) {
       { type: "text", x: box.x + box.width - 4, y: y + (isTop ? 3 : -3), style: { ...text, align: "right", verticalAlign: isTop ? "top" : "bottom" } },
     ];
   });
+}
+
+// The runs in flight, as a strip under the axis whose height is their share.
+function flightSeries(mark, color, axes) {
+  // the series has a point within the axes: one outside of them would not be drawn
+  const middle = axes.map(middleOf);
+  const rows = Array.from(mark.x, (time, k) => [time, mark.counts[k] / mark.runs]);
+  const renderItem = (params, api) => {
+    if (params.dataIndexInside !== 0) return null;
+    const box = params.coordSys;
+    const floor = box.y + box.height + FLIGHT - 2;
+    const inside = (x) => Math.min(Math.max(x, box.x), box.x + box.width);
+    const places = rows.map(([time, share]) => [inside(api.coord([time, middle[1]])[0]), floor - (FLIGHT - 4) * share]);
+    const points = [...places, [places.at(-1)[0], floor], [places[0][0], floor]];
+    return { type: "polygon", shape: { points }, style: { fill: color, opacity: mark.opacity } };
+  };
+  return { type: "custom", data: [middle], encode: { x: 0, y: 1 }, renderItem, silent: true, clip: false, animation: false };
 }
 
 function matrixSeries(mark, figure, palette) {
@@ -270,10 +296,15 @@ export function legendOf(figure, palette) {
   return entries.length > 1 || entries.some((entry) => entry.kind !== "bars") ? entries : [];
 }
 
+// The height of the strip of runs in flight; zero without one.
+function flightOf(figure) {
+  return figure.marks.some((mark) => mark.kind === "flight") ? FLIGHT : 0;
+}
+
 // The height of a figure that is `width` pixels wide.
 export function heightOf(figure, width) {
   if (figure.x.names) return Math.min(640, 60 + Math.max(18, Math.min(34, (width - 260) / figure.y.names.length)) * figure.y.names.length);
-  if (figure.y.names) return 70 + 26 * figure.y.names.length;
+  if (figure.y.names) return 70 + 26 * figure.y.names.length + flightOf(figure);
   return Math.round(Math.max(210, Math.min(320, 0.56 * width)));
 }
 
@@ -289,15 +320,17 @@ export function chartOption(figure, width, palette = colors()) {
     whiskers: (mark) => whiskerSeries(mark, figure, color(mark), palette),
     limit: (mark) => limitSeries(mark, figure, palette, axes),
     matrix: (mark) => matrixSeries(mark, figure, palette),
+    flight: (mark) => flightSeries(mark, color(mark), axes),
   };
+  const strip = flightOf(figure);
   const names = figure.y.names ? Math.min(0.5 * width, 16 + LETTER * Math.max(...axes[1].data.map((name) => name.length))) : axes[1].nameGap + 20;
   const last = axes[0].texts?.at(-1) ?? "";
   const zoom = figure.x.names || figure.y.names ? [] : [{ type: "inside", xAxisIndex: 0, filterMode: "none", zoomOnMouseWheel: "ctrl", moveOnMouseMove: "ctrl", moveOnMouseWheel: false, preventDefaultMouseMove: false }];
   return {
     animation: false,
     backgroundColor: "transparent",
-    grid: { left: names, right: Math.max(18, Math.ceil(0.5 * DIGIT * last.length) + 2), top: 12, bottom: 46, outerBoundsMode: "none" },
-    xAxis: axes[0],
+    grid: { left: names, right: Math.max(18, Math.ceil(0.5 * DIGIT * last.length) + 2), top: 12, bottom: 46 + strip, outerBoundsMode: "none" },
+    xAxis: strip ? { ...axes[0], nameGap: axes[0].nameGap + strip, axisLabel: { ...axes[0].axisLabel, margin: 8 + strip } } : axes[0],
     yAxis: axes[1],
     dataZoom: zoom,
     series: figure.marks.map((mark) => ({ ...makers[mark.kind](mark), z: 2 })),

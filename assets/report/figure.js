@@ -144,7 +144,7 @@ export class FigureView {
     this.time = time;
     if (!this.figure.time || !this.chart) return;
     const [x] = this.toPixel(time, 0);
-    const isInside = time > 0 && Number.isFinite(x) && x >= 60 && x <= this.width;
+    const isInside = time > 0 && !(time > this.figure.x.range?.[1]) && Number.isFinite(x) && x >= 60 && x <= this.width;
     this.cursor.hidden = !isInside;
     if (isInside) {
       this.cursor.style.transform = `translateX(${x}px)`;

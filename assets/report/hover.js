@@ -57,6 +57,10 @@ export function described(figure, at, value, toPixel) {
       lines.push(y.names[row], `${x.quantity}: ${withUnit(mark.x[row], x.unit)}`);
       if (Number.isFinite(mark.low[row])) lines.push(`${mark.label}: ${withUnit(mark.low[row], "")} to ${withUnit(mark.high[row], "")}`);
     }
+    if (mark.kind === "flight") {
+      const index = nearest(mark.x, value[0]);
+      lines.push(`${x.quantity}: ${withUnit(mark.x[index], x.unit)}`, `${mark.label}: ${mark.counts[index]} of ${mark.runs}`);
+    }
     if (mark.kind === "matrix") {
       const count = y.names.length;
       const [column, row] = [Math.round(value[0]), Math.round(value[1])];
@@ -66,6 +70,13 @@ export function described(figure, at, value, toPixel) {
   }
   let isFirst = lines.length === 0;
   for (const mark of series) {
+    const [from, to] = [mark.x[0], mark.x[mark.x.length - 1]];
+    if (figure.time && (value[0] < from || value[0] > to)) continue;
+    if (y.names) {
+      const row = Math.round((mark.low[0] + mark.high[0]) / 2);
+      lines.push(`${y.names[row]}: ${withUnit(from, x.unit)} to ${withUnit(to, x.unit)}`);
+      continue;
+    }
     const index = nearest(mark.x, value[0]);
     if (isFirst) lines.push(`${x.quantity}: ${withUnit(mark.x[index], x.unit)}`);
     isFirst = false;

@@ -70,6 +70,7 @@ export function csvText(figure) {
     }
     const columns = mark.kind === "bars" ? { from: mark.edges, [mark.label]: mark.heights } : {};
     if (mark.kind === "whiskers") Object.assign(columns, { name: figure.y.names.map(quoted), value: mark.x, low: mark.low, high: mark.high });
+    if (mark.kind === "flight") Object.assign(columns, { [head(figure.x)]: mark.x, [mark.label]: mark.counts });
     if (mark.samples?.length) columns.sample = mark.samples;
     if (mark.kind === "line" || mark.kind === "points") Object.assign(columns, { [head(figure.x)]: mark.x, [`${mark.label}: ${head(figure.y)}`]: mark.y });
     if (mark.kind === "band") Object.assign(columns, { [head(figure.x)]: mark.x, [`${mark.label}, low`]: mark.low, [`${mark.label}, high`]: mark.high });

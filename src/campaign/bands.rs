@@ -6,6 +6,8 @@ use super::document::Document;
 const POINTS: u64 = 33;
 /// Up to as many points of the grid all have bands: of twice as many points counting them takes a tenth of the time of a run.
 const ALL: u64 = 65;
+/// Points of bands of a control loop on a grid of more than [`MOST_POINTS`]: its phases are short, and its runs cost more than counting them.
+const OF_LOOPS: u64 = 201;
 /// Most points: counts at a point take some 4 kB for each series in each thread, and a spacecraft with eight wheels has 34 series.
 pub const MOST_POINTS: u64 = 257;
 /// The key.
@@ -13,7 +15,9 @@ const KEY: &str = "bands.points";
 
 /// The number of points of a campaign whose grid has `grid` points; what is wrong with it is noted.
 pub fn resolve(written: Option<u64>, grid: u64, document: &mut Document<'_>) -> u64 {
-    let Some(points) = written else { return if grid <= ALL { grid } else { POINTS } };
+    let has_loop = document.law.as_ref().is_some_and(|law| law.spec().is_some());
+    let (all, points) = if has_loop { (MOST_POINTS, OF_LOOPS) } else { (ALL, POINTS) };
+    let Some(points) = written else { return if grid <= all { grid } else { points } };
     if points == 1 || points > grid {
         let allowed = format!("0 (no bands), or 2 to {}: the grid has {grid} points", grid.min(MOST_POINTS));
         document.add(KEY, Some(points.to_string()), allowed, "write fewer points, or more in observe.points");

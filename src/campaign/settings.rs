@@ -85,7 +85,7 @@ pub const TAIL: [(&str, &[Row]); 3] = [
     ]),
     ("bands", &[
         Row::new("points", Kind::Count([0, MOST_BAND_POINTS]),
-            "Points at which quantiles over time are counted, 0 for none; default: all of a grid of up to 65 points, else 33"),
+            "Points at which quantiles over time are counted, 0 for none; default: all of a grid of up to 65 points, else 33; under a control loop all of up to 257, else 201"),
     ]),
     ("output", &[Row::new("compression", Kind::Word(&COMPRESSIONS), "Compression of the files of rows")]),
 ];

@@ -13,10 +13,12 @@ use crate::ensemble::audit::AuditValue;
 use crate::math::Isa;
 use crate::report::image::{PlotError, PlotFormat};
 use crate::report::number::short;
+use crate::report::page::runs::GROUPS;
 use crate::report::simulation_figure::simulation_figure;
 use crate::report::time_table::TimeTable;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
+use crate::scene::SceneError;
 use crate::storage::table::{TableError, TableFormat};
 use crate::storage::timeseries::TimeSeries;
 use crate::workflow::isa;
@@ -60,18 +62,15 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
         save(path, &series)?;
     }
     if let Some(path) = &options.plot {
-        if times.is_some() {
-            plot(path, options, &plan, &series)?;
-        } else {
-            let fine = single_run(options, &plan, refined(&plan.grid), isa)?;
-            plot(path, options, &plan, &TimeSeries::new(&plan, SampleId(options.sample), &fine, |_| true))?;
-        }
+        let grid = if times.is_some() { run.grid.clone() } else { refined(&plan.grid) };
+        let fine = SingleRun::with_series(&plan, SampleId(options.sample), grid, isa, &GROUPS);
+        plot(path, options, &plan, &fine.map_err(|errors| not_physical(options, &errors))?)?;
     }
     if options.out.is_none() && options.plot.is_none() {
         if options.sample > 0 {
             screen::print(&dispersions::applied(&plan, SampleId(options.sample), false))?;
         }
-        let (table, points) = (TimeTable::new(&series, screen::width()), series.points());
+        let (table, points) = (TimeTable::new(&plan, &series, screen::width()), series.points());
         screen::print(&table.text)?;
         screen::note(&format!(
             "({} of {points} points; --out X.csv or X.parquet writes all points, columns and digits; --plot X.svg draws them)",
@@ -151,10 +150,13 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
 
 fn single_run(options: &SimulateOptions, plan: &Plan, grid: Grid, isa: Isa) -> Result<SingleRun, Failure> {
     let sample = SampleId(options.sample);
-    SingleRun::new(plan, sample, grid, isa).map_err(|errors| {
-        let errors: Vec<String> = errors.iter().map(|error| format!("\n  {error}")).collect();
-        Failure::Input(format!("sample {sample} is not physical (its status is invalid_sample):{}", errors.concat()))
-    })
+    SingleRun::new(plan, sample, grid, isa).map_err(|errors| not_physical(options, &errors))
+}
+
+fn not_physical(options: &SimulateOptions, errors: &[SceneError]) -> Failure {
+    let errors: Vec<String> = errors.iter().map(|error| format!("\n  {error}")).collect();
+    let sample = options.sample;
+    Failure::Input(format!("sample {sample} is not physical (its status is invalid_sample):{}", errors.concat()))
 }
 
 fn save(path: &Path, series: &TimeSeries) -> Result<(), Failure> {
@@ -167,20 +169,18 @@ fn save(path: &Path, series: &TimeSeries) -> Result<(), Failure> {
     Ok(())
 }
 
-fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, series: &TimeSeries) -> Result<(), Failure> {
+fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, run: &SingleRun) -> Result<(), Failure> {
     let title = match options.sample {
         0 => format!("{}, nominal", plan.name),
         sample => format!("{}, sample {sample}", plan.name),
     };
-    let tolerance = (!plan.method.has_fixed_step()).then_some(plan.tolerance.relative);
-    simulation_figure(title, series, tolerance)
-        .in_units(&plan.analysis.display)
-        .save(path, options.size.of())
-        .map_err(|error| match error {
-            PlotError::Format(_) => Failure::Input(error.to_string()),
-            _ => Failure::Files(format!("{}: {error}", path.display())),
-        })?;
-    screen::note(&format!("{}: states, energies and errors at {} points", path.display(), series.points()));
+    let figure = simulation_figure(title, plan, run).in_units(&plan.analysis.display);
+    figure.save(path, options.size.of()).map_err(|error| match error {
+        PlotError::Format(_) => Failure::Input(error.to_string()),
+        _ => Failure::Files(format!("{}: {error}", path.display())),
+    })?;
+    let points = run.outcome.points.min(run.grid.points());
+    screen::note(&format!("{}: {} figures of {points} points", path.display(), figure.panels.len()));
     Ok(())
 }
 

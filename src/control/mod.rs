@@ -49,4 +49,6 @@ pub mod vector;
 
 pub use context::LawContext;
 pub use law::ControlLaw;
+pub use outcome::STANDARD_GRAVITY;
 pub use runs::LawRuns;
+pub use spec::LoopSpec;

@@ -168,6 +168,21 @@ impl Parts {
                 );
             }
         }
+        if self.has_filter {
+            let relative =
+                [("relative_position_expected_error", "m", "m"), ("relative_velocity_expected_error", "m/s", "m_s")];
+            let own = [("attitude_expected_error", "rad", "rad"), ("rate_expected_error", "rad/s", "rad_s")];
+            let relative = relative.into_iter().filter(|_| self.has_debris);
+            for (name, unit, suffix) in own.into_iter().chain(relative) {
+                add(
+                    name,
+                    &[""],
+                    unit,
+                    suffix,
+                    "Root mean square of the magnitude of this estimation error by the filter's covariance: the root of the sum of three variances.",
+                );
+            }
+        }
         for sensor in &self.sensors {
             for quantity in sensor.quantities {
                 let components = match quantity.components {
@@ -211,6 +226,11 @@ impl Parts {
             ];
             let shown = all.into_iter().filter(|(is_shown, _)| *is_shown).flat_map(|(_, squares)| squares);
             row.extend(shown.map(|square| square.map_or(f64::NAN, per_degree)));
+            let expected = of.expected;
+            let relative =
+                [expected.relative_position, expected.relative_velocity].into_iter().filter(|_| self.has_debris);
+            let all = [expected.attitude, expected.rate].into_iter().chain(relative);
+            row.extend(all.map(|error| error.unwrap_or(f64::NAN)));
         }
         self.measured(tick.measurements, &mut row);
         let (torque, thrust) = tick.commanded;

@@ -242,6 +242,17 @@ pub enum Mark {
         /// Whether it is vertical.
         vertical: bool,
     },
+    /// How many runs have not ended: a strip under the horizontal axis.
+    Flight {
+        /// Name in the legend.
+        label: String,
+        /// Times, ascending, s.
+        x: Vec<f64>,
+        /// How many runs there are at each of them.
+        counts: Vec<f64>,
+        /// How many there are in all.
+        runs: f64,
+    },
     /// A square matrix of correlations between -1 and 1, row by row, names on the vertical axis.
     Matrix {
         /// Entries, row by row.
@@ -270,6 +281,7 @@ impl Mark {
             }
             Mark::Whiskers { x: xs, low, high, .. } => [xs, low, high].into_iter().for_each(|values| change(values, x)),
             Mark::Limit { at, vertical, .. } => *at = if *vertical { x(*at) } else { y(*at) },
+            Mark::Flight { x: xs, .. } => change(xs, x),
             Mark::Matrix { .. } => {}
         }
     }
@@ -286,6 +298,7 @@ impl Mark {
             | Mark::Points { label, .. }
             | Mark::Band { label, .. }
             | Mark::Bars { label, .. }
+            | Mark::Flight { label, .. }
             | Mark::Whiskers { label, .. } => label,
             Mark::Matrix { .. } => "rank correlation, -1 to 1",
             Mark::Limit { .. } => "",
@@ -301,7 +314,7 @@ impl Mark {
             Mark::Line { y, .. } | Mark::Points { y, .. } => of(y),
             Mark::Band { low, high, .. } => of(low).max(of(high)),
             Mark::Bars { heights, .. } => of(heights),
-            Mark::Whiskers { .. } | Mark::Limit { .. } | Mark::Matrix { .. } => 0.0,
+            Mark::Whiskers { .. } | Mark::Limit { .. } | Mark::Flight { .. } | Mark::Matrix { .. } => 0.0,
         }
     }
 
@@ -313,7 +326,7 @@ impl Mark {
             Mark::Band { low, high, .. } => any(low) && any(high),
             Mark::Bars { heights, .. } => heights.iter().any(|height| *height > 0.0),
             Mark::Whiskers { x, .. } => any(x),
-            Mark::Limit { .. } => false,
+            Mark::Limit { .. } | Mark::Flight { .. } => false,
             Mark::Matrix { values } => any(values),
         }
     }

@@ -1,7 +1,7 @@
 //! Marks of a [`Panel`] as shapes.
 
 use crate::report::figure::Mark;
-use crate::report::panel::Panel;
+use crate::report::panel::{FLIGHT, Panel};
 use crate::report::shapes::{BAR, PALETTE, color, point, shade, stroke};
 use crate::report::svg::{Anchor, INK, LABEL, Stroke, Svg};
 
@@ -68,7 +68,22 @@ impl Panel<'_> {
                     }
                 }
             }
-            Mark::Limit { .. } => {}
+            Mark::Limit { .. } | Mark::Flight { .. } => {}
+        }
+    }
+
+    /// The runs in flight, as a strip whose height is their share.
+    pub(super) fn draw_flight(&self, svg: &mut Svg) {
+        let [left, _, right, bottom] = self.edges;
+        let floor = bottom + FLIGHT - 2.0;
+        for mark in self.marks() {
+            let Mark::Flight { x, counts, runs, .. } = mark else { continue };
+            let place =
+                |(time, count): (&f64, &f64)| [self.x(*time).clamp(left, right), floor - (FLIGHT - 4.0) * count / runs];
+            let mut outline: Vec<[f64; 2]> = x.iter().zip(counts).map(place).collect();
+            let ends = [outline.last(), outline.first()].map(|end| end.map_or(left, |end| end[0]));
+            outline.extend(ends.map(|x| [x, floor]));
+            svg.area(&outline, PALETTE[8], BAR);
         }
     }
 

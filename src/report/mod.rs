@@ -2,7 +2,7 @@
 //!
 //! - [`brief_text`], [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`warnings`]: what comes before them. - [`failure_text`]: why runs failed. [`share_text`]: shares of runs. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. [`noise_text`]: what noise does. - [`precision_text`]: work-precision measurements as text.
 //! - [`figure`]: what a figure shows. - [`sheet`]: figures on one picture, drawn with `panel`, `axis`, `legend`, `marks`, `shapes` as `svg`; [`image`]: its files. - [`fitted_text`]: text that is shortened to a width. - `escaped`: text within markup.
-//! - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in [`histogram`]s, with [`expected_counts`], of numbers drawn together by [`marginal`]; [`origin_text`]: in words), [`precision_figure`]: the figures of the commands; [`relative_errors`]: the axis of errors.
+//! - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in [`histogram`]s, with [`expected_counts`], of numbers drawn together by [`marginal`]; [`origin_text`]: in words), [`precision_figure`]: the figures of the commands; [`over_time`]: those over time, of the page too.
 //! - [`comparison_text`]: two results compared. - [`stopping_text`]: looks of a campaign with `[stop]`.
 //! - [`text_table`]: rows of cells that fit a terminal. - [`time_table`]: one run over time on a terminal. - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file. [`index_page`]: all results of a folder.
 
@@ -29,11 +29,11 @@ pub mod noise_text;
 pub mod number;
 pub mod observable_lines;
 pub mod origin_text;
+pub mod over_time;
 pub mod page;
 mod panel;
 pub mod precision_figure;
 pub mod precision_text;
-pub mod relative_errors;
 pub mod requirements;
 mod shapes;
 pub mod share_text;

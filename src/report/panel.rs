@@ -16,6 +16,8 @@ const BESIDE: f64 = 22.0;
 /// Height between ticks, and width between their texts, at least, pixels.
 const TICK_HEIGHT: f64 = 30.0;
 const TICK_GAP: f64 = 14.0;
+/// Height of the strip of runs in flight under the axis, with what is free around it, pixels.
+pub(super) const FLIGHT: f64 = 14.0;
 /// Most ticks of an axis.
 const MOST_TICKS: usize = 9;
 /// Most of the width that names beside the axes take.
@@ -55,7 +57,7 @@ impl Figure {
                 }
                 Mark::Whiskers { x, low, high, .. } => xs.extend(x.iter().chain(low).chain(high).chain([&0.0])),
                 Mark::Limit { at, vertical: true, .. } => xs.push(*at),
-                Mark::Limit { .. } | Mark::Matrix { .. } => {}
+                Mark::Limit { .. } | Mark::Flight { .. } | Mark::Matrix { .. } => {}
             }
         }
         [xs, ys].map(|values| values.into_iter().filter(|value: &f64| value.is_finite()).collect())
@@ -73,6 +75,11 @@ impl Figure {
         // free height over bars, where limits are named
         let y = if has_bars { within(&self.y, [0.0, 1.2 * ends(&ys)[1]]) } else { self.y.clone() };
         [DrawnAxis::new(&x, &xs), DrawnAxis::new(&y, &ys)]
+    }
+
+    /// The height of the strip of runs in flight; zero where there is none.
+    fn flight_height(&self) -> f64 {
+        if self.marks.iter().any(|mark| matches!(mark, Mark::Flight { .. })) { FLIGHT } else { 0.0 }
     }
 
     /// Names on the vertical axis; none on one of numbers.
@@ -103,7 +110,7 @@ impl Figure {
             count if self.is_matrix() => {
                 around + count * CELL.min((width - self.names_width(font, width) - BESIDE) / count)
             }
-            count => around + ROW * count,
+            count => around + self.flight_height() + ROW * count,
         }
     }
 
@@ -118,7 +125,7 @@ impl<'f> Panel<'f> {
         let [x, y] = figure.drawn_axes();
         let legend = if has_legend { figure.legend(&svg.font, width) } else { Legend::default() };
         let top = at[1] + HEAD + legend.height() + ABOVE;
-        let bottom = (at[1] + height - BELOW).max(top + 20.0);
+        let bottom = (at[1] + height - BELOW - figure.flight_height()).max(top + 20.0);
         let rows = y.ticks(((bottom - top) / TICK_HEIGHT).clamp(2.0, MOST_TICKS as f64) as usize);
         let title = y.title();
         let left = if figure.names().is_empty() {
@@ -149,6 +156,7 @@ impl<'f> Panel<'f> {
         figure.marks.iter().for_each(|mark| panel.draw_mark(svg, mark));
         svg.end_of_clip();
         panel.draw_limits(svg);
+        panel.draw_flight(svg);
     }
 
     /// The figure's marks.
@@ -176,6 +184,7 @@ impl<'f> Panel<'f> {
     /// Axes, grid, texts at ticks, titles.
     fn draw_axes(&self, svg: &mut Svg, at: [f64; 2], rows: &[(f64, String)], title: &str) {
         let [left, top, right, bottom] = self.edges;
+        let texts = bottom + self.figure.flight_height();
         let line = |color| Stroke { color, width: 1.0, dash: None };
         let columns = self.columns(&svg.font);
         for (row, (place, text)) in rows.iter().enumerate() {
@@ -193,7 +202,7 @@ impl<'f> Panel<'f> {
             if !self.figure.is_matrix() {
                 svg.line(&[[x, top], [x, bottom]], line(GRID));
             }
-            svg.text(text, [x, bottom + 16.0], LABEL, Anchor::Middle, INK, false);
+            svg.text(text, [x, texts + 16.0], LABEL, Anchor::Middle, INK, false);
         }
         if !self.figure.is_matrix() {
             svg.line(&[[left, top], [left, bottom], [right, bottom]], line("#5c5c5c"));
@@ -202,7 +211,7 @@ impl<'f> Panel<'f> {
         // the title of a vertical axis says less where changes begin: that is in the head
         let below = format!("{}{}", self.x.title(), self.x.start());
         let below = svg.font.fitted(&below, right - left + 30.0, AXIS_TITLE);
-        svg.text(&below, [middle, bottom + 36.0], AXIS_TITLE, Anchor::Middle, INK, false);
+        svg.text(&below, [middle, texts + 36.0], AXIS_TITLE, Anchor::Middle, INK, false);
         let beside = svg.font.fitted(title, bottom - top + 20.0, AXIS_TITLE);
         svg.text(&beside, [at[0] + 18.0, 0.5 * (top + bottom)], AXIS_TITLE, Anchor::Middle, INK, true);
     }

@@ -59,6 +59,7 @@ pub(super) fn draw_swatch(svg: &mut Svg, mark: &Mark, [x, y]: [f64; 2]) {
         Mark::Line { hue, dash, .. } => svg.line(&[[x, y], [end, y]], stroke(*hue, dash.lengths())),
         Mark::Band { hue, opacity, .. } => bar(*hue, *opacity),
         Mark::Bars { hue, .. } => bar(*hue, BAR),
+        Mark::Flight { .. } => bar(Hue::Reference, BAR),
         Mark::Points { hue, shape, .. } => point(svg, [middle[0], y - 2.0], (*shape, 3.0, y + 6.0), *hue, 1.0),
         Mark::Whiskers { hue, .. } => {
             svg.line(&[[x, y], [end, y]], Stroke { color: INK, width: 1.2, dash: None });

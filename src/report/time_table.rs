@@ -3,10 +3,13 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
+use crate::campaign::Plan;
 use crate::observables::Series;
 use crate::report::fitted_text::fitted;
 use crate::report::number::short;
+use crate::report::over_time::figure_list::{ListedFigure, Place, Shows, Traits, figures_of};
 use crate::run::StateField;
+use crate::scene::Name;
 use crate::storage::timeseries::{TimeColumn, TimeSeries};
 
 /// At most this many points; the first and the last are among them.
@@ -40,6 +43,39 @@ const COLUMNS: [(TimeColumn, &str, &str, Digits); 10] = [
     (TimeColumn::Series(Series::AngularMomentumError), "ang.mom.", "error", Digits::Magnitude),
 ];
 
+/// The same of what a control loop records.
+const OF_LOOPS: [(TimeColumn, &str, &str, Digits); 5] = [
+    (TimeColumn::Series(Series::PointingError), "pointing", "rad", Digits::Short),
+    (TimeColumn::Series(Series::AttitudeEstimateError), "att.est.", "error", Digits::Magnitude),
+    (TimeColumn::Series(Series::RateEstimateError), "rate est.", "error", Digits::Magnitude),
+    (TimeColumn::Series(Series::PositionEstimateError), "pos.est.", "error", Digits::Magnitude),
+    (TimeColumn::Series(Series::VelocityEstimateError), "vel.est.", "error", Digits::Magnitude),
+];
+
+/// The columns of scenes of `plan`: the time, those that requirements are about, then those of the figures that the scene calls for, in their order.
+fn columns_of(plan: &Plan, wheels: &[Name]) -> Vec<(TimeColumn, &'static str, &'static str, Digits)> {
+    let traits = Traits::of(plan, wheels);
+    let shows = |listed: &ListedFigure, column: &TimeColumn| match (listed.shows, column) {
+        // of |omega| the components
+        (Shows::One(Series::RateSquare), TimeColumn::State(field, _)) => *field == StateField::Rate,
+        (Shows::One(series) | Shows::Estimated(series, _), TimeColumn::Series(of)) => series == *of,
+        (Shows::State(of, _), TimeColumn::State(field, _)) => of == *field,
+        (Shows::Balances, TimeColumn::Series(of)) => [Series::EnergyError, Series::AngularMomentumError].contains(of),
+        _ => false,
+    };
+    let all: Vec<&'static ListedFigure> = figures_of(&traits, Place::Plot).collect();
+    let (asked, others): (Vec<_>, Vec<_>) = all.into_iter().partition(|listed| listed.is_asked(&traits));
+    let known = || COLUMNS[1..].iter().chain(&OF_LOOPS).copied();
+    let mut found = vec![COLUMNS[0]];
+    for listed in asked.into_iter().chain(others) {
+        let more: Vec<_> = known().filter(|(column, ..)| shows(listed, column)).collect();
+        found.extend(
+            more.into_iter().filter(|more| found.iter().all(|(column, ..)| *column != more.0)).collect::<Vec<_>>(),
+        );
+    }
+    found
+}
+
 /// The table, and what is not in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeTable {
@@ -52,22 +88,28 @@ pub struct TimeTable {
 }
 
 impl TimeTable {
-    /// The table of `series` in lines of at most `width` letters: time, angular velocity, attitude, errors, and the rates of as many wheels as
-    /// there is space for.
-    pub fn new(series: &TimeSeries, width: usize) -> Self {
+    /// The table of `series`, a run of `plan`, in lines of at most `width` letters: what the requirements are about, what the scene calls for, the phase of a
+    /// loop, and the rates of as many wheels as there is space for.
+    pub fn new(plan: &Plan, series: &TimeSeries, width: usize) -> Self {
         let points = shown_points(series.points());
         let cells = |key: TimeColumn, digits: Digits| -> Option<Vec<String>> {
             let values = series.column(key)?.1;
             Some(points.iter().map(|point| digits.text(values[*point])).collect())
         };
-        let main = COLUMNS.into_iter().filter_map(|(key, name, below, digits)| {
+        let phase = series.columns().find(|(quantity, _)| quantity.name() == "phase").map(|(_, values)| {
+            let text = |point: &usize| if values[*point].is_nan() { String::new() } else { short(values[*point]) };
+            TimeTableColumn { name: "phase".to_owned(), below: "", cells: points.iter().map(text).collect() }
+        });
+        let main = columns_of(plan, series.wheels()).into_iter().filter_map(|(key, name, below, digits)| {
             Some(TimeTableColumn { name: name.to_owned(), below, cells: cells(key, digits)? })
         });
         let wheels = series.wheels().iter().enumerate().filter_map(|(wheel, name)| {
             let cells = cells(TimeColumn::State(StateField::WheelRates, wheel), Digits::Short)?;
             Some(TimeTableColumn { name: name.to_string(), below: "rad/s", cells })
         });
-        TimeTable::of(main.collect(), wheels.collect(), points.len(), width)
+        let mut main: Vec<TimeTableColumn> = main.collect();
+        main.splice(main.len().min(1)..main.len().min(1), phase);
+        TimeTable::of(main, wheels.collect(), points.len(), width)
     }
 
     fn of(mut main: Vec<TimeTableColumn>, mut wheels: Vec<TimeTableColumn>, points: usize, width: usize) -> Self {

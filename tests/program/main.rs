@@ -41,6 +41,7 @@ mod loop_ignorance;
 mod loop_laws;
 mod loop_maneuvers;
 mod loop_noise;
+mod loop_pages;
 mod loop_phases;
 mod loop_sensors;
 mod loop_series;

@@ -118,7 +118,7 @@ fn plots_and_tables_are_made() {
     scratch.file("rigid.toml", &[&rigid[..wheels], &rigid[after..]].concat());
     scratch.prints("simulate rigid.toml --plot rigid.svg", 0);
     let svg = scratch.text("rigid.svg");
-    assert!(svg.contains("Kinetic energy, debris") && !svg.contains("Energy transfer"));
+    assert!(svg.contains("Kinetic energy of the debris") && !svg.contains("Energy transfer"));
     scratch.prints("simulate small.toml --plot p.png --times 0,0.1,0.2", 0);
     assert!(fs::read(scratch.path("p.png")).unwrap().starts_with(b"\x89PNG"));
     scratch.prints("simulate small.toml --plot p.pdf", 2);

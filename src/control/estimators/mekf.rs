@@ -14,7 +14,7 @@ use super::delayed::Delayed;
 use super::kalman::{NormalizedSquare, corners};
 use super::rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter};
 use super::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
-use super::{Consistency, Estimator, EstimatorContext, EstimatorKind, KnownSensor, Update, center_of};
+use super::{Consistency, Estimator, EstimatorContext, EstimatorKind, ExpectedErrors, KnownSensor, Update, center_of};
 use crate::control::declared::declared;
 use crate::control::estimate::Estimate;
 use crate::control::laws::wheel_momenta;
@@ -233,6 +233,24 @@ impl Mekf {
         }
     }
 
+    /// What the covariances say of the errors at this tick. Spacecraft and debris are estimated by filters of their own, whose variances add; axes of a
+    /// motion are alike.
+    fn expected(&self) -> ExpectedErrors {
+        let root = |covariance: [[f64; 3]; 3]| (0..3).map(|axis| covariance[axis][axis]).sum::<f64>().sqrt();
+        let [attitude, rate] = self.covariances_at(0).map(root);
+        let relative = self.debris_motion.as_ref().map(|debris| {
+            let [own, other] = [self.motion.now().covariance, debris.now().covariance];
+            [0, 1].map(|part| (3.0 * (own[part][part] + other[part][part])).sqrt())
+        });
+        let [position, velocity] = relative.map_or([None; 2], |both| both.map(Some));
+        ExpectedErrors {
+            attitude: Some(attitude),
+            rate: Some(rate),
+            relative_position: position,
+            relative_velocity: velocity,
+        }
+    }
+
     /// Moves on by a tick.
     fn propagate(&mut self, update: &Update<'_>) {
         let interval = update.interval;
@@ -424,6 +442,7 @@ impl Estimator for Mekf {
             debris_motion_innovation: self.innovations.debris_motion.of_tick,
             debris_innovation: self.innovations.debris.of_tick,
             mean_innovations: self.innovations.means(),
+            expected: self.expected(),
         }
     }
 }

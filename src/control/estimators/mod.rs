@@ -62,6 +62,22 @@ pub struct Consistency {
     /// Means since the start of the normalised squares of the innovations, each over its degrees of freedom, in the order above; `None` where nothing was
     /// measured.
     pub mean_innovations: [Option<f64>; 4],
+    /// What the covariance says of the errors.
+    pub expected: ExpectedErrors,
+}
+
+/// Root mean squares that the covariance of a filter gives to the magnitudes of its errors: the root of the sum of the variances of three components; `None`
+/// where the filter does not have it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ExpectedErrors {
+    /// Of the attitude, rad.
+    pub attitude: Option<f64>,
+    /// Of the angular velocity, rad/s.
+    pub rate: Option<f64>,
+    /// Of the position relative to the debris, m.
+    pub relative_position: Option<f64>,
+    /// Of the velocity relative to the debris, m/s.
+    pub relative_velocity: Option<f64>,
 }
 
 /// An estimator in one run.

@@ -35,7 +35,7 @@ pub struct MissionCriteria {
 }
 
 /// Standard gravity, by which a specific impulse is an exhaust velocity, m/s^2 (ISO 80000-3).
-const STANDARD_GRAVITY: f64 = 9.806_65;
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// What a run has come to.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::report::figure::{Axis, Figure, Mark, PointShape, Scale};
+use crate::report::figure::{Axis, Figure, Hue, Mark, PointShape, Scale};
 use crate::report::page::payload::Payload;
 
 /// What the page needs to draw `figure`.
@@ -44,6 +44,10 @@ fn mark(mark: &Mark, payload: &mut Payload) -> Value {
         Mark::Limit { label, at, vertical } => {
             json!({ "kind": "limit", "label": label, "at": at, "vertical": vertical })
         }
+        Mark::Flight { label, x, counts, runs } => json!({
+            "kind": "flight", "label": label, "hue": Hue::Reference.place(), "opacity": 0.55, "runs": runs,
+            "x": array(x), "counts": array(counts)
+        }),
         Mark::Matrix { values } => {
             json!({ "kind": "matrix", "label": "correlation", "hue": 0, "values": array(values) })
         }

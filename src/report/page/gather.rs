@@ -14,11 +14,11 @@ use crate::campaign::{Plan, Statement};
 use crate::ensemble::Bands;
 use crate::report::drivers_text::{self, SEE_INTERACTIONS, outcomes, ranked, verb};
 use crate::report::noise_text;
+use crate::report::over_time::curves::{FEWEST, TimeBands};
 use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
 use crate::report::page::errors::sentence;
 use crate::report::page::influence::Influence;
-use crate::report::page::over_time::TimeBands;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::shown_columns::words;
 use crate::report::page::tables::StatisticsRow;
@@ -81,15 +81,23 @@ impl Contents {
 
 fn time_bands(bands: &Bands) -> Vec<TimeBands> {
     let points = bands.times().len();
+    let count = |series: usize, point: usize| bands.count(series, point);
+    let all = 0..bands.layout().series.len();
+    // some series are null in some phases; those of the motion never are
+    let in_flight = |point: usize| all.clone().map(|series| count(series, point)).max().unwrap_or(0);
+    let in_flight: Vec<u64> = (0..points).map(in_flight).collect();
+    let value = |series: usize, point: usize, p: f64| {
+        let quantile = bands.quantile(series, point, p).filter(|_| count(series, point) >= FEWEST);
+        quantile.unwrap_or(f64::NAN)
+    };
     let of_series = |series: usize| TimeBands {
         name: bands.quantity(series).name().to_owned(),
         times: bands.times().to_vec(),
-        quantiles: BANDS
-            .map(|p| (0..points).map(|point| bands.quantile(series, point, p).unwrap_or(f64::NAN)).collect()),
+        quantiles: BANDS.map(|p| (0..points).map(|point| value(series, point, p)).collect()),
         runs: bands.runs(),
-        left: points.checked_sub(1).map_or(0, |last| bands.count(series, last)),
+        in_flight: in_flight.clone(),
     };
-    let series = (0..bands.layout().series.len()).map(of_series);
+    let series = all.clone().map(of_series);
     series.filter(|series| series.quantiles[2].iter().any(|value| value.is_finite())).collect()
 }
 

@@ -3,14 +3,13 @@
 //! It is a pure function of the plan and the rows (and what was computed from them): the same result gives the same bytes.
 //!
 //! - `runs`: the runs that are shown in full.
-//! - [`over_time`] (with `envelope`), `errors`, [`influence`], `inputs`: the figures. - `figure_json`: what the scripts need to draw them.
+//! - `errors`, [`influence`], `inputs`: the figures, with those of [`crate::report::over_time`]. - `figure_json`: what the scripts need to draw them.
 //! - [`gather`]: what statistics, verdicts, sensitivities and bands are on the page. - [`cards`], `first_screen`, [`tables`], `document`: the HTML. - `replay` (with `live`, `still`): the 3D replay. - `payload`: numbers in the page.
 //!
 //! The scripts and styles are in `assets/report/`.
 
 pub mod cards;
 mod document;
-mod envelope;
 mod errors;
 mod figure_json;
 mod first_screen;
@@ -19,13 +18,11 @@ pub mod influence;
 mod inputs;
 mod live;
 mod outcomes;
-pub mod over_time;
 mod payload;
-mod readable;
+pub(in crate::report) mod readable;
 mod replay;
-mod runs;
+pub mod runs;
 mod shown_columns;
-mod spectrum;
 mod still;
 pub mod tables;
 
@@ -35,7 +32,6 @@ use self::cards::Card;
 use self::document::{PageSection, document};
 use self::figure_json::json_of;
 use self::influence::Influence;
-use self::over_time::{Curves, TimeBands};
 use self::payload::Payload;
 use self::tables::StatisticsRow;
 use crate::analysis::missions::Missions;
@@ -44,6 +40,7 @@ use crate::analysis::survey::{self, Survey};
 use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
 use crate::report::figure::{Figure, FigureSection};
+use crate::report::over_time::curves::{Curves, TimeBands};
 use crate::sampling::{Design, SampleId};
 
 /// What the page is made of.
@@ -96,10 +93,10 @@ impl Page {
         let shown = runs::shown_runs(plan, survey, ensemble.isa());
         let nominal = shown.iter().find(|run| run.sample == SampleId(0)).and_then(|run| run.run.as_ref());
         let wheels = ensemble.request().wheels.to_vec();
-        let curves = Curves::new(nominal, &contents.bands, &wheels);
+        let curves = Curves::of_page(plan, nominal, &contents.bands, &wheels);
         let mut figures = outcomes::figures(plan, survey, &contents.statistics, has_intervals);
         figures.extend(curves.figures());
-        figures.extend(curves.drift((!plan.method.has_fixed_step()).then_some(plan.tolerance.relative)));
+        figures.extend(curves.drift());
         figures.extend(errors::figures(survey, has_intervals));
         figures.extend(influence::figures(plan, survey, &contents.influences));
         figures.extend(inputs::figures(plan, survey));

@@ -23,8 +23,8 @@ const MOST_OF_ROW: usize = 20_000;
 /// A turn between two pictures, rad: enough pictures that a motion is seen as such.
 const TURN: f64 = 0.6;
 
-/// The groups whose series the page shows.
-const GROUPS: [Group; 7] = [
+/// The groups whose series the page and plots show.
+pub const GROUPS: [Group; 7] = [
     Group::EnergyConservation,
     Group::MomentumConservation,
     Group::Attitude,

@@ -1,0 +1,218 @@
+//! What a control loop does over time: errors of its estimates, phases, wheels, thrusters, the way to the debris.
+
+use crate::control::STANDARD_GRAVITY;
+use crate::math::vector::{difference, norm};
+use crate::observables::Series;
+use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, Scale};
+use crate::report::over_time::curves::{Curves, areas, lines, over_time};
+use crate::report::over_time::figure_list::{ListedFigure, Shows};
+use crate::report::over_time::limits;
+use crate::run::StateField;
+
+/// How many times the error that a filter expects is drawn beside the errors.
+const SIGMAS: f64 = 3.0;
+/// Half the height of a phase, of the height of its row.
+const HALF: f64 = 0.32;
+
+impl Curves<'_> {
+    /// The error of an estimate, and three times what the filter of the run expects of it.
+    pub(super) fn estimated(&self, listed: &ListedFigure, series: Series, expected: &str) -> Option<Figure> {
+        let (name, unit) = self.name(series);
+        let mut marks = self.marks(&name, self.nominal(series), listed.hue, "");
+        let bound: Vec<f64> = self.recorded(expected)?.iter().map(|error| SIGMAS * error).collect();
+        let mut caption = self.caption(&name);
+        if !self.is_plot() || !marks.is_empty() {
+            marks.extend(lines("3 sigma of the filter", (Hue::Reference, Dash::Long), &self.times(), &bound));
+            caption += " 3 sigma: covariance of the filter in the nominal run.";
+        }
+        let mut figure = self.judged(listed, (&name, &unit), (listed.title, caption), marks);
+        // errors become small by decades
+        let least = bound.into_iter().filter(|bound| *bound > 0.0).fold(f64::INFINITY, f64::min);
+        let largest = figure.marks.iter().map(Mark::largest).fold(0.0, f64::max);
+        if least < largest {
+            figure.y.scale = Scale::Log;
+            figure.y.range = Some([0.03 * least, 1.5 * largest]);
+        }
+        Some(figure)
+    }
+
+    /// When the run is in which phase.
+    pub(super) fn phases(&self, listed: &ListedFigure) -> Option<Figure> {
+        let spec = self.plan.law.as_ref()?.spec()?;
+        let (times, phase) = (self.times(), self.recorded("phase")?);
+        let mut visits: Vec<(usize, [f64; 2])> = Vec::new();
+        for (time, phase) in times.iter().zip(&phase).filter(|(_, phase)| phase.is_finite()) {
+            let row = *phase as usize;
+            if let Some((_, span)) = visits.last_mut() {
+                span[1] = *time;
+            }
+            if visits.last().is_none_or(|(last, _)| *last != row) {
+                visits.push((row, [*time, *time]));
+            }
+        }
+        // phases that the run is never in are not shown: they would be rows without anything
+        let rows: Vec<usize> = (0..spec.phases.len()).filter(|row| visits.iter().any(|(of, _)| of == row)).collect();
+        let names = rows.iter().map(|row| spec.phases[*row].name.to_string()).collect();
+        let strip = |(row, span): (usize, [f64; 2])| {
+            let at = rows.iter().position(|other| *other == row).unwrap_or(0) as f64;
+            let [low, high] = [at - HALF, at + HALF].map(|end| vec![end; 2]);
+            Mark::Band {
+                label: String::new(),
+                hue: listed.hue,
+                opacity: 0.6,
+                x: span.to_vec(),
+                low,
+                high,
+                stacked: false,
+            }
+        };
+        let marks = visits.into_iter().map(strip).collect();
+        let caption = "Phases of guidance in the nominal run.".to_owned();
+        Some(over_time("phases", listed.title, caption, Axis::names(names), marks))
+    }
+
+    /// A series of all wheels, with the limits of those that the loop drives.
+    pub(super) fn all_wheels(&self, listed: &ListedFigure, series: Series) -> Figure {
+        let mut marks = Vec::new();
+        for (index, wheel) in self.wheels.iter().enumerate() {
+            let (name, _) = self.name(series.of_wheel(index));
+            let hue = Hue::Wheel(index);
+            match self.band(&name) {
+                Some(bands) => {
+                    let [p05, _, p50, _, p95] = &bands.quantiles;
+                    marks.extend(areas(&format!("{wheel}, 5 to 95%"), (hue, 0.15), &bands.times, [p05, p95]));
+                    marks.extend(lines(&format!("{wheel}, median"), (hue, Dash::Solid), &bands.times, p50));
+                }
+                None => {
+                    let values = self.nominal(series.of_wheel(index));
+                    marks.extend(lines(wheel.as_str(), (hue, Dash::Solid), &self.times(), &values));
+                }
+            }
+        }
+        let (name, unit) = self.name(series);
+        let is_torque = series == Series::MotorTorque;
+        let caption = self.caption(&name);
+        let (file, title) = match is_torque {
+            true => ("wheel_torque", "Torque of the wheels"),
+            false => ("wheel_speed", "Speed of the wheels"),
+        };
+        if let Some(run) = self.run {
+            let models = self.wheels.iter().zip(&run.scene.actuators.wheels);
+            let limits = models.map(|(wheel, model)| {
+                (wheel.to_string(), if is_torque { model.torque_limit } else { model.speed_limit })
+            });
+            marks.extend(limits::of_actuators("limit", &limits.collect::<Vec<_>>(), is_torque));
+        }
+        let figure = self.judged(listed, (&name, &unit), (title, caption), marks);
+        Figure { name: file.to_owned(), ..figure }
+    }
+
+    /// The impulses of the thrusters up to the points of the run, N s: thruster by thruster.
+    fn impulses(&self) -> Option<Vec<(String, Vec<f64>)>> {
+        let (run, spec) = (self.run?, self.plan.law.as_ref()?.spec()?);
+        let times = self.times();
+        let of = |place: &usize| {
+            let (mut sum, mut next) = (0.0, 0);
+            let at = |time: &f64| {
+                while let Some(arc) = run.arcs.get(next).filter(|arc| arc.applied.until <= *time) {
+                    sum += arc.applied.thrust[*place] * (arc.applied.until - arc.start);
+                    next += 1;
+                }
+                // the arc that has not ended
+                let part = run.arcs.get(next).filter(|arc| arc.start < *time && !arc.applied.ends_run);
+                sum + part.map_or(0.0, |arc| arc.applied.thrust[*place] * (time - arc.start))
+            };
+            (spec.thruster_names[*place].to_string(), times.iter().map(at).collect())
+        };
+        Some(spec.thrusters.iter().map(of).collect())
+    }
+
+    /// The mean thrusts between the points of the run, with the largest ones.
+    pub(super) fn thrust(&self, listed: &ListedFigure) -> Option<Figure> {
+        let (times, run) = (self.times(), self.run?);
+        let impulses = self.impulses()?;
+        let mut marks = Vec::new();
+        for (index, (name, impulse)) in impulses.iter().enumerate() {
+            // a step from point to point
+            let (mut x, mut y) = (Vec::new(), Vec::new());
+            for (time, sum) in times.windows(2).zip(impulse.windows(2)) {
+                x.extend(time);
+                y.extend([(sum[1] - sum[0]) / (time[1] - time[0]); 2]);
+            }
+            if y.iter().any(|thrust| *thrust != 0.0) {
+                marks.push(Mark::line(name.as_str(), Hue::Curve(index), Dash::Solid, x, y));
+            }
+        }
+        let thrusters = &self.plan.law.as_ref()?.spec()?.thrusters;
+        let models = thrusters.iter().map(|place| run.scene.actuators.thrusters[*place].max_thrust);
+        let limits: Vec<(String, f64)> = impulses.iter().map(|(name, _)| name.clone()).zip(models).collect();
+        marks.extend(limits::of_actuators("limit", &limits, false));
+        let caption = "Mean thrust from point to point in the nominal run: pulses are shorter.".to_owned();
+        Some(self.judged(listed, ("thrust", "N"), (listed.title, caption), marks))
+    }
+
+    /// The impulse of each thruster, and that of all.
+    pub(super) fn impulse(&self, listed: &ListedFigure) -> Option<Figure> {
+        let impulses = self.impulses()?;
+        let fired = || impulses.iter().enumerate().filter(|(_, (_, sum))| sum.iter().any(|impulse| *impulse != 0.0));
+        let line = |(index, (name, sum)): (usize, &(String, Vec<f64>))| {
+            Mark::line(name.as_str(), Hue::Curve(index), Dash::Solid, self.times(), sum.clone())
+        };
+        let mut marks: Vec<Mark> = fired().map(line).collect();
+        if fired().count() > 1 {
+            marks.push(Mark::line("all", Hue::Nominal, Dash::Dashed, self.times(), total(&impulses)));
+        }
+        let caption = "Impulse since the start in the nominal run.".to_owned();
+        Some(self.judged(listed, ("impulse", "N s"), (listed.title, caption), marks))
+    }
+
+    /// The propellant used, where the specific impulse is known.
+    pub(super) fn propellant(&self, listed: &ListedFigure) -> Option<Figure> {
+        let isp = self.constant("isp_s").filter(|isp| *isp > 0.0)?;
+        let mass =
+            total(&self.impulses()?).iter().map(|impulse| impulse / (STANDARD_GRAVITY * isp)).collect::<Vec<_>>();
+        let marks = if mass.iter().any(|mass| *mass > 0.0) {
+            self.of_run("nominal run", (listed.hue, Dash::Solid), &mass)
+        } else {
+            Vec::new()
+        };
+        let caption = "Propellant used since the start in the nominal run.".to_owned();
+        Some(self.judged(listed, ("propellant", "kg"), (listed.title, caption), marks))
+    }
+
+    /// The number `key` of `[control]`.
+    fn constant(&self, key: &str) -> Option<f64> {
+        self.plan.nominal.control.law.named(key).and_then(|numbers| numbers.first().copied())
+    }
+
+    /// The distance to the debris with keep-out sphere and station, or the speed relative to it.
+    pub(super) fn relative(&self, listed: &ListedFigure) -> Option<Figure> {
+        let table = &self.run?.table;
+        let is_distance = listed.shows == Shows::Distance;
+        let (debris, own) = match is_distance {
+            true => (StateField::DebrisPosition, StateField::ComPosition),
+            false => (StateField::DebrisVelocity, StateField::ComVelocity),
+        };
+        let at = |point: usize| norm(difference(table.at::<3>(debris, point), table.at::<3>(own, point)));
+        let values: Vec<f64> = (0..self.times().len()).map(at).collect();
+        let label = if self.is_plot() { "" } else { "nominal run" };
+        let mut marks = lines(label, (listed.hue, Dash::Solid), &self.times(), &values);
+        if is_distance {
+            let launches = self.plan.law.as_ref()?.spec()?.launches();
+            let station = self.constant("launch_distance_m").filter(|_| launches);
+            for (label, at) in [("keep-out", self.constant("keep_out_m")), ("station", station)] {
+                let limit = |at| Mark::Limit { label: label.to_owned(), at, vertical: false };
+                marks.extend(at.filter(|at| *at > 0.0).map(limit));
+            }
+        }
+        let (name, unit) = if is_distance { ("debris_distance", "m") } else { ("relative_speed", "m/s") };
+        let caption = "The nominal run, between the centres of mass.".to_owned();
+        Some(self.judged(listed, (name, unit), (listed.title, caption), marks))
+    }
+}
+
+/// The sum of the impulses of all thrusters.
+fn total(impulses: &[(String, Vec<f64>)]) -> Vec<f64> {
+    let points = impulses.first().map_or(0, |(_, sum)| sum.len());
+    (0..points).map(|point| impulses.iter().map(|(_, sum)| sum[point]).sum()).collect()
+}

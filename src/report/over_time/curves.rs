@@ -1,0 +1,326 @@
+//! [`Curves`]: the nominal run and the bands of the ensemble, as the figures that the scene calls for.
+
+use std::ops::Range;
+
+use crate::campaign::Plan;
+use crate::ensemble::SingleRun;
+use crate::observables::Series;
+use crate::observables::request::NutationAxis;
+use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
+use crate::report::over_time::envelope::{envelope, turns};
+use crate::report::over_time::figure_list::{ListedFigure, Place, Shows, Traits, figures_of};
+use crate::report::over_time::limits;
+use crate::scene::Name;
+
+/// Quantiles of a series over time, of the runs that are ok.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimeBands {
+    /// The series, as the columns of a time series name it.
+    pub name: String,
+    /// Times, s.
+    pub times: Vec<f64>,
+    /// The 5, 25, 50, 75 and 95% quantiles at these times.
+    pub quantiles: [Vec<f64>; 5],
+    /// How many runs they are of.
+    pub runs: u64,
+    /// How many of them have not ended at each time, whatever they have of this series.
+    pub in_flight: Vec<u64>,
+}
+
+/// A band is drawn where at least as many runs have a value: the 5% quantile of fewer is their smallest one.
+pub const FEWEST: u64 = 20;
+/// The axis ends where this share of the runs is left: at the 99% quantile of the times at which they end.
+const LEFT: f64 = 0.01;
+
+/// Curves of one run, and bands of the ensemble.
+#[derive(Clone, Debug)]
+pub struct Curves<'a> {
+    pub(super) plan: &'a Plan,
+    pub(super) run: Option<&'a SingleRun>,
+    bands: &'a [TimeBands],
+    pub(super) wheels: &'a [Name],
+    pub(super) traits: Traits,
+    place: Place,
+}
+
+/// Angles that are rounding, rad: some hundred roundings of a turn.
+const NO_ANGLE_RAD: f64 = 1e-12;
+/// The fraction of the width of the bands from which on a swing is seen beside them.
+const SEEN_SWING: f64 = 0.05;
+
+impl<'a> Curves<'a> {
+    /// On the page of `plan`: of the nominal run, where it could be run, and bands of the ensemble; `wheels` are those that turn.
+    pub fn of_page(plan: &'a Plan, run: Option<&'a SingleRun>, bands: &'a [TimeBands], wheels: &'a [Name]) -> Self {
+        Curves { plan, run, bands, wheels, traits: Traits::of(plan, wheels), place: Place::Page }
+    }
+
+    /// In a plot of the run `run` of `plan`.
+    pub fn of_plot(plan: &'a Plan, run: &'a SingleRun) -> Self {
+        let wheels = &run.request.wheels[..];
+        Curves { plan, run: Some(run), bands: &[], wheels, traits: Traits::of(plan, wheels), place: Place::Plot }
+    }
+
+    /// Whether they are in a plot of one run, and not on a page.
+    pub(super) fn is_plot(&self) -> bool {
+        self.place == Place::Plot
+    }
+
+    /// Times that the nominal run reached, s.
+    pub fn times(&self) -> Vec<f64> {
+        self.run.map_or_else(Vec::new, |run| run.grid.times()[..run.outcome.points.min(run.grid.points())].to_vec())
+    }
+
+    /// A series of the nominal run; empty where it has none.
+    pub fn nominal(&self, series: Series) -> Vec<f64> {
+        let Some(run) = self.run else { return Vec::new() };
+        let values = run.series.iter().find(|(other, _)| *other == series).map(|(_, values)| values.as_slice());
+        let values = values.unwrap_or_default();
+        values[..values.len().min(run.outcome.points)].to_vec()
+    }
+
+    pub(super) fn band(&self, name: &str) -> Option<&'a TimeBands> {
+        self.bands.iter().find(|bands| bands.name == name)
+    }
+
+    /// Bands and median of the quantity `name`, and its values in the nominal run; `of` comes before the names in the legend.
+    pub(super) fn marks(&self, name: &str, nominal: Vec<f64>, hue: Hue, of: &str) -> Vec<Mark> {
+        let label = |text: &str| if of.is_empty() { text.to_owned() } else { format!("{of}, {text}") };
+        let mut marks = Vec::new();
+        if let Some(bands) = self.band(name) {
+            let [p05, p25, p50, p75, p95] = &bands.quantiles;
+            marks.extend(areas(&label("5 to 95%"), (hue, 0.15), &bands.times, [p05, p95]));
+            marks.extend(areas(&label("25 to 75%"), (hue, 0.3), &bands.times, [p25, p75]));
+            marks.extend(lines(&label("median"), (hue, Dash::Solid), &bands.times, p50));
+        }
+        let floor = if name.ends_with("_rad") { NO_ANGLE_RAD } else { 0.0 };
+        if nominal.iter().any(|value| value.abs() > floor) {
+            let (hue, dash) = if marks.is_empty() { (hue, Dash::Solid) } else { (Hue::Nominal, Dash::Dashed) };
+            marks.extend(self.of_run(&label("nominal run"), (hue, dash), &nominal));
+        }
+        marks
+    }
+
+    /// The values of the run; on the page those that turn too often to be seen as their envelope.
+    pub(super) fn of_run(&self, label: &str, (hue, dash): (Hue, Dash), values: &[f64]) -> Vec<Mark> {
+        let times = self.times();
+        let name = if self.place == Place::Plot { "" } else { label };
+        let piece = |piece: Range<usize>| {
+            let (x, y) = (times[piece.clone()].to_vec(), values[piece].to_vec());
+            match envelope(&x, &y).filter(|_| self.place == Place::Page) {
+                Some([x, low, high]) => {
+                    let label = format!("{name}, its envelope");
+                    Mark::Band { label, hue, opacity: 0.4, x, low, high, stacked: false }
+                }
+                None => Mark::line(name, hue, dash, x, y),
+            }
+        };
+        pieces(times.len().min(values.len()), |point| values[point].is_finite()).into_iter().map(piece).collect()
+    }
+
+    /// What the bands of a quantity mean.
+    pub(super) fn caption(&self, name: &str) -> String {
+        let Some(bands) = self.band(name) else { return "The nominal run.".to_owned() };
+        let points = self.run.map_or(0, |run| run.grid.points());
+        let swings = self.run.and_then(|run| {
+            let wheels = self.wheels;
+            let of = |series: &&(Series, Vec<f64>)| {
+                series.0.quantity(wheels).is_some_and(|quantity| quantity.name() == name)
+            };
+            let ends = |values: &[f64]| {
+                values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)])
+            };
+            let swing = |values: &[f64]| {
+                let [low, high] = ends(values);
+                high - low
+            };
+            run.series.iter().find(of).map(|(_, values)| (turns(values), swing(values)))
+        });
+        let width =
+            bands.quantiles[0].iter().zip(&bands.quantiles[4]).map(|(low, high)| high - low).fold(0.0, f64::max);
+        let is_seen = swings.is_some_and(|(turns, swing)| turns + 1 >= bands.times.len() && swing > SEEN_SWING * width);
+        let aliased = if is_seen && points > bands.times.len() {
+            format!(
+                " The nominal run turns back more often than there are times with bands ({}): what the bands do in between is not seen; more [bands] points show it.",
+                bands.times.len()
+            )
+        } else {
+            String::new()
+        };
+        let left = match bands.in_flight.last() {
+            Some(left) if *left < bands.runs => {
+                format!(" Bands end where fewer than {FEWEST} runs are left.")
+            }
+            _ => String::new(),
+        };
+        format!(
+            "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that were computed, at each of {} times.{left}{aliased}",
+            bands.runs,
+            bands.times.len()
+        )
+    }
+
+    /// Name and unit of a series.
+    pub(super) fn name(&self, series: Series) -> (String, String) {
+        let quantity = series.quantity(self.wheels);
+        quantity.map_or_else(Default::default, |quantity| (quantity.name().to_owned(), quantity.unit().to_owned()))
+    }
+
+    /// What the loop of the run recorded as `name` at its points; `None` where it did not.
+    pub(super) fn recorded(&self, name: &str) -> Option<Vec<f64>> {
+        let telemetry = &self.run?.telemetry;
+        let place = telemetry.quantities.iter().position(|quantity| quantity.name() == name)?;
+        telemetry.held_at(&self.times()).into_iter().nth(place)
+    }
+
+    /// Every figure that the scene calls for, in the order of the list; those that have nothing to show are not visible.
+    pub fn figures(&self) -> Vec<Figure> {
+        let figures = figures_of(&self.traits, self.place).flat_map(|listed| self.listed(listed));
+        figures.map(|figure| self.in_flight(figure)).collect()
+    }
+
+    /// The same with the runs in flight, and an axis that ends where all but one in a hundred have ended, and the nominal run.
+    pub(super) fn in_flight(&self, mut figure: Figure) -> Figure {
+        let Some(bands) = self.bands.first().filter(|_| figure.is_over_time) else { return figure };
+        let runs = bands.runs as f64;
+        if bands.in_flight.last().is_none_or(|left| *left == bands.runs) {
+            return figure;
+        }
+        let counts: Vec<f64> = bands.in_flight.iter().map(|count| *count as f64).collect();
+        let place = counts.iter().position(|count| *count <= LEFT * runs).unwrap_or(counts.len() - 1);
+        let end = self.times().last().copied().unwrap_or(0.0).max(bands.times[place]);
+        if end > 0.0 {
+            figure.x = figure.x.within(0.0, end);
+        }
+        let (label, x) = ("runs in flight".to_owned(), bands.times.clone());
+        figure.marks.push(Mark::Flight { label, x, counts, runs });
+        figure
+    }
+
+    /// What one line of the list is.
+    fn listed(&self, listed: &ListedFigure) -> Vec<Figure> {
+        match listed.shows {
+            Shows::One(series) => self.single(listed, series).into_iter().collect(),
+            Shows::Estimated(series, expected) => self.estimated(listed, series, expected).into_iter().collect(),
+            Shows::Wheels(series) if self.traits.has_loop => vec![self.all_wheels(listed, series)],
+            Shows::Wheels(series) => self.each_wheel(listed, series),
+            Shows::State(field, components) => vec![self.state(listed, field, components)],
+            Shows::Phases => self.phases(listed).into_iter().collect(),
+            Shows::Thrust => self.thrust(listed).into_iter().collect(),
+            Shows::Impulse => self.impulse(listed).into_iter().collect(),
+            Shows::Propellant => self.propellant(listed).into_iter().collect(),
+            Shows::Distance | Shows::RelativeSpeed => self.relative(listed).into_iter().collect(),
+            Shows::Energies => self.energies(listed),
+            Shows::TotalEnergy => self.total_energy(listed).into_iter().collect(),
+            Shows::Changes => self.changes(listed),
+            Shows::Transfer => self.transfer(listed),
+            Shows::Balances => vec![self.balances(listed)],
+        }
+    }
+
+    fn single(&self, listed: &ListedFigure, series: Series) -> Option<Figure> {
+        let (name, unit) = self.name(series);
+        // the nominal run does not differ from itself
+        if series == Series::FromNominal && self.band(&name).is_none() {
+            return None;
+        }
+        let mut marks = self.marks(&name, self.nominal(series), listed.hue, "");
+        if unit == "rad" && marks.iter().all(|mark| mark.largest() < NO_ANGLE_RAD) {
+            // an angle below rounding is none
+            marks.clear();
+        }
+        let axis = self.run.map(|run| run.request.nutation_axis).filter(|_| series == Series::Nutation);
+        let title = match axis {
+            Some(NutationAxis::Principal) => "Nutation angle: the principal axis nearest s3 from the angular momentum",
+            Some(NutationAxis::Along(_)) => "Nutation angle: observe.nutation_axis from the angular momentum",
+            _ => listed.title,
+        };
+        let caption = self.caption(&name);
+        Some(self.judged(listed, (&name, &unit), (title, caption), marks))
+    }
+
+    /// A figure called `name`, with the limits of the requirements on what it shows and an axis that has what matters.
+    pub(super) fn judged(
+        &self,
+        listed: &ListedFigure,
+        (name, unit): (&str, &str),
+        (title, caption): (&str, String),
+        mut marks: Vec<Mark>,
+    ) -> Figure {
+        marks.extend(limits::required(self.plan, self.traits.judged(listed.judged_by), unit));
+        let shown_as = self.shown_as(listed, name);
+        if let Some([low, high]) = limits::decades(&marks) {
+            let axis = Axis::log(listed.quantity, unit).showing(shown_as).within(low, high);
+            return over_time(name, title, caption, axis, marks);
+        }
+        let axis = Axis::linear(listed.quantity, unit).showing(shown_as);
+        let axis = match limits::range(&marks, self.traits.has_loop) {
+            Some([low, high]) => axis.within(low, high),
+            None => axis,
+        };
+        over_time(name, title, caption, axis, marks)
+    }
+
+    /// The column whose unit the figure `name` is in: one that a requirement is about, else its own.
+    fn shown_as(&self, listed: &ListedFigure, name: &str) -> String {
+        let mut judged = self.traits.judged(listed.judged_by);
+        let asked = judged.find(|one| self.plan.analysis.requirements.iter().any(|asked| asked.name() == one));
+        asked.unwrap_or_else(|| name.to_owned())
+    }
+
+    /// The figure of `series` for each wheel.
+    fn each_wheel(&self, listed: &ListedFigure, series: Series) -> Vec<Figure> {
+        let figure = |(index, wheel): (usize, &Name)| {
+            let (name, unit) = self.name(series.of_wheel(index));
+            let marks = self.marks(&name, self.nominal(series.of_wheel(index)), Hue::Wheel(index), "");
+            let title = format!("{} of wheel {wheel}", listed.title);
+            over_time(&name, &title, self.caption(&name), Axis::linear(listed.quantity, &unit).showing(&name), marks)
+        };
+        self.wheels.iter().enumerate().map(figure).collect()
+    }
+}
+
+/// The ranges of points, of `count`, in which all are there: what is null between is not drawn.
+fn pieces(count: usize, is_there: impl Fn(usize) -> bool) -> Vec<Range<usize>> {
+    let mut found: Vec<Range<usize>> = Vec::new();
+    for point in (0..count).filter(|point| is_there(*point)) {
+        match found.last_mut() {
+            Some(last) if last.end == point => last.end += 1,
+            _ => found.push(point..point + 1),
+        }
+    }
+    found
+}
+
+/// A curve, in pieces where it is null between.
+pub(super) fn lines(label: &str, (hue, dash): (Hue, Dash), x: &[f64], y: &[f64]) -> Vec<Mark> {
+    let line = |piece: Range<usize>| Mark::line(label, hue, dash, x[piece.clone()].to_vec(), y[piece].to_vec());
+    pieces(x.len().min(y.len()), |point| y[point].is_finite()).into_iter().map(line).collect()
+}
+
+/// The area between two curves, in pieces where these are null.
+pub(super) fn areas(label: &str, (hue, opacity): (Hue, f64), x: &[f64], [low, high]: [&Vec<f64>; 2]) -> Vec<Mark> {
+    let area = |piece: Range<usize>| Mark::Band {
+        label: label.to_owned(),
+        hue,
+        opacity,
+        x: x[piece.clone()].to_vec(),
+        low: low[piece.clone()].to_vec(),
+        high: high[piece].to_vec(),
+        stacked: false,
+    };
+    pieces(x.len(), |point| low[point].is_finite() && high[point].is_finite()).into_iter().map(area).collect()
+}
+
+pub(super) fn over_time(name: &str, title: &str, caption: String, y: Axis, marks: Vec<Mark>) -> Figure {
+    Figure {
+        name: name.to_owned(),
+        section: FigureSection::Time,
+        title: title.to_owned(),
+        caption,
+        columns: 6,
+        is_over_time: true,
+        x: Axis::linear("time", "s"),
+        y,
+        marks,
+    }
+}

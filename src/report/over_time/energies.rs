@@ -1,0 +1,206 @@
+//! Energies over time: of each body, all of them, and what goes from one to another.
+
+use crate::observables::Series;
+use crate::report::axis::ROUNDING;
+use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
+use crate::report::number::short;
+use crate::report::over_time::curves::{Curves, over_time};
+use crate::report::over_time::figure_list::ListedFigure;
+use crate::report::over_time::spectrum::{amplitudes, dominant};
+
+impl Curves<'_> {
+    /// The place of each body among `series`, that of the body and that of wheels; its name and its colour.
+    fn bodies(&self, series: [Series; 2]) -> Vec<(Series, String, Hue)> {
+        let wheels = self.wheels.iter().enumerate();
+        let wheels =
+            wheels.map(|(index, name)| (series[1].of_wheel(index), format!("wheel {name}"), Hue::Wheel(index)));
+        std::iter::once((series[0], "the body".to_owned(), Hue::Body)).chain(wheels).collect()
+    }
+
+    /// The energy of each body and of the debris.
+    pub(super) fn energies(&self, listed: &ListedFigure) -> Vec<Figure> {
+        let debris = (Series::EnergyDebris, "the debris".to_owned(), Hue::Debris);
+        let figure = |(series, of, hue): (Series, String, Hue)| {
+            let (name, unit) = self.name(series);
+            let marks = self.marks(&name, self.nominal(series), hue, "");
+            let caption = format!("Kinetic energy in F_e. {}", self.caption(&name));
+            over_time(&name, &format!("{} {of}", listed.title), caption, Axis::linear(listed.quantity, &unit), marks)
+        };
+        self.bodies([Series::EnergyBody, Series::EnergyWheel]).into_iter().chain([debris]).map(figure).collect()
+    }
+
+    /// The sum of the energies of the run, where there are several bodies.
+    pub(super) fn total_energy(&self, listed: &ListedFigure) -> Option<Figure> {
+        let bodies = self.bodies([Series::EnergyBody, Series::EnergyWheel]);
+        let energies: Vec<Vec<f64>> = bodies
+            .iter()
+            .map(|(series, ..)| self.nominal(*series))
+            .chain([self.nominal(Series::EnergyDebris)])
+            .filter(|values| values.iter().any(|value| *value != 0.0))
+            .collect();
+        let points = energies.iter().map(Vec::len).min().filter(|_| energies.len() > 1)?;
+        let total = (0..points).map(|point| energies.iter().map(|values| values[point]).sum()).collect();
+        let marks = vec![Mark::line("", listed.hue, Dash::Solid, self.times(), total)];
+        Some(over_time("energy_total_j", listed.title, String::new(), Axis::linear(listed.quantity, "J"), marks))
+    }
+
+    /// The change of the energy of each body; without bands the figure of all bodies together shows as much.
+    pub(super) fn changes(&self, listed: &ListedFigure) -> Vec<Figure> {
+        let figure = |(series, of, hue): (Series, String, Hue)| {
+            let (name, unit) = self.name(series);
+            let name = name.replace("energy_com_", "exchange_");
+            self.band(&name)?;
+            let marks = self.marks(&name, changes(&self.nominal(series)), hue, "");
+            let caption =
+                format!("Change of kinetic energy about the spacecraft's centre of mass. {}", self.caption(&name));
+            let axis = Axis::linear(listed.quantity, &unit);
+            Some(over_time(&name, &format!("{} {of}", listed.title), caption, axis, marks))
+        };
+        self.bodies([Series::ComBody, Series::ComWheel]).into_iter().filter_map(figure).collect()
+    }
+
+    /// The changes of the energies of a run, as curves.
+    fn transfer_in_plot(&self, listed: &ListedFigure) -> Figure {
+        let energies: Vec<(String, Hue, Vec<f64>)> = self
+            .bodies([Series::ComBody, Series::ComWheel])
+            .into_iter()
+            .map(|(series, name, hue)| (name, hue, self.nominal(series)))
+            .filter(|(.., values)| values.iter().any(|value| *value != 0.0))
+            .collect();
+        let size = energies.iter().flat_map(|(.., values)| values).fold(0.0, |size: f64, value| value.abs().max(size));
+        let line = |(name, hue, values): &(String, Hue, Vec<f64>)| {
+            Mark::line(name.as_str(), *hue, Dash::Solid, self.times(), changes(values))
+        };
+        let marks: Vec<Mark> = energies.iter().map(line).collect();
+        let mut axis = Axis::linear(listed.quantity, "J");
+        if size > 0.0 && marks.iter().all(|mark| mark.largest() < ROUNDING * size) {
+            // what rounding makes of constants looks constant
+            axis = axis.within(-100.0 * ROUNDING * size, 100.0 * ROUNDING * size);
+        }
+        let title = format!("{}: since the start, about the centre of mass", listed.title);
+        over_time("energy_transfer", &title, String::new(), axis, marks)
+    }
+
+    /// Energy transfer between body and wheels in the nominal run: over time, as a phase plot, and its spectrum.
+    pub(super) fn transfer(&self, listed: &ListedFigure) -> Vec<Figure> {
+        let (times, body) = (self.times(), changes(&self.nominal(Series::ComBody)));
+        let wheels: Vec<Vec<f64>> =
+            (0..self.wheels.len()).map(|index| changes(&self.nominal(Series::ComWheel.of_wheel(index)))).collect();
+        if self.is_plot() {
+            return vec![self.transfer_in_plot(listed)];
+        }
+        if body.len() < 2 || wheels.is_empty() || is_constant(&body) {
+            return Vec::new();
+        }
+        let named = || self.wheels.iter().enumerate().zip(&wheels);
+        let bodies = named().map(|((index, name), y)| (format!("wheel {name}"), Hue::Wheel(index), y));
+        let mut marks = stacked(&times, bodies.chain([("body".to_owned(), Hue::Body, &body)]));
+        // how far other runs are from the nominal one
+        if let Some(bands) = self.band("exchange_body_j") {
+            for (label, quantile) in [("body, 5% of runs", 0), ("body, 95% of runs", 4)] {
+                let (x, y) = (bands.times.clone(), bands.quantiles[quantile].clone());
+                marks.push(Mark::Line { label: label.to_owned(), hue: Hue::Body, dash: Dash::Dashed, x, y });
+            }
+        }
+        let change = || Axis::linear("change of energy", "J");
+        let caption = "Change of kinetic energy about the centre of mass since the start, of the nominal run: gains are on top of each other above \
+                       zero, losses below. Without motor torque and thrust both heights are equal at all times.";
+        let transfer = over_time("energy_transfer", listed.title, caption.to_owned(), change(), marks);
+
+        let phase = named().map(|((index, name), y)| Mark::Line {
+            label: format!("wheel {name}"),
+            hue: Hue::Wheel(index),
+            dash: Dash::Solid,
+            x: body.clone(),
+            y: y.clone(),
+        });
+        let phase = Figure {
+            name: "energy_phase".to_owned(),
+            section: FigureSection::Time,
+            title: "Energy of each wheel against that of the body".to_owned(),
+            caption: "Changes since the start, nominal run: a straight line of slope -1 is a transfer between this wheel and the body alone."
+                .to_owned(),
+            columns: 6,
+            is_over_time: false,
+            x: Axis::linear("change of energy of the body", "J"),
+            y: Axis::linear("change of energy of the wheel", "J"),
+            marks: phase.collect(),
+        };
+        [transfer, phase].into_iter().chain(spectrum(&times, &body)).collect()
+    }
+}
+
+/// The values of several bodies on top of each other: positive ones above zero, negative ones below.
+fn stacked<'v>(times: &[f64], bodies: impl Iterator<Item = (String, Hue, &'v Vec<f64>)>) -> Vec<Mark> {
+    let mut ends = vec![[0.0; 2]; times.len()];
+    let mut mark = |(label, hue, values): (String, Hue, &Vec<f64>)| {
+        let (mut low, mut high) = (Vec::with_capacity(values.len()), Vec::with_capacity(values.len()));
+        for ([below, above], value) in ends.iter_mut().zip(values) {
+            let (from, to) = if *value < 0.0 { (*below + value, *below) } else { (*above, *above + value) };
+            (*below, *above) = (below.min(from), above.max(to));
+            low.push(from);
+            high.push(to);
+        }
+        Mark::Band { label, hue, opacity: 0.5, x: times.to_vec(), low, high, stacked: true }
+    };
+    bodies.map(&mut mark).collect()
+}
+
+/// Differences from the first value.
+fn changes(values: &[f64]) -> Vec<f64> {
+    values.iter().map(|value| value - values[0]).collect()
+}
+
+fn is_constant(values: &[f64]) -> bool {
+    values.iter().all(|value| *value == values[0])
+}
+
+/// The spectrum of the energy of the body, with its dominant frequency.
+fn spectrum(times: &[f64], body: &[f64]) -> Option<Figure> {
+    let (frequencies, amplitudes) = amplitudes(times, body)?;
+    let peak = dominant(&frequencies, &amplitudes)?;
+    let marks = vec![
+        Mark::Line { label: "amplitude".to_owned(), hue: Hue::Body, dash: Dash::Solid, x: frequencies, y: amplitudes },
+        Mark::Limit { label: format!("dominant: {} Hz", short(peak)), at: peak, vertical: true },
+    ];
+    Some(Figure {
+        name: "energy_spectrum".to_owned(),
+        section: FigureSection::Time,
+        title: "Spectrum of the energy transfer".to_owned(),
+        caption: "Amplitude of the energy of the body, nominal run (Hann window; the mean is removed).".to_owned(),
+        columns: 6,
+        is_over_time: false,
+        x: Axis::linear("frequency", "Hz"),
+        y: Axis::linear("amplitude", "J"),
+        marks,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: what a body has gained is above zero.
+    #[test]
+    fn a_gain_is_positive() {
+        assert_eq!(changes(&[2.0, 5.0, 1.0]), [0.0, 3.0, -1.0]);
+    }
+
+    /// Law: gains are on top of each other, losses below each other, and the height of each is its value.
+    #[test]
+    fn gains_and_losses_are_stacked() {
+        let values = [vec![1.0, -2.0], vec![3.0, 5.0], vec![-4.0, -3.0]];
+        let names = ["a", "b", "c"].map(str::to_owned);
+        let marks =
+            stacked(&[0.0, 1.0], names.into_iter().zip(&values).map(|(name, values)| (name, Hue::Body, values)));
+        let ends: Vec<[Vec<f64>; 2]> = marks
+            .into_iter()
+            .map(|mark| match mark {
+                Mark::Band { low, high, stacked: true, .. } => [low, high],
+                _ => panic!("{mark:?}"),
+            })
+            .collect();
+        let expected = [[[0.0, -2.0], [1.0, 0.0]], [[1.0, 0.0], [4.0, 5.0]], [[-4.0, -5.0], [0.0, -2.0]]];
+        assert_eq!(ends, expected.map(|ends| ends.map(|end| end.to_vec())));
+    }
+}

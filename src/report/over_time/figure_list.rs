@@ -1,0 +1,232 @@
+//! [`FIGURES`]: which figures over time a scene gets, on the page and in `simulate --plot`; `simulate` prints their columns.
+//!
+//! A figure is there where the scene calls for it, or where a requirement is about what it shows.
+
+use crate::campaign::Plan;
+use crate::observables::Series;
+use crate::report::figure::Hue;
+use crate::run::StateField;
+use crate::scene::Name;
+
+/// What a scene has.
+#[derive(Clone, Debug)]
+pub struct Traits {
+    /// A control loop.
+    pub has_loop: bool,
+    /// A phase of the loop that wants an attitude.
+    pub points: bool,
+    /// An estimator that does not know the truth.
+    pub estimates: bool,
+    /// Debris that the loop goes to.
+    pub approaches: bool,
+    /// Debris.
+    pub debris: bool,
+    /// Wheels that turn.
+    pub wheels: bool,
+    /// Wheels that the loop drives.
+    pub drives: bool,
+    /// Thrusters that it fires.
+    pub fires: bool,
+    /// What the requirements are about.
+    asked: Vec<String>,
+    /// The names of the wheels that turn.
+    wheel_names: Vec<Name>,
+}
+
+impl Traits {
+    /// Of the scenes of `plan`, in which `wheels` turn.
+    pub fn of(plan: &Plan, wheels: &[Name]) -> Self {
+        let spec = plan.law.as_ref().and_then(|law| law.spec());
+        let is = |what: fn(&crate::control::LoopSpec) -> bool| spec.is_some_and(what);
+        Traits {
+            has_loop: spec.is_some(),
+            points: is(|spec| spec.points()),
+            estimates: is(|spec| !spec.knows_the_truth()),
+            approaches: is(|spec| spec.approaches()),
+            debris: plan.nominal.debris.is_some(),
+            wheels: !wheels.is_empty(),
+            drives: is(|spec| !spec.wheels.is_empty()),
+            fires: is(|spec| !spec.thrusters.is_empty()),
+            asked: plan.analysis.requirements.iter().map(|one| one.name().to_owned()).collect(),
+            wheel_names: wheels.to_vec(),
+        }
+    }
+
+    /// Which of `names`, with that of each wheel in place of `{wheel}`, a requirement is about.
+    fn asked(&self, names: &[&str]) -> bool {
+        self.judged(names).any(|name| self.asked.contains(&name))
+    }
+
+    /// `names` with that of each wheel in place of `{wheel}`.
+    pub fn judged<'t>(&'t self, names: &[&'t str]) -> impl Iterator<Item = String> {
+        let of = |name: &&'t str| match name.contains("{wheel}") {
+            true => self.wheel_names.iter().map(|wheel| name.replace("{wheel}", wheel.as_str())).collect(),
+            false => vec![(*name).to_owned()],
+        };
+        names.iter().flat_map(of).collect::<Vec<_>>().into_iter()
+    }
+}
+
+/// Where figures are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// On the page: the nominal run and bands of the others.
+    Page,
+    /// In `simulate --plot`: one run.
+    Plot,
+}
+
+/// What a figure shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shows {
+    /// A series of the observables.
+    One(Series),
+    /// The error of an estimate, with three times what the filter expects of it: the column of the telemetry.
+    Estimated(Series, &'static str),
+    /// A series of wheels: under a loop in one figure with their limits, else a figure for each.
+    Wheels(Series),
+    /// Components of a state; of wheels all of them.
+    State(StateField, &'static [&'static str]),
+    /// The phases of the loop.
+    Phases,
+    /// The thrusts.
+    Thrust,
+    /// The impulses of the thrusters.
+    Impulse,
+    /// The propellant used.
+    Propellant,
+    /// The distance to the debris.
+    Distance,
+    /// The speed relative to the debris.
+    RelativeSpeed,
+    /// The energies of the bodies, a figure for each.
+    Energies,
+    /// The sum of the energies.
+    TotalEnergy,
+    /// The changes of the energies of the bodies, a figure for each with bands.
+    Changes,
+    /// The energy transfer between body and wheels: over time, against each other, and its spectrum.
+    Transfer,
+    /// The relative errors of the balances.
+    Balances,
+}
+
+/// A figure over time.
+#[derive(Clone, Copy, Debug)]
+pub struct ListedFigure {
+    /// What it shows.
+    pub shows: Shows,
+    /// Its title; where there is one for each wheel or body, its beginning.
+    pub title: &'static str,
+    /// What is along its vertical axis.
+    pub quantity: &'static str,
+    /// Its colour.
+    pub hue: Hue,
+    /// Whether a scene calls for it at a place.
+    called: fn(&Traits, Place) -> bool,
+    /// The observables and quantities over time whose requirements call for it too, and have their limits in it.
+    pub judged_by: &'static [&'static str],
+}
+
+impl ListedFigure {
+    /// Whether a requirement is about what it shows.
+    pub fn is_asked(&self, traits: &Traits) -> bool {
+        traits.asked(self.judged_by)
+    }
+}
+
+/// The figures of scenes like `traits` at `place`, in their order.
+pub fn figures_of(traits: &Traits, place: Place) -> impl Iterator<Item = &'static ListedFigure> {
+    FIGURES.iter().filter(move |figure| (figure.called)(traits, place) || figure.is_asked(traits))
+}
+
+const XYZ: &[&str] = &["x", "y", "z"];
+const WXYZ: &[&str] = &["w", "x", "y", "z"];
+/// Requirements about energies, which a loop has no figures of otherwise.
+const ENERGIES: &[&str] = &[
+    "energy_body_j",
+    "energy_body_initial_j",
+    "energy_body_final_j",
+    "energy_body_min_j",
+    "energy_body_max_j",
+    "energy_body_mean_j",
+    "energy_body_peak_to_peak_j",
+    "energy_{wheel}_j",
+    "energy_{wheel}_final_j",
+    "energy_{wheel}_min_j",
+    "energy_{wheel}_max_j",
+    "energy_{wheel}_mean_j",
+    "energy_{wheel}_peak_to_peak_j",
+];
+const CHANGES: &[&str] = &["exchange_body_j", "exchange_{wheel}_j"];
+/// Nothing is controlled.
+const FREE: fn(&Traits, Place) -> bool = |scene, _| !scene.has_loop;
+/// The same, on the page alone, or in plots alone.
+const FREE_ON_PAGE: fn(&Traits, Place) -> bool = |scene, place| !scene.has_loop && place == Place::Page;
+const FREE_IN_PLOT: fn(&Traits, Place) -> bool = |scene, place| !scene.has_loop && place == Place::Plot;
+/// The loop estimates where the debris is.
+const ESTIMATED_DEBRIS: fn(&Traits, Place) -> bool = |scene, _| scene.estimates && scene.approaches;
+
+type Called = fn(&Traits, Place) -> bool;
+
+const fn figure(
+    shows: Shows,
+    (title, quantity, hue): (&'static str, &'static str, Hue),
+    called: Called,
+    judged_by: &'static [&'static str],
+) -> ListedFigure {
+    ListedFigure { shows, title, quantity, hue, called, judged_by }
+}
+
+/// Every figure, in the order of the page.
+#[rustfmt::skip]
+pub const FIGURES: &[ListedFigure] = {
+    use Shows::*;
+    &[
+        // a control loop
+        figure(One(Series::PointingError), ("Pointing error", "angle", Hue::Body), |scene, _| scene.points,
+            &["pointing_error_rad", "pointing_error_final_rad"]),
+        figure(Phases, ("Phases", "", Hue::Body), |scene, _| scene.has_loop, &[]),
+        figure(Estimated(Series::AttitudeEstimateError, "attitude_expected_error_rad"), ("Error of the estimated attitude", "angle", Hue::Body), |scene, _| scene.estimates,
+            &["attitude_estimate_error_rad", "attitude_estimate_error_final_rad", "attitude_estimate_error_max_rad"]),
+        figure(Estimated(Series::RateEstimateError, "rate_expected_error_rad_s"), ("Error of the estimated angular velocity", "rate", Hue::Body), |scene, _| scene.estimates,
+            &["rate_estimate_error_rad_s"]),
+        figure(Estimated(Series::PositionEstimateError, "relative_position_expected_error_m"), ("Error of the estimated position relative to the debris", "distance", Hue::Debris),
+            ESTIMATED_DEBRIS, &["relative_position_estimate_error_m", "relative_position_estimate_error_final_m"]),
+        figure(Estimated(Series::VelocityEstimateError, "relative_velocity_expected_error_m_s"), ("Error of the estimated velocity relative to the debris", "speed", Hue::Debris),
+            ESTIMATED_DEBRIS, &["relative_velocity_estimate_error_m_s", "relative_velocity_estimate_error_final_m_s"]),
+        figure(Distance, ("Distance to the debris", "distance", Hue::Debris), |scene, _| scene.approaches, &["debris_distance_min_m"]),
+        figure(RelativeSpeed, ("Speed relative to the debris", "speed", Hue::Debris), |scene, _| scene.approaches, &["relative_speed_launch_m_s"]),
+        // the motion
+        figure(One(Series::DebrisDirection), ("Angle between s3 and the line to the debris", "angle", Hue::Debris), |scene, place| scene.debris && (scene.has_loop || place == Place::Page),
+            &["spin_axis_debris_angle_rad", "pointing_error_launch_rad", "spin_axis_debris_angle_final_rad", "spin_axis_debris_angle_max_rad", "spin_axis_debris_angle_min_rad"]),
+        figure(One(Series::RateSquare), ("Angular rate of the body", "|omega|", Hue::Body), |scene, place| scene.has_loop || place == Place::Page,
+            &["angular_rate_rad_s", "angular_rate_final_rad_s", "angular_rate_max_rad_s", "body_rate_launch_rad_s"]),
+        figure(One(Series::SpinAxisAngle), ("Angle of s3 from its initial direction", "angle", Hue::Body), FREE_ON_PAGE,
+            &["spin_axis_angle_rad", "spin_axis_angle_final_rad", "spin_axis_angle_max_rad"]),
+        figure(One(Series::Nutation), ("Nutation angle: s3 from the angular momentum", "angle", Hue::Body), FREE_ON_PAGE,
+            &["nutation_angle_rad", "nutation_angle_final_rad", "nutation_angle_max_rad", "nutation_angle_min_rad"]),
+        figure(One(Series::FromNominal), ("Attitude relative to the nominal run", "angle", Hue::Body), FREE_ON_PAGE,
+            &["attitude_from_nominal_rad", "attitude_from_nominal_final_rad", "attitude_from_nominal_max_rad"]),
+        figure(State(StateField::Rate, XYZ), ("Angular velocity of the body, in F_s", "", Hue::Curve(0)), FREE_IN_PLOT, &[]),
+        figure(State(StateField::Attitude, WXYZ), ("Attitude quaternion of the body, F_s to F_e", "", Hue::Curve(0)), FREE_IN_PLOT, &[]),
+        figure(State(StateField::DebrisRate, XYZ), ("Angular velocity of the debris, in F_d", "", Hue::Curve(0)), |scene, place| FREE_IN_PLOT(scene, place) && scene.debris, &[]),
+        figure(State(StateField::DebrisAttitude, WXYZ), ("Attitude quaternion of the debris, F_d to F_e", "", Hue::Curve(0)), |scene, place| FREE_IN_PLOT(scene, place) && scene.debris, &[]),
+        // actuators
+        figure(Wheels(Series::MotorTorque), ("Torque", "torque", Hue::Wheel(0)), |scene, _| scene.drives, &["torque_{wheel}_n_m"]),
+        figure(Wheels(Series::WheelSpeed), ("Speed", "speed", Hue::Wheel(0)), |scene, place| scene.wheels && (scene.has_loop || place == Place::Page),
+            &["speed_{wheel}_rad_s", "speed_{wheel}_max_rad_s", "speed_peak_{wheel}_rad_s"]),
+        figure(State(StateField::WheelRates, &[]), ("Wheel rates", "", Hue::Wheel(0)), |scene, place| FREE_IN_PLOT(scene, place) && scene.wheels, &[]),
+        figure(Thrust, ("Thrust", "thrust", Hue::Curve(0)), |scene, _| scene.fires, &[]),
+        figure(Impulse, ("Impulse of the thrusters", "impulse", Hue::Curve(0)), |scene, _| scene.fires, &["impulse_total_n_s"]),
+        figure(Propellant, ("Propellant", "mass", Hue::Total), |scene, _| scene.fires, &["propellant_kg"]),
+        // energies: where nothing is controlled, or where they are asked for
+        figure(One(Series::AngularMomentumSquare), ("Angular momentum about the centre of mass", "", Hue::Body), FREE_IN_PLOT, &[]),
+        figure(One(Series::LinearMomentumSquare), ("Linear momentum in F_e", "", Hue::Body), FREE_IN_PLOT, &[]),
+        figure(Energies, ("Kinetic energy of", "energy", Hue::Body), FREE, ENERGIES),
+        figure(TotalEnergy, ("Kinetic energy, total", "energy", Hue::Curve(0)), FREE_IN_PLOT, &[]),
+        figure(Changes, ("Energy transfer of", "change of energy", Hue::Body), |scene, place| FREE_ON_PAGE(scene, place) && scene.wheels, CHANGES),
+        figure(Transfer, ("Energy transfer between wheels and body", "change of energy", Hue::Body), |scene, _| !scene.has_loop && scene.wheels, CHANGES),
+        figure(Balances, ("Relative errors of the balances", "", Hue::Curve(0)), |_, place| place == Place::Plot, &[]),
+    ]
+};

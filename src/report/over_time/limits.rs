@@ -1,0 +1,168 @@
+//! The limits in figures over time: those of requirements, and those of actuators.
+
+use crate::campaign::Plan;
+use crate::report::figure::Mark;
+use crate::report::page::readable::with_unit;
+use crate::statistics::gate::GateLimit;
+
+/// A limit that is larger than the values by this factor is outside of the axis, and named at its edge.
+const FAR: f64 = 3.0;
+/// A limit that is smaller than the largest value by this factor is on an axis by decades: on a linear one it would be on the axis.
+const SMALL: f64 = 30.0;
+/// Where values vary by less than this fraction of the largest, an axis from zero would hide how.
+const VARIES: f64 = 0.5;
+
+/// The limits of the requirements on `names`; `unit` is that of the figure, as the plan computes with it.
+pub fn required(plan: &Plan, names: impl Iterator<Item = String>, unit: &str) -> Vec<Mark> {
+    let names: Vec<String> = names.collect();
+    let mut marks: Vec<Mark> = Vec::new();
+    for requirement in plan.analysis.requirements.iter().filter(|one| names.iter().any(|name| name == one.name())) {
+        let (name, at) = (requirement.name(), requirement.limit.value());
+        let shown = plan.analysis.display.of(name, unit);
+        let word = if matches!(requirement.limit, GateLimit::AtMost(_)) { "at most" } else { "at least" };
+        let when = match name {
+            name if name.contains("_launch_") => " at the launch".to_owned(),
+            name if name.contains("_final_") => " at the end".to_owned(),
+            _ => requirement.times(),
+        };
+        let label = format!("{word} {}{when}", with_unit(shown.written(at), &shown.unit));
+        let mark = Mark::Limit { label, at, vertical: false };
+        if !marks.contains(&mark) {
+            marks.push(mark);
+        }
+    }
+    marks
+}
+
+/// The limits of actuators, a line for each value: those of all alike have no name of an actuator. `signed`: also below zero.
+pub fn of_actuators(what: &str, limits: &[(String, f64)], signed: bool) -> Vec<Mark> {
+    let finite: Vec<&(String, f64)> = limits.iter().filter(|(_, at)| at.is_finite() && *at > 0.0).collect();
+    let mut values: Vec<f64> = finite.iter().map(|(_, at)| *at).collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    let mark = |at: f64| {
+        let names: Vec<&str> = finite.iter().filter(|(_, of)| *of == at).map(|(name, _)| name.as_str()).collect();
+        let of = if names.len() == limits.len() { String::new() } else { format!(" of {}", names.join(", ")) };
+        let below = signed.then(|| Mark::Limit { label: String::new(), at: -at, vertical: false });
+        [Mark::Limit { label: format!("{what}{of}"), at, vertical: false }].into_iter().chain(below)
+    };
+    values.into_iter().flat_map(mark).collect()
+}
+
+/// The range of an axis by decades, where a limit is far below the largest of positive values; `None` where a linear axis shows it.
+pub fn decades(marks: &[Mark]) -> Option<[f64; 2]> {
+    let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
+    let limits = marks.iter().filter_map(|mark| match mark {
+        Mark::Limit { at, vertical: false, .. } => Some(*at),
+        _ => None,
+    });
+    let least = limits.filter(|at| *at > 0.0).reduce(f64::min)?;
+    let is_negative = |values: &Vec<f64>| values.iter().any(|value| *value < 0.0);
+    let is_signed = marks.iter().any(|mark| match mark {
+        Mark::Line { y, .. } => is_negative(y),
+        Mark::Band { low, .. } => is_negative(low),
+        _ => false,
+    });
+    (SMALL * least < largest && largest.is_finite() && !is_signed).then(|| [least / SMALL, 1.5 * largest])
+}
+
+/// The range of the vertical axis of `marks`: from zero where no value is negative and they vary, or belong to a loop, with the limits that are near; `None`
+/// where values alone say it.
+pub fn range(marks: &[Mark], is_controlled: bool) -> Option<[f64; 2]> {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let mut take = |values: &[f64]| {
+        for value in values.iter().filter(|value| value.is_finite()) {
+            (low, high) = (low.min(*value), high.max(*value));
+        }
+    };
+    for mark in marks {
+        match mark {
+            Mark::Line { y, .. } => take(y),
+            Mark::Band { low, high, .. } => {
+                take(low);
+                take(high);
+            }
+            _ => {}
+        }
+    }
+    let largest = high.abs().max(low.abs());
+    let limits = marks.iter().filter_map(|mark| match mark {
+        Mark::Limit { at, vertical: false, .. } => Some(*at),
+        _ => None,
+    });
+    let near: Vec<f64> = limits.filter(|at| at.abs() <= FAR * largest).collect();
+    if low > high || largest == 0.0 {
+        return None;
+    }
+    let is_positive = low >= 0.0;
+    if is_positive && !is_controlled && near.is_empty() && high - low < VARIES * high {
+        return None;
+    }
+    let top = near.iter().fold(high, |top, at| top.max(*at));
+    let bottom = near.iter().fold(low, |bottom, at| bottom.min(*at));
+    let bottom = if is_positive { bottom.min(0.0) } else { bottom };
+    // an axis may end with a limit: that is drawn at its edge
+    let free = 0.04 * (top - bottom);
+    Some([
+        if bottom < low && bottom < 0.0 || is_positive { bottom } else { bottom - free },
+        if top > high { top } else { top + free },
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::figure::{Dash, Hue};
+
+    fn curve(y: &[f64]) -> Mark {
+        Mark::line("", Hue::Body, Dash::Solid, vec![0.0; y.len()], y.to_vec())
+    }
+
+    fn limit(at: f64) -> Mark {
+        Mark::Limit { label: String::new(), at, vertical: false }
+    }
+
+    /// Law: an axis of positive quantities begins at zero, has the limits that are near and all values, and one of a free motion that hardly varies is its own.
+    #[test]
+    fn axes_have_what_matters() {
+        let of = |y: &[f64], limits: &[f64], is_controlled| {
+            let marks: Vec<Mark> = [curve(y)].into_iter().chain(limits.iter().map(|at| limit(*at))).collect();
+            range(&marks, is_controlled)
+        };
+        assert_eq!(of(&[4.0, 5.0], &[], false), None);
+        assert_eq!(of(&[4.0, 5.0], &[], true), Some([0.0, 5.2]));
+        assert_eq!(of(&[1.0, 5.0], &[], false), Some([0.0, 5.2]));
+        assert_eq!(of(&[4.0, 5.0], &[10.0], false), Some([0.0, 10.0]));
+        assert_eq!(of(&[4.0, 5.0], &[15.5], true), Some([0.0, 5.2]), "a limit that is far is named at the edge");
+        assert_eq!(of(&[-3.0, 2.0], &[4.0, -4.0], true), Some([-4.0, 4.0]));
+        assert_eq!(of(&[0.0, 0.0], &[4.0], true), None);
+        let [low, high] = of(&[-3.0, 2.0], &[], true).expect("a range");
+        assert!((low + 3.2).abs() < 1e-12 && (high - 2.2).abs() < 1e-12);
+    }
+
+    /// Law: an axis is by decades where a linear one would lay the limit onto zero, and never where values are negative.
+    #[test]
+    fn small_limits_are_seen_by_decades() {
+        assert_eq!(decades(&[curve(&[0.0, 60.0]), limit(3.0)]), None);
+        assert_eq!(decades(&[curve(&[0.0, 60.0]), limit(1.5)]), Some([0.05, 90.0]));
+        assert_eq!(decades(&[curve(&[-1.0, 60.0]), limit(1.5)]), None);
+        assert_eq!(decades(&[curve(&[0.0, 60.0])]), None);
+    }
+
+    /// Law: actuators with one limit share a line; others are named.
+    #[test]
+    fn actuators_are_named_where_they_differ() {
+        let named = |limits: &[(&str, f64)], signed| -> Vec<(String, f64)> {
+            let limits: Vec<(String, f64)> = limits.iter().map(|(name, at)| ((*name).to_owned(), *at)).collect();
+            let places = of_actuators("limit", &limits, signed).into_iter().map(|mark| match mark {
+                Mark::Limit { label, at, .. } => (label, at),
+                _ => panic!("{mark:?}"),
+            });
+            places.collect()
+        };
+        let text = |name: &str, at| (name.to_owned(), at);
+        assert_eq!(named(&[("a", 4.0), ("b", 4.0)], true), [text("limit", 4.0), text("", -4.0)]);
+        assert_eq!(named(&[("a", 4.0), ("b", 2.0)], false), [text("limit of b", 2.0), text("limit of a", 4.0)]);
+        assert_eq!(named(&[("a", f64::INFINITY), ("b", 2.0)], false), [text("limit of b", 2.0)]);
+    }
+}
