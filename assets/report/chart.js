@@ -83,6 +83,8 @@ function logAxis(axis, [low, high], room) {
   const customValues = logTicks(min, max);
   const text = (value) => {
     const power = Math.round(Math.log10(value));
+    // a short axis in plain numbers: no 10² between 50 and 200
+    if (min >= 1e-2 && max <= 1e4) return readable(value, 3);
     return Math.abs(Math.log10(value) - power) < 1e-9 ? `10${superscript(power)}` : readable(value, 3);
   };
   return { type: "log", min, max, name, texts: customValues.map(text), axisTick: { customValues }, axisLabel: { formatter: text, customValues, hideOverlap: true } };

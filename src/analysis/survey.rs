@@ -438,10 +438,13 @@ mod tests {
         let mut sketch = Sketch::default();
         (1..=1000).for_each(|value| sketch.add(f64::from(value)));
         let ranks = interval_ranks(1000, 0.9, 0.95);
-        let [low, high] = interval(1000, &sketch.ranks(), 0.9);
+        let [low, high] = interval(1000, &sketch.ranks(), 0.9, 0.95);
         // the sketch answers within 0.05%
         assert!((low - ranks.lower.unwrap() as f64).abs() < 0.5 && (high - ranks.upper.unwrap() as f64).abs() < 0.5);
-        assert!(interval(1000, &sketch.ranks(), 0.9999)[1].is_nan(), "1000 runs do not bound that quantile from above");
+        assert!(
+            interval(1000, &sketch.ranks(), 0.9999, 0.95)[1].is_nan(),
+            "1000 runs do not bound that quantile from above"
+        );
     }
 
     /// Law: about as many samples are kept as are allowed, never more; all of a small campaign; the nominal one always.
