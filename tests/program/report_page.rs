@@ -7,7 +7,7 @@ use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
 /// A page is smaller than this, also of a million runs: `../docs/results.md`.
-const LARGEST: usize = 3_000_000;
+const LARGEST: usize = 2_000_000;
 
 fn page(scratch: &ScratchFolder, result: &str) -> String {
     scratch.text(&format!("{result}/report.html"))
