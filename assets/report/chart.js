@@ -49,7 +49,7 @@ function linearAxis(axis, [low, high], isTime, count, room) {
   // what varies by rounding alone is constant
   if (!(high - low > 1e-10 * Math.max(Math.abs(low), Math.abs(high)))) {
     const half = low === 0 ? 1 : 0.05 * Math.abs(low);
-    [low, high] = [low - half, high + half];
+    [low, high] = [low >= 0 ? Math.max(0, low - half) : low - half, high + half];
   }
   const step = roundStep(high - low, count);
   const scale = tickScale(low, high, axis.unit);
@@ -84,6 +84,8 @@ function logAxis(axis, [low, high], room) {
   const customValues = logTicks(min, max);
   const text = (value) => {
     const power = Math.round(Math.log10(value));
+    // a short axis in plain numbers: no 10² between 50 and 200
+    if (min >= 1e-2 && max <= 1e4) return readable(value, 3);
     return Math.abs(Math.log10(value) - power) < 1e-9 ? `10${superscript(power)}` : readable(value, 3);
   };
   return { type: "log", min, max, name, texts: customValues.map(text), axisTick: { customValues }, axisLabel: { formatter: text, customValues, hideOverlap: true } };
@@ -95,12 +97,15 @@ function axisOption(figure, which, palette, width) {
   const label = { color: palette.quiet, fontFamily: FONT, fontSize: 12 };
   if (axis.names) {
     const longest = Math.max(14, Math.min(34, Math.floor((0.5 * width - 16) / LETTER)));
-    const short = (name) => (name.length > longest ? `…${name.slice(1 - longest)}` : name);
+    const half = (longest - 1) / 2;
+    const short = (name) => (name.length > longest ? `${name.slice(0, Math.floor(half))}…${name.slice(-Math.ceil(half))}` : name);
     const names = which === "x" ? axis.names.map((_, index) => String(index + 1)) : axis.names.map((name, index) => (figure.x.names ? `${short(name)}  ${index + 1}` : short(name)));
-    return { ...style, type: "category", data: names, inverse: which === "y", splitLine: { show: false }, axisLabel: { ...label, interval: 0 }, axisTick: { show: false } };
+    return { ...style, type: "category", data: names, inverse: which === "y", splitLine: { show: false }, axisLabel: { ...label, interval: which === "x" ? Math.max(0, Math.ceil((DIGIT * 2 + 4) / Math.max(1, (0.5 * width) / axis.names.length)) - 1) : 0 }, axisTick: { show: false } };
   }
   const given = axis.range && axis.range[0] < axis.range[1] ? axis.range : null;
-  const range = given ?? extent(figure, which);
+  let range = given ?? extent(figure, which);
+  // what is never negative begins at 0, unless most of the axis would be empty
+  if (!given && !axis.log && range[0] > 0 && range[0] < 0.5 * range[1]) range = [0, range[1]];
   const room = which === "x" ? width - 84 : heightOf(figure, width) - 58;
   const found = axis.log ? logAxis(axis, range, room) : linearAxis(axis, range, which === "x" && figure.time, which === "x" ? Math.max(3, width / 90) : 5, room);
   // the title of a vertical axis is beside the longest of its numbers

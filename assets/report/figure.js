@@ -6,7 +6,8 @@ import { readable } from "./numbers.js";
 import { saveButtons } from "./save.js";
 import { colors, isOnPaper, onTheme } from "./theme.js";
 
-const PAPER_WIDTH = 360;
+const PAPER_WIDTH = 250;
+const WHOLE_PAPER = 700;
 const views = [];
 
 function element(tag, className, text) {
@@ -57,7 +58,9 @@ export class FigureView {
     this.tip.hidden = true;
     this.cursor = element("div", "cursor");
     this.cursor.hidden = true;
-    this.box.append(head, this.legend, this.plot, element("figcaption", "", figure.caption));
+    const caption = element("figcaption", "", figure.caption);
+    caption.addEventListener("click", () => caption.classList.toggle("open"));
+    this.box.append(head, this.legend, this.plot, caption);
     this.listen();
     views.push(this);
   }
@@ -69,8 +72,9 @@ export class FigureView {
   }
 
   draw() {
-    // on paper two figures share the width: so wide that their text has the size of the text around
-    const width = isOnPaper() ? PAPER_WIDTH : Math.max(240, Math.floor(this.plot.clientWidth));
+    // on paper three figures share the width: so wide that their text has the size of the text around
+    const paper = this.figure.columns === 12 ? WHOLE_PAPER : PAPER_WIDTH;
+    const width = isOnPaper() ? paper : Math.max(240, Math.floor(this.plot.clientWidth));
     if (this.chart && width === this.width && this.palette === colors().background) return;
     [this.width, this.palette] = [width, colors().background];
     const height = heightOf(this.figure, width);
@@ -157,7 +161,15 @@ export function moveCursors(time) {
   for (const view of views) view.moveCursor(time);
 }
 
-// Puts the figures into their sections; each is drawn when it comes near the screen, all of them for print.
+// Draws one figure after the other whenever the browser has nothing else to do, so that a capture of the whole page and a search in it see all.
+function drawWhenIdle() {
+  const next = views.find((view) => !view.chart && view.plot.clientWidth > 0);
+  if (!next) return;
+  next.draw();
+  (globalThis.requestIdleCallback ?? setTimeout)(drawWhenIdle);
+}
+
+// Puts the figures into their sections; each is drawn when it comes near the screen or the browser is idle, all of them for print.
 export function showFigures(figures, echarts) {
   const near = new IntersectionObserver(
     (entries) => {
@@ -175,6 +187,8 @@ export function showFigures(figures, echarts) {
   const redraw = () => views.filter((view) => view.chart).forEach((view) => view.draw());
   new ResizeObserver(() => requestAnimationFrame(redraw)).observe(document.querySelector("main"));
   onTheme(redraw);
+  for (const fold of document.querySelectorAll("details.fold")) fold.addEventListener("toggle", drawWhenIdle);
+  (globalThis.requestIdleCallback ?? setTimeout)(drawWhenIdle);
   addEventListener("beforeprint", () => drawAll());
 }
 

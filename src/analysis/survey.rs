@@ -20,8 +20,6 @@ use crate::statistics::quantile::interval_ranks;
 use crate::statistics::sketch::{Ranks, Sketch, middle};
 use crate::storage::rows_reader::RowsError;
 
-/// Confidence of the intervals on the page.
-pub const CONFIDENCE: f64 = 0.95;
 /// Most rows of the thinned table.
 pub const THINNED: u64 = 16_384;
 /// Most points of a scatter plot.
@@ -51,8 +49,10 @@ pub struct SurveyedOutcome {
     pub worst: Vec<(SampleId, f64)>,
     /// Its value in the nominal run; NaN where that has none.
     pub nominal: f64,
-    /// Quantiles of the first runs: number of runs, median, 99%-quantile, and the ends of its interval.
-    pub growth: Vec<[f64; 5]>,
+    /// The confidence of its intervals, that of the statistics.
+    pub confidence: f64,
+    /// Quantiles of the first runs: number of runs, median, 99%-quantile, and the ends of its interval; and how many of the runs are above a half.
+    pub growth: Vec<[f64; 6]>,
     /// The number of runs at which quantiles are noted next.
     next_growth: u64,
 }
@@ -106,11 +106,11 @@ fn is_error(name: &str) -> bool {
 }
 
 /// The distribution-free interval of the `p`-quantile of `count` numbers (order statistics); NaN where there are too few for an end.
-fn interval(count: u64, ranks: &Ranks, p: f64) -> [f64; 2] {
+fn interval(count: u64, ranks: &Ranks, p: f64, confidence: f64) -> [f64; 2] {
     if count == 0 {
         return [f64::NAN; 2];
     }
-    let places = interval_ranks(count, p, CONFIDENCE);
+    let places = interval_ranks(count, p, confidence);
     [places.lower, places.upper].map(|rank| rank.and_then(|rank| ranks.bounds(rank)).map_or(f64::NAN, middle))
 }
 
@@ -202,6 +202,7 @@ impl Surveyor {
             sketch: Sketch::default(),
             worst: Vec::new(),
             nominal: f64::NAN,
+            confidence: plan.analysis.confidence,
             growth: Vec::new(),
             next_growth: FIRST_GROWTH,
         };
@@ -349,6 +350,13 @@ impl Survey {
 }
 
 impl SurveyedOutcome {
+    /// Whether it answers yes or no: every value is 1 or 0.
+    pub fn is_yes_or_no(&self, values: &[f64]) -> bool {
+        let are_ends =
+            self.sketch.min().is_some_and(|min| min >= 0.0) && self.sketch.max().is_some_and(|max| max <= 1.0);
+        are_ends && values.iter().all(|value| value.is_nan() || *value == 0.0 || *value == 1.0)
+    }
+
     /// Adds the values of `samples`; NaN is none.
     fn add(&mut self, samples: &[SampleId], values: &[f64]) {
         let is_low = self.is_worst_when_low;
@@ -387,9 +395,10 @@ impl SurveyedOutcome {
     fn grow(&mut self) {
         const HIGH: f64 = 0.99;
         let (count, ranks) = (self.sketch.count(), self.sketch.ranks());
-        let [low, high] = interval(count, &ranks, HIGH);
+        let [low, high] = interval(count, &ranks, HIGH, self.confidence);
         let of = |p: f64| ranks.quantile(p).unwrap_or(f64::NAN);
-        self.growth.push([count as f64, of(0.5), of(HIGH), low, high]);
+        let above = count - ranks.at_most(0.5)[1];
+        self.growth.push([count as f64, of(0.5), of(HIGH), low, high, above as f64]);
         // four steps to a doubling
         self.next_growth = (count as f64 * libm::pow(2.0, 0.25)) as u64 + 1;
     }
@@ -428,11 +437,14 @@ mod tests {
     fn intervals_are_order_statistics() {
         let mut sketch = Sketch::default();
         (1..=1000).for_each(|value| sketch.add(f64::from(value)));
-        let ranks = interval_ranks(1000, 0.9, CONFIDENCE);
-        let [low, high] = interval(1000, &sketch.ranks(), 0.9);
+        let ranks = interval_ranks(1000, 0.9, 0.95);
+        let [low, high] = interval(1000, &sketch.ranks(), 0.9, 0.95);
         // the sketch answers within 0.05%
         assert!((low - ranks.lower.unwrap() as f64).abs() < 0.5 && (high - ranks.upper.unwrap() as f64).abs() < 0.5);
-        assert!(interval(1000, &sketch.ranks(), 0.9999)[1].is_nan(), "1000 runs do not bound that quantile from above");
+        assert!(
+            interval(1000, &sketch.ranks(), 0.9999, 0.95)[1].is_nan(),
+            "1000 runs do not bound that quantile from above"
+        );
     }
 
     /// Law: about as many samples are kept as are allowed, never more; all of a small campaign; the nominal one always.

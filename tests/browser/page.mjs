@@ -11,7 +11,7 @@ import { basename, dirname, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import puppeteer from "puppeteer-core";
 
-const LARGEST = 3_000_000; // bytes of a page
+const LARGEST = 2_000_000; // bytes of a page
 const FEWEST_COLORS = 3; // background, axes and at least one mark
 const SLICE = 8000; // pixels of a screenshot
 const [folder, ...pages] = process.argv.slice(2);

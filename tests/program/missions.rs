@@ -57,7 +57,7 @@ fn ends_are_those_of_the_rows() {
     let scatter = found.figure("scatter_phase_rest_begin_s_initial_angular_velocity_y_rad_s");
     assert!(known < began.len() && scatter["caption"] == format!("{known} runs that were computed."), "{scatter}");
     // what failed is the mission, and not its computation
-    let worst = between(&page, "id=\"worst\"", "id=\"replay\"");
+    let worst = between(&page, "id=\"worst\"", "</section>");
     for row in worst.split("<tr>").skip(3) {
         let sample = between(row, "<th scope=\"row\">", "</th>").parse::<usize>().expect("a sample");
         let mission = if failures[sample] == 1.0 { "; mission failed: a phase took too long" } else { "" };

@@ -236,7 +236,7 @@ fn listed_runs_have_their_ranks() {
         }
         let columns = found.all(&inputs.iter().map(|(_, column)| column.as_str()).collect::<Vec<_>>());
         let (mut first, mut later) = (0, 0);
-        for row in between(&page, "id=\"worst\"", "id=\"replay\"").split("<tr>").skip(2) {
+        for row in between(&page, "id=\"worst\"", "</section>").split("<tr>").skip(2) {
             let sample = between(row, "<th scope=\"row\">", "</th>");
             assert!(row.contains(&format!("--sample {sample}</code>")), "{row}");
             let why = between(row, "<td>", "</td>");
@@ -267,9 +267,16 @@ fn listed_runs_have_their_ranks() {
                 let (name, value) = input.split_once(" = ").expect("a value");
                 let place = inputs.iter().position(|(one, _)| one == name).unwrap_or_else(|| panic!("{name}"));
                 let (values, nominal) = (&columns[place], columns[place][0]);
+                let (value, rest) = value.split_once(", nominal ").expect("the nominal value");
+                let (known, sigmas) =
+                    rest.strip_suffix(" \u{3c3})").and_then(|rest| rest.split_once(" (")).expect("sigmas");
                 same(value, &values[sample].into(), name);
+                same(known, &nominal.into(), name);
                 let squares: f64 = values.iter().map(|value| (value - nominal).powi(2)).sum();
                 let distance = (values[sample] - nominal).abs() / squares.sqrt();
+                // one decimal is shown, and the nominal row may be among those that the spread is of
+                let spread = (squares / (values.len() - 1) as f64).sqrt();
+                assert!(((values[sample] - nominal).abs() / spread - read_number(sigmas)).abs() < 0.1, "{input}");
                 assert!(distance <= last, "{row}");
                 last = distance;
             }

@@ -404,3 +404,29 @@ fn derived_observables_are_a_file() {
     found.scratch.command("campaign c.toml --out r").output().expect("the program starts");
     assert!(!found.scratch.path("r/observables.parquet").exists());
 }
+
+/// Law: an outcome that answers yes or no is a share with its interval against the number of runs, and no histogram; at the confidence of the file.
+#[test]
+fn yes_or_no_is_a_share() {
+    let derived = "[[observable]]\nname = \"is_fast\"\nexpression = \"angular_rate_final_rad_s > 30\"\n";
+    let found = found("yes", &(motion() + derived + "[statistics]\nconfidence = 0.9\n"));
+    let names: Vec<&str> =
+        found.data["figures"].as_array().unwrap().iter().map(|one| one["name"].as_str().unwrap()).collect();
+    assert!(!names.contains(&"histogram_is_fast") && !names.contains(&"cumulative_is_fast"), "{names:?}");
+    assert!(names.contains(&"histogram_angular_rate_final_rad_s"), "others have one: {names:?}");
+    let [x, y] = ["x", "y"].map(|key| found.array(&found.mark("share_is_fast", "share of runs")[key]));
+    let values = found.column("is_fast");
+    assert_eq!(x.last(), Some(&(values.len() as f64)));
+    let band = found.mark("share_is_fast", "90% interval");
+    let [low, high] = ["low", "high"].map(|key| found.array(&band[key]));
+    for k in 0..x.len() {
+        let share = values[..x[k] as usize].iter().sum::<f64>() / x[k];
+        assert!((y[k] - share).abs() < 1e-12 && low[k] <= y[k] && y[k] <= high[k], "{} of {}: {share}", y[k], x[k]);
+    }
+    let last = x.len() - 1;
+    assert!(high[last] - low[last] < high[0] - low[0], "narrower with more runs");
+    // the same confidence at every interval
+    for figure in ["cumulative_angular_rate_final_rad_s", "tail_energy_error_max"] {
+        found.mark(figure, "90% interval");
+    }
+}

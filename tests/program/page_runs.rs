@@ -240,7 +240,7 @@ fn two_statuses_are_told_apart() {
     let summary = found.scratch.summary("r");
     let page = found.scratch.text("r/report.html");
     let visible = page.split_once("<script").expect("scripts").0;
-    let worst = &visible[visible.find("id=\"worst\"").unwrap()..visible.find("id=\"replay\"").unwrap()];
+    let worst = super::page_cards::between(visible, "id=\"worst\"", "</section>");
     let rows: Vec<&str> = worst.split("<tr>").collect();
     // the bars are side by side
     let mut end = summary["statuses"]["ok"].as_f64().expect("a count") / 3.0;

@@ -24,7 +24,8 @@ pub enum Judged {
 }
 
 impl Judged {
-    const fn word(self) -> &'static str {
+    /// Its word.
+    pub const fn word(self) -> &'static str {
         match self {
             Judged::Pass => "PASS",
             Judged::Fail => "FAIL",
@@ -47,7 +48,8 @@ impl Judged {
         }
     }
 
-    const fn class(self) -> &'static str {
+    /// Its class in the style sheet.
+    pub const fn class(self) -> &'static str {
         match self {
             Judged::Pass => "pass",
             Judged::Fail => "fail",
@@ -158,6 +160,12 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &Shown
     }
 }
 
+/// What the verdicts are together: failed where one is, else undecided where one is; `None` without any.
+pub fn overall(verdicts: &[Card]) -> Option<Judged> {
+    let order = [Judged::Fail, Judged::Undecided, Judged::Pass];
+    order.into_iter().find(|judged| verdicts.iter().any(|card| card.judged == *judged))
+}
+
 /// The strongest inputs of an outcome in words; empty where that is not known.
 pub fn driven_by(outcome: &str, influences: &[Influence]) -> String {
     let of = influences.iter().filter(|one| one.outcome == outcome).map(|one| one.drivers.as_str());
@@ -187,10 +195,21 @@ impl Card {
                 &format!("{}{interval}", with_unit(self.estimate, &self.unit)),
             );
         }
+        let shown = core::mem::take(&mut rows);
+        let mut row = |term: &str, text: &str| {
+            if !text.is_empty() {
+                rows += &format!("<p class=\"detail\"><b>{}</b> {}</p>", escaped(term), escaped(text));
+            }
+        };
         row("Driven by", &self.drivers);
         row("Note:", &self.note);
+        let more = if rows.is_empty() {
+            rows
+        } else {
+            format!("<details class=\"more\"><summary>Drivers and notes</summary>{rows}</details>")
+        };
         format!(
-            "<article class=\"card {}\"><h3><svg class=\"verdict\" viewBox=\"0 0 24 24\" aria-hidden=\"true\">{}</svg><span class=\"word\">{}</span> {}</h3><p>{}</p>{}{rows}</article>\n",
+            "<article class=\"card {}\"><h3><svg class=\"verdict\" viewBox=\"0 0 24 24\" aria-hidden=\"true\">{}</svg><span class=\"word\">{}</span> {}</h3><p>{}</p>{}{shown}{more}</article>\n",
             self.judged.class(),
             self.judged.shape(),
             self.judged.word(),

@@ -45,7 +45,7 @@ pub struct PageSection {
     pub html: String,
     /// Whether figures are put into it.
     pub has_figures: bool,
-    /// Whether its figures are folded away, and then whether that is open at first.
+    /// Whether figures and content are folded away, and then whether that is open at first.
     pub fold: Option<bool>,
 }
 
@@ -61,8 +61,10 @@ fn script() -> String {
 }
 
 /// The whole page. `numbers` is a compressed payload, `data` says what is where in it.
-pub fn document(name: &str, first_screen: &str, sections: &[PageSection], data: &Value, numbers: &str) -> String {
-    let links: String = [("status", "Status"), ("verdicts", "Verdicts")]
+///
+/// `title` is that of the browser's tab.
+pub fn document(title: &str, first_screen: &str, sections: &[PageSection], data: &Value, numbers: &str) -> String {
+    let links: String = [("verdicts", "Verdicts")]
         .into_iter()
         .chain(sections.iter().map(|section| (section.anchor, section.title)))
         .map(|(anchor, title)| format!("<a href=\"#{anchor}\">{}</a>", escaped(title)))
@@ -73,27 +75,27 @@ pub fn document(name: &str, first_screen: &str, sections: &[PageSection], data: 
             let lead =
                 if section.lead.is_empty() { String::new() } else { format!("<p class=\"lead\">{}</p>", section.lead) };
             let figures = if section.has_figures { "<div class=\"figures\"></div>" } else { "" };
-            let figures = match section.fold {
-                None => figures.to_owned(),
+            let content = format!("{figures}{}", section.html);
+            let content = match section.fold {
+                None => content,
                 Some(is_open) => format!(
-                    "<details class=\"fold\"{}><summary>Show the figures</summary>{figures}</details>",
+                    "<details class=\"fold\"{}><summary>Show</summary>{content}</details>",
                     if is_open { " open" } else { "" }
                 ),
             };
             format!(
-                "<section id=\"{}\"><h2><a href=\"#{}\">{}</a></h2>{lead}{figures}{}</section>\n",
+                "<section id=\"{}\"><h2><a href=\"#{}\">{}</a></h2>{lead}{content}</section>\n",
                 section.anchor,
                 section.anchor,
                 escaped(section.title),
-                section.html
             )
         })
         .collect();
     let block =
         |id: &str, text: &str| format!("<script type=\"application/octet-stream\" id=\"{id}\">{text}</script>\n");
     format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{} - spindrift</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>{first_screen}</header>\n<nav aria-label=\"Sections\">{links}<button type=\"button\" id=\"theme\" hidden>dark</button></nav>\n<main>\n<noscript><p class=\"lead\">Figures need JavaScript; the tables below do not.</p></noscript>\n{body}</main>\n{}{}{}{}{}<script>\n{}</script>\n</body>\n</html>\n",
-        escaped(name),
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{} - spindrift</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<nav aria-label=\"Sections\"><div class=\"links\">{links}</div><button type=\"button\" id=\"theme\" hidden>dark</button></nav>\n<header>{first_screen}</header>\n<main>\n<noscript><p class=\"lead\">Figures need JavaScript; the tables below do not.</p></noscript>\n{body}</main>\n{}{}{}{}{}<script>\n{}</script>\n</body>\n</html>\n",
+        escaped(title),
         block("data", &packed(data.to_string().as_bytes())),
         block("numbers", numbers),
         block("licence-texts", &packed(LICENCES.as_bytes())),

@@ -1,12 +1,13 @@
 //! Figures of the numerical errors: histograms, exceedance, estimate against audited error, work.
 
-use crate::analysis::survey::{CONFIDENCE, Survey, SurveyedOutcome};
+use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::histogram::{bins, counts};
 use crate::report::page::NO_INTERVAL;
 use crate::report::page::shown_columns::words;
 use crate::run::Status;
 use crate::statistics::binomial::interval;
+use crate::statistics::quantile::percent;
 use crate::statistics::sketch::{Sketch, middle};
 
 /// Fewer runs than this have no distribution to be seen.
@@ -97,10 +98,15 @@ pub fn histogram(survey: &Survey, index: usize, outcome: &SurveyedOutcome, secti
     }
 }
 
+/// What an interval of this confidence is called.
+pub fn interval_label(confidence: f64) -> String {
+    format!("{}% interval", percent(confidence))
+}
+
 /// The fraction of runs above a value, on logarithmic axes, at ranks spaced by decades.
 fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
-    let (x, y, low, high) = tail(&outcome.sketch);
-    let label = format!("{}% interval", (100.0 * CONFIDENCE).round());
+    let (x, y, low, high) = tail(&outcome.sketch, outcome.confidence);
+    let label = interval_label(outcome.confidence);
     let mut marks = Vec::new();
     if has_intervals {
         marks.push(Mark::Band { label, hue: Hue::Total, opacity: 0.15, x: x.clone(), low, high, stacked: false });
@@ -123,9 +129,9 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         samples: outcome.worst.first().map(|(sample, _)| sample.0 as f64).into_iter().collect(),
     });
     let interval = if has_intervals {
-        " Band: Clopper-Pearson interval of the fraction (95%)."
+        format!(" Band: Clopper-Pearson, {}.", interval_label(outcome.confidence))
     } else {
-        &format!(" {NO_INTERVAL}")
+        format!(" {NO_INTERVAL}")
     };
     Figure {
         name: format!("tail_{}", outcome.quantity.name()),
@@ -145,7 +151,7 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
 }
 
 /// Values of ascending size, the fraction of runs that reach them, and the ends of its interval.
-fn tail(sketch: &Sketch) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
+fn tail(sketch: &Sketch, confidence: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
     let count = sketch.count();
     let mut ranks: Vec<u64> = (0..)
         .map(|k| libm::pow(10.0, f64::from(k) / RANKS_PER_DECADE) as u64)
@@ -160,7 +166,7 @@ fn tail(sketch: &Sketch) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
         let Some(value) = ranks_of.bounds(count + 1 - rank).map(middle).filter(|value| *value > smallest) else {
             continue;
         };
-        let [low, high] = interval(rank, count, CONFIDENCE);
+        let [low, high] = interval(rank, count, confidence);
         found.0.push(value);
         found.1.push(rank as f64 / count as f64);
         found.2.push(low);
@@ -229,7 +235,7 @@ mod tests {
     fn the_tail_ends_at_the_largest() {
         let mut sketch = Sketch::default();
         (1..=5000).for_each(|k| sketch.add(f64::from(k)));
-        let (x, y, low, high) = tail(&sketch);
+        let (x, y, low, high) = tail(&sketch, 0.95);
         assert!(x.is_sorted() && y.iter().rev().is_sorted());
         assert_eq!((*x.last().unwrap(), y[0], *y.last().unwrap()), (5000.0, 1.0, 1.0 / 5000.0));
         for k in 0..x.len() {

@@ -5,7 +5,7 @@ use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
 use crate::report::escaped::escaped;
 use crate::report::mission_text;
-use crate::report::page::cards::Card;
+use crate::report::page::cards::{Card, Judged, overall};
 use crate::report::page::errors::sentence;
 use crate::report::page::readable::{grouped, number};
 use crate::run::Status;
@@ -14,8 +14,8 @@ use crate::run::Status;
 const EXAMPLE: &str =
     "[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.99\nat_most = 1e-9\nconfidence = 0.95";
 
-/// Name, question, and the facts of the campaign.
-pub fn header(plan: &Plan) -> String {
+/// Name with the verdict, question, and the facts of the campaign.
+pub fn header(plan: &Plan, verdicts: &[Card]) -> String {
     let dispersed = plan.dispersed_rows();
     let runs = if plan.chosen.is_some() {
         format!("{} chosen runs of {} samples", grouped(plan.rows()), grouped(plan.samples))
@@ -34,8 +34,9 @@ pub fn header(plan: &Plan) -> String {
         .as_deref()
         .map_or(String::new(), |text| format!("<p class=\"question\">{}</p>", escaped(&sentence(text))));
     format!(
-        "<h1>{}</h1>{question}\n<p class=\"facts\">{runs} \u{b7} design {} \u{b7} seed {} \u{b7} {} s each \u{b7} method {}, {steps} \u{b7} spindrift {} \u{b7} plan <button type=\"button\" class=\"hash\" data-copy=\"{hash}\" title=\"Copy the whole hash\">{}</button></p>\n",
+        "<h1>{}{}</h1>{question}\n<p class=\"facts\">{runs} \u{b7} design {} \u{b7} seed {} \u{b7} {} s each \u{b7} method {}, {steps} \u{b7} spindrift {} \u{b7} plan <button type=\"button\" class=\"hash\" data-copy=\"{hash}\" title=\"Copy the whole hash\">{}</button></p>\n",
         escaped(&plan.name),
+        verdict(verdicts),
         escaped(plan.design.name()),
         plan.seed,
         number(plan.grid.duration()),
@@ -43,6 +44,33 @@ pub fn header(plan: &Plan) -> String {
         env!("CARGO_PKG_VERSION"),
         &hash[..8],
     )
+}
+
+/// The verdict on all requirements, and how many have each; nothing without any.
+fn verdict(verdicts: &[Card]) -> String {
+    let Some(overall) = overall(verdicts) else { return String::new() };
+    let count = |judged: Judged| verdicts.iter().filter(|card| card.judged == judged).count();
+    let of = |judged: Judged| (count(judged) > 0).then(|| format!("{} {}", count(judged), judged.word()));
+    let counts: Vec<String> = [Judged::Pass, Judged::Fail, Judged::Undecided].into_iter().filter_map(of).collect();
+    format!(
+        " <span class=\"overall {}\">{}</span> <span class=\"quiet counts\">{}</span>",
+        overall.class(),
+        overall.word(),
+        counts.join(", ")
+    )
+}
+
+/// What drives the first outcome for which that is known, in a sentence; nothing where it is not.
+pub fn drivers(cards: &[Card]) -> String {
+    let found = cards.iter().find(|card| !card.drivers.is_empty());
+    found.map_or_else(String::new, |card| {
+        let (first, _) = card.drivers.split_once(". Spread: ").unwrap_or((&card.drivers, ""));
+        format!(
+            "<p id=\"drivers\"><b>What drives it:</b> {}: {}. <a href=\"#influence\">More</a></p>\n",
+            escaped(&card.quantity),
+            escaped(first)
+        )
+    })
 }
 
 /// What comes before every number; nothing where there is no warning.
@@ -201,6 +229,11 @@ pub fn verdicts(cards: &[Card], has_requirements: bool, said: &[String]) -> Stri
     };
     let said: String =
         said.iter().map(|text| format!("<p class=\"quiet\">{}.</p>", escaped(&sentence(text)))).collect();
+    let said = if said.is_empty() {
+        said
+    } else {
+        format!("<details><summary>How the verdicts are to be read together</summary>{said}</details>")
+    };
     let (title, example) = if has_requirements {
         ("Are the requirements met?", String::new())
     } else {
@@ -266,9 +299,10 @@ mod tests {
     fn a_tolerance_is_that_of_a_method_that_follows_it() {
         let text = include_str!("../../../campaigns/spin_sweep.toml");
         let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        let adaptive = header(&plan);
+        let adaptive = header(&plan, &[]);
         assert!(adaptive.contains("method auto, tolerance ") && !adaptive.contains("steps of"), "{adaptive}");
-        let fixed = header(&Plan { method: Method::Gyrostat(Integrator::RungeKutta4), step_s: Some(0.25), ..plan });
+        let fixed =
+            header(&Plan { method: Method::Gyrostat(Integrator::RungeKutta4), step_s: Some(0.25), ..plan }, &[]);
         assert!(fixed.contains("runge_kutta_4, steps of 0.25") && !fixed.contains("tolerance"), "{fixed}");
     }
 }

@@ -74,7 +74,7 @@ fn tornado(influence: &Influence, outcome: &SurveyedOutcome, inputs: &[(String, 
         x: Axis::linear(influence.measure.clone(), ""),
         y: Axis::names(inputs.iter().map(|(name, _)| name.clone()).collect()),
         marks: vec![Mark::Whiskers {
-            label: "95% interval".to_owned(),
+            label: crate::report::page::errors::interval_label(outcome.confidence),
             hue: Hue::Total,
             x: column(0),
             low: column(1),
@@ -144,11 +144,11 @@ pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         y: column(place),
     };
     let mut marks = Vec::new();
-    let bounded: Vec<&[f64; 5]> = growth.iter().filter(|row| row[3].is_finite() && row[4].is_finite()).collect();
+    let bounded: Vec<&[f64; 6]> = growth.iter().filter(|row| row[3].is_finite() && row[4].is_finite()).collect();
     if has_intervals && !bounded.is_empty() {
         let of = |place: usize| bounded.iter().map(|row| row[place]).collect::<Vec<f64>>();
         marks.push(Mark::Band {
-            label: "95% interval".to_owned(),
+            label: crate::report::page::errors::interval_label(outcome.confidence),
             hue: Hue::Wheel(0),
             opacity: 0.15,
             x: of(0),

@@ -103,6 +103,9 @@ impl Page {
         let main = survey
             .outcomes
             .iter()
+            .zip(&survey.thinned.outcomes)
+            .filter(|(outcome, values)| !outcome.is_yes_or_no(values))
+            .map(|(outcome, _)| outcome)
             .filter(|outcome| contents.influences.iter().any(|influence| influence.outcome == outcome.quantity.name()));
         figures.extend(main.map(|outcome| influence::convergence(outcome, has_intervals)));
         figures.retain(Figure::is_visible);
@@ -124,15 +127,20 @@ impl Page {
             contents.verdicts.clone()
         };
         let first = [
-            first_screen::header(plan),
+            first_screen::header(plan, &contents.verdicts),
             first_screen::warnings(&contents.warnings),
-            first_screen::status(plan, survey),
             first_screen::missions(&contents.missions),
             first_screen::verdicts(&cards, !contents.verdicts.is_empty(), &contents.said),
+            first_screen::drivers(&cards),
+            first_screen::status(plan, survey),
         ];
+        let title = match cards::overall(&contents.verdicts) {
+            Some(judged) => format!("{}: {}", judged.word(), plan.name),
+            None => plan.name.clone(),
+        };
         let has = |section: FigureSection| figures.iter().any(|figure| figure.section == section);
         let sections = sections(plan, contents, &shown, has_replay, &has);
-        Page { html: document(&plan.name, &first.concat(), &sections, &data, &payload.text()), figures }
+        Page { html: document(&title, &first.concat(), &sections, &data, &payload.text()), figures }
     }
 }
 
@@ -162,17 +170,17 @@ fn sections(
     let still = shown.iter().find_map(|run| run.run.as_ref()).map_or_else(String::new, |run| still::still(plan, run));
     let replay = format!("<div class=\"replay\">{still}<p>The replay needs JavaScript and WebGL.</p></div>");
     let table = tables::statistics(&contents.statistics, &plan.analysis.display);
+    let folded = |section: PageSection, is_open: bool| PageSection { fold: Some(is_open), ..section };
     let is_off = first_screen::is_above_tolerance(plan, &contents.survey);
     [
-        figures(FigureSection::Outcome, "Outcome", "What the runs end with: how it is distributed, and which part of the runs stays within a value.", ""),
-        figures(FigureSection::Time, "Over time", "How the spacecraft moves and where the energy is. Drag the time slider of the replay to move a cursor through these figures.", ""),
-        figures(FigureSection::Numerics, "Numerics", "How large the numerical errors are. Small and without a trend is good.", "")
-            .map(|section| PageSection { fold: Some(is_off), ..section }),
+        figures(FigureSection::Outcome, "Outcome", "How the outcomes are distributed, and which share of the runs stays within a value.", ""),
+        plain("replay", "Replay", "The nominal run and the worst ones in three dimensions.", replay).filter(|_| has_replay),
+        figures(FigureSection::Time, "Over time", "How the spacecraft moves. Drag the time slider of the replay to move a cursor through these figures.", ""),
         figures(FigureSection::Influence, "What drives it", "Which uncertain input makes the difference.", pairs),
         plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the worst outcomes. Each is replayed bit for bit by its command.", tables::worst_runs(plan, &contents.survey, shown)),
-        plain("replay", "Replay", "The nominal run and the worst ones in three dimensions.", replay).filter(|_| has_replay),
-        figures(FigureSection::Inputs, "Inputs", "What was applied, against what the campaign file asks for.", ""),
-        Some(PageSection { anchor: "statistics", title: "Statistics", lead: String::new(), html: table, has_figures: has(FigureSection::Statistics), fold: None }),
+        figures(FigureSection::Numerics, "Numerics", "How large the numerical errors are. Small and without a trend is good.", "").map(|section| folded(section, is_off)),
+        figures(FigureSection::Inputs, "Inputs", "What was applied, against what the campaign file asks for.", "").map(|section| folded(section, false)),
+        Some(PageSection { anchor: "statistics", title: "Statistics", lead: String::new(), html: table, has_figures: has(FigureSection::Statistics), fold: Some(false) }),
         plain("provenance", "Provenance", "", tables::provenance(plan, &contents.survey, &contents.files)),
     ]
     .into_iter()

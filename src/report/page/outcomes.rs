@@ -1,10 +1,10 @@
 //! Figures of the outcomes: how each is distributed, and how many runs stay below a value, with limits, quantiles and their intervals.
 
-use crate::analysis::survey::{CONFIDENCE, Survey, SurveyedOutcome};
+use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape, Scale};
 use crate::report::page::NO_INTERVAL;
-use crate::report::page::errors::{histogram, sentence};
+use crate::report::page::errors::{histogram, interval_label, sentence};
 use crate::report::page::readable::{number, with_unit};
 use crate::report::page::shown_columns::words;
 use crate::report::page::tables::StatisticsRow;
@@ -21,13 +21,50 @@ const FEWEST_RUNS: u64 = 8;
 pub fn figures(plan: &Plan, survey: &Survey, statistics: &[StatisticsRow], has_intervals: bool) -> Vec<Figure> {
     let outcomes = survey.outcomes.iter().enumerate().filter(|(_, outcome)| outcome.is_outcome);
     let shown = outcomes.filter(|(_, outcome)| outcome.sketch.count() >= FEWEST_RUNS);
-    let both = shown.flat_map(|(index, outcome)| {
+    let (mut distributions, mut curves) = (Vec::new(), Vec::new());
+    for (index, outcome) in shown {
+        if outcome.is_yes_or_no(&survey.thinned.outcomes[index]) {
+            distributions.push(share(outcome, has_intervals));
+            continue;
+        }
         let row = statistics.iter().find(|row| row.name == outcome.quantity.name());
         let mut distribution = histogram(survey, index, outcome, FigureSection::Outcome);
         distribution.marks.extend(limits(plan, outcome));
-        [distribution, cumulative(plan, outcome, row, has_intervals)].map(near_limits)
-    });
-    both.collect()
+        distributions.push(near_limits(Figure { columns: 4, ..distribution }));
+        curves.push(near_limits(Figure { columns: 4, ..cumulative(plan, outcome, row, has_intervals) }));
+    }
+    distributions.append(&mut curves);
+    distributions
+}
+
+/// The share of the first N runs in which an outcome is 1, against N, with its interval.
+fn share(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
+    let growth = &outcome.growth;
+    let x: Vec<f64> = growth.iter().map(|row| row[0]).collect();
+    let y: Vec<f64> = growth.iter().map(|row| row[5] / row[0]).collect();
+    let mut marks = Vec::new();
+    if has_intervals {
+        let ends = growth.iter().map(|row| interval(row[5] as u64, row[0] as u64, outcome.confidence));
+        let (low, high): (Vec<f64>, Vec<f64>) = ends.map(|[low, high]| (low, high)).unzip();
+        let label = interval_label(outcome.confidence);
+        marks.push(Mark::Band { label, hue: Hue::Total, opacity: 0.15, x: x.clone(), low, high, stacked: false });
+    }
+    marks.push(Mark::line("share of runs", Hue::Total, Dash::Solid, x, y));
+    let name = words(&outcome.quantity);
+    Figure {
+        name: format!("share_{}", outcome.quantity.name()),
+        section: FigureSection::Outcome,
+        title: format!("{}: share of runs", sentence(&name)),
+        caption: format!(
+            "Of the first N dispersed runs that were computed. {}",
+            if has_intervals { "Band: Clopper-Pearson." } else { NO_INTERVAL }
+        ),
+        columns: 4,
+        is_over_time: false,
+        x: Axis::log("runs N", ""),
+        y: Axis::linear("share of runs", "").within(0.0, 1.0),
+        marks,
+    }
 }
 
 /// The limits on an outcome.
@@ -72,7 +109,9 @@ fn near_limits(mut figure: Figure) -> Figure {
     if reach > 0.0 && !far.is_empty() {
         values.extend(near);
         let [low, high] = ends(&values);
-        figure.x = figure.x.within(low - MARGIN * (high - low), high + MARGIN * (high - low));
+        // an axis of what is never negative does not begin below 0
+        let floor = if low >= 0.0 { 0.0 } else { f64::NEG_INFINITY };
+        figure.x = figure.x.within((low - MARGIN * (high - low)).max(floor), high + MARGIN * (high - low));
     }
     figure
 }
@@ -94,15 +133,15 @@ fn marked(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow>) -
 
 /// The cumulative distribution.
 fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, has_intervals: bool) -> Figure {
-    let (x, y, low, high) = curve(&outcome.sketch);
+    let (x, y, low, high) = curve(&outcome.sketch, outcome.confidence);
     let mut marks = Vec::new();
     if has_intervals {
-        let label = format!("{}% interval", (100.0 * CONFIDENCE).round());
+        let label = interval_label(outcome.confidence);
         marks.push(Mark::Band { label, hue: Hue::Total, opacity: 0.15, x: x.clone(), low, high, stacked: false });
     }
     marks.push(Mark::line("fraction of runs", Hue::Total, Dash::Solid, x, y));
     for (place, [p, value, from, to]) in marked(plan, outcome, row).into_iter().enumerate() {
-        let hue = Hue::Curve(place + 1);
+        let hue = Hue::Curve(place + 2);
         let label = if p == 0.5 { "median".to_owned() } else { format!("{}%-quantile", number(100.0 * p)) };
         if has_intervals && from.is_finite() && to.is_finite() {
             marks.push(Mark::line(format!("interval of the {label}"), hue, Dash::Solid, vec![from, to], vec![p, p]));
@@ -114,7 +153,7 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
     let what = if outcome.is_error { format!("|{}|", words(&outcome.quantity)) } else { words(&outcome.quantity) };
     let is_log = outcome.is_error && outcome.sketch.min().is_some_and(|min| min > 0.0);
     let axis = if is_log { Axis::log } else { Axis::linear };
-    let interval = if has_intervals { "Band: Clopper-Pearson interval of the fraction (95%)." } else { NO_INTERVAL };
+    let interval = if has_intervals { "Band: Clopper-Pearson." } else { NO_INTERVAL };
     Figure {
         name: format!("cumulative_{}", outcome.quantity.name()),
         section: FigureSection::Outcome,
@@ -132,14 +171,14 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
 }
 
 /// Values of ascending size, the fraction of runs up to each, and the ends of its interval.
-fn curve(sketch: &Sketch) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
+fn curve(sketch: &Sketch, confidence: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
     let count = sketch.count();
     let (steps, ranks) = (count.min(MOST_POINTS), sketch.ranks());
     let mut found = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for step in 1..=steps {
         let rank = (step * count).div_ceil(steps);
         let Some(value) = ranks.bounds(rank).map(middle) else { continue };
-        let [low, high] = interval(rank, count, CONFIDENCE);
+        let [low, high] = interval(rank, count, confidence);
         found.0.push(value);
         found.1.push(rank as f64 / count as f64);
         found.2.push(low);
@@ -173,7 +212,7 @@ mod tests {
     fn the_curve_is_the_distribution() {
         let mut sketch = Sketch::default();
         (1..=5000).for_each(|k| sketch.add(f64::from(k)));
-        let (x, y, low, high) = curve(&sketch);
+        let (x, y, low, high) = curve(&sketch, 0.95);
         assert_eq!((x.len(), *y.last().unwrap(), *x.last().unwrap()), (400, 1.0, 5000.0));
         for k in 0..x.len() {
             assert!((x[k] / 5000.0 / y[k] - 1.0).abs() < 0.02, "{} of runs up to {}", y[k], x[k]);
@@ -181,7 +220,7 @@ mod tests {
         }
         let mut few = Sketch::default();
         [3.0, 1.0, 2.0].into_iter().for_each(|value| few.add(value));
-        let (x, y, ..) = curve(&few);
+        let (x, y, ..) = curve(&few, 0.95);
         assert!(x.is_sorted() && y == [1.0 / 3.0, 2.0 / 3.0, 1.0], "{x:?} {y:?}");
     }
 }

@@ -10,6 +10,16 @@ pub fn words(quantity: &Quantity) -> String {
         unit => format!("_{}", unit.to_lowercase().replace([' ', '/'], "_").replace('^', "")),
     };
     let name = quantity.name().strip_suffix(suffix.as_str()).unwrap_or(quantity.name());
+    // what a mission has at its launch, and when its phases began
+    if let Some(stem) = name.strip_suffix("_launch") {
+        return format!("{} at launch", stem.replace('_', " "));
+    }
+    if let Some(phase) = name.strip_prefix("phase_").and_then(|rest| rest.strip_suffix("_begin")) {
+        return format!("time until phase {}", phase.replace('_', " "));
+    }
+    if let Some(stem) = name.strip_suffix("_total") {
+        return format!("total {}", stem.replace('_', " "));
+    }
     let (stem, statistic) = [
         ("_peak_to_peak", "peak-to-peak "),
         ("_max", "maximum "),
@@ -42,5 +52,8 @@ mod tests {
         assert_eq!(words("angular_rate_max_rad_s", "rad/s"), "maximum angular rate");
         assert_eq!(words("omega_se_s_y_final_rad_s", "rad/s"), "final angular velocity about s2");
         assert_eq!(words("steps", ""), "steps");
+        assert_eq!(words("pointing_error_launch_rad", "rad"), "pointing error at launch");
+        assert_eq!(words("phase_coast_again_begin_s", "s"), "time until phase coast again");
+        assert_eq!(words("impulse_total_n_s", "N s"), "total impulse");
     }
 }

@@ -10,7 +10,7 @@ use crate::report::page::runs::ShownRun;
 use crate::run::Status;
 
 /// Inputs of a run that are listed; those farthest from nominal first, as multiples of their spread.
-const MOST_INPUTS: usize = 4;
+const MOST_INPUTS: usize = 3;
 
 /// Statistics of one observable.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,16 +116,18 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
             .map(|(index, (column, value))| {
                 let shown = unit_of(plan, index);
                 let name = column.parameter.component_name(column.component);
-                let text = format!("{name} = {}", with_unit(shown.value(*value), &shown.unit));
-                ((value - column.nominal).abs() / spreads[index], text)
+                let sigmas = (value - column.nominal).abs() / spreads[index];
+                let text = format!(
+                    "{name} = {}, nominal {} ({} \u{3c3})",
+                    with_unit(shown.value(*value), &shown.unit),
+                    with_unit(shown.value(column.nominal), &shown.unit),
+                    number(libm::round(10.0 * sigmas) / 10.0)
+                );
+                (sigmas, text)
             })
             .collect();
         inputs.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let all = inputs.len();
-        let mut listed: Vec<String> = inputs.into_iter().take(MOST_INPUTS).map(|(_, text)| escaped(&text)).collect();
-        if all > MOST_INPUTS {
-            listed.push(format!("and {} more", all - MOST_INPUTS));
-        }
+        let listed: Vec<String> = inputs.into_iter().take(MOST_INPUTS).map(|(_, text)| escaped(&text)).collect();
         let listed = if shown.sample.0 == 0 { "nominal values".to_owned() } else { listed.join("<br>") };
         let reached = shown.run.as_ref().is_some_and(|run| run.outcome.points.min(run.grid.points()) > 1);
         let status = if shown.status == Status::Done {
