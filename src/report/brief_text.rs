@@ -156,7 +156,7 @@ fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64]) -> Te
         let quantile = |p: f64| line.quantiles.iter().find(|one| one.p == p);
         match line.share_of_yes() {
             Some(share) => {
-                cells.extend([String::new(), format!("yes in {}", with_interval([share; 2], [f64::NAN; 2]))])
+                cells.extend([String::new(), format!("yes in {}", with_interval([share; 2], [f64::NAN; 2]))]);
             }
             None => {
                 cells.push(number(quantile(0.5).and_then(|one| one.value)));
