@@ -307,7 +307,9 @@ pub fn every_loop() -> Vec<String> {
     let laws = spindrift::control::laws::KINDS.iter().map(|kind| (kind.name, numbers(kind.parameters)));
     let laws: Vec<_> = laws.collect();
     let mut phases = String::new();
-    let targets = spindrift::control::guidance::target::TARGETS.iter().map(|(name, _)| *name);
+    let targets = spindrift::control::guidance::target::TARGETS;
+    let of_orbit = targets.iter().filter(|(_, target)| target.needs_orbit()).map(|(name, _)| *name);
+    let targets = targets.iter().filter(|(_, target)| !target.needs_orbit()).map(|(name, _)| *name);
     let maneuvers = spindrift::control::guidance::phase::MANEUVERS.iter().map(|(name, _)| *name);
     let pairs: Vec<_> = targets.flat_map(|target| maneuvers.clone().map(move |thrust| (target, thrust))).collect();
     let opposed = [("transfer", "stop"), ("stop", "transfer")];
@@ -331,6 +333,14 @@ pub fn every_loop() -> Vec<String> {
                  inertia_kg_m2 = [[3000, 0, 0], [0, 3000, 0], [0, 0, 1700]]\n{sensors}{phases}"
             ));
         }
+    }
+    let orbit = on_orbit("semi_major_axis_m = 9e6");
+    for target in of_orbit {
+        let attitude = if target == "orbital_attitude" { "attitude = [1, 0, 0, 0]\n" } else { "" };
+        files.push(format!(
+            "{orbit}[control]\nperiod_s = 0.25\nwheels = [\"w1\"]\n[[guidance]]\nphase = \"turn\"\n\
+             law = \"rate_damping\"\ngain_n_m_s = 1.0\ntarget = \"{target}\"\n{attitude}"
+        ));
     }
     files
 }
