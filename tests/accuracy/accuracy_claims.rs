@@ -109,7 +109,7 @@ fn gyrostats_after_a_thousand_revolutions() {
 }
 
 #[test]
-#[ignore = "some minutes: energies of a thousand scenes, the truth of a hundred (a second or two of one core each)"]
+#[ignore = "some minutes: energies of a thousand scenes, the truth of a hundred: cargo test --release --test accuracy -- --ignored many_gyrostats"]
 fn many_gyrostats_after_a_thousand_revolutions() {
     hold_gyrostats(1000, 100);
 }

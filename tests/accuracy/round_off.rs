@@ -179,7 +179,7 @@ fn taylor_errors_are_a_random_walk() {
 }
 
 #[test]
-#[ignore = "a minute: the same to a million steps"]
+#[ignore = "a minute: cargo test --release --test accuracy -- --ignored a_million_steps"]
 fn taylor_errors_are_a_random_walk_over_a_million_steps() {
     hold_law(4, "1e6");
 }

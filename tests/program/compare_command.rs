@@ -382,7 +382,7 @@ fn a_stopped_campaign_is_paired_in_all_its_samples() {
 /// 0.098 are (3.1 standard deviations, alpha = 1e-3). Power: a shift of the rate by one standard deviation, 3.9 standard errors of 30 pairs of
 /// runs, is found in more than half, although it is one of more than 100 observables.
 #[test]
-#[ignore = "half a minute"]
+#[ignore = "half a minute: cargo test --release --test program -- --ignored pairs_of_campaigns"]
 fn pairs_of_campaigns_without_a_shift_have_none() {
     let scratch = folder("compare-level");
     let (mut alarms, mut hits) = (0, 0);

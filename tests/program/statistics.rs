@@ -201,7 +201,7 @@ quantile = 0.9
 /// Law: beyond 100,000 rows quantiles of an observable with an offset of 2e5 standard deviations are within a hundredth of one of those of the rows, a
 /// median of zeros is zero, and shards that are counted from their files give the bytes of one process that counts while it runs.
 #[test]
-#[ignore = "half a minute: two campaigns of 100,200 runs"]
+#[ignore = "half a minute: cargo test --release --test program -- --ignored many_rows"]
 fn many_rows_have_quantiles_of_their_spread() {
     let scratch = folder("statistics-many");
     let text = campaign().replace("samples = 600", "samples = 100200").replace("duration_s = 1.0", "duration_s = 0.1");

@@ -112,8 +112,7 @@ pub struct LawSettings<'a> {
 }
 
 /// A law of attitude in a run, with what it remembers.
-// a run has one for each phase, and a box would be allocated
-#[allow(clippy::large_enum_variant)]
+#[expect(clippy::large_enum_variant, reason = "a run has one for each phase, and a box would be allocated")]
 #[derive(Clone, Debug)]
 pub enum AttitudeLaw {
     /// No torque.

@@ -65,12 +65,12 @@ impl Effect {
         }
     }
 
-    /// Whether it acts on `scene`.
-    pub const fn acts_on(self, scene: &Scene) -> bool {
+    /// Whether it acts in `environment`, on an orbit or on none.
+    const fn acts_in(self, environment: &EnvironmentInput, is_on_orbit: bool) -> bool {
         match self {
-            Effect::ConstantTorque => scene.environment.body_torque_n_m.is_some(),
-            Effect::GravityGradient => scene.environment.gravity_gradient,
-            Effect::Gravity => scene.orbit.is_some(),
+            Effect::ConstantTorque => environment.body_torque_n_m.is_some(),
+            Effect::GravityGradient => environment.gravity_gradient,
+            Effect::Gravity => is_on_orbit,
         }
     }
 }
@@ -89,16 +89,16 @@ impl ForceModel {
 
     /// The effects on `scene`.
     pub fn of(scene: &Scene) -> Self {
-        Effect::ALL.into_iter().filter(|effect| effect.acts_on(scene)).fold(Self::NONE, Self::with)
+        Self::acting(&scene.environment, scene.orbit.is_some())
     }
 
     /// Those that act on the scenes of `input`.
     pub fn of_input(input: &SceneInput) -> Self {
-        let acts = |effect: &Effect| match effect {
-            Effect::ConstantTorque => input.environment.body_torque_n_m.is_some(),
-            Effect::GravityGradient => input.environment.gravity_gradient,
-            Effect::Gravity => input.orbit.is_some(),
-        };
+        Self::acting(&input.environment, input.orbit.is_some())
+    }
+
+    fn acting(environment: &EnvironmentInput, is_on_orbit: bool) -> Self {
+        let acts = |effect: &Effect| effect.acts_in(environment, is_on_orbit);
         Effect::ALL.into_iter().filter(acts).fold(Self::NONE, Self::with)
     }
 
