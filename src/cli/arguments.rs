@@ -1,5 +1,6 @@
 //! [`Arguments`]: commands and options of the program, with their help texts.
 
+use std::ffi::OsString;
 use std::num::NonZeroU64;
 use std::path::PathBuf;
 
@@ -413,9 +414,9 @@ pub struct ColumnsOptions {
     pub campaign: Option<PathBuf>,
 }
 
-/// The arguments of this process; invalid ones end it with a message and code 2, and a request for help ends it with code 0.
-pub fn arguments() -> Arguments {
-    Arguments::try_parse().unwrap_or_else(|error| {
+/// What `words` mean, the name of the program first; invalid ones end the process with a message and code 2, and a request for help ends it with code 0.
+pub fn arguments(words: impl Iterator<Item = OsString>) -> Arguments {
+    Arguments::try_parse_from(words).unwrap_or_else(|error| {
         // the parser would print names as they are, with what a terminal obeys
         let text = error.render().to_string();
         if error.use_stderr() {

@@ -13,6 +13,7 @@ use crate::ensemble::influence;
 use crate::ensemble::plausibility::implausible;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe};
 use crate::ensemble::run_cost::parts;
+use crate::math::Isa;
 use crate::observables::{Group, Request};
 use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::report::failure_text;
@@ -31,23 +32,37 @@ use crate::workflow::source::plan;
 /// Where the campaign file is wrong.
 pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
     let plan = plan(&options.file, options.changed.overrides())?;
-    let ensemble = Ensemble::new(&plan, isa()?);
+    let (text, outcome) = text(&plan, isa()?)?;
+    screen::print(&text)?;
+    if options.plan {
+        // as it is in a file
+        screen::print(&format!("\n== Plan (hash {})\n{}", plan.hash(), plan.text()))?;
+    }
+    Ok(outcome)
+}
+
+/// What `plan` would run, and how the command ends.
+///
+/// # Errors
+/// Where its nominal scene is not physical.
+pub fn text(plan: &Plan, isa: Isa) -> Result<(String, CommandOutcome), Failure> {
+    let ensemble = Ensemble::new(plan, isa);
     let scene = Scene::resolve(&plan.nominal)
         .map_err(|errors| Failure::Input(errors.iter().map(|error| format!("{error}\n")).collect()))?;
     let probe = RunProbe::new(&ensemble);
     let mut text = if probe.is_hopeless() { failures(&probe) } else { String::new() };
-    text += &summary(&plan);
+    text += &summary(plan);
     text += &estimate(&ensemble, &probe);
     text += &audit_estimate(&ensemble);
     let written = (|| {
-        let unseen = influence::notes(&plan, ensemble.isa());
-        let notes: Vec<String> = plan.notes().into_iter().chain(implausible(&plan)).chain(unseen).collect();
+        let unseen = influence::notes(plan, ensemble.isa());
+        let notes: Vec<String> = plan.notes().into_iter().chain(implausible(plan)).chain(unseen).collect();
         if !notes.is_empty() {
             section(&mut text, "Notes")?;
         }
         notes.iter().try_for_each(|note| writeln!(text, "{note}"))?;
         section(&mut text, "Dispersions")?;
-        dispersions::table(&mut text, &plan)?;
+        dispersions::table(&mut text, plan)?;
         section(&mut text, "Mass properties of the nominal scene")?;
         scene_text::masses(&mut text, &plan.nominal, &scene.mass)?;
         section(&mut text, "Momenta and torques of the nominal scene")?;
@@ -60,14 +75,9 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
         std::fmt::Result::Ok(())
     })();
     written.map_err(Failure::files)?;
-    screen::print(&wrapped(&text, screen::width()))?;
-    if options.plan {
-        // as it is in a file
-        screen::print(&format!("\n== Plan (hash {})\n{}", plan.hash(), plan.text()))?;
-    }
     let failed = probe.failed() as u64;
     let outcome = if probe.is_hopeless() { CommandOutcome::SomeFailed(failed) } else { CommandOutcome::Done };
-    Ok(outcome)
+    Ok((wrapped(&text, screen::width()), outcome))
 }
 
 /// What the campaign asks, and what it runs.

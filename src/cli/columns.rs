@@ -63,13 +63,15 @@ fn found(sections: &[ColumnSection], word: &str) -> Option<Vec<ColumnSection>> {
 
 /// Columns with a title.
 #[derive(Clone)]
-struct ColumnSection {
-    title: String,
-    columns: Vec<(Quantity, &'static str)>,
+pub struct ColumnSection {
+    /// The group, or what else they have in common.
+    pub title: String,
+    /// The columns, and in which scenes there are those.
+    pub columns: Vec<(Quantity, &'static str)>,
 }
 
 /// The columns of every group; those of wheels once, with the place of the name.
-fn of_all_campaigns() -> Vec<ColumnSection> {
+pub fn of_all_campaigns() -> Vec<ColumnSection> {
     let section = |group: Group| ColumnSection {
         title: group.name().to_owned(),
         columns: table::all()
@@ -86,7 +88,10 @@ fn of_all_campaigns() -> Vec<ColumnSection> {
 }
 
 /// The columns of the rows of `plan`: what is of the sample, its groups, and audits.
-fn of_campaign(plan: &Plan) -> Result<Vec<ColumnSection>, Failure> {
+///
+/// # Errors
+/// Where the environment names an instruction set that is not available.
+pub fn of_campaign(plan: &Plan) -> Result<Vec<ColumnSection>, Failure> {
     let ensemble = Ensemble::new(plan, isa()?);
     let observed = ensemble.request().columns();
     let title = |quantity: &Quantity| {

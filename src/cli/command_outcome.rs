@@ -1,7 +1,5 @@
 //! [`CommandOutcome`], [`Failure`]: how a command ends, and the documented exit codes.
 
-use std::process::ExitCode;
-
 use crate::cli::{screen, signals};
 use crate::report::summary::SummaryEnd;
 use crate::run::Status;
@@ -50,8 +48,8 @@ impl CommandOutcome {
 }
 
 /// Prints the reason of a failure and returns the exit code.
-pub fn exit_code(ended: Result<CommandOutcome, Failure>) -> ExitCode {
-    ExitCode::from(match ended {
+pub fn exit_code(ended: Result<CommandOutcome, Failure>) -> u8 {
+    match ended {
         Ok(CommandOutcome::Done) => 0,
         Ok(CommandOutcome::SomeFailed(_)) => 1,
         Ok(CommandOutcome::Stopped(signal)) => signals::exit_code(signal),
@@ -65,7 +63,7 @@ pub fn exit_code(ended: Result<CommandOutcome, Failure>) -> ExitCode {
             screen::note(&format!("error: {reason}"));
             4
         }
-    })
+    }
 }
 
 #[cfg(test)]

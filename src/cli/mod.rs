@@ -1,6 +1,6 @@
 //! Layer 11: the command line.
 //!
-//! - [`arguments`]: commands and options; [`argument_values`]: their values; [`help`]: what their help texts end with. - [`outputs`]: which files a command may write. - [`workload`]: what a command would
+//! - [`program`]: the program as a whole. - [`arguments`]: commands and options; [`argument_values`]: their values; [`help`]: what their help texts end with. - [`outputs`]: which files a command may write. - [`workload`]: what a command would
 //!   compute and write, refused where it cannot be done; [`machine`]: what is left of memory and disk.
 //! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`index`], [`new`], [`precision`], [`report`], [`sample`],
 //!   [`simulate`], [`slurm`]: one command each; [`completed_text`]: what is printed of a result. - [`slurm_script`]: the scripts of Slurm.
@@ -25,6 +25,7 @@ pub mod machine;
 pub mod new;
 pub mod outputs;
 pub mod precision;
+pub mod program;
 pub mod report;
 pub mod run_campaign;
 pub mod sample;

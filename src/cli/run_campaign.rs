@@ -1,5 +1,6 @@
 //! `spindrift campaign`: runs the samples of a campaign that are not there yet, and finishes the result.
 
+use std::num::NonZeroUsize;
 use std::path::Path;
 
 use crate::cli::arguments::CampaignOptions;
@@ -112,20 +113,31 @@ fn campaign<'a>(options: &CampaignOptions, session: Session<'a>) -> Campaign<'a>
 
 /// Refuses files that the command must not write, and work that cannot be done.
 fn check(options: &CampaignOptions, campaign: &PreparedCampaign<'_>) -> Result<(), Failure> {
-    let (plan, root, ensemble) = (campaign.plan(), campaign.root(), campaign.ensemble());
+    let root = campaign.root();
     let outputs = [("--junit", options.junit.as_deref()), ("--figures", options.figures.as_deref())];
     refuse_inputs(&campaign.files().paths(), &[outputs[0], ("--out", Some(root))])?;
     refuse_within(root, &outputs)?;
-    let there = Some(root).filter(|_| !options.overwrite);
-    let work = |samples| {
-        Workload::of_campaign((&ensemble, samples), there, options.shard, options.threads).measured(&ensemble)
-    };
-    let looks = plan.looks();
-    if let [first, .., last] = looks[..] {
-        work(first).check(root, options.yes, options.shard.is_some())?;
-        work(last).check_limit(root, options.yes)
+    refuse_work(campaign, (options.shard, options.threads), options.overwrite, options.yes)
+}
+
+/// Refuses what the machine cannot do, and without `yes` what takes long or most of the disk.
+///
+/// # Errors
+/// The refusal.
+pub fn refuse_work(
+    campaign: &PreparedCampaign<'_>,
+    (shard, threads): (Option<Shard>, Option<NonZeroUsize>),
+    overwrite: bool,
+    yes: bool,
+) -> Result<(), Failure> {
+    let (plan, root, ensemble) = (campaign.plan(), campaign.root(), campaign.ensemble());
+    let there = Some(root).filter(|_| !overwrite);
+    let work = |samples| Workload::of_campaign((&ensemble, samples), there, shard, threads).measured(&ensemble);
+    if let [first, .., last] = plan.looks()[..] {
+        work(first).check(root, yes, shard.is_some())?;
+        work(last).check_limit(root, yes)
     } else {
-        work(plan.rows()).check(root, options.yes, options.shard.is_some())
+        work(plan.rows()).check(root, yes, shard.is_some())
     }
 }
 

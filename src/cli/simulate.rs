@@ -18,10 +18,10 @@ use crate::report::simulation_figure::simulation_figure;
 use crate::report::time_table::TimeTable;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
-use crate::scene::SceneError;
 use crate::storage::table::{TableError, TableFormat};
 use crate::storage::timeseries::TimeSeries;
 use crate::workflow::isa;
+use crate::workflow::simulated::{Simulated, not_physical, simulated};
 use crate::workflow::source::plan_and_files;
 
 /// A plot without --times has at least this many intervals: two per pixel.
@@ -42,29 +42,18 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
     let (plan, files) = plan_and_files(&options.file, options.changed.overrides())?;
     refuse_inputs(&files.paths(), &[("--out", options.out.as_deref()), ("--plot", options.plot.as_deref())])?;
     let isa = isa()?;
-    if options.sample >= plan.samples {
-        let (last, name) = (plan.samples - 1, &plan.name);
-        return Err(Failure::Input(format!("--sample {}: must be 0 to {last}, the samples of {name}", options.sample)));
-    }
-    let times = options.times.as_deref().map(ascending).transpose()?;
-    let (last, end) = (times.as_ref().and_then(|times| times.last().copied()), plan.grid.duration());
-    if let Some(last) = last.filter(|last| *last > end) {
-        screen::note(&format!("--times: {last:?} s is after the end of the runs of {} ({end:?} s)", plan.name));
-    }
-    let grid = times.as_deref().map_or_else(|| plan.grid.clone(), |times| grid(times, &plan));
-    let run = single_run(options, &plan, grid, isa)?;
-    let shown = |time: f64| times.as_deref().is_none_or(|times| times.contains(&time));
+    let Simulated { run, series, late } = simulated(&plan, options.sample, options.times.as_deref(), isa)?;
+    late.iter().for_each(|note| screen::note(note));
     if options.audit {
         audit(options, &plan, &run, isa)?;
     }
-    let series = TimeSeries::new(&plan, SampleId(options.sample), &run, shown);
     if let Some(path) = &options.out {
         save(path, &series)?;
     }
     if let Some(path) = &options.plot {
-        let grid = if times.is_some() { run.grid.clone() } else { refined(&plan.grid) };
+        let grid = if options.times.is_some() { run.grid.clone() } else { refined(&plan.grid) };
         let fine = SingleRun::with_series(&plan, SampleId(options.sample), grid, isa, &GROUPS);
-        plot(path, options, &plan, &fine.map_err(|errors| not_physical(options, &errors))?)?;
+        plot(path, options, &plan, &fine.map_err(|errors| not_physical(options.sample, &errors))?)?;
     }
     if options.out.is_none() && options.plot.is_none() {
         if options.sample > 0 {
@@ -86,29 +75,6 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
         screen::note(&format!("the run ended with {status}: {reason}{later}"));
     }
     Ok(CommandOutcome::of(run.outcome.status))
-}
-
-/// The requested times, ascending, without duplicates.
-fn ascending(times: &[f64]) -> Result<Vec<f64>, Failure> {
-    if let Some(wrong) = times.iter().find(|time| !(time.is_finite() && **time >= 0.0)) {
-        return Err(Failure::Input(format!("--times: {wrong:?} must be a finite number >= 0, in seconds")));
-    }
-    let mut times: Vec<f64> = times.iter().map(|time| time + 0.0).collect(); // -0 is 0
-    times.sort_by(f64::total_cmp);
-    times.dedup();
-    Ok(times)
-}
-
-/// A grid of `times` that begins at zero, as every grid does: conservation errors are relative to that point.
-fn grid(times: &[f64], plan: &Plan) -> Grid {
-    let mut times = times.to_vec();
-    if times.first() != Some(&0.0) {
-        times.insert(0, 0.0);
-    }
-    if times.len() == 1 {
-        times.push(plan.grid.duration());
-    }
-    Grid::at(times)
 }
 
 /// The campaign's grid with divided intervals, for smooth curves; it contains the campaign's points.
@@ -148,17 +114,6 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
     Ok(())
 }
 
-fn single_run(options: &SimulateOptions, plan: &Plan, grid: Grid, isa: Isa) -> Result<SingleRun, Failure> {
-    let sample = SampleId(options.sample);
-    SingleRun::new(plan, sample, grid, isa).map_err(|errors| not_physical(options, &errors))
-}
-
-fn not_physical(options: &SimulateOptions, errors: &[SceneError]) -> Failure {
-    let errors: Vec<String> = errors.iter().map(|error| format!("\n  {error}")).collect();
-    let sample = options.sample;
-    Failure::Input(format!("sample {sample} is not physical (its status is invalid_sample):{}", errors.concat()))
-}
-
 fn save(path: &Path, series: &TimeSeries) -> Result<(), Failure> {
     series.save(path).map_err(|error| match error {
         TableError::Format(_) => Failure::Input(error.to_string()),
@@ -196,14 +151,6 @@ mod tests {
         for time in coarse.times() {
             let is_near = fine.times().iter().any(|other| (other - time).abs() <= 1e-15 * 10.0);
             assert!(is_near, "no point at {time} s");
-        }
-    }
-
-    #[test]
-    fn times_are_sorted_and_single() {
-        assert_eq!(ascending(&[3.0, -0.0, 1.0, 3.0]), Ok(vec![0.0, 1.0, 3.0]));
-        for wrong in [f64::NAN, f64::INFINITY, -1.0] {
-            assert!(matches!(ascending(&[wrong]), Err(Failure::Input(_))));
         }
     }
 }

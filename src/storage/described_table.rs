@@ -48,6 +48,22 @@ impl DescribedColumn {
     }
 }
 
+impl DescribedColumn {
+    /// Its name and meaning, and what it has.
+    pub fn heading(&self) -> &Heading {
+        &self.heading
+    }
+
+    /// Its values.
+    pub fn cells(&self) -> Cells<'_> {
+        match &self.values {
+            Values::Texts(texts) => Cells::Text(texts.iter().map(Option::as_deref).collect()),
+            Values::Counts(counts) => Cells::Count(counts.clone(), None),
+            Values::Reals(values, present) => Cells::Real(values, Some(present)),
+        }
+    }
+}
+
 /// The rows of `columns`, all of one length, as objects with the names of the columns as keys.
 pub fn json(columns: &[DescribedColumn]) -> Vec<Value> {
     let cell = |column: &DescribedColumn, row: usize| match &column.values {
@@ -76,12 +92,7 @@ pub fn json(columns: &[DescribedColumn]) -> Vec<Value> {
 pub fn encoded(plan: &Plan, columns: &[DescribedColumn]) -> Result<Vec<u8>, ParquetError> {
     let headings: Vec<Heading> = columns.iter().map(|column| column.heading.clone()).collect();
     let layout = Layout::new(&headings, provenance(plan), Packing::Zstd)?;
-    let cells = columns.iter().map(|column| match &column.values {
-        Values::Texts(texts) => Cells::Text(texts.iter().map(Option::as_deref).collect()),
-        Values::Counts(counts) => Cells::Count(counts.clone(), None),
-        Values::Reals(values, present) => Cells::Real(values, Some(present)),
-    });
     let mut bytes = Vec::new();
-    layout.write(&mut bytes, &[], cells)?;
+    layout.write(&mut bytes, &[], columns.iter().map(DescribedColumn::cells))?;
     Ok(bytes)
 }

@@ -27,6 +27,16 @@ pub fn headings(plan: &Plan) -> Vec<Heading> {
     fixed.into_iter().chain(parameter_headings(plan)).chain(mass).collect()
 }
 
+/// The columns of `drawn`, whose mass properties were asked for.
+pub fn cells(drawn: &DrawnScenes) -> impl Iterator<Item = Cells<'_>> {
+    let first = drawn.first.0;
+    let fixed = [
+        Cells::Count((first..first + drawn.count() as u64).collect(), None),
+        Cells::Word(drawn.physical.iter().map(|physical| status(*physical)).collect()),
+    ];
+    fixed.into_iter().chain(drawn.columns.iter().chain(&drawn.mass).map(|column| Cells::Real(column, None)))
+}
+
 /// Writes the sampled parameters of `plan` to `path`, in the format of its extension; the file is whole or absent. Samples are drawn as
 /// they are written; `seen` is shown each part of them.
 ///
@@ -48,13 +58,7 @@ pub fn save(plan: &Plan, path: &Path, mut seen: impl FnMut(&DrawnScenes)) -> Res
                 let mut writer = layout.begin(file, &[])?;
                 DrawnScenes::visit(plan, true, |drawn| {
                     seen(drawn);
-                    let first = drawn.first.0;
-                    let fixed = [
-                        Cells::Count((first..first + drawn.count() as u64).collect(), None),
-                        Cells::Word(drawn.physical.iter().map(|physical| status(*physical)).collect()),
-                    ];
-                    let values = drawn.columns.iter().chain(&drawn.mass).map(|column| Cells::Real(column, None));
-                    writer.group(fixed.into_iter().chain(values))
+                    writer.group(cells(drawn))
                 })?;
                 writer.finish()
             };

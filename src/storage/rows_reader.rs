@@ -231,7 +231,11 @@ impl PartReader {
         RowsError { path: self.path.clone(), what }
     }
 
-    fn cells(&self, name: &str) -> Result<DecodedColumn, RowsError> {
+    /// The column `name` as it is in the file.
+    ///
+    /// # Errors
+    /// Where the column is missing or damaged.
+    pub fn cells(&self, name: &str) -> Result<DecodedColumn, RowsError> {
         caught(&self.path, &self.source, || {
             let schema = self.reader.metadata().file_metadata().schema_descr_ptr();
             let index = schema.columns().iter().position(|column| column.name() == name);
@@ -272,9 +276,13 @@ impl PartReader {
 }
 
 /// The values of a column without gaps, and which rows have one (1); `None` where all have.
-enum DecodedColumn {
+#[derive(Clone, Debug)]
+pub enum DecodedColumn {
+    /// Real numbers.
     Real(Vec<f64>, Option<Vec<i16>>),
+    /// Counts.
     Count(Vec<i64>, Option<Vec<i16>>),
+    /// Texts, as their bytes.
     Text(Vec<ByteArray>, Option<Vec<i16>>),
 }
 

@@ -2,6 +2,7 @@
 //!
 //! - [`campaign`]: [`Campaign`], a file and where its result goes; [`outcome`]: how it ended; `running`: the samples that are not there yet. - [`results`]: [`Results`], a finished
 //!   result to be read.
+//! - [`simulated`]: one sample over time.
 //! - [`finishing`]: what is made once all rows are there: [`analysed`], [`page`], `derived`. - `ending`: how a finished campaign ended.
 //! - [`verification`]: whether a result is what was written, and (`derived_check`) what its rows say.
 //! - [`results_index`]: all results below a folder. - [`failed_samples`]: samples that failed, again or as the end. - [`source`]: where plans come from. - [`session`]: disk, threads, control law, and who
@@ -23,6 +24,7 @@ pub mod results;
 pub mod results_index;
 mod running;
 pub mod session;
+pub mod simulated;
 pub mod source;
 pub mod verification;
 

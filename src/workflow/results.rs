@@ -22,6 +22,7 @@ use crate::workflow::analysed::{Analysed, computed, write_junit};
 use crate::workflow::ending::end_of;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
+use crate::workflow::simulated::not_physical;
 use crate::workflow::source::plan_of_sound;
 
 /// A finished result, whose checksums were compared. No process changes it while this is there.
@@ -154,10 +155,8 @@ impl<'a> Results<'a> {
     /// # Errors
     /// Where its scene is not physical, so that there was no run.
     pub fn replay(&self, sample: SampleId) -> Result<SingleRun, WorkflowError> {
-        SingleRun::new(&self.plan, sample, self.plan.grid.clone(), self.session.isa).map_err(|errors| {
-            let errors: Vec<String> = errors.iter().map(|error| format!("\n  {error}")).collect();
-            WorkflowError::Input(format!("sample {sample} is not physical:{}", errors.concat()))
-        })
+        SingleRun::new(&self.plan, sample, self.plan.grid.clone(), self.session.isa)
+            .map_err(|errors| not_physical(sample.0, &errors))
     }
 
     /// Compares what the rows of both say, sample by sample where both drew the same ones.

@@ -16,7 +16,7 @@ const README_LINES: usize = 200;
 const FRAGMENT: &str = "<!-- fragment -->";
 
 /// Commands of other programs that may stand in a shell block.
-const OTHER_PROGRAMS: [&str; 5] = ["sha256sum", "git", "cd", "rustup", "cp"];
+const OTHER_PROGRAMS: [&str; 6] = ["sha256sum", "git", "cd", "rustup", "cp", "pip"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
@@ -220,10 +220,11 @@ fn every_command_exists() {
     assert!(count >= 10, "{count} commands were found");
 }
 
-/// Checked: every column in a query exists. A name with two underscores or more is that of a column.
+/// Checked: every column in a query exists. A name with two underscores or more is that of a column, or a key of a campaign file.
 #[test]
 fn every_queried_column_exists() {
     let columns = text(&root().join("docs/columns.md"));
+    let keys = text(&root().join("docs/parameters.md"));
     let mut count = 0;
     for file in documents() {
         for block in blocks(&text(&file)).iter().filter(|block| block.language == "python") {
@@ -233,7 +234,8 @@ fn every_queried_column_exists() {
                 // a column of wheels is listed once, with the place of the name
                 let listed = [name.to_owned(), name.replace("_w1_", "_{wheel}_")];
                 let is_listed = listed.iter().any(|name| columns.contains(&format!("`{name}`")));
-                assert!(is_listed, "{}: there is no column {name}", file.display());
+                let is_key = ["`", "."].iter().any(|before| keys.contains(&format!("{before}{name}`")));
+                assert!(is_listed || is_key, "{}: there is no column {name}", file.display());
             }
         }
     }

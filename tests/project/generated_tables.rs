@@ -111,12 +111,15 @@ fn quantities_over_time() -> String {
 fn dependencies() -> String {
     let mut table = String::from("| crate | version | why | where |\n| --- | --- | --- | --- |\n");
     let listed = listed_dependencies();
-    let [program, kernels, benches] = ["Cargo.toml", "kernels/Cargo.toml", "benches/Cargo.toml"].map(manifest);
+    let [program, kernels, python, benches] =
+        ["Cargo.toml", "kernels/Cargo.toml", "python/Cargo.toml", "benches/Cargo.toml"].map(manifest);
     let mut of_program = program["dependencies"].as_table().expect("a table").clone();
     of_program.extend(kernels["dependencies"].as_table().expect("a table").clone());
     let places = [
         (&toml::Value::Table(of_program), "program"),
         (&program["target"]["cfg(unix)"]["dependencies"], "program, on Unix"),
+        (&program["build-dependencies"], "build of the program"),
+        (&python["dependencies"], "Python package"),
         (&program["dev-dependencies"], "tests"),
         (&benches["dependencies"], "benches"),
     ];
@@ -130,7 +133,8 @@ fn dependencies() -> String {
             }
         }
     }
-    let unused: Vec<&String> = listed.keys().filter(|name| !named.contains(name)).collect();
+    let own = |name: &str| name == "spindrift";
+    let unused: Vec<&String> = listed.keys().filter(|name| !named.contains(name) && !own(name)).collect();
     assert!(unused.is_empty(), "no package uses {unused:?}");
     table
 }

@@ -1,0 +1,166 @@
+//! [`Job`]: a campaign that runs on a thread of its own, so that the one that asked for it can listen to the user.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+use spindrift::cli::run_campaign::refuse_work;
+use spindrift::workflow::{CampaignOutcome, Outputs, Session, Watch, WorkflowError};
+
+use crate::plan::{Plan, prepared};
+use crate::{SpindriftError, raised};
+
+/// What is run.
+pub struct Run {
+    /// The campaign.
+    pub plan: Plan,
+    /// With so many samples.
+    pub samples: Option<u64>,
+    /// The folder of the result.
+    pub out: PathBuf,
+    /// On so many threads.
+    pub threads: Option<NonZeroUsize>,
+    /// In place of whatever result is there.
+    pub overwrite: bool,
+    /// With a report page.
+    pub page: bool,
+    /// Also where it takes long or much of the disk.
+    pub yes: bool,
+}
+
+/// What the thread tells, and is told.
+#[derive(Default)]
+struct Shared {
+    stop: AtomicBool,
+    abandon: AtomicBool,
+    /// Runs that were begun, and that have ended.
+    samples: AtomicU64,
+    done: AtomicU64,
+    notes: Mutex<Vec<String>>,
+    has_ended: Mutex<bool>,
+    ended: Condvar,
+}
+
+/// What is in `mutex`; nothing that a panic could leave half done is.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Watch for Shared {
+    fn note(&self, text: &str) {
+        locked(&self.notes).push(text.to_owned());
+    }
+
+    fn begin(&self, samples: u64) {
+        self.samples.fetch_add(samples, Ordering::Relaxed);
+    }
+
+    fn advance(&self, samples: u64) {
+        self.done.fetch_add(samples, Ordering::Relaxed);
+    }
+
+    fn stop(&self) -> &AtomicBool {
+        &self.stop
+    }
+
+    fn abandon(&self) -> &AtomicBool {
+        &self.abandon
+    }
+}
+
+/// Says at its end, whichever, that the thread has ended.
+struct Ends(Arc<Shared>);
+
+impl Drop for Ends {
+    fn drop(&mut self) {
+        *locked(&self.0.has_ended) = true;
+        self.0.ended.notify_all();
+    }
+}
+
+/// How the campaign ended: `None` where all rows are there, else the samples of the campaign and those that are left.
+type Ended = Result<Option<(u64, u64)>, WorkflowError>;
+
+/// A campaign that runs.
+#[pyclass(module = "spindrift._native", frozen)]
+pub struct Job {
+    shared: Arc<Shared>,
+    thread: Mutex<Option<JoinHandle<Ended>>>,
+}
+
+impl Job {
+    /// Starts to run.
+    ///
+    /// # Errors
+    /// Where there is no thread for it.
+    pub fn start(run: Run) -> PyResult<Self> {
+        let shared = Arc::new(Shared::default());
+        let ends = Ends(shared.clone());
+        let thread = std::thread::Builder::new().name("spindrift".to_owned()).spawn(move || {
+            let watch = &*ends.0;
+            ran(&run, watch)
+        });
+        let thread = thread.map_err(|error| SpindriftError::new_err(format!("cannot start a thread: {error}")))?;
+        Ok(Job { shared, thread: Mutex::new(Some(thread)) })
+    }
+}
+
+/// Runs what is not there yet.
+fn ran(run: &Run, watch: &Shared) -> Ended {
+    let session = Session::new(watch)?.on_threads(run.threads);
+    let outputs = Outputs { without_page: !run.page, ..Outputs::default() };
+    let campaign = run.plan.campaign(session, run.samples).store(&run.out).outputs(outputs);
+    let campaign = prepared(if run.overwrite { campaign.overwrite() } else { campaign })?;
+    refuse_work(&campaign, (None, run.threads), run.overwrite, run.yes)?;
+    Ok(match campaign.run()? {
+        CampaignOutcome::Stopped { samples, left } => Some((samples, left)),
+        _ => None,
+    })
+}
+
+#[pymethods]
+impl Job {
+    /// Waits at most so many seconds for the end; whether it is there.
+    fn wait(&self, py: Python<'_>, seconds: f64) -> bool {
+        py.detach(|| {
+            let has_ended = locked(&self.shared.has_ended);
+            let limit = Duration::from_secs_f64(seconds.clamp(0.0, 60.0));
+            let waited = self.shared.ended.wait_timeout_while(has_ended, limit, |ended| !*ended);
+            *waited.unwrap_or_else(PoisonError::into_inner).0
+        })
+    }
+
+    /// How many runs were begun, and how many have ended.
+    fn progress(&self) -> (u64, u64) {
+        (self.shared.samples.load(Ordering::Relaxed), self.shared.done.load(Ordering::Relaxed))
+    }
+
+    /// What a person should know since the last call.
+    fn notes(&self) -> Vec<String> {
+        std::mem::take(&mut *locked(&self.shared.notes))
+    }
+
+    /// Lets parts under way end, and starts no further one.
+    fn stop(&self) {
+        self.shared.stop.store(true, Ordering::SeqCst);
+    }
+
+    /// Gives up parts under way.
+    fn abandon(&self) {
+        self.stop();
+        self.shared.abandon.store(true, Ordering::SeqCst);
+    }
+
+    /// How it ended, once: `None` where all rows are there; the samples of the campaign and those that are left where it was stopped.
+    fn ended(&self, py: Python<'_>) -> PyResult<Option<(u64, u64)>> {
+        let thread = locked(&self.thread).take();
+        let Some(thread) = thread else { return Ok(None) };
+        let ended = py.detach(|| thread.join());
+        let broken = || SpindriftError::new_err("a thread of the campaign has panicked; what is committed stays");
+        ended.map_err(|_| broken())?.map_err(raised)
+    }
+}

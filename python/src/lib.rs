@@ -1,0 +1,67 @@
+//! The extension of the Python package `spindrift`: what its modules in `spindrift/` stand on. Arguments arrive checked and typed; what is said to
+//! a user, and how, is decided there.
+//!
+//! - `plan`: a campaign file and what is changed of it. - `job`: a run on a thread of its own. - `results`: a finished result. - `table`: rows and
+//!   other tables through Arrow's C interface. - `toml_values`: values of Python as TOML.
+
+mod job;
+mod plan;
+mod results;
+mod table;
+mod toml_values;
+
+use std::ffi::OsString;
+use std::num::NonZeroUsize;
+
+use pyo3::create_exception;
+use pyo3::exceptions::PyException;
+use pyo3::prelude::*;
+use spindrift::cli::argument_values;
+use spindrift::cli::columns::of_all_campaigns;
+use spindrift::cli::program;
+use spindrift::workflow::WorkflowError;
+
+use crate::table::Table;
+
+create_exception!(
+    spindrift,
+    SpindriftError,
+    PyException,
+    "What is wrong with a campaign file, a result, or what was asked for: all of it, as the command line prints it."
+);
+
+/// An error of the library as Python's.
+fn raised(error: impl Into<WorkflowError>) -> PyErr {
+    SpindriftError::new_err(error.into().to_string())
+}
+
+/// A number of threads that this machine can use; 0: one per core.
+fn threads(number: usize) -> PyResult<Option<NonZeroUsize>> {
+    let asked = (number > 0).then(|| argument_values::threads(&number.to_string())).transpose();
+    asked.map_err(|allowed| SpindriftError::new_err(format!("threads={number}: {allowed}")))
+}
+
+/// The command line: does what the words say, the name of the program first; the exit code.
+#[pyfunction]
+fn main(py: Python<'_>, words: Vec<OsString>) -> u8 {
+    py.detach(|| program::run(words.into_iter()))
+}
+
+/// Every column that a row can have.
+#[pyfunction]
+fn columns() -> PyResult<Table> {
+    Table::of_sections(&of_all_campaigns())
+}
+
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("SpindriftError", module.py().get_type::<SpindriftError>())?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<plan::Plan>()?;
+    module.add_class::<job::Job>()?;
+    module.add_class::<results::Results>()?;
+    module.add_class::<Table>()?;
+    module.add_function(wrap_pyfunction!(main, module)?)?;
+    module.add_function(wrap_pyfunction!(columns, module)?)?;
+    module.add_function(wrap_pyfunction!(results::compare, module)?)
+}

@@ -1,0 +1,150 @@
+//! [`Plan`]: a campaign file and what is changed of it. It is read whenever it is used, as the command line reads it.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use spindrift::campaign;
+use spindrift::cli::check;
+use spindrift::math::Isa;
+use spindrift::run::Status;
+use spindrift::workflow::simulated::simulated;
+use spindrift::workflow::{Campaign, PreparedCampaign, Quiet, Session, WorkflowError};
+
+use crate::job::{Job, Run};
+use crate::raised;
+use crate::table::Table;
+use crate::toml_values::{table, value};
+
+/// The name of a plan from a dict in messages.
+const DICT: &str = "dict";
+
+/// A campaign file, or the text of one, and what is changed of it.
+#[pyclass(module = "spindrift._native", frozen)]
+#[derive(Clone)]
+pub struct Plan {
+    file: PathBuf,
+    text: Option<String>,
+    /// Dotted keys and their values as TOML.
+    settings: Vec<(String, String)>,
+}
+
+impl Plan {
+    /// The campaign, with so many samples.
+    pub fn campaign<'a>(&self, session: Session<'a>, samples: Option<u64>) -> Campaign<'a> {
+        let mut campaign = match &self.text {
+            Some(text) => Campaign::from_text(DICT, text, session),
+            None => Campaign::from_file(&self.file, session),
+        };
+        for (key, value) in &self.settings {
+            campaign = campaign.set(key, value);
+        }
+        match samples {
+            Some(samples) => campaign.samples(samples),
+            None => campaign,
+        }
+    }
+
+    /// What `work` makes of the plan, without Python's lock.
+    fn with<T: Send>(
+        &self,
+        py: Python<'_>,
+        samples: Option<u64>,
+        work: impl FnOnce(&campaign::Plan, Isa) -> Result<T, WorkflowError> + Send,
+    ) -> PyResult<T> {
+        let found = py.detach(|| {
+            let watch = Quiet::default();
+            let session = Session::new(&watch)?;
+            work(prepared(self.campaign(session, samples))?.plan(), session.isa)
+        });
+        found.map_err(raised)
+    }
+
+    /// The same, where nothing is wrong with it.
+    fn checked(self, py: Python<'_>) -> PyResult<Self> {
+        self.with(py, None, |_, _| Ok(()))?;
+        Ok(self)
+    }
+}
+
+/// The file of `campaign`, read and checked.
+///
+/// # Errors
+/// Where it is wrong.
+pub fn prepared(campaign: Campaign<'_>) -> Result<PreparedCampaign<'_>, WorkflowError> {
+    let nothing = || WorkflowError::Input("no run failed; nothing to do".to_owned());
+    campaign.prepare()?.ok_or_else(nothing)
+}
+
+#[pymethods]
+impl Plan {
+    /// The campaign file `path`, which may be given without folder and extension.
+    #[staticmethod]
+    fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        Plan { file: path, text: None, settings: Vec::new() }.checked(py)
+    }
+
+    /// The campaign file that `tables` are.
+    #[staticmethod]
+    fn from_dict(py: Python<'_>, tables: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let text = table("", tables)?.to_string();
+        Plan { file: PathBuf::from(DICT), text: Some(text), settings: Vec::new() }.checked(py)
+    }
+
+    /// The same with other values of these dotted keys.
+    fn set(&self, py: Python<'_>, values: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let mut plan = self.clone();
+        for (key, item) in values.iter() {
+            let key: String = key.extract()?;
+            let text = value(&key, &item)?.to_string();
+            plan.settings.push((key, text));
+        }
+        plan.checked(py)
+    }
+
+    /// The name of the campaign, its number of samples, and the end of its runs, s.
+    fn facts(&self, py: Python<'_>) -> PyResult<(String, u64, f64)> {
+        self.with(py, None, |plan, _| Ok((plan.name.clone(), plan.samples, plan.grid.duration())))
+    }
+
+    /// The resolved plan as TOML.
+    fn text(&self, py: Python<'_>) -> PyResult<String> {
+        self.with(py, None, |plan, _| Ok(plan.text()))
+    }
+
+    /// What would run, in words.
+    fn check(&self, py: Python<'_>, samples: Option<u64>) -> PyResult<String> {
+        self.with(py, samples, |plan, isa| check::text(plan, isa).map(|(text, _)| text))
+    }
+
+    /// The dispersed parameters of so many samples.
+    fn sample(&self, py: Python<'_>, samples: Option<u64>) -> PyResult<Table> {
+        self.with(py, samples, |plan, _| Table::of_draws(plan))
+    }
+
+    /// A sample over time, and what to know of it.
+    fn simulate(&self, py: Python<'_>, sample: u64, times: Option<Vec<f64>>) -> PyResult<(Table, Vec<String>)> {
+        self.with(py, None, |plan, isa| {
+            let found = simulated(plan, sample, times.as_deref(), isa)?;
+            let status = found.run.outcome.status;
+            let early = (status != Status::Done)
+                .then(|| format!("sample {sample}: the run ended with {}: {}", status.name(), found.run.reason));
+            Ok((Table::of_series(&found.series)?, found.late.into_iter().chain(early).collect()))
+        })
+    }
+
+    /// Starts to run what is not there yet; the result goes to the folder `out`.
+    #[pyo3(signature = (samples, out, threads, overwrite, page, yes))]
+    fn run(
+        &self,
+        samples: Option<u64>,
+        out: PathBuf,
+        threads: usize,
+        overwrite: bool,
+        page: bool,
+        yes: bool,
+    ) -> PyResult<Job> {
+        let threads = crate::threads(threads)?;
+        Job::start(Run { plan: self.clone(), samples, out, threads, overwrite, page, yes })
+    }
+}

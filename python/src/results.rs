@@ -1,0 +1,155 @@
+//! [`Results`]: a finished result in a folder. Every look at it compares its checksums, and that it is still the same; none of them keeps it locked.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use spindrift::analysis::comparison_table;
+use spindrift::cli::arguments::CompareOptions;
+use spindrift::cli::compare::compared;
+use spindrift::cli::completed_text;
+use spindrift::report::summary::SummaryEnd;
+use spindrift::storage::names::{BANDS, REPORT, SENSITIVITY, STATISTICS, SUMMARY};
+use spindrift::storage::rows_reader::PartReader;
+use spindrift::workflow::page::remade;
+use spindrift::workflow::simulated::simulated;
+use spindrift::workflow::{self, Quiet, Session, WorkflowError};
+
+use crate::raised;
+use crate::table::Table;
+
+/// A finished result.
+#[pyclass(module = "spindrift._native", frozen)]
+pub struct Results {
+    root: PathBuf,
+    /// `summary.json` when it was opened.
+    summary: String,
+}
+
+/// The text of the file `name` in `root`.
+fn text(root: &std::path::Path, name: &str) -> Result<String, WorkflowError> {
+    let path = root.join(name);
+    std::fs::read_to_string(&path).map_err(|error| WorkflowError::files(format!("{}: {error}", path.display())))
+}
+
+impl Results {
+    /// What `work` finds in the result, without Python's lock.
+    fn with<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&workflow::Results<'_>) -> Result<T, WorkflowError> + Send,
+    ) -> PyResult<T> {
+        let found = py.detach(|| {
+            let watch = Quiet::default();
+            let results = workflow::Results::open(&self.root, Session::new(&watch)?)?;
+            if text(&self.root, SUMMARY)? != self.summary {
+                return Err(WorkflowError::Files(format!(
+                    "{}: another campaign has taken the place of this result, or made it larger; open it again",
+                    self.root.display()
+                )));
+            }
+            work(&results)
+        });
+        found.map_err(raised)
+    }
+}
+
+#[pymethods]
+impl Results {
+    /// The finished result in the folder `root`.
+    #[staticmethod]
+    fn open(py: Python<'_>, root: PathBuf) -> PyResult<Self> {
+        let summary = py.detach(|| {
+            let watch = Quiet::default();
+            workflow::Results::open(&root, Session::new(&watch)?)?;
+            text(&root, SUMMARY)
+        });
+        Ok(Results { summary: summary.map_err(raised)?, root })
+    }
+
+    /// Its folder.
+    fn root(&self) -> PathBuf {
+        self.root.clone()
+    }
+
+    /// `summary.json`.
+    fn summary(&self) -> String {
+        self.summary.clone()
+    }
+
+    /// Warnings and verdicts, as the command line says them.
+    fn verdicts(&self) -> String {
+        let end = SummaryEnd::read(self.summary.as_bytes());
+        end.map_or_else(String::new, |end| completed_text::of_end(&end, &self.root))
+    }
+
+    /// The plan that was run, as TOML.
+    fn plan(&self, py: Python<'_>) -> PyResult<String> {
+        self.with(py, |results| Ok(results.plan().text()))
+    }
+
+    /// All rows.
+    fn rows(&self, py: Python<'_>) -> PyResult<Table> {
+        self.with(py, Table::of_rows)
+    }
+
+    /// The statistics of every observable.
+    fn statistics(&self, py: Python<'_>) -> PyResult<Table> {
+        self.with(py, |results| derived(results, STATISTICS))
+    }
+
+    /// What drives the main observables.
+    fn sensitivity(&self, py: Python<'_>) -> PyResult<Table> {
+        self.with(py, |results| derived(results, SENSITIVITY))
+    }
+
+    /// Quantiles over time; `None` where the campaign has no bands.
+    fn bands(&self, py: Python<'_>) -> PyResult<Option<Table>> {
+        self.with(py, |results| {
+            let there = results.root().join(BANDS).is_file();
+            there.then(|| derived(results, BANDS)).transpose()
+        })
+    }
+
+    /// A sample over time.
+    fn series(&self, py: Python<'_>, sample: u64) -> PyResult<Table> {
+        self.with(py, |results| {
+            let found = simulated(results.plan(), sample, None, workflow::isa()?)?;
+            Table::of_series(&found.series)
+        })
+    }
+
+    /// The text of the report page, which is made where there is none.
+    fn page(&self, py: Python<'_>) -> PyResult<String> {
+        let is_there = self.with(py, |results| Ok(results.root().join(REPORT).is_file()))?;
+        let page = py.detach(|| {
+            if !is_there {
+                let watch = Quiet::default();
+                remade(&Session::new(&watch)?, &self.root, None, None)?;
+            }
+            text(&self.root, REPORT)
+        });
+        page.map_err(raised)
+    }
+}
+
+/// The file `name` of a result as a table.
+fn derived(results: &workflow::Results<'_>, name: &str) -> Result<Table, WorkflowError> {
+    let path = results.root().join(name);
+    let part = PartReader::open(results.rows().storage(), &path).map_err(WorkflowError::files)?;
+    Table::of_part(&part)
+}
+
+/// Compares two results: what the command line says, and the shift of every statistic.
+#[pyfunction]
+pub fn compare(py: Python<'_>, first: PathBuf, second: PathBuf) -> PyResult<(String, Table)> {
+    let found = py.detach(|| {
+        let watch = Quiet::default();
+        let session = Session::new(&watch)?;
+        let options = CompareOptions { first, second, tolerance: None, out: None, threads: None };
+        let (_, text) = compared(&session, &options)?;
+        let [first, second] = [&options.first, &options.second].map(|root| workflow::Results::open(root, session));
+        let shifts = comparison_table::table(&first?.compare(&second?)?);
+        Ok::<_, WorkflowError>((text, Table::of_described(&shifts)?))
+    });
+    found.map_err(raised)
+}

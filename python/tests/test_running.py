@@ -1,0 +1,115 @@
+"""Running: Ctrl-C, progress, other threads of the program."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import polars as pl
+import pytest
+from conftest import START
+
+import spindrift as sd
+
+# Long enough to be stopped: small parts, each some tenths of a second.
+SETTINGS = {"campaign.duration_s": 5000.0, "observe.points": 2001}
+PROGRAM = """
+import sys, spindrift as sd
+plan = sd.load(sys.argv[1]).set({"campaign.duration_s": 5000.0, "observe.points": 2001})
+print("started", flush=True)
+try:
+    plan.run(samples=int(sys.argv[3]), out=sys.argv[2], threads=1, page=False)
+except KeyboardInterrupt as stopped:
+    print(stopped, flush=True)
+    sys.exit(42)
+"""
+
+
+def test_ctrl_c_stops_and_the_same_call_continues(tmp_path: Path) -> None:
+    """Law: as on the command line: what is done stays, the message says how much, and the rows are in the end those of an undisturbed run."""
+    samples, out = 20_000, tmp_path / "stopped"
+    process = subprocess.Popen(
+        [sys.executable, "-c", PROGRAM, str(START), str(out), str(samples)], stdout=subprocess.PIPE, text=True
+    )
+    assert process.stdout is not None and process.stdout.readline() == "started\n"
+    limit = time.monotonic() + 120
+    while not (out / "runs").is_dir() or len(list((out / "runs").glob("part-*"))) < 2:
+        assert process.poll() is None and time.monotonic() < limit, "it has ended, or does nothing"
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    asked = time.monotonic()
+    said, _ = process.communicate(timeout=60)
+    assert process.returncode == 42, said
+    assert time.monotonic() - asked < 30
+    assert f"of {samples} samples are done and safe. The same call continues." in said, said
+    with pytest.raises(sd.SpindriftError, match="not finished"):
+        sd.open(out)
+    there = {file.name: file.stat().st_mtime_ns for file in (out / "runs").iterdir()}
+    few = sum(pl.read_parquet(out / "runs" / name).height for name in there)
+    assert 0 < few < samples
+    # continued with as many samples as there are whole parts for, so that the test is short
+    plan = sd.load(START).set(SETTINGS)
+    rows = pl.DataFrame(plan.run(samples=few, page=False).rows)
+    parts = pl.concat([pl.read_parquet(out / "runs" / name) for name in sorted(there)])
+    assert parts.equals(rows.head(parts.height)) or set(parts["sample_id"]) != set(rows["sample_id"])
+
+
+def test_a_stopped_run_is_continued(tmp_path: Path) -> None:
+    """Law: a run that was stopped from another thread is continued to the rows of an undisturbed one."""
+    plan, out = sd.load(START), tmp_path / "x"
+    job = plan._plan.run(20_000, str(out), 1, False, False, False)
+    while job.progress()[1] == 0:
+        assert not job.wait(0.001)
+    job.stop()
+    assert job.wait(60)
+    left = job.ended()
+    assert left is not None and left[0] == 20_000 and 0 < left[1] < 20_000
+    results = plan.run(samples=20_000, out=out)
+    assert pl.DataFrame(results.rows).equals(pl.DataFrame(plan.run(samples=20_000).rows))
+
+
+def test_other_threads_of_python_go_on() -> None:
+    """Law: Python's lock is not held while runs are made."""
+    counted, stop = [0], threading.Event()
+
+    def count() -> None:
+        while not stop.wait(0.005):
+            counted[0] += 1
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    start = time.monotonic()
+    sd.load(START).run(samples=20_000, page=False)
+    took = time.monotonic() - start
+    stop.set()
+    thread.join()
+    assert counted[0] > 10 * min(took, 1.0), (counted, took)
+
+
+def test_campaigns_run_side_by_side() -> None:
+    """Law: two campaigns in two threads are those of one after the other."""
+    plan, found = sd.load(START), {}
+
+    def run(seed: int) -> None:
+        found[seed] = pl.DataFrame(plan.set({"campaign.seed": seed}).run(samples=500, page=False).rows)
+
+    threads = [threading.Thread(target=run, args=(seed,)) for seed in (1, 2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for seed in (1, 2):
+        assert found[seed].equals(pl.DataFrame(plan.set({"campaign.seed": seed}).run(samples=500).rows))
+    assert not found[1].equals(found[2])
+
+
+def test_progress_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    sd.load(START).run(samples=5000, page=False, progress=True)
+    shown = capsys.readouterr().err
+    assert "5000" in shown
+    sd.load(START).run(samples=500, page=False)
+    assert capsys.readouterr().err == ""

@@ -1,0 +1,30 @@
+//! [`run`]: the program: selects the command. The binary calls it, and so does the command that comes with the Python package.
+
+use std::ffi::OsString;
+
+use crate::cli::arguments::{Command, arguments};
+use crate::cli::{
+    check, columns, command_outcome, compare, finish_campaign, index, new, precision, report, run_campaign, sample,
+    signals, simulate, slurm, verify,
+};
+
+/// Does what `words` say, the name of the program first; the exit code.
+pub fn run(words: impl Iterator<Item = OsString>) -> u8 {
+    signals::report_file_limit();
+    let ended = match arguments(words).command {
+        Command::Campaign(options) => run_campaign::run(&options),
+        Command::CompleteResult(options) => finish_campaign::run(&options),
+        Command::Verify(options) => verify::run(&options),
+        Command::Check(options) => check::run(&options),
+        Command::Compare(options) => compare::run(&options),
+        Command::Columns(options) => columns::run(&options),
+        Command::Index(options) => index::run(&options),
+        Command::New(options) => new::run(&options),
+        Command::Precision(options) => precision::run(&options),
+        Command::Report(options) => report::run(&options),
+        Command::Sample(options) => sample::run(&options),
+        Command::Simulate(options) => simulate::run(&options),
+        Command::Slurm(options) => slurm::run(&options),
+    };
+    command_outcome::exit_code(ended)
+}
