@@ -10,8 +10,8 @@ use crate::scene::body::MAX_PARTS;
 use crate::scene::schema::Limit;
 use crate::scene::table::Table;
 use crate::scene::{
-    ActuationInput, ControlInput, DebrisInput, Epoch, MAX_THRUSTERS, MAX_WHEELS, Name, OrbitInput, PartInput,
-    PartShape, SceneInput, ThrusterInput, WheelInput, WheelMode,
+    ActuationInput, ControlInput, DebrisInput, Epoch, FieldModel, MAX_THRUSTERS, MAX_WHEELS, Name, OrbitInput,
+    PartInput, PartShape, SceneInput, ThrusterInput, WheelInput, WheelMode,
 };
 use std::collections::HashSet;
 
@@ -52,6 +52,8 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     let mut section = root.section("environment");
     read_keys(&mut section, Table::Environment, 0, &mut scene);
     scene.environment.gravity_gradient = section.flag("gravity_gradient").unwrap_or(false);
+    scene.environment.magnetic_field =
+        section.name("magnetic_field", &FieldModel::ALL.map(FieldModel::name), FieldModel::from_name);
     section.finish();
     let mut section = root.section("orbit");
     if section.is_present() {

@@ -273,8 +273,7 @@ pub fn every_scene() -> Vec<String> {
         on_orbit("position_m = [7e6, 1e5, 2e5]\nvelocity_m_s = [10, 7.4e3, -3e2]"),
         on_orbit(
             "semi_major_axis_m = 9e6\neccentricity = 0.0\ninclination_rad = 0.9\nascending_node_rad = 2.0\n\
-             argument_of_periapsis_rad = -0.7\ntrue_anomaly_rad = 1.1\n\
-             epoch = \"2026-11-24T01:02:03.25Z\"",
+             argument_of_periapsis_rad = -0.7\ntrue_anomaly_rad = 1.1",
         ),
     ]
 }
@@ -288,8 +287,8 @@ fn on_orbit(keys: &str) -> String {
          [[actuation]]\nname = \"burn\"\nstart_s = 0.0\nend_s = 3.0\ntorque_n_m = {{ w1 = 0.001 }}\n\
          [[actuation]]\nname = \"later\"\nstart_s = 4.0\nend_s = 6.0\ntorque_n_m = {{ w1 = 0.002 }}\n\
          [initial]\nangular_velocity_rad_s = [0, 0, 0.001]\n\
-         [environment]\nbody_torque_n_m = [0, 0.001, 0]\ngravity_gradient = true\n\
-         [orbit]\nbody_radius_m = 0\n{keys}\n"
+         [environment]\nbody_torque_n_m = [0, 0.001, 0]\ngravity_gradient = true\nmagnetic_field = \"igrf\"\nmagnetic_dipole_a_m2 = [0.1, 0.2, 0.3]\n\
+         [orbit]\nepoch = \"2026-11-24T01:02:03.25Z\"\nbody_radius_m = 0\n{keys}\n"
     )
 }
 

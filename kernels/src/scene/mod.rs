@@ -51,7 +51,7 @@ pub use parameter::Parameter;
 pub use schedule::{Actuation, Arc};
 pub use schema::{
     ActuationInput, ActuatorsInput, ArcErrors, BodyInput, ControlInput, DebrisInput, DeclaredTable, EnvironmentInput,
-    InitialInput, LawParameter, MAX_THRUSTERS, MAX_WHEELS, MassErrors, OrbitInput, PartInput, PartShape,
+    FieldModel, InitialInput, LawParameter, MAX_THRUSTERS, MAX_WHEELS, MassErrors, OrbitInput, PartInput, PartShape,
     PrincipalInertia, PrincipalMoments, ThrusterInput, WheelInput, WheelMode,
 };
 
