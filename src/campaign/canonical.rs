@@ -14,7 +14,7 @@ use super::settings;
 use crate::observables::request::NutationAxis;
 use crate::sampling::keys::{Counts, Row, Value, Values, Written};
 use crate::scene::table::Table;
-use crate::scene::{ArcErrors, Name};
+use crate::scene::{ArcErrors, EnvironmentInput, Name};
 use sha2::{Digest, Sha256};
 
 fn digest(text: &str) -> String {
@@ -160,14 +160,20 @@ impl Plan {
             lines.keys_of("[debris]", Table::Debris, 0, &self.nominal);
         }
         lines.keys_of("[initial]", Table::Initial, 0, &self.nominal);
-        if self.nominal.environment.acts() {
+        if self.nominal.environment != EnvironmentInput::DEFAULT {
             lines.keys_of("[environment]", Table::Environment, 0, &self.nominal);
             if self.nominal.environment.gravity_gradient {
                 lines.key("gravity_gradient", true);
             }
+            if let Some(model) = self.nominal.environment.magnetic_field {
+                lines.key("magnetic_field", model.name());
+            }
         }
-        if self.nominal.orbit.is_some() {
+        if let Some(orbit) = &self.nominal.orbit {
             lines.keys_of("[orbit]", Table::Orbit, 0, &self.nominal);
+            if let Some(epoch) = orbit.epoch {
+                lines.text_key("epoch", &epoch.to_string());
+            }
         }
         for arc in 0..self.nominal.actuation.len() {
             let command = &self.nominal.actuation[arc];

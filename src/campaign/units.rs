@@ -38,6 +38,9 @@ const UNITS: &[(&str, &str, f64, f64)] = &[
     ("kN", "N", 1e3, 1.0),
     ("mN m", "N m", 1.0, 1e3),
     ("kN m", "N m", 1e3, 1.0),
+    ("mA m^2", "A m^2", 1.0, 1e3),
+    ("nT", "T", 1.0, 1e9),
+    ("uT", "T", 1.0, 1e6),
     ("%", "1", 1.0, 1e2),
 ];
 
@@ -97,7 +100,7 @@ pub(super) fn known(unit: &str) -> Option<&'static str> {
 
 /// The unit at the end of a key; `1` where there is none.
 pub(super) fn in_name(key: &str) -> &'static str {
-    const ENDINGS: [(&str, &str); 19] = [
+    const ENDINGS: [(&str, &str); 21] = [
         ("_m3_s2", "m^3/s^2"),
         ("_rad_s_sqrt_s", "rad/s/sqrt(s)"),
         ("_rad_sqrt_s", "rad/sqrt(s)"),
@@ -109,6 +112,7 @@ pub(super) fn in_name(key: &str) -> &'static str {
         ("_rad_s", "rad/s"),
         ("_kg_m3", "kg/m^3"),
         ("_kg_m2", "kg m^2"),
+        ("_a_m2", "A m^2"),
         ("_m_s", "m/s"),
         ("_n_m", "N m"),
         ("_rad", "rad"),
@@ -117,6 +121,7 @@ pub(super) fn in_name(key: &str) -> &'static str {
         ("_s", "s"),
         ("_m", "m"),
         ("_j", "J"),
+        ("_t", "T"),
     ];
     ENDINGS.iter().find(|(ending, _)| key.ends_with(ending)).map_or("1", |(_, unit)| unit)
 }

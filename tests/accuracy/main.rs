@@ -17,6 +17,7 @@ mod environment;
 mod error_estimate;
 mod feedback;
 mod golden_truth;
+mod magnetic_torque;
 mod many_wheels;
 mod null_space;
 mod null_space_matrices;

@@ -10,7 +10,7 @@ use spindrift::ode::{Control, Integrator};
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::propagation::{Method, PropagationSettings, RotationError, rotation_errors};
 use spindrift::run::{Grid, StateField, StateTable};
-use spindrift::scene::{OrbitInput, Scene, SceneInput};
+use spindrift::scene::{EnvironmentInput, Epoch, FieldModel, OrbitInput, Scene, SceneInput};
 
 /// The methods that integrate the gravity gradient, with settings near rounding for motions of some mrad/s.
 fn methods() -> Vec<(Method, Control)> {
@@ -298,6 +298,17 @@ fn with_and_without(effect: Effect) -> [Scene; 2] {
             input.environment.body_torque_n_m = Some([1e-3, -2e-3, 3e-3]);
         }
         Effect::GravityGradient => without.environment.gravity_gradient = false,
+        Effect::MagneticTorque => {
+            for (input, dipole) in [(&mut input, Some([50.0, -30.0, 80.0])), (&mut without, None)] {
+                input.orbit =
+                    input.orbit.map(|orbit| OrbitInput { epoch: Epoch::parse("2026-11-24T00:00:00Z"), ..orbit });
+                input.environment = EnvironmentInput {
+                    magnetic_field: Some(FieldModel::Igrf),
+                    magnetic_dipole_a_m2: dipole,
+                    ..EnvironmentInput::DEFAULT
+                };
+            }
+        }
         Effect::Gravity => {
             input.environment.gravity_gradient = false;
             without = SceneInput { orbit: None, ..input.clone() };
@@ -356,7 +367,7 @@ fn every_method_has_every_effect_or_says_so() {
             }
         }
     }
-    assert!(found >= 18, "{found} pairs");
+    assert!(found >= 24, "{found} pairs");
 }
 
 /// Law: an orbit without a gravity gradient is another translation and no other rotation: the same bits in the same steps.

@@ -80,6 +80,28 @@ fn the_torque_is_that_of_the_textbook() {
     }
 }
 
+/// Law: the field is that of the package (`magnetic_field::tests`, here over the pole) and the torque of a dipole across it the product of both; along it, none.
+#[test]
+fn a_dipole_is_turned_by_the_field() {
+    // `pyIGRF14` at the first instant of 2025 on the e1 axis, in F_e: see tests/accuracy/magnetic_torque.rs
+    let with = |dipole: [f64; 3]| {
+        let body = format!(
+            "principal_moments_kg_m2 = [90.0, 100.0, 40.0]\n[initial]\nangular_velocity_rad_s = [0.0, 0.0, 0.0]\n\
+             [environment]\nmagnetic_field = \"igrf\"\nmagnetic_dipole_a_m2 = {dipole:?}"
+        );
+        row("epoch = \"2025-01-01T00:00:00Z\"", 1e-3, 2, &body)
+    };
+    const FIELD: [f64; 3] = [-6513.290_588_998_474, 2186.644_337_215_031, 21391.717_240_425_576];
+    let size = FIELD.iter().map(|b| b * b).sum::<f64>().sqrt();
+    let along = with(FIELD.map(|b| 2.0 * b / size));
+    assert!((1e9 * along["magnetic_field_max_t"] / size - 1.0).abs() < 1e-6, "{along:?}");
+    assert!((along["magnetic_field_mean_t"] / along["magnetic_field_max_t"] - 1.0).abs() < 1e-6);
+    assert!(along["magnetic_torque_max_n_m"] < 1e-6 * 2e-9 * size);
+    let across = with([0.0, 3.0 * FIELD[2] / size, -3.0 * FIELD[1] / size]);
+    let expected = 3e-9 * size * (1.0 - (FIELD[0] / size).powi(2)).sqrt();
+    assert!((across["magnetic_torque_max_n_m"] / expected - 1.0).abs() < 1e-6, "{across:?} {expected}");
+}
+
 /// Law: only where a file names it, and only on an orbit.
 #[test]
 fn the_group_is_of_scenes_on_an_orbit() {

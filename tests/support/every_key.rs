@@ -287,8 +287,8 @@ fn on_orbit(keys: &str) -> String {
          [[actuation]]\nname = \"burn\"\nstart_s = 0.0\nend_s = 3.0\ntorque_n_m = {{ w1 = 0.001 }}\n\
          [[actuation]]\nname = \"later\"\nstart_s = 4.0\nend_s = 6.0\ntorque_n_m = {{ w1 = 0.002 }}\n\
          [initial]\nangular_velocity_rad_s = [0, 0, 0.001]\n\
-         [environment]\nbody_torque_n_m = [0, 0.001, 0]\ngravity_gradient = true\n\
-         [orbit]\nbody_radius_m = 0\n{keys}\n"
+         [environment]\nbody_torque_n_m = [0, 0.001, 0]\ngravity_gradient = true\nmagnetic_field = \"igrf\"\nmagnetic_dipole_a_m2 = [0.1, 0.2, 0.3]\n\
+         [orbit]\nepoch = \"2026-11-24T01:02:03.25Z\"\nbody_radius_m = 0\n{keys}\n"
     )
 }
 

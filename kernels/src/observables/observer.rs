@@ -13,7 +13,7 @@ use super::finished_run::{FinishedRun, final_point, principal_moments};
 use super::group::Group;
 use super::measure::measure;
 use super::nominal_attitude::NominalAttitude;
-use super::points::{MeasuredRun, SeriesTable};
+use super::points::{Magnetism, MeasuredRun, SeriesTable};
 use super::reduce::reduce;
 use super::reduction::{OrderStatistic, Reduction, ValueStatistic};
 use super::request::{Request, SeriesSet, SeriesTask};
@@ -24,6 +24,7 @@ use super::table::Series;
 use super::weights::Weights;
 use super::window::Window;
 use crate::dynamics::arc_record::ArcRecord;
+use crate::dynamics::magnetic_field::MagneticField;
 use crate::math::Isa;
 use crate::math::isa::Work;
 use crate::run::{Grid, Outcome, StateTable, Status};
@@ -269,7 +270,22 @@ impl Work for Observation<'_> {
             if observed.has(Series::Nutation) { observer.request.nutation_axis.of(scene.mass.inertia) } else { None };
         let (sources, mass) = (&observer.sources, &scene.mass);
         let mu = scene.orbit.as_ref().map_or(f64::NAN, |orbit| orbit.mu);
-        let run = MeasuredRun { observed, sources, mass, debris, nominal, nutation_axis, mu, of_law, table, points };
+        let dipole = scene.environment.magnetic_dipole_a_m2;
+        let magnetism = dipole
+            .and_then(|dipole| Some(Magnetism { field: MagneticField::of(scene)?, dipole, times: &observer.times }));
+        let run = MeasuredRun {
+            observed,
+            sources,
+            mass,
+            debris,
+            nominal,
+            nutation_axis,
+            mu,
+            magnetism,
+            of_law,
+            table,
+            points,
+        };
         measure(simd, &run, &mut observer.series);
         observer.reduce(simd);
         if observer.request.groups.contains(Group::Exchange) {

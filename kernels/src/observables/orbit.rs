@@ -1,5 +1,5 @@
-//! Where a spacecraft on an orbit is and how it is turned to the central body: its distance, the angle of s3 from nadir, and the torque of the
-//! gravity gradient.
+//! Where a spacecraft on an orbit is and how it is turned to the central body: its distance, the angle of s3 from nadir, the torque of the gravity
+//! gradient, the magnetic field and the torque of the residual dipole in it.
 //!
 //! Nadir is the direction from the centre of mass to the central body. The torque is that of [`crate::dynamics::effects::gravity_gradient`] at the
 //! states of the table.
@@ -8,10 +8,11 @@ use fearless_simd::Simd;
 
 use super::attitude::Attitude;
 use super::motion::angle;
-use super::points::{MeasuredRun, SeriesTable, constant_matrix, needed, three};
+use super::points::{Magnetism, MeasuredRun, SeriesTable, constant_matrix, needed, three};
 use super::table::Series;
 use crate::dynamics::effects::gravity_gradient::GravityGradient;
-use crate::math::vector::{dot, norm, scaled, transposed_product};
+use crate::math::lanes::WIDTH;
+use crate::math::vector::{constant, cross, dot, norm, scaled, transposed_product};
 use crate::math::{Lanes, Real};
 use crate::run::StateField;
 
@@ -37,5 +38,15 @@ pub(super) fn orbit<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTab
         let torque = gradient.torque_at(up, inverse);
         dot(torque, torque).store(&mut torques[at]);
         distance.store(&mut distances[at]);
+    }
+    let Some(Magnetism { field, dipole, times }) = run.magnetism else { return };
+    let (field, dipole) = (field.in_lanes(gradient.strength), constant(gradient.strength, dipole));
+    let [strengths, torques] = out.write([Series::FieldStrength, Series::MagneticTorqueSquare], vectors);
+    for at in 0..vectors {
+        let time = std::array::from_fn(|lane| times[(WIDTH * at + lane).min(times.len() - 1)]);
+        let field_e = field.at(Lanes::load(simd, &time), three(simd, position, at));
+        norm(field_e).store(&mut strengths[at]);
+        let torque = cross(dipole, transposed_product(attitude.c_es(simd, at), field_e));
+        dot(torque, torque).store(&mut torques[at]);
     }
 }

@@ -10,6 +10,7 @@ use super::nominal_attitude::NominalAttitude;
 use super::request::SeriesSet;
 use super::rows::SeriesSource;
 use super::table::Series;
+use crate::dynamics::magnetic_field::MagneticField;
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};
@@ -36,12 +37,25 @@ pub(super) struct MeasuredRun<'a> {
     pub(super) nutation_axis: Option<[f64; 3]>,
     /// Gravitational parameter of the central body, m^3/s^2; NaN without an orbit.
     pub(super) mu: f64,
+    /// The magnetic field and what it turns; `None` where nothing is magnetic.
+    pub(super) magnetism: Option<Magnetism<'a>>,
     /// What the control law has recorded, series by series ([`super::law_columns::LawSeries`]) and point by point; empty where it records nothing.
     pub(super) of_law: &'a [f64],
     /// The states.
     pub(super) table: &'a StateTable,
     /// Number of filled points, at least one.
     pub(super) points: usize,
+}
+
+/// What a magnetic torque is measured by.
+#[derive(Clone, Copy)]
+pub(super) struct Magnetism<'a> {
+    /// The field.
+    pub(super) field: MagneticField<f64>,
+    /// The residual dipole, F_s, A m^2.
+    pub(super) dipole: [f64; 3],
+    /// The times of the points, s.
+    pub(super) times: &'a [f64],
 }
 
 impl MeasuredRun<'_> {

@@ -234,6 +234,7 @@ impl Request {
             Scenes::SeveralWheels => self.wheels.len() > 1,
             Scenes::Orbit => self.effects.contains(Effect::Gravity),
             Scenes::GravityGradient => self.effects.contains(Effect::GravityGradient),
+            Scenes::MagneticTorque => self.effects.contains(Effect::MagneticTorque),
         }
     }
 

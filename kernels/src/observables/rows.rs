@@ -48,6 +48,8 @@ pub(super) enum Scenes {
     Orbit,
     /// With a gravity gradient.
     GravityGradient,
+    /// With a magnetic dipole.
+    MagneticTorque,
 }
 
 /// A field of the state table that a value is computed from, for which scenes, and why.

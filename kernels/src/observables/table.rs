@@ -57,6 +57,7 @@ impl Column {
             Scenes::SeveralWheels => "with several wheels",
             Scenes::Orbit => "on an orbit",
             Scenes::GravityGradient => "with a gravity gradient",
+            Scenes::MagneticTorque => "with a magnetic dipole",
         }
     }
 
@@ -351,6 +352,10 @@ mod needs {
         need(StateField::Dcm, Scenes::Constrained, "direction of nadir in the body"),
         need(StateField::Attitude, Scenes::Unconstrained, "direction of nadir in the body"),
     ];
+    pub(super) const MAGNETISM: &[Need] = &[
+        need(StateField::ComPosition, Scenes::MagneticTorque, "place in the magnetic field"),
+        need(StateField::Attitude, Scenes::MagneticTorque, "direction of the magnetic field in the body"),
+    ];
     pub(super) const RESIDUALS: &[Need] = &[need(StateField::Residuals, Scenes::Constrained, "residuals of the constraints")];
     pub(super) const FINAL_STATE: &[Need] = &[
         need(StateField::Attitude, Scenes::All, "attitude at the end"),
@@ -370,8 +375,8 @@ mod needs {
 }
 use needs::{
     ANGULAR, BODIES, DEBRIS_ANGULAR, DEBRIS_DIRECTION, DEBRIS_ENERGY, DEBRIS_LINEAR, DEBRIS_NUMERICS, FINAL_STATE,
-    FROM_INITIAL, FROM_NOMINAL, LINEAR, NUMERICS, ORBIT, ORTHONORMALITY, RATE, REDUNDANT, RESIDUALS, SPIN, SPIN_AXIS,
-    TOTAL, WORK,
+    FROM_INITIAL, FROM_NOMINAL, LINEAR, MAGNETISM, NUMERICS, ORBIT, ORTHONORMALITY, RATE, REDUNDANT, RESIDUALS, SPIN,
+    SPIN_AXIS, TOTAL, WORK,
 };
 
 #[rustfmt::skip]
@@ -412,6 +417,8 @@ series! {
     OrbitDistance [1]: Orbit, Quantity, None, [ORBIT], Some(("orbit_distance_m", "m")), "Distance of the spacecraft's centre of mass from the centre of the central body.";
     NadirAngle [1]: Orbit, Quantity, None, [ORBIT], Some(("nadir_angle_rad", "rad")), "Angle between s3 and nadir, the direction from the spacecraft's centre of mass to the central body.";
     GradientTorqueSquare [1]: Orbit, Square, None, [ORBIT], Some(("gravity_gradient_torque_n_m", "N m")), "Magnitude of the torque of the gravity gradient on the spacecraft.";
+    FieldStrength [1]: Orbit, Quantity, None, [MAGNETISM], Some(("magnetic_field_t", "T")), "Magnitude of the Earth's magnetic field at the spacecraft.";
+    MagneticTorqueSquare [1]: Orbit, Square, None, [MAGNETISM], Some(("magnetic_torque_n_m", "N m")), "Magnitude of the torque of the magnetic field on the residual dipole of the spacecraft.";
     PointingError [1]: Law, Quantity, None, [], Some(("pointing_error_rad", "rad")), "Angle of the rotation from the true attitude to the target of the phase, at the last tick of the control loop; null in a phase without a target.";
     AttitudeEstimateError [1]: Law, Quantity, None, [], Some(("attitude_estimate_error_rad", "rad")), "Angle between estimated and true attitude, at the last tick of the control loop.";
     RateEstimateError [1]: Law, Quantity, None, [], Some(("rate_estimate_error_rad_s", "rad/s")), "Magnitude of the error of the estimated angular velocity, at the last tick of the control loop.";
@@ -552,6 +559,9 @@ static FAMILIES: &[&[Column]] = &[
         of!(Orbit, Orbit, NadirAngle, Value(ValueStatistic::Mean), ["nadir_angle_mean_rad"], "rad", ["Mean over the points of the angle between s3 and nadir."]),
         of!(Orbit, Orbit, NadirAngle, Value(ValueStatistic::Final), ["nadir_angle_final_rad"], "rad", ["Angle between s3 and nadir at the last point."]),
         of!(Orbit, GravityGradient, GradientTorqueSquare, Order(OrderStatistic::Max), ["gravity_gradient_torque_max_n_m"], "N m", ["Maximum magnitude of the torque of the gravity gradient on the grid."]),
+        of!(Orbit, MagneticTorque, FieldStrength, Value(ValueStatistic::Max), ["magnetic_field_max_t"], "T", ["Maximum magnitude of the Earth's magnetic field on the grid."]),
+        of!(Orbit, MagneticTorque, FieldStrength, Value(ValueStatistic::Mean), ["magnetic_field_mean_t"], "T", ["Mean over the points of the magnitude of the Earth's magnetic field."]),
+        of!(Orbit, MagneticTorque, MagneticTorqueSquare, Order(OrderStatistic::Max), ["magnetic_torque_max_n_m"], "N m", ["Maximum magnitude of the torque of the magnetic field on the residual dipole on the grid."]),
     ],
 ];
 

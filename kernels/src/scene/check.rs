@@ -9,13 +9,42 @@ use super::mass::{Body, MassProperties};
 use super::orbit;
 use super::schedule::applied;
 use super::schema::limit::{INERTIA_SLACK, shown};
-use super::schema::{ArcErrors, InitialInput, PartInput, WheelInput, WheelMode};
+use super::schema::{ArcErrors, FieldModel, InitialInput, PartInput, WheelInput, WheelMode};
 use super::table::Table;
 use crate::math::symmetric::{is_positive_definite, principal_axes};
 use crate::math::vector::{difference, norm};
 
 /// Largest mass (kg) and moment of inertia (kg m^2) of a body: the product of two of them, as sums over pairs and determinants have it, is finite.
 const LARGEST: f64 = 1e150;
+
+/// Collects what the magnetic field of `input` needs and does not have.
+fn magnetic_field(input: &SceneInput, problems: &mut Problems) {
+    let Some(model) = input.environment.magnetic_field else {
+        if let Some(dipole) = input.environment.magnetic_dipole_a_m2 {
+            let allowed = "left out without a magnetic_field";
+            let remedy = "add magnetic_field = \"igrf\" to [environment]";
+            problems.add("environment.magnetic_dipole_a_m2".to_owned(), shown(&dipole), allowed, remedy);
+        }
+        return;
+    };
+    let value = || format!("{:?}", model.name());
+    let Some(orbit) = &input.orbit else {
+        let allowed = "left out without an [orbit]";
+        let remedy = "add an [orbit] table, or delete this line";
+        return problems.add("environment.magnetic_field".to_owned(), value(), allowed, remedy);
+    };
+    let [first, last] = FieldModel::YEARS;
+    let Some(epoch) = orbit.epoch else {
+        let allowed = "given where there is a magnetic_field, which depends on the date";
+        let remedy = "add epoch = \"2026-11-24T00:00:00Z\" to [orbit]";
+        return problems.add("orbit.epoch".to_owned(), "missing".to_owned(), allowed, remedy);
+    };
+    if !(first..last).contains(&epoch.decimal_year()) {
+        let allowed = format!("a date of the years {first} to {}, which IGRF-14 covers here", last - 1.0);
+        let remedy = "write another date, or delete magnetic_field";
+        problems.add("orbit.epoch".to_owned(), format!("{:?}", epoch.to_string()), allowed, remedy);
+    }
+}
 
 /// Collects what is wrong with the numbers as written.
 pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
@@ -57,6 +86,7 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
         let remedy = "add an [orbit] table, or delete this line";
         problems.add("environment.gravity_gradient".to_owned(), "true".to_owned(), allowed, remedy);
     }
+    magnetic_field(input, problems);
     input.environment.check(has_debris, problems, |key| format!("environment.{key}").into());
     input.control.check(problems);
     if input.actuation.is_empty() {

@@ -6,6 +6,7 @@
 //!
 //! - `constant_torque`: constant in F_s: a part of every arc of constant actuation, so that all methods have it.
 //! - [`gravity_gradient`]: depends on attitude and position.
+//! - [`magnetic_torque`]: depends on attitude, position, date and the torque rods.
 //! - [`within_arcs`]: the effects that change within an arc, as the equations of motion have them, and what they depend on.
 //!
 //! A scene without effects costs nothing: its kernel is compiled without them. A scene with effects evaluates only those that act, and its orbit
@@ -13,6 +14,7 @@
 
 mod constant_torque;
 pub mod gravity_gradient;
+pub mod magnetic_torque;
 pub mod within_arcs;
 
 use super::actuation::sum;
@@ -26,6 +28,8 @@ pub enum Effect {
     ConstantTorque,
     /// `environment.gravity_gradient`.
     GravityGradient,
+    /// `environment.magnetic_dipole_a_m2`.
+    MagneticTorque,
     /// `[orbit]`: the force of gravity on the centre of mass.
     Gravity,
 }
@@ -45,13 +49,15 @@ pub enum Form {
 
 impl Effect {
     /// All effects.
-    pub const ALL: [Effect; 3] = [Effect::ConstantTorque, Effect::GravityGradient, Effect::Gravity];
+    pub const ALL: [Effect; 4] =
+        [Effect::ConstantTorque, Effect::GravityGradient, Effect::MagneticTorque, Effect::Gravity];
 
     /// The key that makes it act.
     pub const fn key(self) -> &'static str {
         match self {
             Effect::ConstantTorque => "environment.body_torque_n_m",
             Effect::GravityGradient => "environment.gravity_gradient",
+            Effect::MagneticTorque => "environment.magnetic_dipole_a_m2",
             Effect::Gravity => "orbit",
         }
     }
@@ -61,6 +67,7 @@ impl Effect {
         match self {
             Effect::ConstantTorque => Form::Constant,
             Effect::GravityGradient => Form::Series,
+            Effect::MagneticTorque => Form::Series,
             Effect::Gravity => Form::Translation,
         }
     }
@@ -70,6 +77,7 @@ impl Effect {
         match self {
             Effect::ConstantTorque => environment.body_torque_n_m.is_some(),
             Effect::GravityGradient => environment.gravity_gradient,
+            Effect::MagneticTorque => environment.magnetic_dipole_a_m2.is_some(),
             Effect::Gravity => is_on_orbit,
         }
     }
@@ -77,6 +85,7 @@ impl Effect {
 
 within_arcs::changing_effects! {
     gravity_gradient: GravityGradient, GradientSeries;
+    magnetic_torque: MagneticTorque, MagneticSeries;
 }
 
 /// The effects that act in a run.

@@ -36,7 +36,7 @@ pub use actuators::ActuatorsInput;
 pub use body::BodyInput;
 pub use control::{ControlInput, DeclaredTable, LawParameter};
 pub use debris::DebrisInput;
-pub use environment::EnvironmentInput;
+pub use environment::{EnvironmentInput, FieldModel};
 pub use initial::InitialInput;
 pub use limit::Limit;
 pub use mass_errors::MassErrors;

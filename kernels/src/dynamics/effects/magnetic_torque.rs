@@ -1,0 +1,159 @@
+//! The magnetic torque: what the field of the central body turns a spacecraft by that is a magnet, by itself or by the current in its torque rods.
+//!
+//! tau = m x B (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 17.2), with the dipole m fixed in the body over an arc and the
+//! field of [`crate::dynamics::magnetic_field`] at its place and time.
+
+use super::within_arcs::{Motion, MotionSeries};
+use crate::dynamics::magnetic_field::series::FieldSeries;
+use crate::dynamics::magnetic_field::{MagneticField, largest};
+use crate::math::Real;
+use crate::math::symmetric::principal_axes;
+use crate::math::vector::{conjugate, constant, cross, dcm_from_quaternion, hamilton, norm, sum, transposed_product};
+use crate::scene::Scene;
+
+/// The magnetic torque of one run, one per lane.
+#[derive(Clone, Copy, Debug)]
+pub struct MagneticTorque<R> {
+    field: MagneticField<R>,
+    /// The dipole of the body itself, B, A m^2.
+    residual: [R; 3],
+    /// That with the torque rods, in the present arc.
+    dipole: [R; 3],
+}
+
+impl<R: Real> MagneticTorque<R> {
+    /// One that does not act.
+    pub fn none(zero: R) -> Self {
+        MagneticTorque { field: MagneticField::none(zero), residual: [zero; 3], dipole: [zero; 3] }
+    }
+
+    /// Puts `own` into lane `lane`.
+    pub fn set_lane(&mut self, lane: usize, own: &MagneticTorque<f64>) {
+        self.field.set_lane(lane, &own.field);
+        self.set_arc(lane, own);
+    }
+
+    /// Puts the dipole of the present arc of `own` into lane `lane`.
+    pub fn set_arc(&mut self, lane: usize, own: &MagneticTorque<f64>) {
+        for i in 0..3 {
+            self.residual[i].set_lane(lane, own.residual[i]);
+            self.dipole[i].set_lane(lane, own.dipole[i]);
+        }
+    }
+
+    /// Begins an arc in which the torque rods have the dipole `rods`, B, A m^2.
+    pub fn begin_arc(&mut self, rods: [R; 3]) {
+        self.dipole = sum(self.residual, rods);
+    }
+
+    /// It depends on where the spacecraft is.
+    pub const NEEDS_ORBIT: bool = true;
+
+    /// The torque on a body, B, N m.
+    #[inline(always)]
+    pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
+        let field_e = self.field.at(motion.time, motion.place.position);
+        cross(self.dipole, transposed_product(dcm_from_quaternion(motion.attitude), field_e))
+    }
+}
+
+/// The magnetic torque on `scene` in the frame B, which `c_sb` maps to F_s.
+pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<MagneticTorque<R>> {
+    let dipole = scene.environment.magnetic_dipole_a_m2?;
+    let field = MagneticField::of(scene)?.in_lanes(zero);
+    let dipole = constant(zero, dipole);
+    let residual = c_sb.map_or(dipole, |c_sb| transposed_product(c_sb, dipole));
+    Some(MagneticTorque { field, residual, dipole: residual })
+}
+
+/// Taylor coefficients of the magnetic torque along a step: m x (q* (x) B (x) q), products of series.
+#[derive(Clone, Debug)]
+pub struct MagneticSeries<R> {
+    /// m, A m^2 s^2 per unit of time squared.
+    dipole: [R; 3],
+    field: FieldSeries<R>,
+    /// Of B (x) q.
+    turned: Vec<[R; 4]>,
+}
+
+impl<R: Real> MagneticSeries<R> {
+    /// Memory for series of order `order`.
+    pub fn new(zero: R, order: usize) -> Self {
+        MagneticSeries { dipole: [zero; 3], field: FieldSeries::new(zero, order), turned: vec![[zero; 4]; order + 1] }
+    }
+
+    /// Starts a step at `time` (s) in a unit of time of `unit` seconds.
+    #[inline(always)]
+    pub fn begin(&mut self, torque: &MagneticTorque<R>, time: R, unit: R) {
+        self.dipole = torque.dipole.map(|component| component * (unit * unit));
+        self.field.begin(&torque.field, time, unit);
+    }
+
+    /// Coefficient n of the torque, B, N m in the unit of time. Call in ascending order of `n`.
+    #[inline(always)]
+    pub fn extend(&mut self, n: usize, motion: &MotionSeries<R>) -> [R; 3] {
+        let MagneticSeries { dipole, field, turned, .. } = self;
+        let MotionSeries { attitude, orbit, .. } = motion;
+        let zero = dipole[0].zero();
+        field.extend(n, orbit);
+        let mut sums = [zero; 4];
+        for m in 0..=n {
+            let [x, y, z] = field.field()[m];
+            let product = hamilton([zero, x, y, z], attitude[n - m]);
+            sums = [0, 1, 2, 3].map(|i| sums[i] + product[i]);
+        }
+        turned[n] = sums;
+        let mut field_b = [zero; 3];
+        for m in 0..=n {
+            let [_, x, y, z] = hamilton(conjugate(attitude[m]), turned[n - m]);
+            field_b = sum(field_b, [x, y, z]);
+        }
+        cross(*dipole, field_b)
+    }
+}
+
+/// Upper bound of the torque on `scene`, N m: the dipole across the largest field at the periapsis.
+pub fn largest_torque(scene: &Scene) -> f64 {
+    let (Some(orbit), Some(dipole)) = (&scene.orbit, scene.environment.magnetic_dipole_a_m2) else { return 0.0 };
+    norm(dipole) * largest(orbit.shape().periapsis)
+}
+
+/// Largest rate of librations of `scene` about the field, rad/s: sqrt(|m| |B|/J) of the smallest moment.
+pub fn largest_rate(scene: &Scene) -> f64 {
+    let (moments, _) = principal_axes(scene.mass.inertia);
+    (largest_torque(scene) / moments[0].min(moments[1]).min(moments[2])).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::orbit::OrbitState;
+    use crate::math::vector::difference;
+    use crate::scene::{Epoch, FieldModel};
+
+    /// Law: two poles of the charge q at +-d/2 in the field are pulled by +-q B: about the middle a couple of m x B with m = q d; none along the field; rods
+    /// add to the dipole.
+    #[test]
+    fn a_magnet_turns_towards_the_field() {
+        let field = MagneticField::new(FieldModel::Igrf, Epoch::parse("2026-11-24T00:00:00Z").expect("a date"));
+        let position = [3.1e6, -4.7e6, 4.2e6];
+        let field_e = field.at(10.0, position);
+        for k in 0..10 {
+            let (s, c) = libm::sincos(0.37 * f64::from(k));
+            let attitude = [c * 0.6, s * 0.8, c * 0.8, -s * 0.6];
+            let place = OrbitState { position, velocity: [0.0; 3], distance: norm(position) };
+            let motion = Motion { time: 10.0, attitude, rate: [0.0; 3], place };
+            let residual = [0.3, -0.2, 0.1];
+            let mut torque = MagneticTorque { field, residual, dipole: residual };
+            torque.begin_arc([0.1, 0.2, 0.3]);
+            let c_eb = dcm_from_quaternion(attitude);
+            let pull: [f64; 3] = transposed_product(c_eb, field_e);
+            let arms = [[0.2, 0.0, 0.2], [-0.2, 0.0, -0.2]];
+            let couple = sum(cross(arms[0], pull), cross(arms[1], pull.map(|x| -x)));
+            assert!(norm(difference(torque.torque(&motion), couple)) < 1e-15 * norm(couple));
+            torque.residual = pull;
+            torque.begin_arc([0.0; 3]);
+            assert_eq!(torque.torque(&motion), [0.0; 3]);
+        }
+    }
+}

@@ -1,0 +1,285 @@
+//! [`MagneticField`]: the Earth's magnetic field at a place and time, by IGRF-14 to degree 13 or by its dipole.
+//!
+//! The field turns with the Earth ([`super::earth_rotation`]). It is that of the date at time zero: its secular variation during a run, some 0.2 nT a day, is
+//! left out. The dipole is the part of degree 1, tilted by some 9 degrees against the Earth's axis.
+//!
+//! With X = a x/r^2 and so on, a the radius of reference, the harmonics follow from V_00 = a/r by recurrences (O. Montenbruck & E. Gill, *Satellite Orbits*,
+//! 2000, eqs. 3.29 to 3.31):
+//!
+//! ```text
+//! V_jj = (2j - 1) (X V_(j-1)(j-1) - Y W_(j-1)(j-1)),   W_jj = (2j - 1) (X W_(j-1)(j-1) + Y V_(j-1)(j-1))
+//! (k - j) V_kj = (2k - 1) Z V_(k-1)j - (k + j - 1) (a/r)^2 V_(k-2)j, and W_kj in the same way
+//! ```
+//!
+//! - [`coefficients`]: the coefficients of IGRF-14. [`series`]: the Taylor series along an orbit.
+
+pub mod coefficients;
+pub mod series;
+
+use self::coefficients::{DEGREE, MIDDLE, RADIUS, TABLES, Tables, index};
+use super::earth_rotation::{TURNS_PER_SECOND, turns_at};
+use crate::math::Real;
+use crate::math::sine::sin_cos_turns;
+use crate::math::vector::{dot, scaled};
+use crate::scene::{Epoch, FieldModel, Scene};
+
+/// The field, of one run per lane.
+#[derive(Clone, Copy, Debug)]
+pub struct MagneticField<R> {
+    tables: &'static Tables,
+    /// The largest degree of any lane.
+    degree: usize,
+    /// One in the lanes that have the degrees above the first, zero in others.
+    higher: R,
+    /// Years since 2025, zero before; and the same of years before, negative.
+    after: R,
+    before: R,
+    /// How the Earth is turned at time zero, turns.
+    turns: R,
+}
+
+impl MagneticField<f64> {
+    /// The field of `scene`, where it has one.
+    pub fn of(scene: &Scene) -> Option<Self> {
+        Some(Self::new(scene.environment.magnetic_field?, scene.orbit.as_ref()?.epoch?))
+    }
+
+    /// The field by `model` at the date `epoch`, whose year is one of [`FieldModel::YEARS`].
+    pub fn new(model: FieldModel, epoch: Epoch) -> Self {
+        let (degree, higher) = match model {
+            FieldModel::Dipole => (1, 0.0),
+            FieldModel::Igrf => (DEGREE, 1.0),
+        };
+        let since = epoch.decimal_year() - MIDDLE;
+        let (after, before) = (since.max(0.0), since.min(0.0));
+        MagneticField { tables: &TABLES, degree, higher, after, before, turns: turns_at(epoch) }
+    }
+
+    /// The same in all lanes of `zero`.
+    pub fn in_lanes<R: Real>(&self, zero: R) -> MagneticField<R> {
+        MagneticField {
+            tables: self.tables,
+            degree: self.degree,
+            higher: zero.splat(self.higher),
+            after: zero.splat(self.after),
+            before: zero.splat(self.before),
+            turns: zero.splat(self.turns),
+        }
+    }
+}
+
+impl<R: Real> MagneticField<R> {
+    /// No field.
+    pub fn none(zero: R) -> Self {
+        MagneticField { tables: &TABLES, degree: 0, higher: zero, after: zero, before: zero, turns: zero }
+    }
+
+    /// Puts `own` into lane `lane`.
+    pub fn set_lane(&mut self, lane: usize, own: &MagneticField<f64>) {
+        self.degree = self.degree.max(own.degree);
+        self.higher.set_lane(lane, own.higher);
+        self.after.set_lane(lane, own.after);
+        self.before.set_lane(lane, own.before);
+        self.turns.set_lane(lane, own.turns);
+    }
+
+    /// The field at `position` (F_e, m) at `time` (s), F_e, T.
+    #[inline(always)]
+    pub fn at(&self, time: R, position: [R; 3]) -> [R; 3] {
+        let zero = time.zero();
+        let (sin, cos) = self.turn(time);
+        let [x, y, z] = turned(cos, -sin, position);
+        let square = dot(position, position);
+        let radius = zero.splat(RADIUS);
+        let scale = radius / square;
+        let [x, y, z] = scaled(scale, [x, y, z]);
+        let near = radius * scale;
+        // degree 1, and all others
+        let mut fields = [[zero; 3]; 2];
+        let mut diagonal = [near.sqrt(), zero];
+        let top = self.degree + 1;
+        for j in 0..=top {
+            if j > 0 {
+                let [v, w] = diagonal;
+                let factor = zero.splat((2 * j - 1) as f64);
+                diagonal = [factor * (x * v - y * w), factor * (x * w + y * v)];
+            }
+            let (mut before, mut now) = ([zero; 2], diagonal);
+            for k in j..=top {
+                if k > j {
+                    let [along, across] = factors(k, j).map(|factor| zero.splat(factor));
+                    let (along, across) = (along * z, across * near);
+                    let next = [0, 1].map(|i| along * now[i] - across * before[i]);
+                    (before, now) = (now, next);
+                }
+                if k > 1 {
+                    let weights = self.weights(index(k, j));
+                    add_weighed(&mut fields[usize::from(k > 2)], &weights, now);
+                }
+            }
+        }
+        let [dipole, others] = fields;
+        turned(cos, sin, [0, 1, 2].map(|i| dipole[i] + self.higher * others[i]))
+    }
+
+    /// Sine and cosine of the angle by which the Earth is turned at `time`, s.
+    #[inline(always)]
+    fn turn(&self, time: R) -> (R, R) {
+        let turns = time.mul_add(time.splat(TURNS_PER_SECOND), self.turns);
+        sin_cos_turns(turns - turns.nearest_integer())
+    }
+
+    /// The weights of the harmonics of index `index` at the date.
+    #[inline(always)]
+    fn weights(&self, index: usize) -> [R; 6] {
+        let Tables { middle, after, before } = self.tables;
+        core::array::from_fn(|i| {
+            let constant = |value: f64| self.after.splat(value);
+            let middle = self.after.mul_add(constant(after[index][i]), constant(middle[index][i]));
+            self.before.mul_add(constant(before[index][i]), middle)
+        })
+    }
+}
+
+/// The factors of Z V_(k-1)j and (a/r)^2 V_(k-2)j in V_kj.
+#[inline(always)]
+fn factors(k: usize, j: usize) -> [f64; 2] {
+    let difference = (k - j) as f64;
+    [(2 * k - 1) as f64 / difference, (k + j - 1) as f64 / difference]
+}
+
+/// Adds what the harmonics `now`, V and W, contribute to a field.
+#[inline(always)]
+fn add_weighed<R: Real>(field: &mut [R; 3], weights: &[R; 6], now: [R; 2]) {
+    for i in 0..3 {
+        field[i] = weights[2 * i].mul_add(now[0], weights[2 * i + 1].mul_add(now[1], field[i]));
+    }
+}
+
+/// A vector turned about e3 by the angle of the cosine `cos` and the sine `sin`.
+#[inline(always)]
+fn turned<R: Real>(cos: R, sin: R, [x, y, z]: [R; 3]) -> [R; 3] {
+    [cos * x - sin * y, sin * x + cos * y, z]
+}
+
+/// Upper bound of the field at a distance of at least `distance` m, T: 70,000 nT at the radius of reference, where IGRF-14 reaches 67,000 nT, and
+/// each degree falls at least as the dipole.
+pub fn largest(distance: f64) -> f64 {
+    let ratio = RADIUS / distance;
+    let dipole = ratio * ratio * ratio;
+    7e-5 * if ratio > 1.0 { libm::pow(ratio, (DEGREE + 2) as f64) } else { dipole }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::math::isa::{Isa, WideWork};
+    use crate::math::vector::{difference, norm};
+
+    /// Dates, times in s, positions in m, and the fields in nT in F_e of `pyIGRF14` 1.0.4 (`calculate.igrf12syn(year, 2, r, lat, lon)`, with years of their
+    /// own length as here), of `ppigrf` 2.1.0 (`igrf_gc(r, colatitude, lon, date)`, which interpolates in days: up to 0.2 nT apart) and of its degree 1
+    /// (`max_degree=1`), turned to F_e by `gmst06` of pyerfa 2.0.1.5.
+    #[expect(clippy::type_complexity, reason = "rows of a table")]
+    pub const TRUTH: [(&str, f64, [f64; 3], [f64; 3], [f64; 3], [f64; 3]); 5] = [
+        (
+            "2026-11-24T00:00:00Z",
+            0.0,
+            [7e6, 1e5, -2e5],
+            [-2420.534_412_283_717_8, -4723.863_173_791_567, 19053.978_206_694_46],
+            [-2420.652_093_001_966_5, -4723.831_341_247_773, 19054.019_998_173_746],
+            [-5066.674_952_130_375_5, -730.671_453_172_754_4, 22322.682_305_041_23],
+        ),
+        (
+            "2026-11-24T00:00:00Z",
+            5000.0,
+            [-3.1e6, 4.7e6, 4.2e6],
+            [17831.068_764_590_305, -30036.070_428_607_345, -761.519_585_685_675_7],
+            [17831.059_416_707_867, -30036.037_649_479, -761.504_552_488_953_8],
+            [19355.557_115_406_027, -23437.221_052_631_11, 338.677_338_069_963_3],
+        ),
+        (
+            "2022-03-01T06:00:00Z",
+            80_000.0,
+            [1e5, -2e5, -6.8e6],
+            [-11692.975_904_371_553, -4042.897_397_240_257_3, -42561.310_444_524_9],
+            [-11692.980_879_798_828, -4042.884_884_011_437_4, -42561.294_226_361_766],
+            [-2382.298_375_718_761_7, -188.824_992_646_329_75, -48497.940_124_834_76],
+        ),
+        (
+            "2029-12-31T12:00:00Z",
+            123.5,
+            [2e7, -3e7, 1.5e7],
+            [-84.613_403_212_083_55, 98.344_158_273_288_12, 76.020_200_669_814_5],
+            [-84.613_403_131_947_34, 98.344_158_305_583_28, 76.020_200_649_774_15],
+            [-89.941_901_119_490_55, 98.767_203_564_469_21, 73.107_033_609_320_18],
+        ),
+        (
+            "2020-01-01T00:00:00Z",
+            0.0,
+            [-4e6, -5e6, 1e6],
+            [4425.157_191_635_203, 6313.626_661_412_165, 35864.319_722_200_95],
+            [4425.157_191_635_201, 6313.626_661_412_161, 35864.319_722_220_92],
+            [4345.592_901_216_121, 2428.813_132_082_863, 27878.646_383_029_18],
+        ),
+    ];
+
+    pub fn epoch(text: &str) -> Epoch {
+        Epoch::parse(text).expect(text)
+    }
+
+    /// Law: two packages that are independent of each other give the same field, to 0.2 nT where their dates differ and to rounding of the Earth's angle
+    /// (1e-10) with the same dates.
+    #[test]
+    fn the_field_is_that_of_two_packages() {
+        for (date, time, position, field, other, dipole) in TRUTH {
+            let found = |model| scaled(1e9, MagneticField::new(model, epoch(date)).at(time, position));
+            let off = |model, expected| norm(difference(found(model), expected));
+            let size = norm(field);
+            assert!(off(FieldModel::Igrf, field) < 3e-9 * size, "{date}: {:?} {field:?}", found(FieldModel::Igrf));
+            assert!(off(FieldModel::Igrf, other) < 0.2, "{date}: {:?} {other:?}", found(FieldModel::Igrf));
+            assert!(off(FieldModel::Dipole, dipole) < 0.2, "{date}: {:?} {dipole:?}", found(FieldModel::Dipole));
+            assert!(off(FieldModel::Dipole, field) > 10.0, "{date}: a dipole is not the field");
+            assert!(1e-9 * size < largest(norm(position)));
+        }
+    }
+
+    /// Law: a lane has the field of its own date and model, bit for bit, whatever is beside it.
+    #[test]
+    fn lanes_do_not_share_a_field() {
+        let fields: Vec<(MagneticField<f64>, f64, [f64; 3])> = (0..8)
+            .map(|lane| {
+                let (date, time, position, ..) = TRUTH[lane % 5];
+                let model = if lane % 3 == 0 { FieldModel::Dipole } else { FieldModel::Igrf };
+                (MagneticField::new(model, epoch(date)), time + 7.0 * lane as f64, position)
+            })
+            .collect();
+        Isa::best().run_wide(Together(&fields));
+    }
+
+    struct Together<'a>(&'a [(MagneticField<f64>, f64, [f64; 3])]);
+
+    impl WideWork for Together<'_> {
+        type Output = ();
+        fn run<S: fearless_simd::Simd, R: Real + Send + 'static>(self, _simd: S, zero: R) {
+            together(zero, self.0);
+        }
+    }
+
+    fn together<R: Real>(zero: R, fields: &[(MagneticField<f64>, f64, [f64; 3])]) {
+        let (mut all, mut times, mut positions) = (MagneticField::none(zero), zero, [zero; 3]);
+        for (lane, (field, time, position)) in fields.iter().enumerate().take(R::LANES) {
+            all.set_lane(lane, field);
+            times.set_lane(lane, *time);
+            for i in 0..3 {
+                positions[i].set_lane(lane, position[i]);
+            }
+        }
+        let found = all.at(times, positions);
+        for (lane, (field, time, position)) in fields.iter().enumerate().take(R::LANES) {
+            let alone = field.at(*time, *position);
+            for i in 0..3 {
+                assert_eq!(found[i].lane(lane).to_bits(), alone[i].to_bits(), "lane {lane}");
+            }
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! [`FieldSeries`]: Taylor coefficients of the magnetic field along an orbit.
+//!
+//! Each recurrence of the harmonics is a product of series; the Earth's angle has the series of sine and cosine.
+
+use super::coefficients::{HARMONICS, RADIUS, index};
+use super::{MagneticField, add_weighed, factors};
+use crate::dynamics::earth_rotation::TURNS_PER_SECOND;
+use crate::dynamics::orbit_series::{OrbitSeries, next_of_power};
+use crate::math::Real;
+
+/// The coefficients of one step, in the lanes' units of time.
+#[derive(Clone, Debug)]
+pub struct FieldSeries<R> {
+    field: MagneticField<R>,
+    /// Weights of the harmonics at the date.
+    weights: Vec<[R; 6]>,
+    /// The Earth's rotation, rad per unit of time.
+    rate: R,
+    /// Of cosine and sine of the Earth's angle.
+    turn: Vec<[R; 2]>,
+    /// Of 1/r^2, 1/m^2.
+    inverse: Vec<R>,
+    /// Of the position, Earth-fixed, m.
+    fixed: Vec<[R; 3]>,
+    /// Of X, Y, Z and (a/r)^2.
+    over: Vec<[R; 4]>,
+    /// Of V and W, one harmonic after the other: degree 0 and 1, then those of the list of weights.
+    harmonics: Vec<[R; 2]>,
+    /// Of the field, Earth-fixed, T.
+    own: Vec<[R; 3]>,
+    /// Of the field, F_e, T.
+    series: Vec<[R; 3]>,
+}
+
+/// The place of the harmonics of degree `k` and order `j` among all.
+#[inline(always)]
+const fn place(k: usize, j: usize) -> usize {
+    k * (k + 1) / 2 + j
+}
+
+impl<R: Real> FieldSeries<R> {
+    /// Memory for series of order `order`.
+    pub fn new(zero: R, order: usize) -> Self {
+        let vectors = vec![[zero; 3]; order + 1];
+        FieldSeries {
+            field: MagneticField::none(zero),
+            weights: vec![[zero; 6]; HARMONICS],
+            rate: zero,
+            turn: vec![[zero; 2]; order + 1],
+            inverse: vec![zero; order + 1],
+            fixed: vectors.clone(),
+            over: vec![[zero; 4]; order + 1],
+            harmonics: vec![[zero; 2]; (HARMONICS + 3) * (order + 1)],
+            own: vectors.clone(),
+            series: vectors,
+        }
+    }
+
+    /// Starts a step at `time` (s) in a unit of time of `unit` seconds.
+    #[inline(always)]
+    pub fn begin(&mut self, field: &MagneticField<R>, time: R, unit: R) {
+        let zero = time.zero();
+        self.field = *field;
+        self.rate = zero.splat(TURNS_PER_SECOND * core::f64::consts::TAU) * unit;
+        let (sin, cos) = field.turn(time);
+        self.turn[0] = [cos, sin];
+        for k in 2..=field.degree + 1 {
+            for j in 0..=k {
+                let mut weights = field.weights(index(k, j));
+                if k > 2 {
+                    weights = weights.map(|weight| weight * field.higher);
+                }
+                self.weights[index(k, j)] = weights;
+            }
+        }
+    }
+
+    /// Coefficient n of the field, F_e, T. Call in ascending order of `n`, after that of the orbit.
+    #[inline(always)]
+    pub fn extend(&mut self, n: usize, orbit: &OrbitSeries<R>) -> [R; 3] {
+        let zero = self.rate.zero();
+        let FieldSeries { field, weights, rate, turn, inverse, fixed, over, harmonics, own, series } = self;
+        let length = turn.len();
+        if n > 0 {
+            let per = *rate / zero.splat(n as f64);
+            let [cos, sin] = turn[n - 1];
+            turn[n] = [-(per * sin), per * cos];
+        }
+        fixed[n] = rotated(n, turn, orbit.position(), -zero.splat(1.0));
+        inverse[n] =
+            if n == 0 { zero.splat(1.0) / orbit.square()[0] } else { next_of_power(-1.0, n, orbit.square(), inverse) };
+        let radius = zero.splat(RADIUS);
+        let mut sums = [zero; 3];
+        for m in 0..=n {
+            for i in 0..3 {
+                sums[i] = fixed[m][i].mul_add(inverse[n - m], sums[i]);
+            }
+        }
+        let [x, y, z] = sums.map(|sum| radius * sum);
+        over[n] = [x, y, z, radius * (radius * inverse[n])];
+        // V_00 = (a^2/r^2)^(1/2)
+        harmonics[n] = if n == 0 {
+            [over[0][3].sqrt(), zero]
+        } else {
+            let mut sum = zero;
+            for m in 0..n {
+                let factor = zero.splat(0.5 * (n - m) as f64 - m as f64);
+                sum = (factor * harmonics[m][0]).mul_add(over[n - m][3], sum);
+            }
+            [sum / (zero.splat(n as f64) * over[0][3]), zero]
+        };
+        let top = field.degree + 1;
+        for j in 0..=top {
+            if j > 0 {
+                let of = &harmonics[place(j - 1, j - 1) * length..][..=n];
+                let (mut v, mut w) = (zero, zero);
+                for (m, [of_v, of_w]) in of.iter().enumerate() {
+                    let [x, y, ..] = over[n - m];
+                    v = x.mul_add(*of_v, y.neg_mul_add(*of_w, v));
+                    w = x.mul_add(*of_w, y.mul_add(*of_v, w));
+                }
+                let factor = zero.splat((2 * j - 1) as f64);
+                harmonics[place(j, j) * length + n] = [factor * v, factor * w];
+            }
+            for k in j + 1..=top {
+                let [along, across] = factors(k, j).map(|factor| zero.splat(factor));
+                let (mut near, mut far) = ([zero; 2], [zero; 2]);
+                let of = &harmonics[place(k - 1, j) * length..][..=n];
+                for (m, of) in of.iter().enumerate() {
+                    let z = over[n - m][2];
+                    near = [0, 1].map(|i| z.mul_add(of[i], near[i]));
+                }
+                if k > j + 1 {
+                    let of = &harmonics[place(k - 2, j) * length..][..=n];
+                    for (m, of) in of.iter().enumerate() {
+                        let square = over[n - m][3];
+                        far = [0, 1].map(|i| square.mul_add(of[i], far[i]));
+                    }
+                }
+                harmonics[place(k, j) * length + n] = [0, 1].map(|i| along * near[i] - across * far[i]);
+            }
+        }
+        let mut sums = [zero; 3];
+        for k in 2..=top {
+            for j in 0..=k {
+                add_weighed(&mut sums, &weights[index(k, j)], harmonics[place(k, j) * length + n]);
+            }
+        }
+        own[n] = sums;
+        series[n] = rotated(n, turn, own, zero.splat(1.0));
+        series[n]
+    }
+
+    /// The coefficients of the field, F_e, T.
+    #[inline(always)]
+    pub fn field(&self) -> &[[R; 3]] {
+        &self.series
+    }
+}
+
+/// Coefficient n of `vectors` turned about e3 by the angle of `turn`, in the sense `sense`.
+#[inline(always)]
+fn rotated<R: Real>(n: usize, turn: &[[R; 2]], vectors: &[[R; 3]], sense: R) -> [R; 3] {
+    let zero = sense.zero();
+    let [mut x, mut y] = [zero; 2];
+    for m in 0..=n {
+        let ([cos, sin], [a, b, _]) = (turn[m], vectors[n - m]);
+        let sin = sense * sin;
+        x = cos.mul_add(a, sin.neg_mul_add(b, x));
+        y = sin.mul_add(a, cos.mul_add(b, y));
+    }
+    [x, y, vectors[n][2]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{TRUTH, epoch};
+    use super::*;
+    use crate::dynamics::orbit::KeplerOrbit;
+    use crate::math::vector::{difference, norm};
+    use crate::scene::{FieldModel, Orbit};
+
+    /// Law: the series along an orbit is the field at the places of the orbit, to rounding, for both models.
+    #[test]
+    fn the_series_is_the_field_along_the_orbit() {
+        const ORDER: usize = 24;
+        for model in [FieldModel::Dipole, FieldModel::Igrf] {
+            for (date, time, position, ..) in TRUTH {
+                let field = MagneticField::new(model, epoch(date));
+                let speed = (3.986e14 / norm(position)).sqrt();
+                let velocity = [-0.6 * speed, 0.3 * speed, 0.5 * speed];
+                let place = Orbit { mu: 3.986e14, position, velocity, epoch: None };
+                let kepler = KeplerOrbit::new(&place);
+                let (mut orbit, mut series) = (OrbitSeries::new(0.0, ORDER), FieldSeries::new(0.0, ORDER));
+                let unit = 32.0;
+                orbit.begin(3.986e14 * unit * unit, position, velocity.map(|v| v * unit));
+                series.begin(&field, time, unit);
+                for n in 0..=ORDER {
+                    orbit.extend(n);
+                    series.extend(n, &orbit);
+                }
+                for within in [0.0, 0.3, -0.7, 1.5] {
+                    let found = series.field().iter().rev().fold([0.0; 3], |sum: [f64; 3], coefficient| {
+                        [0, 1, 2].map(|i| sum[i] * within + coefficient[i])
+                    });
+                    let expected = field.at(time + within * unit, kepler.state(within * unit).position);
+                    let off = norm(difference(found, expected));
+                    assert!(off < 3e-14 * norm(expected), "{date} {within}: {found:?} {expected:?}");
+                }
+            }
+        }
+    }
+}
