@@ -166,8 +166,11 @@ impl Plan {
                 lines.key("gravity_gradient", true);
             }
         }
-        if self.nominal.orbit.is_some() {
+        if let Some(orbit) = &self.nominal.orbit {
             lines.keys_of("[orbit]", Table::Orbit, 0, &self.nominal);
+            if let Some(epoch) = orbit.epoch {
+                lines.text_key("epoch", &epoch.to_string());
+            }
         }
         for arc in 0..self.nominal.actuation.len() {
             let command = &self.nominal.actuation[arc];

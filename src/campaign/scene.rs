@@ -10,8 +10,8 @@ use crate::scene::body::MAX_PARTS;
 use crate::scene::schema::Limit;
 use crate::scene::table::Table;
 use crate::scene::{
-    ActuationInput, ControlInput, DebrisInput, MAX_THRUSTERS, MAX_WHEELS, Name, OrbitInput, PartInput, PartShape,
-    SceneInput, ThrusterInput, WheelInput, WheelMode,
+    ActuationInput, ControlInput, DebrisInput, Epoch, MAX_THRUSTERS, MAX_WHEELS, Name, OrbitInput, PartInput,
+    PartShape, SceneInput, ThrusterInput, WheelInput, WheelMode,
 };
 use std::collections::HashSet;
 
@@ -55,7 +55,7 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     section.finish();
     let mut section = root.section("orbit");
     if section.is_present() {
-        scene.orbit = Some(OrbitInput::DEFAULT);
+        scene.orbit = Some(OrbitInput { epoch: read_epoch(&mut section), ..OrbitInput::DEFAULT });
         read_keys(&mut section, Table::Orbit, 0, &mut scene);
         section.finish();
     }
@@ -121,6 +121,16 @@ fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
             }
         }
     }
+}
+
+/// The date of an orbit, if it has one.
+fn read_epoch(section: &mut Section<'_, '_>) -> Option<Epoch> {
+    let text = section.text("epoch")?;
+    let epoch = Epoch::parse(text);
+    if epoch.is_none() {
+        section.refuse("epoch", Epoch::ALLOWED, "correct the date");
+    }
+    epoch
 }
 
 /// The name of an arc, if it has one, different from `taken`, to which it is added.

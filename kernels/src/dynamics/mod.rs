@@ -4,6 +4,7 @@
 //! - [`applied`]: the arc that a run flies next.
 //! - [`arc_record`]: the arcs that a run has flown.
 //! - [`debris`]: the free body beside the spacecraft.
+//! - [`earth_rotation`]: how the Earth is turned at a date.
 //! - [`effects`]: what acts beside the actuators. [`orbit`]: motion on a two-body orbit in closed form;
 //!   [`orbit_series`]: its Taylor series.
 //! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and further components where a scene needs them.
@@ -13,6 +14,7 @@ pub mod actuation;
 pub mod applied;
 pub mod arc_record;
 pub mod debris;
+pub mod earth_rotation;
 pub mod effects;
 pub mod gyrostat;
 pub mod null_space;

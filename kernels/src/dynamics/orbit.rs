@@ -83,7 +83,7 @@ impl<R: Real> OrbitState<R> {
 impl KeplerOrbit<f64> {
     /// The orbit of a scene.
     pub fn new(orbit: &Orbit) -> Self {
-        let Orbit { mu, position, velocity } = *orbit;
+        let Orbit { mu, position, velocity, .. } = *orbit;
         let distance = norm(position);
         let axis = 1.0 / (2.0 / distance - dot(velocity, velocity) / mu);
         let sigma = dot(position, velocity) / mu.sqrt();
@@ -114,7 +114,7 @@ impl KeplerOrbit<f64> {
 
     /// A circle that no run is on: what empty lanes have.
     pub fn blank() -> Self {
-        KeplerOrbit::new(&Orbit { mu: 1.0, position: [1.0, 0.0, 0.0], velocity: [0.0, 1.0, 0.0] })
+        KeplerOrbit::new(&Orbit { mu: 1.0, position: [1.0, 0.0, 0.0], velocity: [0.0, 1.0, 0.0], epoch: None })
     }
 
     /// The same in all lanes of `zero`.
@@ -238,7 +238,7 @@ mod tests {
     fn orbit(radius: f64, speed: f64, radial: f64) -> Orbit {
         let circular = (MU / radius).sqrt();
         let velocity = [radial * circular, speed * circular * 0.6, speed * circular * 0.8];
-        Orbit { mu: MU, position: [radius, 0.0, 0.0], velocity }
+        Orbit { mu: MU, position: [radius, 0.0, 0.0], velocity, epoch: None }
     }
 
     /// Law: energy and angular momentum of the orbit are constant, |r| is the distance, and one period later the state is the same; from

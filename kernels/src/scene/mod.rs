@@ -5,7 +5,7 @@
 //! - [`second_moment`]: inertia by second moments of mass, and errors of a distribution of mass.
 //! - [`solids`]: mass, centre and inertia of homogeneous solids (Berdoz's (60)-(67), in closed form).
 //! - [`body`]: the body of the spacecraft and the debris from their input. [`wheel`]: wheels that turn. `tensor`: inertias by rows.
-//! - [`mass`]: mass properties of the whole. [`orbit`]: the orbit at time zero.
+//! - [`mass`]: mass properties of the whole. [`orbit`]: the orbit at time zero. [`epoch`]: its date.
 //! - [`parameter`]: the numeric keys that can be dispersed.
 //! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not.
 //! - [`actuated`]: what acts on a spacecraft at any time of a run.
@@ -18,6 +18,7 @@ pub mod actuated;
 pub mod alignment;
 pub mod body;
 pub mod check;
+pub mod epoch;
 pub mod error;
 pub mod input;
 pub mod mass;
@@ -40,6 +41,7 @@ pub mod unit_quaternion;
 pub mod wheel;
 
 pub use actuated::Actuated;
+pub use epoch::Epoch;
 pub use error::SceneError;
 pub use input::SceneInput;
 pub use mass::MassProperties;

@@ -3,6 +3,7 @@
 //! Formulas: D. Vallado, *Fundamentals of Astrodynamics and Applications*, 4th ed., 2013, sections 2.4 to 2.6. Not here: the motion along
 //! the orbit (`dynamics::orbit`).
 
+use super::epoch::Epoch;
 use super::error::Problems;
 use super::schema::limit::shown;
 use super::schema::{InitialInput, OrbitInput};
@@ -17,6 +18,8 @@ pub struct Orbit {
     pub position: [f64; 3],
     /// Velocity of c at time zero, in F_e, m/s.
     pub velocity: [f64; 3],
+    /// The date at time zero; `None` where nothing depends on it.
+    pub epoch: Option<Epoch>,
 }
 
 /// Shape and size of an orbit.
@@ -33,10 +36,10 @@ pub struct OrbitShape {
 impl Orbit {
     /// The orbit that `input` describes; what is missing counts as zero.
     pub fn of(input: &OrbitInput) -> Self {
-        let mu = input.mu_m3_s2;
+        let (mu, epoch) = (input.mu_m3_s2, input.epoch);
         let Some(semi_major_axis) = input.semi_major_axis_m else {
             let (position, velocity) = (input.position_m.unwrap_or_default(), input.velocity_m_s.unwrap_or_default());
-            return Orbit { mu, position, velocity };
+            return Orbit { mu, position, velocity, epoch };
         };
         let angle = |value: Option<f64>| libm::sincos(value.unwrap_or(0.0));
         let eccentricity = input.eccentricity.unwrap_or(0.0);
@@ -56,6 +59,7 @@ impl Orbit {
             mu,
             position: scaled(distance, sum(scaled(cos_f, periapsis), scaled(sin_f, ahead))),
             velocity: scaled(speed, sum(scaled(-sin_f, periapsis), scaled(eccentricity + cos_f, ahead))),
+            epoch,
         }
     }
 

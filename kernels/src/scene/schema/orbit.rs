@@ -4,6 +4,7 @@ use super::components::{SCALAR, XYZ};
 use super::limit::Limit;
 use super::numbers::Numbers;
 use super::rows::rows;
+use crate::scene::epoch::Epoch;
 
 rows! {
     /// A two-body orbit, given by position and velocity or by Keplerian elements at time zero.
@@ -27,7 +28,10 @@ rows! {
         "Angle from the ascending node to the periapsis; 0 where it is left out", SCALAR, Plain, Limit::Finite, (optional);
     true_anomaly_rad: Option<f64> = None, "rad", "Angle from the periapsis to the spacecraft; 0 where it is left out", SCALAR,
         Plain, Limit::Finite, (optional);
-    } others {}
+    } others {
+        /// The date at time zero, UTC.
+        epoch: Option<Epoch> = None,
+    }
 }
 
 impl OrbitInput {

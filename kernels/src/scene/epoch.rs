@@ -1,0 +1,179 @@
+//! [`Epoch`]: the instant in UTC at which a run starts, where its environment depends on the date.
+
+use core::fmt;
+
+/// An instant in UTC. Days have 86,400 s: a leap second has no name here, and the seconds of a run are counted as if there were none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Epoch {
+    /// Days from 2000-01-01 to the date.
+    day: i32,
+    /// Minutes since midnight.
+    minute: u16,
+    /// Seconds of the minute, at least 0 and below 60.
+    second: f64,
+}
+
+impl Epoch {
+    /// What an epoch is in a file.
+    pub const ALLOWED: &'static str =
+        "a date and time in UTC like \"2026-11-24T00:00:00Z\", of the years 1900 to 2100, the seconds below 60";
+
+    /// The years that are accepted, both included: those of polynomials in time that were fitted to observations.
+    const YEARS: [i32; 2] = [1900, 2100];
+
+    /// Julian date of 2000-01-01T00:00:00.
+    const JULIAN_DATE: f64 = 2_451_544.5;
+
+    /// The instant that `text` writes as `2026-11-24T00:00:00Z`, the seconds with any number of decimals; `None` where it is none.
+    pub fn parse(text: &str) -> Option<Self> {
+        let (date, time) = text.strip_suffix('Z')?.split_once('T')?;
+        let digits = |text: &str, count: usize| -> Option<i32> {
+            (text.len() == count && text.bytes().all(|byte| byte.is_ascii_digit())).then(|| text.parse().ok())?
+        };
+        let fields = |text: &'_ str, by| -> Option<[String; 3]> {
+            text.splitn(3, by).map(str::to_owned).collect::<Vec<_>>().try_into().ok()
+        };
+        let [year, month, day] = fields(date, '-')?;
+        let (year, month, day) = (digits(&year, 4)?, digits(&month, 2)?, digits(&day, 2)?);
+        let [hour, minute, second] = fields(time, ':')?;
+        let (hour, minute) = (digits(&hour, 2)?, digits(&minute, 2)?);
+        let (whole, decimals) = second.split_once('.').unwrap_or((&second, "0"));
+        digits(whole, 2)?;
+        digits(decimals, decimals.len().max(1))?;
+        let second: f64 = second.parse().ok()?;
+        let day = day_of(year, month, day)?;
+        // a day that its month does not have is another date
+        let is_date = date_of(day) == (year, month, date[8..].parse().ok()?);
+        let is_time = hour < 24 && minute < 60 && second < 60.0;
+        let is_known = (Self::YEARS[0]..=Self::YEARS[1]).contains(&year);
+        (is_date && is_time && is_known).then(|| Epoch { day, minute: (60 * hour + minute) as u16, second })
+    }
+
+    /// Julian date in UTC: that of the midnight before, and the part of a day since then.
+    pub fn julian_date(self) -> [f64; 2] {
+        [Self::JULIAN_DATE + f64::from(self.day), (60.0 * f64::from(self.minute) + self.second) / 86_400.0]
+    }
+
+    /// Days since the epoch J2000.0, 2000-01-01T12:00:00.
+    pub fn days_since_j2000(self) -> f64 {
+        let [midnight, part] = self.julian_date();
+        (midnight - 2_451_545.0) + part
+    }
+
+    /// The date as a year with its decimals: the year, and the part of it that has passed.
+    pub fn decimal_year(self) -> f64 {
+        let (year, ..) = date_of(self.day);
+        let start = |year| day_of(year, 1, 1).unwrap_or_default();
+        let [_, part] = self.julian_date();
+        let passed = f64::from(self.day - start(year)) + part;
+        f64::from(year) + passed / f64::from(start(year + 1) - start(year))
+    }
+}
+
+impl fmt::Display for Epoch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (year, month, day) = date_of(self.day);
+        let zero = if self.second < 10.0 { "0" } else { "" };
+        let (hour, minute, second) = (self.minute / 60, self.minute % 60, self.second);
+        write!(f, "{year}-{month:02}-{day:02}T{hour:02}:{minute:02}:{zero}{second}Z")
+    }
+}
+
+/// Days from 2000-01-01 to a date of the Gregorian calendar; `None` for a month or day that no year has.
+fn day_of(year: i32, month: i32, day: i32) -> Option<i32> {
+    if !(1..=12).contains(&month) || !(1..=31).contains(&day) {
+        return None;
+    }
+    // years that start in March end with the leap day
+    let (year, month) = if month < 3 { (year - 1, month + 9) } else { (year, month - 3) };
+    let days = 365 * year + year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
+    // from 0000-03-01 to 2000-01-01: 730,425 days
+    Some(days + (153 * month + 2) / 5 + day - 1 - 730_425)
+}
+
+/// Year, month and day of a number of days since 2000-01-01 (E. G. Richards, Explanatory Supplement to the Astronomical Almanac, 2013, 15.11).
+fn date_of(day: i32) -> (i32, i32, i32) {
+    let julian = day + 2_451_545;
+    let f = julian + 1401 + (4 * julian + 274_277) / 146_097 * 3 / 4 - 38;
+    let e = 4 * f + 3;
+    let h = 5 * (e % 1461 / 4) + 2;
+    let (day, month) = (h % 153 / 5 + 1, (h / 153 + 2) % 12 + 1);
+    (e / 1461 - 4716 + (12 + 2 - month) / 12, month, day)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: Julian dates are those of SOFA's `cal2jd`; what is written is read again.
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        for (text, midnight, part, year) in [
+            ("2000-01-01T12:00:00Z", 2_451_544.5, 0.5, 2000.0 + 0.5 / 366.0),
+            ("2026-11-24T00:00:00Z", 2_461_368.5, 0.0, 2026.0 + 327.0 / 365.0),
+            ("2024-02-29T23:59:59.5Z", 2_460_369.5, 86_399.5 / 86_400.0, 2024.0 + (59.0 + 86_399.5 / 86_400.0) / 366.0),
+            (
+                "1960-07-01T06:30:15.25Z",
+                2_437_116.5,
+                23_415.25 / 86_400.0,
+                1960.0 + (182.0 + 23_415.25 / 86_400.0) / 366.0,
+            ),
+            ("1900-03-01T00:00:00Z", 2_415_079.5, 0.0, 1900.0 + 59.0 / 365.0),
+            ("2100-12-31T23:59:59.999Z", 2_488_433.5, 86_399.999 / 86_400.0, 2101.0 - 0.001 / 86_400.0 / 365.0),
+        ] {
+            let epoch = Epoch::parse(text).expect(text);
+            assert_eq!(epoch.julian_date(), [midnight, part], "{text}");
+            assert!((epoch.decimal_year() - year).abs() < 1e-12 * year, "{text}: {} {year}", epoch.decimal_year());
+            assert_eq!(epoch.to_string(), text);
+            assert_eq!(Epoch::parse(&epoch.to_string()), Some(epoch));
+        }
+        let j2000 = Epoch::parse("2000-01-01T12:00:00Z").expect("a date");
+        assert_eq!(j2000.days_since_j2000(), 0.0);
+    }
+
+    /// Law: each day of 1900 to 2100 follows the one before, and has its own date.
+    #[test]
+    fn every_day_has_its_date() {
+        let first = day_of(1900, 1, 1).expect("a date");
+        let last = day_of(2100, 12, 31).expect("a date");
+        assert_eq!(last - first, 201 * 365 + 49 - 1, "49 leap days: 1904 to 2096, with 2000");
+        let mut before = date_of(first - 1);
+        for day in first..=last {
+            let (year, month, date) = date_of(day);
+            assert_eq!(day_of(year, month, date), Some(day));
+            assert!((year, month, date) > before, "{before:?}");
+            before = (year, month, date);
+        }
+    }
+
+    #[test]
+    fn what_is_no_date_is_none() {
+        for text in [
+            "",
+            "2026-11-24",
+            "2026-11-24T00:00:00",
+            "2026-11-24 00:00:00Z",
+            "2026-11-24T00:00Z",
+            "2026-11-24T00:00:00+01:00",
+            "2026-02-29T00:00:00Z",
+            "2026-13-01T00:00:00Z",
+            "2026-00-01T00:00:00Z",
+            "2026-01-00T00:00:00Z",
+            "2026-04-31T00:00:00Z",
+            "2026-11-24T24:00:00Z",
+            "2026-11-24T00:60:00Z",
+            "2016-12-31T23:59:60Z",
+            "1899-12-31T23:59:59Z",
+            "2101-01-01T00:00:00Z",
+            "26-11-24T00:00:00Z",
+            "2026-1-2T00:00:00Z",
+            "2026-11-24T00:00:0Z",
+            "2026-11-24T00:00:00.Z",
+            "2026-11-24T00:00:-1Z",
+            "2026-11-24T00:00:1e1Z",
+            "+026-11-24T00:00:00Z",
+        ] {
+            assert_eq!(Epoch::parse(text), None, "{text}");
+        }
+    }
+}
