@@ -66,7 +66,7 @@ fn fraction_and_net_are_relative_to_the_right_points() {
 #[test]
 fn every_column_of_every_kind_of_scene_has_a_value() {
     let (_, mut scene) = table1();
-    let orbit = Orbit { mu: 1.0, position: [1.0, 2.0, 3.0], velocity: [0.1, 0.0, 0.0], epoch: None };
+    let orbit = Orbit { mu: 1.0, position: [1.0, 2.0, 3.0], velocity: [0.1, 0.0, 0.0], body_radius: 0.0, epoch: None };
     scene.orbit = Some(orbit);
     let effects = ForceModel::NONE.with(Effect::Gravity).with(Effect::GravityGradient);
     let grid = Grid::uniform(10.0, 101);

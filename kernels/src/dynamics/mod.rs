@@ -7,6 +7,7 @@
 //! - [`earth_rotation`]: how the Earth is turned at a date.
 //! - [`effects`]: what acts beside the actuators. [`orbit`]: motion on a two-body orbit in closed form;
 //!   [`orbit_series`]: its Taylor series.
+//! - [`environment`]: air, the Sun and the Earth's shadow.
 //! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and further components where a scene needs them.
 //! - [`null_space`]: Berdoz's 62-state null-space form.
 
@@ -16,6 +17,7 @@ pub mod arc_record;
 pub mod debris;
 pub mod earth_rotation;
 pub mod effects;
+pub mod environment;
 pub mod gyrostat;
 pub mod null_space;
 pub mod orbit;

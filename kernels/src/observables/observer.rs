@@ -269,7 +269,21 @@ impl Work for Observation<'_> {
             if observed.has(Series::Nutation) { observer.request.nutation_axis.of(scene.mass.inertia) } else { None };
         let (sources, mass) = (&observer.sources, &scene.mass);
         let mu = scene.orbit.as_ref().map_or(f64::NAN, |orbit| orbit.mu);
-        let run = MeasuredRun { observed, sources, mass, debris, nominal, nutation_axis, mu, of_law, table, points };
+        let times = &observer.times;
+        let run = MeasuredRun {
+            observed,
+            sources,
+            mass,
+            debris,
+            nominal,
+            nutation_axis,
+            mu,
+            scene,
+            times,
+            of_law,
+            table,
+            points,
+        };
         measure(simd, &run, &mut observer.series);
         observer.reduce(simd);
         if observer.request.groups.contains(Group::Exchange) {

@@ -13,8 +13,8 @@ use super::table::Series;
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};
-use crate::scene::MAX_WHEELS;
 use crate::scene::mass::{Body, MassProperties};
+use crate::scene::{MAX_WHEELS, Scene};
 
 /// A component of a field as vectors of eight neighbouring points. Columns with one common number of vectors need no check of
 /// bounds inside the loops.
@@ -36,6 +36,10 @@ pub(super) struct MeasuredRun<'a> {
     pub(super) nutation_axis: Option<[f64; 3]>,
     /// Gravitational parameter of the central body, m^3/s^2; NaN without an orbit.
     pub(super) mu: f64,
+    /// The scene.
+    pub(super) scene: &'a Scene,
+    /// The observation times, s.
+    pub(super) times: &'a [f64],
     /// What the control law has recorded, series by series ([`super::law_columns::LawSeries`]) and point by point; empty where it records nothing.
     pub(super) of_law: &'a [f64],
     /// The states.

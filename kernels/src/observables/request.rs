@@ -234,6 +234,8 @@ impl Request {
             Scenes::SeveralWheels => self.wheels.len() > 1,
             Scenes::Orbit => self.effects.contains(Effect::Gravity),
             Scenes::GravityGradient => self.effects.contains(Effect::GravityGradient),
+            Scenes::Drag => self.effects.contains(Effect::Drag),
+            Scenes::SolarPressure => self.effects.contains(Effect::SolarPressure),
         }
     }
 

@@ -48,6 +48,10 @@ pub(super) enum Scenes {
     Orbit,
     /// With a gravity gradient.
     GravityGradient,
+    /// With drag.
+    Drag,
+    /// With the pressure of sunlight.
+    SolarPressure,
 }
 
 /// A field of the state table that a value is computed from, for which scenes, and why.
@@ -78,13 +82,15 @@ pub(super) enum SeriesSource {
     Motion,
     /// [`super::orbit`].
     Orbit,
+    /// [`super::surroundings`].
+    Surroundings,
     /// What the control law has recorded at the points ([`super::law_columns::LawSeries`]).
     Law,
 }
 
 impl SeriesSource {
     /// Every source, in the order of the computation.
-    pub(super) const ALL: [SeriesSource; 9] = [
+    pub(super) const ALL: [SeriesSource; 10] = [
         SeriesSource::Energies,
         SeriesSource::LinearMomentum,
         SeriesSource::AngularMomentum,
@@ -93,6 +99,7 @@ impl SeriesSource {
         SeriesSource::Residuals,
         SeriesSource::Motion,
         SeriesSource::Orbit,
+        SeriesSource::Surroundings,
         SeriesSource::Law,
     ];
 }

@@ -10,6 +10,7 @@ use super::orbit;
 use super::schedule::applied;
 use super::schema::limit::{INERTIA_SLACK, shown};
 use super::schema::{ArcErrors, InitialInput, PartInput, WheelInput, WheelMode};
+use super::surroundings;
 use super::table::Table;
 use crate::math::symmetric::{is_positive_definite, principal_axes};
 use crate::math::vector::{difference, norm};
@@ -34,6 +35,10 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     for thruster in &input.thrusters {
         thruster.check(has_debris, problems, |key| Table::Thruster.name(thruster.name, key).into());
     }
+    for plate in &input.plates {
+        plate.check(has_debris, problems, |key| Table::Plate.name(plate.name, key).into());
+        surroundings::check_plate(plate, problems);
+    }
     if let Some(debris) = &input.debris {
         debris.check(problems);
     }
@@ -56,6 +61,9 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
         let allowed = "false, or left out, without an [orbit]";
         let remedy = "add an [orbit] table, or delete this line";
         problems.add("environment.gravity_gradient".to_owned(), "true".to_owned(), allowed, remedy);
+    }
+    if input.environment.acts_on_plates() {
+        surroundings::check(input, problems);
     }
     input.environment.check(has_debris, problems, |key| format!("environment.{key}").into());
     input.control.check(problems);

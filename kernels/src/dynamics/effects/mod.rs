@@ -6,13 +6,17 @@
 //!
 //! - `constant_torque`: constant in F_s: a part of every arc of constant actuation, so that all methods have it.
 //! - [`gravity_gradient`]: depends on attitude and position.
+//! - [`drag`], [`solar_pressure`]: act on plates ([`plates`]), which turn on and off.
 //! - [`within_arcs`]: the effects that change within an arc, as the equations of motion have them, and what they depend on.
 //!
 //! A scene without effects costs nothing: its kernel is compiled without them. A scene with effects evaluates only those that act, and its orbit
 //! only where one of them needs it.
 
 mod constant_torque;
+pub mod drag;
 pub mod gravity_gradient;
+pub mod plates;
+pub mod solar_pressure;
 pub mod within_arcs;
 
 use super::actuation::sum;
@@ -26,6 +30,10 @@ pub enum Effect {
     ConstantTorque,
     /// `environment.gravity_gradient`.
     GravityGradient,
+    /// `environment.drag`.
+    Drag,
+    /// `environment.solar_pressure`.
+    SolarPressure,
     /// `[orbit]`: the force of gravity on the centre of mass.
     Gravity,
 }
@@ -45,13 +53,16 @@ pub enum Form {
 
 impl Effect {
     /// All effects.
-    pub const ALL: [Effect; 3] = [Effect::ConstantTorque, Effect::GravityGradient, Effect::Gravity];
+    pub const ALL: [Effect; 5] =
+        [Effect::ConstantTorque, Effect::GravityGradient, Effect::Drag, Effect::SolarPressure, Effect::Gravity];
 
     /// The key that makes it act.
     pub const fn key(self) -> &'static str {
         match self {
             Effect::ConstantTorque => "environment.body_torque_n_m",
             Effect::GravityGradient => "environment.gravity_gradient",
+            Effect::Drag => "environment.drag",
+            Effect::SolarPressure => "environment.solar_pressure",
             Effect::Gravity => "orbit",
         }
     }
@@ -61,6 +72,8 @@ impl Effect {
         match self {
             Effect::ConstantTorque => Form::Constant,
             Effect::GravityGradient => Form::Series,
+            Effect::Drag => Form::Evaluated,
+            Effect::SolarPressure => Form::Evaluated,
             Effect::Gravity => Form::Translation,
         }
     }
@@ -70,13 +83,21 @@ impl Effect {
         match self {
             Effect::ConstantTorque => environment.body_torque_n_m.is_some(),
             Effect::GravityGradient => environment.gravity_gradient,
+            Effect::Drag => environment.drag,
+            Effect::SolarPressure => environment.solar_pressure,
             Effect::Gravity => is_on_orbit,
         }
     }
 }
 
 within_arcs::changing_effects! {
-    gravity_gradient: GravityGradient, GradientSeries;
+    series {
+        gravity_gradient: GravityGradient, GradientSeries;
+    }
+    evaluated {
+        drag: Drag;
+        solar_pressure: SolarPressure;
+    }
 }
 
 /// The effects that act in a run.
