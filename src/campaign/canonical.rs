@@ -14,7 +14,7 @@ use super::settings;
 use crate::observables::request::NutationAxis;
 use crate::sampling::keys::{Counts, Row, Value, Values, Written};
 use crate::scene::table::Table;
-use crate::scene::{ArcErrors, EnvironmentInput, Name};
+use crate::scene::{ArcErrors, EnvironmentInput, Name, Shadow};
 use sha2::{Digest, Sha256};
 
 fn digest(text: &str) -> String {
@@ -162,8 +162,18 @@ impl Plan {
         lines.keys_of("[initial]", Table::Initial, 0, &self.nominal);
         if self.nominal.environment != EnvironmentInput::DEFAULT {
             lines.keys_of("[environment]", Table::Environment, 0, &self.nominal);
-            if self.nominal.environment.gravity_gradient {
-                lines.key("gravity_gradient", true);
+            let environment = &scene.environment;
+            for (key, acts) in [
+                ("gravity_gradient", environment.gravity_gradient),
+                ("drag", environment.drag),
+                ("solar_pressure", environment.solar_pressure),
+            ] {
+                if acts {
+                    lines.key(key, true);
+                }
+            }
+            if environment.shadow != Shadow::default() {
+                lines.key("shadow", environment.shadow.name());
             }
             if let Some(model) = self.nominal.environment.magnetic_field {
                 lines.key("magnetic_field", model.name());
@@ -174,6 +184,11 @@ impl Plan {
             if let Some(epoch) = orbit.epoch {
                 lines.text_key("epoch", &epoch.to_string());
             }
+        }
+        for (instance, plate) in scene.plates.iter().enumerate() {
+            lines.table("[[plates]]");
+            lines.key("name", plate.name);
+            lines.keys(Table::Plate, instance, scene);
         }
         for arc in 0..self.nominal.actuation.len() {
             let command = &self.nominal.actuation[arc];

@@ -13,6 +13,7 @@ use crate::scene::{
     ActuationInput, ControlInput, DebrisInput, Epoch, FieldModel, MAX_THRUSTERS, MAX_WHEELS, Name, OrbitInput,
     PartInput, PartShape, SceneInput, ThrusterInput, WheelInput, WheelMode,
 };
+use crate::scene::{MAX_PLATES, PlateInput, Shadow};
 use std::collections::HashSet;
 
 /// Reads every table of the scene. A number that is missing or wrong is NaN, and noted in the document.
@@ -54,6 +55,10 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     scene.environment.gravity_gradient = section.flag("gravity_gradient").unwrap_or(false);
     scene.environment.magnetic_field =
         section.name("magnetic_field", &FieldModel::ALL.map(FieldModel::name), FieldModel::from_name);
+    scene.environment.drag = section.flag("drag").unwrap_or(false);
+    scene.environment.solar_pressure = section.flag("solar_pressure").unwrap_or(false);
+    let shadow = section.name("shadow", &Shadow::ALL.map(Shadow::name), Shadow::from_name);
+    scene.environment.shadow = shadow.unwrap_or_default();
     section.finish();
     let mut section = root.section("orbit");
     if section.is_present() {
@@ -61,6 +66,7 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
         read_keys(&mut section, Table::Orbit, 0, &mut scene);
         section.finish();
     }
+    read_plates(root, &mut scene);
     if root.has("actuators") && !root.has("actuation") {
         let remedy = "delete this table, or add [[actuation]] tables";
         root.refuse("actuators", "left out where there is no [[actuation]]", remedy);
@@ -194,6 +200,17 @@ fn read_thrusters(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
         scene.thrusters.push(ThrusterInput { name, ..ThrusterInput::DEFAULT });
         let thruster = scene.thrusters.len() - 1;
         read_keys(section, Table::Thruster, thruster, scene);
+        section.finish();
+    });
+}
+
+fn read_plates(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
+    root.sections("plates", MAX_PLATES, |section| {
+        let taken: Vec<Name> = scene.plates.iter().map(|plate| plate.name).collect();
+        let name = read_name(section, Table::Plate, &taken);
+        scene.plates.push(PlateInput { name, ..PlateInput::DEFAULT });
+        let plate = scene.plates.len() - 1;
+        read_keys(section, Table::Plate, plate, scene);
         section.finish();
     });
 }

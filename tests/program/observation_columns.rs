@@ -67,10 +67,11 @@ fn fraction_and_net_are_relative_to_the_right_points() {
 fn every_column_of_every_kind_of_scene_has_a_value() {
     let (_, mut scene) = table1();
     let epoch = Epoch::parse("2026-11-24T00:00:00Z");
-    scene.orbit = Some(Orbit { mu: 1.0, position: [1.0, 2.0, 3.0], velocity: [0.1, 0.0, 0.0], epoch });
     scene.environment.magnetic_field = Some(FieldModel::Dipole);
     scene.environment.magnetic_dipole_a_m2 = Some([1.0, 2.0, 3.0]);
     let effects = ForceModel::NONE.with(Effect::Gravity).with(Effect::GravityGradient).with(Effect::MagneticTorque);
+    let orbit = Orbit { mu: 1.0, position: [1.0, 2.0, 3.0], velocity: [0.1, 0.0, 0.0], body_radius: 0.0, epoch };
+    scene.orbit = Some(orbit);
     let grid = Grid::uniform(10.0, 101);
     let every_field = StateField::ALL.into_iter().fold(StateFields::NONE, StateFields::with);
     let mut table = StateTable::new(every_field, 2, grid.points());

@@ -273,7 +273,8 @@ pub fn every_scene() -> Vec<String> {
         on_orbit("position_m = [7e6, 1e5, 2e5]\nvelocity_m_s = [10, 7.4e3, -3e2]"),
         on_orbit(
             "semi_major_axis_m = 9e6\neccentricity = 0.0\ninclination_rad = 0.9\nascending_node_rad = 2.0\n\
-             argument_of_periapsis_rad = -0.7\ntrue_anomaly_rad = 1.1",
+             argument_of_periapsis_rad = -0.7\ntrue_anomaly_rad = 1.1\n\
+             epoch = \"2026-11-24T01:02:03.25Z\"",
         ),
     ]
 }

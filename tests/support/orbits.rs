@@ -1,7 +1,7 @@
 //! Spacecraft on orbits under the gravity gradient.
 
 use super::scenes::Uniform;
-use spindrift::scene::{BodyInput, EnvironmentInput, OrbitInput, Scene, SceneInput};
+use spindrift::scene::{BodyInput, EnvironmentInput, Epoch, Name, OrbitInput, PlateInput, Scene, SceneInput};
 
 /// Gravitational parameter of the Earth, m^3/s^2.
 pub const MU: f64 = 3.986004418e14;
@@ -28,10 +28,51 @@ pub fn circle(radius: f64, inclination: f64) -> OrbitInput {
     OrbitInput { semi_major_axis_m: Some(radius), inclination_rad: Some(inclination), ..OrbitInput::DEFAULT }
 }
 
+/// The same as [`tumbling`] with six plates each, dragged in a dense exponential atmosphere and lit: torques like that of the gravity gradient.
+pub fn plated(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
+    let mut u = Uniform::new(seed + 1);
+    let plates = |mut input: SceneInput| {
+        input.plates = (0..6)
+            .map(|k| PlateInput {
+                name: Name::of(&format!("p{k}")),
+                area_m2: u.between(0.5, 3.0),
+                normal: u.vector::<3>(1.0),
+                center_m: u.vector::<3>(1.5),
+                drag_coefficient: u.between(1.5, 2.5),
+                specular: u.between(0.0, 0.5),
+                diffuse: u.between(0.0, 0.5),
+                ..PlateInput::DEFAULT
+            })
+            .collect();
+        let epoch = Epoch::parse("2026-06-01T00:00:00Z");
+        input.orbit.as_mut().expect("an orbit").epoch = epoch;
+        input.environment = EnvironmentInput {
+            drag: true,
+            solar_pressure: true,
+            base_density_kg_m3: Some(1e-11),
+            base_height_m: Some(5e5),
+            scale_height_m: Some(3e5),
+            ..input.environment
+        };
+        input
+    };
+    inputs(count, seed, rates).into_iter().map(plates).map(resolved).collect()
+}
+
+/// The scene of `input`.
+fn resolved(input: SceneInput) -> Scene {
+    Scene::resolve(&input).unwrap_or_else(|errors| panic!("{}", errors[0]))
+}
+
 /// Bodies of random shapes in random orbits, eccentric up to 0.3, that turn at `rates` times the mean motion; every other one with a wheel.
 pub fn tumbling(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
+    inputs(count, seed, rates).into_iter().map(resolved).collect()
+}
+
+/// The scenes of [`tumbling`] as written.
+fn inputs(count: u64, seed: u64, rates: [f64; 2]) -> Vec<SceneInput> {
     let mut u = Uniform::new(seed);
-    let scene = |k: u64| {
+    let input = |k: u64| {
         let second = [u.between(1.0, 5.0), u.between(1.0, 5.0), u.between(1.0, 5.0)];
         let moments = [second[1] + second[2], second[0] + second[2], second[0] + second[1]].map(|x| 30.0 * x);
         let eccentricity = u.between(0.0, 0.3);
@@ -65,7 +106,7 @@ pub fn tumbling(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
             };
             input = input.with_wheel(wheel).with("wheels.w1.rate_rad_s", &[30.0]);
         }
-        Scene::resolve(&input).unwrap_or_else(|errors| panic!("{}", errors[0]))
+        input
     };
-    (0..count).map(scene).collect()
+    (0..count).map(input).collect()
 }

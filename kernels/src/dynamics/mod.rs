@@ -8,6 +8,7 @@
 //! - [`effects`]: what acts beside the actuators. [`orbit`]: motion on a two-body orbit in closed form;
 //!   [`orbit_series`]: its Taylor series.
 //! - [`magnetic_field`]: the Earth's magnetic field.
+//! - [`environment`]: air, the Sun and the Earth's shadow.
 //! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and further components where a scene needs them.
 //! - [`null_space`]: Berdoz's 62-state null-space form.
 
@@ -17,6 +18,7 @@ pub mod arc_record;
 pub mod debris;
 pub mod earth_rotation;
 pub mod effects;
+pub mod environment;
 pub mod gyrostat;
 pub mod magnetic_field;
 pub mod null_space;

@@ -114,7 +114,13 @@ impl KeplerOrbit<f64> {
 
     /// A circle that no run is on: what empty lanes have.
     pub fn blank() -> Self {
-        KeplerOrbit::new(&Orbit { mu: 1.0, position: [1.0, 0.0, 0.0], velocity: [0.0, 1.0, 0.0], epoch: None })
+        KeplerOrbit::new(&Orbit {
+            mu: 1.0,
+            position: [1.0, 0.0, 0.0],
+            velocity: [0.0, 1.0, 0.0],
+            body_radius: 0.0,
+            epoch: None,
+        })
     }
 
     /// The same in all lanes of `zero`.
@@ -238,7 +244,7 @@ mod tests {
     fn orbit(radius: f64, speed: f64, radial: f64) -> Orbit {
         let circular = (MU / radius).sqrt();
         let velocity = [radial * circular, speed * circular * 0.6, speed * circular * 0.8];
-        Orbit { mu: MU, position: [radius, 0.0, 0.0], velocity, epoch: None }
+        Orbit { mu: MU, position: [radius, 0.0, 0.0], velocity, body_radius: 0.0, epoch: None }
     }
 
     /// Law: energy and angular momentum of the orbit are constant, |r| is the distance, and one period later the state is the same; from

@@ -127,8 +127,13 @@ mod tests {
     fn the_series_is_the_closed_form() {
         const MU: f64 = 3.986004418e14;
         for speed in [1.0, 1.15] {
-            let scene =
-                Orbit { mu: MU, position: [7e6, 1e6, -2e5], velocity: [100.0, speed * 7400.0, 900.0], epoch: None };
+            let scene = Orbit {
+                mu: MU,
+                position: [7e6, 1e6, -2e5],
+                velocity: [100.0, speed * 7400.0, 900.0],
+                body_radius: 0.0,
+                epoch: None,
+            };
             let closed = KeplerOrbit::new(&scene);
             // a unit of time of 512 s
             let unit = 512.0;

@@ -1,6 +1,6 @@
 //! States to series: the computation of each source, where one of its series is observed.
 //!
-//! Not here: the computations ([`super::energies`], [`super::momenta`], [`super::attitude`], [`super::motion`], [`super::orbit`]), and the reduction of series to
+//! Not here: the computations ([`super::energies`], [`super::momenta`], [`super::attitude`], [`super::motion`], [`super::orbit`], [`super::surroundings`]), and the reduction of series to
 //! numbers ([`super::reduce`]).
 
 use fearless_simd::Simd;
@@ -13,6 +13,7 @@ use super::motion::motion;
 use super::orbit::orbit;
 use super::points::{Column, MeasuredRun, SeriesTable, needed};
 use super::rows::SeriesSource;
+use super::surroundings::surroundings;
 use super::table::Series;
 use crate::run::StateField;
 
@@ -29,6 +30,7 @@ pub(super) fn measure<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesT
             SeriesSource::Residuals => residuals(run, out),
             SeriesSource::Motion => motion(simd, run, out),
             SeriesSource::Orbit => orbit(simd, run, out),
+            SeriesSource::Surroundings => surroundings(simd, run, out),
             SeriesSource::Law => recorded(run, out),
         }
     }

@@ -6,7 +6,7 @@
 //! - [`reduction`]: how a series becomes a number; `reduce`, `correlation`: the passes over series that compute it (`weights`).
 //! - [`request`]: what a campaign observes; from it the columns, and which fields of the state table they need and why.
 //! - [`observer`]: [`Observer`] reads a state table and writes a row, by a `row_plan` and with direct values of a `finished_run`.
-//! - `measure`: states to series, by `energies`, `momenta`, `attitude`, `motion` and `orbit`, eight points at a time (`points`).
+//! - `measure`: states to series, by `energies`, `momenta`, `attitude`, `motion`, `orbit` and `surroundings`, eight points at a time (`points`).
 //! - [`nominal_attitude`]: the attitude of the nominal run, with which those of the others are compared.
 //! - `conditioning`, `error_sums`, `rotor`, `acting`: how much the motion amplifies errors of its state.
 //! - [`law_columns`]: the columns that a control law reports.
@@ -49,6 +49,7 @@ mod row_plan;
 #[macro_use]
 mod rows;
 mod spectrum;
+mod surroundings;
 pub mod table;
 mod torque_growth;
 mod weights;

@@ -273,6 +273,7 @@ impl Work for Observation<'_> {
         let dipole = scene.environment.magnetic_dipole_a_m2;
         let magnetism = dipole
             .and_then(|dipole| Some(Magnetism { field: MagneticField::of(scene)?, dipole, times: &observer.times }));
+        let times = &observer.times;
         let run = MeasuredRun {
             observed,
             sources,
@@ -282,6 +283,8 @@ impl Work for Observation<'_> {
             nutation_axis,
             mu,
             magnetism,
+            scene,
+            times,
             of_law,
             table,
             points,

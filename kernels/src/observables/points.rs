@@ -14,8 +14,8 @@ use crate::dynamics::magnetic_field::MagneticField;
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};
-use crate::scene::MAX_WHEELS;
 use crate::scene::mass::{Body, MassProperties};
+use crate::scene::{MAX_WHEELS, Scene};
 
 /// A component of a field as vectors of eight neighbouring points. Columns with one common number of vectors need no check of
 /// bounds inside the loops.
@@ -39,6 +39,10 @@ pub(super) struct MeasuredRun<'a> {
     pub(super) mu: f64,
     /// The magnetic field and what it turns; `None` where nothing is magnetic.
     pub(super) magnetism: Option<Magnetism<'a>>,
+    /// The scene.
+    pub(super) scene: &'a Scene,
+    /// The observation times, s.
+    pub(super) times: &'a [f64],
     /// What the control law has recorded, series by series ([`super::law_columns::LawSeries`]) and point by point; empty where it records nothing.
     pub(super) of_law: &'a [f64],
     /// The states.

@@ -235,6 +235,8 @@ impl Request {
             Scenes::Orbit => self.effects.contains(Effect::Gravity),
             Scenes::GravityGradient => self.effects.contains(Effect::GravityGradient),
             Scenes::MagneticTorque => self.effects.contains(Effect::MagneticTorque),
+            Scenes::Drag => self.effects.contains(Effect::Drag),
+            Scenes::SolarPressure => self.effects.contains(Effect::SolarPressure),
         }
     }
 

@@ -50,6 +50,10 @@ pub(super) enum Scenes {
     GravityGradient,
     /// With a magnetic dipole.
     MagneticTorque,
+    /// With drag.
+    Drag,
+    /// With the pressure of sunlight.
+    SolarPressure,
 }
 
 /// A field of the state table that a value is computed from, for which scenes, and why.
@@ -80,13 +84,15 @@ pub(super) enum SeriesSource {
     Motion,
     /// [`super::orbit`].
     Orbit,
+    /// [`super::surroundings`].
+    Surroundings,
     /// What the control law has recorded at the points ([`super::law_columns::LawSeries`]).
     Law,
 }
 
 impl SeriesSource {
     /// Every source, in the order of the computation.
-    pub(super) const ALL: [SeriesSource; 9] = [
+    pub(super) const ALL: [SeriesSource; 10] = [
         SeriesSource::Energies,
         SeriesSource::LinearMomentum,
         SeriesSource::AngularMomentum,
@@ -95,6 +101,7 @@ impl SeriesSource {
         SeriesSource::Residuals,
         SeriesSource::Motion,
         SeriesSource::Orbit,
+        SeriesSource::Surroundings,
         SeriesSource::Law,
     ];
 }

@@ -58,6 +58,8 @@ impl Column {
             Scenes::Orbit => "on an orbit",
             Scenes::GravityGradient => "with a gravity gradient",
             Scenes::MagneticTorque => "with a magnetic dipole",
+            Scenes::Drag => "with drag",
+            Scenes::SolarPressure => "with the pressure of sunlight",
         }
     }
 
@@ -356,6 +358,15 @@ mod needs {
         need(StateField::ComPosition, Scenes::MagneticTorque, "place in the magnetic field"),
         need(StateField::Attitude, Scenes::MagneticTorque, "direction of the magnetic field in the body"),
     ];
+    pub(super) const AIR: &[Need] = &[
+        need(StateField::ComPosition, Scenes::Drag, "density of the air"),
+        need(StateField::ComVelocity, Scenes::Drag, "velocity relative to the air"),
+        need(StateField::Attitude, Scenes::Drag, "plates in the flow"),
+    ];
+    pub(super) const LIGHT: &[Need] = &[
+        need(StateField::ComPosition, Scenes::SolarPressure, "shadow of the Earth"),
+        need(StateField::Attitude, Scenes::SolarPressure, "plates in the light"),
+    ];
     pub(super) const RESIDUALS: &[Need] = &[need(StateField::Residuals, Scenes::Constrained, "residuals of the constraints")];
     pub(super) const FINAL_STATE: &[Need] = &[
         need(StateField::Attitude, Scenes::All, "attitude at the end"),
@@ -374,9 +385,9 @@ mod needs {
     ];
 }
 use needs::{
-    ANGULAR, BODIES, DEBRIS_ANGULAR, DEBRIS_DIRECTION, DEBRIS_ENERGY, DEBRIS_LINEAR, DEBRIS_NUMERICS, FINAL_STATE,
-    FROM_INITIAL, FROM_NOMINAL, LINEAR, MAGNETISM, NUMERICS, ORBIT, ORTHONORMALITY, RATE, REDUNDANT, RESIDUALS, SPIN,
-    SPIN_AXIS, TOTAL, WORK,
+    AIR, ANGULAR, BODIES, DEBRIS_ANGULAR, DEBRIS_DIRECTION, DEBRIS_ENERGY, DEBRIS_LINEAR, DEBRIS_NUMERICS, FINAL_STATE,
+    FROM_INITIAL, FROM_NOMINAL, LIGHT, LINEAR, MAGNETISM, NUMERICS, ORBIT, ORTHONORMALITY, RATE, REDUNDANT, RESIDUALS,
+    SPIN, SPIN_AXIS, TOTAL, WORK,
 };
 
 #[rustfmt::skip]
@@ -419,6 +430,10 @@ series! {
     GradientTorqueSquare [1]: Orbit, Square, None, [ORBIT], Some(("gravity_gradient_torque_n_m", "N m")), "Magnitude of the torque of the gravity gradient on the spacecraft.";
     FieldStrength [1]: Orbit, Quantity, None, [MAGNETISM], Some(("magnetic_field_t", "T")), "Magnitude of the Earth's magnetic field at the spacecraft.";
     MagneticTorqueSquare [1]: Orbit, Square, None, [MAGNETISM], Some(("magnetic_torque_n_m", "N m")), "Magnitude of the torque of the magnetic field on the residual dipole of the spacecraft.";
+    AirDensity [1]: Surroundings, Quantity, None, [AIR], Some(("air_density_kg_m3", "kg/m^3")), "Density of the air where the spacecraft is.";
+    DragTorqueSquare [1]: Surroundings, Square, None, [AIR], Some(("drag_torque_n_m", "N m")), "Magnitude of the torque of the air on the spacecraft.";
+    SunHidden [1]: Surroundings, Quantity, None, [LIGHT], Some(("sun_hidden_fraction", "")), "Share of the Sun's disc that the Earth hides: 0 in light, 1 in full shadow.";
+    SolarTorqueSquare [1]: Surroundings, Square, None, [LIGHT], Some(("solar_pressure_torque_n_m", "N m")), "Magnitude of the torque of sunlight on the spacecraft.";
     PointingError [1]: Law, Quantity, None, [], Some(("pointing_error_rad", "rad")), "Angle of the rotation from the true attitude to the target of the phase, at the last tick of the control loop; null in a phase without a target.";
     AttitudeEstimateError [1]: Law, Quantity, None, [], Some(("attitude_estimate_error_rad", "rad")), "Angle between estimated and true attitude, at the last tick of the control loop.";
     RateEstimateError [1]: Law, Quantity, None, [], Some(("rate_estimate_error_rad_s", "rad/s")), "Magnitude of the error of the estimated angular velocity, at the last tick of the control loop.";
@@ -562,6 +577,11 @@ static FAMILIES: &[&[Column]] = &[
         of!(Orbit, MagneticTorque, FieldStrength, Value(ValueStatistic::Max), ["magnetic_field_max_t"], "T", ["Maximum magnitude of the Earth's magnetic field on the grid."]),
         of!(Orbit, MagneticTorque, FieldStrength, Value(ValueStatistic::Mean), ["magnetic_field_mean_t"], "T", ["Mean over the points of the magnitude of the Earth's magnetic field."]),
         of!(Orbit, MagneticTorque, MagneticTorqueSquare, Order(OrderStatistic::Max), ["magnetic_torque_max_n_m"], "N m", ["Maximum magnitude of the torque of the magnetic field on the residual dipole on the grid."]),
+        of!(Orbit, Drag, AirDensity, Value(ValueStatistic::Max), ["air_density_max_kg_m3"], "kg/m^3", ["Maximum density of the air where the spacecraft is, on the grid."]),
+        of!(Orbit, Drag, AirDensity, Value(ValueStatistic::Mean), ["air_density_mean_kg_m3"], "kg/m^3", ["Mean over the points of the density of the air where the spacecraft is."]),
+        of!(Orbit, Drag, DragTorqueSquare, Order(OrderStatistic::Max), ["drag_torque_max_n_m"], "N m", ["Maximum magnitude of the torque of the air on the grid."]),
+        of!(Orbit, SolarPressure, SunHidden, Value(ValueStatistic::Mean), ["eclipse_fraction"], "", ["Mean over the points of the share of the Sun's disc that the Earth hides."]),
+        of!(Orbit, SolarPressure, SolarTorqueSquare, Order(OrderStatistic::Max), ["solar_pressure_torque_max_n_m"], "N m", ["Maximum magnitude of the torque of sunlight on the grid."]),
     ],
 ];
 

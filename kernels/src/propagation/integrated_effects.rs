@@ -5,7 +5,7 @@
 
 use crate::dynamics::effects::Form;
 
-/// Taylor methods, and the reference solution: what has a series.
+/// Taylor methods: what has a series. The reference solution takes all forms.
 pub const fn by_taylor(form: Form) -> bool {
     match form {
         Form::Constant | Form::Series | Form::Translation => true,
@@ -13,11 +13,16 @@ pub const fn by_taylor(form: Form) -> bool {
     }
 }
 
-/// Runge-Kutta methods on the gyrostat.
+/// Runge-Kutta methods on the gyrostat with an error estimate.
 pub const fn by_runge_kutta(form: Form) -> bool {
     match form {
         Form::Constant | Form::Series | Form::Evaluated | Form::Translation => true,
     }
+}
+
+/// Those without: what they say of their error comes from the Taylor series of the motion.
+pub const fn by_fixed_steps(form: Form) -> bool {
+    by_taylor(form)
 }
 
 /// The null-space formulation: what is constant over an arc.

@@ -1,6 +1,6 @@
 //! [`Method`]: the integration methods and their names in campaign files.
 
-use super::integrated_effects::{by_null_space, by_runge_kutta, by_taylor};
+use super::integrated_effects::{by_fixed_steps, by_null_space, by_runge_kutta, by_taylor};
 use crate::dynamics::effects::ForceModel;
 use crate::ode::Integrator;
 
@@ -51,6 +51,7 @@ impl Method {
         match self {
             Method::Auto => self.chosen(model) != self || model.is_integrated(by_taylor),
             Method::Taylor => model.is_integrated(by_taylor),
+            Method::Gyrostat(integrator) if integrator.has_fixed_step() => model.is_integrated(by_fixed_steps),
             Method::Gyrostat(_) => model.is_integrated(by_runge_kutta),
             Method::NullSpace => model.is_integrated(by_null_space),
         }

@@ -126,7 +126,10 @@ impl<S: Simd, R: Real + Send, M: LaneMethod + Send, E: WithinArcs<R> + Send, con
     for RungeKuttaEngine<S, R, M, E, N>
 {
     fn integrates(&self, model: ForceModel) -> bool {
-        model.is_integrated(integrated_effects::by_runge_kutta)
+        match M::ERRORS {
+            ErrorModel::Estimated(_) => model.is_integrated(integrated_effects::by_runge_kutta),
+            ErrorModel::Remainder(_) => model.is_integrated(integrated_effects::by_fixed_steps),
+        }
     }
 
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {

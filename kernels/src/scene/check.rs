@@ -10,6 +10,7 @@ use super::orbit;
 use super::schedule::applied;
 use super::schema::limit::{INERTIA_SLACK, shown};
 use super::schema::{ArcErrors, FieldModel, InitialInput, PartInput, WheelInput, WheelMode};
+use super::surroundings;
 use super::table::Table;
 use crate::math::symmetric::{is_positive_definite, principal_axes};
 use crate::math::vector::{difference, norm};
@@ -63,6 +64,10 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     for thruster in &input.thrusters {
         thruster.check(has_debris, problems, |key| Table::Thruster.name(thruster.name, key).into());
     }
+    for plate in &input.plates {
+        plate.check(has_debris, problems, |key| Table::Plate.name(plate.name, key).into());
+        surroundings::check_plate(plate, problems);
+    }
     if let Some(debris) = &input.debris {
         debris.check(problems);
     }
@@ -87,6 +92,9 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
         problems.add("environment.gravity_gradient".to_owned(), "true".to_owned(), allowed, remedy);
     }
     magnetic_field(input, problems);
+    if input.environment.acts_on_plates() {
+        surroundings::check(input, problems);
+    }
     input.environment.check(has_debris, problems, |key| format!("environment.{key}").into());
     input.control.check(problems);
     if input.actuation.is_empty() {

@@ -7,7 +7,7 @@
 use super::name::Name;
 use super::schema::{
     ActuationInput, ActuatorsInput, BodyInput, ControlInput, DebrisInput, EnvironmentInput, InitialInput, MAX_WHEELS,
-    OrbitInput, PartInput, PartShape, ThrusterInput, WheelInput, WheelMode,
+    OrbitInput, PartInput, PartShape, PlateInput, ThrusterInput, WheelInput, WheelMode,
 };
 use crate::math::list::List;
 
@@ -47,6 +47,8 @@ pub struct SceneInput {
     pub actuators: ActuatorsInput,
     /// The orbit of the spacecraft, if it is in one.
     pub orbit: Option<OrbitInput>,
+    /// The plates that air and light push; where there are none, those of the parts.
+    pub plates: Vec<PlateInput>,
     /// Effects of the environment.
     pub environment: EnvironmentInput,
     /// The parameters of the control law, if there is one.
@@ -79,6 +81,7 @@ impl SceneInput {
             actuation: Vec::new(),
             actuators: ActuatorsInput::DEFAULT,
             orbit: None,
+            plates: Vec::new(),
             environment: EnvironmentInput::DEFAULT,
             control: ControlInput::NONE,
         }

@@ -7,9 +7,10 @@
 //! - [`body`]: the body of the spacecraft and the debris from their input. [`wheel`]: wheels that turn. `tensor`: inertias by rows.
 //! - [`mass`]: mass properties of the whole. [`orbit`]: the orbit at time zero. [`epoch`]: its date.
 //! - [`parameter`]: the numeric keys that can be dispersed.
-//! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not.
+//! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not. `surroundings`: for air and light.
 //! - [`actuated`]: what acts on a spacecraft at any time of a run.
 //! - [`resolve`]: from an input to a [`Scene`].
+//! - [`plate`]: the plates that air and light push.
 //! - [`thruster`]: force and torque of thrusters. [`alignment`]: axes and directions, and their errors. [`name`]: names.
 //! - [`unit_quaternion`]: the attitude that is used where one is written.
 //! - [`schedule`]: what the actuators make of the commands, and the arcs of constant actuation.
@@ -25,6 +26,7 @@ pub mod mass;
 pub mod name;
 pub mod orbit;
 pub mod parameter;
+pub mod plate;
 #[cfg(test)]
 mod refusals;
 pub mod resolve;
@@ -34,6 +36,7 @@ pub mod schedule;
 pub mod schema;
 pub mod second_moment;
 pub mod solids;
+mod surroundings;
 pub mod table;
 mod tensor;
 pub mod thruster;
@@ -48,11 +51,12 @@ pub use mass::MassProperties;
 pub use name::Name;
 pub use orbit::Orbit;
 pub use parameter::Parameter;
+pub use plate::Plate;
 pub use schedule::{Actuation, Arc};
 pub use schema::{
     ActuationInput, ActuatorsInput, ArcErrors, BodyInput, ControlInput, DebrisInput, DeclaredTable, EnvironmentInput,
-    FieldModel, InitialInput, LawParameter, MAX_THRUSTERS, MAX_WHEELS, MassErrors, OrbitInput, PartInput, PartShape,
-    PrincipalInertia, PrincipalMoments, ThrusterInput, WheelInput, WheelMode,
+    FieldModel, InitialInput, LawParameter, MAX_PLATES, MAX_THRUSTERS, MAX_WHEELS, MassErrors, OrbitInput, PartInput,
+    PartShape, PlateInput, PrincipalInertia, PrincipalMoments, Shadow, ThrusterInput, WheelInput, WheelMode,
 };
 
 pub use thruster::Thruster;
@@ -70,6 +74,8 @@ pub struct Scene {
     pub schedule: Vec<Arc>,
     /// The orbit of the centre of mass; `None` where gravity is neglected.
     pub orbit: Option<Orbit>,
+    /// The plates that air and light push, where one of them acts.
+    pub plates: Vec<Plate>,
     /// Effects of the environment, as written.
     pub environment: EnvironmentInput,
     /// Whether the schedule commands thrust at all, whatever the thrusters make of it.

@@ -18,6 +18,8 @@ pub struct Orbit {
     pub position: [f64; 3],
     /// Velocity of c at time zero, in F_e, m/s.
     pub velocity: [f64; 3],
+    /// Radius of the central body, m.
+    pub body_radius: f64,
     /// The date at time zero; `None` where nothing depends on it.
     pub epoch: Option<Epoch>,
 }
@@ -36,10 +38,10 @@ pub struct OrbitShape {
 impl Orbit {
     /// The orbit that `input` describes; what is missing counts as zero.
     pub fn of(input: &OrbitInput) -> Self {
-        let (mu, epoch) = (input.mu_m3_s2, input.epoch);
+        let (mu, body_radius, epoch) = (input.mu_m3_s2, input.body_radius_m, input.epoch);
         let Some(semi_major_axis) = input.semi_major_axis_m else {
             let (position, velocity) = (input.position_m.unwrap_or_default(), input.velocity_m_s.unwrap_or_default());
-            return Orbit { mu, position, velocity, epoch };
+            return Orbit { mu, position, velocity, body_radius, epoch };
         };
         let angle = |value: Option<f64>| libm::sincos(value.unwrap_or(0.0));
         let eccentricity = input.eccentricity.unwrap_or(0.0);
@@ -59,6 +61,7 @@ impl Orbit {
             mu,
             position: scaled(distance, sum(scaled(cos_f, periapsis), scaled(sin_f, ahead))),
             velocity: scaled(speed, sum(scaled(-sin_f, periapsis), scaled(eccentricity + cos_f, ahead))),
+            body_radius,
             epoch,
         }
     }

@@ -5,7 +5,7 @@ use super::input::SceneInput;
 use super::mass::MassProperties;
 use super::schema::{InitialInput, MAX_WHEELS, WheelMode};
 use super::unit_quaternion::unit_quaternion;
-use super::{ActuatorModels, InitialState, Orbit, Scene, SceneError, check, schedule};
+use super::{ActuatorModels, InitialState, Orbit, Scene, SceneError, check, plate, schedule};
 use crate::math::vector::{
     conjugate, cross, dcm_from_quaternion, difference, hamilton, product, sum, transposed_product,
 };
@@ -24,6 +24,7 @@ impl Scene {
             thrusters: Vec::new(),
             schedule: Vec::with_capacity(input.actuation.len()),
             orbit: None,
+            plates: Vec::new(),
             environment: input.environment,
             commands_thrust: false,
             commands_torque: false,
@@ -60,6 +61,7 @@ impl Scene {
             self.initial.r_po_e = difference(orbit.position, product(c_es, mass.center));
             self.initial.v_po_e = difference(orbit.velocity, product(c_es, spin));
         }
+        plate::resolve_into(input, &mut self.plates);
         self.environment = input.environment;
         self.commands_thrust = input.actuation.iter().any(|arc| arc.thrust_n.iter().any(|thrust| *thrust != 0.0));
         self.commands_torque = input.actuation.iter().any(|arc| arc.torque_n_m.iter().any(|torque| *torque != 0.0));

@@ -10,7 +10,8 @@ use super::name::Name;
 use super::schema::limit::shown;
 use super::schema::{
     ActuationInput, ActuatorsInput, ArcErrors, BodyInput, DebrisInput, DeclaredTable, EnvironmentInput, Facts,
-    InitialInput, LawParameter, MassErrors, OrbitInput, PartInput, Presence, Row, ThrusterInput, WheelInput,
+    InitialInput, LawParameter, MassErrors, OrbitInput, PartInput, PlateInput, Presence, Row, ThrusterInput,
+    WheelInput,
 };
 
 /// A key of a table of the schema.
@@ -173,6 +174,7 @@ tables! {
     Actuators, "actuators", true, &[ActuatorsInput::ROWS], Some(&scene.actuators), Some(&mut scene.actuators);
     Initial, "initial", true, &[InitialInput::ROWS], Some(&scene.initial), Some(&mut scene.initial);
     Orbit, "orbit", true, &[OrbitInput::ROWS], scene.orbit.as_ref(), scene.orbit.as_mut();
+    Plate, "plates", true, &[PlateInput::ROWS], scene.plates.get(instance), scene.plates.get_mut(instance);
     Environment, "environment", true, &[EnvironmentInput::ROWS], Some(&scene.environment), Some(&mut scene.environment);
     Actuation, "actuation", false, &[ActuationInput::ROWS],
         scene.actuation.get(instance), scene.actuation.get_mut(instance);
@@ -217,6 +219,7 @@ impl Table {
             Table::Part | Table::PartErrors => scene.parts.iter().map(|part| part.name).collect(),
             Table::Wheel => scene.wheels.iter().map(|wheel| wheel.name).collect(),
             Table::Thruster => scene.thrusters.iter().map(|thruster| thruster.name).collect(),
+            Table::Plate => scene.plates.iter().map(|plate| plate.name).collect(),
             Table::Actuation => vec![Name::NONE; scene.actuation.len()],
             Table::Sensors => scene.control.sensors.iter().map(|sensor| sensor.name).collect(),
             Table::Guidance => scene.control.guidance.iter().map(|phase| phase.name).collect(),
@@ -295,7 +298,9 @@ impl Key {
 /// A scene in which every table is there, all at their defaults.
 fn with_every_table() -> SceneInput {
     let part = PartInput { name: Name::of("part"), ..PartInput::DEFAULT };
-    let scene = SceneInput { parts: vec![part], orbit: Some(OrbitInput::DEFAULT), ..SceneInput::blank() };
+    let plate = PlateInput { name: Name::of("plate"), ..PlateInput::DEFAULT };
+    let orbit = Some(OrbitInput::DEFAULT);
+    let scene = SceneInput { parts: vec![part], plates: vec![plate], orbit, ..SceneInput::blank() };
     let scene = scene.with_wheel(WheelInput { name: Name::of("wheel"), ..WheelInput::DEFAULT });
     let scene = scene.with_thruster(ThrusterInput { name: Name::of("thruster"), ..ThrusterInput::DEFAULT });
     scene.with_debris(DebrisInput::BLANK).with_actuation(ActuationInput::DEFAULT)

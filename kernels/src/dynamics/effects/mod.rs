@@ -7,14 +7,18 @@
 //! - `constant_torque`: constant in F_s: a part of every arc of constant actuation, so that all methods have it.
 //! - [`gravity_gradient`]: depends on attitude and position.
 //! - [`magnetic_torque`]: depends on attitude, position, date and the torque rods.
+//! - [`drag`], [`solar_pressure`]: act on plates ([`plates`]), which turn on and off.
 //! - [`within_arcs`]: the effects that change within an arc, as the equations of motion have them, and what they depend on.
 //!
 //! A scene without effects costs nothing: its kernel is compiled without them. A scene with effects evaluates only those that act, and its orbit
 //! only where one of them needs it.
 
 mod constant_torque;
+pub mod drag;
 pub mod gravity_gradient;
 pub mod magnetic_torque;
+pub mod plates;
+pub mod solar_pressure;
 pub mod within_arcs;
 
 use super::actuation::sum;
@@ -30,6 +34,10 @@ pub enum Effect {
     GravityGradient,
     /// `environment.magnetic_dipole_a_m2`.
     MagneticTorque,
+    /// `environment.drag`.
+    Drag,
+    /// `environment.solar_pressure`.
+    SolarPressure,
     /// `[orbit]`: the force of gravity on the centre of mass.
     Gravity,
 }
@@ -49,8 +57,14 @@ pub enum Form {
 
 impl Effect {
     /// All effects.
-    pub const ALL: [Effect; 4] =
-        [Effect::ConstantTorque, Effect::GravityGradient, Effect::MagneticTorque, Effect::Gravity];
+    pub const ALL: [Effect; 6] = [
+        Effect::ConstantTorque,
+        Effect::GravityGradient,
+        Effect::MagneticTorque,
+        Effect::Drag,
+        Effect::SolarPressure,
+        Effect::Gravity,
+    ];
 
     /// The key that makes it act.
     pub const fn key(self) -> &'static str {
@@ -58,6 +72,8 @@ impl Effect {
             Effect::ConstantTorque => "environment.body_torque_n_m",
             Effect::GravityGradient => "environment.gravity_gradient",
             Effect::MagneticTorque => "environment.magnetic_dipole_a_m2",
+            Effect::Drag => "environment.drag",
+            Effect::SolarPressure => "environment.solar_pressure",
             Effect::Gravity => "orbit",
         }
     }
@@ -68,6 +84,8 @@ impl Effect {
             Effect::ConstantTorque => Form::Constant,
             Effect::GravityGradient => Form::Series,
             Effect::MagneticTorque => Form::Series,
+            Effect::Drag => Form::Evaluated,
+            Effect::SolarPressure => Form::Evaluated,
             Effect::Gravity => Form::Translation,
         }
     }
@@ -78,14 +96,22 @@ impl Effect {
             Effect::ConstantTorque => environment.body_torque_n_m.is_some(),
             Effect::GravityGradient => environment.gravity_gradient,
             Effect::MagneticTorque => environment.magnetic_dipole_a_m2.is_some(),
+            Effect::Drag => environment.drag,
+            Effect::SolarPressure => environment.solar_pressure,
             Effect::Gravity => is_on_orbit,
         }
     }
 }
 
 within_arcs::changing_effects! {
-    gravity_gradient: GravityGradient, GradientSeries;
-    magnetic_torque: MagneticTorque, MagneticSeries;
+    series {
+        gravity_gradient: GravityGradient, GradientSeries;
+        magnetic_torque: MagneticTorque, MagneticSeries;
+    }
+    evaluated {
+        drag: Drag;
+        solar_pressure: SolarPressure;
+    }
 }
 
 /// The effects that act in a run.

@@ -140,18 +140,114 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
     }
 }
 
-/// The effects that change within an arc, from the list of their files; each line reads
+/// The effects that change within an arc, from the list of their files: those of the form `Series`, then those of the form `Evaluated`:
 ///
 /// ```text
-/// file: Constants, Series;
+/// series { file: Constants, Series; }
+/// evaluated { file: Constants; }
 /// ```
 ///
 /// `Constants<R>` has `NEEDS_ORBIT`, `none(zero)`, `set_lane(lane, &Constants<f64>)` and `torque(&Motion<R>)`, in B, N m. `Series<R>` has `new(zero,
-/// order)`, `begin(&Constants<R>, time, unit)` and `extend(n, &MotionSeries<R>)`, coefficient n of the torque in the unit of time; the series of an effect
-/// of the form `Evaluated` is never begun. The file has `of(zero, scene, c_sb)`, the constants in the frame B that `c_sb` maps to F_s, `None` where the
+/// order)`, `begin(&Constants<R>, time, unit)` and `extend(n, &MotionSeries<R>)`, coefficient n of the torque in the unit of time. The file has `of(zero, scene, c_sb)`, the constants in the frame B that `c_sb` maps to F_s, `None` where the
 /// effect does not act; `largest_torque(scene)`, an upper bound, N m; and `largest_rate(scene)`, the fastest motion that it makes, rad/s.
 macro_rules! changing_effects {
-    ($($file:ident: $Constants:ident, $Series:ident;)*) => {
+    (series { $($series:ident: $Of:ident, $Series:ident;)* } evaluated { $($evaluated:ident: $Evaluated:ident;)* }) => {
+        within_arcs::changing_effects! { all { $($series: $Of;)* $($evaluated: $Evaluated;)* } }
+
+        impl<R: $crate::math::Real> ChangingEffects<R> {
+            /// Those alone that have no series.
+            pub fn evaluated(self) -> Self {
+                ChangingEffects { $($series: None,)* ..self }
+            }
+        }
+
+        /// The Taylor series of the effects along a step.
+        #[derive(Clone, Debug)]
+        pub struct ChangingSeries<R> {
+            /// What they depend on.
+            pub motion: within_arcs::MotionSeries<R>,
+            /// Whether effects without a series act, and a polynomial is fitted to their torque, B, N m in the unit of time.
+            fitted: Option<Vec<[R; 3]>>,
+            has_orbit: bool,
+            $($series: (bool, $series::$Series<R>),)*
+            /// Of all torques on the body, B, N m in the unit of time.
+            torque: Vec<[R; 3]>,
+        }
+
+        impl<R: $crate::math::Real> ChangingSeries<R> {
+            /// Memory for series of order `order`.
+            pub fn new(zero: R, order: usize) -> Self {
+                ChangingSeries {
+                    motion: within_arcs::MotionSeries::new(zero, order),
+                    fitted: None,
+                    has_orbit: false,
+                    $($series: (false, $series::$Series::new(zero, order)),)*
+                    torque: vec![[zero; 3]; order + 1],
+                }
+            }
+
+            /// Starts a step of `acting` at `time` (s) in a unit of time of `unit` seconds. `place` is the gravitational parameter (m^3/s^2) and
+            /// where the spacecraft is then (m, m/s), where its orbit is needed.
+            #[inline(always)]
+            pub fn begin(
+                &mut self,
+                acting: &ChangingEffects<R>,
+                place: Option<&(R, $crate::dynamics::orbit::OrbitState<R>)>,
+                time: R,
+                unit: R,
+            ) {
+                self.has_orbit = place.is_some();
+                if let Some((mu, place)) = place {
+                    let velocity = $crate::math::vector::scaled(unit, place.velocity);
+                    self.motion.orbit.begin(*mu * (unit * unit), place.position, velocity);
+                }
+                $(
+                    self.$series.0 = acting.$series.is_some();
+                    if let Some(effect) = &acting.$series {
+                        self.$series.1.begin(effect, time, unit);
+                    }
+                )*
+            }
+
+            /// Takes `torque` as the coefficients of the torque of the effects without a series, B, N m in the unit of time; zero beyond them.
+            pub fn fit(&mut self, torque: &[[R; 3]]) {
+                let length = self.torque.len();
+                let zero = self.torque[0][0].zero();
+                let fitted = self.fitted.get_or_insert_with(|| vec![[zero; 3]; length]);
+                fitted.fill([zero; 3]);
+                fitted[..torque.len()].copy_from_slice(torque);
+            }
+
+            /// Coefficient n of the sum of the torques, given those of the motion; call in ascending order of `n`. `constant` is what acts beside
+            /// them, for [`ChangingSeries::torque`].
+            #[inline(always)]
+            pub fn extend(&mut self, n: usize, attitude: [R; 4], rate: [R; 3], constant: [R; 3]) -> [R; 3] {
+                let mut own = [attitude[0].zero(); 3];
+                self.motion.attitude[n] = attitude;
+                self.motion.rate[n] = rate;
+                if self.has_orbit {
+                    self.motion.orbit.extend(n);
+                }
+                $(
+                    if self.$series.0 {
+                        own = $crate::math::vector::sum(own, self.$series.1.extend(n, &self.motion));
+                    }
+                )*
+                if let Some(fitted) = &self.fitted {
+                    own = $crate::math::vector::sum(own, fitted[n]);
+                }
+                self.torque[n] = if n == 0 { $crate::math::vector::sum(constant, own) } else { own };
+                own
+            }
+
+            /// The coefficients of the torque, with what acts beside it, B, N m in the unit of time.
+            #[inline(always)]
+            pub fn torque(&self) -> &[[R; 3]] {
+                &self.torque
+            }
+        }
+    };
+    (all { $($file:ident: $Constants:ident;)* }) => {
         /// The constants of the effects that change within an arc, one run per lane; `None` of those that do not act.
         #[derive(Clone, Copy, Debug)]
         pub struct ChangingEffects<R> {
@@ -201,79 +297,6 @@ macro_rules! changing_effects {
                     }
                 )*
                 total
-            }
-        }
-
-        /// The Taylor series of the effects along a step.
-        #[derive(Clone, Debug)]
-        pub struct ChangingSeries<R> {
-            /// What they depend on.
-            pub motion: within_arcs::MotionSeries<R>,
-            acting: ChangingEffects<R>,
-            has_orbit: bool,
-            $($file: $file::$Series<R>,)*
-            /// Of all torques on the body, B, N m in the unit of time.
-            torque: Vec<[R; 3]>,
-        }
-
-        impl<R: $crate::math::Real> ChangingSeries<R> {
-            /// Memory for series of order `order`.
-            pub fn new(zero: R, order: usize) -> Self {
-                ChangingSeries {
-                    motion: within_arcs::MotionSeries::new(zero, order),
-                    acting: ChangingEffects::none(),
-                    has_orbit: false,
-                    $($file: $file::$Series::new(zero, order),)*
-                    torque: vec![[zero; 3]; order + 1],
-                }
-            }
-
-            /// Starts a step of `acting` at `time` (s) in a unit of time of `unit` seconds. `place` is the gravitational parameter (m^3/s^2) and
-            /// where the spacecraft is then (m, m/s), where its orbit is needed.
-            #[inline(always)]
-            pub fn begin(
-                &mut self,
-                acting: &ChangingEffects<R>,
-                place: Option<&(R, $crate::dynamics::orbit::OrbitState<R>)>,
-                time: R,
-                unit: R,
-            ) {
-                self.acting = *acting;
-                self.has_orbit = place.is_some();
-                if let Some((mu, place)) = place {
-                    let velocity = $crate::math::vector::scaled(unit, place.velocity);
-                    self.motion.orbit.begin(*mu * (unit * unit), place.position, velocity);
-                }
-                $(
-                    if let Some(effect) = &acting.$file {
-                        self.$file.begin(effect, time, unit);
-                    }
-                )*
-            }
-
-            /// Coefficient n of the sum of the torques, given those of the motion; call in ascending order of `n`. `constant` is what acts beside
-            /// them, for [`ChangingSeries::torque`].
-            #[inline(always)]
-            pub fn extend(&mut self, n: usize, attitude: [R; 4], rate: [R; 3], constant: [R; 3]) -> [R; 3] {
-                let mut own = [attitude[0].zero(); 3];
-                self.motion.attitude[n] = attitude;
-                self.motion.rate[n] = rate;
-                if self.has_orbit {
-                    self.motion.orbit.extend(n);
-                }
-                $(
-                    if self.acting.$file.is_some() {
-                        own = $crate::math::vector::sum(own, self.$file.extend(n, &self.motion));
-                    }
-                )*
-                self.torque[n] = if n == 0 { $crate::math::vector::sum(constant, own) } else { own };
-                own
-            }
-
-            /// The coefficients of the torque, with what acts beside it, B, N m in the unit of time.
-            #[inline(always)]
-            pub fn torque(&self) -> &[[R; 3]] {
-                &self.torque
             }
         }
 

@@ -36,7 +36,7 @@ pub mod wheel;
 
 use crate::dynamics::applied::scheduled_arc;
 use crate::dynamics::arc_record::ArcRecord;
-use crate::dynamics::effects::{ChangingEffects, largest_changing_rate};
+use crate::dynamics::effects::{ChangingEffects, ForceModel, largest_changing_rate};
 use crate::dynamics::orbit::KeplerOrbit;
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
@@ -177,8 +177,14 @@ impl<R: Real> Gyrostat<R> {
         self.r_co_e = sum(exact3(initial.r_po_e), product(c_es, center));
         self.v_co_e = sum(exact3(initial.v_po_e), product(c_es, cross(omega_s, center)));
         self.orbit = scene.orbit.as_ref().map(KeplerOrbit::new);
-        self.effects = ChangingEffects::of(zero, scene, self.c_sb);
-        self.rate = self.rate.max(largest_changing_rate(scene));
+        let changes = ForceModel::of(scene).changes_within_arcs();
+        if changes || !self.effects.is_empty() {
+            // some kilobytes, which runs without them do not copy
+            self.effects = ChangingEffects::of(zero, scene, self.c_sb);
+        }
+        if changes {
+            self.rate = self.rate.max(largest_changing_rate(scene));
+        }
         if let Some(orbit) = &scene.orbit {
             (self.r_co_e, self.v_co_e) = (exact3(orbit.position), exact3(orbit.velocity));
         }

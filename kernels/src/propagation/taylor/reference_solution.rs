@@ -8,10 +8,13 @@
 //! method. The reference solution is the exact motion for *those* numbers; the rounding in the computation of mass properties
 //! from dimensions and densities is not an error of integration and is not counted here.
 //!
+//! Effects without a Taylor series act by a polynomial fitted to their torque ([`super::fitted_torque`]).
+//!
 //! Not here: periodic folding (a solution that shared it could not judge it), lanes, failures as rows.
 
 use fearless_simd::Simd;
 
+use super::fitted_torque::{FittedTorque, Track};
 use super::jet::{Reciprocals, Scratch, expand};
 use super::lane_vectors::si_factors;
 use super::step::StepRule;
@@ -283,6 +286,7 @@ impl Integration<'_, '_> {
         let (mut reached, mut is_last) = (0.0, false);
         let turns = !self.run.effects.is_empty();
         let mut orbit = self.run.orbit.map(|orbit| ReferenceOrbit::new(self.run, orbit.mu()));
+        let mut fitted = self.scene.and_then(|scene| FittedTorque::new(self.run, scene));
         let mut series = (turns || orbit.is_some()).then(|| ChangingSeries::new(zero, order));
         while !is_last {
             self.begin_arc(reached, unit, &state);
@@ -312,21 +316,43 @@ impl Integration<'_, '_> {
                 now.momentum = sum(constants.momentum, scaled(time, constants.momentum_rate));
                 now.motor_power = constants.motor_power_rate.mul_add(time, constants.motor_power);
                 jet[0] = state;
-                if let Some(series) = &mut series {
-                    let place = orbit.as_mut().map(|orbit| orbit.begin(unit));
-                    let (unit, now) = (DoubleDouble::exact(unit), start + time * DoubleDouble::exact(unit));
-                    series.begin(&self.run.effects, place.as_ref(), now, unit);
-                }
-                expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, series.as_mut(), &mut jet);
-                let mut proposed = share * rule.step(&jet, Some(constants.torque_acceleration()));
-                let along = series.as_ref().map(|series| &series.motion.orbit);
-                if let Some(along) = along.filter(|_| orbit.is_some()) {
-                    proposed = proposed.smaller(step_of_orbit(along, &rule));
-                }
-                if turns {
-                    proposed = proposed.smaller(rule.step_of_impulse(&jet));
-                }
+                let at = start + time * DoubleDouble::exact(unit);
                 let left = length - time;
+                if let Some((fitted, series)) = fitted.as_mut().zip(series.as_mut()) {
+                    let place = orbit.as_mut().map(|orbit| orbit.begin(unit));
+                    series.begin(&self.run.effects, place.as_ref(), at, DoubleDouble::exact(unit));
+                    let along = place.is_some().then_some(&series.motion.orbit);
+                    let torque = fitted.start(&Track::new(&jet[..1], along, at.high, unit));
+                    series.fit(&torque);
+                }
+                let mut proposed;
+                loop {
+                    if let Some(series) = &mut series {
+                        let place = orbit.as_mut().map(|orbit| orbit.begin(unit));
+                        series.begin(&self.run.effects, place.as_ref(), at, DoubleDouble::exact(unit));
+                    }
+                    expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, series.as_mut(), &mut jet);
+                    proposed = share * rule.step(&jet, Some(constants.torque_acceleration()));
+                    let along = series.as_ref().map(|series| &series.motion.orbit).filter(|_| orbit.is_some());
+                    if let Some(along) = along {
+                        proposed = proposed.smaller(step_of_orbit(along, &rule));
+                    }
+                    if turns {
+                        proposed = proposed.smaller(rule.step_of_impulse(&jet));
+                    }
+                    let Some(fitted) = &mut fitted else { break };
+                    let track = Track::new(&jet, along, at.high, unit);
+                    let Some(torque) = fitted.next(&track, proposed.smaller(left).high) else {
+                        if fitted.step() < left.high {
+                            proposed = DoubleDouble::exact(fitted.step());
+                        }
+                        break;
+                    };
+                    if let Some(series) = &mut series {
+                        series.fit(&torque);
+                    }
+                }
+                let along = series.as_ref().map(|series| &series.motion.orbit);
                 lands = !proposed.lt(left);
                 let step = if lands { left } else { proposed };
                 while let Some(at) = times.get(states.len()) {

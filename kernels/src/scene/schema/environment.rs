@@ -1,6 +1,6 @@
 //! `[environment]`: effects of the environment on the spacecraft.
 
-use super::components::XYZ;
+use super::components::{SCALAR, XYZ};
 use super::limit::Limit;
 use super::numbers::Numbers;
 use super::rows::rows;
@@ -12,16 +12,70 @@ rows! {
         (optional);
     magnetic_dipole_a_m2: Option<[f64; 3]> = None, "A m^2", "Residual magnetic dipole of the spacecraft, in F_s", XYZ, Plain,
         Limit::Finite, (optional);
+    density_scale: f64 = 1.0, "1", "Factor of the density of the air", SCALAR, Plain, Limit::NotNegative, (optional);
+    base_density_kg_m3: Option<f64> = None, "kg/m^3", "Density of an exponential atmosphere at base_height_m, in place of the table",
+        SCALAR, Plain, Limit::NotNegative, (optional);
+    base_height_m: Option<f64> = None, "m", "Height above body_radius_m of the density base_density_kg_m3", SCALAR, Plain,
+        Limit::Finite, (optional);
+    scale_height_m: Option<f64> = None, "m", "Height over which the density falls by the factor e", SCALAR, Plain,
+        Limit::Positive, (optional);
+    solar_pressure_n_m2: f64 = 4.56e-6, "N/m^2", "Pressure of sunlight at 1 au on a surface that absorbs it", SCALAR, Plain,
+        Limit::NotNegative, (optional);
+    area_scale: f64 = 1.0, "1", "Factor of the areas of all plates", SCALAR, Plain, Limit::NotNegative, (optional);
     } others {
         /// Whether the torque of the gravity gradient acts; it needs an orbit.
         gravity_gradient: bool = false,
         /// The Earth's magnetic field; it needs an orbit with a date.
         magnetic_field: Option<FieldModel> = None,
+        /// Whether the torque of the air on the plates acts; it needs an orbit.
+        drag: bool = false,
+        /// Whether the torque of sunlight on the plates acts; it needs an orbit with an epoch.
+        solar_pressure: bool = false,
+        /// The shape of the Earth's shadow.
+        shadow: Shadow = Shadow::Cone,
+    }
+}
+
+/// The shape of the Earth's shadow.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shadow {
+    /// Full shadow and part shadow.
+    #[default]
+    Cone,
+    /// Parallel light: full shadow behind the Earth.
+    Cylinder,
+}
+
+impl Shadow {
+    /// All shapes.
+    pub const ALL: [Shadow; 2] = [Shadow::Cone, Shadow::Cylinder];
+
+    /// The name in campaign files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Shadow::Cone => "cone",
+            Shadow::Cylinder => "cylinder",
+        }
+    }
+
+    /// The shape called `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|shadow| shadow.name() == name)
     }
 }
 
 impl EnvironmentInput {
-    /// Whether any effect of the environment acts: a magnetic field alone does not.
+    /// Whether an effect acts that plates feel.
+    pub fn acts_on_plates(&self) -> bool {
+        self.drag || self.solar_pressure
+    }
+
+    /// Density, height and scale height of an exponential atmosphere, where one of them is written.
+    pub fn exponential(&self) -> [Option<f64>; 3] {
+        [self.base_density_kg_m3, self.base_height_m, self.scale_height_m]
+    }
+
+    /// Whether any effect of the environment acts: whether any key is written; a magnetic field alone does not act.
     pub fn acts(&self) -> bool {
         EnvironmentInput { magnetic_field: None, ..*self } != EnvironmentInput::DEFAULT
     }

@@ -4,7 +4,7 @@
 //! dispersable [`super::Parameter`]s and the table of keys in the documents. To add a parameter, add a row here and use the
 //! field where it acts.
 //!
-//! - [`body`], [`part`], [`mass_errors`], [`wheel`], [`thruster`], [`debris`], [`initial`], [`orbit`], [`environment`], [`actuators`],
+//! - [`body`], [`part`], [`mass_errors`], [`wheel`], [`thruster`], [`debris`], [`initial`], [`orbit`], [`environment`], [`plate`], [`actuators`],
 //!   [`actuation`]: the rows, table by table; [`control`]: those that a control law declares.
 //! - [`row`]: what a row is. [`limit`]: what a value must satisfy. [`numbers`]: values seen as plain numbers.
 //!
@@ -25,6 +25,7 @@ pub mod mass_errors;
 pub mod numbers;
 pub mod orbit;
 pub mod part;
+pub mod plate;
 pub mod principal;
 pub mod row;
 mod rows;
@@ -36,12 +37,13 @@ pub use actuators::ActuatorsInput;
 pub use body::BodyInput;
 pub use control::{ControlInput, DeclaredTable, LawParameter};
 pub use debris::DebrisInput;
-pub use environment::{EnvironmentInput, FieldModel};
+pub use environment::{EnvironmentInput, FieldModel, Shadow};
 pub use initial::InitialInput;
 pub use limit::Limit;
 pub use mass_errors::MassErrors;
 pub use orbit::OrbitInput;
 pub use part::{PartInput, PartShape};
+pub use plate::{MAX_PLATES, PlateInput};
 pub use principal::{PrincipalInertia, PrincipalMoments};
 pub use row::{Facts, Needs, Presence, Row, Shape};
 pub use thruster::ThrusterInput;

@@ -1,0 +1,168 @@
+//! Solar radiation pressure: what sunlight turns, plate by plate.
+//!
+//! f = -P A cos(theta) ((1 - c_s) s + 2 (c_s cos(theta) + c_d/3) n) where cos(theta) = n . s > 0, with s the unit vector to the Sun and the shares c_s
+//! and c_d of the light that are reflected as by a mirror and in all directions (J. Wertz, *Spacecraft Attitude Determination and Control*, 1978,
+//! (17-27)..(17-30)); at the plate's centre. P falls with the square of the distance to the Sun and with the visible share of its disc
+//! ([`crate::dynamics::environment::shadow`]). No plate shades another; the light that the Earth reflects is neglected. The force does not change the orbit.
+
+use super::plates::{PlatesInLanes, largest_lever};
+use super::within_arcs::Motion;
+use crate::dynamics::environment::shadow::lit;
+use crate::dynamics::environment::sun::{Sun, sun};
+use crate::math::Real;
+use crate::math::vector::{cross, dcm_from_quaternion, scaled, sum, transposed_product};
+use crate::scene::{Scene, Shadow};
+
+/// One over the seconds of a day.
+const DAY: f64 = 1.0 / 86_400.0;
+
+/// The Sun's smallest distance, au, below which the series never gets.
+const NEAREST: f64 = 0.983;
+
+/// The light on one run, one per lane.
+#[derive(Clone, Copy, Debug)]
+pub struct SolarPressure<R> {
+    /// 1 - c_s, 2 c_s and 2 c_d/3, each times the pressure at 1 au, N/m^2.
+    plates: PlatesInLanes<R, 3>,
+    light: Light<R>,
+}
+
+/// When it is where the Sun shines, one per lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Light<R> {
+    /// Days from J2000.0 to time zero.
+    epoch: R,
+    /// Radius of the Earth, m.
+    radius: R,
+    shadow: Shadow,
+}
+
+impl<R: Real> Light<R> {
+    /// That of `scene`, where its orbit has an epoch.
+    pub fn of(zero: R, scene: &Scene) -> Option<Self> {
+        let orbit = scene.orbit.as_ref()?;
+        let shadow = scene.environment.shadow;
+        Some(Light {
+            epoch: zero.splat(orbit.epoch?.days_since_j2000()),
+            radius: zero.splat(orbit.body_radius),
+            shadow,
+        })
+    }
+
+    /// The Sun at `time`, s, and the share of its disc that is visible from `position`, F_e, m.
+    #[inline(always)]
+    pub fn at(&self, time: R, position: [R; 3]) -> (Sun<R>, R) {
+        let sun = sun(time.mul_add(time.splat(DAY), self.epoch));
+        (sun, lit(self.shadow, position, &sun, self.radius))
+    }
+}
+
+impl<R: Real> SolarPressure<R> {
+    /// It depends on where the spacecraft is.
+    pub const NEEDS_ORBIT: bool = true;
+
+    /// One that does not act.
+    pub fn none(zero: R) -> Self {
+        let light = Light { epoch: zero, radius: zero, shadow: Shadow::Cone };
+        SolarPressure { plates: PlatesInLanes::none(zero), light }
+    }
+
+    /// Puts `own` into lane `lane`.
+    pub fn set_lane(&mut self, lane: usize, own: &SolarPressure<f64>) {
+        self.plates.set_lane(lane, &own.plates);
+        self.light.epoch.set_lane(lane, own.light.epoch);
+        self.light.radius.set_lane(lane, own.light.radius);
+        // no number: the same in all runs of a plan
+        self.light.shadow = own.light.shadow;
+    }
+
+    /// The torque on a body, B, N m.
+    #[inline(always)]
+    pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
+        let (sun, lit) = self.light.at(motion.time, motion.place.position);
+        let direction = transposed_product(dcm_from_quaternion(motion.attitude), sun.direction);
+        self.torque_at(lit / (sun.distance * sun.distance), direction)
+    }
+
+    /// The same at `share` of the pressure at 1 au, where `sun` is the unit vector to the Sun, B.
+    #[inline(always)]
+    pub fn torque_at(&self, share: R, sun: [R; 3]) -> [R; 3] {
+        let mut torque = [share.zero(); 3];
+        for plate in self.plates.iter() {
+            let [along, mirrored, scattered] = plate.numbers;
+            let facing = plate.facing(sun);
+            let push = sum(scaled(along, sun), scaled(mirrored.mul_add(facing, scattered), plate.normal));
+            torque = sum(torque, scaled(facing, cross(push, plate.arm)));
+        }
+        scaled(share, torque)
+    }
+}
+
+/// The light on `scene` in the frame B, which `c_sb` maps to F_s.
+pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<SolarPressure<R>> {
+    let light = Light::of(zero, scene).filter(|_| scene.environment.solar_pressure)?;
+    let pressure = scene.environment.solar_pressure_n_m2;
+    let plates = PlatesInLanes::of(zero, scene, c_sb, |plate| {
+        [1.0 - plate.specular, 2.0 * plate.specular, 2.0 / 3.0 * plate.diffuse].map(|share| pressure * share)
+    });
+    Some(SolarPressure { plates, light })
+}
+
+/// Upper bound of the torque on `scene`, N m: in light at the smallest distance, all plates across it.
+pub fn largest_torque(scene: &Scene) -> f64 {
+    if !scene.environment.solar_pressure || scene.orbit.is_none() {
+        return 0.0;
+    }
+    let pressure = scene.environment.solar_pressure_n_m2 / (NEAREST * NEAREST);
+    pressure * largest_lever(scene, |plate| 1.0 + plate.specular + 2.0 / 3.0 * plate.diffuse)
+}
+
+/// Largest rate of oscillations of `scene` in the light, rad/s.
+pub fn largest_rate(scene: &Scene) -> f64 {
+    super::plates::largest_rate(scene, largest_torque(scene))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vector::{difference, norm};
+    use crate::scene::{EnvironmentInput, Epoch, Name, OrbitInput, PlateInput, SceneInput};
+
+    const PRESSURE: f64 = 5e-6;
+
+    fn light(plate: PlateInput) -> SolarPressure<f64> {
+        let environment =
+            EnvironmentInput { solar_pressure: true, solar_pressure_n_m2: PRESSURE, ..EnvironmentInput::DEFAULT };
+        let orbit = Some(OrbitInput {
+            semi_major_axis_m: Some(7e6),
+            epoch: Epoch::parse("2026-11-24T00:00:00Z"),
+            ..OrbitInput::DEFAULT
+        });
+        let plates = vec![PlateInput { name: Name::of("a"), area_m2: 4.0, ..plate }];
+        let input = SceneInput { orbit, environment, plates, ..SceneInput::default() };
+        of(0.0, &Scene::resolve(&input).expect("a legal scene"), None).expect("light")
+    }
+
+    /// Law: the momentum of light. Absorbed it pushes along the rays with P A cos; mirrored along the normal with 2 P A cos^2; scattered along the rays
+    /// and 2/3 of it along the normal; from behind not at all.
+    #[test]
+    fn light_pushes_by_its_momentum() {
+        let arm = [1.0, -2.0, 0.5];
+        let normal = [0.0, 0.0, 1.0];
+        let (s, c) = libm::sincos(0.7_f64);
+        let sun = [s, 0.0, c];
+        let full = PRESSURE * 4.0 * c;
+        for (specular, diffuse, force) in [
+            (0.0, 0.0, scaled(-full, sun)),
+            (1.0, 0.0, scaled(-2.0 * full * c, normal)),
+            (0.0, 1.0, sum(scaled(-full, sun), scaled(-2.0 / 3.0 * full, normal))),
+        ] {
+            let light = light(PlateInput { specular, diffuse, center_m: arm, ..PlateInput::DEFAULT });
+            let off = norm(difference(light.torque_at(1.0, sun), cross(arm, force)));
+            assert!(off < 1e-15 * full, "{specular} {diffuse}: {off:e}");
+            assert_eq!(light.torque_at(1.0, [s, 0.0, -c]), [0.0; 3]);
+            let half = norm(difference(light.torque_at(0.5, sun), scaled(0.5, cross(arm, force))));
+            assert!(half < 1e-15 * full);
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! What air and light do to a spacecraft at the states of the table: the density of the air, the hidden share of the Sun, and their torques.
+
+use fearless_simd::Simd;
+
+use super::attitude::Attitude;
+use super::points::{MeasuredRun, SeriesTable, needed, three};
+use super::table::Series;
+use crate::dynamics::effects::drag::{self, Drag};
+use crate::dynamics::effects::solar_pressure::{self, Light, SolarPressure};
+use crate::dynamics::environment::air::Air;
+use crate::dynamics::orbit::OrbitState;
+use crate::math::Lanes;
+use crate::math::lanes::WIDTH;
+use crate::math::vector::{dot, norm, transposed_product};
+use crate::run::StateField;
+
+/// The series of air and light that are observed.
+#[inline(always)]
+pub(super) fn surroundings<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+    let has = |series: [Series; 2]| series.into_iter().any(|series| run.observed.has(series));
+    let zero = Lanes::broadcast(simd, 0.0);
+    if let Some(drag) = drag::of(zero, run.scene, None).filter(|_| has([Series::AirDensity, Series::DragTorqueSquare]))
+    {
+        air(simd, run, &drag, out);
+    }
+    let light = Light::of(zero, run.scene).filter(|_| has([Series::SunHidden, Series::SolarTorqueSquare]));
+    if let (Some(light), Some(pressure)) = (light, solar_pressure::of(zero, run.scene, None)) {
+        sunlight(simd, run, (&light, &pressure), out);
+    }
+}
+
+/// Density and drag.
+#[inline(always)]
+fn air<S: Simd>(simd: S, run: &MeasuredRun<'_>, drag: &Drag<Lanes<S>>, out: &mut SeriesTable) {
+    let (table, vectors) = (run.table, run.vectors());
+    let positions: [_; 3] = needed(table, StateField::ComPosition, vectors);
+    let velocities: [_; 3] = needed(table, StateField::ComVelocity, vectors);
+    let attitude = Attitude::of(table, vectors);
+    let [densities, torques] = out.write([Series::AirDensity, Series::DragTorqueSquare], vectors);
+    for at in 0..vectors {
+        let (position, velocity) = (three(simd, positions, at), three(simd, velocities, at));
+        let place = OrbitState { position, velocity, distance: norm(position) };
+        let density = drag.density(place.distance);
+        let wind = transposed_product(attitude.c_es(simd, at), Air::relative_velocity(&place));
+        let torque = drag.torque_at(density, wind);
+        dot(torque, torque).store(&mut torques[at]);
+        density.store(&mut densities[at]);
+    }
+}
+
+/// The Sun and its pressure.
+#[inline(always)]
+fn sunlight<S: Simd>(
+    simd: S,
+    run: &MeasuredRun<'_>,
+    (light, pressure): (&Light<Lanes<S>>, &SolarPressure<Lanes<S>>),
+    out: &mut SeriesTable,
+) {
+    let (table, vectors) = (run.table, run.vectors());
+    let positions: [_; 3] = needed(table, StateField::ComPosition, vectors);
+    let attitude = Attitude::of(table, vectors);
+    let one = Lanes::broadcast(simd, 1.0);
+    let [hidden, torques] = out.write([Series::SunHidden, Series::SolarTorqueSquare], vectors);
+    for at in 0..vectors {
+        // the last time again beyond the last point
+        let times: [f64; WIDTH] = core::array::from_fn(|lane| run.times[(WIDTH * at + lane).min(run.points - 1)]);
+        let (sun, lit) = light.at(Lanes::load(simd, &times), three(simd, positions, at));
+        let direction = transposed_product(attitude.c_es(simd, at), sun.direction);
+        let torque = pressure.torque_at(lit / (sun.distance * sun.distance), direction);
+        dot(torque, torque).store(&mut torques[at]);
+        (one - lit).store(&mut hidden[at]);
+    }
+}

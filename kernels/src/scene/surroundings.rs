@@ -1,0 +1,79 @@
+//! What air and light need beyond the limits of single keys: an orbit, a date, plates.
+
+use super::error::Problems;
+use super::input::SceneInput;
+use super::orbit::Orbit;
+use super::plate;
+use super::schema::limit::shown;
+use super::schema::{MAX_PLATES, PlateInput};
+use super::table::Table;
+
+/// Height above which the air is so thin that molecules hit a spacecraft and not one another, m: below it the drag is that of a flow around the body.
+const FREE_MOLECULAR: f64 = 100e3;
+
+/// Collects what is wrong where air or light acts on plates.
+pub(super) fn check(input: &SceneInput, problems: &mut Problems) {
+    let environment = &input.environment;
+    let acting = [("environment.drag", environment.drag), ("environment.solar_pressure", environment.solar_pressure)];
+    for (key, _) in acting.into_iter().filter(|(_, acts)| *acts) {
+        if input.orbit.is_none() {
+            let remedy = "add an [orbit] table, or delete this line";
+            problems.add(key.to_owned(), "true".to_owned(), "false, or left out, without an [orbit]", remedy);
+        }
+        if input.plates.is_empty() && plate::of_parts(input) == 0 {
+            let allowed = "false, or left out, without [[plates]] and without a part that is a box or a cylinder";
+            problems.add(key.to_owned(), "true".to_owned(), allowed, "add [[plates]]");
+        }
+    }
+    if input.plates.is_empty() && plate::of_parts(input) > MAX_PLATES {
+        let allowed =
+            format!("with at most {MAX_PLATES} sides of boxes and plates of cylinders, not {}", plate::of_parts(input));
+        let remedy = "write [[plates]] with those that count";
+        problems.add("body.parts".to_owned(), format!("{} parts", input.parts.len()), allowed, remedy);
+    }
+    let exponential = environment.exponential();
+    if exponential.iter().any(Option::is_some) {
+        let keys = ["base_density_kg_m3", "base_height_m", "scale_height_m"];
+        for (key, _) in keys.into_iter().zip(exponential).filter(|(_, number)| number.is_none()) {
+            let allowed = "given, with the two others of base_density_kg_m3, base_height_m and scale_height_m";
+            problems.add(
+                format!("environment.{key}"),
+                "missing".to_owned(),
+                allowed,
+                "write all three, or none for the table",
+            );
+        }
+    }
+    let Some(orbit) = &input.orbit else { return };
+    if environment.solar_pressure && orbit.epoch.is_none() {
+        let allowed = "given where environment.solar_pressure acts: the date says where the Sun is";
+        problems.add(
+            "orbit.epoch".to_owned(),
+            "missing".to_owned(),
+            allowed,
+            "add a date such as epoch = \"2026-11-24T00:00:00Z\"",
+        );
+    }
+    let height = Orbit::of(orbit).shape().periapsis - orbit.body_radius_m;
+    // an orbit below the surface has its own message
+    if environment.drag && height > 0.0 && height < FREE_MOLECULAR {
+        let allowed = format!(
+            "false, or left out, on an orbit whose periapsis is less than 100 km above body_radius_m, here {:.1} km: the air there flows around a body",
+            1e-3 * height
+        );
+        problems.add("environment.drag".to_owned(), "true".to_owned(), allowed, "raise the orbit");
+    }
+}
+
+/// Collects what is wrong with the shares of light of a plate.
+pub(super) fn check_plate(plate: &PlateInput, problems: &mut Problems) {
+    if plate.specular + plate.diffuse > 1.0 {
+        let allowed = format!("at most 1 with specular, which is {:?}: the rest is absorbed", plate.specular);
+        problems.add(
+            Table::Plate.name(plate.name, "diffuse"),
+            shown(&[plate.diffuse]),
+            allowed,
+            "write smaller shares",
+        );
+    }
+}
