@@ -5,7 +5,7 @@
 //! - [`arc_record`]: the arcs that a run has flown.
 //! - [`debris`]: the free body beside the spacecraft.
 //! - [`effects`]: what acts beside the actuators. [`orbit`]: motion on a two-body orbit in closed form;
-//!   [`orbit_series`]: its Taylor series.
+//!   [`orbit_series`]: its Taylor series. [`offset_series`]: motion relative to a point on it; [`relative_orbit`]: that of a free body.
 //! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and further components where a scene needs them.
 //! - [`null_space`]: Berdoz's 62-state null-space form.
 
@@ -16,5 +16,7 @@ pub mod debris;
 pub mod effects;
 pub mod gyrostat;
 pub mod null_space;
+pub mod offset_series;
 pub mod orbit;
 pub mod orbit_series;
+pub mod relative_orbit;

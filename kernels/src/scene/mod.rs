@@ -44,7 +44,7 @@ pub use error::SceneError;
 pub use input::SceneInput;
 pub use mass::MassProperties;
 pub use name::Name;
-pub use orbit::Orbit;
+pub use orbit::{Offset, Offsets, Orbit};
 pub use parameter::Parameter;
 pub use schedule::{Actuation, Arc};
 pub use schema::{
@@ -68,6 +68,8 @@ pub struct Scene {
     pub schedule: Vec<Arc>,
     /// The orbit of the centre of mass; `None` where gravity is neglected.
     pub orbit: Option<Orbit>,
+    /// Where spacecraft and debris are relative to the orbit at time zero, where they may leave it.
+    pub offsets: Option<Offsets>,
     /// Effects of the environment, as written.
     pub environment: EnvironmentInput,
     /// Whether the schedule commands thrust at all, whatever the thrusters make of it.
