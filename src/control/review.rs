@@ -67,8 +67,8 @@ fn directions_alone(spec: &LoopSpec) -> Option<String> {
 
 /// What acts on the spacecraft and is not known to the filters and laws.
 fn unknown_effects(scene: &Scene) -> Option<String> {
-    let unknown: Vec<&str> =
-        ForceModel::of(scene).effects().filter(|effect| effect.form() != Form::Translation).map(Effect::key).collect();
+    let turns = |effect: &Effect| !matches!(effect.form(), Form::Translation | Form::Force);
+    let unknown: Vec<&str> = ForceModel::of(scene).effects().filter(turns).map(Effect::key).collect();
     (!unknown.is_empty()).then(|| {
         format!("control: filters and laws of the loop do not know {}: it acts on the spacecraft, and is a disturbance to them", unknown.join(" and "))
     })

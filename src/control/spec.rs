@@ -149,11 +149,6 @@ impl LoopSpec {
         super::estimators::KINDS[self.estimator].knows_the_truth
     }
 
-    /// Whether a radar sees the spacecraft.
-    pub fn has_radar(&self) -> bool {
-        self.sensors.iter().any(|sensor| matches!(sensor.observes(), Observes::Motion(_)))
-    }
-
     /// Whether a camera sees the debris.
     pub fn has_camera(&self) -> bool {
         self.sensors.iter().any(|sensor| matches!(sensor.observes(), Observes::DebrisAttitude(_)))

@@ -4,7 +4,9 @@ use crate::control::rotation::quaternion_of;
 use crate::control::vector::{cross, difference, hamilton, product, scaled, sum};
 use crate::dynamics::actuation::{BodyState, WheelState};
 use crate::dynamics::debris::is_isotropic;
-use crate::scene::Scene;
+use crate::dynamics::orbit::KeplerOrbit;
+use crate::dynamics::relative_orbit::RelativeOrbit;
+use crate::scene::{Offsets, Scene};
 
 /// The true state of a run at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,13 +38,15 @@ pub struct DebrisState {
     pub omega_de_d: [f64; 3],
 }
 
-/// The motion of the debris of a run over time: a free rigid body in uniform translation, read at ascending times.
+/// The motion of the debris of a run over time: a free rigid body in uniform translation or beside an orbit, read at ascending times.
 #[derive(Clone, Debug)]
 pub struct DebrisMotion {
     inertia: [[f64; 3]; 3],
     inverse: [[f64; 3]; 3],
     is_isotropic: bool,
     start: DebrisState,
+    /// Its motion beside an orbit, where there is one.
+    orbit: Option<Box<RelativeOrbit>>,
     /// Where the integration of a body that is not isotropic is.
     time: f64,
     now: DebrisState,
@@ -67,7 +71,10 @@ impl DebrisMotion {
         };
         let inverse = crate::control::small_matrix::inverse(body.inertia);
         let is_isotropic = is_isotropic(body);
-        Some(DebrisMotion { inertia: body.inertia, inverse, is_isotropic, start, time: 0.0, now: start })
+        let orbit = scene.orbit.as_ref().zip(scene.offsets.as_ref());
+        let orbit = orbit.map(|(orbit, Offsets { debris, .. })| RelativeOrbit::new(KeplerOrbit::new(orbit), *debris));
+        let orbit = orbit.map(Box::new);
+        Some(DebrisMotion { inertia: body.inertia, inverse, is_isotropic, start, orbit, time: 0.0, now: start })
     }
 
     /// The state at `time`, s, which is not before that of the last call.
@@ -91,7 +98,13 @@ impl DebrisMotion {
                 self.time = if steps > 1.0 { self.time + left / steps } else { time };
             }
         }
-        self.now.r_gdo_e = sum(start.r_gdo_e, scaled(time, start.v_gdo_e));
+        if let Some(orbit) = &mut self.orbit {
+            let (place, offset) = orbit.at(time);
+            let place = place.displaced([offset.position, offset.velocity]);
+            (self.now.r_gdo_e, self.now.v_gdo_e) = (place.position, place.velocity);
+        } else {
+            self.now.r_gdo_e = sum(start.r_gdo_e, scaled(time, start.v_gdo_e));
+        }
         self.now
     }
 

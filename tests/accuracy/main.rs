@@ -26,6 +26,7 @@ mod order_runge_kutta;
 mod outcomes_runge_kutta;
 mod periodic;
 mod reference_solution;
+mod relative_motion;
 mod report_figures;
 mod round_off;
 mod stress;

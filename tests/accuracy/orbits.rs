@@ -1,7 +1,7 @@
 //! The gravity gradient on two-body orbits, by every method that integrates it: NASA's numbers, librations, the constant of a circular
 //! orbit; and orbits themselves.
 
-use crate::support::orbits::{MU, body, circle, plated, tumbling};
+use crate::support::orbits::{MU, body, circle, leaving, plated, tumbling};
 use crate::support::runs::{Run, adaptive, everything, fixed, propagate, propagate_on};
 use spindrift::dynamics::effects::within_arcs::Motion;
 use spindrift::dynamics::effects::{ChangingEffects, Effect, ForceModel};
@@ -328,6 +328,11 @@ fn with_and_without(effect: Effect) -> [Scene; 2] {
         }
         Effect::Drag => input.environment.drag = true,
         Effect::SolarPressure => input.environment.solar_pressure = true,
+        Effect::Tide => {
+            input = leaving(input);
+            without = SceneInput { orbit: None, ..input.clone() };
+            without.environment.gravity_gradient = false;
+        }
         Effect::Gravity => {
             input.environment.gravity_gradient = false;
             without = SceneInput { orbit: None, ..input.clone() };
@@ -370,6 +375,10 @@ fn every_method_has_every_effect_or_says_so() {
             let run = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0);
             let error = RotationError::largest(rotation_errors(&reference, &grid, &run.table));
             assert!(error.omega < 1e-9 && error.attitude < 1e-9, "{} {}: {error:?}", method.name(), effect.key());
+            if scene.mass.debris.is_some() {
+                let off = reference.distance::<3>(&run.table, StateField::DebrisPosition, last, 1.0);
+                assert!(off < 1e-7, "{} {}: {off:e} m", method.name(), effect.key());
+            }
             let off = reference.distance::<3>(&run.table, StateField::ComPosition, last, 1.0);
             assert!(off < 1e-6, "{} {}: {off:e} m", method.name(), effect.key());
             // gravity's work on 1,000 kg is a difference of 5.6e10 J, and its impulse one of 7.5e6 N s

@@ -1,7 +1,10 @@
 //! Spacecraft on orbits under the gravity gradient.
 
 use super::scenes::Uniform;
-use spindrift::scene::{BodyInput, EnvironmentInput, Epoch, Name, OrbitInput, PlateInput, Scene, SceneInput};
+use spindrift::scene::{
+    ActuationInput, BodyInput, DebrisInput, EnvironmentInput, Epoch, Name, OrbitInput, PlateInput, Scene, SceneInput,
+    ThrusterInput,
+};
 
 /// Gravitational parameter of the Earth, m^3/s^2.
 pub const MU: f64 = 3.986004418e14;
@@ -109,4 +112,21 @@ fn inputs(count: u64, seed: u64, rates: [f64; 2]) -> Vec<SceneInput> {
         input
     };
     (0..count).map(input).collect()
+}
+
+/// `input` with a thruster beside its centre of mass that fires twice, debris, and both bodies beside the orbit.
+pub fn leaving(input: SceneInput) -> SceneInput {
+    let mut thruster = ThrusterInput::named("p1", [0.02, -0.01, 0.0], [0.0, 0.0, 1.0]);
+    thruster.max_thrust_n = Some(50.0);
+    let arc = |start, end, thrust| ActuationInput::idle(start, end).with_thrust(&[thrust]);
+    let mut input = SceneInput {
+        thrusters: vec![thruster],
+        debris: Some(DebrisInput::Cube { side_m: 0.3, density_kg_m3: 2700.0 }),
+        ..input
+    };
+    input.initial.position_m = [-28.0, -14.0, 18.0];
+    input.initial.velocity_m_s = [0.05, 0.02, -0.03];
+    input.initial.debris_position_m = [5.0, 40.0, -12.0];
+    input.initial.debris_velocity_m_s = [0.01, 0.02, 0.03];
+    input.with_actuation(arc(100.0, 160.0, 20.0)).with_actuation(arc(1000.0, 1030.0, 35.0))
 }

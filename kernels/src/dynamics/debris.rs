@@ -1,4 +1,4 @@
-//! The debris D: a free rigid body in uniform translation.
+//! The debris D: a free rigid body in uniform translation, or beside an orbit ([`super::relative_orbit`]).
 //!
 //! An isotropic body (cube) turns at a constant rate about an axis fixed in it and in space, so its attitude has a closed form. A box is a gyrostat without wheels and is integrated as one; only its constants are made here.
 
@@ -6,14 +6,15 @@ use fearless_simd::Simd;
 
 use super::gyrostat::Gyrostat;
 use super::gyrostat::completion::{body_attitude, body_rate};
+use super::relative_orbit::RelativeOrbit;
 use crate::math::double_double::{DoubleDouble, two_product};
 use crate::math::lanes::WIDTH;
 use crate::math::sine::sin_cos_turns;
 use crate::math::vector::{constant, constant_quaternion, hamilton, scaled};
 use crate::math::{Lanes, Real};
 use crate::run::{Grid, LocalErrors, StateField, StateTable, Trajectory};
-use crate::scene::Scene;
 use crate::scene::mass::Body;
+use crate::scene::{Offset, Scene};
 
 /// Whether every axis of the body is principal with the same moment, so that it turns uniformly.
 pub fn is_isotropic(body: &Body) -> bool {
@@ -55,6 +56,23 @@ pub fn complete_translation<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table:
         }
         if table.has(StateField::DebrisVelocity) {
             table.column_mut(StateField::DebrisVelocity, i).fill(velocity);
+        }
+    }
+}
+
+/// The same where there is an orbit: `relative` is the motion of the debris beside it.
+pub fn complete_orbit(relative: &mut RelativeOrbit, grid: &Grid, table: &mut StateTable) {
+    let (has_position, has_velocity) = (table.has(StateField::DebrisPosition), table.has(StateField::DebrisVelocity));
+    for (point, time) in grid.padded_times().iter().enumerate().filter(|_| has_position || has_velocity) {
+        let (place, Offset { position, velocity }) = relative.at(*time);
+        let place = place.displaced([position, velocity]);
+        for i in 0..3 {
+            if has_position {
+                table.column_mut(StateField::DebrisPosition, i)[point] = place.position[i];
+            }
+            if has_velocity {
+                table.column_mut(StateField::DebrisVelocity, i)[point] = place.velocity[i];
+            }
         }
     }
 }

@@ -6,9 +6,8 @@
 //! - [`debris`]: the free body beside the spacecraft.
 //! - [`earth_rotation`]: how the Earth is turned at a date.
 //! - [`effects`]: what acts beside the actuators. [`orbit`]: motion on a two-body orbit in closed form;
-//!   [`orbit_series`]: its Taylor series.
-//! - [`magnetic_field`]: the Earth's magnetic field.
-//! - [`environment`]: air, the Sun and the Earth's shadow.
+//!   [`orbit_series`]: its Taylor series. [`offset_series`]: motion relative to a point on it; [`relative_orbit`]: that of a free body.
+//! - [`magnetic_field`]: the Earth's magnetic field. [`environment`]: air, the Sun and the Earth's shadow.
 //! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and further components where a scene needs them.
 //! - [`null_space`]: Berdoz's 62-state null-space form.
 
@@ -22,5 +21,7 @@ pub mod environment;
 pub mod gyrostat;
 pub mod magnetic_field;
 pub mod null_space;
+pub mod offset_series;
 pub mod orbit;
 pub mod orbit_series;
+pub mod relative_orbit;

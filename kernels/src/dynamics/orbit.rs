@@ -73,6 +73,13 @@ pub struct OrbitState<R> {
 }
 
 impl<R: Real> OrbitState<R> {
+    /// The state at `offset` from this one: position (m) and velocity (m/s), F_e.
+    #[inline(always)]
+    pub fn displaced(&self, [position, velocity]: [[R; 3]; 2]) -> Self {
+        let position = sum(self.position, position);
+        OrbitState { position, velocity: sum(self.velocity, velocity), distance: norm(position) }
+    }
+
     /// One that is not a number, in the lanes of `like`: whoever reads an orbit that there is not has no result.
     pub fn unknown(like: R) -> Self {
         let nan = like.splat(f64::NAN);
@@ -110,6 +117,12 @@ impl KeplerOrbit<f64> {
             start: distance,
             pull: mu / distance,
         }
+    }
+
+    /// Upper bound of the angular rate along the orbit, with a margin: that of a circle at its periapsis, rad/s.
+    pub fn rate(&self) -> f64 {
+        let lowest = self.axis * (1.0 - self.eccentricity);
+        (self.mu / lowest).sqrt() / lowest
     }
 
     /// A circle that no run is on: what empty lanes have.
@@ -174,6 +187,12 @@ impl<R: Real> KeplerOrbit<R> {
     #[inline(always)]
     pub fn mu(&self) -> R {
         self.mu
+    }
+
+    /// Position (F_e, m) and velocity (m/s) at time zero.
+    #[inline(always)]
+    pub fn start(&self) -> [[R; 3]; 2] {
+        [self.position, self.velocity]
     }
 
     /// The state at `time`, s.

@@ -47,15 +47,9 @@ impl<R: Real> OrbitSeries<R> {
     pub fn extend(&mut self, n: usize) {
         let zero = self.mu.zero();
         let OrbitSeries { mu, position, square, pull } = self;
-        let mut sum = zero;
-        for (a, b) in position[..=n].iter().zip(position[..=n].iter().rev()) {
-            for i in 0..3 {
-                sum = a[i].mul_add(b[i], sum);
-            }
-        }
-        square[n] = sum;
+        square[n] = product_with_itself(&position[..=n]);
         if n == 0 {
-            let inverse = zero.splat(1.0) / sum.sqrt();
+            let inverse = zero.splat(1.0) / square[0].sqrt();
             pull[0] = *mu * (inverse * (inverse * inverse));
         } else {
             pull[n] = next_of_power(-1.5, n, square, pull);
@@ -75,6 +69,19 @@ impl<R: Real> OrbitSeries<R> {
     #[inline(always)]
     pub fn position(&self) -> &[[R; 3]] {
         &self.position
+    }
+
+    /// Sets the coefficient `n` of a position that is known, and computes that of rho; call in ascending order of `n`.
+    #[inline(always)]
+    pub fn place(&mut self, n: usize, position: [R; 3]) {
+        self.position[n] = position;
+        self.square[n] = product_with_itself(&self.position[..=n]);
+    }
+
+    /// The coefficients of mu rho^(-3/2), 1 per unit squared.
+    #[inline(always)]
+    pub fn pull(&self) -> &[R] {
+        &self.pull
     }
 
     /// The coefficients of rho, m^2.
@@ -101,6 +108,18 @@ impl<R: Real> OrbitSeries<R> {
         }
         OrbitState { position, velocity, distance: norm(position) }
     }
+}
+
+/// The last coefficient of r . r, from those of r.
+#[inline(always)]
+fn product_with_itself<R: Real>(position: &[[R; 3]]) -> R {
+    let mut sum = position[0][0].zero();
+    for (a, b) in position.iter().zip(position.iter().rev()) {
+        for i in 0..3 {
+            sum = a[i].mul_add(b[i], sum);
+        }
+    }
+    sum
 }
 
 /// Coefficient `n` > 0 of rho^`alpha`, times any constant, from the coefficients of rho and those before.

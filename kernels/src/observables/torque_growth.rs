@@ -32,6 +32,9 @@ pub(super) fn exponent(scene: &Scene, table: &StateTable, times: &[f64], filled:
     let (moments, axes) = principal_axes(scene.mass.inertia);
     let q_sb = quaternion_from_dcm(axes);
     let effects = ChangingEffects::of(0.0, scene, Some(axes));
+    if effects.is_empty() {
+        return 0.0;
+    }
     let orbit = scene.orbit.as_ref().map(KeplerOrbit::new);
     let size = (moments[0] + moments[1] + moments[2]) / 3.0;
     let stride = last.div_ceil(POINTS).max(1);

@@ -12,8 +12,9 @@ use crate::dynamics::arc_record::ArcRecord;
 use crate::dynamics::debris;
 use crate::dynamics::gyrostat::completion::complete;
 use crate::dynamics::gyrostat::{Gyrostat, WITH_ATTITUDE};
+use crate::dynamics::relative_orbit::RelativeOrbit;
 use crate::run::{Grid, Outcome, StateTable, Trajectory};
-use crate::scene::Scene;
+use crate::scene::{Offsets, Scene};
 
 /// The runs of a batch in buffers that are reused.
 #[derive(Clone, Debug)]
@@ -31,6 +32,8 @@ pub struct StateCompletion {
     debris_trajectories: Vec<Trajectory>,
     debris_outcomes: Vec<Outcome>,
     debris_is_integrated: bool,
+    /// The motion of the debris beside an orbit, where there is one.
+    debris_orbit: Option<Box<RelativeOrbit>>,
     table: StateTable,
     /// The arcs of the run that has just ended, where it followed a schedule.
     arcs: ArcRecord,
@@ -48,6 +51,7 @@ impl GyrostatBatch {
                 debris_trajectories: Vec::new(),
                 debris_outcomes: Vec::new(),
                 debris_is_integrated: false,
+                debris_orbit: None,
                 table: StateTable::new(plan.fields, plan.wheels, plan.grid.points()),
                 arcs: ArcRecord::default(),
             },
@@ -149,14 +153,23 @@ impl StateCompletion {
         run: &Gyrostat<f64>,
         trajectory: &Trajectory,
     ) {
-        let StateCompletion { grid, debris_runs, debris_trajectories, debris_is_integrated, table, .. } = self;
+        let StateCompletion {
+            grid, debris_runs, debris_trajectories, debris_is_integrated, debris_orbit, table, ..
+        } = self;
+        if let (Some(orbit), Some(Offsets { debris, .. })) = (&run.orbit, &scene.offsets) {
+            let relative = debris_orbit.get_or_insert_with(|| Box::new(RelativeOrbit::new(*orbit, *debris)));
+            relative.reset(*orbit, *debris);
+        }
         // called through closures, which are compiled apart: it enters the instruction set again
         simd.vectorize(
             #[inline(always)]
             || {
                 complete(simd, run, trajectory, grid, table);
                 if let Some(body) = &scene.mass.debris {
-                    debris::complete_translation(simd, scene, grid, table);
+                    match debris_orbit {
+                        Some(relative) if scene.offsets.is_some() => debris::complete_orbit(relative, grid, table),
+                        _ => debris::complete_translation(simd, scene, grid, table),
+                    }
                     if debris::is_isotropic(body) {
                         debris::complete_isotropic(simd, scene, grid, table);
                     } else if *debris_is_integrated {

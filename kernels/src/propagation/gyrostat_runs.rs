@@ -1,13 +1,16 @@
 //! [`GyrostatRuns`]: gyrostats in lanes, for Runge-Kutta methods.
 
 use super::arc_source::ArcSource;
-use crate::dynamics::effects::within_arcs::WithinArcs;
+use crate::dynamics::effects::within_arcs::{Beside, WithinArcs};
 use crate::dynamics::gyrostat::equations::Constants;
-use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE, WITH_THRUST};
+use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_ATTITUDE, WITH_THRUST};
 use crate::math::Real;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{dot, norm, sum};
 use crate::ode::{Runs, System, Tolerance};
+
+/// Offsets from an orbit below this, m, are compared with it.
+pub const SMALLEST_OFFSET: f64 = 1e-3;
 
 /// Runs of the gyrostat's first `N` components, one per lane, under the effects `E`.
 pub struct GyrostatRuns<'a, R, E> {
@@ -43,18 +46,17 @@ impl<'a, R: Real, E: WithinArcs<R>> GyrostatRuns<'a, R, E> {
 impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_, R, E> {
     #[inline(always)]
     fn derivative(&self, time: R, state: &[R; N]) -> [R; N] {
-        let mut torque = self.constants.torque;
+        let mut beside = Beside { torque: self.constants.torque, carrier: None };
         if E::ACT {
-            let q_eb = [state[ATTITUDE], state[ATTITUDE + 1], state[ATTITUDE + 2], state[ATTITUDE + 3]];
-            let omega = [state[OMEGA], state[OMEGA + 1], state[OMEGA + 2]];
-            torque = sum(torque, self.effects.torque(time, q_eb, omega));
+            let own = self.effects.act(time, state);
+            beside = Beside { torque: sum(beside.torque, own.torque), ..own };
         }
-        self.constants.derivative(time, state, torque)
+        self.constants.derivative(time, state, &beside)
     }
 
     /// The largest component of the rate's error against |omega| (at least the run's own time scale, times
-    /// absolute/relative), and of the attitude's against |q|; the quadrature states do not count. Not a number if any
-    /// component is not finite.
+    /// absolute/relative), of the attitude's against |q|, and of the offset from an orbit against that; the quadrature states do not count. Not a
+    /// number if any component is not finite.
     #[inline(always)]
     fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R {
         let threshold = self.scale.splat(tolerance.absolute / tolerance.relative);
@@ -71,6 +73,14 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_
                 off = off.larger(error[ATTITUDE + i].abs());
             }
             ratio = ratio.larger(off / size);
+        }
+        if let (Some([rate, mass]), true) = (self.effects.scales_of_offset(), N >= WITH_THRUST) {
+            let slowness = rate.splat(1.0) / rate;
+            let three = |of: &[R; N], first: usize| [of[first], of[first + 1], of[first + 2]];
+            // a distance, or what the velocity makes of it while the orbit turns by a radian
+            let reach = |of: &[R; N]| norm(three(of, IMPULSE_INTEGRAL)).larger(slowness * norm(three(of, IMPULSE)));
+            let size = reach(old).larger(reach(new)).larger(rate.splat(SMALLEST_OFFSET) * mass);
+            ratio = ratio.larger(reach(error) / size);
         }
         let zero = self.scale.zero();
         let mut poison = zero;
@@ -92,6 +102,9 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> Runs<R, N> for GyrostatRuns<'_, 
         self.constants.set_run(lane, run, 1.0);
         self.effects.set_lane(lane, run);
         let mut state = [0.0; N];
+        if let (Some(offset), true) = (run.start_of_offset(), N >= WITH_THRUST) {
+            state[IMPULSE..IMPULSE_INTEGRAL + 3].copy_from_slice(&offset);
+        }
         state[OMEGA..OMEGA + 3].copy_from_slice(&run.omega_b);
         if N >= WITH_ATTITUDE {
             state[ATTITUDE..ATTITUDE + 4].copy_from_slice(&run.q_eb);

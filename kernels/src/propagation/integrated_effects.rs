@@ -8,7 +8,7 @@ use crate::dynamics::effects::Form;
 /// Taylor methods: what has a series. The reference solution takes all forms.
 pub const fn by_taylor(form: Form) -> bool {
     match form {
-        Form::Constant | Form::Series | Form::Translation => true,
+        Form::Constant | Form::Series | Form::Translation | Form::Force => true,
         Form::Evaluated => false,
     }
 }
@@ -16,7 +16,7 @@ pub const fn by_taylor(form: Form) -> bool {
 /// Runge-Kutta methods on the gyrostat with an error estimate.
 pub const fn by_runge_kutta(form: Form) -> bool {
     match form {
-        Form::Constant | Form::Series | Form::Evaluated | Form::Translation => true,
+        Form::Constant | Form::Series | Form::Evaluated | Form::Translation | Form::Force => true,
     }
 }
 
@@ -29,6 +29,6 @@ pub const fn by_fixed_steps(form: Form) -> bool {
 pub const fn by_null_space(form: Form) -> bool {
     match form {
         Form::Constant => true,
-        Form::Series | Form::Evaluated | Form::Translation => false,
+        Form::Series | Form::Evaluated | Form::Translation | Form::Force => false,
     }
 }

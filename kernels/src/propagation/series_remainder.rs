@@ -4,7 +4,7 @@ use super::local_error::{rounding, rounding_of_turns};
 use super::taylor::jet::{Reciprocals, Scratch, expand};
 use crate::dynamics::effects::ChangingSeries;
 use crate::dynamics::gyrostat::equations::Constants;
-use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
+use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_ATTITUDE, WITH_THRUST};
 use crate::math::vector::{scaled, sum};
 use crate::ode::Remainder;
 use crate::run::{Grid, LocalErrors, Outcome, Trajectory};
@@ -47,7 +47,7 @@ impl Remainders {
         let stride = points.div_ceil(EXPANSIONS);
         let (mut turning, mut changing, mut count, mut largest) = (0.0, 0.0, 0.0, 0.0_f64);
         for point in (0..points).step_by(stride) {
-            self.expand(run, grid.times()[point], states.at::<N>(point));
+            self.expand(run, grid.times()[point], states, point);
             let [state, .., next] = &self.jet[..] else { return rounding(steps) };
             let size = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
             largest = largest.max(size(&state[OMEGA..OMEGA + 3]));
@@ -61,18 +61,26 @@ impl Remainders {
         LocalErrors { truncation: all * changing, rounding, feedback: 0.0, attitude: attitude + all * turning }
     }
 
-    /// The series of the motion through `state` at `time`, in seconds.
-    fn expand(&mut self, run: &Gyrostat<f64>, time: f64, state: [f64; N]) {
+    /// The series of the motion through point `point` of `states` at `time`, in seconds. No thrust bends the orbit over a step.
+    fn expand(&mut self, run: &Gyrostat<f64>, time: f64, states: &Trajectory, point: usize) {
         let arc = run.arc_index_at(time);
         let mut constants = Constants::of(run, arc, 1.0);
         let since = time - run.arcs[arc].arc.start;
         constants.momentum = sum(constants.momentum, scaled(since, constants.momentum_rate));
-        self.jet[0] = state;
+        self.jet[0] = states.at::<N>(point);
         let order = self.method.order + 1;
         let effects = (!run.effects.is_empty()).then(|| {
             let series = self.effects.get_or_insert_with(|| Box::new(ChangingSeries::new(0.0, order)));
-            let place = run.orbit.map(|orbit| (orbit.mu(), orbit.state(time)));
-            series.begin(&run.effects, place.as_ref(), time, 1.0);
+            let place = run.orbit.map(|orbit| {
+                let mut place = orbit.state(time);
+                if run.offset.is_some() {
+                    let all = states.at::<WITH_THRUST>(point);
+                    let three = |first: usize| scaled(1.0 / run.mass, [all[first], all[first + 1], all[first + 2]]);
+                    place = place.displaced([three(IMPULSE_INTEGRAL), three(IMPULSE)]);
+                }
+                (orbit.mu(), place)
+            });
+            series.begin(&run.effects, place.as_ref(), false, time, 1.0);
             &mut **series
         });
         expand::<f64, N, true>(&constants, &self.reciprocals, order, &mut self.scratch, effects, &mut self.jet);

@@ -65,7 +65,7 @@ impl PropagationSettings {
         assert!(self.feedback || matches!(laws, Laws::OpenLoop), "laws need PropagationSettings::with_feedback");
     }
 
-    /// Whether an effect changes within an arc and turns the body, so that the kernel has it.
+    /// Whether an effect changes within an arc, so that the kernel has it.
     pub fn changes_within_arcs(&self) -> bool {
         self.forces.changes_within_arcs()
     }

@@ -79,11 +79,7 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
         let before = problems.0.len();
         orbit.check(has_debris, problems, |key| format!("orbit.{key}").into());
         if problems.0.len() == before {
-            orbit::check(orbit, &input.initial, problems);
-        }
-        if has_debris {
-            let allowed = "left out where there is an [orbit]: the debris moves without gravity";
-            problems.add("debris".to_owned(), "given".to_owned(), allowed, "delete [debris], or delete [orbit]");
+            orbit::check(input, orbit, problems);
         }
     }
     if input.environment.gravity_gradient && input.orbit.is_none() {

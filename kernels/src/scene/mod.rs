@@ -49,7 +49,7 @@ pub use error::SceneError;
 pub use input::SceneInput;
 pub use mass::MassProperties;
 pub use name::Name;
-pub use orbit::Orbit;
+pub use orbit::{Offset, Offsets, Orbit};
 pub use parameter::Parameter;
 pub use plate::Plate;
 pub use schedule::{Actuation, Arc};
@@ -76,6 +76,8 @@ pub struct Scene {
     pub orbit: Option<Orbit>,
     /// The plates that air and light push, where one of them acts.
     pub plates: Vec<Plate>,
+    /// Where spacecraft and debris are relative to the orbit at time zero, where they may leave it.
+    pub offsets: Option<Offsets>,
     /// Effects of the environment, as written.
     pub environment: EnvironmentInput,
     /// Whether the schedule commands thrust at all, whatever the thrusters make of it.

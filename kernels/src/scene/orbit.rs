@@ -5,6 +5,7 @@
 
 use super::epoch::Epoch;
 use super::error::Problems;
+use super::input::SceneInput;
 use super::schema::limit::shown;
 use super::schema::{InitialInput, OrbitInput};
 use crate::math::vector::{cross, difference, dot, norm, scaled, sum};
@@ -22,6 +23,37 @@ pub struct Orbit {
     pub body_radius: f64,
     /// The date at time zero; `None` where nothing depends on it.
     pub epoch: Option<Epoch>,
+}
+
+/// Position and velocity relative to the point on an orbit, at the same time, in F_e.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Offset {
+    /// m.
+    pub position: [f64; 3],
+    /// m/s.
+    pub velocity: [f64; 3],
+}
+
+/// Where spacecraft and debris of a scene are relative to its orbit at time zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Offsets {
+    /// That of the spacecraft's centre of mass c.
+    pub spacecraft: Offset,
+    /// That of the debris's centre; zero without debris.
+    pub debris: Offset,
+}
+
+impl Offsets {
+    /// Those of `input`, where its bodies may leave the orbit: where it has thrusters, or debris.
+    pub fn of(input: &SceneInput) -> Option<Self> {
+        let InitialInput { position_m, velocity_m_s, debris_position_m, debris_velocity_m_s, .. } = input.initial;
+        let leaves = input.orbit.is_some() && (!input.thrusters.is_empty() || input.debris.is_some());
+        let debris = match input.debris {
+            Some(_) => Offset { position: debris_position_m, velocity: debris_velocity_m_s },
+            None => Offset::default(),
+        };
+        leaves.then_some(Offsets { spacecraft: Offset { position: position_m, velocity: velocity_m_s }, debris })
+    }
 }
 
 /// Shape and size of an orbit.
@@ -66,6 +98,13 @@ impl Orbit {
         }
     }
 
+    /// The orbit of a body at `offset`, to the digits of this one.
+    #[must_use]
+    pub fn displaced(&self, offset: &Offset) -> Self {
+        let (position, velocity) = (sum(self.position, offset.position), sum(self.velocity, offset.velocity));
+        Orbit { position, velocity, ..*self }
+    }
+
     /// Its shape.
     pub fn shape(&self) -> OrbitShape {
         let distance = norm(self.position);
@@ -80,19 +119,49 @@ impl Orbit {
     }
 }
 
-/// Collects what is wrong with the orbit, beyond the limits of single keys.
-pub(super) fn check(input: &OrbitInput, initial: &InitialInput, problems: &mut Problems) {
-    let key = |name: &str| format!("orbit.{name}");
-    let default = InitialInput::DEFAULT;
-    for (name, written, none) in [
-        ("position_m", &initial.position_m, &default.position_m),
-        ("velocity_m_s", &initial.velocity_m_s, &default.velocity_m_s),
-    ] {
-        if written != none {
-            let allowed = "left out where there is an [orbit], which says where the spacecraft is";
-            problems.add(format!("initial.{name}"), shown(written), allowed, "delete it, or delete [orbit]");
+/// Collects what is wrong with the orbit of `scene`, which is `input`, beyond the limits of single keys.
+pub(super) fn check(scene: &SceneInput, input: &OrbitInput, problems: &mut Problems) {
+    let before = problems.0.len();
+    of_keys(input, problems);
+    let initial = &scene.initial;
+    let Some(Offsets { spacecraft, debris }) = Offsets::of(scene) else {
+        let default = InitialInput::DEFAULT;
+        for (name, written, none) in [
+            ("position_m", &initial.position_m, &default.position_m),
+            ("velocity_m_s", &initial.velocity_m_s, &default.velocity_m_s),
+        ] {
+            if written != none {
+                let allowed = "left out on an [orbit] without thrusters and debris: the spacecraft is on it";
+                problems.add(format!("initial.{name}"), shown(written), allowed, "delete it, or delete [orbit]");
+            }
+        }
+        return;
+    };
+    if problems.0.len() > before {
+        return;
+    }
+    for (names, offset) in
+        [(["position_m", "velocity_m_s"], spacecraft), (["debris_position_m", "debris_velocity_m_s"], debris)]
+    {
+        let shape = Orbit::of(input).displaced(&offset).shape();
+        // NaN is refused by the limits of its key
+        if shape.eccentricity >= 1.0 || shape.periapsis <= input.body_radius_m {
+            let allowed = format!(
+                "with its velocity, an offset from [orbit] to an ellipse or a circle above body_radius_m = {:?} (here the eccentricity {:.4}, the periapsis {:.0} m)",
+                input.body_radius_m, shape.eccentricity, shape.periapsis
+            );
+            let remedy = "on an [orbit] positions and velocities of [initial] are relative to it: write them so";
+            // the one that is written
+            let (name, written) =
+                if offset.position == [0.0; 3] { (names[1], offset.velocity) } else { (names[0], offset.position) };
+            problems.add(format!("initial.{name}"), shown(&written), allowed, remedy);
         }
     }
+}
+
+/// Collects what is wrong with the keys of `[orbit]` themselves.
+fn of_keys(input: &OrbitInput, problems: &mut Problems) {
+    let key = |name: &str| format!("orbit.{name}");
     let of_elements = [
         input.eccentricity,
         input.inclination_rad,

@@ -5,7 +5,7 @@ use super::input::SceneInput;
 use super::mass::MassProperties;
 use super::schema::{InitialInput, MAX_WHEELS, WheelMode};
 use super::unit_quaternion::unit_quaternion;
-use super::{ActuatorModels, InitialState, Orbit, Scene, SceneError, check, plate, schedule};
+use super::{ActuatorModels, InitialState, Offsets, Orbit, Scene, SceneError, check, plate, schedule};
 use crate::math::vector::{
     conjugate, cross, dcm_from_quaternion, difference, hamilton, product, sum, transposed_product,
 };
@@ -25,6 +25,7 @@ impl Scene {
             schedule: Vec::with_capacity(input.actuation.len()),
             orbit: None,
             plates: Vec::new(),
+            offsets: None,
             environment: input.environment,
             commands_thrust: false,
             commands_torque: false,
@@ -54,8 +55,17 @@ impl Scene {
         self.schedule.clear();
         self.schedule.extend((0..input.actuation.len()).map(|index| schedule::applied(input, index)));
         self.orbit = input.orbit.as_ref().map(Orbit::of);
+        self.offsets = Offsets::of(input);
         if let Some(orbit) = &self.orbit {
-            // p from the centre of mass, which is on the orbit
+            let mut orbit = *orbit;
+            if let Some(Offsets { spacecraft, debris }) = &self.offsets {
+                if mass.debris.is_some() {
+                    let of_debris = orbit.displaced(debris);
+                    (self.initial.r_gdo_e, self.initial.v_gdo_e) = (of_debris.position, of_debris.velocity);
+                }
+                orbit = orbit.displaced(spacecraft);
+            }
+            // p from the centre of mass, which is on the orbit or beside it
             let c_es = dcm_from_quaternion(self.initial.q_es);
             let spin = cross(self.initial.omega_se_s, mass.center);
             self.initial.r_po_e = difference(orbit.position, product(c_es, mass.center));

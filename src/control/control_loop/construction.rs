@@ -114,7 +114,7 @@ fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: 
         start: of_run.start(),
         is_recorded: context.records,
         phases: phases(spec, &context.parameters.guidance).into_iter().zip(laws).collect(),
-        launch: LaunchState::of(numbers),
+        launch: LaunchState::of(numbers, believed.orbit.as_ref()),
         thruster_drives: believed.actuators.thrusters.map(|model| ThrusterDrive {
             mode: modulation::mode(spec.modulation, numbers),
             most: model.max_thrust,
@@ -132,7 +132,7 @@ fn mission(spec: &Arc<LoopSpec>, context: &LawContext<'_>) -> Mission {
     let numbers = &context.parameters.law;
     let (of_loop, near_debris) = (LoopNumbers::of(numbers), DebrisNumbers::of(numbers));
     let criteria = MissionCriteria {
-        launch: LaunchState::of(numbers),
+        launch: LaunchState::of(numbers, context.drawn.orbit.as_ref()),
         keep_out: near_debris.keep_out,
         plume: PlumeCone { range: near_debris.plume_range, half_angle: near_debris.plume_half_angle },
         settling_band: of_loop.settling_band,

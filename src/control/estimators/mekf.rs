@@ -185,8 +185,9 @@ impl Mekf {
                 Attitude::WithoutGyro(Delayed::new(filter, oldest))
             }
         };
+        let mu = context.nominal.orbit.map(|orbit| orbit.mu);
         let translation = |r_e, v_e, sigmas: [f64; 2], walk| {
-            Delayed::new(TranslationFilter::new(PointMotion { r_e, v_e }, sigmas, walk), oldest)
+            Delayed::new(TranslationFilter::new(PointMotion { r_e, v_e }, sigmas, walk, mu), oldest)
         };
         let debris_motion = start.debris.map(|debris| {
             let sigmas = [believed.debris_position_sigma, believed.debris_velocity_sigma];

@@ -1,4 +1,5 @@
-//! Raw measurements: the last of each kind, held until the next, latency and all; the nominal state before the first.
+//! Raw measurements: the last of each kind, held until the next, latency and all; the nominal state before the first. On an orbit position and velocity are not
+//! held but fall freely from where they were measured.
 //!
 //! The rate is that of the gyro, bias and all, or without one the turn between the last two attitudes over the time between them.
 
@@ -25,6 +26,8 @@ struct Raw {
     sensors: Vec<(Observes, f64)>,
     has_gyro: bool,
     time: f64,
+    /// Gravitational parameter of the central body, m^3/s^2; `None` without an orbit.
+    mu: Option<f64>,
     /// When the last attitude was taken, and which it was.
     last: Option<(f64, [f64; 4])>,
 }
@@ -36,6 +39,7 @@ impl Raw {
             sensors: context.sensors.iter().map(|sensor| (sensor.observes, sensor.period)).collect(),
             has_gyro: context.sensors.iter().any(|sensor| matches!(sensor.observes, Observes::Rotation(_))),
             time: 0.0,
+            mu: context.nominal.orbit.map(|orbit| orbit.mu),
             last: None,
         }
     }
@@ -44,6 +48,16 @@ impl Raw {
 impl Estimator for Raw {
     fn update(&mut self, update: &Update<'_>, estimate: &mut Estimate) {
         self.time += update.interval;
+        let mu = self.mu;
+        let later = |motion: PointMotion, time: f64| mu.map_or(motion, |mu| motion.falling(mu, [0.0; 3], time));
+        if mu.is_some() {
+            let own = later(PointMotion { r_e: estimate.r_co_e, v_e: estimate.v_co_e }, update.interval);
+            (estimate.r_co_e, estimate.v_co_e) = (own.r_e, own.v_e);
+            if let Some(debris) = &mut estimate.debris {
+                let other = later(PointMotion { r_e: debris.r_gdo_e, v_e: debris.v_gdo_e }, update.interval);
+                (debris.r_gdo_e, debris.v_gdo_e) = (other.r_e, other.v_e);
+            }
+        }
         for measurement in update.measurements {
             let values = &measurement.values;
             match self.sensors[measurement.sensor] {
@@ -70,10 +84,11 @@ impl Estimator for Raw {
             match (self.sensors[measurement.sensor].0, &mut estimate.debris) {
                 (Observes::Motion(_), believed) => {
                     if let Some(base) = PointMotion::of(values, 0) {
-                        let center = center_of(base, self.center, q_es, omega_se_s);
+                        let center = later(center_of(base, self.center, q_es, omega_se_s), measurement.age);
                         (estimate.r_co_e, estimate.v_co_e) = (center.r_e, center.v_e);
                     }
                     if let (Some(seen), Some(believed)) = (PointMotion::of(values, 6), believed) {
+                        let seen = later(seen, measurement.age);
                         (believed.r_gdo_e, believed.v_gdo_e) = (seen.r_e, seen.v_e);
                     }
                 }

@@ -166,7 +166,7 @@ fn translation_and_debris_are_consistent() {
         let mut draws = Draws::of(run);
         let zero = PointMotion { r_e: [0.0; 3], v_e: [0.0; 3] };
         let mut point = PointMotion { r_e: draws.vector(sigmas[0]), v_e: draws.vector(sigmas[1]) };
-        let mut filter = TranslationFilter::new(zero, sigmas, walk);
+        let mut filter = TranslationFilter::new(zero, sigmas, walk, None);
         let mut body = start;
         body.q_es = hamilton(body.q_es, quaternion_of(draws.vector(body_sigmas[0])));
         body.omega = sum(body.omega, draws.vector(body_sigmas[1]));

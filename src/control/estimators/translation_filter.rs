@@ -3,12 +3,16 @@
 //! Noise is the same along all axes, and so the axes are independent: one covariance of position and velocity serves all three. What is not known of the
 //! acceleration is white noise, a random walk of the velocity (Y. Bar-Shalom, X. R. Li & T. Kirubarajan, *Estimation with Applications to Tracking and
 //! Navigation*, 2001, section 6.2.2).
+//!
+//! On an orbit the pull of the central body is known at the estimated position, and the step is the Runge-Kutta-Nyström method of order 4 (E. Hairer, S. Norsett
+//! & G. Wanner, *Solving Ordinary Differential Equations I*, 1993, table II.14.2). The covariance leaves out that the pull depends on the position: over the
+//! seconds between two measurements it changes it by (n t)^2, 1e-6.
 
 use super::delayed::Filter;
 use super::kalman::{Gain, NormalizedSquare, normalized_square, symmetric, transported};
 use crate::control::measurement::PointMotion;
 use crate::control::small_matrix::{added, diagonal};
-use crate::control::vector::{difference, scaled, sum};
+use crate::control::vector::{difference, norm, scaled, sum};
 
 /// A step with known acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,12 +41,31 @@ pub struct TranslationFilter {
     pub covariance: [[f64; 2]; 2],
     /// Random walk of the velocity, m/s/sqrt(s).
     pub velocity_random_walk: f64,
+    /// Gravitational parameter of the central body at the origin, m^3/s^2; `None` without an orbit.
+    pub mu: Option<f64>,
+}
+
+impl PointMotion {
+    /// This motion `t` seconds later, under the constant acceleration `acceleration_e` (F_e, m/s^2) and the pull of a central body at the origin, of the
+    /// gravitational parameter `mu`, m^3/s^2.
+    pub fn falling(&self, mu: f64, acceleration_e: [f64; 3], t: f64) -> PointMotion {
+        let PointMotion { r_e, v_e } = *self;
+        let pull = |r: [f64; 3]| {
+            let distance = norm(r);
+            sum(acceleration_e, scaled(-mu / (distance * distance * distance), r))
+        };
+        let first = pull(r_e);
+        let middle = pull(sum(r_e, sum(scaled(0.5 * t, v_e), scaled(0.125 * t * t, first))));
+        let last = pull(sum(r_e, sum(scaled(t, v_e), scaled(0.5 * t * t, middle))));
+        let moved = sum(scaled(t, v_e), scaled(t * t / 6.0, sum(first, scaled(2.0, middle))));
+        PointMotion { r_e: sum(r_e, moved), v_e: sum(v_e, scaled(t / 6.0, sum(sum(first, last), scaled(4.0, middle)))) }
+    }
 }
 
 impl TranslationFilter {
     /// `motion` with errors of the standard deviations `sigmas`, m and m/s, along each axis.
-    pub fn new(motion: PointMotion, sigmas: [f64; 2], velocity_random_walk: f64) -> Self {
-        TranslationFilter { motion, covariance: diagonal(sigmas.map(|sigma| sigma * sigma)), velocity_random_walk }
+    pub fn new(motion: PointMotion, sigmas: [f64; 2], velocity_random_walk: f64, mu: Option<f64>) -> Self {
+        TranslationFilter { motion, covariance: diagonal(sigmas.map(|sigma| sigma * sigma)), velocity_random_walk, mu }
     }
 
     /// The normalised square of the error (NEES).
@@ -71,8 +94,13 @@ impl Filter for TranslationFilter {
 
     fn propagate(&mut self, step: &TranslationStep) {
         let (t, PointMotion { r_e, v_e }) = (step.interval, self.motion);
-        let moved = sum(scaled(t, v_e), scaled(0.5 * t * t, step.acceleration_e));
-        self.motion = PointMotion { r_e: sum(r_e, moved), v_e: sum(v_e, scaled(t, step.acceleration_e)) };
+        self.motion = match self.mu {
+            Some(mu) => self.motion.falling(mu, step.acceleration_e, t),
+            None => {
+                let moved = sum(scaled(t, v_e), scaled(0.5 * t * t, step.acceleration_e));
+                PointMotion { r_e: sum(r_e, moved), v_e: sum(v_e, scaled(t, step.acceleration_e)) }
+            }
+        };
         let walk = self.velocity_random_walk * self.velocity_random_walk * t;
         let noise = [[walk * t * t / 3.0, 0.5 * walk * t], [0.5 * walk * t, walk]];
         self.covariance = symmetric(&added(&transported(&[[1.0, t], [0.0, 1.0]], &self.covariance), &noise));

@@ -118,7 +118,8 @@ impl Target {
     /// The attitude `q_es` relative to the target, which `input` defines.
     pub fn error(self, q_es: [f64; 4], input: &TargetInput<'_>) -> AttitudeError {
         let TargetInput { geometry, to_go, orbit } = *input;
-        let fixed = |direction: [f64; 3]| pointing(q_es, direction, [0.0; 3]);
+        // fixed in F_e, or on an orbit to the axis
+        let fixed = |geometry: &LaunchGeometry, direction: [f64; 3]| pointing(q_es, direction, geometry.turn());
         match (self, geometry) {
             (Target::Attitude(q_et), _) => {
                 AttitudeError { q_ts: hamilton(conjugate(q_et), q_es), ..AttitudeError::NONE }
@@ -136,13 +137,14 @@ impl Target {
             (Target::LineToDebris, Some(geometry)) => {
                 let line = geometry.to_debris;
                 // the spacecraft moves with the relative velocity, and the line against it
-                pointing(q_es, line, turn_of(line, scaled(-1.0, geometry.relative_velocity)))
+                let change = geometry.inertial_change(line, scaled(-1.0, geometry.relative_velocity));
+                pointing(q_es, line, turn_of(line, change))
             }
-            (Target::LaunchAxis, Some(geometry)) => fixed(geometry.axis),
+            (Target::LaunchAxis, Some(geometry)) => fixed(geometry, geometry.axis),
             (Target::Transfer | Target::Stop, Some(_)) => {
                 pointing(q_es, to_go.velocity_e, turn_of(to_go.velocity_e, to_go.change_e))
             }
-            (Target::Velocity, Some(geometry)) => fixed(geometry.relative_velocity),
+            (Target::Velocity, Some(geometry)) => fixed(geometry, geometry.relative_velocity),
             _ => AttitudeError::NONE,
         }
     }
@@ -182,7 +184,7 @@ mod tests {
     use crate::control::vector::{difference, product, sum};
 
     fn geometry(to_debris: [f64; 3], relative_velocity: [f64; 3]) -> LaunchGeometry {
-        LaunchGeometry { axis: [0.0, 0.0, 1.0], to_debris, from_station: [0.0; 3], relative_velocity }
+        LaunchGeometry { axis: [0.0, 0.0, 1.0], to_debris, from_station: [0.0; 3], relative_velocity, frame: None }
     }
 
     const NO_IMPULSE: VelocityToGo = VelocityToGo { velocity_e: [0.0; 3], change_e: [0.0; 3] };

@@ -3,8 +3,12 @@
 //! Let v_d be the velocity of the debris in F_e and A_d the line through its centre of mass along v_d. At the launch state the spacecraft's centre of mass
 //! is on A_d behind the debris (on the side of -v_d) at a constant distance L, at rest relative to the debris, and s3, the axis of the net launcher, points
 //! at it: with e the unit vector of v_d, position r_d - L e, velocity v_d, s3 = e.
+//!
+//! On an orbit v_d is the velocity along it, and e turns, at the rate omega = v_d x v_d'/|v_d|^2. "At rest" is meant in the frame that turns so: the relative
+//! velocity is v - v_d - omega x (r - r_d), zero of a spacecraft that stays on A_d. The relative motion is that beside a circular orbit of this rate (W. H. Clohessy
+//! & R. S. Wiltshire, Journal of the Aerospace Sciences 27, 1960); on an ellipse it is wrong by its eccentricity, which the loop corrects.
 
-use crate::control::vector::{difference, dot, norm, scaled, sum};
+use crate::control::vector::{cross, difference, dot, norm, product, scaled, sum, transposed_product};
 
 /// The centres of mass of spacecraft and debris, as they are or as they are estimated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +32,17 @@ pub struct LaunchState {
     pub least_speed: f64,
     /// The unit vector that is the axis then, in F_e; zero where there is none.
     pub approach_axis: [f64; 3],
+    /// Gravitational parameter of the central body at the origin, m^3/s^2; `None` without an orbit.
+    pub mu: Option<f64>,
+}
+
+/// The frame that turns with the velocity of the debris along its orbit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurningFrame {
+    /// Unit vectors up, ahead and along the normal of the orbit, by rows, in F_e.
+    pub axes: [[f64; 3]; 3],
+    /// The rate about the last, rad/s.
+    pub rate: f64,
 }
 
 /// The spacecraft relative to the launch state, in F_e.
@@ -39,8 +54,53 @@ pub struct LaunchGeometry {
     pub to_debris: [f64; 3],
     /// From the station r_d - L e to the spacecraft, m.
     pub from_station: [f64; 3],
-    /// Velocity relative to the debris, and so to the station, m/s.
+    /// Velocity relative to the debris, and so to the station, m/s; on an orbit in the turning frame.
     pub relative_velocity: [f64; 3],
+    /// That frame; `None` without an orbit.
+    pub frame: Option<TurningFrame>,
+}
+
+impl TurningFrame {
+    /// That of debris at `r_e` (m) with the velocity `v_e` (m/s), F_e.
+    fn of(mu: f64, r_e: [f64; 3], v_e: [f64; 3]) -> Self {
+        let distance = norm(r_e);
+        let pull = scaled(-mu / (distance * distance * distance), r_e);
+        let turn = scaled(1.0 / dot(v_e, v_e), cross(v_e, pull));
+        let rate = norm(turn);
+        let (up, normal) = (scaled(1.0 / distance, r_e), scaled(1.0 / rate, turn));
+        TurningFrame { axes: [up, cross(normal, up), normal], rate }
+    }
+
+    /// Its angular velocity, F_e, rad/s.
+    pub fn turn(&self) -> [f64; 3] {
+        scaled(self.rate, self.axes[2])
+    }
+
+    /// The change in F_e of a vector that changes by `change` in this frame.
+    fn inertial_change(&self, vector: [f64; 3], change: [f64; 3]) -> [f64; 3] {
+        sum(change, cross(self.turn(), vector))
+    }
+
+    /// The acceleration without thrust at `position` and `velocity` relative to the debris, both in this frame, with components in F_e: Clohessy &
+    /// Wiltshire's equations x'' = 3 n^2 x + 2 n y', y'' = -2 n x', z'' = -n^2 z.
+    fn acceleration(&self, position: [f64; 3], velocity: [f64; 3]) -> [f64; 3] {
+        let ([x, _, z], [u, v, _]) = (product(self.axes, position), product(self.axes, velocity));
+        let n = self.rate;
+        transposed_product(self.axes, [n * (3.0 * n * x + 2.0 * v), -2.0 * n * u, -n * n * z])
+    }
+
+    /// The velocity at which a spacecraft at `position` comes to the origin in `time` seconds: the closed form of those equations.
+    fn velocity_to_origin(&self, position: [f64; 3], time: f64) -> [f64; 3] {
+        let (n, [x, y, z]) = (self.rate, product(self.axes, position));
+        let (sin, cos) = libm::sincos(n * time);
+        let half = libm::sin(0.5 * n * time);
+        // 1 - cos without its cancellation
+        let (s, d) = (sin / n, 4.0 * half * half / n);
+        let along = 4.0 * s - 3.0 * time;
+        let (a, b) = (-(4.0 - 3.0 * cos) * x, -y - 6.0 * (sin - n * time) * x);
+        let determinant = s * along + d * d;
+        transposed_product(self.axes, [(a * along - d * b) / determinant, (s * b + d * a) / determinant, -z * cos / s])
+    }
 }
 
 impl LaunchState {
@@ -57,11 +117,14 @@ impl LaunchState {
     pub fn geometry(&self, centers: &Centers) -> LaunchGeometry {
         let axis = self.axis(centers.v_gdo_e).unwrap_or([0.0; 3]);
         let to_debris = difference(centers.r_gdo_e, centers.r_co_e);
+        let frame = self.mu.map(|mu| TurningFrame::of(mu, centers.r_gdo_e, centers.v_gdo_e));
+        let inertial = difference(centers.v_co_e, centers.v_gdo_e);
         LaunchGeometry {
             axis,
             to_debris,
             from_station: difference(scaled(self.distance, axis), to_debris),
-            relative_velocity: difference(centers.v_co_e, centers.v_gdo_e),
+            relative_velocity: frame.map_or(inertial, |frame| sum(inertial, cross(frame.turn(), to_debris))),
+            frame,
         }
     }
 }
@@ -70,6 +133,40 @@ impl LaunchGeometry {
     /// Whether there is an axis.
     pub fn has_axis(&self) -> bool {
         self.axis != [0.0; 3]
+    }
+
+    /// The angular velocity of the axis and the station, F_e, rad/s; zero without an orbit.
+    pub fn turn(&self) -> [f64; 3] {
+        self.frame.map_or([0.0; 3], |frame| frame.turn())
+    }
+
+    /// How a vector changes in F_e that changes by `change` relative to axis and station.
+    pub fn inertial_change(&self, vector: [f64; 3], change: [f64; 3]) -> [f64; 3] {
+        self.frame.map_or(change, |frame| frame.inertial_change(vector, change))
+    }
+
+    /// The relative acceleration of spacecraft and debris without thrust, as their velocity is meant, F_e, m/s^2: none, without gravity.
+    pub fn acceleration(&self) -> [f64; 3] {
+        self.frame.map_or([0.0; 3], |frame| frame.acceleration(self.from_station, self.relative_velocity))
+    }
+
+    /// The change of velocity with which the spacecraft reaches the station in `time` > 0 seconds without thrust: the first of two impulses (the second
+    /// stops it there), m/s.
+    pub fn transfer(&self, time: f64) -> [f64; 3] {
+        self.transfer_of(self.from_station, self.relative_velocity, time)
+    }
+
+    /// How that changes without thrust, the time of the transfer being the same, as velocities are meant, m/s^2: it is linear in position and velocity.
+    pub fn change_of_transfer(&self, time: f64) -> [f64; 3] {
+        self.transfer_of(self.relative_velocity, self.acceleration(), time)
+    }
+
+    fn transfer_of(&self, from_station: [f64; 3], relative_velocity: [f64; 3], time: f64) -> [f64; 3] {
+        let wanted = match &self.frame {
+            None => scaled(-1.0 / time, from_station),
+            Some(frame) => frame.velocity_to_origin(from_station, time),
+        };
+        difference(wanted, relative_velocity)
     }
 
     /// Distance of the spacecraft from the line A_d, m; NaN without one, as the errors below.
@@ -92,24 +189,11 @@ impl LaunchGeometry {
     }
 }
 
-/// The relative acceleration of spacecraft and debris without thrust at the relative position and velocity, m/s^2: none, without gravity. An orbit replaces
-/// this function, and what follows from it below.
-pub fn relative_acceleration(_relative_position: [f64; 3], _relative_velocity: [f64; 3]) -> [f64; 3] {
-    [0.0; 3]
-}
-
-/// The change of velocity at which a spacecraft at `from_station` with `relative_velocity` reaches the station in `time` > 0 seconds, under
-/// [`relative_acceleration`]: the first of two impulses (the second stops it there), m/s.
-pub fn transfer(from_station: [f64; 3], relative_velocity: [f64; 3], time: f64) -> [f64; 3] {
-    let drift = scaled(0.5 * time, relative_acceleration(from_station, relative_velocity));
-    difference(scaled(-1.0 / time, from_station), sum(relative_velocity, drift))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const STATE: LaunchState = LaunchState { distance: 10.0, least_speed: 0.01, approach_axis: [0.0; 3] };
+    const STATE: LaunchState = LaunchState { distance: 10.0, least_speed: 0.01, approach_axis: [0.0; 3], mu: None };
 
     /// Law: at the launch state every error is zero; each error measures what its name says.
     #[test]
@@ -127,7 +211,7 @@ mod tests {
         assert!((norm(off.relative_velocity) - 0.1).abs() < 1e-15);
         // the first impulse leads to the station
         let time = 50.0;
-        let after = sum(off.relative_velocity, transfer(off.from_station, off.relative_velocity, time));
+        let after = sum(off.relative_velocity, off.transfer(time));
         assert!(norm(sum(off.from_station, scaled(time, after))) < 1e-13);
     }
 
@@ -140,5 +224,86 @@ mod tests {
         assert_eq!(named.axis([0.0, -0.02, 0.0]), Some([0.0, -1.0, 0.0]));
         let still = LaunchState { least_speed: 0.0, ..STATE };
         assert_eq!(still.axis([0.0; 3]), None);
+    }
+
+    const MU: f64 = 3.986004418e14;
+
+    /// Spacecraft and debris on a circle of 7,000 km, `x` m up, `y` ahead and `z` across from the debris with the velocity `v` in the turning frame, and
+    /// their geometry.
+    fn beside_a_circle(position: [f64; 3], velocity: [f64; 3]) -> (Centers, LaunchGeometry) {
+        let (r, n) = (7e6_f64, (MU / 7e6_f64.powi(3)).sqrt());
+        let (r_gdo_e, v_gdo_e) = ([r, 0.0, 0.0], [0.0, r * n, 0.0]);
+        let inertial = sum(velocity, cross([0.0, 0.0, n], position));
+        let centers = Centers { r_co_e: sum(r_gdo_e, position), v_co_e: sum(v_gdo_e, inertial), r_gdo_e, v_gdo_e };
+        (centers, LaunchState { mu: Some(MU), ..STATE }.geometry(&centers))
+    }
+
+    /// The centres after `time` seconds on their own two-body orbits.
+    fn later(centers: &Centers, time: f64) -> Centers {
+        let fall = |position, velocity| {
+            let orbit = crate::scene::Orbit { mu: MU, position, velocity };
+            let state = crate::dynamics::orbit::KeplerOrbit::new(&orbit).state(time);
+            (state.position, state.velocity)
+        };
+        let (r_co_e, v_co_e) = fall(centers.r_co_e, centers.v_co_e);
+        let (r_gdo_e, v_gdo_e) = fall(centers.r_gdo_e, centers.v_gdo_e);
+        Centers { r_co_e, v_co_e, r_gdo_e, v_gdo_e }
+    }
+
+    /// Law: behind the debris on its orbit a spacecraft at rest is at the station and stays there.
+    #[test]
+    fn the_station_turns_with_the_orbit() {
+        let (centers, there) = beside_a_circle([0.0, -10.0, 0.0], [0.0; 3]);
+        assert!(there.position_error() < 1e-8 && norm(there.relative_velocity) < 1e-11, "{there:?}");
+        let state = LaunchState { mu: Some(MU), ..STATE };
+        let after = state.geometry(&later(&centers, 1500.0));
+        // the line is tangent to the circle: ten metres behind on it are 7 micrometres above the circle
+        assert!(after.position_error() < 1e-3 && norm(after.relative_velocity) < 1e-6, "{after:?}");
+        // without the turning frame it would not be at rest
+        let flat = LaunchState { mu: None, ..state }.geometry(&centers);
+        assert!(norm(flat.relative_velocity) > 0.01);
+    }
+
+    /// Law: the first impulse of a transfer leads to the station along two Kepler orbits, up to the terms of second order that Clohessy & Wiltshire leave out
+    /// (50^2 m/7000 km); without the orbit's terms it misses by metres.
+    #[test]
+    fn the_transfer_leads_to_the_station() {
+        for (position, velocity) in
+            [([8.0, -45.0, 5.0], [0.03, 0.02, -0.01]), ([-20.0, 10.0, -15.0], [-0.02, 0.01, 0.05])]
+        {
+            let (centers, start) = beside_a_circle(position, velocity);
+            for time in [60.0, 300.0, 900.0] {
+                let state = LaunchState { mu: Some(MU), ..STATE };
+                let pushed = Centers { v_co_e: sum(centers.v_co_e, start.transfer(time)), ..centers };
+                let end = state.geometry(&later(&pushed, time));
+                assert!(end.position_error() < 3e-3, "{time}: {} m", end.position_error());
+                let straight = LaunchGeometry { frame: None, ..start }.transfer(time);
+                let pushed = Centers { v_co_e: sum(centers.v_co_e, straight), ..centers };
+                let missed = state.geometry(&later(&pushed, time)).position_error();
+                assert!(time < 300.0 || missed > 1.0, "{time}: {missed} m");
+            }
+        }
+    }
+
+    /// Law: acceleration and change of the transfer are how velocity and transfer change along two Kepler orbits.
+    #[test]
+    fn what_changes_without_thrust_is_known() {
+        let (centers, start) = beside_a_circle([8.0, -45.0, 5.0], [0.03, 0.02, -0.01]);
+        let state = LaunchState { mu: Some(MU), ..STATE };
+        let slope = |of: &dyn Fn(&LaunchGeometry) -> [f64; 3]| {
+            let [before, after] = [-2.0, 2.0].map(|time| of(&state.geometry(&later(&centers, time))));
+            scaled(0.25, difference(after, before))
+        };
+        for (found, expected) in [
+            (start.inertial_change(start.relative_velocity, start.acceleration()), slope(&|at| at.relative_velocity)),
+            (
+                start.inertial_change(start.transfer(300.0), start.change_of_transfer(300.0)),
+                slope(&|at| at.transfer(300.0)),
+            ),
+        ] {
+            // what rounding of 7000 km leaves of the slope
+            assert!(norm(difference(found, expected)) < 1e-8, "{found:?} {expected:?}");
+            assert!(norm(found) > 1e-5);
+        }
     }
 }

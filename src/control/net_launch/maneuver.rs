@@ -1,6 +1,6 @@
 //! The geometry of the launch as estimated, the impulse that is left of a maneuver, and the attitude that it wants.
 
-use super::geometry::{Centers, LaunchGeometry, LaunchState, transfer};
+use super::geometry::{Centers, LaunchGeometry, LaunchState};
 use crate::control::estimate::Estimate;
 use crate::control::flight_software::FlightSoftware;
 use crate::control::guidance::phase::{Maneuver, Phase};
@@ -24,7 +24,9 @@ impl FlightSoftware {
         match phase.maneuver() {
             Maneuver::None => VelocityToGo::default(),
             Maneuver::Stop => {
-                VelocityToGo { velocity_e: scaled(-1.0, geometry.relative_velocity), ..VelocityToGo::default() }
+                let velocity_e = scaled(-1.0, geometry.relative_velocity);
+                let change = difference([0.0; 3], geometry.acceleration());
+                VelocityToGo { velocity_e, change_e: geometry.inertial_change(velocity_e, change) }
             }
             // within the burn what is left of the time of the transfer is ahead, and the impulse keeps its direction
             Maneuver::Transfer if phase.thrust == Maneuver::Transfer => {
@@ -33,14 +35,15 @@ impl FlightSoftware {
                     // the time of the transfer is over: what is left is for the stop
                     return VelocityToGo::default();
                 }
-                let velocity_e = transfer(geometry.from_station, geometry.relative_velocity, left);
-                VelocityToGo { velocity_e, ..VelocityToGo::default() }
+                let velocity_e = geometry.transfer(left);
+                VelocityToGo { velocity_e, change_e: geometry.inertial_change(velocity_e, [0.0; 3]) }
             }
             // before it, all of it
-            Maneuver::Transfer => VelocityToGo {
-                velocity_e: transfer(geometry.from_station, geometry.relative_velocity, phase.transfer_time),
-                change_e: scaled(-1.0 / phase.transfer_time, geometry.relative_velocity),
-            },
+            Maneuver::Transfer => {
+                let velocity_e = geometry.transfer(phase.transfer_time);
+                let change = geometry.change_of_transfer(phase.transfer_time);
+                VelocityToGo { velocity_e, change_e: geometry.inertial_change(velocity_e, change) }
+            }
         }
     }
 

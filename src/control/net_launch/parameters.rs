@@ -5,7 +5,7 @@ use crate::control::declared::declared;
 use crate::control::parameters::number;
 use crate::control::vector::{norm, scaled};
 use crate::scene::schema::Limit;
-use crate::scene::{DeclaredTable, LawParameter};
+use crate::scene::{DeclaredTable, LawParameter, Orbit};
 
 declared! {
     /// Of a loop near debris.
@@ -56,14 +56,15 @@ declared! {
 }
 
 impl LaunchState {
-    /// That of the numbers of `[control]`.
-    pub fn of(table: &DeclaredTable) -> Self {
+    /// That of the numbers of `[control]`, on the orbit `orbit`.
+    pub fn of(table: &DeclaredTable, orbit: Option<&Orbit>) -> Self {
         let DebrisNumbers { launch_distance, least_debris_speed, approach_axis, .. } = DebrisNumbers::of(table);
         let length = norm(approach_axis);
         LaunchState {
             distance: launch_distance,
             least_speed: least_debris_speed,
             approach_axis: if length > 0.0 { scaled(1.0 / length, approach_axis) } else { approach_axis },
+            mu: orbit.map(|orbit| orbit.mu),
         }
     }
 }

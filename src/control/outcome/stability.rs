@@ -101,7 +101,7 @@ mod tests {
 
     fn criteria(from: f64, length: f64) -> MissionCriteria {
         MissionCriteria {
-            launch: LaunchState { distance: 10.0, least_speed: 0.01, approach_axis: [0.0; 3] },
+            launch: LaunchState { distance: 10.0, least_speed: 0.01, approach_axis: [0.0; 3], mu: None },
             keep_out: 0.0,
             plume: PlumeCone { range: 0.0, half_angle: 0.0 },
             settling_band: 0.02,

@@ -192,7 +192,7 @@ pub fn approach_goal(plan: &Plan, run: &SingleRun) -> Option<ApproachGoal> {
     if !spec.needs_axis() || !run.request.debris {
         return None;
     }
-    let launch = LaunchState::of(&plan.nominal.control.law);
+    let launch = LaunchState::of(&plan.nominal.control.law, None);
     let axis = launch.axis(run.table.at(StateField::DebrisVelocity, 0))?;
     Some(ApproachGoal { axis, distance: launch.distance })
 }

@@ -23,7 +23,7 @@ pub mod within_arcs;
 
 use super::actuation::sum;
 use crate::math::vector::dot;
-use crate::scene::{Actuation, EnvironmentInput, Scene, SceneInput};
+use crate::scene::{Actuation, EnvironmentInput, Offsets, Scene, SceneInput};
 
 /// An effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -40,6 +40,8 @@ pub enum Effect {
     SolarPressure,
     /// `[orbit]`: the force of gravity on the centre of mass.
     Gravity,
+    /// `[orbit]` with thrusters or debris: gravity beside the orbit is another than on it.
+    Tide,
 }
 
 /// What an effect is to an engine.
@@ -53,17 +55,20 @@ pub enum Form {
     Evaluated,
     /// A motion of the centre of mass in closed form, which turns nothing.
     Translation,
+    /// A force that depends on the offset from that motion, and turns nothing; with recurrences for its Taylor series.
+    Force,
 }
 
 impl Effect {
     /// All effects.
-    pub const ALL: [Effect; 6] = [
+    pub const ALL: [Effect; 7] = [
         Effect::ConstantTorque,
         Effect::GravityGradient,
         Effect::MagneticTorque,
         Effect::Drag,
         Effect::SolarPressure,
         Effect::Gravity,
+        Effect::Tide,
     ];
 
     /// The key that makes it act.
@@ -74,7 +79,7 @@ impl Effect {
             Effect::MagneticTorque => "environment.magnetic_dipole_a_m2",
             Effect::Drag => "environment.drag",
             Effect::SolarPressure => "environment.solar_pressure",
-            Effect::Gravity => "orbit",
+            Effect::Gravity | Effect::Tide => "orbit",
         }
     }
 
@@ -87,11 +92,12 @@ impl Effect {
             Effect::Drag => Form::Evaluated,
             Effect::SolarPressure => Form::Evaluated,
             Effect::Gravity => Form::Translation,
+            Effect::Tide => Form::Force,
         }
     }
 
-    /// Whether it acts in `environment`, on an orbit or on none.
-    const fn acts_in(self, environment: &EnvironmentInput, is_on_orbit: bool) -> bool {
+    /// Whether it acts in `environment`, on an orbit or on none, which the bodies may leave or not.
+    const fn acts_in(self, environment: &EnvironmentInput, is_on_orbit: bool, may_leave: bool) -> bool {
         match self {
             Effect::ConstantTorque => environment.body_torque_n_m.is_some(),
             Effect::GravityGradient => environment.gravity_gradient,
@@ -99,6 +105,7 @@ impl Effect {
             Effect::Drag => environment.drag,
             Effect::SolarPressure => environment.solar_pressure,
             Effect::Gravity => is_on_orbit,
+            Effect::Tide => may_leave,
         }
     }
 }
@@ -124,16 +131,16 @@ impl ForceModel {
 
     /// The effects on `scene`.
     pub fn of(scene: &Scene) -> Self {
-        Self::acting(&scene.environment, scene.orbit.is_some())
+        Self::acting(&scene.environment, scene.orbit.is_some(), scene.offsets.is_some())
     }
 
     /// Those that act on the scenes of `input`.
     pub fn of_input(input: &SceneInput) -> Self {
-        Self::acting(&input.environment, input.orbit.is_some())
+        Self::acting(&input.environment, input.orbit.is_some(), Offsets::of(input).is_some())
     }
 
-    fn acting(environment: &EnvironmentInput, is_on_orbit: bool) -> Self {
-        let acts = |effect: &Effect| effect.acts_in(environment, is_on_orbit);
+    fn acting(environment: &EnvironmentInput, is_on_orbit: bool, may_leave: bool) -> Self {
+        let acts = |effect: &Effect| effect.acts_in(environment, is_on_orbit, may_leave);
         Effect::ALL.into_iter().filter(acts).fold(Self::NONE, Self::with)
     }
 
@@ -158,9 +165,9 @@ impl ForceModel {
         self.effects().all(|effect| integrated(effect.form()))
     }
 
-    /// Whether an effect changes within an arc and turns the body.
+    /// Whether an effect changes within an arc and the kernel has it: all but those in closed form.
     pub fn changes_within_arcs(self) -> bool {
-        self.effects().any(|effect| matches!(effect.form(), Form::Series | Form::Evaluated))
+        self.effects().any(|effect| matches!(effect.form(), Form::Series | Form::Evaluated | Form::Force))
     }
 }
 

@@ -6,10 +6,30 @@
 
 use super::ChangingEffects;
 use super::ChangingSeries;
-use crate::dynamics::gyrostat::Gyrostat;
+use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_THRUST};
+use crate::dynamics::offset_series::{OffsetSeries, tide};
 use crate::dynamics::orbit::{KeplerOrbit, OrbitState};
 use crate::dynamics::orbit_series::OrbitSeries;
 use crate::math::Real;
+use crate::math::vector::scaled;
+
+/// What acts beside the actuators, one run per lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Beside<R> {
+    /// Torque on the body, B, N m.
+    pub torque: [R; 3],
+    /// Where the motion of the centre of mass is relative to a point on an orbit: what that point does.
+    pub carrier: Option<Carrier<R>>,
+}
+
+/// What a motion relative to a point on an orbit takes from it.
+#[derive(Clone, Copy, Debug)]
+pub struct Carrier<R> {
+    /// Velocity of the point, F_e, m/s.
+    pub velocity: [R; 3],
+    /// What gravity accelerates the spacecraft more than the point, F_e, m/s^2.
+    pub tide: [R; 3],
+}
 
 /// What the torque of an effect may depend on, one run per lane.
 #[derive(Clone, Copy, Debug)]
@@ -31,8 +51,14 @@ pub struct MotionSeries<R> {
     pub attitude: Vec<[R; 4]>,
     /// Of the angular velocity, B.
     pub rate: Vec<[R; 3]>,
-    /// Of the orbit, where an effect needs it.
+    /// Of where the spacecraft is on its orbit or beside it, where an effect needs it or it may leave its orbit.
     pub orbit: OrbitSeries<R>,
+    /// Of the offset from the orbit.
+    offset: OffsetSeries<R>,
+    /// Whether the spacecraft may leave its orbit.
+    may_leave: bool,
+    /// What gravity accelerates the spacecraft more than the point on the orbit, F_e, m per unit squared.
+    tide: Vec<[R; 3]>,
 }
 
 impl<R: Real> MotionSeries<R> {
@@ -42,7 +68,51 @@ impl<R: Real> MotionSeries<R> {
             attitude: vec![[zero; 4]; order + 1],
             rate: vec![[zero; 3]; order + 1],
             orbit: OrbitSeries::new(zero, order),
+            offset: OffsetSeries::new(zero, order),
+            may_leave: false,
+            tide: vec![[zero; 3]; order + 1],
         }
+    }
+
+    /// Starts a step where the point on the orbit is at `position` with `velocity` (m per unit of time), at the gravitational parameter `mu` (m^3 per
+    /// unit squared).
+    #[inline(always)]
+    pub fn begin_orbit(&mut self, mu: R, position: [R; 3], velocity: [R; 3], may_leave: bool) {
+        self.may_leave = may_leave;
+        if may_leave {
+            self.offset.begin(mu, position, velocity);
+        } else {
+            self.orbit.begin(mu, position, velocity);
+        }
+    }
+
+    /// Computes the coefficients n of the orbit, given those of the offset, m.
+    #[inline(always)]
+    pub fn extend_orbit(&mut self, n: usize, offset: [R; 3]) {
+        if self.may_leave {
+            self.tide[n] = self.offset.extend(n, offset);
+            self.orbit.place(n, self.offset.place()[n]);
+        } else {
+            self.orbit.extend(n);
+        }
+    }
+
+    /// Whether the spacecraft may leave its orbit.
+    #[inline(always)]
+    pub fn may_leave(&self) -> bool {
+        self.may_leave
+    }
+
+    /// The orbit itself, from which the spacecraft may have an offset.
+    #[inline(always)]
+    pub fn reference(&self) -> &OrbitSeries<R> {
+        if self.may_leave { self.offset.orbit() } else { &self.orbit }
+    }
+
+    /// Coefficient n of the tide, m per unit squared, where the spacecraft may leave its orbit.
+    #[inline(always)]
+    pub fn tide(&self, n: usize) -> Option<[R; 3]> {
+        self.may_leave.then(|| self.tide[n])
     }
 }
 
@@ -57,8 +127,11 @@ pub trait WithinArcs<R: Real>: Copy {
     /// Puts those of `run` into lane `lane`.
     fn set_lane(&mut self, lane: usize, run: &Gyrostat<f64>);
 
-    /// Their torque at `time` (s) on a body of the attitude `q_eb` and the angular velocity `omega_b`, in B, N m.
-    fn torque(&self, time: R, q_eb: [R; 4], omega_b: [R; 3]) -> [R; 3];
+    /// What they do at `time` (s) to a body whose integrated components are `state`, SI.
+    fn act<const N: usize>(&self, time: R, state: &[R; N]) -> Beside<R>;
+
+    /// Where a spacecraft may leave its orbit: one over the time in which its offset changes, 1/s, and its mass, kg.
+    fn scales_of_offset(&self) -> Option<[R; 2]>;
 
     /// Their Taylor series from the time on that is the sum of `time` (s), begun in `memory`, in a unit of time of `unit` seconds; `None` where there are
     /// none.
@@ -80,8 +153,13 @@ impl<R: Real> WithinArcs<R> for NoEffects {
     fn set_lane(&mut self, _lane: usize, _run: &Gyrostat<f64>) {}
 
     #[inline(always)]
-    fn torque(&self, time: R, _q_eb: [R; 4], _omega_b: [R; 3]) -> [R; 3] {
-        [time.zero(); 3]
+    fn act<const N: usize>(&self, time: R, _state: &[R; N]) -> Beside<R> {
+        Beside { torque: [time.zero(); 3], carrier: None }
+    }
+
+    #[inline(always)]
+    fn scales_of_offset(&self) -> Option<[R; 2]> {
+        None
     }
 
     #[inline(always)]
@@ -101,30 +179,64 @@ pub struct Acting<R> {
     zero: R,
     orbit: Option<KeplerOrbit<R>>,
     effects: ChangingEffects<R>,
+    /// Where runs may leave their orbits: their masses, kg, and rates of their orbits, rad/s.
+    leaving: Option<Leaving<R>>,
+}
+
+/// What the motion relative to an orbit needs, one run per lane.
+#[derive(Clone, Copy, Debug)]
+struct Leaving<R> {
+    mass: R,
+    inverse_mass: R,
+    rate: R,
 }
 
 impl<R: Real> WithinArcs<R> for Acting<R> {
     const ACT: bool = true;
 
     fn none(zero: R) -> Self {
-        Acting { zero, orbit: None, effects: ChangingEffects::none() }
+        Acting { zero, orbit: None, effects: ChangingEffects::none(), leaving: None }
     }
 
     fn set_lane(&mut self, lane: usize, run: &Gyrostat<f64>) {
         let zero = self.zero;
         self.effects.set_lane(zero, lane, &run.effects);
-        if let Some(orbit) = run.orbit.filter(|_| run.effects.needs_orbit()) {
+        if let Some(orbit) = run.orbit.filter(|_| run.effects.needs_orbit() || run.offset.is_some()) {
             self.orbit.get_or_insert_with(|| KeplerOrbit::blank().in_lanes(zero)).set_lane(lane, &orbit);
+        }
+        if let (Some(orbit), Some(_)) = (&run.orbit, &run.offset) {
+            let one = zero.splat(1.0);
+            let leaving = self.leaving.get_or_insert(Leaving { mass: one, inverse_mass: one, rate: one });
+            leaving.mass.set_lane(lane, run.mass);
+            leaving.inverse_mass.set_lane(lane, 1.0 / run.mass);
+            leaving.rate.set_lane(lane, orbit.rate());
         }
     }
 
     #[inline(always)]
-    fn torque(&self, time: R, q_eb: [R; 4], omega_b: [R; 3]) -> [R; 3] {
-        let place = match &self.orbit {
+    fn act<const N: usize>(&self, time: R, state: &[R; N]) -> Beside<R> {
+        let mut place = match &self.orbit {
             Some(orbit) => orbit.state(time),
             None => OrbitState::unknown(time),
         };
-        self.effects.torque(&Motion { time, attitude: q_eb, rate: omega_b, place })
+        let mut carrier = None;
+        if let (Some(orbit), Some(leaving), true) = (&self.orbit, &self.leaving, N >= WITH_THRUST) {
+            let three = |first: usize| scaled(leaving.inverse_mass, [state[first], state[first + 1], state[first + 2]]);
+            let offset = [three(IMPULSE_INTEGRAL), three(IMPULSE)];
+            carrier = Some(Carrier { velocity: place.velocity, tide: tide(orbit.mu(), &place, offset[0]) });
+            place = place.displaced(offset);
+        }
+        if self.effects.is_empty() {
+            return Beside { torque: [self.zero; 3], carrier };
+        }
+        let attitude = [state[ATTITUDE], state[ATTITUDE + 1], state[ATTITUDE + 2], state[ATTITUDE + 3]];
+        let rate = [state[OMEGA], state[OMEGA + 1], state[OMEGA + 2]];
+        Beside { torque: self.effects.torque(&Motion { time, attitude, rate, place }), carrier }
+    }
+
+    #[inline(always)]
+    fn scales_of_offset(&self) -> Option<[R; 2]> {
+        self.leaving.as_ref().map(|leaving| [leaving.rate, leaving.mass])
     }
 
     #[inline(always)]
@@ -135,7 +247,7 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
         memory: &'m mut ChangingSeries<R>,
     ) -> Option<&'m mut ChangingSeries<R>> {
         let place = self.orbit.as_ref().map(|orbit| (orbit.mu(), orbit.state_at(time)));
-        memory.begin(&self.effects, place.as_ref(), time[0], unit);
+        memory.begin(&self.effects, place.as_ref(), self.leaving.is_some(), time[0], unit);
         Some(memory)
     }
 }
@@ -187,19 +299,20 @@ macro_rules! changing_effects {
             }
 
             /// Starts a step of `acting` at `time` (s) in a unit of time of `unit` seconds. `place` is the gravitational parameter (m^3/s^2) and
-            /// where the spacecraft is then (m, m/s), where its orbit is needed.
+            /// where the orbit is then (m, m/s), where it is needed; the spacecraft may leave it where `may_leave`.
             #[inline(always)]
             pub fn begin(
                 &mut self,
                 acting: &ChangingEffects<R>,
                 place: Option<&(R, $crate::dynamics::orbit::OrbitState<R>)>,
+                may_leave: bool,
                 time: R,
                 unit: R,
             ) {
                 self.has_orbit = place.is_some();
                 if let Some((mu, place)) = place {
                     let velocity = $crate::math::vector::scaled(unit, place.velocity);
-                    self.motion.orbit.begin(*mu * (unit * unit), place.position, velocity);
+                    self.motion.begin_orbit(*mu * (unit * unit), place.position, velocity, may_leave);
                 }
                 $(
                     self.$series.0 = acting.$series.is_some();
@@ -218,15 +331,20 @@ macro_rules! changing_effects {
                 fitted[..torque.len()].copy_from_slice(torque);
             }
 
-            /// Coefficient n of the sum of the torques, given those of the motion; call in ascending order of `n`. `constant` is what acts beside
-            /// them, for [`ChangingSeries::torque`].
+            /// Coefficient n of the sum of the torques, given those of the motion: attitude, rate and offset from the orbit (m); call in ascending
+            /// order of `n`. `constant` is what acts beside them, for [`ChangingSeries::torque`].
             #[inline(always)]
-            pub fn extend(&mut self, n: usize, attitude: [R; 4], rate: [R; 3], constant: [R; 3]) -> [R; 3] {
+            pub fn extend(
+                &mut self,
+                n: usize,
+                (attitude, rate, offset): ([R; 4], [R; 3], [R; 3]),
+                constant: [R; 3],
+            ) -> [R; 3] {
                 let mut own = [attitude[0].zero(); 3];
                 self.motion.attitude[n] = attitude;
                 self.motion.rate[n] = rate;
                 if self.has_orbit {
-                    self.motion.orbit.extend(n);
+                    self.motion.extend_orbit(n, offset);
                 }
                 $(
                     if self.$series.0 {

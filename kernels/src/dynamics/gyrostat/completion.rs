@@ -9,7 +9,7 @@ use super::{
 use crate::dynamics::orbit::KeplerOrbit;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{
-    conjugate, constant, constant_matrix, constant_quaternion, difference, dot, hamilton, product, scaled, sum,
+    conjugate, constant, constant_matrix, constant_quaternion, difference, dot, hamilton, norm, product, scaled, sum,
 };
 use crate::math::{Lanes, Real};
 use crate::run::{Grid, StateField, StateTable, Trajectory};
@@ -191,8 +191,16 @@ fn complete_work<S: Simd, const THRUST: bool>(
     let mut thrusters = chunk.read_if(THRUST, trajectory, THRUST_WORK);
     if let Some(orbit) = &run.orbit {
         let orbit = orbit.in_lanes(chunk.zero());
-        let place = orbit.state(Lanes::from_slice(chunk.simd, times));
-        thrusters += chunk.splat(run.mass) * orbit.work(place.distance);
+        let mut place = orbit.state(Lanes::from_slice(chunk.simd, times));
+        let work = match &run.offset {
+            None => orbit.work(place.distance),
+            Some(_) => {
+                place = place.displaced(chunk.offset(run, trajectory));
+                let start = norm(constant(chunk.zero(), run.r_co_e));
+                orbit.mu() * ((start - place.distance) / (start * place.distance))
+            }
+        };
+        thrusters += chunk.splat(run.mass) * work;
     }
     let mut motors = chunk.read_if(trajectory.components() >= WITH_MOTORS, trajectory, MOTOR_WORK);
     if let Some(held) = run.held_momentum_b() {
@@ -213,7 +221,7 @@ fn complete_translation<S: Simd, const THRUST: bool>(
     table: &mut StateTable,
 ) {
     if let Some(orbit) = &run.orbit {
-        complete_orbit(chunk, run, orbit, times, table);
+        complete_orbit(chunk, run, orbit, trajectory, times, table);
     } else {
         complete_line::<S, THRUST>(chunk, run, trajectory, times, table);
     }
@@ -222,12 +230,13 @@ fn complete_translation<S: Simd, const THRUST: bool>(
     }
 }
 
-/// Position, velocity and impulse of c on an orbit, on which no thrust acts.
+/// Position, velocity and impulse of c on an orbit or beside it; gravity's impulse is a part of the last.
 #[inline(always)]
 fn complete_orbit<S: Simd>(
     chunk: Chunk<S>,
     run: &Gyrostat<f64>,
     orbit: &KeplerOrbit<f64>,
+    trajectory: &Trajectory,
     times: &[f64],
     table: &mut StateTable,
 ) {
@@ -235,8 +244,14 @@ fn complete_orbit<S: Simd>(
     if !fields.into_iter().any(|field| table.has(field)) {
         return;
     }
-    let place = orbit.in_lanes(chunk.zero()).state(Lanes::from_slice(chunk.simd, times));
-    let gained = difference(place.velocity, constant(chunk.zero(), run.v_co_e));
+    let mut place = orbit.in_lanes(chunk.zero()).state(Lanes::from_slice(chunk.simd, times));
+    let mut gained = difference(place.velocity, constant(chunk.zero(), run.v_co_e));
+    if let Some([_, velocity]) = &run.offset {
+        let offset = chunk.offset(run, trajectory);
+        let of_orbit = difference(place.velocity, constant(chunk.zero(), orbit.start()[1]));
+        gained = sum(of_orbit, difference(offset[1], constant(chunk.zero(), *velocity)));
+        place = place.displaced(offset);
+    }
     chunk.write3(table, StateField::ComPosition, place.position);
     chunk.write3(table, StateField::ComVelocity, place.velocity);
     chunk.write3(table, StateField::Impulse, scaled(chunk.splat(run.mass), gained));
@@ -309,6 +324,13 @@ impl<S: Simd> Chunk<S> {
     #[inline(always)]
     fn read3_if(self, asked: bool, trajectory: &Trajectory, component: usize) -> [Lanes<S>; 3] {
         if asked { self.read3(trajectory, component) } else { [self.zero(); 3] }
+    }
+
+    /// Position (m) and velocity (m/s) of c relative to the point on its orbit.
+    #[inline(always)]
+    fn offset(self, run: &Gyrostat<f64>, trajectory: &Trajectory) -> [[Lanes<S>; 3]; 2] {
+        let inverse_mass = self.splat(1.0 / run.mass);
+        [IMPULSE_INTEGRAL, IMPULSE].map(|first| scaled(inverse_mass, self.read3(trajectory, first)))
     }
 
     #[inline(always)]

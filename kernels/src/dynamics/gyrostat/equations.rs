@@ -1,6 +1,7 @@
 //! The gyrostat's right-hand side in lanes, for Runge-Kutta methods.
 
 use super::{ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK};
+use crate::dynamics::effects::within_arcs::Beside;
 use crate::math::Real;
 use crate::math::vector::{cross, dcm_from_quaternion, difference, dot, product, scaled, sum};
 
@@ -19,8 +20,10 @@ pub struct Constants<R> {
     pub torque: [R; 3],
     /// Force of the thrusters, B, N.
     pub force: [R; 3],
-    /// Velocity of c at time zero, F_e, m/s.
+    /// Velocity of c at time zero, F_e, m/s; zero where the components of the impulse are those of a motion relative to an orbit.
     pub velocity: [R; 3],
+    /// m, kg.
+    pub mass: R,
     /// 1/m, 1/kg.
     pub inverse_mass: R,
     /// Sum of tau_i h_i/J_i at the start of the arc, W.
@@ -43,6 +46,7 @@ impl<R: Real> Constants<R> {
             torque: z,
             force: z,
             velocity: z,
+            mass: zero,
             inverse_mass: zero,
             motor_power: zero,
             motor_power_rate: zero,
@@ -60,8 +64,10 @@ impl<R: Real> Constants<R> {
             let (a, b) = ((i + 1) % 3, (i + 2) % 3);
             self.ratio[i].set_lane(lane, (j[a] - j[b]) / j[i]);
             self.inverse[i].set_lane(lane, 1.0 / j[i]);
-            self.velocity[i].set_lane(lane, run.v_co_e[i] * unit);
+            let velocity = if run.offset.is_some() { 0.0 } else { run.v_co_e[i] * unit };
+            self.velocity[i].set_lane(lane, velocity);
         }
+        self.mass.set_lane(lane, run.mass);
         self.inverse_mass.set_lane(lane, 1.0 / run.mass);
     }
 
@@ -99,7 +105,10 @@ impl<R: Real> Constants<R> {
             constants.ratio[i] = (j[a] - j[b]) / j[i];
             constants.inverse[i] = one / j[i];
         }
-        constants.velocity = scaled(unit, run.v_co_e);
+        if run.offset.is_none() {
+            constants.velocity = scaled(unit, run.v_co_e);
+        }
+        constants.mass = run.mass;
         constants.inverse_mass = one / run.mass;
         constants.momentum = scaled(unit, arc.momentum_b);
         constants.momentum_rate = scaled(unit2, arc.motor_torque_b);
@@ -134,9 +143,10 @@ impl<R: Real> Constants<R> {
     }
 
     /// The derivative of the first `N` components, in the order of the indices of the parent module.
-    /// `torque` is the external one, B, N m: that of the arc and of the effects that change within it.
+    /// `beside` is what acts beside the thrusters: its torque is the external one, with that of the arc.
     #[inline(always)]
-    pub fn derivative<const N: usize>(&self, time: R, y: &[R; N], torque: [R; 3]) -> [R; N] {
+    pub fn derivative<const N: usize>(&self, time: R, y: &[R; N], beside: &Beside<R>) -> [R; N] {
+        let torque = beside.torque;
         let zero = time.zero();
         let mut rate = [zero; N];
         let omega = [y[OMEGA], y[OMEGA + 1], y[OMEGA + 2]];
@@ -157,8 +167,12 @@ impl<R: Real> Constants<R> {
                 let c_eb = dcm_from_quaternion(q);
                 let force = product(c_eb, self.force);
                 let impulse = [y[IMPULSE], y[IMPULSE + 1], y[IMPULSE + 2]];
-                let velocity = sum(self.velocity, scaled(self.inverse_mass, impulse));
-                rate[IMPULSE..IMPULSE + 3].copy_from_slice(&force);
+                let own = scaled(self.inverse_mass, impulse);
+                let (velocity, all) = match &beside.carrier {
+                    None => (sum(self.velocity, own), force),
+                    Some(carrier) => (sum(carrier.velocity, own), sum(force, scaled(self.mass, carrier.tide))),
+                };
+                rate[IMPULSE..IMPULSE + 3].copy_from_slice(&all);
                 rate[IMPULSE_INTEGRAL..IMPULSE_INTEGRAL + 3].copy_from_slice(&impulse);
                 rate[ANGULAR_IMPULSE..ANGULAR_IMPULSE + 3].copy_from_slice(&product(c_eb, torque));
                 rate[THRUST_WORK] = dot(force, velocity) + dot(torque, omega);

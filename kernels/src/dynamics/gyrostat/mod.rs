@@ -43,7 +43,7 @@ use crate::math::symmetric::principal_axes;
 use crate::math::vector::{
     constant, cross, dcm_from_quaternion, dot, hamilton, product, quaternion_from_dcm, scaled, sum, transposed_product,
 };
-use crate::scene::{Actuation, Arc, MAX_WHEELS, Scene, WheelMode};
+use crate::scene::{Actuation, Arc, MAX_WHEELS, Offsets, Scene, WheelMode};
 use wheel::{GyrostatWheel, WheelMotion};
 
 /// Index of the first component of the angular velocity in B, rad/s (3).
@@ -114,6 +114,9 @@ pub struct Gyrostat<R> {
     pub v_co_e: [R; 3],
     /// The orbit of c, where it is on one: then it is not in the straight line of position and velocity at time zero.
     pub orbit: Option<KeplerOrbit<f64>>,
+    /// Where c may leave its orbit: its position (m) and velocity (m/s) relative to the point on the orbit at time zero, F_e. The components of the
+    /// impulse and its integral are then those of the relative motion, m d' and m d.
+    pub offset: Option<[[R; 3]; 2]>,
     /// The effects that change within an arc, in B.
     pub effects: ChangingEffects<R>,
     /// The arcs flown so far, which cover the time from zero to the end of the last without a gap; under a law only those with observation
@@ -152,6 +155,7 @@ impl<R: Real> Gyrostat<R> {
             r_co_e: z3,
             v_co_e: z3,
             orbit: None,
+            offset: None,
             effects: ChangingEffects::none(),
             arcs: Vec::new(),
             flown: ArcRecord::default(),
@@ -188,7 +192,24 @@ impl<R: Real> Gyrostat<R> {
         if let Some(orbit) = &scene.orbit {
             (self.r_co_e, self.v_co_e) = (exact3(orbit.position), exact3(orbit.velocity));
         }
+        self.offset = scene
+            .offsets
+            .as_ref()
+            .map(|Offsets { spacecraft, .. }| [exact3(spacecraft.position), exact3(spacecraft.velocity)]);
+        if let (Some(offset), Some(orbit)) = (&self.offset, &self.orbit) {
+            (self.r_co_e, self.v_co_e) = (sum(self.r_co_e, offset[0]), sum(self.v_co_e, offset[1]));
+            self.rate = self.rate.max(orbit.rate());
+        }
         self.set_wheels(zero, scene);
+    }
+
+    /// The integrated components of impulse and its integral at time zero, m d' (N s) and m d (kg m), where c may leave its orbit.
+    pub fn start_of_offset(&self) -> Option<[R; 6]> {
+        self.offset.map(|[position, velocity]| {
+            let [a, b, c] = scaled(self.mass, velocity);
+            let [x, y, z] = scaled(self.mass, position);
+            [a, b, c, x, y, z]
+        })
     }
 
     /// Takes the wheels of `scene` at time zero; body and angular velocity are known.

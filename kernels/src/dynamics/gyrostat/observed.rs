@@ -29,7 +29,11 @@ pub fn observed_state<R: Real>(
     let inverse_mass = run.mass.splat(1.0) / run.mass;
     let (r_co_e, v_co_e) = match &run.orbit {
         Some(orbit) => {
-            let place = orbit.state(time);
+            let mut place = orbit.state(time);
+            if run.offset.is_some() {
+                place = place
+                    .displaced([IMPULSE_INTEGRAL, IMPULSE].map(|first| first_lane(scaled(inverse_mass, three(first)))));
+            }
             (place.position, place.velocity)
         }
         None => {

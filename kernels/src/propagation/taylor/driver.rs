@@ -97,6 +97,9 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
             let mut proposed = work.rule.step(&segment.jet, alpha);
             if E::ACT {
                 proposed = proposed.smaller(work.rule.step_of_impulse(&segment.jet));
+                if work.effects.motion.may_leave() {
+                    proposed = proposed.smaller(work.rule.step_of_offset(&segment.jet, constants.mass));
+                }
             }
             length = R::select(left.lt(proposed), left, proposed);
         }

@@ -15,7 +15,7 @@ use crate::dynamics::gyrostat::{
     WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST,
 };
 use crate::math::Real;
-use crate::math::vector::{cross, dot};
+use crate::math::vector::{cross, dot, scaled};
 
 /// The largest order of a jet: a tolerance of 1e-16 needs 22; double-double needs twice that.
 pub const MAX_ORDER: usize = 40;
@@ -86,7 +86,8 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
         let sums = cauchy_products(jet, n);
         let mut acceleration = angular_acceleration::<R, N, FORCED>(constants, jet, n, sums.rate);
         if let Some(effects) = &mut effects {
-            let torque = effects.extend(n, attitude_of(&jet[n]), omega, constants.torque);
+            let torque =
+                effects.extend(n, (attitude_of(&jet[n]), omega, offset_of(constants, &jet[n])), constants.torque);
             for i in 0..3 {
                 acceleration[i] = constants.inverse[i].mul_add(torque[i], acceleration[i]);
             }
@@ -125,12 +126,21 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
             }
             force_e[n] = turned(jet, turned_force, n);
             let torque_e = turned(jet, turned_torque, n);
+            let mut force = force_e[n];
+            let mut push = thrust_power(constants, jet, force_e, n);
+            if let Some(motion) = effects.as_ref().map(|effects| &effects.motion)
+                && let Some(tide) = motion.tide(n)
+            {
+                for i in 0..3 {
+                    force[i] = constants.mass.mul_add(tide[i], force[i]);
+                }
+                push += carried_power(motion.reference().position(), force_e, n);
+            }
             for i in 0..3 {
-                next[IMPULSE + i] = force_e[n][i] * inverse;
+                next[IMPULSE + i] = force[i] * inverse;
                 next[IMPULSE_INTEGRAL + i] = jet[n][IMPULSE + i] * inverse;
                 next[ANGULAR_IMPULSE + i] = torque_e[i] * inverse;
             }
-            let push = thrust_power(constants, jet, force_e, n);
             next[THRUST_WORK] = (push + spun) * inverse;
         }
         jet[n + 1] = next;
@@ -141,6 +151,16 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
 #[inline(always)]
 fn attitude_of<R: Real, const N: usize>(coefficients: &[R; N]) -> [R; 4] {
     [coefficients[ATTITUDE], coefficients[ATTITUDE + 1], coefficients[ATTITUDE + 2], coefficients[ATTITUDE + 3]]
+}
+
+/// One order of the offset from an orbit, m.
+#[inline(always)]
+fn offset_of<R: Real, const N: usize>(constants: &Constants<R>, coefficients: &[R; N]) -> [R; 3] {
+    if N < WITH_THRUST {
+        return [constants.inverse_mass.zero(); 3];
+    }
+    let first = IMPULSE_INTEGRAL;
+    scaled(constants.inverse_mass, [coefficients[first], coefficients[first + 1], coefficients[first + 2]])
 }
 
 /// Coefficients n of q (x) torque, with its negative, and of torque . omega.
@@ -295,7 +315,14 @@ fn turned<R: Real, const N: usize>(jet: &[[R; N]], g: &[[R; 8]; MAX_ORDER], n: u
     [a, b, c]
 }
 
-/// Coefficient n of F_e . v_c.
+/// Coefficient n of the force times the velocity of the point on the orbit, whose position is `orbit`.
+#[inline(always)]
+fn carried_power<R: Real>(orbit: &[[R; 3]], force_e: &[[R; 3]; MAX_ORDER], n: usize) -> R {
+    let zero = orbit[0][0].zero();
+    (0..=n).fold(zero, |sum, m| zero.splat((n - m + 1) as f64).mul_add(dot(force_e[m], orbit[n - m + 1]), sum))
+}
+
+/// Coefficient n of F_e . v_c; on an orbit, of the velocity relative to its point.
 #[inline(always)]
 fn thrust_power<R: Real, const N: usize>(
     constants: &Constants<R>,

@@ -13,7 +13,7 @@ use super::truncation::{Truncation, TruncationSums};
 use super::workspace::Workspace;
 use crate::dynamics::effects::within_arcs::WithinArcs;
 use crate::dynamics::gyrostat::equations::Constants;
-use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
+use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, IMPULSE, OMEGA, WITH_ATTITUDE, WITH_THRUST};
 use crate::math::lanes::WIDEST;
 use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
@@ -94,6 +94,12 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         if N >= WITH_ATTITUDE {
             for i in 0..4 {
                 self.vectors.state[ATTITUDE + i].set_lane(lane, run.q_eb[i]);
+            }
+        }
+        if let (Some(offset), true) = (run.start_of_offset(), N >= WITH_THRUST) {
+            for (i, component) in offset.into_iter().enumerate() {
+                let factor = if i < 3 { unit } else { 1.0 };
+                self.vectors.state[IMPULSE + i].set_lane(lane, component * factor);
             }
         }
         self.states[lane] = Some(SeriesLane::new(self.next, unit, self.work.ring.clock));

@@ -27,7 +27,7 @@ use crate::dynamics::gyrostat::observed::observed_state;
 use crate::dynamics::gyrostat::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_THRUST,
 };
-use crate::dynamics::orbit::OrbitState;
+use crate::dynamics::orbit::{KeplerOrbit, OrbitState};
 use crate::dynamics::orbit_series::OrbitSeries;
 use crate::math::double_double::DoubleDouble;
 use crate::math::isa::NarrowWork;
@@ -37,7 +37,7 @@ use crate::propagation::settings::observes_debris_rotation;
 use crate::run::Status;
 use crate::run::{Grid, StateField, StateFields, StateTable};
 use crate::scene::MAX_WHEELS;
-use crate::scene::Scene;
+use crate::scene::{Offsets, Scene};
 
 /// Relative tolerance of a reference solution: five times the rounding of double-double (2^-105 = 2.5e-32), below which
 /// smaller steps only add rounding errors.
@@ -174,11 +174,25 @@ impl ReferenceSolution {
 
     /// Fills the fields of the debris.
     fn complete_debris(&mut self, isa: Isa, scene: &Scene, grid: &Grid, rule: StepRule) -> Result<(), Status> {
-        let (start, velocity) = (scene.initial.r_gdo_e, scene.initial.v_gdo_e.map(DoubleDouble::exact));
-        for (point, time) in grid.times().iter().enumerate() {
-            let position = sum(start.map(DoubleDouble::exact), scaled(DoubleDouble::exact(*time), velocity));
-            self.put(StateField::DebrisPosition, point, &position);
-            self.put(StateField::DebrisVelocity, point, &velocity);
+        let exact = |vector: [f64; 3]| vector.map(DoubleDouble::exact);
+        if let (Some(orbit), Some(Offsets { debris, .. })) = (&scene.orbit, &scene.offsets) {
+            let start = [
+                sum(exact(orbit.position), exact(debris.position)),
+                sum(exact(orbit.velocity), exact(debris.velocity)),
+            ];
+            let mut free = FreeOrbit::new(orbit.mu, start, rule);
+            for (point, time) in grid.times().iter().enumerate() {
+                let place = free.at(DoubleDouble::exact(*time));
+                self.put(StateField::DebrisPosition, point, &place.position);
+                self.put(StateField::DebrisVelocity, point, &place.velocity);
+            }
+        } else {
+            let (start, velocity) = (exact(scene.initial.r_gdo_e), exact(scene.initial.v_gdo_e));
+            for (point, time) in grid.times().iter().enumerate() {
+                let position = sum(start, scaled(DoubleDouble::exact(*time), velocity));
+                self.put(StateField::DebrisPosition, point, &position);
+                self.put(StateField::DebrisVelocity, point, &velocity);
+            }
         }
         if !observes_debris_rotation(self.high.fields()) {
             return Ok(());
@@ -280,12 +294,18 @@ impl Integration<'_, '_> {
         let mut state = [zero; N];
         state[OMEGA..OMEGA + 3].copy_from_slice(&scaled(DoubleDouble::exact(unit), self.run.omega_b));
         state[ATTITUDE..ATTITUDE + 4].copy_from_slice(&self.run.q_eb);
+        if let Some(offset) = self.run.start_of_offset() {
+            state[IMPULSE..IMPULSE_INTEGRAL + 3].copy_from_slice(&offset);
+            for component in &mut state[IMPULSE..IMPULSE + 3] {
+                *component = *component * DoubleDouble::exact(unit);
+            }
+        }
         let times = grid.times();
         let mut states = Vec::with_capacity(times.len());
         let mut steps = 0;
         let (mut reached, mut is_last) = (0.0, false);
         let turns = !self.run.effects.is_empty();
-        let mut orbit = self.run.orbit.map(|orbit| ReferenceOrbit::new(self.run, orbit.mu()));
+        let mut orbit = self.run.orbit.map(|orbit| ReferenceOrbit::new(self.run, &orbit));
         let mut fitted = self.scene.and_then(|scene| FittedTorque::new(self.run, scene));
         let mut series = (turns || orbit.is_some()).then(|| ChangingSeries::new(zero, order));
         while !is_last {
@@ -317,11 +337,12 @@ impl Integration<'_, '_> {
                 now.motor_power = constants.motor_power_rate.mul_add(time, constants.motor_power);
                 jet[0] = state;
                 let at = start + time * DoubleDouble::exact(unit);
+                let may_leave = self.run.offset.is_some();
                 let left = length - time;
                 if let Some((fitted, series)) = fitted.as_mut().zip(series.as_mut()) {
                     let place = orbit.as_mut().map(|orbit| orbit.begin(unit));
-                    series.begin(&self.run.effects, place.as_ref(), at, DoubleDouble::exact(unit));
-                    let along = place.is_some().then_some(&series.motion.orbit);
+                    series.begin(&self.run.effects, place.as_ref(), may_leave, at, DoubleDouble::exact(unit));
+                    let along = place.is_some().then_some(series.motion.reference());
                     let torque = fitted.start(&Track::new(&jet[..1], along, at.high, unit));
                     series.fit(&torque);
                 }
@@ -329,19 +350,22 @@ impl Integration<'_, '_> {
                 loop {
                     if let Some(series) = &mut series {
                         let place = orbit.as_mut().map(|orbit| orbit.begin(unit));
-                        series.begin(&self.run.effects, place.as_ref(), at, DoubleDouble::exact(unit));
+                        series.begin(&self.run.effects, place.as_ref(), may_leave, at, DoubleDouble::exact(unit));
                     }
                     expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, series.as_mut(), &mut jet);
                     proposed = share * rule.step(&jet, Some(constants.torque_acceleration()));
-                    let along = series.as_ref().map(|series| &series.motion.orbit).filter(|_| orbit.is_some());
-                    if let Some(along) = along {
-                        proposed = proposed.smaller(step_of_orbit(along, &rule));
+                    let motion = series.as_ref().filter(|_| orbit.is_some()).map(|series| &series.motion);
+                    if let Some(motion) = motion {
+                        proposed = proposed.smaller(step_of_orbit(motion.reference(), &rule));
                     }
                     if turns {
                         proposed = proposed.smaller(rule.step_of_impulse(&jet));
                     }
+                    if may_leave {
+                        proposed = proposed.smaller(rule.step_of_offset(&jet, constants.mass));
+                    }
                     let Some(fitted) = &mut fitted else { break };
-                    let track = Track::new(&jet, along, at.high, unit);
+                    let track = Track::new(&jet, motion.map(|motion| &motion.orbit), at.high, unit);
                     let Some(torque) = fitted.next(&track, proposed.smaller(left).high) else {
                         if fitted.step() < left.high {
                             proposed = DoubleDouble::exact(fitted.step());
@@ -352,7 +376,7 @@ impl Integration<'_, '_> {
                         series.fit(&torque);
                     }
                 }
-                let along = series.as_ref().map(|series| &series.motion.orbit);
+                let along = series.as_ref().map(|series| series.motion.reference());
                 lands = !proposed.lt(left);
                 let step = if lands { left } else { proposed };
                 while let Some(at) = times.get(states.len()) {
@@ -391,6 +415,8 @@ struct ReferenceOrbit {
     mass: DoubleDouble,
     mu: DoubleDouble,
     start: OrbitState<DoubleDouble>,
+    /// Where the spacecraft may leave the orbit: its position and velocity relative to it at time zero, m and m/s.
+    offset: Option<[[DoubleDouble; 3]; 2]>,
     /// At the start of the step.
     place: OrbitState<DoubleDouble>,
     /// The unit of time, s.
@@ -398,13 +424,15 @@ struct ReferenceOrbit {
 }
 
 impl ReferenceOrbit {
-    /// That of `run` about a body of the gravitational parameter `mu`.
-    fn new(run: &Gyrostat<DoubleDouble>, mu: f64) -> Self {
-        let start = OrbitState { position: run.r_co_e, velocity: run.v_co_e, distance: norm(run.r_co_e) };
+    /// `orbit`, on which `run` starts or beside it.
+    fn new(run: &Gyrostat<DoubleDouble>, orbit: &KeplerOrbit<f64>) -> Self {
+        let [position, velocity] = orbit.start().map(|vector| vector.map(DoubleDouble::exact));
+        let start = OrbitState { position, velocity, distance: norm(position) };
         ReferenceOrbit {
             mass: run.mass,
-            mu: DoubleDouble::exact(mu),
+            mu: DoubleDouble::exact(orbit.mu()),
             start,
+            offset: run.offset,
             place: start,
             unit: DoubleDouble::exact(1.0),
         }
@@ -424,7 +452,14 @@ impl ReferenceOrbit {
 
     /// Adds what gravity does to the components at `time`, s, where c is at `place`: its impulse, the integral of that, and its work.
     fn complete(&self, time: f64, place: &OrbitState<DoubleDouble>, values: &mut [DoubleDouble; N]) {
-        let start = &self.start;
+        let (mut start, mut place) = (self.start, *place);
+        if let Some(offset) = self.offset {
+            let inverse_mass = DoubleDouble::exact(1.0) / self.mass;
+            let now = [IMPULSE_INTEGRAL, IMPULSE].map(|first| scaled(inverse_mass, three(values, first)));
+            (start, place) = (start.displaced(offset), place.displaced(now));
+            // those components are the relative motion, which is in both places now
+            values[IMPULSE..IMPULSE_INTEGRAL + 3].fill(DoubleDouble::exact(0.0));
+        }
         let line = sum(start.position, scaled(DoubleDouble::exact(time), start.velocity));
         let gained = scaled(self.mass, difference(place.velocity, start.velocity));
         let moved = scaled(self.mass, difference(place.position, line));
@@ -434,6 +469,43 @@ impl ReferenceOrbit {
         }
         let fallen = (start.distance - place.distance) / (start.distance * place.distance);
         values[THRUST_WORK] += self.mass * self.mu * fallen;
+    }
+}
+
+/// The orbit of the debris by itself: no offset from another, so that it can judge one. Times in s.
+struct FreeOrbit {
+    mu: DoubleDouble,
+    rule: StepRule,
+    series: OrbitSeries<DoubleDouble>,
+    /// The step: its start and its length.
+    start: DoubleDouble,
+    length: DoubleDouble,
+}
+
+impl FreeOrbit {
+    /// From position (m) and velocity (m/s) at time zero.
+    fn new(mu: f64, [position, velocity]: [[DoubleDouble; 3]; 2], rule: StepRule) -> Self {
+        let zero = DoubleDouble::exact(0.0);
+        let series = OrbitSeries::new(zero, rule.order);
+        let mut orbit = FreeOrbit { mu: DoubleDouble::exact(mu), rule, series, start: zero, length: zero };
+        orbit.step_from(position, velocity);
+        orbit
+    }
+
+    fn step_from(&mut self, position: [DoubleDouble; 3], velocity: [DoubleDouble; 3]) {
+        self.series.begin(self.mu, position, velocity);
+        (0..=self.rule.order).for_each(|n| self.series.extend(n));
+        self.length = step_of_orbit(&self.series, &self.rule);
+    }
+
+    /// The state at `time`, not before the last one asked for.
+    fn at(&mut self, time: DoubleDouble) -> OrbitState<DoubleDouble> {
+        while self.length.lt(time - self.start) {
+            let end = self.series.at(self.length);
+            self.start += self.length;
+            self.step_from(end.position, end.velocity);
+        }
+        self.series.at(time - self.start)
     }
 }
 

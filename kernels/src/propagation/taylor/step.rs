@@ -13,10 +13,11 @@
 //! Decided from the angular velocity alone, so that a campaign that asks for the attitude and one that does not take the same
 //! steps and get the same bits.
 
-use crate::dynamics::gyrostat::ANGULAR_IMPULSE;
+use crate::dynamics::gyrostat::{ANGULAR_IMPULSE, IMPULSE};
 use crate::math::Real;
 use crate::math::power::{exp2_rough, log2_rough};
 use crate::math::vector::dot;
+use crate::propagation::gyrostat_runs::SMALLEST_OFFSET;
 
 /// Order and constants of the step size for one tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,6 +143,18 @@ impl StepRule {
             dot(impulse, impulse)
         };
         self.step_of_series([size(1), size(self.order - 1), size(self.order)])
+    }
+
+    /// The step that the motion relative to an orbit allows, of a spacecraft of the mass `mass`: the series of its momentum.
+    #[inline(always)]
+    pub fn step_of_offset<R: Real, const N: usize>(&self, jet: &[[R; N]], mass: R) -> R {
+        let size = |n: usize| {
+            let momentum = [jet[n][IMPULSE], jet[n][IMPULSE + 1], jet[n][IMPULSE + 2]];
+            dot(momentum, momentum)
+        };
+        let least = mass * mass.splat(SMALLEST_OFFSET);
+        let first = least.mul_add(least, size(0) + size(1));
+        self.step_of_series([first, size(self.order - 1), size(self.order)])
     }
 
     /// Largest |omega| h of a step.

@@ -1,0 +1,147 @@
+//! Spacecraft and debris beside an orbit: against two Kepler orbits in 60 digits, against the equation of motion without an orbit's help, and the balances
+//! with thrust.
+
+use crate::support::orbits::{MU, body, leaving};
+use crate::support::runs::{adaptive, everything, fixed, propagate};
+use spindrift::dynamics::effects::ForceModel;
+use spindrift::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
+use spindrift::ode::{Control, Integrator};
+use spindrift::propagation::Method;
+use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
+use spindrift::run::{Grid, StateField};
+use spindrift::scene::{ActuationInput, DebrisInput, EnvironmentInput, OrbitInput, Scene, SceneInput, ThrusterInput};
+
+/// The methods that follow the relative motion, with settings near rounding for slow motions.
+fn methods(model: ForceModel) -> Vec<(Method, Control)> {
+    let control = |method: Method| match method {
+        Method::Gyrostat(Integrator::Dop853) => adaptive(1e-14),
+        Method::Gyrostat(Integrator::DormandPrince) => adaptive(1e-15),
+        Method::Gyrostat(Integrator::GaussLegendre) => fixed(20.0),
+        Method::Gyrostat(Integrator::RungeKutta4) => fixed(0.5),
+        _ => adaptive(1e-16),
+    };
+    let able = Method::ALL.into_iter().filter(|method| method.integrates(model));
+    able.map(|method| (method, control(method))).collect()
+}
+
+fn ellipse() -> OrbitInput {
+    let (position_m, velocity_m_s) = (Some([7e6, 1e6, -2e5]), Some([100.0, 7100.0, 2900.0]));
+    OrbitInput { position_m, velocity_m_s, ..OrbitInput::DEFAULT }
+}
+
+/// Truth: debris minus spacecraft on their Kepler orbits, by the script of `kernels/src/dynamics/relative_orbit.rs` with both offsets of this test. The body
+/// hardly turns, so that the steps are those of the orbit.
+#[test]
+fn a_day_beside_an_orbit_without_thrust() {
+    #[rustfmt::skip]
+    const TRUTH: [(usize, [f64; 3], [f64; 3]); 3] = [
+        (1, [10.060910493415184, 18.72826942103942, -10.566069684440404],
+            [-0.023299242344201944, -0.057493684188675625, 0.040039003458907294]),
+        (10, [59.452973274557486, 68.615772262768672, -36.406786695108571],
+            [-0.097498307937695585, -0.027480624408078562, 0.01560395266348882]),
+        (144, [105.0297089243777, -143.30146523220635, -35.478107522816098],
+            [0.12832737508065188, 0.075747249237774963, -0.046843392307093276]),
+    ];
+    let mut input = body([90.0, 100.0, 40.0], ellipse());
+    input.debris = Some(DebrisInput::Cube { side_m: 0.3, density_kg_m3: 2700.0 });
+    input.initial.position_m = [-28.0, -14.0, 18.0];
+    input.initial.velocity_m_s = [0.05030686, 0.04178697, -0.0211011];
+    input.initial.debris_position_m = [5.0, 40.0, -12.0];
+    input.initial.debris_velocity_m_s = [-0.0106071, -0.01310423, 0.002394045];
+    input.initial.angular_velocity_rad_s = [1e-4, 0.0, 2e-4];
+    let grid = Grid::uniform(86_400.0, 145);
+    for has_gradient in [false, true] {
+        input.environment.gravity_gradient = has_gradient;
+        let scene = Scene::resolve(&input).expect("a legal scene");
+        for (method, control) in methods(ForceModel::of(&scene)) {
+            let run = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0);
+            for (point, position, velocity) in TRUTH {
+                let apart =
+                    |debris, own| -> [f64; 3] { difference(run.table.at(debris, point), run.table.at(own, point)) };
+                let off = norm(difference(apart(StateField::DebrisPosition, StateField::ComPosition), position));
+                let speed = norm(difference(apart(StateField::DebrisVelocity, StateField::ComVelocity), velocity));
+                println!("{} {has_gradient} at {point}: {off:.1e} m, {speed:.1e} m/s", method.name());
+                // both positions in the table are rounded to half of 9e-10 m, in each of three components
+                assert!(off < 3e-9 && speed < 3e-12, "{} at {point}: {off:e} m, {speed:e} m/s", method.name());
+            }
+        }
+    }
+}
+
+/// Law: thrust moves the spacecraft by r'' = -mu r/|r|^3 + F/m, here by the classical Runge-Kutta method in coordinates of the central body; the body does not
+/// turn, and the thrust moves it by kilometres.
+#[test]
+fn thrust_on_an_orbit() {
+    let mut input = SceneInput { environment: EnvironmentInput::DEFAULT, ..body([90.0, 100.0, 40.0], ellipse()) };
+    // through the centre of mass
+    input.thrusters = vec![ThrusterInput::named("p1", [0.0; 3], [1.0, 2.0, 2.0])];
+    input.initial.position_m = [300.0, -20.0, 10.0];
+    let input = input.with_actuation(ActuationInput::idle(200.0, 1000.0).with_thrust(&[6.0]));
+    let scene = Scene::resolve(&input).expect("a legal scene");
+    let slope = |[r, v]: [[f64; 3]; 2], force: f64| {
+        let pull = scaled(-MU / (norm(r) * norm(r) * norm(r)), r);
+        [v, sum(pull, scaled(force / 1000.0 / 3.0, [1.0, 2.0, 2.0]))]
+    };
+    let along = |y: [[f64; 3]; 2], s: f64, k: [[f64; 3]; 2]| [0, 1].map(|i| sum(y[i], scaled(s, k[i])));
+    let orbit = scene.orbit.expect("an orbit");
+    let mut y = [sum(orbit.position, [300.0, -20.0, 10.0]), orbit.velocity];
+    let mut unmoved = y;
+    for k in 0..6000 {
+        let force = if (400..2000).contains(&k) { 6.0 } else { 0.0 };
+        let step = |y: [[f64; 3]; 2], force: f64| {
+            let h = 0.5;
+            let a = slope(y, force);
+            let b = slope(along(y, 0.5 * h, a), force);
+            let c = slope(along(y, 0.5 * h, b), force);
+            let d = slope(along(y, h, c), force);
+            [0, 1].map(|i| sum(y[i], scaled(h / 6.0, sum(sum(a[i], d[i]), scaled(2.0, sum(b[i], c[i]))))))
+        };
+        (y, unmoved) = (step(y, force), step(unmoved, 0.0));
+    }
+    assert!(norm(difference(y[0], unmoved[0])) > 1e4);
+    let grid = Grid::uniform(3_000.0, 31);
+    for (method, control) in methods(ForceModel::of(&scene)) {
+        let run = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0);
+        let off = norm(difference(run.table.at(StateField::ComPosition, 30), y[0]));
+        let speed = norm(difference(run.table.at(StateField::ComVelocity, 30), y[1]));
+        println!("{}: {off:.1e} m, {speed:.1e} m/s", method.name());
+        assert!(off < 1e-5 && speed < 1e-8, "{}: {off:e} m, {speed:e} m/s", method.name());
+    }
+    let reference =
+        ReferenceSolution::new(spindrift::math::Isa::best(), &scene, &grid, everything(Method::Auto), TOLERANCE);
+    let reference = reference.expect("a reference solution");
+    assert!(norm(difference(reference.high.at(StateField::ComPosition, 30), y[0])) < 1e-5);
+}
+
+/// Law: energy minus work and angular momentum minus angular impulse are constant to rounding with thrust beside an orbit; energies are those of 1,000 kg at
+/// 7.6 km/s.
+#[test]
+fn the_balances_hold_beside_an_orbit() {
+    let mut input = leaving(body([90.0, 100.0, 40.0], ellipse()));
+    input.initial.angular_velocity_rad_s = [0.01, -0.02, 0.03];
+    let scene = Scene::resolve(&input).expect("a legal scene");
+    let grid = Grid::uniform(6_000.0, 61);
+    for (method, control) in methods(ForceModel::of(&scene)).into_iter().filter(|(method, _)| !method.has_fixed_step())
+    {
+        let run = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0);
+        let table = &run.table;
+        let kinetic = |point: usize| {
+            let (v, omega): ([f64; 3], [f64; 3]) =
+                (table.at(StateField::ComVelocity, point), table.at(StateField::Rate, point));
+            0.5 * (scene.mass.total * dot(v, v) + dot(omega, product(scene.mass.inertia, omega)))
+        };
+        let momentum = |point: usize| {
+            let c_es = dcm_from_quaternion(table.at(StateField::Attitude, point));
+            let h = product(scene.mass.inertia, table.at(StateField::Rate, point));
+            difference(product(c_es, h), table.at(StateField::AngularImpulse, point))
+        };
+        for point in 1..grid.points() {
+            let gained = kinetic(point) - kinetic(0);
+            let [work, _] = table.at::<2>(StateField::Work, point);
+            let off = (gained - work).abs() / kinetic(0);
+            assert!(off < 1e-14 && work.abs() > 1e-6 * kinetic(0), "{} at {point}: {off:e}", method.name());
+            let off = norm(difference(momentum(point), momentum(0)));
+            assert!(off < 1e-11, "{} at {point}: {off:e} N m s", method.name());
+        }
+    }
+}
