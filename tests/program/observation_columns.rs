@@ -9,7 +9,7 @@ use spindrift::math::Isa;
 use spindrift::math::vector::dcm_from_quaternion;
 use spindrift::observables::{Column, Group, Groups, Observer, Request, Series};
 use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
-use spindrift::scene::Orbit;
+use spindrift::scene::{Epoch, Orbit};
 
 #[test]
 fn padding_leaves_no_trace() {
@@ -66,9 +66,11 @@ fn fraction_and_net_are_relative_to_the_right_points() {
 #[test]
 fn every_column_of_every_kind_of_scene_has_a_value() {
     let (_, mut scene) = table1();
-    let orbit = Orbit { mu: 1.0, position: [1.0, 2.0, 3.0], velocity: [0.1, 0.0, 0.0], body_radius: 0.0, epoch: None };
+    let epoch = Epoch::parse("2026-11-24T00:00:00Z");
+    let orbit = Orbit { mu: 1.0, position: [1.0, 2.0, 3.0], velocity: [0.1, 0.0, 0.0], body_radius: 0.0, epoch };
     scene.orbit = Some(orbit);
-    let effects = ForceModel::NONE.with(Effect::Gravity).with(Effect::GravityGradient);
+    (scene.environment.drag, scene.environment.solar_pressure) = (true, true);
+    let effects = Effect::ALL.into_iter().fold(ForceModel::NONE, ForceModel::with);
     let grid = Grid::uniform(10.0, 101);
     let every_field = StateField::ALL.into_iter().fold(StateFields::NONE, StateFields::with);
     let mut table = StateTable::new(every_field, 2, grid.points());
