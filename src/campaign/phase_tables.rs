@@ -64,8 +64,12 @@ pub(super) fn read_phase(
     if section.has("gyroscopic") && law.is_some_and(|law| law.name != GYROSCOPIC) {
         section.refuse("gyroscopic", format!("left out where the law is not {GYROSCOPIC:?}"), "delete this line");
     }
-    let has_orbit = scene.orbit.is_some();
-    let is_there = |target: &Target| (has_debris || !target.needs_debris()) && (has_orbit || !target.needs_orbit());
+    let (has_orbit, has_date) = (scene.orbit.is_some(), scene.orbit.is_some_and(|orbit| orbit.epoch.is_some()));
+    let is_there = |target: &Target| {
+        (has_debris || !target.needs_debris())
+            && (has_orbit || !target.needs_orbit())
+            && (has_date || *target != Target::Sun)
+    };
     let targets: Vec<(&str, Target)> = TARGETS.into_iter().filter(|(_, target)| is_there(target)).collect();
     let names: Vec<&str> = targets.iter().map(|(name, _)| *name).collect();
     let target =

@@ -291,7 +291,7 @@ fn measured(count: u64) -> Vec<Measured> {
         Family::new("mixed, forced", Grid::uniform(10.0, 101), mixed(count, true, 10.0)),
         boxes(2 * count),
         Family::new("gravity gradient", Grid::uniform(12_000.0, 201), tumbling(count, 71, [0.0, 20.0])),
-        Family::new("drag and light", Grid::uniform(6_000.0, 101), plated(count, 72, [0.5, 20.0])),
+        Family::new("drag and light", Grid::uniform(6_000.0, 101), plated(count, 72, [0.5, 5.0])),
     ];
     let mut all = Vec::new();
     for method in Method::ALL {

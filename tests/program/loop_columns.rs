@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use spindrift::control::guidance::phase::Maneuver;
 use spindrift::control::guidance::target::Target;
+use spindrift::dynamics::environment::sun::sun;
 use spindrift::math::vector::{
     conjugate, cross, difference, dot, hamilton, norm, product, quaternion_from_dcm, scaled, sum,
 };
@@ -69,6 +70,11 @@ fn error_vector(flown: &FlownLoop, place: usize, state: &State, arrival: f64) ->
             return Some(rotation_vector(hamilton(conjugate(q_et), state.q_es)));
         }
         Target::Nadir => scaled(-1.0, state.r_co_e),
+        Target::OrbitalVelocity => state.v_co_e,
+        Target::Sun => {
+            let epoch = flown.plan.nominal.orbit.and_then(|orbit| orbit.epoch).expect("a date");
+            sun(epoch.days_since_j2000() + state.time / 86_400.0).direction
+        }
         Target::LineToDebris => to_debris(state),
         Target::LaunchAxis => axis(flown, state),
         Target::Velocity => relative_velocity(state),

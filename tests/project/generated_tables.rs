@@ -92,7 +92,7 @@ fn quantities_over_time() -> String {
         groups: Groups::ALL,
         debris: true,
         actuated: Actuated::ALL,
-        effects: ForceModel::NONE.with(Effect::Gravity).with(Effect::GravityGradient).with(Effect::MagneticTorque),
+        effects: Effect::ALL.into_iter().fold(ForceModel::NONE, ForceModel::with),
         constrained: false,
         wheels: wheel_names(&["w1"]),
         nutation_axis: spindrift::observables::request::NutationAxis::SpinAxis,

@@ -276,7 +276,18 @@ pub fn every_scene() -> Vec<String> {
              argument_of_periapsis_rad = -0.7\ntrue_anomaly_rad = 1.1\n\
              epoch = \"2026-11-24T01:02:03.25Z\"",
         ),
+        on_plates(),
     ]
+}
+
+/// The same with plates, in air and light.
+fn on_plates() -> String {
+    let plates = "semi_major_axis_m = 9e6\nepoch = \"2026-11-24T00:00:00Z\"\n\
+        [[plates]]\nname = \"panel\"\narea_m2 = 2.5\nnormal = [0, 0.5, 1]\ntilt_rad = [0.01, 0.0]\ncenter_m = [0.1, 0.8, 0]\n\
+        drag_coefficient = 2.5\nspecular = 0.4\ndiffuse = 0.3\n";
+    let effects = "gravity_gradient = true\ndrag = true\nsolar_pressure = true\nshadow = \"cylinder\"\ndensity_scale = 1.5\n\
+        base_density_kg_m3 = 1e-11\nbase_height_m = 5e5\nscale_height_m = 6e4\nsolar_pressure_n_m2 = 4.6e-6\narea_scale = 1.1\n";
+    on_orbit(plates).replace("gravity_gradient = true\n", effects)
 }
 
 /// A body on an orbit with these keys, above a point, under the effects of the environment.
@@ -335,7 +346,7 @@ pub fn every_loop() -> Vec<String> {
             ));
         }
     }
-    let orbit = on_orbit("semi_major_axis_m = 9e6");
+    let orbit = on_orbit("semi_major_axis_m = 9e6\nepoch = \"2026-11-24T00:00:00Z\"");
     for target in of_orbit {
         let attitude = if target == "orbital_attitude" { "attitude = [1, 0, 0, 0]\n" } else { "" };
         files.push(format!(

@@ -86,7 +86,8 @@ impl Mission {
             }
             let geometry = centers_of(truth).map(|centers| self.criteria.launch.geometry(&centers));
             let to_go = software.velocity_to_go(geometry.as_ref(), truth.time);
-            let orbit = Some(OrbitMotion { r_e: truth.body.r_co_e, v_e: truth.body.v_co_e });
+            let (r_e, v_e) = (truth.body.r_co_e, truth.body.v_co_e);
+            let orbit = plant.scene().orbit.as_ref().map(|orbit| OrbitMotion::of(orbit, truth.time, r_e, v_e));
             target.error(truth.body.q_es, &TargetInput { geometry: geometry.as_ref(), to_go: &to_go, orbit })
         });
         let errors = if knows { EstimateErrors::NONE } else { software.estimate().errors(truth) };

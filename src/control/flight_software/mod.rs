@@ -260,12 +260,12 @@ impl FlightSoftware {
 
     /// The orbit as flight software knows it: that of the nominal scene at `time`, s; with perfect knowledge the true one. `None` without an orbit.
     pub(in crate::control) fn orbit_motion(&self, time: f64) -> Option<OrbitMotion> {
-        let orbit = self.orbit.as_ref()?;
+        let (orbit, nominal) = self.orbit.as_ref().zip(self.believed.orbit.as_ref())?;
         if self.spec.knows_the_truth() {
-            return Some(OrbitMotion { r_e: self.estimate.r_co_e, v_e: self.estimate.v_co_e });
+            return Some(OrbitMotion::of(nominal, time, self.estimate.r_co_e, self.estimate.v_co_e));
         }
         let OrbitState { position, velocity, .. } = orbit.state(time);
-        Some(OrbitMotion { r_e: position, v_e: velocity })
+        Some(OrbitMotion::of(nominal, time, position, velocity))
     }
 
     /// The estimate of this tick.

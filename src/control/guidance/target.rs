@@ -3,7 +3,9 @@
 use crate::control::net_launch::geometry::LaunchGeometry;
 use crate::control::rotation::quaternion_of;
 use crate::control::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilton, norm, scaled, transposed_product};
+use crate::dynamics::environment::sun::sun;
 use crate::math::vector::quaternion_from_dcm;
+use crate::scene::{Epoch, Orbit};
 
 /// The attitude that a phase wants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +18,10 @@ pub enum Target {
     Orbital([f64; 4]),
     /// s3 points at the central body.
     Nadir,
+    /// s3 along the velocity of the orbit.
+    OrbitalVelocity,
+    /// s3 points at the Sun.
+    Sun,
     /// s3 points at the debris.
     LineToDebris,
     /// s3 along the axis A_d.
@@ -29,11 +35,13 @@ pub enum Target {
 }
 
 /// The names of the targets in campaign files; an attitude has a key of its own.
-pub const TARGETS: [(&str, Target); 9] = [
+pub const TARGETS: [(&str, Target); 11] = [
     ("none", Target::None),
     ("attitude", Target::Attitude([1.0, 0.0, 0.0, 0.0])),
     ("orbital_attitude", Target::Orbital([1.0, 0.0, 0.0, 0.0])),
     ("nadir", Target::Nadir),
+    ("orbital_velocity", Target::OrbitalVelocity),
+    ("sun", Target::Sun),
     ("line_to_debris", Target::LineToDebris),
     ("launch_axis", Target::LaunchAxis),
     ("transfer", Target::Transfer),
@@ -57,9 +65,25 @@ pub struct OrbitMotion {
     pub r_e: [f64; 3],
     /// Velocity, m/s.
     pub v_e: [f64; 3],
+    /// Acceleration by gravity, m/s^2.
+    pub a_e: [f64; 3],
+    /// The unit vector to the Sun; zero where the orbit has no date.
+    pub sun_e: [f64; 3],
 }
 
 impl OrbitMotion {
+    /// That at the position `r_e` and the velocity `v_e` on `orbit` at `time`, s.
+    pub fn of(orbit: &Orbit, time: f64, r_e: [f64; 3], v_e: [f64; 3]) -> Self {
+        let distance = norm(r_e);
+        let days = |epoch: Epoch| epoch.days_since_j2000() + time / 86_400.0;
+        OrbitMotion {
+            r_e,
+            v_e,
+            a_e: scaled(-orbit.mu / (distance * distance * distance), r_e),
+            sun_e: orbit.epoch.map_or([0.0; 3], |epoch| sun(days(epoch)).direction),
+        }
+    }
+
     /// The attitude q_eo of the local orbital frame F_o, F_o -> F_e, scalar first, and its angular velocity r x v/(r . r) in F_e, rad/s: o3 points at the
     /// central body, o2 against the normal of the orbit, and o1 completes them, ahead on a circular orbit (J. R. Wertz, *Spacecraft Attitude Determination and
     /// Control*, 1978, section 2.2: roll, pitch and yaw axes).
@@ -112,7 +136,7 @@ impl Target {
 
     /// Whether it is defined by the orbit.
     pub fn needs_orbit(self) -> bool {
-        matches!(self, Target::Orbital(_) | Target::Nadir)
+        matches!(self, Target::Orbital(_) | Target::Nadir | Target::OrbitalVelocity | Target::Sun)
     }
 
     /// The attitude `q_es` relative to the target, which `input` defines.
@@ -131,9 +155,14 @@ impl Target {
                     omega_te_s: transposed_product(dcm_from_quaternion(q_es), omega_oe_e),
                 }
             }),
-            (Target::Nadir, _) => orbit.map_or(AttitudeError::NONE, |OrbitMotion { r_e, v_e }| {
+            (Target::Nadir, _) => orbit.map_or(AttitudeError::NONE, |OrbitMotion { r_e, v_e, .. }| {
                 pointing(q_es, scaled(-1.0, r_e), turn_of(r_e, v_e))
             }),
+            (Target::OrbitalVelocity, _) => {
+                orbit.map_or(AttitudeError::NONE, |OrbitMotion { v_e, a_e, .. }| pointing(q_es, v_e, turn_of(v_e, a_e)))
+            }
+            // it turns by 2e-7 rad/s
+            (Target::Sun, _) => orbit.map_or(AttitudeError::NONE, |orbit| fixed(orbit.sun_e)),
             (Target::LineToDebris, Some(geometry)) => {
                 let line = geometry.to_debris;
                 // the spacecraft moves with the relative velocity, and the line against it
@@ -204,18 +233,29 @@ mod tests {
         // two-body motion to second order
         let at = |time: f64| {
             let r_e = sum(sum(r_e, scaled(time, v_e)), scaled(0.5 * time * time, pull));
-            TargetInput { orbit: Some(OrbitMotion { r_e, v_e: sum(v_e, scaled(time, pull)) }), ..NOTHING }
+            let epoch = Epoch::parse("2026-06-21T09:00:00Z");
+            let scene = Orbit { mu, position: r_e, velocity: v_e, body_radius: 0.0, epoch };
+            TargetInput { orbit: Some(OrbitMotion::of(&scene, time, r_e, sum(v_e, scaled(time, pull)))), ..NOTHING }
         };
+        // at the solstice the Sun is over the tropic, where the ecliptic is highest
+        let solstice = [0.0, libm::cos(0.40909), libm::sin(0.40909)];
         let q_os = quaternion_of([0.2, -0.5, 0.3]);
-        for (target, q_es) in
-            [(Target::Orbital(q_os), [1.0, 0.0, 0.0, 0.0]), (Target::Nadir, quaternion_of([0.5, 2.0, 0.1]))]
-        {
+        for (target, q_es) in [
+            (Target::Orbital(q_os), [1.0, 0.0, 0.0, 0.0]),
+            (Target::Nadir, quaternion_of([0.5, 2.0, 0.1])),
+            (Target::OrbitalVelocity, quaternion_of([-0.5, 0.3, 0.1])),
+            (Target::Sun, quaternion_of([-0.5, 1.3, 0.1])),
+        ] {
             let error = target.error(q_es, &at(0.0));
             let q_et = hamilton(q_es, conjugate(error.q_ts));
             // at the target there is no error, and s3 points where it must
             assert!(target.error(q_et, &at(0.0)).angle() < 1e-14);
-            let down = scaled(-1.0 / norm(r_e), r_e);
-            let in_target = transposed_product(dcm_from_quaternion(q_et), down);
+            let wished = match target {
+                Target::OrbitalVelocity => scaled(1.0 / norm(v_e), v_e),
+                Target::Sun => at(0.0).orbit.expect("an orbit").sun_e,
+                _ => scaled(-1.0 / norm(r_e), r_e),
+            };
+            let in_target = transposed_product(dcm_from_quaternion(q_et), wished);
             let wanted = match target {
                 Target::Orbital(q_os) => transposed_product(dcm_from_quaternion(q_os), [0.0, 0.0, 1.0]),
                 _ => [0.0, 0.0, 1.0],
@@ -227,8 +267,10 @@ mod tests {
             let slope = scaled(-0.5 / h, difference(vector_of(moved[1]), vector_of(moved[0])));
             let rate = target.error(q_et, &at(0.0)).omega_te_s;
             assert!(norm(difference(slope, rate)) < 1e-9, "{target:?}: {slope:?} for {rate:?}");
-            assert!(norm(rate) > 1e-4);
+            assert_eq!(norm(rate) > 1e-4, target != Target::Sun);
         }
+        // within a day of the solstice: 1 deg along the ecliptic
+        assert!(norm(difference(at(0.0).orbit.expect("an orbit").sun_e, solstice)) < 0.02);
         let (q_eo, _) = at(0.0).orbit.expect("an orbit").local_frame();
         let [ahead, across] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|axis| product(dcm_from_quaternion(q_eo), axis));
         assert!(dot(ahead, v_e) > 0.9 * norm(v_e) && dot(across, cross(r_e, v_e)) < 0.0);
