@@ -6,8 +6,8 @@
 
 use super::name::Name;
 use super::schema::{
-    ActuationInput, ActuatorsInput, BodyInput, ControlInput, DebrisInput, EnvironmentInput, InitialInput, MAX_WHEELS,
-    OrbitInput, PartInput, PartShape, ThrusterInput, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, BodyInput, ControlInput, DebrisInput, EnvironmentInput, FailureInput, InitialInput,
+    MAX_WHEELS, OrbitInput, PartInput, PartShape, ThrusterInput, WheelInput, WheelMode,
 };
 use crate::math::list::List;
 
@@ -51,6 +51,8 @@ pub struct SceneInput {
     pub environment: EnvironmentInput,
     /// The parameters of the control law, if there is one.
     pub control: ControlInput,
+    /// The devices that fail during a run.
+    pub failures: Vec<FailureInput>,
 }
 
 impl Default for SceneInput {
@@ -81,6 +83,7 @@ impl SceneInput {
             orbit: None,
             environment: EnvironmentInput::DEFAULT,
             control: ControlInput::NONE,
+            failures: Vec::new(),
         }
     }
 

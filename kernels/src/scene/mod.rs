@@ -12,6 +12,7 @@
 //! - [`resolve`]: from an input to a [`Scene`].
 //! - [`thruster`]: force and torque of thrusters. [`alignment`]: axes and directions, and their errors. [`name`]: names.
 //! - [`unit_quaternion`]: the attitude that is used where one is written.
+//! - `failures`: what failures of actuators make of a schedule.
 //! - [`schedule`]: what the actuators make of the commands, and the arcs of constant actuation.
 
 pub mod actuated;
@@ -19,6 +20,7 @@ pub mod alignment;
 pub mod body;
 pub mod check;
 pub mod error;
+mod failures;
 pub mod input;
 pub mod mass;
 pub mod name;
@@ -48,9 +50,9 @@ pub use orbit::Orbit;
 pub use parameter::Parameter;
 pub use schedule::{Actuation, Arc};
 pub use schema::{
-    ActuationInput, ActuatorsInput, ArcErrors, BodyInput, ControlInput, DebrisInput, DeclaredTable, EnvironmentInput,
-    InitialInput, LawParameter, MAX_THRUSTERS, MAX_WHEELS, MassErrors, OrbitInput, PartInput, PartShape,
-    PrincipalInertia, PrincipalMoments, ThrusterInput, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, ArcErrors, BodyInput, ControlInput, DebrisInput, DeclaredTable, Device,
+    EnvironmentInput, FailureInput, InitialInput, LawParameter, MAX_THRUSTERS, MAX_WHEELS, MassErrors, OrbitInput,
+    PartInput, PartShape, PrincipalInertia, PrincipalMoments, SensorOutput, ThrusterInput, WheelInput, WheelMode,
 };
 
 pub use thruster::Thruster;
@@ -76,6 +78,8 @@ pub struct Scene {
     pub commands_torque: bool,
     /// What actuators make of the commands of a control law; those of the schedule have it.
     pub actuators: ActuatorModels,
+    /// The devices that fail during a run; the schedule has what becomes of its arcs already.
+    pub failures: Vec<FailureInput>,
 }
 
 /// What the actuators make of the commands of a control law.
