@@ -18,13 +18,14 @@ pub const OF_MOTION: [&str; 8] = [
 /// How many of them are the outcomes.
 const FEW: usize = 3;
 
-/// The observables that the file of `plan` requires, names for the summary, or derives; each once, in this order.
+/// The observables that the file of `plan` requires, names for the summary, or derives, and the times of its events; each once, in this order.
 pub fn named(plan: &Plan) -> Vec<String> {
     let required = plan.analysis.requirements.iter().filter_map(Requirement::observable).map(str::to_owned);
     let asked = plan.analysis.summary_columns.iter().cloned();
     let derived = plan.analysis.derived.iter().map(|derived| derived.name.clone());
     let mut names: Vec<String> = Vec::new();
-    for name in required.chain(asked).chain(derived) {
+    let events = plan.events.iter().map(|event| event.quantities()[0].name().to_owned());
+    for name in required.chain(asked).chain(derived).chain(events) {
         if !names.contains(&name) {
             names.push(name);
         }

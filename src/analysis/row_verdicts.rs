@@ -190,7 +190,14 @@ mod tests {
     }
 
     fn requirement(statement: Statement, limit: GateLimit) -> Requirement {
-        Requirement { subject: Subject::Observable("x".to_owned()), statement, limit, bounded: None, confidence: 0.95 }
+        Requirement {
+            subject: Subject::Observable("x".to_owned()),
+            statement,
+            limit,
+            bounded: None,
+            never_meets: false,
+            confidence: 0.95,
+        }
     }
 
     /// RequirementRuns of groups: runs, runs within the limit, values.

@@ -8,6 +8,7 @@
 
 use super::canonical_draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
 use super::control;
+use super::failure_tables;
 use super::lines::Lines;
 use super::plan::Plan;
 use super::settings;
@@ -71,6 +72,7 @@ impl Plan {
             derivation_lines(derivation, &mut lines);
         }
         self.write_settings(&settings::TAIL, whole, &mut lines);
+        self.events.iter().for_each(|event| event.write(&mut lines));
         if whole {
             self.analysis.write(&mut lines);
             self.retention.write(&mut lines);
@@ -214,5 +216,6 @@ impl Plan {
             lines.key("law", law.name());
             lines.keys(Table::Control, 0, scene);
         }
+        failure_tables::write(scene, lines);
     }
 }

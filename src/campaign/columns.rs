@@ -1,5 +1,7 @@
 //! The columns of the rows of a plan by name: what requirements, expressions and lists of columns in a campaign file mean.
 
+use super::event::Event;
+use super::event_columns;
 use super::problem::nearest;
 use super::units;
 use crate::control::ControlLaw;
@@ -13,8 +15,15 @@ use crate::run::Quantity;
 use crate::scene::{Actuated, Parameter, SceneInput};
 
 /// The observables of campaigns with these groups and this method; `acting` is the nominal scene with the commands that act in a run, to which those of
-/// `law` add.
-pub fn request(groups: &[Group], acting: &SceneInput, method: Method, law: Option<&ControlLaw>) -> Request {
+/// `law` add; the runs are watched for `events`.
+pub fn request(
+    groups: &[Group],
+    acting: &SceneInput,
+    method: Method,
+    law: Option<&ControlLaw>,
+    events: &[Event],
+) -> Request {
+    let when_it_happened = [event_columns::of_failures(acting), event_columns::of_events(events)].concat();
     let commanded = law.map_or(Actuated::NONE, ControlLaw::commands);
     Request {
         groups: groups.iter().copied().collect(),
@@ -24,7 +33,7 @@ pub fn request(groups: &[Group], acting: &SceneInput, method: Method, law: Optio
         constrained: method == Method::NullSpace,
         wheels: acting.turning_wheels(),
         nutation_axis: NutationAxis::SpinAxis,
-        of_law: law.map_or(LawColumns::NONE, ControlLaw::columns),
+        of_law: law.map_or(LawColumns::NONE, ControlLaw::columns).with_events(when_it_happened),
         windows: NO_WINDOWS,
     }
 }

@@ -136,7 +136,7 @@ fn kinds<T>(place: Option<usize>, list: &[T]) -> impl Iterator<Item = &T> {
 }
 
 /// The wheels that turn, in their order: the name of those that a loop may drive.
-fn turning(scene: &SceneInput) -> Vec<Option<Name>> {
+pub(super) fn turning(scene: &SceneInput) -> Vec<Option<Name>> {
     let turning = scene.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
     turning.map(|wheel| (wheel.mode == WheelMode::Free).then_some(wheel.name)).collect()
 }

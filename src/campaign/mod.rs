@@ -5,10 +5,11 @@
 //! - [`document`], [`section`], [`numbers`], [`lists`]: a TOML document that is read key by key and remembers the lines. By hand and not by
 //!   serde's derive, which stops at the first error and knows no line of a key that passed.
 //! - [`spec`]: a campaign file as written; [`settings`]: keys that are no part of the scene; `scene`: those of the scene, from [`crate::scene::schema`]; `control`, `sensor_tables`, `phase_tables`: those of
-//!   a control loop; [`disperse`],
+//!   a control loop; `failure_tables`: devices that fail; [`disperse`],
 //!   [`design`], [`dependence`]: those that say what is drawn; `keys`: rows of keys, read and written;
 //!   [`data`], `data_columns`, `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`compression`]; [`bands`].
-//! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`columns`]: what they can name.
+//! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`columns`]: what they can name;
+//!   [`event`]: quantities that cross a value; [`event_columns`]: when events and failures happened.
 //!   [`retention`]: which runs keep their time series.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other. - [`chosen`], `plan_rows`: which samples are its rows.
 //! - `units`: units in values.
@@ -42,7 +43,10 @@ mod display;
 pub mod document;
 pub mod draw;
 mod draw_tables;
+pub mod event;
+pub mod event_columns;
 pub mod excerpt;
+mod failure_tables;
 pub mod find;
 pub mod forces;
 pub mod input_file;
@@ -75,6 +79,7 @@ pub use compression::Compression;
 pub use derived_observable::DerivedObservable;
 pub use display::{Display, ShownUnit};
 pub use draw::{SceneDraws, draw};
+pub use failure_tables::failed_device;
 pub use find::{find, nearest_file};
 pub use plan::{FilesRead, Overrides, Plan};
 pub use problem::{CampaignError, Problem};

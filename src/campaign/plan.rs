@@ -9,6 +9,7 @@ use super::compression::Compression;
 use super::description;
 use super::document::Document;
 use super::draw_tables::DrawTables;
+use super::event::Event;
 use super::forces;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
 use super::problem::{CampaignError, Problem};
@@ -78,6 +79,8 @@ pub struct Plan {
     pub compression: Compression,
     /// The control law of every run; its parameters are in the nominal scene.
     pub law: Option<ControlLaw>,
+    /// The events that runs are watched for.
+    pub events: Vec<Event>,
     /// What is made of the rows.
     pub analysis: Analysis,
     /// Which runs keep their full time series.
@@ -199,7 +202,7 @@ impl Plan {
     /// The observables that it requests of runs of `duration` seconds, which decides which commands of the schedule act.
     pub fn request_over(&self, duration: f64) -> Request {
         let acting = acting_scene(duration, &self.nominal, &self.dispersions);
-        let mut request = request(&self.groups, &acting, self.method, self.law.as_ref());
+        let mut request = request(&self.groups, &acting, self.method, self.law.as_ref(), &self.events);
         request.nutation_axis = self.nutation_axis;
         self.analysis.windows().take(MAX_WINDOWS).for_each(|window| request.windows.push(window));
         request
@@ -335,7 +338,7 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
     let band_points = bands::resolve(spec.settings("bands").count("points"), points, document);
     let dispersions = dispersions?;
     let acting = acting_scene(duration_s?, &spec.scene, &dispersions);
-    let known = KnownColumns::new(request(&groups, &acting, method, document.law.as_ref()));
+    let known = KnownColumns::new(request(&groups, &acting, method, document.law.as_ref(), &spec.events));
     let design = spec.design.as_ref().unwrap_or(&Design::DEFAULT);
     let grid = Grid::uniform(duration_s?, usize::try_from(points).ok()?);
     let band_times: Vec<f64> =
@@ -375,6 +378,7 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
         audit_fraction: spec.settings("audit").number("fraction").unwrap_or(0.0),
         band_points: usize::try_from(band_points).ok()?,
         compression: spec.settings("output").text("compression").and_then(Compression::from_name)?,
+        events: spec.events.clone(),
         analysis: spec.analysis.clone(),
         retention: spec.retention.clone().unwrap_or_default(),
         law: document.law.clone(),

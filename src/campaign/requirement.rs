@@ -66,6 +66,8 @@ pub struct Requirement {
     pub limit: GateLimit,
     /// Of a mean: between which values every value is known to be.
     pub bounded: Option<[f64; 2]>,
+    /// Of a fraction: whether a run without a value, of something that never happens, meets it; otherwise it violates it.
+    pub never_meets: bool,
     /// With which confidence.
     pub confidence: f64,
 }
@@ -78,6 +80,8 @@ const STATEMENTS: [&str; 3] = ["quantile", "fraction", "mean"];
 const LIMITS: [&str; 2] = ["at_most", "at_least"];
 /// The keys of what a requirement is about: it has exactly one.
 const SUBJECTS: [&str; 2] = ["observable", "band"];
+/// What a run without a value does, in the order of `false` and `true`.
+const NEVER: [&str; 2] = ["violates", "meets"];
 /// The keys of an interval of time.
 const INTERVAL: [&str; 2] = ["from_s", "to_s"];
 
@@ -131,6 +135,12 @@ impl Requirement {
             Some(if key == "at_most" { GateLimit::AtMost(number) } else { GateLimit::AtLeast(number) })
         });
         let bounded = bounded(table, statement, unit.is_some());
+        let never = table.name("never", &NEVER, |text| NEVER.iter().position(|known| *known == text));
+        if table.has("never") && !(matches!(statement, Some(Statement::Fraction(_)) | None) && table.has("observable"))
+        {
+            let allowed = "left out where the requirement is not about a fraction of the runs and an observable";
+            table.refuse("never", allowed, "write fraction, or delete this line");
+        }
         STATEMENTS.iter().chain(&LIMITS).chain(&SUBJECTS).chain(&INTERVAL).for_each(|key| table.know(key));
         let confidence_passed = !table.has("confidence") || confidence.is_some();
         let bounded_passed = !table.has("bounded") || bounded.is_some();
@@ -145,11 +155,13 @@ impl Requirement {
             }
             other => other,
         };
-        (confidence_passed && flag_passed && bounded_passed).then_some(Requirement {
+        let never_passed = !table.has("never") || never.is_some();
+        (confidence_passed && flag_passed && bounded_passed && never_passed).then_some(Requirement {
             subject,
             statement,
             limit,
             bounded,
+            never_meets: never == Some(1),
             confidence,
         })
     }
@@ -217,6 +229,9 @@ impl Requirement {
         }
         if let Some([low, high]) = self.bounded {
             lines.key("bounded", vec![low, high]);
+        }
+        if self.never_meets {
+            lines.key("never", NEVER[1]);
         }
         lines.key("confidence", self.confidence);
     }

@@ -4,6 +4,7 @@
 //! there, and keys that are no numbers.
 
 use super::control;
+use super::failure_tables;
 use super::section::Section;
 use super::tables::{read_keys, read_name};
 use crate::scene::body::MAX_PARTS;
@@ -75,6 +76,7 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     read_keys(&mut section, Table::Actuators, 0, &mut scene);
     section.finish();
     read_law(root, &mut scene);
+    failure_tables::read(root, &mut scene);
     scene
 }
 

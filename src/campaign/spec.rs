@@ -6,6 +6,7 @@
 use super::analysis::Analysis;
 use super::columns::{KnownColumns, request};
 use super::document::Document;
+use super::event::Event;
 use super::retention::Retention;
 use super::section::Section;
 use super::settings;
@@ -34,6 +35,8 @@ pub struct Spec {
     pub correlations: Vec<Option<Correlation>>,
     /// `[[derive]]`; `None` where a table is wrong.
     pub derivations: Vec<Option<Derivation>>,
+    /// `[[event]]`; without the tables that are wrong.
+    pub events: Vec<Event>,
     /// What is made of the rows; without the tables that are wrong.
     pub analysis: Analysis,
     /// `retain.trajectories`.
@@ -78,13 +81,18 @@ impl Spec {
             dispersions,
             correlations,
             derivations,
+            events: Vec::new(),
             analysis: Analysis::default(),
             retention: None,
         };
 
         let noted = root.document.noted();
         let method = spec.method().unwrap_or(Method::Auto);
-        let observed = request(&spec.groups(), &spec.scene, method, root.document.law.as_ref());
+        let law = root.document.law.clone();
+        let with = |events: &[Event]| request(&spec.groups(), &spec.scene, method, law.as_ref(), events);
+        let events = Event::read_all(&mut root, &with(&[]));
+        let observed = with(&events);
+        spec.events = events;
         spec.analysis = Analysis::read(&mut root, observed);
         let mut known = KnownColumns::new(observed);
         spec.analysis.derived.iter().for_each(|derived| known.add(derived.quantity()));

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::campaign::Plan;
+use crate::campaign::{Plan, failed_device};
 use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::workload::Workload;
@@ -71,6 +71,7 @@ pub fn text(plan: &Plan, isa: Isa) -> Result<(String, CommandOutcome), Failure> 
             section(&mut text, "Torque of the control loop")?;
             Capacity::of(spec, &scene).lines(spec).iter().try_for_each(|line| writeln!(text, "{line}"))?;
         }
+        happenings(&mut text, &plan)?;
         computed(&mut text, &ensemble)?;
         std::fmt::Result::Ok(())
     })();
@@ -116,6 +117,33 @@ fn failures(probe: &RunProbe) -> String {
 fn section(text: &mut String, title: &str) -> std::fmt::Result {
     let gap = if text.is_empty() { "" } else { "\n" };
     writeln!(text, "{gap}== {title}")
+}
+
+/// Which devices fail and when, and what runs are watched for.
+fn happenings(text: &mut String, plan: &Plan) -> std::fmt::Result {
+    if !plan.nominal.failures.is_empty() {
+        section(text, "Failures of the nominal scene")?;
+    }
+    for failure in &plan.nominal.failures {
+        let (name, at) = (failure.name, failure.at_s);
+        let device = failed_device(&plan.nominal, failure.device);
+        let end = plan.grid.duration();
+        let unseen = if at < end { "" } else { ": not before the end" };
+        writeln!(text, "{name}: {device} at {at} s{unseen}")?;
+    }
+    if plan.events.is_empty() {
+        return Ok(());
+    }
+    section(text, "Events")?;
+    for event in &plan.events {
+        writeln!(text, "{}: {}", event.name, event.says())?;
+    }
+    let (points, spacing) = (plan.grid.points(), plan.grid.duration() / (plan.grid.points() - 1) as f64);
+    let spacing = trimmed(spacing, 6);
+    writeln!(
+        text,
+        "seen at {points} points, {spacing} s apart: two crossings between neighbouring points are not seen (observe.points)"
+    )
 }
 
 /// What is integrated and why, and what is not; nothing of what scene and method do not have.

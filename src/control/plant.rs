@@ -13,7 +13,7 @@ use super::sensors::SampledSensor;
 use super::spec::LoopSpec;
 use super::truth::{DebrisMotion, Truth};
 use crate::dynamics::actuation::{Actuation, BodyState, WheelState};
-use crate::scene::{MAX_THRUSTERS, Scene, WheelMode};
+use crate::scene::{Device, FailureInput, MAX_THRUSTERS, Scene, WheelMode};
 
 /// What flight software is told at a tick.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +31,8 @@ pub struct Measurements<'a> {
 pub struct Applied {
     /// Torques and thrusts, and the end of the arc.
     pub actuation: Actuation,
+    /// Thrusts of thrusters that are stuck on, which act beside it, N.
+    pub stuck: [f64; MAX_THRUSTERS],
     /// The length of the arc, s: to its end or that of the run.
     pub length: f64,
     /// Whether a motor was limited by its torque, and by the speed of its wheel.
@@ -105,13 +107,28 @@ impl Plant {
         self.sensors.iter().find_map(|sensor| sensor.sensor().bias_s())
     }
 
-    /// What the actuators make of `commands` from `time` on.
+    /// How `device` has failed by `time`, s.
+    fn failure(&self, device: Device, time: f64) -> Option<&FailureInput> {
+        self.drawn.failures.iter().find(|failure| failure.device == device && failure.at_s <= time)
+    }
+
+    /// What the actuators make of `commands` from `time` on. The schedule of the scene has the thrusts of thrusters that are stuck on.
     pub fn apply(&self, time: f64, commands: &ActingCommands<'_>, wheels: &WheelState) -> Applied {
         let same = SAME_TIME * self.spec.period;
         let mut until = commands.until;
-        let mut thrust = [0.0; MAX_THRUSTERS];
+        // an actuator that fails ends the arc, unless it is one time with its end
+        let of_actuators = self.drawn.failures.iter().filter(|failure| !matches!(failure.device, Device::Sensor(_)));
+        for failure in of_actuators.filter(|failure| time + same < failure.at_s) {
+            if failure.at_s < until - same {
+                until = failure.at_s;
+            }
+        }
+        let (mut thrust, mut stuck) = ([0.0; MAX_THRUSTERS], [0.0; MAX_THRUSTERS]);
         if let Some(pulses) = commands.pulses {
             for &i in &self.spec.thrusters {
+                if self.failure(Device::Thruster(i), time + same).is_some() {
+                    continue;
+                }
                 let valve = &self.drawn.actuators.thrusters[i];
                 let (level, least) = if self.is_on_off {
                     (valve.max_thrust, valve.min_on_time)
@@ -125,6 +142,11 @@ impl Plant {
                 }
             }
         }
+        for failure in &self.drawn.failures {
+            if let (Device::Thruster(i), true) = (failure.device, failure.at_s <= time + same) {
+                stuck[i] = failure.thrust_n.unwrap_or(0.0);
+            }
+        }
         // the run ends an arc too
         let length = until.min(self.duration) - time;
         let mut actuation = Actuation { thrust, ..Actuation::none(until) };
@@ -134,12 +156,13 @@ impl Plant {
             if self.drawn.mass.wheels[i].mode != WheelMode::Free {
                 continue;
             }
-            let driven = drive.over(commands.motor_torque[i], wheels.rates[i], length);
+            let failed = self.failure(Device::Wheel(i), time + same).map(|failure| drive.failed(failure));
+            let driven = failed.unwrap_or(*drive).over(commands.motor_torque[i], wheels.rates[i], length);
             actuation.motor_torque[i] = driven.torque;
             saturated[0] |= driven.is_torque_limited;
             saturated[1] |= driven.is_speed_limited;
             torque_excess = torque_excess.max(driven.excess);
         }
-        Applied { actuation, length, saturated, torque_excess }
+        Applied { actuation, stuck, length, saturated, torque_excess }
     }
 }

@@ -1,6 +1,6 @@
 //! [`Flights`]: propagates runs of a plan, each under the control law of the plan where it has one; nothing else of the ensemble flies a run.
 
-use crate::campaign::Plan;
+use crate::campaign::{Plan, event_columns};
 use crate::control::loop_record::SharedRecord;
 use crate::control::{LawContext, LawRuns};
 use crate::dynamics::actuation::{ActuationLaw, BodyState, Laws, WheelState};
@@ -153,7 +153,8 @@ pub fn nominal_attitude(plan: &Plan, request: &Request, grid: &Grid, isa: Isa) -
     found
 }
 
-/// Observes a run of `plan` into `row`: what acted on it are the arcs that it has flown, where they followed a law, or its schedule.
+/// Observes a run of `plan` into `row`: what acted on it are the arcs that it has flown, where they followed a law, or its schedule; and which of its
+/// devices have failed.
 pub fn observe(
     plan: &Plan,
     observer: &mut Observer,
@@ -162,10 +163,28 @@ pub fn observe(
     (run, of_law): (&CompletedRun<'_>, &[f64]),
     row: &mut [f64],
 ) -> Status {
-    match plan.law {
+    let status = match plan.law {
         None => observer.observe(isa, scene, run.table, run.outcome, row),
         Some(_) => observer.observe_flown(isa, (scene, run.arcs, of_law), run.table, run.outcome, row),
+    };
+    if !scene.failures.is_empty() {
+        let request = observer.request();
+        let start = row.len() - request.windows.len() - request.of_law.of_events;
+        let reaches_end = matches!(status, Status::Done | Status::Inaccurate);
+        let end = if reaches_end { end_of(run) } else { f64::NAN };
+        for (failure, columns) in scene.failures.iter().zip(row[start..].chunks_exact_mut(event_columns::EACH)) {
+            let time = if failure.at_s < end { failure.at_s } else { f64::NAN };
+            let happened = if reaches_end { f64::from(u8::from(failure.at_s < end)) } else { f64::NAN };
+            columns.copy_from_slice(&[time, happened]);
+        }
     }
+    status
+}
+
+/// When a run has ended, s: at the end of the campaign's grid, or where its law has ended it.
+pub fn end_of(run: &CompletedRun<'_>) -> f64 {
+    let of_law = run.arcs.last().filter(|arc| arc.applied.ends_run).map(|arc| arc.start);
+    of_law.map_or(run.outcome.time, |end| end.min(run.outcome.time))
 }
 
 /// The scene whose schedule is what a run of `scene` under a law has flown, constant effects included: its open loop is that run, bit for

@@ -6,6 +6,7 @@
 //! - [`bands`]: quantiles over time, counted run by run (in `deviation_window`).
 //! - [`influence`]: which of them change no requested column. [`plausibility`]: numbers that look like a mistake. [`magnitude`]: lengths and angles.
 //! - [`single`]: one run with its states. [`flights`]: runs under the control law of the plan.
+//! - [`event_finder`]: when quantities cross values, located in `crossing`.
 //! - [`audit`]: runs compared with a reference solution. - [`precision`]: run time against error for every method.
 //! - [`settings`]: observables and engine of a plan. - [`probe`]: time of a run and of an audit. - [`cpu_clock`]: CPU time of a thread.
 //!
@@ -14,8 +15,10 @@
 pub mod audit;
 pub mod bands;
 pub mod cpu_clock;
+mod crossing;
 mod deviation_window;
 pub mod drawn;
+pub mod event_finder;
 pub mod failure_reasons;
 pub mod flights;
 pub mod influence;

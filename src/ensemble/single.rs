@@ -10,6 +10,7 @@ use rayon::ThreadPoolBuilder;
 
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Audit, Auditor, NoAudit};
+use crate::ensemble::event_finder::{self, EventFinder};
 use crate::ensemble::flights::{Flights, LawDraw, nominal_attitude, observe, replayed};
 use crate::ensemble::runner::RunError;
 use crate::ensemble::settings::propagator;
@@ -103,6 +104,7 @@ pub struct SingleRuns<'p> {
     flights: Flights<'p>,
     observer: Observer,
     series_observer: Observer,
+    events: Option<EventFinder<'p>>,
     /// The columns of the groups that have series.
     ignored: Vec<f64>,
 }
@@ -127,6 +129,7 @@ impl<'p> SingleRuns<'p> {
             flights: Flights::new(plan, propagator(plan, grid.clone(), fields).engine(isa), &grid).recording(),
             observer: Observer::new(request, &grid).with_nominal(nominal(&request)),
             series_observer: Observer::new(shown, &grid).with_nominal(nominal(&shown)),
+            events: EventFinder::new(plan, &grid, (isa, None)),
             ignored: vec![f64::NAN; shown.columns().len()],
             grid,
         }
@@ -151,8 +154,15 @@ impl<'p> SingleRuns<'p> {
         let (isa, observer, series_observer) = (self.isa, &mut self.observer, &mut self.series_observer);
         let (plan, ignored) = (self.plan, &mut self.ignored);
         let draw = plan.law.as_ref().map(|_| LawDraw { sample: noise, parameters: self.draws.drawn().control.clone() });
+        let events = &mut self.events;
+        if let Some(events) = events {
+            events.restart(1);
+        }
         self.flights.fly(std::slice::from_ref(&scene), draw.as_slice(), &mut |run, of_law| {
             let status = observe(plan, observer, isa, &scene, (&run, of_law), &mut row);
+            if let (Some(events), Status::Done | Status::Inaccurate) = (events.as_mut(), status) {
+                events.look(0, observer, run.table);
+            }
             observe(plan, series_observer, isa, &scene, (&run, of_law), ignored);
             reason = observer.reason(status, run.outcome, &row);
             result = Some((run.table.clone(), run.arcs.to_vec(), Outcome { status, ..*run.outcome }));
@@ -163,6 +173,11 @@ impl<'p> SingleRuns<'p> {
         }
         if matches!(outcome.status, Status::Done | Status::Inaccurate) {
             self.flights.report(0, &mut row[self.request.places_of_law()]);
+            if let Some(events) = &mut self.events {
+                events.locate(std::slice::from_ref(&scene), draw.as_slice());
+                let places = event_finder::places(plan, &self.request);
+                row[places].iter_mut().zip(events.values(0)).for_each(|(place, value)| *place = value);
+            }
         }
         let telemetry = self.flights.telemetry(0).unwrap_or_default();
         let series = self.series_observer.series().map(|(series, values)| (series, values.collect())).collect();

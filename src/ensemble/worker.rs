@@ -8,6 +8,7 @@ use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Auditor, Selection};
 use crate::ensemble::bands::{BandLayout, PartBands};
 use crate::ensemble::cpu_clock::thread_seconds;
+use crate::ensemble::event_finder::{self, EventFinder};
 use crate::ensemble::flights::{Flights, LawDraw, nominal_attitude, observe, replayed};
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::{Rows, Shape};
@@ -143,6 +144,8 @@ impl<'p> Ensemble<'p> {
             flown: Vec::new(),
             flights: self.flights(),
             places_of_law: self.request.places_of_law(),
+            events: EventFinder::new(self.plan, &self.plan.grid, (self.isa, self.own_engines)),
+            first_of_events: event_finder::places(self.plan, &self.request).start,
             observer,
             observed: vec![0.0; self.shape().observables],
             audits: (self.plan.audit_fraction > 0.0)
@@ -169,6 +172,10 @@ pub struct Worker<'c> {
     flights: Flights<'c>,
     /// Where a row has what the law reports.
     places_of_law: std::ops::Range<usize>,
+    /// Finds the events of the runs; `None` where the plan has none.
+    events: Option<EventFinder<'c>>,
+    /// Where a row has what it finds.
+    first_of_events: usize,
     observer: Observer,
     observed: Vec<f64>,
     audits: Option<(Selection, Auditor)>,
@@ -320,9 +327,16 @@ impl Worker<'_> {
         let (scenes, rows_of_scenes) = (&self.scenes[which.clone()], &self.rows_of_scenes[which]);
         let (observer, observed, is_done) = (&mut self.observer, &mut self.observed, &mut self.is_done);
         let is_selected = &self.is_selected;
+        let events = &mut self.events;
+        if let Some(events) = events {
+            events.restart(scenes.len());
+        }
         self.flights.fly(scenes, draws, &mut |run, of_law| {
             let CompletedRun { index, table, outcome, arcs } = run;
             let status = observe(plan, observer, isa, &scenes[index], (&run, of_law), observed);
+            if let (Some(events), Status::Done | Status::Inaccurate) = (events.as_mut(), status) {
+                events.look(index, observer, table);
+            }
             let row = rows_of_scenes[index];
             rows.set_result(row, status, observed);
             is_done[first_scene + index] = true;
@@ -343,6 +357,14 @@ impl Worker<'_> {
                 bands.add(isa, observer, table);
             }
         });
+        let Some(events) = events else { return };
+        events.locate(scenes, draws);
+        for (run, row) in rows_of_scenes.iter().enumerate() {
+            if matches!(rows.statuses()[*row], Status::Done | Status::Inaccurate) {
+                let values: Vec<f64> = events.values(run).collect();
+                rows.set_observables(*row, self.first_of_events, &values);
+            }
+        }
     }
 }
 

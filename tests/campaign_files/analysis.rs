@@ -59,6 +59,7 @@ fn every_key_is_read_and_written() {
         statement: Statement::Fraction(0.999),
         limit: GateLimit::AtMost(1.5),
         bounded: None,
+        never_meets: false,
         confidence: 0.99,
     };
     assert_eq!(requirements[1], expected);

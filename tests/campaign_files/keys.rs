@@ -49,6 +49,9 @@ const TEXTS: [&str; 30] = [
     "2 * wheels.w1.radius_m - 0.5",
     "sample:3",
     "body.parts.fuselage.length_m",
+    "3 * angular_rate_rad_s",
+    "rising",
+    "first",
 ];
 
 /// A folder with two tables of data that differ in one number.
@@ -302,7 +305,7 @@ fn every_key_changes_the_plan_and_the_hash_of_the_rows_where_it_should() {
 
 /// Whether a table is one of the scene: its numbers are in `every_number_of_a_scene_is_in_the_plan`.
 fn is_of_scene(table: &str) -> bool {
-    let tables = ["body", "wheels", "thrusters", "debris", "initial", "orbit", "environment", "actuat"];
+    let tables = ["body", "wheels", "thrusters", "debris", "initial", "orbit", "environment", "actuat", "failure"];
     tables.iter().any(|scene| table.trim_matches('[').starts_with(scene))
 }
 

@@ -170,6 +170,40 @@ fn a_filter_that_does_not_know_gravity_is_refused() {
     assert!(error.contains("control.estimator = \"mekf\"") && error.contains("does not know gravity"), "{error}");
 }
 
+/// Law: a sensor fails in one way, that its kind knows, and a device fails once; friction can change in a loop.
+#[test]
+fn failures_are_of_devices_that_can_fail_so() {
+    let failure = |keys: &str| format!("{LOOP}[[failure]]\nname = \"f\"\nat_s = 10\n{keys}\n");
+    for right in [
+        "sensor = \"gyro\"\nbias_rad_s = [0.1, 0, 0]",
+        "sensor = \"tracker\"\nbias_rad = [0, 0, 0.1]",
+        "sensor = \"tracker\"\noutput = \"frozen\"",
+        "wheel = \"w2\"\ncoulomb_friction_n_m = 0.01",
+    ] {
+        let plan = plan(&failure(right));
+        assert_eq!(plan, self::plan(&plan.text()), "{right}");
+    }
+    for (wrong, key, allowed) in [
+        ("sensor = \"gyro\"\nbias_rad = [0.1, 0, 0]", "bias_rad", "has no such bias; write bias_rad_s"),
+        ("sensor = \"gyro\"\noutput = \"dead\"", "output", "one of silent, frozen"),
+        (
+            "sensor = \"gyro\"\noutput = \"silent\"\nbias_rad_s = [1, 0, 0]",
+            "bias_rad_s",
+            "the only one of output, bias_rad_s, bias_rad",
+        ),
+        ("sensor = \"gyros\"\noutput = \"silent\"", "sensor", "did you mean \"gyro\"?"),
+        ("wheel = \"w1\"\nsensor = \"gyro\"\noutput = \"silent\"", "sensor", "left out where another device is named"),
+        (
+            "wheel = \"w1\"\ntorque_scale = 0\n[[failure]]\nname = \"g\"\nat_s = 5\nwheel = \"w1\"\ntorque_scale = 0",
+            "wheel",
+            "a device that does not fail in another table: it does in f",
+        ),
+    ] {
+        let said = refused(&failure(wrong)).to_string();
+        assert!(said.contains(&format!(".{key}")) && said.contains(allowed), "{wrong}: {said}");
+    }
+}
+
 /// Law: one wrong key of a loop is one problem, whatever depends on it: keys of an estimator, of a modulation, of a law; parameters; columns. A loop
 /// without phases is one problem too.
 #[test]

@@ -123,7 +123,7 @@ fn every_misspelt_key_gets_its_suggestion() {
 }
 
 /// The keys whose values are names: a line of the file, and the same with another name in it.
-const NAMED: [(&str, &str); 7] = [
+const NAMED: [(&str, &str); 9] = [
     ("method = \"auto\"", "method = \"{}\""),
     ("groups = [\"effort\", \"energy_conservation\"]", "groups = [\"{}\"]"),
     ("shape = \"sphere\"", "shape = \"{}\""),
@@ -131,6 +131,8 @@ const NAMED: [(&str, &str); 7] = [
     ("kind = \"random\"", "kind = \"{}\""),
     ("distribution = \"uniform\"", "distribution = \"{}\""),
     ("compression = \"zstd\"", "compression = \"{}\""),
+    ("direction = \"falling\"", "direction = \"{}\""),
+    ("which = \"last\"", "which = \"{}\""),
 ];
 
 /// Law: each name of a value, misspelt by one edit, is refused with the name that was meant.

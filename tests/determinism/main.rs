@@ -8,6 +8,8 @@ mod support;
 mod textbook;
 
 mod bands;
+mod events;
+mod failures;
 mod feedback;
 mod lanes;
 mod lanes_runge_kutta;

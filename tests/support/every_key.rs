@@ -86,6 +86,25 @@ thrust_n = { p1 = 100 }
 thrust_scale = 0.99
 torque_n_m = { w1 = 0.5 }
 
+[[failure]]
+name = "weak"
+wheel = "w1"
+at_s = 4.0
+torque_scale = 0.5
+
+[[failure]]
+name = "stuck"
+thruster = "p1"
+at_s = 5.0
+thrust_n = 1.0
+
+[[event]]
+name = "slow"
+quantity = "2 * angular_rate_rad_s"
+value = 62.0
+direction = "falling"
+which = "last"
+
 [design]
 kind = "random"
 
@@ -339,10 +358,11 @@ pub fn every_loop() -> Vec<String> {
     for estimator in &spindrift::control::estimators::KINDS {
         for modulation in spindrift::control::actuators::modulation::NAMES {
             let (sensors, estimator) = (sensors_of(estimator), estimator.name);
+            let failures = failures_of(&sensors);
             files.push(format!(
                 "{base}[control]\nperiod_s = 0.25\nestimator = \"{estimator}\"\nwheels = [\"w1\"]\nthrusters = [\"p1\"]\n\
                  modulation = \"{modulation}\"\nhold_force = true\n[control.model]\nmass_kg = 2000.0\ncenter_of_mass_m = [0, 0, 1.5]\n\
-                 inertia_kg_m2 = [[3000, 0, 0], [0, 3000, 0], [0, 0, 1700]]\n{sensors}{phases}"
+                 inertia_kg_m2 = [[3000, 0, 0], [0, 3000, 0], [0, 0, 1700]]\n{sensors}{failures}{phases}"
             ));
         }
     }
@@ -357,6 +377,19 @@ pub fn every_loop() -> Vec<String> {
     files
 }
 
+/// Failures of the first sensors, in each of the ways in which one can fail.
+fn failures_of(sensors: &str) -> String {
+    let of = |name: &str, keys: &str| {
+        let is_there = sensors.contains(&format!("name = \"{name}\""));
+        let text = format!("[[failure]]\nname = \"of_{name}\"\nsensor = \"{name}\"\nat_s = 3\n{keys}\n");
+        if is_there { text } else { String::new() }
+    };
+    of("a_rate_gyro", "bias_rad_s = [0.1, 0, 0]")
+        + &of("a_star_tracker", "bias_rad = [0, 0.1, 0]")
+        + &of("a_sun_sensor", "output = \"silent\"")
+        + &of("a_tachometers", "output = \"frozen\"")
+}
+
 /// The required keys of a list of parameters, with numbers that they allow.
 fn numbers(parameters: &[spindrift::scene::LawParameter]) -> String {
     let required = parameters.iter().filter(|parameter| parameter.default.is_none());
@@ -365,8 +398,11 @@ fn numbers(parameters: &[spindrift::scene::LawParameter]) -> String {
 
 /// [`EVERY_TABLE`] without draws, and with what acts under a loop alone.
 fn every_table_of_loops() -> String {
+    let failing = "torque_scale = 0.5\n\n[[failure]]";
+    let friction = "torque_scale = 0.5\ncoulomb_friction_n_m = 0.02\nviscous_friction_n_m_s = 0.002\n\n[[failure]]";
     let drive = "torque_limit_n_m = 2.0\nspeed_limit_rad_s = 400.0\ncoulomb_friction_n_m = 0.01\nviscous_friction_n_m_s = 0.001\n";
-    without_draws().replace("rate_rad_s = 314.0\n", &format!("rate_rad_s = 314.0\n{drive}")).replace(
+    let text = without_draws().replace("rate_rad_s = 314.0\n", &format!("rate_rad_s = 314.0\n{drive}"));
+    text.replace(failing, friction).replace(
         "direction = [0, 0, 1]\n\n[debris]",
         "direction = [0, 0, 1]\nmax_thrust_n = 20.0\nmin_on_time_s = 0.02\n\n[debris]",
     )

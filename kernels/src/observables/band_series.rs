@@ -91,7 +91,28 @@ pub fn band_series(request: &Request) -> Vec<BandSeries> {
     kinds.flat_map(|(series, is_change)| of_series(request, series, is_change)).collect()
 }
 
+/// The quantities of runs of `request` that events can be about: everything over time that is observed, except errors relative to the largest
+/// value of a run, which depend on the observation points.
+pub fn event_series(request: &Request) -> Vec<BandSeries> {
+    let of_values = Series::all().filter(|series| series.wheel().is_none_or(|wheel| wheel == 0));
+    let of_changes = CHANGES.iter().map(|(series, ..)| (*series, true));
+    let all = of_values.map(|series| (series, false)).chain(of_changes);
+    all.flat_map(|(series, is_change)| of_series(request, series, is_change))
+        .filter(|band| band.scale.is_none())
+        .collect()
+}
+
 impl BandSeries {
+    /// Whether a control loop has it at its ticks, and holds it in between.
+    pub fn changes_at_ticks(&self) -> bool {
+        LawSeries::place(self.series).is_some() && self.series.wheel().is_none()
+    }
+
+    /// Whether it compares the run with the nominal one.
+    pub fn is_from_nominal(&self) -> bool {
+        self.series == Series::FromNominal
+    }
+
     /// Its extreme in runs of `request`: the largest value over the points from one time to another, s, or the smallest.
     pub fn window(&self, request: &Request, is_highest: bool, times: [Option<f64>; 2]) -> Window {
         let shows = |column: &Column| column.value.of(self.series);

@@ -32,6 +32,8 @@ pub enum Group {
     Orbit,
     /// What the control law of the campaign reports at the end of a run. There where the law has columns; a campaign cannot name it.
     Control,
+    /// When events and failures happened in a run. There where the file has such tables; a campaign cannot name it.
+    Events,
 }
 
 impl Group {
@@ -78,6 +80,7 @@ impl Group {
             Group::MassProperties => "mass_properties",
             Group::Orbit => "orbit",
             Group::Control => "control",
+            Group::Events => "events",
         }
     }
 

@@ -59,19 +59,23 @@ impl LawSeries {
 pub struct LawColumns {
     /// The columns.
     pub list: &'static [LawColumn],
+    /// How many of them, the last ones, say when events and failures happened: they are no matter of the law.
+    pub of_events: usize,
     /// The quantities over time.
     pub over_time: LawSeries,
 }
 
 impl PartialEq for LawColumns {
     fn eq(&self, other: &Self) -> bool {
-        (core::ptr::eq(self.list, other.list) || self.list == other.list) && self.over_time == other.over_time
+        (core::ptr::eq(self.list, other.list) || self.list == other.list)
+            && self.of_events == other.of_events
+            && self.over_time == other.over_time
     }
 }
 
 impl LawColumns {
     /// A law that reports nothing, or no law.
-    pub const NONE: LawColumns = LawColumns { list: &[], over_time: LawSeries::NONE };
+    pub const NONE: LawColumns = LawColumns { list: &[], of_events: 0, over_time: LawSeries::NONE };
 
     /// The columns `list`, known at run time only. Each list is kept once and for good: a program has as many as it opens kinds of campaigns.
     pub fn kept(list: Vec<LawColumn>) -> Self {
@@ -86,9 +90,21 @@ impl LawColumns {
         LawColumns { list, ..LawColumns::NONE }
     }
 
+    /// The same, followed by the columns `events` that say when events and failures happened.
+    #[must_use]
+    pub fn with_events(self, events: Vec<LawColumn>) -> Self {
+        if events.is_empty() {
+            return self;
+        }
+        let of_events = events.len();
+        LawColumns { of_events, over_time: self.over_time, ..Self::kept([self.list.to_vec(), events].concat()) }
+    }
+
     /// The handles of the columns.
     pub(super) fn ids(self) -> impl Iterator<Item = ColumnId> {
-        (0..self.list.len()).map(|index| ColumnId { group: Group::Control, value: Value::Law(index as u8) })
+        let of_law = self.list.len() - self.of_events;
+        let group = move |index: usize| if index < of_law { Group::Control } else { Group::Events };
+        (0..self.list.len()).map(move |index| ColumnId { group: group(index), value: Value::Law(index as u8) })
     }
 
     /// The columns.

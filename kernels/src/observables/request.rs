@@ -126,7 +126,13 @@ impl Request {
     /// Where a row has what the control law reports.
     pub fn places_of_law(&self) -> Range<usize> {
         let start = self.rows().len();
-        start..start + self.of_law.list.len()
+        start..start + self.of_law.list.len() - self.of_law.of_events
+    }
+
+    /// Where a row has when events and failures happened.
+    pub fn places_of_events(&self) -> Range<usize> {
+        let start = self.places_of_law().end;
+        start..start + self.of_law.of_events
     }
 
     /// The place of a column in a row; `None` where the row does not have it.

@@ -1,12 +1,12 @@
 //! [`Actuated`]: what does work on a spacecraft, or changes its momentum, at any time of a run.
 
 use super::input::SceneInput;
-use super::schema::{WheelInput, WheelMode};
+use super::schema::{Device, FailureInput, WheelInput, WheelMode};
 
 /// What acts on a spacecraft at some time of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Actuated {
-    /// Thrusters: the schedule commands a thrust.
+    /// Thrusters: the schedule commands a thrust, or one may be stuck on.
     pub thrusters: bool,
     /// Motors of wheels: the schedule commands a torque, or a motor holds the speed of its wheel.
     pub motors: bool,
@@ -24,9 +24,10 @@ impl Actuated {
     pub fn of(input: &SceneInput) -> Self {
         let is_held = |wheel: &WheelInput| wheel.mode == WheelMode::SpeedHeld;
         let commands = |numbers: &[f64]| numbers.iter().any(|number| *number != 0.0);
+        let is_of_thruster = |failure: &FailureInput| matches!(failure.device, Device::Thruster(_));
         let arcs = || input.actuation.iter();
         Actuated {
-            thrusters: arcs().any(|arc| commands(&arc.thrust_n)),
+            thrusters: arcs().any(|arc| commands(&arc.thrust_n)) || input.failures.iter().any(is_of_thruster),
             motors: arcs().any(|arc| commands(&arc.torque_n_m)) || input.wheels.iter().any(is_held),
             body_torque: input.environment.acts() || input.orbit.is_some(),
         }

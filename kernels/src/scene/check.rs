@@ -93,6 +93,9 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     }
     input.environment.check(has_debris, problems, |key| format!("environment.{key}").into());
     input.control.check(problems);
+    for failure in &input.failures {
+        failure.check(has_debris, problems, |key| Table::Failure.name(failure.name, key).into());
+    }
     if input.actuation.is_empty() {
         return;
     }

@@ -6,8 +6,8 @@
 
 use super::name::Name;
 use super::schema::{
-    ActuationInput, ActuatorsInput, BodyInput, ControlInput, DebrisInput, EnvironmentInput, InitialInput, MAX_WHEELS,
-    OrbitInput, PartInput, PartShape, PlateInput, ThrusterInput, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, BodyInput, ControlInput, DebrisInput, EnvironmentInput, FailureInput, InitialInput,
+    MAX_WHEELS, OrbitInput, PartInput, PartShape, PlateInput, ThrusterInput, WheelInput, WheelMode,
 };
 use crate::math::list::List;
 
@@ -53,6 +53,8 @@ pub struct SceneInput {
     pub environment: EnvironmentInput,
     /// The parameters of the control law, if there is one.
     pub control: ControlInput,
+    /// The devices that fail during a run.
+    pub failures: Vec<FailureInput>,
 }
 
 impl Default for SceneInput {
@@ -84,6 +86,7 @@ impl SceneInput {
             plates: Vec::new(),
             environment: EnvironmentInput::DEFAULT,
             control: ControlInput::NONE,
+            failures: Vec::new(),
         }
     }
 

@@ -13,6 +13,7 @@
 //! - [`plate`]: the plates that air and light push.
 //! - [`thruster`]: force and torque of thrusters. [`alignment`]: axes and directions, and their errors. [`name`]: names.
 //! - [`unit_quaternion`]: the attitude that is used where one is written.
+//! - `failures`: what failures of actuators make of a schedule.
 //! - [`schedule`]: what the actuators make of the commands, and the arcs of constant actuation.
 
 pub mod actuated;
@@ -21,6 +22,7 @@ pub mod body;
 pub mod check;
 pub mod epoch;
 pub mod error;
+mod failures;
 pub mod input;
 pub mod mass;
 pub mod name;
@@ -54,9 +56,10 @@ pub use parameter::Parameter;
 pub use plate::Plate;
 pub use schedule::{Actuation, Arc};
 pub use schema::{
-    ActuationInput, ActuatorsInput, ArcErrors, BodyInput, ControlInput, DebrisInput, DeclaredTable, EnvironmentInput,
-    FieldModel, InitialInput, LawParameter, MAX_PLATES, MAX_THRUSTERS, MAX_WHEELS, MassErrors, OrbitInput, PartInput,
-    PartShape, PlateInput, PrincipalInertia, PrincipalMoments, Shadow, ThrusterInput, WheelInput, WheelMode,
+    ActuationInput, ActuatorsInput, ArcErrors, BodyInput, ControlInput, DebrisInput, DeclaredTable, Device,
+    EnvironmentInput, FailureInput, FieldModel, InitialInput, LawParameter, MAX_PLATES, MAX_THRUSTERS, MAX_WHEELS,
+    MassErrors, OrbitInput, PartInput, PartShape, PlateInput, PrincipalInertia, PrincipalMoments, SensorOutput, Shadow,
+    ThrusterInput, WheelInput, WheelMode,
 };
 
 pub use thruster::Thruster;
@@ -86,6 +89,8 @@ pub struct Scene {
     pub commands_torque: bool,
     /// What actuators make of the commands of a control law; those of the schedule have it.
     pub actuators: ActuatorModels,
+    /// The devices that fail during a run; the schedule has what becomes of its arcs already.
+    pub failures: Vec<FailureInput>,
 }
 
 /// What the actuators make of the commands of a control law.

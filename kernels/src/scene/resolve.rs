@@ -3,9 +3,9 @@
 use super::error::Problems;
 use super::input::SceneInput;
 use super::mass::MassProperties;
-use super::schema::{InitialInput, MAX_WHEELS, WheelMode};
+use super::schema::{Device, InitialInput, MAX_WHEELS, WheelMode};
 use super::unit_quaternion::unit_quaternion;
-use super::{ActuatorModels, InitialState, Offsets, Orbit, Scene, SceneError, check, plate, schedule};
+use super::{ActuatorModels, InitialState, Offsets, Orbit, Scene, SceneError, check, failures, plate, schedule};
 use crate::math::vector::{
     conjugate, cross, dcm_from_quaternion, difference, hamilton, product, sum, transposed_product,
 };
@@ -30,6 +30,7 @@ impl Scene {
             commands_thrust: false,
             commands_torque: false,
             actuators: ActuatorModels::IDEAL,
+            failures: Vec::new(),
         };
         scene.take(input, &mass);
         Ok(scene)
@@ -76,6 +77,9 @@ impl Scene {
         self.commands_thrust = input.actuation.iter().any(|arc| arc.thrust_n.iter().any(|thrust| *thrust != 0.0));
         self.commands_torque = input.actuation.iter().any(|arc| arc.torque_n_m.iter().any(|torque| *torque != 0.0));
         self.actuators = ActuatorModels::of(input);
+        self.failures.clone_from(&input.failures);
+        failures::apply(&self.failures, &mut self.schedule);
+        self.commands_thrust |= self.failures.iter().any(|failure| matches!(failure.device, Device::Thruster(_)));
     }
 }
 

@@ -10,8 +10,8 @@ use super::name::Name;
 use super::schema::limit::shown;
 use super::schema::{
     ActuationInput, ActuatorsInput, ArcErrors, BodyInput, DebrisInput, DeclaredTable, EnvironmentInput, Facts,
-    InitialInput, LawParameter, MassErrors, OrbitInput, PartInput, PlateInput, Presence, Row, ThrusterInput,
-    WheelInput,
+    FailureInput, InitialInput, LawParameter, MassErrors, OrbitInput, PartInput, PlateInput, Presence, Row,
+    ThrusterInput, WheelInput,
 };
 
 /// A key of a table of the schema.
@@ -179,6 +179,7 @@ tables! {
     Actuation, "actuation", false, &[ActuationInput::ROWS],
         scene.actuation.get(instance), scene.actuation.get_mut(instance);
     ArcErrors, "actuation", true, &[ArcErrors::ROWS], scene.actuation.get(instance), scene.actuation.get_mut(instance);
+    Failure, "failure", true, &[FailureInput::ROWS], scene.failures.get(instance), scene.failures.get_mut(instance);
 }
 
 impl Table {
@@ -223,6 +224,7 @@ impl Table {
             Table::Actuation => vec![Name::NONE; scene.actuation.len()],
             Table::Sensors => scene.control.sensors.iter().map(|sensor| sensor.name).collect(),
             Table::Guidance => scene.control.guidance.iter().map(|phase| phase.name).collect(),
+            Table::Failure => scene.failures.iter().map(|failure| failure.name).collect(),
             Table::ArcErrors => {
                 let name = |(index, name): (usize, Name)| if name == Name::NONE { Name::number(index) } else { name };
                 scene.actuation.iter().map(|arc| arc.name).enumerate().map(name).collect()
@@ -303,5 +305,6 @@ fn with_every_table() -> SceneInput {
     let scene = SceneInput { parts: vec![part], plates: vec![plate], orbit, ..SceneInput::blank() };
     let scene = scene.with_wheel(WheelInput { name: Name::of("wheel"), ..WheelInput::DEFAULT });
     let scene = scene.with_thruster(ThrusterInput { name: Name::of("thruster"), ..ThrusterInput::DEFAULT });
-    scene.with_debris(DebrisInput::BLANK).with_actuation(ActuationInput::DEFAULT)
+    let failures = vec![FailureInput { name: Name::of("failure"), ..FailureInput::DEFAULT }];
+    SceneInput { failures, ..scene.with_debris(DebrisInput::BLANK).with_actuation(ActuationInput::DEFAULT) }
 }

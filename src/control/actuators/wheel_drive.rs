@@ -4,6 +4,7 @@
 //! torque on the wheel alone: what else turns the body changes it, which the next arc sees.
 
 use crate::control::vector::{dot, product};
+use crate::scene::FailureInput;
 
 /// A wheel's motor and bearing. Torques are about the wheel's axis and act on the wheel; the body takes the opposite.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +57,19 @@ impl WheelDrive {
             viscous: 0.0,
             torque_scale: 1.0,
             torque_bias: 0.0,
+        }
+    }
+
+    /// The same after `failure`.
+    #[must_use]
+    pub fn failed(self, failure: &FailureInput) -> Self {
+        let scale = failure.torque_scale.unwrap_or(1.0);
+        WheelDrive {
+            torque_scale: scale * self.torque_scale,
+            torque_bias: scale * self.torque_bias,
+            coulomb: failure.coulomb_friction_n_m.unwrap_or(self.coulomb),
+            viscous: failure.viscous_friction_n_m_s.unwrap_or(self.viscous),
+            ..self
         }
     }
 

@@ -23,10 +23,11 @@ use crate::control::parameters::{
 };
 use crate::control::plant::Plant;
 use crate::control::recorder::Recorder;
-use crate::control::sensors::{KINDS as SENSORS, SampledSensor, SensorContext};
+use crate::control::sensors::failing::FailingSensor;
+use crate::control::sensors::{KINDS as SENSORS, SampledSensor, Sensor, SensorContext};
 use crate::control::small_matrix::inverse;
 use crate::control::spec::{LoopSpec, PhaseSpec, SensorSpec, ticks_per_period};
-use crate::scene::{DeclaredTable, Scene};
+use crate::scene::{DeclaredTable, Device, Scene};
 
 /// The motors and bearings of the wheels of `scene`.
 fn wheel_drives(scene: &Scene) -> Vec<WheelDrive> {
@@ -69,7 +70,7 @@ fn phases(spec: &LoopSpec, tables: &[DeclaredTable]) -> Vec<Phase> {
 
 /// The sensors of the run of `context`, on a loop with ticks of `tick_period` seconds.
 fn sensors(spec: &LoopSpec, context: &LawContext<'_>, tick_period: f64) -> Vec<SampledSensor> {
-    let sampled = |(sensor, parameters): (&SensorSpec, &DeclaredTable)| {
+    let sampled = |(place, (sensor, parameters)): (usize, (&SensorSpec, &DeclaredTable))| {
         let of_run = SensorContext {
             parameters,
             drawn: context.drawn,
@@ -78,10 +79,15 @@ fn sensors(spec: &LoopSpec, context: &LawContext<'_>, tick_period: f64) -> Vec<S
             seed: context.seed,
         };
         let ticks = |time: f64| (time / tick_period).round() as u64;
-        let made = (SENSORS[sensor.kind].make)(&of_run);
+        let kind = &SENSORS[sensor.kind];
+        let mut failures = context.drawn.failures.iter();
+        let made: Box<dyn Sensor> = match failures.find(|failure| failure.device == Device::Sensor(place)) {
+            Some(failure) => Box::new(FailingSensor::new(kind, &of_run, failure)),
+            None => (kind.make)(&of_run),
+        };
         SampledSensor::new(made, ticks(sensor.period).max(1), ticks(sensor.latency), tick_period)
     };
-    spec.sensors.iter().zip(&context.parameters.sensors).map(sampled).collect()
+    spec.sensors.iter().zip(&context.parameters.sensors).enumerate().map(sampled).collect()
 }
 
 /// The flight software of the run of `context`, on a loop with ticks of `tick_period` seconds: it is made from nominal numbers, and from the drawn ones of the

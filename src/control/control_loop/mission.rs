@@ -149,7 +149,7 @@ impl Mission {
         } else if self.saturated_since.is_nan() {
             self.saturated_since = time;
         }
-        let thrust = applied.actuation.thrust;
+        let thrust: [f64; MAX_THRUSTERS] = std::array::from_fn(|i| applied.actuation.thrust[i] + applied.stuck[i]);
         let hits = thrust != [0.0; MAX_THRUSTERS] && self.spec.approaches() && {
             let truth = plant.truth(time, body, wheels);
             self.criteria.plume.hits(plant.scene(), &truth, &thrust)

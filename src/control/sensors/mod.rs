@@ -4,8 +4,11 @@
 //! count, so that it depends neither on other sensors nor on measurements that were lost. The nominal run has no noise; biases, scales and
 //! misalignments stay.
 //!
+//! One that fails during the run is a [`failing`] sensor around that of its kind.
+//!
 //! Not here: what is made of a measurement ([`super::estimators`]).
 
+pub mod failing;
 mod ground_radar;
 pub mod rate_gyro;
 mod relative_camera;

@@ -5,7 +5,7 @@
 //! field where it acts.
 //!
 //! - [`body`], [`part`], [`mass_errors`], [`wheel`], [`thruster`], [`debris`], [`initial`], [`orbit`], [`environment`], [`plate`], [`actuators`],
-//!   [`actuation`]: the rows, table by table; [`control`]: those that a control law declares.
+//!   [`actuation`], [`failure`]: the rows, table by table; [`control`]: those that a control law declares.
 //! - [`row`]: what a row is. [`limit`]: what a value must satisfy. [`numbers`]: values seen as plain numbers.
 //!
 //! A row knows its own table only; [`super::table`] says where in a scene the tables are. A table may have several instances.
@@ -19,6 +19,7 @@ mod components;
 pub mod control;
 pub mod debris;
 pub mod environment;
+pub mod failure;
 pub mod initial;
 pub mod limit;
 pub mod mass_errors;
@@ -38,6 +39,7 @@ pub use body::BodyInput;
 pub use control::{ControlInput, DeclaredTable, LawParameter};
 pub use debris::DebrisInput;
 pub use environment::{EnvironmentInput, FieldModel, Shadow};
+pub use failure::{Device, FailureInput, SensorOutput};
 pub use initial::InitialInput;
 pub use limit::Limit;
 pub use mass_errors::MassErrors;

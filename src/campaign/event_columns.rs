@@ -1,0 +1,47 @@
+//! The columns of rows that say when failures and events happened.
+
+use super::event::Event;
+use super::failure_tables::failed_device;
+use crate::observables::{ColumnKind, LawColumn};
+use crate::run::Quantity;
+use crate::scene::SceneInput;
+
+/// How many columns each failure has, and each event.
+pub const EACH: usize = 2;
+
+/// The columns of the failures of `scene`, [`EACH`] of each.
+pub(super) fn of_failures(scene: &SceneInput) -> Vec<LawColumn> {
+    let of = |failure: &crate::scene::FailureInput| {
+        let name = failure.name;
+        let device = failed_device(scene, failure.device);
+        [
+            column(
+                format!("failure_{name}_time_s"),
+                "s",
+                format!("When the {device} failed; null where the run ended before."),
+                ColumnKind::Float,
+            ),
+            column(
+                format!("failure_{name}_happened"),
+                "",
+                format!("Whether the {device} failed before the end of the run: 1 or 0."),
+                ColumnKind::Count,
+            ),
+        ]
+    };
+    scene.failures.iter().flat_map(of).collect()
+}
+
+/// A column.
+fn column(name: String, unit: &str, meaning: String, kind: ColumnKind) -> LawColumn {
+    LawColumn { quantity: Quantity::named(name, unit.to_owned(), meaning), kind, codes: &[] }
+}
+
+/// The columns of `events`, [`EACH`] of each.
+pub(super) fn of_events(events: &[Event]) -> Vec<LawColumn> {
+    let kinds = [ColumnKind::Float, ColumnKind::Count];
+    let of = |event: &Event| {
+        event.quantities().into_iter().zip(kinds).map(|(quantity, kind)| LawColumn { quantity, kind, codes: &[] })
+    };
+    events.iter().flat_map(of).collect()
+}

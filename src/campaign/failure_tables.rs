@@ -1,0 +1,170 @@
+//! `[[failure]]`: devices that fail during a run, as a campaign file says them and as canonical text.
+
+use super::control::turning;
+use super::lines::Lines;
+use super::section::Section;
+use super::tables::{read_keys, read_name};
+use crate::scene::table::Table;
+use crate::scene::{Device, FailureInput, Name, SceneInput, SensorOutput, WheelMode};
+
+/// Most failures of a file.
+const MOST_FAILURES: usize = 16;
+/// The keys that name the device: a failure has exactly one.
+const DEVICES: [&str; 3] = ["wheel", "thruster", "sensor"];
+
+/// The keys that the failure of a device has, by the place of its kind in [`DEVICES`].
+const KEYS: [&[&str]; 3] = [&FailureInput::OF_WHEELS, &FailureInput::OF_THRUSTERS, &FailureInput::OF_SENSORS];
+
+/// Reads the tables into `scene`, whose devices have been read.
+pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
+    let has_loop = root.has("control");
+    root.sections("failure", MOST_FAILURES, |section| {
+        let taken: Vec<Name> = scene.failures.iter().map(|failure| failure.name).collect();
+        let name = read_name(section, Table::Failure, &taken);
+        let device = read_device(section, scene, has_loop);
+        scene.failures.push(FailureInput { name, ..FailureInput::DEFAULT });
+        let place = scene.failures.len() - 1;
+        if let Some((kind, _)) = device {
+            check_keys(section, kind);
+        }
+        read_keys(section, Table::Failure, place, scene);
+        let names = SensorOutput::ALL.map(SensorOutput::name);
+        let output = section.name("output", &names, SensorOutput::from_name);
+        if let Some((_, device)) = device {
+            check_device(section, scene, device, has_loop);
+            let failure = &mut scene.failures[place];
+            (failure.device, failure.output) = (device, output);
+        }
+        section.finish();
+    });
+}
+
+/// The device that fails, and the place of its kind; `None` where that is wrong, which is then noted.
+fn read_device(section: &mut Section<'_, '_>, scene: &SceneInput, has_loop: bool) -> Option<(usize, Device)> {
+    DEVICES.iter().for_each(|key| section.know(key));
+    let written: Vec<usize> = (0..DEVICES.len()).filter(|kind| section.has(DEVICES[*kind])).collect();
+    let kind = match written[..] {
+        [kind] => kind,
+        [] => {
+            section.require("wheel", "the name of the wheel that fails (or thruster or sensor instead)", "\"w1\"");
+            return None;
+        }
+        [_, second, ..] => {
+            section.refuse(
+                DEVICES[second],
+                "left out where another device is named",
+                "write a [[failure]] table for each",
+            );
+            return None;
+        }
+    };
+    let known: Vec<Option<Name>> = match kind {
+        0 => turning(scene),
+        1 => scene.thrusters.iter().map(|thruster| Some(thruster.name)).collect(),
+        _ => scene.control.sensors.iter().map(|sensor| Some(sensor.name)).collect(),
+    };
+    let names: Vec<&str> = known.iter().flatten().map(Name::as_str).collect();
+    if names.is_empty() {
+        let what = ["free wheels", "thrusters", "sensors"][kind];
+        let remedy =
+            if kind == 2 && !has_loop { "add a [control] loop with [[sensors]]" } else { "name another device" };
+        section.refuse(DEVICES[kind], format!("left out where the scene has no {what}"), remedy);
+        return None;
+    }
+    let place = |text: &str| known.iter().position(|name| name.is_some_and(|name| name.as_str() == text));
+    let place = section.name(DEVICES[kind], &names, place)?;
+    Some((kind, [Device::Wheel(place), Device::Thruster(place), Device::Sensor(place)][kind]))
+}
+
+/// Notes keys of other devices, and where no key says what becomes of this one.
+fn check_keys(section: &mut Section<'_, '_>, kind: usize) {
+    for other in (0..KEYS.len()).filter(|other| *other != kind) {
+        for key in KEYS[other].iter().filter(|key| section.has(key)).collect::<Vec<_>>() {
+            let allowed = format!("left out: a failure of a {} has {}", DEVICES[kind], KEYS[kind].join(", "));
+            section.refuse(key, allowed, "delete this line");
+        }
+    }
+    let own: Vec<&str> = KEYS[kind].iter().copied().filter(|key| section.has(key)).collect();
+    if own.is_empty() {
+        let allowed = format!("what becomes of the {}: one of {}", DEVICES[kind], KEYS[kind].join(", "));
+        section.require(KEYS[kind][0], &allowed, ["0.0", "0.0", "\"silent\""][kind]);
+    } else if let (2, [_, second, ..]) = (kind, &own[..]) {
+        section.refuse(
+            second,
+            format!("the only one of {}", KEYS[kind].join(", ")),
+            "delete it: a sensor fails in one way",
+        );
+    }
+}
+
+/// Notes what this device cannot do, and where it has failed before.
+fn check_device(section: &mut Section<'_, '_>, scene: &SceneInput, device: Device, has_loop: bool) {
+    if let Some(first) = scene.failures.iter().find(|failure| failure.device == device) {
+        let key = match device {
+            Device::Wheel(_) => DEVICES[0],
+            Device::Thruster(_) => DEVICES[1],
+            _ => DEVICES[2],
+        };
+        let allowed = format!("a device that does not fail in another table: it does in {}", first.name);
+        section.refuse(key, allowed, "delete one of the two tables");
+    }
+    if let (Device::Wheel(_), false) = (device, has_loop) {
+        for key in FailureInput::OF_WHEELS.into_iter().filter(|key| key.contains("friction")) {
+            if section.has(key) {
+                let remedy = "delete it, or add a [control] table";
+                section.refuse(key, "left out without [control]: a schedule commands what is applied", remedy);
+            }
+        }
+    }
+    if let Device::Sensor(place) = device {
+        let sensor = &scene.control.sensors[place];
+        if sensor.declared.0.is_empty() {
+            // its kind is wrong, which is told
+            return;
+        }
+        for key in FailureInput::OF_SENSORS.into_iter().filter(|key| key.starts_with("bias")) {
+            if section.has(key) && sensor.named(key).is_none_or(|bias| bias.len() != 3) {
+                let able = FailureInput::OF_SENSORS.into_iter().skip(1);
+                let able = able.filter(|key| sensor.named(key).is_some_and(|bias| bias.len() == 3));
+                let remedy = able.map(|key| format!("write {key}")).next();
+                let allowed = format!("left out: a sensor of the kind of {} has no such bias", sensor.name);
+                section.refuse(
+                    key,
+                    allowed,
+                    remedy.unwrap_or_else(|| "write output = \"silent\" or \"frozen\"".to_owned()),
+                );
+            }
+        }
+    }
+}
+
+/// The name of the key of a device, and that of the device, in `scene`.
+fn named(scene: &SceneInput, device: Device) -> Option<(&'static str, Name)> {
+    let mut turning = scene.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
+    Some(match device {
+        Device::Wheel(place) => (DEVICES[0], turning.nth(place)?.name),
+        Device::Thruster(place) => (DEVICES[1], scene.thrusters.get(place)?.name),
+        Device::Sensor(place) => (DEVICES[2], scene.control.sensors.get(place)?.name),
+        Device::Unknown => return None,
+    })
+}
+
+/// The device of `scene` in words: `wheel w1`.
+pub fn failed_device(scene: &SceneInput, device: Device) -> String {
+    named(scene, device).map_or_else(String::new, |(kind, name)| format!("{kind} {name}"))
+}
+
+/// The failures of `scene` as canonical text.
+pub(super) fn write(scene: &SceneInput, lines: &mut Lines) {
+    for (place, failure) in scene.failures.iter().enumerate() {
+        lines.table("[[failure]]");
+        lines.key("name", failure.name);
+        if let Some((key, device)) = named(scene, failure.device) {
+            lines.key(key, device);
+        }
+        if let Some(output) = failure.output {
+            lines.key("output", output.name());
+        }
+        lines.keys(Table::Failure, place, scene);
+    }
+}
