@@ -19,17 +19,28 @@ def examples(document: str) -> list[str]:
     return re.findall(r"(?s)```python\n(.*?)```", text)
 
 
-@pytest.mark.parametrize("document", ["README.md", "docs/python.md"])
+DOCUMENTS = ["README.md", "docs/python.md"]
+
+
+@pytest.mark.parametrize("document", DOCUMENTS)
 def test_the_examples_run(document: str, tmp_path: Path) -> None:
-    """Law: as one program in an empty folder with the file that `spindrift new` writes; mypy finds nothing wrong with it."""
+    """Law: as one program in an empty folder with the file that `spindrift new` writes."""
     found = examples(document)
     assert found
     (tmp_path / "my_sweep.toml").write_text(START.read_text())
-    program = tmp_path / "examples.py"
-    program.write_text("\n".join(found))
-    done = subprocess.run([sys.executable, program.name], cwd=tmp_path, capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0, done.stderr
-    checked = subprocess.run(
-        [sys.executable, "-m", "mypy", "--strict", program.name], cwd=tmp_path, capture_output=True, text=True, timeout=300
+    done = subprocess.run(
+        [sys.executable, "-c", "\n".join(found)], cwd=tmp_path, capture_output=True, text=True, timeout=300
     )
-    assert checked.returncode == 0, checked.stdout
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_examples_have_the_types_of_the_stubs(tmp_path: Path) -> None:
+    """Law: mypy finds nothing wrong with them, and finds what is wrong."""
+    programs = {f"example_{index}.py": "\n".join(examples(document)) for index, document in enumerate(DOCUMENTS)}
+    programs["wrong.py"] = 'import spindrift as sd\nsd.load("x.toml").run(samples="many").row\n'
+    for name, text in programs.items():
+        (tmp_path / name).write_text(text)
+    words = [sys.executable, "-m", "mypy", "--strict", *programs]
+    checked = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    lines = [line for line in checked.stdout.splitlines() if ": error: " in line]
+    assert len(lines) == 2 and all(line.startswith("wrong.py:2: ") for line in lines), checked.stdout

@@ -20,7 +20,6 @@ SETTINGS = {"campaign.duration_s": 5000.0, "observe.points": 2001}
 PROGRAM = """
 import sys, spindrift as sd
 plan = sd.load(sys.argv[1]).set({"campaign.duration_s": 5000.0, "observe.points": 2001})
-print("started", flush=True)
 try:
     plan.run(samples=int(sys.argv[3]), out=sys.argv[2], threads=1, page=False)
 except KeyboardInterrupt as stopped:
@@ -29,17 +28,20 @@ except KeyboardInterrupt as stopped:
 """
 
 
+def started(out: Path, words: list[str]) -> subprocess.Popen[str]:
+    """A process that runs into `out`, once its first two parts are there."""
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    limit = time.monotonic() + 120
+    while len(list(out.glob("runs/part-*"))) < 2:
+        assert process.poll() is None and time.monotonic() < limit, "it has ended, or does nothing"
+        time.sleep(0.02)
+    return process
+
+
 def test_ctrl_c_stops_and_the_same_call_continues(tmp_path: Path) -> None:
     """Law: as on the command line: what is done stays, the message says how much, and the rows are in the end those of an undisturbed run."""
     samples, out = 20_000, tmp_path / "stopped"
-    process = subprocess.Popen(
-        [sys.executable, "-c", PROGRAM, str(START), str(out), str(samples)], stdout=subprocess.PIPE, text=True
-    )
-    assert process.stdout is not None and process.stdout.readline() == "started\n"
-    limit = time.monotonic() + 120
-    while not (out / "runs").is_dir() or len(list((out / "runs").glob("part-*"))) < 2:
-        assert process.poll() is None and time.monotonic() < limit, "it has ended, or does nothing"
-        time.sleep(0.02)
+    process = started(out, [sys.executable, "-c", PROGRAM, str(START), str(out), str(samples)])
     process.send_signal(signal.SIGINT)
     asked = time.monotonic()
     said, _ = process.communicate(timeout=60)
@@ -48,14 +50,12 @@ def test_ctrl_c_stops_and_the_same_call_continues(tmp_path: Path) -> None:
     assert f"of {samples} samples are done and safe. The same call continues." in said, said
     with pytest.raises(sd.SpindriftError, match="not finished"):
         sd.open(out)
-    there = {file.name: file.stat().st_mtime_ns for file in (out / "runs").iterdir()}
-    few = sum(pl.read_parquet(out / "runs" / name).height for name in there)
-    assert 0 < few < samples
-    # continued with as many samples as there are whole parts for, so that the test is short
+    parts = pl.concat([pl.read_parquet(file) for file in sorted((out / "runs").iterdir())])
+    assert 0 < parts.height < samples
+    # as many samples as are done, so that the test is short: rows do not depend on the number of samples
     plan = sd.load(START).set(SETTINGS)
-    rows = pl.DataFrame(plan.run(samples=few, page=False).rows)
-    parts = pl.concat([pl.read_parquet(out / "runs" / name) for name in sorted(there)])
-    assert parts.equals(rows.head(parts.height)) or set(parts["sample_id"]) != set(rows["sample_id"])
+    rows = pl.DataFrame(plan.run(samples=parts["sample_id"].max() + 1, page=False).rows)  # type: ignore[operator, arg-type]
+    assert rows.filter(pl.col("sample_id").is_in(parts["sample_id"].implode())).equals(parts)
 
 
 def test_a_stopped_run_is_continued(tmp_path: Path) -> None:
@@ -113,3 +113,28 @@ def test_progress_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
     assert "5000" in shown
     sd.load(START).run(samples=500, page=False)
     assert capsys.readouterr().err == ""
+
+
+def test_two_ctrl_c_end_at_once(tmp_path: Path) -> None:
+    """Law: the second one gives up the parts under way; what is committed stays."""
+    out = tmp_path / "x"
+    process = started(out, [sys.executable, "-c", PROGRAM, str(START), str(out), "1000000"])
+    process.send_signal(signal.SIGINT)
+    time.sleep(0.1)
+    if process.poll() is None:
+        process.send_signal(signal.SIGINT)
+    asked = time.monotonic()
+    said, _ = process.communicate(timeout=60)
+    assert process.returncode == 42 and "stopped" in said and time.monotonic() - asked < 20, said
+    assert len(list(out.glob("runs/part-*"))) >= 2
+
+
+def test_ctrl_c_stops_the_command(tmp_path: Path) -> None:
+    """Law: the command of the package ends as the program does: 130, what is done is safe."""
+    out = tmp_path / "x"
+    sets = [word for key, value in SETTINGS.items() for word in ("--set", f"{key}={value}")]
+    words = ["campaign", str(START), "--out", str(out), "--samples", "1000000", "--threads", "1", *sets]
+    process = started(out, [sys.executable, "-m", "spindrift", *words])
+    process.send_signal(signal.SIGINT)
+    said, _ = process.communicate(timeout=60)
+    assert process.returncode == 130 and "stopped by SIGINT" in said and "The same command continues." in said, said
