@@ -162,7 +162,7 @@ impl Target {
                 orbit.map_or(AttitudeError::NONE, |OrbitMotion { v_e, a_e, .. }| pointing(q_es, v_e, turn_of(v_e, a_e)))
             }
             // it turns by 2e-7 rad/s
-            (Target::Sun, _) => orbit.map_or(AttitudeError::NONE, |orbit| fixed(orbit.sun_e)),
+            (Target::Sun, _) => orbit.map_or(AttitudeError::NONE, |orbit| pointing(q_es, orbit.sun_e, [0.0; 3])),
             (Target::LineToDebris, Some(geometry)) => {
                 let line = geometry.to_debris;
                 // the spacecraft moves with the relative velocity, and the line against it
