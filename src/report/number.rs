@@ -42,7 +42,7 @@ pub fn outward([low, high]: [f64; 2], digits: i32) -> [f64; 2] {
         let steps = value * times / over;
         let whole = libm::round(steps);
         // not by its own rounding
-        let steps = match (steps - whole).abs() < 1e-9 * steps.abs() {
+        let steps = match (steps - whole).abs() < 1e-13 * steps.abs() {
             true => whole,
             false if up => libm::ceil(steps),
             false => libm::floor(steps),

@@ -5,16 +5,15 @@ use crate::report::number::{brief, outward};
 /// Digits of a share in per cent, and of what is left to 100 where it is less than one.
 const DIGITS: i32 = 3;
 
-/// How many decimals show that a share in per cent is not all; `None` where it is all, or three digits show it.
-fn decimals(percent: f64) -> Option<usize> {
-    let left = 100.0 - percent;
-    (1e-10..1.0).contains(&left).then(|| (-libm::floor(libm::log10(left))) as usize)
+/// How many decimals of per cent show that a share is not all; `None` where it is all, or three digits show it.
+fn decimals(share: f64) -> Option<usize> {
+    let left = 100.0 * (1.0 - share);
+    (1e-12..1.0).contains(&left).then(|| (-libm::floor(libm::log10(left))) as usize)
 }
 
 /// A share in per cent with three digits, and near 100 with as many as show that it is not all.
 pub fn percent(share: f64) -> String {
-    let left = 100.0 * (1.0 - share);
-    match decimals(100.0 - left) {
+    match decimals(share) {
         Some(digits) => format!("{:.digits$}", 100.0 * share),
         None => brief(100.0 * share),
     }
@@ -23,7 +22,7 @@ pub fn percent(share: f64) -> String {
 /// The ends of the interval of a share, in per cent, rounded away from each other: 99.9975 is never 100.
 fn ends([low, high]: [f64; 2]) -> [String; 2] {
     let [below, above] = outward([100.0 * low, 100.0 * high], DIGITS);
-    let end = |share: f64, rounded: f64, up: bool| match decimals(100.0 * share) {
+    let end = |share: f64, rounded: f64, up: bool| match decimals(share) {
         Some(digits) => {
             // one digit more where rounding would show all
             let digits = digits.max(1);
@@ -31,7 +30,7 @@ fn ends([low, high]: [f64; 2]) -> [String; 2] {
                 let step = libm::exp10(digits as f64);
                 let steps = 100.0 * share * step;
                 let whole = libm::round(steps);
-                let near = (steps - whole).abs() < 1e-9 * step;
+                let near = (steps - whole).abs() < 8.0 * f64::EPSILON * steps;
                 (if near {
                     whole
                 } else if up {

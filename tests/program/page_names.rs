@@ -15,9 +15,15 @@ const SYMBOLS: [&str; 10] = ["F_s", "F_e", "F_d", "F_o", "C_es", "q_es", "omega_
 /// What a reader sees of a static page: without styles, code, and what is in tags.
 fn texts(page: &str) -> Vec<String> {
     let mut text = page.to_owned();
-    for (start, end) in
-        [("<style", "</style>"), ("<code", "</code>"), ("<pre", "</pre>"), ("<h1", "</h1>"), ("<title>", "</title>")]
-    {
+    for (start, end) in [
+        ("<style", "</style>"),
+        ("<code", "</code>"),
+        ("<pre", "</pre>"),
+        ("<h1", "</h1>"),
+        ("<title>", "</title>"),
+        ("<p class=\"facts\"", "</p>"),
+        ("<span class=\"quiet\"", "</span>"),
+    ] {
         while let Some(from) = text.find(start) {
             let Some(length) = text[from..].find(end) else { break };
             text.replace_range(from..from + length + end.len(), " ");
