@@ -4,9 +4,10 @@ import { chartOption, heightOf, legendOf } from "./chart.js";
 import { described } from "./hover.js";
 import { readable } from "./numbers.js";
 import { saveButtons } from "./save.js";
+import { clicked, onSelection, runsAt, selectionMarks } from "./select.js";
 import { colors, isOnPaper, onTheme } from "./theme.js";
 
-const PAPER_WIDTH = 250;
+const PAPER_WIDTH = 200;
 const WHOLE_PAPER = 700;
 const views = [];
 
@@ -61,6 +62,7 @@ export class FigureView {
     const caption = element("figcaption", "", figure.caption);
     caption.addEventListener("click", () => caption.classList.toggle("open"));
     this.box.append(head, this.legend, this.plot, caption);
+    this.plot.classList.toggle("of-runs", this.isOfRuns());
     this.listen();
     views.push(this);
   }
@@ -72,7 +74,7 @@ export class FigureView {
   }
 
   draw() {
-    // on paper three figures share the width: so wide that their text has the size of the text around
+    // on paper four figures share the width: so wide that their text has the size of the text around
     const paper = this.figure.columns === 12 ? WHOLE_PAPER : PAPER_WIDTH;
     const width = isOnPaper() ? paper : Math.max(240, Math.floor(this.plot.clientWidth));
     if (this.chart && width === this.width && this.palette === colors().background) return;
@@ -81,7 +83,8 @@ export class FigureView {
     this.plot.style.height = `${height}px`;
     this.chart?.dispose();
     this.chart = this.echarts.init(this.plot, null, { renderer: "svg", width, height });
-    this.chart.setOption(chartOption(this.figure, width));
+    this.selection = selectionMarks(this.figure);
+    this.chart.setOption(chartOption({ ...this.figure, marks: [...this.figure.marks, ...this.selection] }, width));
     // so that a printed page may scale it
     this.plot.querySelector("svg").setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.plot.append(this.tip, this.cursor);
@@ -111,10 +114,14 @@ export class FigureView {
     this.plot.addEventListener("blur", () => this.leave());
     // a figure over time leads the replay, as the replay leads its cursor
     this.plot.addEventListener("click", (event) => {
-      if (!this.figure.time || !this.chart) return;
+      if (!this.chart) return;
       const box = this.plot.getBoundingClientRect();
       const at = [event.clientX - box.left, event.clientY - box.top];
-      if (this.chart.containPixel({ gridIndex: 0 }, at)) document.dispatchEvent(new CustomEvent("replaytime", { detail: this.chart.convertFromPixel({ gridIndex: 0 }, at)[0] }));
+      const value = this.chart.convertFromPixel({ gridIndex: 0 }, at);
+      // a point may lie on the edge of the axes
+      if (!this.figure.time) return this.isOfRuns() && clicked(runsAt(this.figure, at, value, (x, y) => this.toPixel(x, y)));
+      if (this.chart.containPixel({ gridIndex: 0 }, at)) document.dispatchEvent(new CustomEvent("replaytime", { detail: value[0] }));
+      return undefined;
     });
     this.plot.addEventListener("dblclick", () => this.chart?.dispatchAction({ type: "dataZoom", start: 0, end: 100 }));
     this.plot.addEventListener("keydown", (event) => {
@@ -124,6 +131,11 @@ export class FigureView {
       const at = this.pointer ?? [this.width / 2, 100];
       this.hover([Math.min(this.width - 20, Math.max(68, at[0] + step * 6)), at[1]]);
     });
+  }
+
+  // Whether it shows runs that a click selects.
+  isOfRuns() {
+    return this.figure.marks.some((mark) => (mark.kind === "points" && mark.samples.length > 0) || (mark.kind === "bars" && /^(histogram|input)_/.test(this.figure.name)));
   }
 
   hover(at) {
@@ -179,7 +191,7 @@ export function showFigures(figures, echarts) {
   );
   for (const figure of figures) {
     const view = new FigureView(figure, echarts);
-    document.querySelector(`#${figure.section} .figures`).append(view.box);
+    (document.querySelector(`[data-figure="${figure.name}"]`) ?? document.querySelector(`#${figure.section} .figures`)).append(view.box);
   }
   // so that nothing moves when they are drawn: links land where they point
   for (const view of views) view.reserve();
@@ -187,7 +199,14 @@ export function showFigures(figures, echarts) {
   const redraw = () => views.filter((view) => view.chart).forEach((view) => view.draw());
   new ResizeObserver(() => requestAnimationFrame(redraw)).observe(document.querySelector("main"));
   onTheme(redraw);
-  for (const fold of document.querySelectorAll("details.fold")) fold.addEventListener("toggle", drawWhenIdle);
+  onSelection(() => {
+    for (const view of views) {
+      if (!view.chart || (view.selection.length === 0 && selectionMarks(view.figure).length === 0)) continue;
+      view.width = 0;
+      view.draw();
+    }
+  });
+  for (const fold of document.querySelectorAll("details.fold, details.input")) fold.addEventListener("toggle", drawWhenIdle);
   (globalThis.requestIdleCallback ?? setTimeout)(drawWhenIdle);
   addEventListener("beforeprint", () => drawAll());
 }
@@ -195,4 +214,13 @@ export function showFigures(figures, echarts) {
 // Draws every figure, in view or not.
 export function drawAll() {
   for (const view of views) view.draw();
+}
+
+// Where a point of a run is in the first scatter plot, pixels of its plot; null without one: for tests of the page.
+export function placeOfRun() {
+  for (const view of views) {
+    const mark = view.chart && view.figure.name.startsWith("scatter_") && view.figure.marks.find((one) => one.kind === "points" && one.samples.length > 0);
+    if (mark) return { figure: view.figure.name, at: Array.from(view.toPixel(mark.x[0], mark.y[0])) };
+  }
+  return null;
 }

@@ -1,9 +1,10 @@
 // Starts the page: the first screen is there already; tables, figures and the replay follow.
 
-import { drawAll, showFigures } from "./figure.js";
+import { drawAll, placeOfRun, showFigures } from "./figure.js";
 import { startPairs } from "./pairs.js";
 import { embeddedData, embeddedText, library } from "./payload.js";
 import { startReplay } from "./replay.js";
+import { select, selected, startSelection } from "./select.js";
 import { startTables } from "./tables.js";
 import { startTheme } from "./theme.js";
 
@@ -37,17 +38,18 @@ async function startPage() {
   showFigures(data.figures, echarts);
   startPairs(data.pairs, echarts);
   const replay = replayOnDemand(data.replay);
+  const show = async (sample) => {
+    (await replay())?.chooseSample(sample);
+    document.getElementById("replay").scrollIntoView();
+  };
+  startSelection(data.pairs, (data.replay?.runs ?? []).map((run) => run.sample), show);
   for (const button of document.querySelectorAll("button.load")) {
-    button.addEventListener("click", async () => {
-      const shown = await replay();
-      shown?.chooseSample(Number(button.dataset.sample));
-      document.getElementById("replay").scrollIntoView();
-    });
+    button.addEventListener("click", () => show(Number(button.dataset.sample)));
   }
   document.addEventListener("replaytime", async (event) => (await replay())?.goTo(event.detail));
   if (location.hash) document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView();
   // for tests of the page, and for saving it complete
-  globalThis.spindriftPage = { drawAll, replay };
+  globalThis.spindriftPage = { drawAll, placeOfRun, replay, select, selected };
   document.documentElement.dataset.ready = "true";
 }
 

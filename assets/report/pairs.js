@@ -6,7 +6,7 @@ import { FigureView } from "./figure.js";
 export function pairFigure(pairs, first, second) {
   const [x, y] = [pairs.columns[first], pairs.columns[second]];
   const rows = Array.from(pairs.samples.keys());
-  const kept = (isFailed) => rows.filter((row) => (pairs.failed[row] === 1) === isFailed && Number.isFinite(x.values[row]) && Number.isFinite(y.values[row]));
+  const kept = (fate) => rows.filter((row) => pairs.fates[row] === fate && Number.isFinite(x.values[row]) && Number.isFinite(y.values[row]));
   const points = (label, hue, crosses, list) => ({ kind: "points", label, hue, crosses, x: list.map((row) => x.values[row]), y: list.map((row) => y.values[row]), samples: list.map((row) => pairs.samples[row]) });
   const positive = (column) => {
     const values = Array.from(column.values).filter(Number.isFinite);
@@ -14,9 +14,11 @@ export function pairFigure(pairs, first, second) {
     return low > 0 && high > 100 * low;
   };
   const axis = (column) => ({ quantity: column.name, unit: column.unit, log: positive(column), names: null, range: null });
-  const failed = kept(true);
-  const marks = [points("computed", 0, false, kept(false)), ...(failed.length > 0 ? [points("not computed", 1, true, failed)] : [])];
-  return { name: `pair_${x.name}_${y.name}`, section: "influence", title: `${y.name} against ${x.name}`, caption: `${rows.length} of ${pairs.all} samples, chosen by sample number.`, columns: 12, time: false, x: axis(x), y: axis(y), marks };
+  const [met, missed, failed] = [0, 1, 2].map(kept);
+  const marks = [points(missed.length > 0 ? "meets the requirements" : "computed", 0, false, met)];
+  if (missed.length > 0) marks.push(points("misses a requirement", 1, true, missed));
+  if (failed.length > 0) marks.push(points("not computed", 8, true, failed));
+  return { name: `pair_${x.column}_${y.column}`, section: "influence", title: `${y.name} against ${x.name}`, caption: `${rows.length} of ${pairs.all} samples, chosen by sample number.`, columns: 12, time: false, x: axis(x), y: axis(y), marks };
 }
 
 export function startPairs(pairs, echarts) {

@@ -44,11 +44,22 @@ impl ShownUnit {
         if self.is_own() { value } else { value * self.size[1] / self.size[0] }
     }
 
-    /// The same with the rounding of the way there and back taken away: what was written as 5 deg is 5.
+    /// The same with the rounding of the way there and back taken away: what was written as 5 deg is 5. What was written in another unit has five digits.
     pub fn written(&self, value: f64) -> f64 {
-        if self.is_own() { value } else { format!("{:.13e}", self.value(value)).parse().unwrap_or(value) }
+        /// Nobody writes a number with more digits.
+        const WRITTEN: usize = 9;
+        if self.is_own() {
+            return value;
+        }
+        let value = self.value(value);
+        let [whole, written, short] =
+            [13, WRITTEN - 1, 4].map(|digits| format!("{value:.digits$e}").parse().unwrap_or(value));
+        if whole == written { written } else { short }
     }
 }
+
+/// The units in which people say angles and rates, where the file says nothing of them.
+const SAID: [&str; 2] = ["deg", "deg/s"];
 
 /// A list of units that texts know.
 const EXAMPLE: &str = "[\"deg\", \"deg/s\"]";
@@ -112,10 +123,10 @@ impl Display {
     /// The unit in which the column or parameter `name`, of unit `unit`, is shown.
     pub fn of(&self, name: &str, unit: &str) -> ShownUnit {
         let own = units::named(unit);
-        let wanted = self
-            .columns
-            .get(name)
-            .or_else(|| self.units.iter().find(|name| units::named(name).is_some_and(|wanted| wanted.of == unit)));
+        let wanted = self.columns.get(name).or_else(|| {
+            let all = self.units.iter().chain(&SAID);
+            all.into_iter().find(|name| units::named(name).is_some_and(|wanted| wanted.of == unit))
+        });
         match (own, wanted.and_then(|name| units::named(name))) {
             (Some(own), Some(wanted)) if own.of == wanted.of => ShownUnit {
                 unit: wanted.name.to_owned(),
@@ -175,6 +186,13 @@ mod tests {
         // a derived observable in degrees, shown in arcseconds
         let display = Display { columns: BTreeMap::from([("pointing".to_owned(), "arcsec")]), ..Display::default() };
         assert!((display.of("pointing", "deg").value(1.0) - 3600.0).abs() < 1e-9);
-        assert_eq!(Display::default().of("x", "rad").value(0.1), 0.1);
+        // without a word in the file angles are in degrees; one that asks for radians gets them
+        let written = |units: Vec<&'static str>| {
+            let shown = Display { units, ..Display::default() }.of("x", "rad");
+            (shown.unit.clone(), shown.written(0.03))
+        };
+        assert_eq!(written(vec![]), ("deg".to_owned(), 1.7189));
+        assert_eq!(written(vec!["rad"]), ("rad".to_owned(), 0.03));
+        assert_eq!(Display::default().of("x", "rad/s").unit, "deg/s");
     }
 }

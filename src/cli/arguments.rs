@@ -15,7 +15,7 @@ use crate::cli::colour::Colour;
 use crate::cli::slurm_script::TimeLimit;
 use crate::cli::{help, screen};
 use crate::propagation::Method;
-use crate::report::image::PlotSize;
+use crate::report::image::{Letters, PlotSize};
 use crate::storage::claim::Shard;
 
 /// Monte Carlo analysis of spacecraft attitude dynamics.
@@ -99,12 +99,19 @@ pub struct SizeOptions {
     /// Dots per inch of PNG files.
     #[arg(long, value_name = "N", default_value_t = 192, value_parser = clap::value_parser!(u16).range(24..=2400))]
     pub dpi: u16,
+    /// Write the letters of SVG files as text, to be edited and searched, not as outlines: a reader's fonts then decide how they look.
+    #[arg(long)]
+    pub svg_text: bool,
 }
 
 impl SizeOptions {
     /// The size that they ask for.
     pub fn of(self) -> PlotSize {
-        PlotSize { size_mm: self.size, dpi: f64::from(self.dpi) }
+        PlotSize {
+            size_mm: self.size,
+            dpi: f64::from(self.dpi),
+            letters: if self.svg_text { Letters::Text } else { Letters::Outlines },
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::analysis::drivers::Question;
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::campaign::{Plan, Statement};
 use crate::report::drivers_text::{ranked, sentence};
-use crate::report::number::{brief, significant};
+use crate::report::number::{brief, outward, significant};
 use crate::report::observable_lines::{ObservableLine, QuantileLine};
 use crate::report::share_text::with_interval;
 use crate::report::summary::Summary;
@@ -184,7 +184,10 @@ fn ends(line: &ObservableLine, one: &QuantileLine) -> String {
     }
     // a power of ten takes the place of a digit
     let short = |text: String| if text.contains('e') { significant(text.parse().unwrap_or(f64::NAN), 2) } else { text };
-    let [low, high] = one.interval.map(|end| end.map_or("?".to_owned(), |end| short(brief(line.shown.value(end)))));
+    let found = one.interval.map(|end| line.shown.value(end.unwrap_or(f64::NAN)));
+    let digits = if found.iter().any(|end| brief(*end).contains('e')) { 2 } else { 3 };
+    let end = |end: f64| if end.is_nan() { "?".to_owned() } else { short(brief(end)) };
+    let [low, high] = outward(found, digits).map(end);
     format!("{value} [{low}, {high}]")
 }
 

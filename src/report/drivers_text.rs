@@ -4,8 +4,10 @@ use crate::analysis::drivers::{Question, Ranked, Ranking, rankings};
 use crate::analysis::effects::{Dependence, Direction, Level};
 use crate::analysis::event::{Event, Occurs};
 use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
-use crate::campaign::Plan;
-use crate::report::number::{brief, short};
+use crate::campaign::{Plan, ShownUnit};
+use crate::report::names;
+use crate::report::number::{brief, outward, short};
+use crate::report::origin_text::unit_of;
 use crate::sampling::Design;
 use crate::statistics::quantile::percent;
 
@@ -56,12 +58,16 @@ pub fn sentence(plan: &Plan, outcome: &str, ranking: &Ranking<'_>) -> String {
 fn of_event(plan: &Plan, verb: &str, event: &Event, ranking: &Ranking<'_>) -> String {
     let confidence = percent(plan.analysis.confidence);
     let phrase = |ranked: &Ranked<'_>| {
-        let name = &ranked.input.input;
+        let column = &ranked.input.input;
+        let name = names::of_input_column(plan, column);
+        let shown = names::place_of(plan, column).map_or_else(|| ShownUnit::own(""), |place| unit_of(plan, place));
+        let amount = |value: f64| format!("{} {}", short(shown.value(value)), shown.unit).trim_end().to_owned();
         let dependence = ranked.input.on_event.as_ref().map(|effect| &effect.dependence)?;
         Some(match dependence {
             Dependence::Levels { levels, most, ratio } => {
                 let level = |level: &Level| {
-                    let value = level.value.map_or("at other values".to_owned(), |value| format!("= {}", short(value)));
+                    let value =
+                        level.value.map_or("at other values".to_owned(), |value| format!("= {}", amount(value)));
                     format!("{value}: {} of {} {verb}", level.of.events, level.of.runs)
                 };
                 let mut listed: Vec<&Level> = levels.iter().collect();
@@ -70,7 +76,8 @@ fn of_event(plan: &Plan, verb: &str, event: &Event, ranking: &Ranking<'_>) -> St
                 let listed: Vec<String> = listed.into_iter().map(level).collect();
                 let end = |end: f64| if end.is_finite() { brief(end) } else { "no bound".to_owned() };
                 let times = if ratio.value.is_finite() {
-                    format!("risk ratio {} [{}, {}]", brief(ratio.value), end(ratio.lower), end(ratio.upper))
+                    let [low, high] = outward([ratio.lower, ratio.upper], 3).map(end);
+                    format!("risk ratio {} [{low}, {high}]", brief(ratio.value))
                 } else {
                     format!("risk ratio above {} with {confidence}% confidence", brief(ratio.lower))
                 };
@@ -78,7 +85,7 @@ fn of_event(plan: &Plan, verb: &str, event: &Event, ranking: &Ranking<'_>) -> St
             }
             Dependence::Shift { chance, medians } => {
                 let word = if *chance > 0.5 { "larger" } else { "smaller" };
-                let [with, without] = medians.map(short);
+                let [with, without] = medians.map(amount);
                 format!("{name} is {word} in the runs that {verb} (median {with}, others {without})")
             }
             Dependence::Distance { chance } => {
@@ -105,7 +112,7 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
             Some(Direction::NotMonotonic) => ", not monotonic",
             None => "",
         };
-        format!("{} ({:.2}{direction})", ranked.input.input, ranked.share.value)
+        format!("{} ({:.2}{direction})", names::of_input_column(plan, &ranked.input.input), ranked.share.value)
     };
     let names: Vec<String> = ranking.drivers().take(NAMED).map(name).collect();
     let rest = rest(plan, ranking);

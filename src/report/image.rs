@@ -53,6 +53,8 @@ impl PlotFormat {
     }
 }
 
+pub use super::svg::Letters;
+
 /// How large a picture is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlotSize {
@@ -60,11 +62,13 @@ pub struct PlotSize {
     pub size_mm: Option<[f64; 2]>,
     /// Dots per inch of a PNG.
     pub dpi: f64,
+    /// What letters of an SVG file are.
+    pub letters: Letters,
 }
 
 impl Default for PlotSize {
     fn default() -> Self {
-        PlotSize { size_mm: None, dpi: 2.0 * SVG_DPI }
+        PlotSize { size_mm: None, dpi: 2.0 * SVG_DPI, letters: Letters::Outlines }
     }
 }
 
@@ -74,10 +78,10 @@ impl Sheet {
     /// # Errors
     /// [`PlotError`].
     pub fn save(&self, path: &Path, size: PlotSize) -> Result<(), PlotError> {
-        let svg = self.svg(size.size_mm.map(|size| size.map(|side| side / INCH * SVG_DPI)));
+        let pixels = size.size_mm.map(|size| size.map(|side| side / INCH * SVG_DPI));
         let bytes = match PlotFormat::of(path)? {
-            PlotFormat::Svg => svg.into_bytes(),
-            PlotFormat::Png => png(&svg, size.dpi)?,
+            PlotFormat::Svg => self.svg_with(pixels, size.letters).into_bytes(),
+            PlotFormat::Png => png(&self.svg(pixels), size.dpi)?,
         };
         Ok(atomic::write_bytes(path, &bytes)?)
     }
@@ -132,7 +136,13 @@ mod tests {
         for (size_mm, dpi) in [(Some([101.6, 50.8]), 96.0), (Some([101.6, 50.8]), 300.0), (Some([254.0, 76.2]), 100.0)]
         {
             let inches = size_mm.unwrap_or_default().map(|side| side / INCH);
-            save_all(std::slice::from_ref(&figure), "small: 20 runs.", &folder, PlotSize { size_mm, dpi }).unwrap();
+            save_all(
+                std::slice::from_ref(&figure),
+                "small: 20 runs.",
+                &folder,
+                PlotSize { size_mm, dpi, ..PlotSize::default() },
+            )
+            .unwrap();
             let pixmap = Pixmap::load_png(folder.join("f.png")).unwrap();
             assert_eq!([pixmap.width(), pixmap.height()], inches.map(|side| (side * dpi).round() as u32));
             let svg = std::fs::read_to_string(folder.join("f.svg")).unwrap();
@@ -142,7 +152,18 @@ mod tests {
                 assert!(svg.contains(text), "{text} in {svg}");
             }
             assert!(svg.contains(&format!(" width=\"{width}\" height=\"{height}\" viewBox")));
+            assert!(!svg.contains("<text"), "{svg}");
         }
+        // the same as text: the PNG does not change
+        let png = std::fs::read(folder.join("f.png")).unwrap();
+        let size = PlotSize { size_mm: Some([254.0, 76.2]), dpi: 100.0, letters: Letters::Text };
+        save_all(std::slice::from_ref(&figure), "small: 20 runs.", &folder, size).unwrap();
+        let svg = std::fs::read_to_string(folder.join("f.svg")).unwrap();
+        for text in [">Title</text>", ">What it means. small: 20 runs.</text>", ">x / s</text>", ">y / J</text>"] {
+            assert!(svg.contains(text), "{text} in {svg}");
+        }
+        assert!(!svg.contains("<use") && !svg.contains("<path"), "{svg}");
+        assert_eq!(std::fs::read(folder.join("f.png")).unwrap(), png);
         std::fs::remove_dir_all(&folder).unwrap();
     }
 

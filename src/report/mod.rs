@@ -25,6 +25,7 @@ mod legend;
 pub mod marginal;
 mod marks;
 pub mod mission_text;
+pub mod names;
 pub mod noise_text;
 pub mod number;
 pub mod observable_lines;

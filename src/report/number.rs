@@ -28,6 +28,30 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// The ends of an interval, rounded away from its middle to so many significant digits: what is shown contains what was found. Whole numbers below 1e5 in
+/// full; ends that are not finite stay.
+pub fn outward([low, high]: [f64; 2], digits: i32) -> [f64; 2] {
+    let rounded = |value: f64, up: bool| {
+        if value == 0.0 || !value.is_finite() {
+            return value;
+        }
+        let size = value.abs();
+        let power = libm::floor(libm::log10(size)) as i32 - digits + 1;
+        let power = if (1.0..1e5).contains(&size) { power.min(0) } else { power };
+        let [times, over] = [-power, power].map(|power| libm::exp10(f64::from(power.max(0))));
+        let steps = value * times / over;
+        let whole = libm::round(steps);
+        // not by its own rounding
+        let steps = match (steps - whole).abs() < 1e-13 * steps.abs() {
+            true => whole,
+            false if up => libm::ceil(steps),
+            false => libm::floor(steps),
+        };
+        steps / times * over
+    };
+    [rounded(low, false), rounded(high, true)]
+}
+
 /// The same without zeros at the end of its decimals.
 pub fn trimmed(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
@@ -83,6 +107,25 @@ mod tests {
         for value in [f64::MIN, f64::MIN_POSITIVE, f64::NAN, f64::INFINITY] {
             assert!(short(value).len() <= 11, "{value:e}: {}", short(value));
         }
+    }
+
+    /// Law: what is shown of an interval contains it, and is at most a step of its last digit larger; what fits the digits stays.
+    #[test]
+    fn rounded_intervals_contain_theirs() {
+        for (interval, digits, known) in [
+            ([0.123_45, 0.123_45], 3, [0.123, 0.124]),
+            ([-0.123_45, 0.5], 3, [-0.124, 0.5]),
+            ([98.4, 98.4], 3, [98.4, 98.4]),
+            ([12_345.2, 99_999.1], 3, [12_345.0, 100_000.0]),
+            ([1.234_5e-13, 1.234_5e13], 3, [1.23e-13, 1.24e13]),
+            ([0.0, f64::INFINITY], 3, [0.0, f64::INFINITY]),
+        ] {
+            let found = outward(interval, digits);
+            let near = |found: f64, known: f64| found == known || (found / known - 1.0).abs() < 1e-12;
+            assert!(near(found[0], known[0]) && near(found[1], known[1]), "{interval:?}: {found:?}");
+            assert!(outward(found, digits) == found, "{found:?} is not rounded again");
+        }
+        assert!(outward([f64::NAN, 1.0], 3)[0].is_nan());
     }
 
     #[test]

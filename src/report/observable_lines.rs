@@ -9,7 +9,7 @@ use crate::campaign::{Plan, ShownUnit};
 use crate::observables::Group;
 use crate::observables::headlines::headlines;
 use crate::report::audit_summary::Numerics;
-use crate::report::number::short;
+use crate::report::number::{outward, short};
 use crate::statistics::quantile::percent;
 
 /// A quantile of an observable.
@@ -156,11 +156,11 @@ fn shown(lines: &[&ObservableLine]) -> Vec<f64> {
 }
 
 /// Three significant digits, for the ends of intervals.
-fn end(value: Option<f64>) -> String {
+fn end(value: f64) -> String {
     match value {
-        Some(value) if value == 0.0 || (0.01..1e5).contains(&value.abs()) => short(value),
-        Some(value) => format!("{value:.2e}"),
-        None => "?".to_owned(),
+        value if value.is_nan() => "?".to_owned(),
+        value if value == 0.0 || (0.01..1e5).contains(&value.abs()) => short(value),
+        value => format!("{value:.2e}"),
     }
 }
 
@@ -200,7 +200,9 @@ pub fn table(lines: &[&ObservableLine], title: &str, width: usize) -> String {
         if quantiles.iter().flatten().any(|quantile| quantile.interval.iter().any(Option::is_some)) {
             let interval = |quantile: &Option<&QuantileLine>| {
                 let ends = quantile.map_or([None; 2], |quantile| quantile.interval);
-                let [lower, upper] = ends.map(|value| end(value.map(|value| line.shown.value(value))));
+                let ends = ends.map(|end| line.shown.value(end.unwrap_or(f64::NAN)));
+                let digits = if ends.iter().any(|value| end(*value).contains('e')) { 3 } else { 4 };
+                let [lower, upper] = outward(ends, digits).map(end);
                 format!("[{lower}, {upper}]")
             };
             text += &format!("{:first$}  {}", "", cells(quantiles.iter().map(interval).collect(), ""));

@@ -10,7 +10,7 @@ use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::report::audit_summary::AuditSummary;
 use crate::report::escaped::escaped;
-use crate::report::number::{brief, short};
+use crate::report::number::{brief, outward, short};
 use crate::report::share_text::with_interval;
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::gate::GateLimit;
@@ -121,12 +121,13 @@ pub fn estimate(one: &Assessment) -> String {
         return with_interval([estimate; 2], one.interval);
     }
     let unit = if one.shown.unit.is_empty() { String::new() } else { format!(" {}", one.shown.unit) };
-    let end = |end: f64| if end.is_finite() { brief(one.shown.value(end)) } else { "?".to_owned() };
+    let end = |end: f64| if end.is_finite() { brief(end) } else { "?".to_owned() };
+    let [low, high] = outward(one.interval.map(|end| one.shown.value(end)), 3);
     let interval = match one.has_interval() {
-        true => format!(" [{}, {}]", end(one.interval[0]), end(one.interval[1])),
+        true => format!(" [{}, {}]", end(low), end(high)),
         false => String::new(),
     };
-    format!("{}{interval}{unit}", end(estimate))
+    format!("{}{interval}{unit}", end(one.shown.value(estimate)))
 }
 
 /// What was found, in words: the estimate with its bounds, and how many runs would decide.
@@ -136,7 +137,8 @@ fn finding(one: &Assessment) -> String {
     let shown = |value: f64| format!("{}{unit}", short(one.shown.value(value)));
     let found = match one.requirement.statement {
         Statement::Mean => {
-            let end = |end: f64| if end.is_finite() { short(one.shown.value(end)) } else { "?".to_owned() };
+            let end = |end: f64| if end.is_finite() { short(end) } else { "?".to_owned() };
+            let [lower, upper] = outward([lower, upper].map(|end| one.shown.value(end)), 4);
             let interval = match lower.is_finite() || upper.is_finite() {
                 false => String::new(),
                 true => format!(" [{}, {}]", end(lower), end(upper)),

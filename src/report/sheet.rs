@@ -4,7 +4,7 @@ use crate::campaign::Display;
 use crate::report::figure::Figure;
 use crate::report::legend::Legend;
 use crate::report::panel::Panel;
-use crate::report::svg::{Anchor, Font, INK, Svg};
+use crate::report::svg::{Anchor, Font, INK, Letters, Svg};
 
 /// Size and height of the title, pixels.
 const TITLE: f64 = 19.0;
@@ -118,9 +118,14 @@ impl Sheet {
 
     /// The picture as SVG, of `size` pixels of 1/96 inch where that is given.
     pub fn svg(&self, size: Option<[f64; 2]>) -> String {
+        self.svg_with(size, Letters::Outlines)
+    }
+
+    /// The same with `letters` as outlines or as text.
+    pub(super) fn svg_with(&self, size: Option<[f64; 2]>, letters: Letters) -> String {
         let font = Font::new();
         let (size, places) = self.layout(&font, size);
-        let mut svg = Svg::new(font, size);
+        let mut svg = Svg::new(font, size, letters);
         if !self.title.is_empty() {
             let title = svg.font.fitted(&self.title, size[0] - 2.0 * EDGE, TITLE);
             svg.text(&title, [0.5 * size[0], 27.0], TITLE, Anchor::Middle, INK, false);

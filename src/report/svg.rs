@@ -61,6 +61,15 @@ pub(super) struct Stroke {
     pub dash: Option<[u32; 2]>,
 }
 
+/// What the letters of a picture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Letters {
+    /// Outlines of the font in `assets/`: the same picture everywhere.
+    Outlines,
+    /// Text in that font, or what a reader has instead of it.
+    Text,
+}
+
 /// Where a text is: the end of it that is at the given place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
@@ -99,6 +108,7 @@ pub(super) struct Svg {
     /// Outlines of the letters that are used.
     letters: BTreeMap<u16, String>,
     clips: usize,
+    kind: Letters,
 }
 
 /// A length with two decimals at most.
@@ -114,8 +124,8 @@ fn points(list: &[[f64; 2]]) -> String {
 
 impl Svg {
     /// A white picture of this size.
-    pub(super) fn new(font: Font, size: [f64; 2]) -> Self {
-        Svg { font, size, body: String::new(), letters: BTreeMap::new(), clips: 0 }
+    pub(super) fn new(font: Font, size: [f64; 2], kind: Letters) -> Self {
+        Svg { font, size, body: String::new(), letters: BTreeMap::new(), clips: 0, kind }
     }
 
     fn element(&mut self, name: &str, attributes: &[(&str, String)]) {
@@ -180,6 +190,22 @@ impl Svg {
             Anchor::End => -width,
         };
         let turn = if upwards { " rotate(-90)" } else { "" };
+        if self.kind == Letters::Text {
+            let anchor = match anchor {
+                Anchor::Start => "start",
+                Anchor::Middle => "middle",
+                Anchor::End => "end",
+            };
+            let _ = writeln!(
+                self.body,
+                "<text fill=\"{color}\" font-family=\"DejaVu Sans, Verdana, sans-serif\" font-size=\"{}\" text-anchor=\"{anchor}\" transform=\"translate({} {}){turn}\">{}</text>",
+                length(size),
+                length(at[0]),
+                length(at[1]),
+                escaped(text),
+            );
+            return;
+        }
         let _ = write!(
             self.body,
             "<g role=\"img\" aria-label=\"{}\" fill=\"{color}\" transform=\"translate({} {}){turn} translate({} 0) scale({scale:.6} -{scale:.6})\">",

@@ -12,6 +12,7 @@ import { pathToFileURL } from "node:url";
 import puppeteer from "puppeteer-core";
 
 const LARGEST = 2_000_000; // bytes of a page
+const MOST_SHEETS = 8;
 const FEWEST_COLORS = 3; // background, axes and at least one mark
 const SLICE = 8000; // pixels of a screenshot
 const [folder, ...pages] = process.argv.slice(2);
@@ -95,7 +96,7 @@ async function screenshots(page, stem) {
 // Draws every figure and checks it; and that the browser shows more than an empty plot.
 async function checkFigures(page, name, stem) {
   await page.evaluate(() => {
-    for (const fold of document.querySelectorAll("details.fold")) fold.open = true;
+    for (const fold of document.querySelectorAll("details.fold, details.input")) fold.open = true;
     globalThis.spindriftPage.drawAll();
   });
   const figures = await page.evaluate(() =>
@@ -286,6 +287,76 @@ async function checkReplay(page, name) {
   if ((await clock()) === time) problems.push(`${name}: the keyboard does not step the replay`);
 }
 
+// A click on a point selects its run in all figures, and a second one replays it or copies its command; a click on a bar selects the runs of that bar.
+async function checkSelection(page, name) {
+  const plots = await page.$$("#influence figure[id^='scatter_'] .plot, #outcome figure[id^='histogram_'] .plot");
+  if (plots.length === 0) return;
+  const expect = (isRight, text) => isRight || problems.push(`${name}: selection: ${text}`);
+  const rings = () => page.$$eval("figure .plot", (list) => list.filter((plot) => plot.innerHTML.includes("#e69f00") || plot.innerHTML.includes("#f2b233")).length);
+  const state = () => page.evaluate(() => ({ samples: globalThis.spindriftPage.selected(), text: document.querySelector(".selection").innerText, hidden: document.querySelector(".selection").hidden }));
+  const before = await rings();
+  const point = await page.evaluate(() => globalThis.spindriftPage.placeOfRun());
+  if (point) {
+    const plot = await page.$(`figure[id="${point.figure}"] .plot`);
+    await plot.scrollIntoView();
+    const box = await plot.boundingBox();
+    await page.mouse.click(box.x + point.at[0], box.y + point.at[1]);
+    const one = await state();
+    expect(one.samples.length === 1 && one.text.includes(`Sample ${one.samples[0]}`) && !one.hidden, `a click on a point gives ${JSON.stringify(one)}`);
+    expect((await rings()) > before + 1, `${await rings()} figures show the run, ${before} before`);
+    const command = await page.evaluate(() => {
+      let copied = "";
+      Object.defineProperty(navigator, "clipboard", { configurable: true, value: { writeText: async (text) => { copied = text; } } });
+      globalThis.copiedText = () => copied;
+      return Array.from(document.querySelectorAll("button.load"), (button) => Number(button.dataset.sample));
+    });
+    await page.mouse.click(box.x + point.at[0], box.y + point.at[1]);
+    await new Promise((done) => setTimeout(done, 500));
+    const copied = await page.evaluate(() => globalThis.copiedText());
+    expect(command.includes(one.samples[0]) || copied === `spindrift simulate plan.toml --sample ${one.samples[0]}`, `a second click copies "${copied}"`);
+    await page.keyboard.press("Escape");
+    expect((await state()).hidden, "Escape leaves it");
+  }
+  const bar = await page.$("#outcome figure[id^='histogram_'] .plot");
+  if (bar) {
+    await bar.scrollIntoView();
+    const box = await bar.boundingBox();
+    for (const part of [0.4, 0.5, 0.6, 0.3, 0.7]) {
+      await page.mouse.click(box.x + part * box.width, box.y + 0.6 * box.height);
+      if ((await state()).samples.length > 1) break;
+    }
+    const many = await state();
+    expect(many.samples.length > 1 && many.text.includes(`${many.samples.length} runs`), `a click on a bar gives ${JSON.stringify(many)}`);
+    await page.evaluate(() => globalThis.spindriftPage.select([]));
+  }
+  expect((await rings()) === before, "what is no longer selected is still shown");
+}
+
+// No two texts of a figure cover each other, and the name of a limit is above the bars.
+async function checkTexts(page, name) {
+  const found = await page.evaluate(() => {
+    const wrong = [];
+    for (const figure of document.querySelectorAll("figure")) {
+      const texts = Array.from(figure.querySelectorAll(".plot svg text"), (text) => ({ text: text.textContent, box: text.getBoundingClientRect() })).filter(({ text, box }) => text.trim() && box.width > 0);
+      for (let i = 0; i < texts.length; i += 1) {
+        for (let j = i + 1; j < texts.length; j += 1) {
+          const [a, b] = [texts[i].box, texts[j].box];
+          const [x, y] = [Math.min(a.right, b.right) - Math.max(a.left, b.left), Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top)];
+          if (x > 1.5 && y > 4) wrong.push(`${figure.id}: "${texts[i].text}" and "${texts[j].text}"`);
+        }
+      }
+    }
+    return wrong;
+  });
+  for (const text of found.slice(0, 8)) problems.push(`${name}: texts cover each other: ${text}`);
+}
+
+// An input is one line: a small histogram, nominal value, distribution and fit; it opens to its figure.
+async function checkInputs(page, name) {
+  const rows = await page.$$eval("details.input", (list) => list.map((row) => ({ height: row.querySelector("summary").getBoundingClientRect().height, bars: row.querySelectorAll("svg.small rect").length, text: row.innerText, figures: row.querySelectorAll("figure").length })));
+  for (const { height, bars, text, figures } of rows) if (height > 60 || bars < 1 || figures !== 1) problems.push(`${name}: the line of an input is ${height} pixels high with ${bars} bars and ${figures} figures: ${text}`);
+}
+
 async function checkTables(page, name) {
   const search = await page.$("input[type=search]");
   if (!search) return;
@@ -313,6 +384,9 @@ async function checked(browser, file) {
   await page.evaluate(async () => globalThis.spindriftPage.replay());
   const figures = await checkFigures(page, name, shot("light"));
   await checkHover(page, name);
+  await checkTexts(page, name);
+  await checkInputs(page, name);
+  await checkSelection(page, name);
   await checkTables(page, name);
   await checkReplay(page, name);
   await checkNumbers(page, name);
@@ -322,7 +396,9 @@ async function checked(browser, file) {
     await checkStill(page, name);
   }
   await page.mouse.move(0, 0);
-  await page.pdf({ path: join(folder, `${name}_print.pdf`), format: "A4", printBackground: true });
+  const pdf = await page.pdf({ path: join(folder, `${name}_print.pdf`), preferCSSPageSize: true, printBackground: true });
+  const sheets = Buffer.from(pdf).toString("latin1").match(/\/Type\s*\/Page\b(?!s)/g)?.length ?? 0;
+  if (sheets === 0 || sheets > MOST_SHEETS) problems.push(`${name}: it is printed on ${sheets} sheets`);
   await page.close();
   const dark = await opened(browser, file, { width: 1300, height: 900 }, "dark");
   await dark.evaluate(() => globalThis.spindriftPage.drawAll());
@@ -334,6 +410,7 @@ async function checked(browser, file) {
   await middle.close();
   const narrow = await opened(browser, file, { width: 390, height: 800 }, "light");
   await checkFigures(narrow, `${name}, narrow`, shot("narrow"));
+  await checkTexts(narrow, `${name}, narrow`);
   await narrow.close();
   console.log(`${name}: ${figures} figures, ${size} bytes`);
 }

@@ -130,3 +130,22 @@ fn colour_adds_only_itself() {
     let refused = scratch.prints("campaign named.toml --color always", 2);
     assert!(!refused.contains("\x1b[31mred"), "{refused:?}");
 }
+
+/// Law: what `sample` prints of every shipped campaign fits lines of 80 characters, and says every dispersed parameter.
+#[test]
+fn sample_fits_a_screen() {
+    let scratch = ScratchFolder::new("sample-screen");
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(shipped).expect("campaigns") {
+        let file = entry.expect("an entry").path();
+        if file.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let (out, all) = said(&scratch, scratch.command("sample").arg(&file), 80, 0);
+        let long: Vec<&str> = all.lines().filter(|line| line.chars().count() > 80).collect();
+        assert!(long.is_empty(), "{}: {long:#?}", file.display());
+        seen += usize::from(out.contains("nominal") && out.contains("distribution"));
+    }
+    assert!(seen > 20, "{seen} campaigns with dispersions");
+}

@@ -26,15 +26,15 @@ fn a_dead_thruster_is_named() {
     assert!(counts[0] >= 4 && counts[2] < 4, "{counts:?}");
     let [a, m, b, n] = counts;
     let words =
-        format!("thrusters_p2_thrust_scale = 0: {a} of {m} miss the limit; = 1: {b} of {n} miss the limit (risk ratio");
+        format!("thruster p2 thrust scale = 0: {a} of {m} miss the limit; = 1: {b} of {n} miss the limit (risk ratio");
     let is_said = |line: &str| line.trim_start().starts_with("phase_rest_begin_s") && line.contains(&words);
     assert!(found.said.lines().any(is_said), "{words}: {}", found.said);
     assert!(found.visible().contains(&words));
     let chart = found.figure("influence_phase_rest_begin_s_event");
-    assert_eq!(chart["y"]["names"][0], "thrusters_p2_thrust_scale", "{chart}");
+    assert_eq!(chart["y"]["names"][0], "thruster p2 thrust scale", "{chart}");
     let is_said = |line: &str| {
         line.trim_start().starts_with("propellant_kg")
-            && line.contains("initial_angular_velocity_x_rad_s")
+            && line.contains("initial angular velocity x")
             && line.contains("not monotonic")
     };
     assert!(found.said.lines().any(is_said), "{}", found.said);

@@ -59,6 +59,7 @@ mod orbit_columns;
 mod own_laws;
 mod page_cards;
 mod page_marks;
+mod page_names;
 mod page_numbers;
 mod page_replay;
 mod page_runs;

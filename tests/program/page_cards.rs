@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use super::page_numbers::{Found, degrees, failing, found, motion, read_number};
 use super::screen_numbers::says;
+use super::small_campaign::RADIANS;
 
 /// What is between two texts.
 pub(super) fn between<'t>(text: &'t str, from: &str, to: &str) -> &'t str {
@@ -33,12 +34,11 @@ pub(super) fn same(text: &str, expected: &Value, what: &str) {
     assert!(is_same, "{what}: {text} for {expected}");
 }
 
-/// What a card has: its statistic, estimate, ends of the interval, their confidence; word and value of the limit.
+/// What a card has: its statistic, estimate, ends of the interval; word and value of the limit.
 struct Known<'v> {
     statistic: String,
     estimate: &'v Value,
     ends: &'v Value,
-    confidence: f64,
     limit: Option<(&'v str, &'v Value)>,
 }
 
@@ -47,13 +47,16 @@ fn card_shows(card: &str, known: &Known<'_>) {
     let detail = between(card, "<p class=\"detail\"><b>", "</p>");
     let (statistic, rest) = detail.split_once(":</b> ").expect("a statistic");
     assert_eq!(statistic, known.statistic, "{card}");
-    let (estimate, interval) = rest.split_once(" (").expect("an interval");
-    let (confidence, ends) = interval.split_once("% interval: ").expect("one convention");
-    let (low, high) = ends.trim_end_matches(')').split_once(" to ").expect("two ends");
-    assert!((read_number(confidence) - 100.0 * known.confidence).abs() < 1e-9, "{confidence} in {detail}");
+    let (number, interval) = rest.split_once(" [").expect("an interval");
+    let (ends, unit) = interval.split_once(']').expect("one notation");
+    let (low, high) = ends.split_once(", ").expect("two ends");
+    let unit = if number.ends_with('%') { "%" } else { unit };
+    let of =
+        |end: &str| if end == "not bounded" { end.to_owned() } else { format!("{}{unit}", end.trim_end_matches('%')) };
+    let (estimate, low, high) = (of(number), of(low), of(high));
+    let (estimate, low, high) = (estimate.as_str(), low.as_str(), high.as_str());
     same(estimate, known.estimate, statistic);
-    same(low, &known.ends[0], "lower end");
-    same(high, &known.ends[1], "upper end");
+    contains([low, high], known.ends);
     // an end that is not bounded is NaN
     assert!([low, estimate, high].map(si).into_iter().filter(|end| !end.is_nan()).is_sorted(), "{detail}");
 
@@ -74,6 +77,17 @@ fn card_shows(card: &str, known: &Known<'_>) {
     }
 }
 
+/// The interval that is shown contains the one that was found, and is hardly larger: at most a step of three digits.
+fn contains(shown: [&str; 2], found: &Value) {
+    for (place, sign) in [(0, 1.0), (1, -1.0)] {
+        let (shown, found) = (si(shown[place]), found[place].as_f64().unwrap_or(f64::NAN));
+        let beyond = sign * (found - shown);
+        let is_right =
+            shown.is_nan() && found.is_nan() || beyond >= -1e-9 * found.abs() && beyond <= 1.01e-2 * found.abs();
+        assert!(is_right, "end {place}: {shown} for {found}");
+    }
+}
+
 fn cards(page: &str) -> Vec<&str> {
     page.split("<article").skip(1).map(|card| card.split("</article>").next().expect("a card")).collect()
 }
@@ -87,8 +101,12 @@ fn cards_of_requirements_are_the_summary() {
         let found = found(name, &text);
         let (summary, page) = (found.scratch.summary("r"), found.visible());
         let list = summary["requirements"]["list"].as_array().expect("requirements");
+        let confidence = summary["requirements"]["confidence_of_intervals"].as_f64().expect("one of all");
         let cards = cards(&page);
         assert_eq!(cards.len(), list.len());
+        // the confidence of what is in brackets is said once
+        let said = format!("in brackets: two-sided {}% intervals", 100.0 * confidence);
+        assert_eq!((page.matches(&said).count(), page.matches("% interval").count()), (1, 1), "{said}");
         for (card, one) in cards.into_iter().zip(list) {
             assert!(
                 card.contains(&format!("<span class=\"word\">{}</span>", one["verdict"].as_str().unwrap())),
@@ -115,7 +133,6 @@ fn cards_of_requirements_are_the_summary() {
             );
             // estimate and bounds
             let quantile;
-            let confidence = summary["requirements"]["confidence_of_intervals"].as_f64().expect("one of all");
             let (statistic, estimate, ends, limit) = match one["statement"].as_str() {
                 Some("mean") => ("Mean".to_owned(), &one["estimate"], &one["interval"], (side, limit)),
                 Some("fraction") => {
@@ -133,7 +150,7 @@ fn cards_of_requirements_are_the_summary() {
             if one["statement"] == "quantile" && missing > 0.05 * runs {
                 assert!(estimate.is_null() && !card.contains(&format!("<b>{statistic}")), "{card}");
             } else {
-                card_shows(card, &Known { statistic, estimate, ends, confidence, limit: Some(limit) });
+                card_shows(card, &Known { statistic, estimate, ends, limit: Some(limit) });
             }
             // counts
             let note = between(card, "<b>Note:</b> ", "</p>");
@@ -156,7 +173,7 @@ const SHOWN: [(&str, &str, bool); 4] = [
 /// A campaign of these without requirements.
 fn found_outcomes(name: &str) -> Found {
     let columns: Vec<String> = SHOWN.iter().map(|(_, column, _)| format!("{column:?}")).collect();
-    let text = motion().split("[audit]").next().expect("a campaign").to_owned()
+    let text = motion().replace(RADIANS, "").split("[audit]").next().expect("a campaign").to_owned()
         + &format!("[summary]\ncolumns = [{}]\n[display]\nunits = [\"deg\", \"deg/s\"]\n", columns.join(", "));
     found(name, &text)
 }
@@ -178,9 +195,9 @@ fn cards_of_outcomes_are_the_summary() {
         let of = |p: f64| found.quantile(name, &p.into());
         let list = summary["observables"].as_array().expect("observables");
         let one = list.iter().find(|one| one["name"] == name).expect(name);
-        let (high, confidence) = (of(0.99), 0.95);
+        let high = of(0.99);
         let (statistic, estimate, ends) = ("99%-quantile".to_owned(), &high["value"], &high["interval"]);
-        card_shows(card, &Known { statistic, estimate, ends, confidence, limit: None });
+        card_shows(card, &Known { statistic, estimate, ends, limit: None });
         let sentence = between(card, "</h3><p>", ".</p>");
         assert!(sentence.contains(words), "{sentence}");
         let is_negative = one["min"].as_f64().expect("a number") < 0.0;
@@ -214,10 +231,9 @@ fn listed_runs_have_their_ranks() {
         ("spin ratio", "spin_ratio", false),
         ("final rate w1", "rate_w1_final_rad_s", false),
     ];
-    let inputs = ["x", "y", "z"].map(|axis| {
-        (format!("initial.angular_velocity_rad_s.{axis}"), format!("initial_angular_velocity_{axis}_rad_s"))
-    });
-    let wall = ["body.parts.fuselage.wall_thickness_m", "body_parts_fuselage_wall_thickness_m"].map(str::to_owned);
+    let inputs = ["x", "y", "z"]
+        .map(|axis| (format!("initial angular velocity {axis}"), format!("initial_angular_velocity_{axis}_rad_s")));
+    let wall = ["fuselage wall thickness", "body_parts_fuselage_wall_thickness_m"].map(str::to_owned);
     for (found, outcomes, shown) in [
         (found("listed", &motion()), of_requirements, 3),
         (found("listed-failing", &failing()), of_requirements, 2),

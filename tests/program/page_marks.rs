@@ -97,12 +97,7 @@ fn correlations_have_their_signs() {
         .iter()
         .map(|name| name.as_str().expect("a name").to_owned())
         .collect();
-    let column = |name: &String| {
-        let (table, rest) = name.split_once('.').expect("a table");
-        let (key, component) = rest.rsplit_once('.').expect("a component");
-        let (stem, unit) = key.split_once("_rad_s").expect("a rate");
-        dispersed(&found, &format!("{table}_{stem}_{component}_rad_s{unit}"))
-    };
+    let column = |name: &String| dispersed(&found, &found.column_called(name));
     let columns: Vec<Vec<f64>> = names.iter().map(column).collect();
     assert_eq!(columns.len(), 3);
     let values = found.array(&figure["marks"][0]["values"]);
@@ -135,8 +130,8 @@ fn every_named_driver_has_its_direction() {
             dispersed(&found, outcome)
         };
         for driver in drivers.split("), ").filter(|driver| driver.contains("with it")) {
-            let input = driver.split_whitespace().next().expect("an input");
-            let rises = spearman(&dispersed(&found, input), &ordinates) > 0.0;
+            let (input, _) = driver.trim_start().split_once(" (").expect("an input");
+            let rises = spearman(&dispersed(&found, &found.column_called(input)), &ordinates) > 0.0;
             assert!(driver.contains(if rises { "rises with it" } else { "falls with it" }), "{line}");
             seen[usize::from(rises)] += 1;
         }

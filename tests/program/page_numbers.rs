@@ -62,9 +62,21 @@ impl Found {
     /// The page of the result `r` in a folder, and what the program `said`.
     pub fn read(scratch: ScratchFolder, said: String) -> Self {
         let page = scratch.text("r/report.html");
-        let data = serde_json::from_slice(&unpacked(&page, "data")).expect("JSON");
+        let data = Found::data_of(&page);
         let bytes = unpacked(&page, "numbers");
         Found { scratch, said, data, bytes }
+    }
+
+    /// The column that the page calls `words`.
+    pub fn column_called(&self, words: &str) -> String {
+        let columns = self.data["pairs"]["columns"].as_array().expect("columns");
+        let column = columns.iter().find(|column| column["name"] == words).unwrap_or_else(|| panic!("no {words}"));
+        column["column"].as_str().expect("a column").to_owned()
+    }
+
+    /// The data of a page.
+    pub fn data_of(page: &str) -> Value {
+        serde_json::from_slice(&unpacked(page, "data")).expect("JSON")
     }
 
     pub fn array(&self, place: &Value) -> Vec<f64> {
@@ -200,7 +212,7 @@ fn drivers_have_their_direction() {
         let line = found.said.lines().find(|line| line.trim_start().starts_with(outcome) && line.contains("with it"));
         let line = line.unwrap_or_else(|| panic!("{outcome}: {}", found.said));
         let first = line.split(')').next().unwrap();
-        assert!(first.contains("initial_angular_velocity_z_rad_s") && first.contains(word), "{line}");
+        assert!(first.contains("initial angular velocity z") && first.contains(word), "{line}");
     }
 }
 
@@ -309,7 +321,7 @@ fn static_numbers_are_those_of_the_rows() {
     let shown = read_number(sentence.split(", angular").next().unwrap());
     assert!((shown / largest - 1.0).abs() < 0.02, "{shown} for {largest}");
     let rates: Vec<f64> = found.column("angular_rate_final_rad_s").into_iter().map(degrees).collect();
-    let row = visible.split("<tr>").find(|row| row.contains(">angular_rate_final_rad_s</th>")).expect("a row");
+    let row = visible.split("<tr>").find(|row| row.contains("title=\"angular_rate_final_rad_s: ")).expect("a row");
     assert!(row.contains("<td class=\"unit\">deg/s</td>"), "{row}");
     let cells: Vec<f64> = row
         .split("data-value=\"")

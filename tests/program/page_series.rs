@@ -225,20 +225,17 @@ fn text_of_scatter(figure: &Value) -> Option<(String, String)> {
 fn chosen_columns_are_of_the_rows() {
     let found = found("series-chosen", &failing());
     let pairs = &found.data["pairs"];
-    let [samples, failed] = ["samples", "failed"].map(|key| found.array(&pairs[key]));
+    let [samples, fates] = ["samples", "fates"].map(|key| found.array(&pairs[key]));
     assert_eq!((samples.len(), &pairs["all"]), (600, &600.into()));
     let ok = found.rows(&[]);
-    for (sample, failed) in samples.iter().zip(failed) {
+    for (sample, fate) in samples.iter().zip(fates) {
         let is_ok = *sample == 0.0 || ok.iter().any(|(one, _)| *one as f64 == *sample);
-        assert_eq!(failed, f64::from(u8::from(!is_ok)), "{sample}");
+        assert_eq!(fate == 2.0, !is_ok, "{sample}");
     }
     let columns = pairs["columns"].as_array().expect("columns");
     for column in columns {
-        let name = match text(column, "name").rsplit_once("_rad_s.") {
-            Some((stem, axis)) => format!("{}_{axis}_rad_s", stem.replace('.', "_")),
-            None => text(column, "name").replace('.', "_"),
-        };
-        let (values, rows) = (found.array(&column["values"]), found.all(&[&name]).swap_remove(0));
+        let name = text(column, "column");
+        let (values, rows) = (found.array(&column["values"]), found.all(&[name]).swap_remove(0));
         for (sample, value) in samples.iter().zip(values) {
             let known = (rows[*sample as usize] * scale(column)) as f32;
             // of inputs and outcomes at a time that a run has not reached there is none

@@ -28,14 +28,17 @@ min = -0.02
 max = 0.04
 "#;
 
+/// Numbers are shown as they are in the rows, where a test writes no other unit.
+pub const RADIANS: &str = "[display]\nunits = [\"rad\", \"rad/s\"]\n";
+
 /// The text of the campaign.
 pub fn campaign() -> String {
-    [HEAD, FUSELAGE, WHEEL1, WHEEL2, DEBRIS, SPACECRAFT_STATE, DEBRIS_STATE, SPIN_DISPERSION].concat()
+    [HEAD, RADIANS, FUSELAGE, WHEEL1, WHEEL2, DEBRIS, SPACECRAFT_STATE, DEBRIS_STATE, SPIN_DISPERSION].concat()
 }
 
 /// The same without debris.
 pub fn campaign_without_debris() -> String {
-    [HEAD, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION].concat()
+    [HEAD, RADIANS, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION].concat()
 }
 
 /// Spins so different, with steps so long, that of 300 runs some 200 are ok, 40 inaccurate and 60 not physical.

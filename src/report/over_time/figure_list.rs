@@ -219,7 +219,7 @@ pub const FIGURES: &[ListedFigure] = {
         figure(State(StateField::WheelRates, &[]), ("Wheel rates", "", Hue::Wheel(0)), |scene, place| FREE_IN_PLOT(scene, place) && scene.wheels, &[]),
         figure(Thrust, ("Thrust", "thrust", Hue::Curve(0)), |scene, _| scene.fires, &[]),
         figure(Impulse, ("Impulse of the thrusters", "impulse", Hue::Curve(0)), |scene, _| scene.fires, &["impulse_total_n_s"]),
-        figure(Propellant, ("Propellant", "mass", Hue::Total), |scene, _| scene.fires, &["propellant_kg"]),
+        figure(Propellant, ("Propellant used", "mass", Hue::Total), |scene, _| scene.fires, &["propellant_kg"]),
         // energies: where nothing is controlled, or where they are asked for
         figure(One(Series::AngularMomentumSquare), ("Angular momentum about the centre of mass", "", Hue::Body), FREE_IN_PLOT, &[]),
         figure(One(Series::LinearMomentumSquare), ("Linear momentum in F_e", "", Hue::Body), FREE_IN_PLOT, &[]),

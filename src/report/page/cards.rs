@@ -3,12 +3,13 @@
 use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::campaign::{Display, ShownUnit};
 use crate::report::escaped::escaped;
+use crate::report::names;
 use crate::report::page::NO_INTERVAL;
 use crate::report::page::errors::sentence as sentence_case;
 use crate::report::page::influence::Influence;
-use crate::report::page::readable::{number, with_unit};
-use crate::report::page::shown_columns::words;
+use crate::report::page::readable::{in_brackets, number, with_unit};
 use crate::report::page::tables::StatisticsRow;
+use crate::report::share_text::{percent, with_interval};
 
 /// How a requirement was judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,8 +75,6 @@ pub struct Card {
     pub estimate: f64,
     /// The ends of its interval; NaN where the runs do not bound it.
     pub interval: [f64; 2],
-    /// The confidence of the interval.
-    pub confidence: f64,
     /// The limit, and whether it is an upper one.
     pub limit: Option<(f64, bool)>,
     /// Unit of estimate and limit.
@@ -112,7 +111,7 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &Shown
     let quantile = quantiles.iter().rfind(|quantile| quantile[0] <= P).or(quantiles.first());
     let [p, estimate, low, high] = quantile.copied().unwrap_or([P, f64::NAN, f64::NAN, f64::NAN]);
     let percent = number(100.0 * p);
-    let what = words(&outcome.quantity);
+    let what = names::of_quantity(&outcome.quantity);
     let text = |value: f64| with_unit(shown.value(value), &shown.unit);
     let (min, max) = (outcome.sketch.min().unwrap_or(f64::NAN), outcome.sketch.max().unwrap_or(f64::NAN));
     let [lower, upper] = [0.05, 0.95].map(|p| quantiles.iter().find(|quantile| quantile[0] == p));
@@ -152,7 +151,6 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &Shown
         statistic,
         estimate: shown.value(estimate),
         interval: [low, high].map(|end| shown.value(end)),
-        confidence: row.map_or(f64::NAN, |row| row.confidence),
         limit: None,
         unit: shown.unit.clone(),
         note,
@@ -182,18 +180,7 @@ impl Card {
             }
         };
         if self.estimate.is_finite() {
-            let shown = |end: f64| if end.is_finite() { with_unit(end, &self.unit) } else { "not bounded".to_owned() };
-            let ends = self.interval.map(shown);
-            let confidence = number(100.0 * self.confidence);
-            let interval = if self.interval.iter().any(|end| end.is_finite()) {
-                format!(" ({confidence}% interval: {} to {})", ends[0], ends[1])
-            } else {
-                String::new()
-            };
-            row(
-                &format!("{}:", sentence_case(&self.statistic)),
-                &format!("{}{interval}", with_unit(self.estimate, &self.unit)),
-            );
+            row(&format!("{}:", sentence_case(&self.statistic)), &self.found());
         }
         let shown = core::mem::take(&mut rows);
         let mut row = |term: &str, text: &str| {
@@ -217,6 +204,23 @@ impl Card {
             escaped(&self.sentence),
             self.scale()
         )
+    }
+
+    /// The estimate with its interval in brackets: "98.4% [91.5, 99.96]", "0.9381 [0.901, 0.994] deg".
+    fn found(&self) -> String {
+        if self.unit == "%" {
+            return with_interval([0.01 * self.estimate; 2], self.interval.map(|end| 0.01 * end));
+        }
+        format!("{}{}\u{a0}{}", number(self.estimate), in_brackets(self.interval), self.unit).trim_end().to_owned()
+    }
+
+    /// The estimate with its unit; a share that is not all is not 100%.
+    fn value(&self) -> String {
+        if self.unit == "%" {
+            format!("{}%", percent(0.01 * self.estimate))
+        } else {
+            with_unit(self.estimate, &self.unit)
+        }
     }
 
     /// Dot, whisker and limit line; an axis by decades where the range exceeds 100.
@@ -263,7 +267,7 @@ impl Card {
         }
         let x = at(self.estimate);
         inside += &format!("<circle class=\"dot\" cx=\"{x:.1}\" cy=\"28\" r=\"5\"/>");
-        inside += &label(x, 47, anchor(x), &with_unit(self.estimate, &self.unit));
+        inside += &label(x, 47, anchor(x), &self.value());
         if let Some((limit, is_upper)) = self.limit {
             let x = at(limit);
             let word = if is_upper { "at most" } else { "at least" };
@@ -290,7 +294,6 @@ mod tests {
             statistic: "99%-quantile".to_owned(),
             estimate,
             interval,
-            confidence: 0.95,
             limit,
             unit: "J".to_owned(),
             note: String::new(),
@@ -332,9 +335,12 @@ mod tests {
         for (index, judged) in all.into_iter().enumerate() {
             assert!(all[index + 1..].iter().all(|other| other.shape() != judged.shape()));
         }
-        // the ends have the unit of the estimate
-        let bounded = card(Judged::Pass, 0.0, [0.0, 0.1497], None).html();
-        assert!(bounded.contains("95% interval") && bounded.contains("0.1497\u{a0}J"), "{bounded}");
+        // estimate, ends and the unit of both
+        let bounded = card(Judged::Pass, 0.1, [0.0, 0.1497], None).html();
+        assert!(bounded.contains("0.1 [0, 0.15]\u{a0}J</p>"), "{bounded}");
+        // a share that is not all, and one whose interval ends below all
+        let share = Card { unit: "%".to_owned(), ..card(Judged::Pass, 99.984, [99.44, 99.9975], None) }.html();
+        assert!(share.contains("99.98% [99.4, 99.998]</p>") && share.contains(">99.98%</text>"), "{share}");
         let empty = card(Judged::Finding, f64::NAN, [f64::NAN; 2], None).html();
         assert!(!empty.contains("NaN") && !empty.contains("<circle class=\"dot\""), "{empty}");
         assert!(!card(Judged::Pass, 0.0, [0.0; 2], Some((0.0, true))).html().contains("NaN"));

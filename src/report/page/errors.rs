@@ -3,8 +3,8 @@
 use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::histogram::{bins, counts};
+use crate::report::names;
 use crate::report::page::NO_INTERVAL;
-use crate::report::page::shown_columns::words;
 use crate::run::Status;
 use crate::statistics::binomial::interval;
 use crate::statistics::quantile::percent;
@@ -66,7 +66,7 @@ pub fn histogram(survey: &Survey, index: usize, outcome: &SurveyedOutcome, secti
     let column = &survey.thinned.outcomes[index];
     let values: Vec<f64> = rows.iter().map(|row| column[*row]).filter(|value| value.is_finite()).collect();
     let values: Vec<f64> = if outcome.is_error { values.into_iter().map(f64::abs).collect() } else { values };
-    let title = sentence(&words(&outcome.quantity));
+    let title = sentence(&names::of_quantity(&outcome.quantity));
     let (bins, is_log) = bins(&values);
     let mut marks = vec![Mark::Bars {
         label: "runs".to_owned(),
@@ -82,7 +82,11 @@ pub fn histogram(survey: &Survey, index: usize, outcome: &SurveyedOutcome, secti
         marks.push(Mark::Limit { label: "nominal".to_owned(), at: nominal, vertical: true });
     }
     let axis = if is_log { Axis::log } else { Axis::linear };
-    let what = if outcome.is_error { format!("|{}|", words(&outcome.quantity)) } else { words(&outcome.quantity) };
+    let what = if outcome.is_error {
+        format!("|{}|", names::of_quantity(&outcome.quantity))
+    } else {
+        names::of_quantity(&outcome.quantity)
+    };
     let all = outcome.sketch.count();
     let caption = format!("{} Histogram of {}.", outcome.quantity.meaning(), of_runs(values.len(), all));
     Figure {
@@ -136,14 +140,14 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     Figure {
         name: format!("tail_{}", outcome.quantity.name()),
         section: FigureSection::Numerics,
-        title: format!("Tail of {}", words(&outcome.quantity)),
+        title: format!("Tail of {}", names::of_quantity(&outcome.quantity)),
         caption: format!(
             "Fraction of all {} runs that were computed whose value is at least this; shown at ranks spaced by decades.{interval}",
             outcome.sketch.count()
         ),
         columns: 6,
         is_over_time: false,
-        x: Axis::log(format!("|{}|", words(&outcome.quantity)), outcome.quantity.unit())
+        x: Axis::log(format!("|{}|", names::of_quantity(&outcome.quantity)), outcome.quantity.unit())
             .showing(outcome.quantity.name()),
         y: Axis::log("fraction of runs", ""),
         marks,

@@ -8,6 +8,7 @@ use crate::report::mission_text;
 use crate::report::page::cards::{Card, Judged, overall};
 use crate::report::page::errors::sentence;
 use crate::report::page::readable::{grouped, number};
+use crate::report::requirements;
 use crate::run::Status;
 
 /// A requirement as an example, where the file has none.
@@ -15,7 +16,9 @@ const EXAMPLE: &str =
     "[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.99\nat_most = 1e-9\nconfidence = 0.95";
 
 /// Name with the verdict, question, and the facts of the campaign.
-pub fn header(plan: &Plan, verdicts: &[Card]) -> String {
+///
+/// `has_intervals`: whether the page has numbers in brackets, which are said here once for all of it.
+pub fn header(plan: &Plan, verdicts: &[Card], has_intervals: bool) -> String {
     let dispersed = plan.dispersed_rows();
     let runs = if plan.chosen.is_some() {
         format!("{} chosen runs of {} samples", grouped(plan.rows()), grouped(plan.samples))
@@ -33,8 +36,12 @@ pub fn header(plan: &Plan, verdicts: &[Card]) -> String {
         .description
         .as_deref()
         .map_or(String::new(), |text| format!("<p class=\"question\">{}</p>", escaped(&sentence(text))));
+    let intervals = match has_intervals {
+        true => format!(" \u{b7} in brackets: {}", requirements::intervals(plan.analysis.confidence)),
+        false => String::new(),
+    };
     format!(
-        "<h1>{}{}</h1>{question}\n<p class=\"facts\">{runs} \u{b7} design {} \u{b7} seed {} \u{b7} {} s each \u{b7} method {}, {steps} \u{b7} spindrift {} \u{b7} plan <button type=\"button\" class=\"hash\" data-copy=\"{hash}\" title=\"Copy the whole hash\">{}</button></p>\n",
+        "<h1>{}{}</h1>{question}\n<p class=\"facts\">{runs} \u{b7} design {} \u{b7} seed {} \u{b7} {} s each \u{b7} method {}, {steps} \u{b7} spindrift {} \u{b7} plan <button type=\"button\" class=\"hash\" data-copy=\"{hash}\" title=\"Copy the whole hash\">{}</button>{intervals}</p>\n",
         escaped(&plan.name),
         verdict(verdicts),
         escaped(plan.design.name()),
@@ -179,7 +186,7 @@ pub fn missions(missions: &Missions) -> String {
         return lines;
     }
     format!(
-        "<section id=\"missions\"><h2>How did the missions end?</h2><table class=\"missions\"><thead><tr><th>end</th><th>runs</th><th>share, with its interval</th><th></th></tr></thead><tbody>{lines}</tbody></table><p class=\"caption\">Of the dispersed runs{}. The nominal run has no sensor noise.</p></section>\n",
+        "<section id=\"missions\"><h2>How did the missions end?</h2><table class=\"missions\"><thead><tr><th>end</th><th>runs</th><th>share</th><th></th></tr></thead><tbody>{lines}</tbody></table><p class=\"caption\">Of the dispersed runs{}. The nominal run has no sensor noise.</p></section>\n",
         mission_text::missing(missions).map_or_else(String::new, |note| format!("; {}", escaped(&note)))
     )
 }
@@ -299,10 +306,12 @@ mod tests {
     fn a_tolerance_is_that_of_a_method_that_follows_it() {
         let text = include_str!("../../../campaigns/spin_sweep.toml");
         let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        let adaptive = header(&plan, &[]);
+        let adaptive = header(&plan, &[], true);
         assert!(adaptive.contains("method auto, tolerance ") && !adaptive.contains("steps of"), "{adaptive}");
         let fixed =
-            header(&Plan { method: Method::Gyrostat(Integrator::RungeKutta4), step_s: Some(0.25), ..plan }, &[]);
+            header(&Plan { method: Method::Gyrostat(Integrator::RungeKutta4), step_s: Some(0.25), ..plan }, &[], false);
         assert!(fixed.contains("runge_kutta_4, steps of 0.25") && !fixed.contains("tolerance"), "{fixed}");
+        let said = "in brackets: two-sided 95% intervals";
+        assert!(adaptive.contains(said) && !fixed.contains("brackets"), "{adaptive}{fixed}");
     }
 }

@@ -13,6 +13,7 @@ use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::ensemble::Bands;
 use crate::report::drivers_text::{self, SEE_INTERACTIONS, outcomes, ranked, verb};
+use crate::report::names;
 use crate::report::noise_text;
 use crate::report::over_time::curves::{FEWEST, TimeBands};
 use crate::report::page::Contents;
@@ -20,7 +21,6 @@ use crate::report::page::cards::{Card, Judged, driven_by};
 use crate::report::page::errors::sentence;
 use crate::report::page::influence::Influence;
 use crate::report::page::readable::{grouped, number, with_unit};
-use crate::report::page::shown_columns::words;
 use crate::report::page::tables::StatisticsRow;
 use crate::report::requirements::{assumed, runs_needed, together};
 use crate::report::stopping_text;
@@ -205,7 +205,11 @@ fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity]) -> S
         );
     }
     let correlated: Vec<String> = of_observable()
-        .filter_map(|one| one.correlated_with.as_ref().map(|(other, r)| format!("{} with {other} ({r:.2})", one.input)))
+        .filter_map(|one| {
+            let (other, r) = one.correlated_with.as_ref()?;
+            let [name, other] = [&one.input, other].map(|column| names::of_input_column(plan, column));
+            Some(format!("{name} with {other} ({r:.2})"))
+        })
         .take(3)
         .collect();
     if !correlated.is_empty() {
@@ -221,7 +225,10 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
     let requirement = &one.requirement;
     let outcome = requirement.observable().and_then(|name| survey.outcome(name)).map(|(_, outcome)| outcome);
     let of_run = outcome.filter(|_| requirement.band().is_none());
-    let name = of_run.map_or(requirement.name().replace('_', " "), |outcome| words(&outcome.quantity));
+    let name = of_run.map_or_else(
+        || names::of_column(requirement.name(), &one.unit),
+        |outcome| names::of_quantity(&outcome.quantity),
+    );
     let confidence = number(100.0 * requirement.confidence);
     let percent = |fraction: f64| number(100.0 * fraction);
     let (limit, is_upper) = (requirement.limit.value(), matches!(requirement.limit, GateLimit::AtMost(_)));
@@ -308,7 +315,6 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         statistic,
         estimate,
         interval: ends,
-        confidence: statistics.confidence,
         limit: Some((limit, is_upper && !is_fraction)),
         unit,
         note: notes.join(" "),

@@ -3,10 +3,10 @@
 use crate::analysis::survey::{SCATTER, Survey, SurveyedOutcome, chosen};
 use crate::campaign::Plan;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
+use crate::report::names;
 use crate::report::page::errors::{sentence, shown_rows};
-use crate::report::page::shown_columns::words;
+use crate::report::page::fates::{self, Fate};
 use crate::run::Quantity;
-use crate::run::Status;
 
 /// Bars of a tornado.
 const MOST_INPUTS: usize = 12;
@@ -34,9 +34,9 @@ pub fn figures(plan: &Plan, survey: &Survey, influences: &[Influence]) -> Vec<Fi
     for influence in influences {
         let Some((index, outcome)) = survey.outcome(&influence.outcome) else { continue };
         let mut inputs = influence.inputs.clone();
-        let strongest: Vec<usize> = inputs.iter().take(2).filter_map(|(name, _)| position(plan, name)).collect();
+        let strongest: Vec<usize> = inputs.iter().take(2).filter_map(|(name, _)| names::place_of(plan, name)).collect();
         inputs.truncate(MOST_INPUTS);
-        figures.push(tornado(influence, outcome, &inputs, survey.thinned.inputs.len()));
+        figures.push(tornado(plan, influence, outcome, &inputs, survey.thinned.inputs.len()));
         for input in strongest {
             let figure = scatter(plan, survey, input, index, outcome);
             if !figures.iter().any(|other| other.name == figure.name) {
@@ -48,20 +48,25 @@ pub fn figures(plan: &Plan, survey: &Survey, influences: &[Influence]) -> Vec<Fi
     figures
 }
 
-fn position(plan: &Plan, name: &str) -> Option<usize> {
-    plan.dispersions.columns().iter().position(|column| column.parameter.column_name(column.component) == name)
-}
-
-fn tornado(influence: &Influence, outcome: &SurveyedOutcome, inputs: &[(String, [f64; 3])], all: usize) -> Figure {
+fn tornado(
+    plan: &Plan,
+    influence: &Influence,
+    outcome: &SurveyedOutcome,
+    inputs: &[(String, [f64; 3])],
+    all: usize,
+) -> Figure {
     let column = |place: usize| inputs.iter().map(|(_, value)| value[place]).collect::<Vec<f64>>();
     let note =
         if inputs.len() < all { format!(" The strongest {} of {all} inputs.", inputs.len()) } else { String::new() };
     let name = outcome.quantity.name();
     let (name, title) = match &influence.event {
-        None => (format!("influence_{name}"), format!("What drives {}", words(&outcome.quantity))),
+        None => (format!("influence_{name}"), format!("What drives {}", names::of_quantity(&outcome.quantity))),
         Some((verb, has_spread)) => {
             let part = if *has_spread { "_event" } else { "" };
-            (format!("influence_{name}{part}"), format!("{}: which runs {verb}", sentence(&words(&outcome.quantity))))
+            (
+                format!("influence_{name}{part}"),
+                format!("{}: which runs {verb}", sentence(&names::of_quantity(&outcome.quantity))),
+            )
         }
     };
     Figure {
@@ -72,7 +77,7 @@ fn tornado(influence: &Influence, outcome: &SurveyedOutcome, inputs: &[(String, 
         columns: 4,
         is_over_time: false,
         x: Axis::linear(influence.measure.clone(), ""),
-        y: Axis::names(inputs.iter().map(|(name, _)| name.clone()).collect()),
+        y: Axis::names(inputs.iter().map(|(name, _)| names::of_input_column(plan, name)).collect()),
         marks: vec![Mark::Whiskers {
             label: crate::report::page::errors::interval_label(outcome.confidence),
             hue: Hue::Total,
@@ -86,7 +91,7 @@ fn tornado(influence: &Influence, outcome: &SurveyedOutcome, inputs: &[(String, 
 /// An outcome against an input.
 fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &SurveyedOutcome) -> Figure {
     let column = &plan.dispersions.columns()[input];
-    let name = column.parameter.component_name(column.component);
+    let name = names::of_input(plan, input);
     let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
     let thinned = &survey.thinned;
     // a run without a value of the outcome is no point
@@ -107,22 +112,33 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
         y,
         samples: rows.iter().map(|row| thinned.samples[*row] as f64).collect(),
     };
-    let mut marks = vec![points(&kept, "computed", Hue::Total, PointShape::Disc, shown)];
+    let fates = fates::fates(plan, survey);
+    let (missed, met): (Vec<usize>, Vec<usize>) = kept.iter().partition(|row| fates[**row] == Fate::Missed);
+    let value = |rows: &[usize]| rows.iter().map(|row| ordinates[*row]).collect::<Vec<f64>>();
+    let word = if missed.is_empty() { "computed" } else { "meets the requirements" };
+    let mut marks = vec![points(&met, word, Hue::Total, PointShape::Disc, value(&met))];
+    if !missed.is_empty() {
+        marks.push(points(&missed, "misses a requirement", Hue::Failed, PointShape::Cross, value(&missed)));
+    }
     let failed: Vec<usize> =
-        (0..thinned.samples.len()).filter(|row| thinned.statuses[*row] != Status::Done).take(SCATTER).collect();
+        (0..thinned.samples.len()).filter(|row| fates[*row] == Fate::NotComputed).take(SCATTER).collect();
     if !failed.is_empty() {
         // a run that failed has no outcome: it is marked at the lower edge
         let edge = if lowest.is_finite() { lowest } else { 0.0 };
         let y = vec![edge; failed.len()];
-        marks.push(points(&failed, "not computed (at the lower edge)", Hue::Failed, PointShape::Cross, y));
+        marks.push(points(&failed, "not computed (at the lower edge)", Hue::Reference, PointShape::Cross, y));
     }
     let all = outcome.sketch.count();
-    let label = if outcome.is_error { format!("|{}|", words(&outcome.quantity)) } else { words(&outcome.quantity) };
+    let label = if outcome.is_error {
+        format!("|{}|", names::of_quantity(&outcome.quantity))
+    } else {
+        names::of_quantity(&outcome.quantity)
+    };
     let axis = if is_log { Axis::log } else { Axis::linear };
     Figure {
         name: format!("scatter_{}_{}", outcome.quantity.name(), column.parameter.column_name(column.component)),
         section: FigureSection::Influence,
-        title: format!("{} against {name}", sentence(&words(&outcome.quantity))),
+        title: format!("{} against {name}", sentence(&names::of_quantity(&outcome.quantity))),
         caption: format!("{}.", crate::report::page::errors::of_runs(kept.len(), all)),
         columns: 4,
         is_over_time: false,
@@ -163,14 +179,14 @@ pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     Figure {
         name: format!("convergence_{}", quantity.name()),
         section: FigureSection::Statistics,
-        title: format!("Convergence of {}", words(quantity)),
+        title: format!("Convergence of {}", names::of_quantity(quantity)),
         caption: "Quantiles of the first N dispersed runs that were computed, in the order of their numbers; where the band begins, N bounds the \
                   quantile from both sides."
             .to_owned(),
         columns: 6,
         is_over_time: false,
         x: Axis::log("runs N", ""),
-        y: Axis::linear(words(quantity), unit).showing(quantity.name()),
+        y: Axis::linear(names::of_quantity(quantity), unit).showing(quantity.name()),
         marks,
     }
 }

@@ -5,6 +5,7 @@ use core::f64::consts::PI;
 use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
 use crate::report::figure::{Axis, Figure, FigureSection};
+use crate::report::names;
 use crate::report::origin_text::origin;
 use crate::report::{drawn_figure, histogram, marginal};
 use crate::sampling::correlation::{Measure, Numbers};
@@ -31,7 +32,7 @@ fn dispersed(survey: &Survey) -> Vec<usize> {
 
 fn input(plan: &Plan, survey: &Survey, index: usize) -> Figure {
     let column = &plan.dispersions.columns()[index];
-    let name = column.parameter.component_name(column.component);
+    let name = names::of_input(plan, index);
     let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
     let values: Vec<f64> =
         dispersed(survey).into_iter().map(|row| survey.thinned.inputs[index][row]).filter(|x| x.is_finite()).collect();
@@ -66,8 +67,7 @@ fn correlations(plan: &Plan, survey: &Survey) -> Vec<Figure> {
     if shown.len() < 2 || rows.len() < 3 {
         return Vec::new();
     }
-    let names: Vec<String> =
-        shown.iter().map(|index| all[*index].parameter.component_name(all[*index].component)).collect();
+    let names: Vec<String> = shown.iter().map(|index| names::of_input(plan, *index)).collect();
     let scores = |index: &usize| {
         let column = &survey.thinned.inputs[*index];
         standardised(&mid_ranks(&rows.iter().map(|row| column[*row]).collect::<Vec<f64>>()))

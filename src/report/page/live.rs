@@ -7,9 +7,9 @@ use crate::ensemble::SingleRun;
 use crate::math::vector::{difference, norm};
 use crate::observables::Series;
 use crate::report::mission_text;
+use crate::report::names;
 use crate::report::page::errors::sentence;
 use crate::report::page::payload::Payload;
-use crate::report::page::shown_columns::words;
 use crate::run::StateField;
 
 /// A quantity of one or several components over time, as the replay shows it.
@@ -51,7 +51,7 @@ fn pointing_error(run: &SingleRun, points: usize) -> Option<LiveNumber> {
     let quantity = Series::PointingError.quantity(&run.request.wheels)?;
     let values = values[..points.min(values.len())].to_vec();
     values.iter().any(|value| value.is_finite()).then(|| LiveNumber {
-        name: sentence(&words(&quantity)),
+        name: sentence(&names::of_quantity(&quantity)),
         column: quantity.name().to_owned(),
         unit: "rad",
         components: Vec::new(),

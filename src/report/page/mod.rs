@@ -11,10 +11,12 @@
 pub mod cards;
 mod document;
 mod errors;
+mod fates;
 mod figure_json;
 mod first_screen;
 pub mod gather;
 pub mod influence;
+mod input_rows;
 mod inputs;
 mod live;
 mod outcomes;
@@ -22,7 +24,6 @@ mod payload;
 pub(in crate::report) mod readable;
 mod replay;
 pub mod runs;
-mod shown_columns;
 mod still;
 pub mod tables;
 
@@ -30,6 +31,7 @@ use serde_json::{Value, json};
 
 use self::cards::Card;
 use self::document::{PageSection, document};
+use self::fates::Fate;
 use self::figure_json::json_of;
 use self::influence::Influence;
 use self::payload::Payload;
@@ -40,6 +42,7 @@ use crate::analysis::survey::{self, Survey};
 use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
 use crate::report::figure::{Figure, FigureSection};
+use crate::report::names;
 use crate::report::over_time::curves::{Curves, TimeBands};
 use crate::sampling::{Design, SampleId};
 
@@ -127,7 +130,7 @@ impl Page {
             contents.verdicts.clone()
         };
         let first = [
-            first_screen::header(plan, &contents.verdicts),
+            first_screen::header(plan, &contents.verdicts, has_brackets(contents, &cards)),
             first_screen::warnings(&contents.warnings),
             first_screen::missions(&contents.missions),
             first_screen::verdicts(&cards, !contents.verdicts.is_empty(), &contents.said),
@@ -138,10 +141,16 @@ impl Page {
             Some(judged) => format!("{}: {}", judged.word(), plan.name),
             None => plan.name.clone(),
         };
-        let has = |section: FigureSection| figures.iter().any(|figure| figure.section == section);
-        let sections = sections(plan, contents, &shown, has_replay, &has);
+        let sections = sections(plan, contents, &shown, has_replay, &figures);
         Page { html: document(&title, &first.concat(), &sections, &data, &payload.text()), figures }
     }
+}
+
+/// Whether the page has intervals, which stand in brackets.
+fn has_brackets(contents: &Contents, cards: &[Card]) -> bool {
+    let ends = contents.missions.iter().map(|one| one.interval).chain(cards.iter().map(|card| card.interval));
+    let quantiles = contents.statistics.iter().flat_map(|row| &row.quantiles).map(|of| [of[2], of[3]]);
+    ends.chain(quantiles).flatten().any(f64::is_finite)
 }
 
 /// The sections after the first screen; one that has nothing to show is left out.
@@ -150,8 +159,10 @@ fn sections(
     contents: &Contents,
     shown: &[runs::ShownRun],
     has_replay: bool,
-    has: &dyn Fn(FigureSection) -> bool,
+    drawn: &[Figure],
 ) -> Vec<PageSection> {
+    let has = |section: FigureSection| drawn.iter().any(|figure| figure.section == section);
+    let input_rows = input_rows::rows(plan, drawn);
     let figures = |section: FigureSection, title, lead: &str, html: &str| {
         let shown = PageSection {
             anchor: section.anchor(),
@@ -171,6 +182,7 @@ fn sections(
     let replay = format!("<div class=\"replay\">{still}<p>The replay needs JavaScript and WebGL.</p></div>");
     let table = tables::statistics(&contents.statistics, &plan.analysis.display);
     let folded = |section: PageSection, is_open: bool| PageSection { fold: Some(is_open), ..section };
+    let inputs = input_rows + "<div class=\"figures\"></div>";
     let is_off = first_screen::is_above_tolerance(plan, &contents.survey);
     [
         figures(FigureSection::Outcome, "Outcome", "How the outcomes are distributed, and which share of the runs stays within a value.", ""),
@@ -179,7 +191,7 @@ fn sections(
         figures(FigureSection::Influence, "What drives it", "Which uncertain input makes the difference.", pairs),
         plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the worst outcomes. Each is replayed bit for bit by its command.", tables::worst_runs(plan, &contents.survey, shown)),
         figures(FigureSection::Numerics, "Numerics", "How large the numerical errors are. Small and without a trend is good.", "").map(|section| folded(section, is_off)),
-        figures(FigureSection::Inputs, "Inputs", "What was applied, against what the campaign file asks for.", "").map(|section| folded(section, false)),
+        figures(FigureSection::Inputs, "Inputs", "What was applied, against what the campaign file asks for.", &inputs).map(|section| PageSection { has_figures: false, ..folded(section, false) }),
         Some(PageSection { anchor: "statistics", title: "Statistics", lead: String::new(), html: table, has_figures: has(FigureSection::Statistics), fold: Some(false) }),
         plain("provenance", "Provenance", "", tables::provenance(plan, &contents.survey, &contents.files)),
     ]
@@ -201,17 +213,20 @@ fn pairs(plan: &Plan, survey: &Survey, payload: &mut Payload) -> Value {
         let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
         let shown = display.of(&column.parameter.name(), unit);
         let values = of(&values.iter().map(|value| shown.value(*value)).collect::<Vec<f64>>());
-        json!({ "name": column.parameter.component_name(column.component), "unit": shown.unit, "input": true, "values": values })
+        let name = names::of_component(column.parameter, column.component);
+        json!({ "name": name, "column": column.parameter.column_name(column.component), "unit": shown.unit, "input": true, "values": values })
     });
     let inputs: Vec<Value> = inputs.collect();
     let outcomes = survey.outcomes.iter().zip(&thinned.outcomes).map(|(outcome, values)| {
         let shown = display.of(outcome.quantity.name(), outcome.quantity.unit());
         let values = of(&values.iter().map(|value| shown.value(*value)).collect::<Vec<f64>>());
-        json!({ "name": outcome.quantity.name(), "unit": shown.unit, "input": false, "values": values })
+        let name = names::of_quantity(&outcome.quantity);
+        json!({ "name": name, "column": outcome.quantity.name(), "unit": shown.unit, "input": false, "values": values })
     });
     let columns: Vec<Value> = inputs.into_iter().chain(outcomes).collect();
     let samples: Vec<f64> = rows.iter().map(|row| thinned.samples[*row] as f64).collect();
-    let failed: Vec<f64> =
-        rows.iter().map(|row| f64::from(u8::from(thinned.statuses[*row] != crate::run::Status::Done))).collect();
-    json!({ "columns": columns, "samples": payload.array(&samples), "failed": payload.singles(&failed), "all": survey.samples })
+    let fates = fates::fates(plan, survey);
+    let shown: Vec<f64> = rows.iter().map(|row| fates[*row].place()).collect();
+    let judged = fates.contains(&Fate::Missed) || !plan.analysis.requirements.is_empty();
+    json!({ "columns": columns, "samples": payload.array(&samples), "fates": payload.singles(&shown), "judged": judged, "all": survey.samples })
 }

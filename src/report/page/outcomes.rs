@@ -3,10 +3,12 @@
 use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape, Scale};
+use crate::report::histogram::counts;
+use crate::report::names;
 use crate::report::page::NO_INTERVAL;
-use crate::report::page::errors::{histogram, interval_label, sentence};
+use crate::report::page::errors::{histogram, interval_label, sentence, shown_rows};
+use crate::report::page::fates::{self, Fate};
 use crate::report::page::readable::{number, with_unit};
-use crate::report::page::shown_columns::words;
 use crate::report::page::tables::StatisticsRow;
 use crate::statistics::binomial::interval;
 use crate::statistics::gate::GateLimit;
@@ -29,12 +31,26 @@ pub fn figures(plan: &Plan, survey: &Survey, statistics: &[StatisticsRow], has_i
         }
         let row = statistics.iter().find(|row| row.name == outcome.quantity.name());
         let mut distribution = histogram(survey, index, outcome, FigureSection::Outcome);
+        distribution.marks.extend(missed(plan, survey, index, outcome, &distribution.marks));
         distribution.marks.extend(limits(plan, outcome));
         distributions.push(near_limits(Figure { columns: 4, ..distribution }));
         curves.push(near_limits(Figure { columns: 4, ..cumulative(plan, outcome, row, has_intervals) }));
     }
     distributions.append(&mut curves);
     distributions
+}
+
+/// The runs in the bars of a histogram that miss a requirement, as bars of their own in front of these; nothing where no run does.
+fn missed(plan: &Plan, survey: &Survey, index: usize, outcome: &SurveyedOutcome, marks: &[Mark]) -> Option<Mark> {
+    let fates = fates::fates(plan, survey);
+    let edges = marks.iter().find_map(|mark| if let Mark::Bars { edges, .. } = mark { Some(edges) } else { None })?;
+    let rows = shown_rows(survey).into_iter().filter(|row| fates[*row] == Fate::Missed);
+    let values = rows.map(|row| survey.thinned.outcomes[index][row]);
+    let values: Vec<f64> = values.map(|value| if outcome.is_error { value.abs() } else { value }).collect();
+    let heights = counts(&values, edges);
+    let label = "of these, miss a requirement".to_owned();
+    let any = heights.iter().any(|height| *height > 0.0);
+    any.then(|| Mark::Bars { label, hue: Hue::Failed, heights, edges: edges.clone() })
 }
 
 /// The share of the first N runs in which an outcome is 1, against N, with its interval.
@@ -50,7 +66,7 @@ fn share(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         marks.push(Mark::Band { label, hue: Hue::Total, opacity: 0.15, x: x.clone(), low, high, stacked: false });
     }
     marks.push(Mark::line("share of runs", Hue::Total, Dash::Solid, x, y));
-    let name = words(&outcome.quantity);
+    let name = names::of_quantity(&outcome.quantity);
     Figure {
         name: format!("share_{}", outcome.quantity.name()),
         section: FigureSection::Outcome,
@@ -150,14 +166,18 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
         marks.push(Mark::Points { label, hue, shape: PointShape::Disc, x, y, samples });
     }
     marks.extend(limits(plan, outcome));
-    let what = if outcome.is_error { format!("|{}|", words(&outcome.quantity)) } else { words(&outcome.quantity) };
+    let what = if outcome.is_error {
+        format!("|{}|", names::of_quantity(&outcome.quantity))
+    } else {
+        names::of_quantity(&outcome.quantity)
+    };
     let is_log = outcome.is_error && outcome.sketch.min().is_some_and(|min| min > 0.0);
     let axis = if is_log { Axis::log } else { Axis::linear };
     let interval = if has_intervals { "Band: Clopper-Pearson." } else { NO_INTERVAL };
     Figure {
         name: format!("cumulative_{}", outcome.quantity.name()),
         section: FigureSection::Outcome,
-        title: format!("{}: cumulative distribution", sentence(&words(&outcome.quantity))),
+        title: format!("{}: cumulative distribution", sentence(&names::of_quantity(&outcome.quantity))),
         caption: format!(
             "Fraction of the {} runs that were computed whose value is at most this. {interval}",
             outcome.sketch.count()

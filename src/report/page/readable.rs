@@ -1,6 +1,7 @@
 //! Numbers as a person reads them: powers of ten with superscripts, thousands apart, SI prefixes.
 
 use crate::report::axis::superscript;
+use crate::report::number::outward;
 
 /// A number with three or four digits: 0.01234, 1.235 x 10^-13 with superscripts, 4,096.
 pub fn number(value: f64) -> String {
@@ -24,6 +25,16 @@ pub fn number(value: f64) -> String {
         let digits = digits.trim_end_matches('0').trim_end_matches('.');
         format!("{digits}\u{202f}\u{d7}\u{202f}10{}", superscript(power.parse().unwrap_or(0)))
     }
+}
+
+/// An interval in brackets after its estimate, rounded outward to three digits: " [0.901, 0.994]"; nothing where neither end is known.
+pub fn in_brackets(interval: [f64; 2]) -> String {
+    if !interval.iter().any(|end| end.is_finite()) {
+        return String::new();
+    }
+    let shown = |end: f64| if end.is_finite() { number(end) } else { "not bounded".to_owned() };
+    let [low, high] = outward(interval, 3).map(shown);
+    format!(" [{low}, {high}]")
 }
 
 /// A number with its unit.
@@ -51,6 +62,13 @@ pub fn grouped(value: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn intervals_are_in_brackets() {
+        assert_eq!(in_brackets([0.901_2, 0.993_6]), " [0.901, 0.994]");
+        assert_eq!(in_brackets([f64::NAN, 1.234e-13]), " [not bounded, 1.24\u{202f}\u{d7}\u{202f}10⁻¹³]");
+        assert_eq!(in_brackets([f64::NAN; 2]), "");
+    }
 
     #[test]
     fn numbers_are_readable() {

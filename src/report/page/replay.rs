@@ -9,12 +9,12 @@ use crate::control::net_launch::geometry::LaunchState;
 use crate::control::net_launch::parameters::DebrisNumbers;
 use crate::ensemble::SingleRun;
 use crate::math::vector::{dcm_from_quaternion, difference, product};
+use crate::report::names;
 use crate::report::page::errors::sentence;
 use crate::report::page::live;
 use crate::report::page::payload::Payload;
 use crate::report::page::readable::with_unit;
 use crate::report::page::runs::ShownRun;
-use crate::report::page::shown_columns::words;
 use crate::run::StateField;
 use crate::scene::unit_quaternion::unit_quaternion;
 use crate::scene::{DebrisInput, PartInput, PartShape, Scene, SceneInput, WheelMode};
@@ -219,7 +219,7 @@ fn numbers(plan: &Plan, shown: &ShownRun) -> Vec<[String; 2]> {
     let value = |name: &&str| {
         let one = observed.iter().find(|one| one.quantity.name() == *name)?;
         let unit = plan.analysis.display.of(name, one.quantity.unit());
-        Some([sentence(&words(&one.quantity)), with_unit(unit.value(one.value(number)?), &unit.unit)])
+        Some([sentence(&names::of_quantity(&one.quantity)), with_unit(unit.value(one.value(number)?), &unit.unit)])
     };
     names.iter().filter_map(value).collect()
 }

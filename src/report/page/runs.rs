@@ -5,8 +5,8 @@ use crate::campaign::Plan;
 use crate::ensemble::{DrawnScenes, SingleRun};
 use crate::math::Isa;
 use crate::observables::Group;
+use crate::report::names;
 use crate::report::page::readable::with_unit;
-use crate::report::page::shown_columns::words;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
 
@@ -159,7 +159,7 @@ fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
                 let quantity = &outcome.quantity;
                 let shown = plan.analysis.display.of(quantity.name(), quantity.unit());
                 let value = with_unit(shown.value(*value), &shown.unit);
-                list.push((*sample, format!("{rank} {} ({value})", words(quantity))));
+                list.push((*sample, format!("{rank} {} ({value})", names::of_quantity(quantity))));
             }
         }
     }

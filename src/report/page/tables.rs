@@ -4,8 +4,10 @@ use crate::analysis::survey::Survey;
 use crate::campaign::{Display, Plan};
 use crate::report::escaped::escaped;
 use crate::report::mission_text;
+use crate::report::names;
 use crate::report::origin_text::unit_of;
-use crate::report::page::readable::{grouped, number, with_unit};
+use crate::report::page::errors::sentence;
+use crate::report::page::readable::{grouped, in_brackets, number, with_unit};
 use crate::report::page::runs::ShownRun;
 use crate::run::Status;
 
@@ -51,13 +53,10 @@ pub fn statistics(rows: &[StatisticsRow], display: &Display) -> String {
     let Some(first) = rows.first() else { return "<p>No run was computed: there are no statistics.</p>".to_owned() };
     let heads: String =
         first.quantiles.iter().map(|quantile| format!("<th>{}%</th>", number(100.0 * quantile[0]))).collect();
-    let confidence = number(100.0 * first.confidence);
     let caption = if first.confidence.is_nan() {
         "The design has no intervals".to_owned()
     } else {
-        format!(
-            "The number of runs does not bound this quantile from both sides with {confidence}% confidence; the interval of others appears on hover"
-        )
+        "These runs do not bound this quantile from both sides; the interval of others appears on hover".to_owned()
     };
     let mut body = String::new();
     for row in rows {
@@ -68,21 +67,20 @@ pub fn statistics(rows: &[StatisticsRow], display: &Display) -> String {
                 return "<td>-</td>".to_owned();
             }
             let value = shown.value(*value);
-            let end = |end: &f64| if end.is_finite() { number(shown.value(*end)) } else { "not bounded".to_owned() };
-            let ends = [low, high].map(end);
-            let interval = if low.is_finite() || high.is_finite() {
-                format!(" title=\"{confidence}% interval: {} to {}\"", ends[0], ends[1])
-            } else {
-                String::new()
+            let interval = in_brackets([low, high].map(|end| shown.value(*end)));
+            let interval = match interval.is_empty() {
+                true => interval,
+                false => format!(" title=\"{}{interval}\"", number(value)),
             };
             let mark = if low.is_finite() && high.is_finite() { "" } else { "<sup>*</sup>" };
             format!("<td data-value=\"{value:e}\"{interval}>{}{mark}</td>", number(value))
         };
         let quantiles: String = row.quantiles.iter().map(quantile).collect();
         body += &format!(
-            "<tr><th scope=\"row\" title=\"{}\">{}</th><td class=\"unit\">{}</td>{}{}{}{}{quantiles}{}</tr>\n",
-            escaped(&row.meaning),
+            "<tr><th scope=\"row\" title=\"{}: {}\">{}</th><td class=\"unit\">{}</td>{}{}{}{}{quantiles}{}</tr>\n",
             escaped(&row.name),
+            escaped(&row.meaning),
+            escaped(&names::of_column(&row.name, &row.unit)),
             escaped(&shown.unit),
             self::cell(row.count as f64),
             cell(row.mean),
@@ -115,7 +113,7 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
             .enumerate()
             .map(|(index, (column, value))| {
                 let shown = unit_of(plan, index);
-                let name = column.parameter.component_name(column.component);
+                let name = names::of_component(column.parameter, column.component);
                 let sigmas = (value - column.nominal).abs() / spreads[index];
                 let text = format!(
                     "{name} = {}, nominal {} ({} \u{3c3})",
@@ -178,9 +176,10 @@ pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> S
                 format!(" ({})", escaped(outcome.quantity.unit()))
             };
             format!(
-                "<dt>{}{unit}</dt><dd>{}</dd>",
-                escaped(outcome.quantity.name()),
-                escaped(outcome.quantity.meaning())
+                "<dt>{}{unit}</dt><dd>{} Column <code>{}</code>.</dd>",
+                escaped(&sentence(&names::of_quantity(&outcome.quantity))),
+                escaped(outcome.quantity.meaning()),
+                escaped(outcome.quantity.name())
             )
         })
         .collect();

@@ -1,0 +1,183 @@
+//! What columns and parameters are called where a person reads them: in words, on the page, in figures and in sentences of the screen. The technical
+//! names stay in files, tooltips and commands.
+
+use crate::campaign::Plan;
+use crate::run::Quantity;
+use crate::scene::Parameter;
+
+/// Ends of names that say which value of a series a column is, with the words that come before it.
+const STATISTICS: [(&str, &str); 9] = [
+    ("_peak_to_peak", "peak-to-peak "),
+    ("_max", "maximum "),
+    ("_min", "minimum "),
+    ("_mean", "mean "),
+    ("_final", "final "),
+    ("_initial", "initial "),
+    ("_rms", "rms "),
+    ("_net", "net "),
+    ("_gross", "gross "),
+];
+
+/// Parts of names that nobody would say so.
+const SAID: [(&str, &str); 5] = [
+    ("dcm ", "rotation matrix "),
+    ("nees", "NEES"),
+    ("q es ", "attitude quaternion "),
+    ("ill conditioned", "ill-conditioned"),
+    ("orthonormality", "orthonormality error"),
+];
+
+/// `name` without the `unit` at its end.
+fn without_unit<'n>(name: &'n str, unit: &str) -> &'n str {
+    let suffix = match unit {
+        "" | "1" => return name,
+        "1/s" => "_per_s".to_owned(),
+        unit => format!("_{}", unit.to_lowercase().replace([' ', '/'], "_").replace('^', "")),
+    };
+    name.strip_suffix(suffix.as_str()).unwrap_or(name)
+}
+
+/// The name of a quantity as words: `energy_error_max` is "maximum energy error"; the unit is left out.
+pub fn of_quantity(quantity: &Quantity) -> String {
+    of_column(quantity.name(), quantity.unit())
+}
+
+/// The same of the column `name` in `unit`.
+pub fn of_column(name: &str, unit: &str) -> String {
+    let name = without_unit(name, unit);
+    let text = of_stem(name);
+    SAID.iter().fold(text, |text, (written, said)| text.replace(written, said))
+}
+
+fn of_stem(name: &str) -> String {
+    let spoken = |stem: &str| stem.replace('_', " ");
+    // what a mission has at its launch, and when its phases began
+    if let Some(stem) = name.strip_suffix("_launch") {
+        return format!("{} at launch", spoken(stem));
+    }
+    if let Some(phase) = name.strip_prefix("phase_").and_then(|rest| rest.strip_suffix("_begin")) {
+        return format!("time until phase {}", spoken(phase));
+    }
+    if let Some(stem) = name.strip_suffix("_total") {
+        return format!("total {}", spoken(stem));
+    }
+    let (stem, statistic) =
+        STATISTICS.iter().find_map(|(suffix, words)| Some((name.strip_suffix(suffix)?, *words))).unwrap_or((name, ""));
+    let axis = [("_x", "s1"), ("_y", "s2"), ("_z", "s3")].into_iter();
+    let mut of_rate = axis.filter_map(|(end, axis)| (stem == format!("omega_se_s{end}")).then_some(axis));
+    if let Some(axis) = of_rate.next() {
+        return format!("{statistic}angular velocity about {axis}");
+    }
+    if let Some(of) = stem.strip_prefix("exchange_") {
+        let ends = [("_fraction", "fraction of "), ("_power", "power of "), ("_correlation", "correlation of ")];
+        let end = ends.iter().find_map(|(end, words)| Some((of.strip_suffix(end)?, *words)));
+        let (of, what) = end.unwrap_or((of, ""));
+        return match of {
+            "frequency" => format!("{statistic}frequency of the energy transfer"),
+            of => format!("{statistic}{what}energy transfer of {}", spoken(of)),
+        };
+    }
+    let (stem, about) = match stem.strip_prefix("energy_com_") {
+        Some(of) => (format!("energy_{of}"), " about the centre of mass"),
+        None => (stem.to_owned(), ""),
+    };
+    let energy = match stem.strip_prefix("energy_") {
+        Some("total") => "total energy".to_owned(),
+        Some(of) if !of.starts_with("error") => format!("energy of {}", spoken(of)),
+        _ => spoken(&stem),
+    };
+    format!("{statistic}{energy}{about}")
+}
+
+/// What a component of a parameter is called: "initial angular velocity y", "wheel w1 rate", "thruster p2 thrust scale".
+pub fn of_component(parameter: Parameter, component: usize) -> String {
+    let text = of_parameter(parameter);
+    match parameter.components()[component] {
+        "" => text,
+        suffix => format!("{text} {suffix}"),
+    }
+}
+
+/// The same of all components of a parameter.
+pub fn of_parameter(parameter: Parameter) -> String {
+    let name = parameter.name();
+    let words: Vec<&str> = without_unit(&name, parameter.unit()).split('.').collect();
+    let said = match words[..] {
+        ["body", "parts", owner, key] => [owner, key].join(" "),
+        ["wheels", owner, key] => ["wheel", owner, key].join(" "),
+        ["thrusters", owner, key] => ["thruster", owner, key].join(" "),
+        ["sensors", owner, key] => [owner, key].join(" "),
+        ["guidance", owner, key] => ["phase", owner, key].join(" "),
+        ["actuation", owner, key] => ["arc", owner, key].join(" "),
+        ["control", key] => key.to_owned(),
+        _ => words.join(" "),
+    };
+    said.replace('_', " ")
+}
+
+/// The dispersed number whose column is `column`, by its place among those of `plan`.
+pub fn place_of(plan: &Plan, column: &str) -> Option<usize> {
+    plan.dispersions.columns().iter().position(|one| one.parameter.column_name(one.component) == column)
+}
+
+/// What the dispersed number at `place` is called.
+pub fn of_input(plan: &Plan, place: usize) -> String {
+    let column = &plan.dispersions.columns()[place];
+    of_component(column.parameter, column.component)
+}
+
+/// What the dispersed number whose column is `column` is called; of another column, its own words.
+pub fn of_input_column(plan: &Plan, column: &str) -> String {
+    place_of(plan, column).map_or_else(|| of_column(column, ""), |place| of_input(plan, place))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::Overrides;
+
+    #[test]
+    fn names_become_words() {
+        for (name, unit, words) in [
+            ("energy_error_max", "", "maximum energy error"),
+            ("exchange_body_peak_to_peak_j", "J", "peak-to-peak energy transfer of body"),
+            ("exchange_w1_net_j", "J", "net energy transfer of w1"),
+            ("exchange_w1_power_max_w", "W", "maximum power of energy transfer of w1"),
+            ("exchange_frequency_hz", "Hz", "frequency of the energy transfer"),
+            ("energy_w1_max_j", "J", "maximum energy of w1"),
+            ("energy_com_w1_max_j", "J", "maximum energy of w1 about the centre of mass"),
+            ("energy_com_total_initial_j", "J", "initial total energy about the centre of mass"),
+            ("energy_error_rate_per_s", "1/s", "energy error rate"),
+            ("angular_rate_max_rad_s", "rad/s", "maximum angular rate"),
+            ("omega_se_s_y_final_rad_s", "rad/s", "final angular velocity about s2"),
+            ("q_es_w_final", "", "final attitude quaternion w"),
+            ("steps", "", "steps"),
+            ("pointing_error_launch_rad", "rad", "pointing error at launch"),
+            ("phase_coast_again_begin_s", "s", "time until phase coast again"),
+            ("impulse_total_n_s", "N s", "total impulse"),
+        ] {
+            assert_eq!(of_column(name, unit), words);
+        }
+    }
+
+    /// Known: parameters of a body, of a part, of a wheel, of what is there once; with their components.
+    #[test]
+    fn parameters_become_words() {
+        let of = |name: &str, text: &str| {
+            let plan = Plan::from_text(name, text, Overrides::default()).expect("valid");
+            (0..plan.dispersions.columns().len()).map(|place| of_input(&plan, place)).collect::<Vec<_>>()
+        };
+        let spin = of("spin_sweep", include_str!("../../campaigns/spin_sweep.toml"));
+        let launch = of("net_launch", include_str!("../../campaigns/net_launch.toml"));
+        for (names, known) in [
+            (&spin, "initial angular velocity y"),
+            (&spin, "wheel w1 rate"),
+            (&spin, "fuselage wall thickness"),
+            (&launch, "thruster p2 thrust scale"),
+            (&launch, "thruster p1 tilt 1"),
+            (&launch, "body center offset x"),
+        ] {
+            assert!(names.iter().any(|name| name == known), "{known}: {names:?}");
+        }
+    }
+}
