@@ -16,7 +16,7 @@ fn methods(model: ForceModel) -> Vec<(Method, Control)> {
     let control = |method: Method| match method {
         Method::Gyrostat(Integrator::Dop853) => adaptive(1e-14),
         Method::Gyrostat(Integrator::DormandPrince) => adaptive(1e-15),
-        Method::Gyrostat(Integrator::GaussLegendre) => fixed(20.0),
+        Method::Gyrostat(Integrator::GaussLegendre) => fixed(10.0),
         Method::Gyrostat(Integrator::RungeKutta4) => fixed(0.5),
         _ => adaptive(1e-16),
     };
