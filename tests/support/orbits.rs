@@ -116,7 +116,7 @@ fn inputs(count: u64, seed: u64, rates: [f64; 2]) -> Vec<SceneInput> {
 
 /// `input` with a thruster beside its centre of mass that fires twice, debris, and both bodies beside the orbit.
 pub fn leaving(input: SceneInput) -> SceneInput {
-    let mut thruster = ThrusterInput::named("p1", [0.02, -0.01, 0.0], [0.0, 0.0, 1.0]);
+    let mut thruster = ThrusterInput::named("p1", [0.002, -0.001, 0.0], [0.0, 0.0, 1.0]);
     thruster.max_thrust_n = Some(50.0);
     let arc = |start, end, thrust| ActuationInput::idle(start, end).with_thrust(&[thrust]);
     let mut input = SceneInput {

@@ -60,12 +60,26 @@ pub fn complete_translation<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table:
     }
 }
 
-/// The same where there is an orbit: `relative` is the motion of the debris beside it.
-pub fn complete_orbit(relative: &mut RelativeOrbit, grid: &Grid, table: &mut StateTable) {
+/// The same where there is an orbit: `relative` is the motion of the debris, of the mass `mass` (kg), beside it. Adds gravity's work on it to that on the
+/// spacecraft.
+pub fn complete_orbit(relative: &mut RelativeOrbit, mass: f64, grid: &Grid, table: &mut StateTable) {
     let (has_position, has_velocity) = (table.has(StateField::DebrisPosition), table.has(StateField::DebrisVelocity));
-    for (point, time) in grid.padded_times().iter().enumerate().filter(|_| has_position || has_velocity) {
-        let (place, Offset { position, velocity }) = relative.at(*time);
-        let place = place.displaced([position, velocity]);
+    let has_work = table.has(StateField::Work);
+    if !(has_position || has_velocity || has_work) {
+        return;
+    }
+    let mu = relative.mu();
+    let mut at = |time: f64| {
+        let (place, Offset { position, velocity }) = relative.at(time);
+        place.displaced([position, velocity])
+    };
+    let start = at(0.0).distance;
+    for (point, time) in grid.padded_times().iter().enumerate() {
+        let place = at(*time);
+        if has_work {
+            table.column_mut(StateField::Work, 0)[point] +=
+                mass * mu * ((start - place.distance) / (start * place.distance));
+        }
         for i in 0..3 {
             if has_position {
                 table.column_mut(StateField::DebrisPosition, i)[point] = place.position[i];

@@ -49,6 +49,11 @@ impl RelativeOrbit {
         self.rewind();
     }
 
+    /// The gravitational parameter, m^3/s^2.
+    pub fn mu(&self) -> f64 {
+        self.orbit.mu()
+    }
+
     /// Goes back to time zero.
     fn rewind(&mut self) {
         (self.time, self.low) = ([0.0; 2], [[0.0; 3]; 2]);

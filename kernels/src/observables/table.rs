@@ -485,7 +485,7 @@ static FAMILIES: &[&[Column]] = &[
     errors!(EnergyConservation, All, EnergyError, "energy_error", "the error of total kinetic energy minus the work of actuators and torques on the body, relative to the largest sum of the energies of all bodies and the magnitudes of work."),
     scales!(EnergyConservation, All, EnergyTotal, "energy_total", ["J", "_j"], "total kinetic energy, debris included, in F_e"),
     &[
-        direct!(EnergyConservation, ExternalTorque, Float, WorkThrusters, "work_thrusters_final_j", "J", "Work done until the last point by the thrusters and, where the environment or a control law applies one, by torques on the body; on an orbit by gravity too."),
+        direct!(EnergyConservation, ExternalTorque, Float, WorkThrusters, "work_thrusters_final_j", "J", "Work done until the last point by the thrusters and, where the environment or a control law applies one, by torques on the body; on an orbit by gravity too, on the debris as well."),
         direct!(EnergyConservation, Motors, Float, WorkMotors, "work_motors_final_j", "J", "Work done by the wheel motors until the last point."),
     ],
     errors!(MomentumConservation, IntegratedVelocity, LinearMomentumError, "linear_momentum_error", "the error vector of the spacecraft's linear momentum minus the impulse, relative to the largest sum of the magnitudes of its terms and the impulse."),

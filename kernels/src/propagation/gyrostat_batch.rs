@@ -167,7 +167,9 @@ impl StateCompletion {
                 complete(simd, run, trajectory, grid, table);
                 if let Some(body) = &scene.mass.debris {
                     match debris_orbit {
-                        Some(relative) if scene.offsets.is_some() => debris::complete_orbit(relative, grid, table),
+                        Some(relative) if scene.offsets.is_some() => {
+                            debris::complete_orbit(relative, body.mass, grid, table)
+                        }
                         _ => debris::complete_translation(simd, scene, grid, table),
                     }
                     if debris::is_isotropic(body) {

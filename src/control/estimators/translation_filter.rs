@@ -116,3 +116,35 @@ impl Filter for TranslationFilter {
         summed((0..3).map(|axis| Some(gain.square([r[axis], v[axis]]))))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::orbit::KeplerOrbit;
+    use crate::scene::Orbit;
+
+    /// Law: what falls is on its Kepler orbit, to fourth order in the step, and a known acceleration adds t^2/2 of itself.
+    #[test]
+    fn a_falling_point_is_on_its_orbit() {
+        let orbit = Orbit { mu: 3.986004418e14, position: [7e6, 1e6, -2e5], velocity: [100.0, 7100.0, 2900.0] };
+        let start = PointMotion { r_e: orbit.position, v_e: orbit.velocity };
+        let truth = KeplerOrbit::new(&orbit).state(600.0);
+        let off = |step: f64, steps: u32| {
+            let end = (0..steps).fold(start, |at, _| at.falling(orbit.mu, [0.0; 3], step));
+            [norm(difference(end.r_e, truth.position)), norm(difference(end.v_e, truth.velocity))]
+        };
+        let [near, far] = [off(10.0, 60), off(20.0, 30)];
+        assert!(near[0] < 1e-3 && near[1] < 1e-5, "{near:?}");
+        assert!((12.0..20.0).contains(&(far[0] / near[0])), "{near:?} {far:?}");
+        let [pushed, free] = [[1e-3, 0.0, 0.0], [0.0; 3]].map(|push| start.falling(orbit.mu, push, 2.0));
+        assert!(norm(difference(difference(pushed.r_e, free.r_e), [2e-3, 0.0, 0.0])) < 1e-8);
+        assert!(norm(difference(difference(pushed.v_e, free.v_e), [2e-3, 0.0, 0.0])) < 1e-11);
+        // as the filter has it, and without an orbit the straight line of before
+        let mut filter = TranslationFilter::new(start, [1.0, 0.1], 0.0, Some(orbit.mu));
+        filter.propagate(&TranslationStep { acceleration_e: [0.0; 3], interval: 10.0 });
+        assert_eq!(filter.motion, start.falling(orbit.mu, [0.0; 3], 10.0));
+        let mut flat = TranslationFilter::new(start, [1.0, 0.1], 0.0, None);
+        flat.propagate(&TranslationStep { acceleration_e: [0.0; 3], interval: 10.0 });
+        assert_eq!(flat.motion.v_e, start.v_e);
+    }
+}

@@ -181,10 +181,17 @@ impl ReferenceSolution {
                 sum(exact(orbit.velocity), exact(debris.velocity)),
             ];
             let mut free = FreeOrbit::new(orbit.mu, start, rule);
+            let distance = norm(start[0]);
             for (point, time) in grid.times().iter().enumerate() {
                 let place = free.at(DoubleDouble::exact(*time));
                 self.put(StateField::DebrisPosition, point, &place.position);
                 self.put(StateField::DebrisVelocity, point, &place.velocity);
+                if let (Some(body), true) = (&scene.mass.debris, self.high.has(StateField::Work)) {
+                    let fallen = (distance - place.distance) / (distance * place.distance);
+                    let [thrusters, motors] = self.at::<2>(StateField::Work, point);
+                    let own = DoubleDouble::exact(body.mass) * DoubleDouble::exact(orbit.mu) * fallen;
+                    self.put(StateField::Work, point, &[thrusters + own, motors]);
+                }
             }
         } else {
             let (start, velocity) = (exact(scene.initial.r_gdo_e), exact(scene.initial.v_gdo_e));
