@@ -102,13 +102,13 @@ class Plan:
         Ctrl-C stops as on the command line: parts under way may end within 5 s, a second one gives them up. What is committed stays, and the
         same call with the same `out` continues.
         """
-        temporary = None
+        temporary, name = None, self.name
         if out is None:
             temporary = tempfile.TemporaryDirectory(prefix="spindrift-")
             out = os.path.join(temporary.name, "result")
         folder = os.fspath(out)
         job = self._plan.run(samples, folder, threads, overwrite, page, yes)
-        finish(job, "spindrift", progress, kept=temporary is None)
+        finish(job, name, progress, kept=temporary is None)
         return Results._open(folder, temporary)
 
     def __repr__(self) -> str:

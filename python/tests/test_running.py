@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import signal
 import subprocess
 import sys
@@ -107,12 +108,32 @@ def test_campaigns_run_side_by_side() -> None:
     assert not found[1].equals(found[2])
 
 
-def test_progress_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("has_tqdm", [True, False])
+def test_progress_is_shown(has_tqdm: bool, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Law: by tqdm where it is installed, else by a line; and only where it is asked for."""
+    if not has_tqdm:
+        monkeypatch.setitem(sys.modules, "tqdm.auto", None)
     sd.load(START).run(samples=5000, page=False, progress=True)
     shown = capsys.readouterr().err
-    assert "5000" in shown
+    assert ("run/s" in shown and "5000/5000" in shown) if has_tqdm else "start: 5000 of 5000 runs" in shown, shown
     sd.load(START).run(samples=500, page=False)
     assert capsys.readouterr().err == ""
+
+
+def a_value(seed: int) -> float:
+    """A number of a campaign with this seed."""
+    found = sd.load(START).set({"campaign.seed": seed}).run(samples=100, page=False).rows["spin_axis_angle_max_rad"][5]
+    assert isinstance(found, float)
+    return found
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn"])
+def test_processes_run_campaigns(method: str) -> None:
+    """Law: processes that Python starts run campaigns, also where the one that was forked has run some: none waits for a thread that is not there."""
+    here = [a_value(seed) for seed in range(3)]
+    with multiprocessing.get_context(method).Pool(2) as pool:
+        assert pool.map_async(a_value, range(3)).get(timeout=120) == here
+
 
 
 def test_two_ctrl_c_end_at_once(tmp_path: Path) -> None:
