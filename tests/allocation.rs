@@ -9,6 +9,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::hint::black_box;
 
+use spindrift::analysis::fold::RunningFold;
 use spindrift::campaign::Plan;
 use spindrift::dynamics::actuation::Laws;
 use spindrift::dynamics::gyrostat::Gyrostat;
@@ -22,6 +23,7 @@ use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::Grid;
 use spindrift::sampling::SampleId;
 use spindrift::scene::{Actuated, Scene};
+use spindrift::storage::part_sink::{CountRows, PartFiles};
 use support::draws;
 use support::feedback::law;
 use support::observed::request;
@@ -262,4 +264,53 @@ fn a_worker_with_bands() {
     assert_eq!(allocations(|| part(0)), 0);
     let later = allocations(|| part(256));
     assert!(later < columns, "{later} of {columns} columns");
+}
+
+/// What a part of `no_debris` adds to a campaign that runs: allocations, bytes of its file of rows and of its bands.
+#[derive(Debug)]
+struct Added {
+    allocations: u64,
+    rows: usize,
+    bands: usize,
+}
+
+/// Rows of the part that is looked at.
+const PART: usize = 1024;
+
+/// What the part of the samples from `first` on adds to a campaign of `samples` samples, after another part.
+fn added(samples: u64, first: u64) -> Added {
+    let plan = shipped("no_debris", Some(samples));
+    let campaign = Ensemble::new(&plan, Isa::best());
+    let (mut worker, mut rows) = (campaign.worker(), campaign.rows(PART));
+    let (files, fold) = (PartFiles::new(&campaign).expect("files"), RunningFold::of(&campaign).expect("a fold"));
+    let mut buffers: Vec<Vec<u8>> = Vec::new();
+    let mut part = |id: u64| {
+        let part = Part { id: PartId(id), first: SampleId(first + id * PART as u64), count: PART };
+        worker.run(part, &mut rows, Supervision::progress(&|_| {}));
+        let emptied = buffers.drain(..).map(|mut bytes| {
+            bytes.clear();
+            bytes
+        });
+        let written = files.encoded(&rows, emptied.collect::<Vec<_>>().into_iter()).expect("encoded");
+        fold.add(&rows);
+        buffers = written.into_iter().map(|file| file.bytes).collect();
+        [buffers[0].len(), buffers[1].len()]
+    };
+    part(0);
+    let mut bytes = [0; 2];
+    let allocations = allocations(|| bytes = part(1));
+    Added { allocations, rows: bytes[0], bands: bytes[1] }
+}
+
+/// Law: a row costs no more where there are many. Counted in place of clocks: its bytes on the disk, and allocations of encoding and statistics. A part
+/// beyond those that bands count adds extremes only; sketches of a large campaign allocate no more than lists of values of a small one.
+#[test]
+fn a_row_of_many() {
+    let (few, many) = (added(100_000, 50_000), added(1_000_000, 500_000));
+    println!("{few:?} {many:?}");
+    // other samples compress to other bytes; measured: 0.1%
+    assert!(many.rows as f64 <= 1.01 * few.rows as f64, "{many:?}, {few:?}");
+    assert!(many.rows <= 900 * PART, "bytes of rows: {many:?}");
+    assert!(many.bands * 4 <= few.bands, "bands: {many:?}, {few:?}");
+    assert!(many.allocations <= few.allocations, "{many:?}, {few:?}");
 }

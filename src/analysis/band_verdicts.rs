@@ -49,6 +49,11 @@ pub(super) fn over_time(
         reason = Some("there are no bands of it".to_owned());
     } else if runs == 0 {
         reason = Some("there are no runs that count".to_owned());
+    } else if let Some((bands, _)) = found.filter(|(bands, _)| bands.counted_runs() < bands.runs())
+        && matches!(gate.decision, Decision::Undecided(_))
+    {
+        let (counted, all) = (bands.counted_runs(), bands.runs());
+        reason = Some(format!("over time {counted} of {all} runs are counted: set bands.runs to count all"));
     }
     let value = found.zip(worst).and_then(|((bands, series), worst)| match requirement.statement {
         Statement::Quantile(p) => {

@@ -1,6 +1,8 @@
-//! The `[bands]` table: at how many points quantiles over time are counted.
+//! The `[bands]` table: at how many points quantiles over time are counted, and of how many runs.
 
 use super::document::Document;
+use super::plan::Plan;
+use crate::sampling::SampleId;
 
 /// Points of bands where the file does not say and the grid has more than [`ALL`].
 const POINTS: u64 = 33;
@@ -10,6 +12,12 @@ const ALL: u64 = 65;
 const OF_LOOPS: u64 = 201;
 /// Most points: counts at a point take some 4 kB for each series in each thread, and a spacecraft with eight wheels has 34 series.
 pub const MOST_POINTS: u64 = 257;
+/// Dispersed runs that are counted where the file does not say: the first ones, a whole net of Sobol points. The share of all runs below a quantile of so many, of fraction p, has the
+/// standard error sqrt(p (1 - p)/131,072): 0.14% of the runs for the median, 0.06% for the 5% and the 95% quantile. In normal numbers that is
+/// 0.0035 and 0.006 standard deviations; half a bucket ([`crate::statistics::deviation::RELATIVE_ERROR`]) of a 95% quantile is 0.026.
+pub const RUNS: u64 = 1 << 17;
+/// Fewest: a 1% quantile of them has ten runs beyond it.
+pub const FEWEST_RUNS: u64 = 1000;
 /// The key.
 const KEY: &str = "bands.points";
 
@@ -23,4 +31,12 @@ pub fn resolve(written: Option<u64>, grid: u64, document: &mut Document<'_>) -> 
         document.add(KEY, Some(points.to_string()), allowed, "write fewer points, or more in observe.points");
     }
     points
+}
+
+impl Plan {
+    /// The last sample that is counted in quantiles over time: the first ones are, where they represent the others, else all.
+    pub fn last_counted(&self) -> SampleId {
+        let are_alike = self.chosen.is_none() && self.design.begins_as_it_goes_on();
+        SampleId(if are_alike { self.band_runs } else { u64::MAX })
+    }
 }

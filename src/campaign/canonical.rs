@@ -6,6 +6,7 @@
 //! The row plan is the part of it that changes rows or their encoding: without the campaign's name, and with the number of samples only
 //! where the design's points depend on it. Two campaigns with the same row hash have the same rows, sample by sample.
 
+use super::bands;
 use super::canonical_draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
 use super::control;
 use super::failure_tables;
@@ -125,6 +126,7 @@ impl Plan {
             },
             "audit.fraction" => self.audit_fraction.into(),
             "bands.points" => (self.band_points as u64).into(),
+            "bands.runs" if self.band_runs != bands::RUNS => self.band_runs.into(),
             "output.compression" => Value::Word(self.compression.name()),
             // `tolerance` is both of those that are written
             _ => return None,

@@ -1,6 +1,7 @@
 //! [`Plan::notes`]: what is allowed in a campaign file, and is probably not what was meant, as far as the file alone says.
 
 use super::plan::Plan;
+use super::requirement::{Requirement, Subject};
 use crate::control::{ControlLaw, review};
 use crate::observables::accuracy::Accuracy;
 use crate::sampling::design::{MAX_SAMPLES, Size};
@@ -25,6 +26,13 @@ impl Plan {
                 "no requested column says how accurate a run is, so none can end as inaccurate; add \"energy_conservation\", \"momentum_conservation\" or \"numerics\" to observe.groups"
                     .to_owned(),
             );
+        }
+        let is_of_bands = |one: &Requirement| matches!(one.subject, Subject::Band(_));
+        let (runs, last) = (self.samples - 1, self.last_counted().0);
+        if runs > last && self.analysis.requirements.iter().any(is_of_bands) {
+            notes.push(format!(
+                "quantiles over time are of the first {last} runs, and a requirement at each time may stay undecided; bands.runs = {runs} counts all"
+            ));
         }
         if let (Some(spec), Ok(scene)) = (self.law.as_ref().and_then(ControlLaw::spec), Scene::resolve(&self.nominal)) {
             notes.extend(review::notes(spec, &self.nominal.control, &scene, self.grid.duration()));

@@ -75,6 +75,8 @@ pub struct Plan {
     pub audit_fraction: f64,
     /// Number of points at which quantiles over time are counted; 0 for none.
     pub band_points: usize,
+    /// How many of the first dispersed runs quantiles over time are of ([`Plan::last_counted`]).
+    pub band_runs: u64,
     /// Compression of the files of rows.
     pub compression: Compression,
     /// The control law of every run; its parameters are in the nominal scene.
@@ -377,6 +379,7 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
         dispersions,
         audit_fraction: spec.settings("audit").number("fraction").unwrap_or(0.0),
         band_points: usize::try_from(band_points).ok()?,
+        band_runs: spec.settings("bands").count("runs").unwrap_or(bands::RUNS),
         compression: spec.settings("output").text("compression").and_then(Compression::from_name)?,
         events: spec.events.clone(),
         analysis: spec.analysis.clone(),

@@ -1,7 +1,7 @@
 //! The keys of `[campaign]`, `[integrator]`, `[observe]`, `[audit]`, `[bands]` and `[output]` as rows, from which reading, messages, canonical text
 //! and the table in the documents follow. What needs several keys is checked in [`super::plan`].
 
-use super::bands::MOST_POINTS as MOST_BAND_POINTS;
+use super::bands::{FEWEST_RUNS as FEWEST_BAND_RUNS, MOST_POINTS as MOST_BAND_POINTS};
 use super::chosen::MOST_CHOSEN;
 use super::compression::Compression;
 use super::description;
@@ -86,6 +86,8 @@ pub const TAIL: [(&str, &[Row]); 3] = [
     ("bands", &[
         Row::new("points", Kind::Count([0, MOST_BAND_POINTS]),
             "Points at which quantiles over time are counted, 0 for none; default: all of a grid of up to 65 points, else 33; under a control loop all of up to 257, else 201"),
+        Row::new("runs", Kind::Count([FEWEST_BAND_RUNS, MAX_SAMPLES]),
+            "How many dispersed runs, the first ones, these quantiles are of; default: 131072; all of a grid and other lists of samples"),
     ]),
     ("output", &[Row::new("compression", Kind::Word(&COMPRESSIONS), "Compression of the files of rows")]),
 ];

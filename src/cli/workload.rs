@@ -31,6 +31,8 @@ const NUMBER: f64 = 8.5;
 /// Bytes of a part that do not depend on its rows: of each column (`spin_sweep` with one row: 180), and of each point of a quantity with bands
 /// (at most 961 of `spin_sweep`; of a part of few runs a byte for each).
 const PART: [f64; 2] = [200.0, 1000.0];
+/// Bytes of two extremes as text, and what is said of runs without a value.
+const EXTREMES: f64 = 50.0;
 /// Memory of the program itself, bytes, and of each part: its samples, its record, and its line of the manifest.
 const PROGRAM: [f64; 2] = [3e7, 1000.0];
 /// Most memory of one thread for each observation point, bytes: of runs with debris and actuation, and what audits add. Measured are 1600 to 7000, and
@@ -92,7 +94,10 @@ impl Workload {
             Retention::Worst { count, .. } | Retention::Sample(count) => count as f64,
             Retention::None | Retention::Failed => 0.0,
         };
-        let of_part = PART[0] * columns + bands * PART[1].min(runs / parts.max(1.0));
+        // of runs that are not counted, bands have the extremes only
+        let counted = (plan.last_counted().0 as f64 / samples as f64).min(1.0);
+        let of_bands = bands * (counted * PART[1].min(runs / parts.max(1.0)) + (1.0 - counted) * EXTREMES);
+        let of_part = PART[0] * columns + of_bands;
         let rows = whole.largest().min(samples) as f64 * columns * NUMBER;
         let point = POINT[0] + if plan.audit_fraction > 0.0 { POINT[1] } else { 0.0 };
         let threads = threads(asked, usize::try_from(whole.count()).unwrap_or(usize::MAX)) as f64;

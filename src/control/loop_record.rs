@@ -5,13 +5,20 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use crate::control::guidance::target::AttitudeError;
 use crate::observables::{LawSeries, Series};
 
-/// What is known at a time, by the place of the series in [`LawSeries`]; NaN where it is not known.
-pub type KnownOverTime = [f64; LawSeries::COUNT];
+/// What is known at a time.
+#[derive(Clone, Copy, Debug)]
+pub struct KnownOverTime {
+    /// By the place of the series in [`LawSeries`], but for the pointing error; NaN where it is not known.
+    pub values: [f64; LawSeries::COUNT],
+    /// The pointing error, whose angle is computed at observation points only; `None` without a target.
+    pub error: Option<AttitudeError>,
+}
 
 /// Nothing is known.
-pub const NOTHING_KNOWN: KnownOverTime = [f64::NAN; LawSeries::COUNT];
+pub const NOTHING_KNOWN: KnownOverTime = KnownOverTime { values: [f64::NAN; LawSeries::COUNT], error: None };
 
 /// The place of `series`.
 ///
@@ -70,8 +77,13 @@ impl LoopRecord {
 
     fn fill_before(&mut self, time: f64) {
         let points = self.times.len();
+        if self.next == points || self.times[self.next] >= time {
+            return;
+        }
+        let mut known = self.known.values;
+        known[place(Series::PointingError)] = self.known.error.map_or(f64::NAN, |error| error.angle());
         while self.next < points && self.times[self.next] < time {
-            for (place, value) in self.known.iter().enumerate() {
+            for (place, value) in known.iter().enumerate() {
                 self.values[place * points + self.next] = *value;
             }
             self.next += 1;
@@ -92,8 +104,9 @@ mod tests {
         };
         let known = |error: f64, torque: f64| {
             let mut known = NOTHING_KNOWN;
-            known[place(Series::PointingError)] = error;
-            known[place(Series::MotorTorque.of_wheel(7))] = torque;
+            let [w, x] = [libm::cos(0.05 * error), libm::sin(0.05 * error)];
+            known.error = Some(AttitudeError { q_ts: [w, x, 0.0, 0.0], ..AttitudeError::NONE });
+            known.values[place(Series::MotorTorque.of_wheel(7))] = torque;
             known
         };
         for (time, error) in [(0.2, 1.0), (0.5, 2.0), (0.5, 3.0), (0.9, 4.0), (1.5, 5.0)] {
@@ -101,11 +114,14 @@ mod tests {
         }
         let errors = value(&record, Series::PointingError);
         assert!(errors[0].is_nan());
-        assert_eq!(errors[1..], [1.0, 3.0, 4.0, 5.0]);
+        for (found, expected) in errors[1..].iter().zip([1.0, 3.0, 4.0, 5.0]) {
+            // a tenth of it, as an angle of a quaternion: some roundings
+            assert!((10.0 * found - expected).abs() < 1e-14, "{found} {expected}");
+        }
         assert_eq!(value(&record, Series::MotorTorque.of_wheel(7))[1..], [-1.0, -3.0, -4.0, -5.0]);
         assert!(value(&record, Series::MotorTorque).iter().all(|torque| torque.is_nan()));
         record.lock().restart();
         record.lock().take(0.0, &known(6.0, 7.0));
-        assert_eq!(value(&record, Series::PointingError), [6.0; 5]);
+        assert!(value(&record, Series::PointingError).iter().all(|error| (10.0 * error - 6.0).abs() < 1e-14));
     }
 }

@@ -38,7 +38,7 @@ pub mod supervision;
 pub mod worker;
 
 pub use audit::{Audit, Auditor, NoAudit};
-pub use bands::{BandLayout, Bands, PartBands};
+pub use bands::{BandLayout, Bands, PartBands, RunsOfColumn};
 pub use drawn::DrawnScenes;
 pub use failure_reasons::{FailureReason, FailureReasons};
 pub use parts::{Part, PartId, Parts};

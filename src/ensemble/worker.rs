@@ -110,7 +110,8 @@ impl<'p> Ensemble<'p> {
             observe(self.plan, &mut observer, self.isa, &scene, (&run, of_law), &mut ignored);
             kept.copy_from_slice(reader.kept(&observer, run.table));
         });
-        Some(PartBands::new(Arc::new(BandLayout { series, times, nominal: kept }), reader))
+        let layout = Arc::new(BandLayout { series, times, nominal: kept });
+        Some(PartBands::new(layout, reader, self.plan.last_counted()))
     }
 
     fn engine(&self) -> Box<dyn Engine> {
@@ -338,6 +339,7 @@ impl Worker<'_> {
                 events.look(index, observer, table);
             }
             let row = rows_of_scenes[index];
+            let sample = rows.samples()[row];
             rows.set_result(row, status, observed);
             is_done[first_scene + index] = true;
             // a run that is audited is done when its audit is
@@ -351,10 +353,10 @@ impl Worker<'_> {
             }
             if status != Status::Done {
                 rows.set_reason(row, observer.reason(status, outcome, observed));
-            } else if rows.samples()[row] > SampleId(0)
+            } else if sample > SampleId(0)
                 && let Some(bands) = rows.bands_mut()
             {
-                bands.add(isa, observer, table);
+                bands.add(isa, sample, observer, table);
             }
         });
         let Some(events) = events else { return };

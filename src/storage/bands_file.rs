@@ -9,7 +9,7 @@ use std::{num::NonZeroUsize, path::Path};
 
 use serde::{Deserialize, Serialize};
 
-use crate::ensemble::{BandLayout, Bands, Part, PartBands};
+use crate::ensemble::{BandLayout, Bands, Part, PartBands, RunsOfColumn};
 use crate::observables::band_series::Form;
 use crate::run::Quantity;
 use crate::statistics::deviation::{Code, NOT_A_NUMBER};
@@ -23,8 +23,12 @@ use crate::storage::rows_reader::{PartReader, RowsError};
 const LAYOUT_KEY: &str = "spindrift.bands";
 /// Number of runs.
 const RUNS_KEY: &str = "spindrift.bands.runs";
+/// How many of them are counted.
+const COUNTED_KEY: &str = "spindrift.bands.counted";
 /// Of every place, which is a point of a series, series by series: the smallest and the largest kept number, NaN where no run has one.
 const EXTREMES_KEYS: [&str; 2] = ["spindrift.bands.min", "spindrift.bands.max"];
+/// How many runs have no number there.
+const WITHOUT_KEY: &str = "spindrift.bands.without";
 /// And the number of its rows.
 const ROWS_KEY: &str = "spindrift.bands.rows";
 
@@ -111,10 +115,11 @@ impl BandsFile {
     /// Where encoding fails.
     pub fn write(&self, part: Part, bands: &PartBands, out: &mut Vec<u8>) -> Result<(), EncodingError> {
         let (mut buckets, mut counts) = (Vec::new(), Vec::new());
-        let (mut lengths, mut ends) = (Vec::new(), [const { Vec::new() }; 2]);
+        let (mut lengths, mut without, mut ends) = (Vec::new(), Vec::new(), [const { Vec::new() }; 2]);
         for place in 0..bands.layout().columns() {
-            let (extremes, of_place) = bands.column(place);
-            ends.iter_mut().zip(extremes.unwrap_or([f64::NAN; 2])).for_each(|(ends, end)| ends.push(end));
+            let (all, of_place) = bands.column(place);
+            ends.iter_mut().zip(all.extremes.unwrap_or([f64::NAN; 2])).for_each(|(ends, end)| ends.push(end));
+            without.push(all.without.to_string());
             let before = counts.len();
             of_place.for_each(|(bucket, count)| {
                 buckets.push(u64::from(bucket));
@@ -122,8 +127,9 @@ impl BandsFile {
             });
             lengths.push((counts.len() - before).to_string());
         }
-        let mut own = vec![(RUNS_KEY, bands.runs().to_string())];
-        own.push((ROWS_KEY, lengths.join(" ")));
+        let [runs, counted] = bands.runs().map(|runs| runs.to_string());
+        let mut own = vec![(RUNS_KEY, runs), (COUNTED_KEY, counted)];
+        own.extend([(ROWS_KEY, lengths.join(" ")), (WITHOUT_KEY, without.join(" "))]);
         own.extend(EXTREMES_KEYS.into_iter().zip(ends.map(|ends| text(&ends))));
         own.extend(part_metadata(part, part.first));
         self.0.write(out, &own, [buckets, counts].map(|column| Cells::Count(column, None)).into_iter())
@@ -134,52 +140,66 @@ impl BandsFile {
 struct StoredBands {
     part: u64,
     layout: BandLayout,
-    runs: u64,
+    /// All, and those that are counted.
+    runs: [u64; 2],
     /// Bucket and count, row by row.
     rows: Vec<(Code, u64)>,
     /// The number of rows of each place.
     lengths: Vec<usize>,
-    /// The smallest and the largest kept numbers, place by place.
-    extremes: [Vec<f64>; 2],
+    /// What is known of all runs, place by place.
+    all: Vec<RunsOfColumn>,
 }
 
 impl StoredBands {
     fn open(storage: &dyn Storage, path: &Path) -> Result<Self, RowsError> {
         let file = PartReader::open(storage, path)?;
-        let (buckets, counts) = (file.numbers(BUCKET.0)?, file.numbers(COUNT.0)?);
+        let (buckets, numbers_in) = (file.numbers(BUCKET.0)?, file.numbers(COUNT.0)?);
         let found = || -> Option<StoredBands> {
             let number = |key: &str| file.metadata(key)?.parse().ok();
             let whole = |value: f64| (value >= 0.0 && value.fract() == 0.0).then_some(value as u64);
             let row = |(bucket, count): (&f64, &f64)| Some((Code::try_from(whole(*bucket)?).ok()?, whole(*count)?));
             let [min, max] = EXTREMES_KEYS.map(|key| file.metadata(key).and_then(numbers));
-            let lengths = file.metadata(ROWS_KEY)?.split_whitespace().map(|length| length.parse().ok());
+            let counts = |key: &str| -> Option<Vec<u64>> {
+                file.metadata(key)?.split_whitespace().map(|count| count.parse().ok()).collect()
+            };
+            let (min, max, without) = (min?, max?, counts(WITHOUT_KEY)?);
+            let is_whole = [min.len(), max.len()] == [without.len(); 2];
+            let all = min
+                .into_iter()
+                .zip(max)
+                .zip(without)
+                .map(|((min, max), without)| RunsOfColumn { extremes: (min <= max).then_some([min, max]), without });
             let found = StoredBands {
                 part: number(PART_KEY)?,
                 layout: layout_of(file.metadata(LAYOUT_KEY)?)?,
-                runs: number(RUNS_KEY)?,
-                rows: buckets.iter().zip(&counts).map(row).collect::<Option<_>>()?,
-                lengths: lengths.collect::<Option<_>>()?,
-                extremes: [min?, max?],
+                runs: [number(RUNS_KEY)?, number(COUNTED_KEY)?],
+                rows: buckets.iter().zip(&numbers_in).map(row).collect::<Option<_>>()?,
+                lengths: counts(ROWS_KEY)?
+                    .into_iter()
+                    .map(|length| usize::try_from(length).ok())
+                    .collect::<Option<_>>()?,
+                all: all.collect(),
             };
-            found.makes_sense().then_some(found)
+            (is_whole && found.makes_sense()).then_some(found)
         };
         found().ok_or_else(|| RowsError { path: path.display().to_string(), what: "is no file of bands".to_owned() })
     }
 
     fn makes_sense(&self) -> bool {
         let places = self.layout.columns();
-        let are_whole = self.lengths.len() == places && self.extremes.iter().all(|ends| ends.len() == places);
+        let [runs, counted] = self.runs;
+        let are_whole = self.lengths.len() == places && self.all.len() == places && counted <= runs;
         let rows = self.lengths.iter().try_fold(0_usize, |sum, length| sum.checked_add(*length));
-        let is_row = |(bucket, count): &(Code, u64)| *bucket != NOT_A_NUMBER && *count > 0 && *count <= self.runs;
-        are_whole && rows == Some(self.rows.len()) && self.rows.iter().all(is_row)
+        let is_row = |(bucket, count): &(Code, u64)| *bucket != NOT_A_NUMBER && *count > 0 && *count <= counted;
+        let are_runs = self.all.iter().all(|all| all.without <= runs);
+        are_whole && are_runs && rows == Some(self.rows.len()) && self.rows.iter().all(is_row)
     }
 
     fn add_to(&self, bands: &mut Bands) {
         bands.add_runs(self.runs);
         let mut first = 0;
-        for (place, length) in self.lengths.iter().enumerate() {
-            let extremes = Some([self.extremes[0][place], self.extremes[1][place]]).filter(|[min, max]| min <= max);
-            bands.add_column(place, extremes, self.rows[first..first + length].iter().copied());
+        for (place, (length, all)) in self.lengths.iter().zip(&self.all).enumerate() {
+            bands.add_column(place, *all, self.rows[first..first + length].iter().copied());
             first += length;
         }
     }
@@ -246,8 +266,8 @@ mod tests {
     fn file(folder: &Path, part: u64, nominal: f64, rows: &[[u64; 2]], lengths: &str, extremes: [&str; 2]) -> PathBuf {
         let column = |index: usize| Cells::Count(rows.iter().map(|row| row[index]).collect(), None);
         let part = Part { id: PartId(part), first: crate::sampling::SampleId(0), count: 9 };
-        let mut own = vec![(RUNS_KEY, "9".to_owned())];
-        own.push((ROWS_KEY, lengths.to_owned()));
+        let mut own = vec![(RUNS_KEY, "11".to_owned()), (COUNTED_KEY, "9".to_owned())];
+        own.extend([(ROWS_KEY, lengths), (WITHOUT_KEY, "0 11 11 9")].map(|(key, text)| (key, text.to_owned())));
         own.extend(EXTREMES_KEYS.into_iter().zip(extremes.map(str::to_owned)));
         own.extend(part_metadata(part, part.first));
         let mut bytes = Vec::new();
@@ -267,7 +287,8 @@ mod tests {
         let [first, second] = [0, 1].map(|part| file(&folder, part, 1.0, &sound, lengths, ends));
         let of = |files: &[&PathBuf]| read(&Disk, &files.iter().map(|file| (*file).clone()).collect::<Vec<_>>(), None);
         let both = of(&[&first, &second]).unwrap().unwrap();
-        assert_eq!((both.runs(), both.count(0, 0), both.count(0, 1), both.count(1, 1)), (18, 18, 0, 2));
+        assert_eq!((both.runs(), both.count(0, 0), both.count(0, 1), both.count(1, 1)), (22, 22, 0, 4));
+        assert_eq!((both.counted_runs(), both.counted(0, 0), both.counted(0, 1), both.counted(1, 1)), (18, 18, 0, 2));
         assert_eq!((both.extremes(0, 0), both.extremes(0, 1)), (Some([1.0, 2.5]), None));
         assert_eq!(of(&[]).unwrap(), None);
         let refused = |files: &[&PathBuf]| of(files).unwrap_err().to_string();

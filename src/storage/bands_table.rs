@@ -34,6 +34,10 @@ pub fn headings() -> Vec<Heading> {
         word("meaning", "What it is."),
         Heading::new(Quantity::new("time_s", "s", "Time since the start."), Content::Real),
         Heading::new(Quantity::new("count", "", "Runs that have a value: dispersed and ok."), Content::Count),
+        Heading::new(
+            Quantity::new("counted", "", "Runs that the quantiles are of: these, or the first of them (bands.runs)."),
+            Content::Count,
+        ),
     ];
     let values = [
         real("nominal", format!("Value of the nominal run, {unit}; null where it has none.")),
@@ -59,6 +63,12 @@ pub fn encoded(plan: &Plan, bands: &Bands) -> Result<Vec<u8>, ParquetError> {
         "spindrift.bands.relative_error_of".to_owned(),
         "deviation of a quantile (type 7) from the nominal run; min, max and count are exact".to_owned(),
     );
+    origin.insert("spindrift.bands.runs".to_owned(), bands.runs().to_string());
+    origin.insert("spindrift.bands.counted".to_owned(), bands.counted_runs().to_string());
+    origin.insert(
+        "spindrift.bands.standard_error".to_owned(),
+        "sqrt(p (1 - p) / counted) of the share p of the runs below a quantile, where fewer runs are counted than there are".to_owned(),
+    );
     let layout = Layout::new(&headings(), origin, Packing::Zstd)?;
     let (series, points) = (bands.layout().series.len(), bands.times().len());
     let places: Vec<(usize, usize)> =
@@ -66,7 +76,8 @@ pub fn encoded(plan: &Plan, bands: &Bands) -> Result<Vec<u8>, ParquetError> {
     let texts = [Quantity::name, Quantity::unit, Quantity::meaning]
         .map(|text| Cells::Text(places.iter().map(|(series, _)| Some(text(bands.quantity(*series)))).collect()));
     let times: Vec<f64> = places.iter().map(|(_, point)| bands.times()[*point]).collect();
-    let counts = places.iter().map(|(series, point)| bands.count(*series, *point)).collect();
+    let counts = [Bands::count, Bands::counted]
+        .map(|count| Cells::Count(places.iter().map(|(series, point)| count(bands, *series, *point)).collect(), None));
     let at = |value: &dyn Fn(usize, usize) -> Option<f64>| {
         optional(places.iter().map(|(series, point)| value(*series, *point)))
     };
@@ -75,8 +86,10 @@ pub fn encoded(plan: &Plan, bands: &Bands) -> Result<Vec<u8>, ParquetError> {
         at(&|series, point| bands.extremes(series, point).map(|[min, _]| min)),
         at(&|series, point| bands.extremes(series, point).map(|[_, max]| max)),
     ];
-    columns.extend(QUANTILES.map(|(_, p)| at(&|series, point| bands.quantile(series, point, p))));
-    let cells = texts.into_iter().chain([Cells::Real(&times, None), Cells::Count(counts, None)]);
+    let quantiles: Vec<[Option<f64>; QUANTILES.len()]> =
+        places.iter().map(|(series, point)| bands.quantiles(*series, *point, QUANTILES.map(|(_, p)| p))).collect();
+    columns.extend((0..QUANTILES.len()).map(|which| optional(quantiles.iter().map(|of_place| of_place[which]))));
+    let cells = texts.into_iter().chain([Cells::Real(&times, None)]).chain(counts);
     let cells = cells.chain(columns.iter().map(|(values, there)| Cells::Real(values, Some(there))));
     let mut bytes = Vec::new();
     layout.write(&mut bytes, &[], cells)?;

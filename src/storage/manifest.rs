@@ -1,7 +1,7 @@
 //! [`Manifest`]: what a dataset consists of, as lines of JSON that are only ever appended to.
 //!
 //! ```text
-//! {"spindrift":"dataset","format":4,...,"crc":"9f3c0a71"}        what the rows are: hash of the row plan, seed, columns, arithmetic
+//! {"spindrift":"dataset","format":5,...,"crc":"9f3c0a71"}        what the rows are: hash of the row plan, seed, columns, arithmetic
 //! {"plan":"[campaign]\n...","crc":...}                            the text of plan.toml; the last such line holds
 //! {"part":0,"first_sample":0,"rows":256,"files":[...],"crc":...} a part whose files are whole and on the disk
 //! {"dropped":3,"crc":...}                                         a part that is to be made again
@@ -17,8 +17,9 @@ use crate::sampling::SampleId;
 use crate::storage::names::{PART_BANDS, RUNS, is_derived, is_ours};
 
 /// Version of these lines, and of the files that they list: counts are Int64 since 2, parts have other sizes and bands coarser buckets since 3;
-/// since 4 the manifest has the plan and lists the files that follow from the rows, and every file of rows has the whole [`Identity`].
-pub const FORMAT: u32 = 4;
+/// since 4 the manifest has the plan and lists the files that follow from the rows, and every file of rows has the whole [`Identity`];
+/// since 5 bands of large campaigns count the first runs only.
+pub const FORMAT: u32 = 5;
 
 /// Version of the arithmetic of rows: it changes where the same row plan would give other bits. The instruction set is no part of it.
 /// Since 2 Taylor steps have more orders and integrals of thrust are those of the direction cosine matrix.

@@ -13,6 +13,7 @@ use spindrift::observables::{Group, Observer, Series};
 use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 use spindrift::statistics::deviation::RELATIVE_ERROR;
+use spindrift::statistics::gate::GateLimit;
 use spindrift::statistics::quantile::quantile;
 use spindrift::storage::bands_file::{self, BandsFile};
 use spindrift::storage::disk::Disk;
@@ -218,4 +219,76 @@ fn no_bands_where_none_are_asked_for() {
     assert!(Ensemble::new(&plan, Isa::best()).bands().is_some());
     plan.groups = vec![Group::StepStatistics];
     assert!(Ensemble::new(&plan, Isa::best()).bands().is_none());
+}
+
+/// Law: quantiles over time of a large campaign are those of its first runs, bit for bit; extremes and the number of runs with a value are those of all runs. The
+/// share of all runs below such a quantile is within five standard errors of the stated one, and what is said of a limit is true of all runs. Neither threads nor the size of
+/// parts matter. Counter-test: the quantiles of all runs are others.
+#[test]
+fn quantiles_of_a_large_campaign_are_those_of_its_first_runs() {
+    const RUNS: u64 = 1000;
+    const ALL: u64 = 4000;
+    let text = plan(5).text();
+    let plan = |samples: u64, runs: u64| {
+        let text = text.replace("points = 5\n", &format!("points = 5\nruns = {runs}\n"));
+        let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
+        let plan = Plan::from_text("bands", &text, overrides).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!((plan.band_runs, plan.last_counted()), (runs, SampleId(runs)));
+        plan
+    };
+    let (thinned, first, all) = (plan(ALL, RUNS), plan(RUNS + 1, RUNS), plan(ALL, ALL));
+    let found = merged(&files(&thinned, 1));
+    assert!(found == merged(&files(&thinned, 2)), "threads");
+    let of_small_parts = Memory::default();
+    let parts = Parts::up_to(ALL, 77);
+    let ensemble = Ensemble::new(&thinned, Isa::best());
+    run(&ensemble, parts, NonZeroUsize::new(1), &of_small_parts, Supervision::progress(&|_| {})).unwrap();
+    assert!(found == merged(of_small_parts.0.into_inner().unwrap().values()), "parts");
+    let [first, all] = [first, all].map(|plan| merged(&files(&plan, 1)));
+    assert_eq!((found.runs(), found.counted_runs()), (all.runs(), first.runs()));
+    assert_eq!(all.counted_runs(), all.runs());
+    let (mut others, mut places, mut undecided) = (0, 0, 0);
+    for (series, point) in (0..found.layout().series.len()).flat_map(|series| (0..5).map(move |point| (series, point)))
+    {
+        let [of_found, of_all] =
+            [&found, &all].map(|bands| (bands.count(series, point), bands.extremes(series, point)));
+        assert_eq!(of_found, of_all);
+        assert_eq!(found.counted(series, point), first.count(series, point));
+        for p in [0.05, 0.5, 0.95] {
+            let [value, of_first, of_all] =
+                [&found, &first, &all].map(|bands| bands.quantile(series, point, p).unwrap());
+            // those of all runs end at other extremes
+            let [min, max] = first.extremes(series, point).unwrap();
+            assert!(value == of_first || value < min || value > max, "{value} {of_first}");
+            others += u64::from(value != of_all);
+            places += 1;
+            let limit = GateLimit::AtMost(value);
+            let ([least, most], [least_of_all, most_of_all]) =
+                (found.within(series, point, limit), all.within(series, point, limit));
+            assert!(least <= least_of_all && most_of_all <= most, "{least} {least_of_all} {most_of_all} {most}");
+            undecided += u64::from(most - least >= found.count(series, point) - found.counted(series, point));
+            // equal values are below and above it
+            let [_, above] = all.within(series, point, GateLimit::AtLeast(value));
+            let (count, error) = (all.count(series, point) as f64, (p * (1.0 - p) / RUNS as f64).sqrt());
+            let [below, not_above] = [count - above as f64, most_of_all as f64].map(|runs| runs / count);
+            assert!(below - 5.0 * error <= p && p <= not_above + 5.0 * error, "{p}: {below} {not_above}");
+        }
+    }
+    assert!(others > places / 2, "{others} of {places}");
+    assert!(undecided > places / 2, "{undecided} of {places}");
+}
+
+/// Law: all runs are counted where the first ones do not represent the others.
+#[test]
+fn all_runs_of_a_grid_are_counted() {
+    let text = std::fs::read_to_string(format!("{}/campaigns/no_debris.toml", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    let last = |design: &str| {
+        let text = format!("{text}\n[design]\nkind = \"{design}\"\n");
+        Plan::from_text("bands", &text, Overrides::default()).map(|plan| plan.last_counted().0)
+    };
+    for design in ["random", "latin_hypercube", "sobol", "halton"] {
+        assert_eq!(last(design).unwrap_or_else(|error| panic!("{error}")), 131_072, "{design}");
+    }
+    let plan = Plan::from_text("bands", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(plan.only(vec![0, 5, 9]).unwrap().last_counted().0, u64::MAX);
 }

@@ -32,8 +32,10 @@ pub struct BandColumns<'a> {
     pub min: &'a mut [f64],
     /// The largest kept numbers so far.
     pub max: &'a mut [f64],
-    /// The buckets of the deviations of this run.
-    pub codes: &'a mut [Code],
+    /// How many runs so far have no number.
+    pub without: &'a mut [u64],
+    /// The buckets of the deviations of this run, where it is counted.
+    pub codes: Option<&'a mut [Code]>,
 }
 
 impl BandReader {
@@ -118,19 +120,27 @@ impl Work for Reading<'_> {
         let (count, points) = (reader.columns(), reader.points.len());
         let (kept, reference) = (&reader.kept[..count], &reader.reference[..count]);
         let deviations = &mut reader.deviations[..count];
-        let (min, max, codes) = (&mut out.min[..count], &mut out.max[..count], &mut out.codes[..count]);
+        let (min, max) = (&mut out.min[..count], &mut out.max[..count]);
+        let mut has_gaps = 0;
         for at in 0..count {
             let value = kept[at] + 0.0; // one zero, so that the extremes do not depend on order
             min[at] = if value < min[at] { value } else { min[at] };
             max[at] = if value > max[at] { value } else { max[at] };
-            deviations[at] = Form::Value.deviation(value, reference[at]);
+            has_gaps |= u64::from(value.is_nan());
+        }
+        if has_gaps > 0 {
+            out.without.iter_mut().zip(kept).for_each(|(without, kept)| *without += u64::from(kept.is_nan()));
+        }
+        let Some(codes) = out.codes else { return };
+        for at in 0..count {
+            deviations[at] = Form::Value.deviation(kept[at] + 0.0, reference[at]);
         }
         for (index, _) in reader.sources.iter().enumerate().filter(|(_, source)| source.form == Form::HalfTangent) {
             for at in index * points..(index + 1) * points {
                 deviations[at] = Form::HalfTangent.deviation(kept[at], reference[at]);
             }
         }
-        for (code_at, deviation) in codes.iter_mut().zip(deviations) {
+        for (code_at, deviation) in codes[..count].iter_mut().zip(deviations) {
             *code_at = code(*deviation);
         }
     }

@@ -9,8 +9,12 @@
 //! numbers that are nearer to the reference than to zero by their deviation from it, and the others by themselves: a quantile
 //! is then within 0.05% of its magnitude *and* of its deviation, whichever is smaller. Magnitudes below 2^-1022 count as zero.
 
+use fearless_simd::Simd;
+
 use super::carries::Carries;
 use super::moments::Moments;
+use crate::math::Isa;
+use crate::math::isa::Work;
 
 /// Leading mantissa bits that tell buckets apart.
 pub const MANTISSA_BITS: u32 = 10;
@@ -21,9 +25,7 @@ pub const RELATIVE_ERROR: f64 = 1.0 / 2048.0;
 const PAGE: usize = 1 << MANTISSA_BITS;
 /// Number of pages that can occur of one scale: of signs and exponents.
 const SCALE: u16 = 1 << 12;
-/// Number of pages that can occur: of numbers themselves, and of deviations.
-const PAGES: usize = 2 * SCALE as usize;
-/// Where a page is not counted in yet; there are no more than [`PAGES`].
+/// Where a page is not counted in yet; there are no more than two scales of them: of numbers themselves, and of deviations.
 const NO_PAGE: u16 = u16::MAX;
 /// Buckets in a cache line.
 const CACHE_LINE: usize = 16;
@@ -49,28 +51,42 @@ impl Default for Sketch {
     }
 }
 
-/// Maps the bits of a number so that unsigned order is numeric order.
-fn ordered(value: f64) -> u64 {
-    let bits = value.to_bits();
-    if bits >> 63 == 0 { bits | 1 << 63 } else { !bits }
-}
-
-/// The inverse of [`ordered`].
+/// The number whose bits were mapped so that unsigned order is numeric order: the sign bit of a positive number is set, all bits of a negative one
+/// are inverted.
 fn unordered(key: u64) -> f64 {
     f64::from_bits(if key >> 63 == 1 { key & !(1 << 63) } else { !key })
 }
 
-/// The leading bits of the place of `value` in a sketch about `reference`. Places ascend with numbers: below a positive reference those that are counted
-/// by themselves, then deviations; about a negative one the other way.
-#[inline(always)]
-fn place(reference: f64, value: f64) -> u32 {
-    let half = 0.5 * reference;
-    let is_near = reference > 0.0 && value > half || reference < 0.0 && value < half;
-    let counted = if is_near { value - reference } else { value + 0.0 };
-    let counted = if counted.abs() < f64::MIN_POSITIVE { 0.0 } else { counted };
-    let leading = (ordered(counted) >> SHIFT) as u32;
-    let is_upper = if reference > 0.0 { is_near } else { reference < 0.0 && !is_near };
-    leading | if is_upper { UPPER } else { 0 }
+/// Where numbers are in a sketch.
+#[derive(Clone, Copy)]
+struct Places {
+    reference: f64,
+    /// The sign of the reference, or zero.
+    sign: f64,
+    /// Half of its magnitude.
+    half: f64,
+}
+
+impl Places {
+    /// In a sketch about `reference`.
+    fn about(reference: f64) -> Self {
+        let sign = if reference == 0.0 { 0.0 } else { reference.signum() };
+        Places { reference, sign, half: 0.5 * reference.abs() }
+    }
+
+    /// The leading bits of the place of `value`. Places ascend with numbers: below a positive reference those that are counted
+    /// by themselves, then deviations; about a negative one the other way. Without branches: a loop over many of them is one over vectors.
+    #[inline(always)]
+    fn of(self, value: f64) -> u32 {
+        let is_near = self.sign * value > self.half;
+        let counted = value - if is_near { self.reference } else { 0.0 };
+        let counted = if counted.abs() < f64::MIN_POSITIVE { 0.0 } else { counted };
+        // unsigned order is numeric order: the inverse of `unordered`
+        let upper = (counted.to_bits() >> 32) as u32;
+        let flipped = (upper.cast_signed() >> 31).cast_unsigned() | 1 << 31;
+        let is_upper = is_near ^ (self.sign < 0.0);
+        (upper ^ flipped) >> (SHIFT - 32) | u32::from(is_upper) * UPPER
+    }
 }
 
 /// The leading bit of places in the upper of both scales.
@@ -89,7 +105,7 @@ impl Sketch {
             return;
         }
         let value = value + 0.0; // one zero, so that the extremes do not depend on order
-        let key = place(self.reference, value);
+        let key = Places::about(self.reference).of(value);
         let at = self.page_index((key >> MANTISSA_BITS) as u16);
         self.carries.add(key, &mut self.pages[at].1[key as usize % PAGE], 1);
         self.count += 1;
@@ -104,30 +120,13 @@ impl Sketch {
 
     /// As [`Sketch::add_all`], for numbers whose moments are known.
     pub fn add_block(&mut self, values: &[f64], moments: &Moments) {
-        // other work has driven the pages out of the caches; read in order, they are fetched ahead
-        let pages =
-            self.pages.iter().map(|(_, page)| page.iter().step_by(CACHE_LINE).fold(0, |any, count| any | count));
-        std::hint::black_box(pages.fold(0, |any, count| any | count));
-        let mut at = [NO_PAGE; PAGES];
-        self.pages.iter().enumerate().for_each(|(index, (number, _))| at[usize::from(*number)] = index as u16);
-        let mut counted = 0;
-        let reference = self.reference;
-        for value in values.iter().filter(|value| !value.is_nan()) {
-            let key = place(reference, *value);
-            let number = (key >> MANTISSA_BITS) as usize % PAGES;
-            if at[number] == NO_PAGE {
-                self.page_index(number as u16);
-                // those after a new page have moved
-                self.pages.iter().enumerate().for_each(|(index, (number, _))| at[usize::from(*number)] = index as u16);
-            }
-            let bucket = &mut self.pages[usize::from(at[number])].1[key as usize % PAGE];
-            self.carries.add(key, bucket, 1);
-            counted += 1;
-        }
-        self.count += counted;
-        // one zero, as in `add`
         let (min, max) = (moments.min().unwrap_or(f64::INFINITY), moments.max().unwrap_or(f64::NEG_INFINITY));
-        (self.min, self.max) = (self.min.min(min + 0.0), self.max.max(max + 0.0));
+        // there may be no number, or none but NaN
+        if min <= max {
+            // one zero, as in `add`
+            let ends = [min + 0.0, max + 0.0];
+            Isa::best().run(Counting { sketch: self, values, ends });
+        }
     }
 
     /// Counts all that `other` has counted. A sketch without numbers takes its reference.
@@ -206,6 +205,14 @@ impl Sketch {
         if low == high { [near, far] } else { [near.next_down(), far.next_up()] }
     }
 
+    /// Writes the index of each page that there is to `at`, which begins with the page of number `first`.
+    fn note_pages(&self, first: u32, at: &mut [u16]) {
+        for (index, (number, _)) in self.pages.iter().enumerate() {
+            let place = u32::from(*number).checked_sub(first).and_then(|place| at.get_mut(place as usize));
+            place.into_iter().for_each(|place| *place = index as u16);
+        }
+    }
+
     /// The index of a page, which is added where it is not there.
     fn page_index(&mut self, number: u16) -> usize {
         match self.pages.binary_search_by_key(&number, |(number, _)| *number) {
@@ -227,6 +234,51 @@ impl Sketch {
             buckets.push((ends, count));
         });
         Ranks::of(buckets)
+    }
+}
+
+/// Counts the numbers of a list that are not NaN.
+struct Counting<'a> {
+    sketch: &'a mut Sketch,
+    values: &'a [f64],
+    /// The smallest and the largest.
+    ends: [f64; 2],
+}
+
+/// Numbers whose places are found together.
+const TOGETHER: usize = 64;
+
+impl Work for Counting<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) {
+        let Counting { sketch, values, ends } = self;
+        // other work has driven the pages out of the caches; read in order, they are fetched ahead
+        let pages =
+            sketch.pages.iter().map(|(_, page)| page.iter().step_by(CACHE_LINE).fold(0, |any, count| any | count));
+        std::hint::black_box(pages.fold(0, |any, count| any | count));
+        let places = Places::about(sketch.reference);
+        // places ascend with numbers: no other page occurs
+        let [first, last] = ends.map(|end| places.of(end) >> MANTISSA_BITS);
+        let mut at = vec![NO_PAGE; (last - first) as usize + 1];
+        sketch.note_pages(first, &mut at);
+        let mut keys = [0; TOGETHER];
+        for values in values.chunks(TOGETHER) {
+            keys.iter_mut().zip(values).for_each(|(key, value)| *key = places.of(*value));
+            for (key, _) in keys.iter().zip(values).filter(|(_, value)| !value.is_nan()) {
+                let page = ((key >> MANTISSA_BITS) - first) as usize;
+                if at[page] == NO_PAGE {
+                    sketch.page_index((key >> MANTISSA_BITS) as u16);
+                    // those after a new page have moved
+                    sketch.note_pages(first, &mut at);
+                }
+                let bucket = &mut sketch.pages[usize::from(at[page])].1[*key as usize % PAGE];
+                sketch.carries.add(*key, bucket, 1);
+                sketch.count += 1;
+            }
+        }
+        (sketch.min, sketch.max) = (sketch.min.min(ends[0]), sketch.max.max(ends[1]));
     }
 }
 

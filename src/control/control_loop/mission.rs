@@ -91,14 +91,14 @@ impl Mission {
             target.error(truth.body.q_es, &TargetInput { geometry: geometry.as_ref(), to_go: &to_go, orbit })
         });
         let errors = if knows { EstimateErrors::NONE } else { software.estimate().errors(truth) };
+        self.over_time.error = error;
         for (series, value) in [
-            (Series::PointingError, error.map_or(f64::NAN, |error| error.angle())),
             (Series::AttitudeEstimateError, errors.attitude),
             (Series::RateEstimateError, errors.rate),
             (Series::PositionEstimateError, errors.relative_position),
             (Series::VelocityEstimateError, errors.relative_velocity),
         ] {
-            self.over_time[place(series)] = value;
+            self.over_time.values[place(series)] = value;
         }
         if is_judged {
             self.outcome.tick(plant.scene(), truth, (error.as_ref(), guided.begins), &errors, &self.criteria);
@@ -141,7 +141,7 @@ impl Mission {
             plant.scene().mass.wheels.iter().zip(self.motor_places).zip(applied.actuation.motor_torque)
         {
             if wheel.mode == WheelMode::Free {
-                self.over_time[place] = torque;
+                self.over_time.values[place] = torque;
             }
         }
         if !applied.saturated[1] {

@@ -118,9 +118,10 @@ impl MissionOutcome {
         errors: &EstimateErrors,
         criteria: &MissionCriteria,
     ) {
-        self.stability.tick(truth.time, error.map(|error| vector_of(error.q_ts)), criteria);
-        if let Some(error) = error {
-            self.pointing(truth.time, error, begins, criteria.settling_band);
+        let vector = error.map(|error| vector_of(error.q_ts));
+        self.stability.tick(truth.time, vector, criteria);
+        if let Some(vector) = vector {
+            self.pointing(truth.time, vector, begins, criteria.settling_band);
         }
         let mut momentum = [0.0; 3];
         for (i, wheel) in scene.mass.wheels.iter().enumerate() {
@@ -137,8 +138,7 @@ impl MissionOutcome {
         self.relative_error = [errors.relative_position, errors.relative_velocity];
     }
 
-    fn pointing(&mut self, time: f64, error: &AttitudeError, begins: bool, band: f64) {
-        let vector = vector_of(error.q_ts);
+    fn pointing(&mut self, time: f64, vector: [f64; 3], begins: bool, band: f64) {
         let angle = norm(vector);
         if begins {
             (self.first_error, self.overshoot) = (None, 0.0);

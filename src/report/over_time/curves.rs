@@ -21,8 +21,10 @@ pub struct TimeBands {
     pub times: Vec<f64>,
     /// The 5, 25, 50, 75 and 95% quantiles at these times.
     pub quantiles: [Vec<f64>; 5],
-    /// How many runs they are of.
+    /// How many runs there are.
     pub runs: u64,
+    /// How many of them the quantiles are of: all, or the first ones.
+    pub counted: u64,
     /// How many of them have not ended at each time, whatever they have of this series.
     pub in_flight: Vec<u64>,
 }
@@ -152,11 +154,20 @@ impl<'a> Curves<'a> {
             }
             _ => String::new(),
         };
-        format!(
-            "Bands: 5 to 95% and 25 to 75% of {} dispersed runs that were computed, at each of {} times.{left}{aliased}",
-            bands.runs,
-            bands.times.len()
-        )
+        let of = if bands.counted < bands.runs {
+            let error = |p: f64| 100.0 * libm::sqrt(p * (1.0 - p) / bands.counted as f64);
+            format!(
+                "the first {} of {} dispersed runs that were computed (standard error of these shares {:.2} and {:.2}%, of the median {:.2}%; bands.runs counts more)",
+                bands.counted,
+                bands.runs,
+                error(0.05),
+                error(0.25),
+                error(0.5)
+            )
+        } else {
+            format!("{} dispersed runs that were computed", bands.runs)
+        };
+        format!("Bands: 5 to 95% and 25 to 75% of {of}, at each of {} times.{left}{aliased}", bands.times.len())
     }
 
     /// Name and unit of a series.

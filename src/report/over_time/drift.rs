@@ -98,6 +98,7 @@ mod tests {
             times: vec![0.0, 1.0],
             quantiles: [1, 2, 3, 4, 5].map(|p| vec![0.0, f64::from(p) * (1.0 + k as f64)]),
             runs: 9,
+            counted: 9,
             in_flight: vec![9; 2],
         };
         let bands: Vec<TimeBands> = series.iter().enumerate().map(band).collect();

@@ -86,15 +86,20 @@ fn time_bands(bands: &Bands) -> Vec<TimeBands> {
     // some series are null in some phases; those of the motion never are
     let in_flight = |point: usize| all.clone().map(|series| count(series, point)).max().unwrap_or(0);
     let in_flight: Vec<u64> = (0..points).map(in_flight).collect();
-    let value = |series: usize, point: usize, p: f64| {
-        let quantile = bands.quantile(series, point, p).filter(|_| count(series, point) >= FEWEST);
-        quantile.unwrap_or(f64::NAN)
+    let values = |series: usize, point: usize| {
+        let is_shown = bands.counted(series, point) >= FEWEST;
+        bands.quantiles(series, point, BANDS).map(|value| value.filter(|_| is_shown).unwrap_or(f64::NAN))
+    };
+    let of_points = |series: usize| (0..points).map(|point| values(series, point)).collect::<Vec<_>>();
+    let turned = |of_points: Vec<[f64; BANDS.len()]>| {
+        std::array::from_fn(|which| of_points.iter().map(|quantiles| quantiles[which]).collect())
     };
     let of_series = |series: usize| TimeBands {
         name: bands.quantity(series).name().to_owned(),
         times: bands.times().to_vec(),
-        quantiles: BANDS.map(|p| (0..points).map(|point| value(series, point, p)).collect()),
+        quantiles: turned(of_points(series)),
         runs: bands.runs(),
+        counted: bands.counted_runs(),
         in_flight: in_flight.clone(),
     };
     let series = all.clone().map(of_series);

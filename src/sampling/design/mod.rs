@@ -68,6 +68,14 @@ impl Design {
         Self::NAMES.iter().copied().filter(has).collect()
     }
 
+    /// Whether the first samples represent the population as all do: those of a grid or of a list are others than the last.
+    pub fn begins_as_it_goes_on(&self) -> bool {
+        match self {
+            Design::Random(_) | Design::LatinHypercube(_) | Design::Sobol(_) | Design::Halton(_) => true,
+            Design::Grid(_) | Design::OneAtATime(_) | Design::Saltelli(_) | Design::Table(_) => false,
+        }
+    }
+
     /// The replicate in which `sample` is, from zero ([`replicates`]); `None` for the nominal sample, which is in none.
     pub fn replicate_of(&self, sample: SampleId) -> Option<u64> {
         sample.0.checked_sub(1).map(|point| point % self.replicates())
