@@ -44,7 +44,7 @@ fn assert_same(found: [[f64; 2]; 2], expected: Matrix2<f64>) {
 fn translation_converges_to_the_riccati_solution() {
     for (walk, t, sigmas) in [(2e-3, 0.5, [0.3, 0.05]), (0.1, 2.0, [0.5, 5.0]), (1e-4, 1.0, [10.0, 0.001])] {
         let zero = PointMotion { r_e: [0.0; 3], v_e: [0.0; 3] };
-        let mut filter = TranslationFilter::new(zero, [1.0, 1.0], walk);
+        let mut filter = TranslationFilter::new(zero, [1.0, 1.0], walk, None);
         for _ in 0..UPDATES {
             filter.propagate(&TranslationStep { acceleration_e: [0.0; 3], interval: t });
             filter.update(&MotionObservation { motion: zero, sigmas }).expect("an innovation");
