@@ -142,7 +142,13 @@ mod tests {
     const MU: f64 = 3.986004418e14;
 
     fn ellipse() -> KeplerOrbit<f64> {
-        KeplerOrbit::new(&Orbit { mu: MU, position: [7e6, 1e6, -2e5], velocity: [100.0, 7100.0, 2900.0] })
+        KeplerOrbit::new(&Orbit {
+            mu: MU,
+            position: [7e6, 1e6, -2e5],
+            velocity: [100.0, 7100.0, 2900.0],
+            body_radius: 0.0,
+            epoch: None,
+        })
     }
 
     const OFFSET: Offset = Offset { position: [-28.0, -14.0, 18.0], velocity: [0.05, 0.02, -0.03] };

@@ -126,7 +126,13 @@ mod tests {
     /// Law: what falls is on its Kepler orbit, to fourth order in the step, and a known acceleration adds t^2/2 of itself.
     #[test]
     fn a_falling_point_is_on_its_orbit() {
-        let orbit = Orbit { mu: 3.986004418e14, position: [7e6, 1e6, -2e5], velocity: [100.0, 7100.0, 2900.0] };
+        let orbit = Orbit {
+            mu: 3.986004418e14,
+            position: [7e6, 1e6, -2e5],
+            velocity: [100.0, 7100.0, 2900.0],
+            body_radius: 0.0,
+            epoch: None,
+        };
         let start = PointMotion { r_e: orbit.position, v_e: orbit.velocity };
         let truth = KeplerOrbit::new(&orbit).state(600.0);
         let off = |step: f64, steps: u32| {
