@@ -57,8 +57,8 @@ fn a_whole_run_is_that_of_scipy() {
     ] {
         let (attitude, rate) = off(FieldModel::Igrf, method, control);
         println!("{}: {attitude:.1e}, {rate:.1e} rad/s", method.name());
-        // the Earth's angle of the date is rounded to 1e-10 rad in both; the field turns with it
-        assert!(attitude < 2e-10 && rate < 1e-12, "{}: {attitude:e} {rate:e}", method.name());
+        // measured 1.8e-10 and 5.2e-13 by auto, taylor and dop853 alike: what SciPy has left, and the Earth's angle, which is rounded to 1e-10 rad
+        assert!(attitude < 1e-9 && rate < 5e-12, "{}: {attitude:e} {rate:e}", method.name());
     }
     // the counter-test: a dipole is another field
     let (attitude, _) = off(FieldModel::Dipole, Method::Auto, adaptive(1e-16));

@@ -256,6 +256,7 @@ mod tests {
         scene.body.inertia_kg_m2 = Some([[3.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 3.0]]);
         scene.body.principal = Some(principal);
         scene.environment.body_torque_n_m = Some([0.0; 3]);
+        scene.environment.magnetic_dipole_a_m2 = Some([0.0; 3]);
         scene.orbit = Some(OrbitInput {
             position_m: Some([0.0; 3]),
             velocity_m_s: Some([0.0; 3]),

@@ -120,15 +120,19 @@ pub fn largest_torque(scene: &Scene) -> f64 {
 
 /// Largest rate of librations of `scene` about the field, rad/s: sqrt(|m| |B|/J) of the smallest moment.
 pub fn largest_rate(scene: &Scene) -> f64 {
+    let torque = largest_torque(scene);
+    if torque == 0.0 {
+        return 0.0;
+    }
     let (moments, _) = principal_axes(scene.mass.inertia);
-    (largest_torque(scene) / moments[0].min(moments[1]).min(moments[2])).sqrt()
+    (torque / moments[0].min(moments[1]).min(moments[2])).sqrt()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::dynamics::orbit::OrbitState;
-    use crate::math::vector::difference;
+    use crate::math::vector::{difference, dot};
     use crate::scene::{Epoch, FieldModel};
 
     /// Law: two poles of the charge q at +-d/2 in the field are pulled by +-q B: about the middle a couple of m x B with m = q d; none along the field; rods
@@ -153,7 +157,7 @@ mod tests {
             assert!(norm(difference(torque.torque(&motion), couple)) < 1e-15 * norm(couple));
             torque.residual = pull;
             torque.begin_arc([0.0; 3]);
-            assert_eq!(torque.torque(&motion), [0.0; 3]);
+            assert!(norm(torque.torque(&motion)) < 1e-15 * dot(pull, pull));
         }
     }
 }
