@@ -1,8 +1,6 @@
 //! The `[bands]` table: at how many points quantiles over time are counted, and of how many runs.
 
 use super::document::Document;
-use super::plan::Plan;
-use crate::sampling::SampleId;
 
 /// Points of bands where the file does not say and the grid has more than [`ALL`].
 const POINTS: u64 = 33;
@@ -31,12 +29,4 @@ pub fn resolve(written: Option<u64>, grid: u64, document: &mut Document<'_>) -> 
         document.add(KEY, Some(points.to_string()), allowed, "write fewer points, or more in observe.points");
     }
     points
-}
-
-impl Plan {
-    /// The last sample that is counted in quantiles over time: the first ones are, where they represent the others, else all.
-    pub fn last_counted(&self) -> SampleId {
-        let are_alike = self.chosen.is_none() && self.design.begins_as_it_goes_on();
-        SampleId(if are_alike { self.band_runs } else { u64::MAX })
-    }
 }

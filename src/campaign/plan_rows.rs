@@ -24,6 +24,12 @@ impl Plan {
         self.rows() - u64::from(self.rows() > 0 && self.sample(0) == SampleId(0))
     }
 
+    /// The last sample that is counted in quantiles over time: the first ones are, where they represent the others, else all.
+    pub fn last_counted(&self) -> SampleId {
+        let are_alike = self.chosen.is_none() && self.design.begins_as_it_goes_on();
+        SampleId(if are_alike { self.band_runs } else { u64::MAX })
+    }
+
     /// The numbers of samples, sample 0 included, at which it is looked at; the last one ends it. Without `[stop]` it is one.
     pub fn looks(&self) -> Vec<u64> {
         match &self.analysis.stop {
