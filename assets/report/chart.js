@@ -1,10 +1,11 @@
 // From what a figure shows to what ECharts draws.
 
 import { readable, superscript, tickScale, tickText } from "./numbers.js";
-import { colors } from "./theme.js";
+import { colors, isOnPaper } from "./theme.js";
 
 const LETTER = 6.6; // width of a letter of 12 pixels, about
 const DIGIT = 7.6; // that of a digit, of the widest fonts
+const LABEL = 15; // height of a row of names above the axes
 const FLIGHT = 14; // height of the strip of runs in flight
 const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', sans-serif";
 
@@ -147,12 +148,12 @@ function pointSeries(mark, figure, color) {
   return { type: "scatter", data: pairs(mark, figure), symbol: mark.crosses ? cross : "circle", symbolSize: mark.crosses ? 8 : size, silent: true, itemStyle: { color, opacity: count > 100 && !mark.crosses ? 0.55 : 1 }, clip: true };
 }
 
-// A series whose first element draws all: `shapes(to)` returns them, `to` maps values to pixels.
-function drawn(data, encode, shapes) {
+// A series whose first element draws all: `shapes(to)` returns them, `to` maps values to pixels; so many pixels `above` the axes are seen too.
+function drawn(data, encode, shapes, above = 0) {
   const renderItem = (params, api) => {
     if (params.dataIndexInside !== 0) return null;
     const box = params.coordSys;
-    return { type: "group", children: shapes((x, y) => api.coord([x, y]), box, api), clipPath: { type: "rect", shape: { x: box.x, y: box.y, width: box.width, height: box.height } } };
+    return { type: "group", children: shapes((x, y) => api.coord([x, y]), box, api), clipPath: { type: "rect", shape: { x: box.x, y: box.y - above, width: box.width, height: box.height + above } } };
   };
   return { type: "custom", data, encode, renderItem, silent: true, clip: false, animation: false };
 }
@@ -200,19 +201,27 @@ function whiskerSeries(mark, figure, color, palette) {
   );
 }
 
-// The row of the name of a vertical limit: the first in which it does not cover the name of a limit before it. `place` gives where a limit is, pixels.
-function rowOf(mark, figure, place, box) {
-  const rows = [];
-  for (const other of figure.marks) {
-    if (other.kind !== "limit" || !other.vertical || !other.label) continue;
-    const [x, width] = [place(other.at), LETTER * (other.label.length + 3)];
+// The rows of the names of vertical limits, which stand above the axes, where they cover no bar and each other neither: for each mark its row from below.
+// `place` gives where a value is, pixels; `box` is what the axes enclose.
+function labelRows(figure, place, box) {
+  const [rows, found] = [[], new Map()];
+  for (const mark of figure.marks) {
+    if (mark.kind !== "limit" || !mark.vertical || !mark.label) continue;
+    const [x, width] = [place(mark.at), LETTER * (mark.label.length + 3)];
     const start = !(x >= box.x - 1) ? box.x : x > box.x + 0.7 * box.width ? Math.min(x, box.x + box.width) - width : x;
     let row = 0;
     while (rows[row]?.some(([from, to]) => start < to && start + width > from)) row += 1;
     (rows[row] ??= []).push([start, start + width]);
-    if (other === mark) return row;
+    found.set(mark, row);
   }
-  return 0;
+  return found;
+}
+
+// Where a value of the axis `option` is in `box`, pixels.
+function placeOn(option, box) {
+  const map = option.type === "log" ? Math.log : (value) => value;
+  const [low, high] = [map(option.min), map(option.max)];
+  return (value) => box.x + (box.width * (map(value) - low)) / (high - low);
 }
 
 // The value in the middle of an axis.
@@ -220,14 +229,14 @@ function middleOf(axis) {
   return axis.type === "category" ? 0 : axis.type === "log" ? Math.sqrt(axis.min * axis.max) : 0.5 * (axis.min + axis.max);
 }
 
-function limitSeries(mark, figure, palette, [xs, ys]) {
+function limitSeries(mark, palette, [xs, ys], row) {
   // the series has a point within the axes: one outside of them would not be drawn
   const data = [[middleOf(xs), middleOf(ys)]];
   return drawn(data, { x: 0, y: 1 }, (to, box) => {
     const [x, y] = to(...(mark.vertical ? [mark.at, data[0][1]] : [data[0][0], mark.at]));
     const dash = { stroke: palette.quiet, lineWidth: 1, lineDash: [5, 4] };
     const text = { text: mark.label, fill: palette.quiet, font: `12px ${FONT}` };
-    const lower = 15 * (mark.vertical ? rowOf(mark, figure, (at) => to(at, data[0][1])[0], box) : 0);
+    const above = box.y - LABEL * row - 4;
     const [isLow, isHigh] = mark.vertical ? [!(x >= box.x - 1), x > box.x + box.width + 1] : [y > box.y + box.height + 1, y < box.y - 1];
     if (isLow || isHigh) {
       // outside of the axes: named at the edge beyond which it is
@@ -235,13 +244,13 @@ function limitSeries(mark, figure, palette, [xs, ys]) {
       const named = { ...text, text: mark.label ? `${arrow} ${mark.label}` : "" };
       const isRight = mark.vertical && isHigh;
       const isBottom = !mark.vertical && isLow;
-      return [{ type: "text", x: isRight ? box.x + box.width - 4 : box.x + 4, y: isBottom ? box.y + box.height - 4 : box.y + 4 + lower, style: { ...named, align: isRight ? "right" : "left", verticalAlign: isBottom ? "bottom" : "top" } }];
+      return [{ type: "text", x: isRight ? box.x + box.width - 4 : box.x + 4, y: mark.vertical ? above : isBottom ? box.y + box.height - 4 : box.y + 4, style: { ...named, align: isRight ? "right" : "left", verticalAlign: mark.vertical || isBottom ? "bottom" : "top" } }];
     }
     if (mark.vertical) {
       const isRight = x > box.x + 0.7 * box.width;
       return [
-        { type: "line", shape: { x1: x, y1: box.y, x2: x, y2: box.y + box.height }, style: dash },
-        { type: "text", x: x + (isRight ? -4 : 4), y: box.y + 3 + lower, style: { ...text, align: isRight ? "right" : "left", verticalAlign: "top" } },
+        { type: "line", shape: { x1: x, y1: above - (mark.label ? 10 : 0), x2: x, y2: box.y + box.height }, style: dash },
+        { type: "text", x: x + (isRight ? -4 : 4), y: above, style: { ...text, align: isRight ? "right" : "left", verticalAlign: "bottom" } },
       ];
     }
     const isTop = y < box.y + 20;
@@ -249,7 +258,7 @@ function limitSeries(mark, figure, palette, [xs, ys]) {
       { type: "line", shape: { x1: box.x, y1: y, x2: box.x + box.width, y2: y }, style: dash },
       { type: "text", x: box.x + box.width - 4, y: y + (isTop ? 3 : -3), style: { ...text, align: "right", verticalAlign: isTop ? "top" : "bottom" } },
     ];
-  });
+  }, mark.vertical ? LABEL * (row + 1) + 4 : 0);
 }
 
 // The runs in flight, as a strip under the axis whose height is their share.
@@ -308,6 +317,7 @@ function flightOf(figure) {
 
 // The height of a figure that is `width` pixels wide.
 export function heightOf(figure, width) {
+  if (isOnPaper() && !figure.x.names) return figure.y.names ? 62 + 17 * figure.y.names.length + flightOf(figure) : width < 300 ? 168 : 260;
   if (figure.x.names) return Math.min(640, 60 + Math.max(18, Math.min(34, (width - 260) / figure.y.names.length)) * figure.y.names.length);
   if (figure.y.names) return 70 + 26 * figure.y.names.length + flightOf(figure);
   return Math.round(Math.max(210, Math.min(320, 0.56 * width)));
@@ -323,18 +333,21 @@ export function chartOption(figure, width, palette = colors()) {
     band: (mark) => bandSeries(mark, figure, color(mark)),
     bars: (mark) => barSeries(mark, figure, color(mark)),
     whiskers: (mark) => whiskerSeries(mark, figure, color(mark), palette),
-    limit: (mark) => limitSeries(mark, figure, palette, axes),
+    limit: (mark) => limitSeries(mark, palette, axes, rows.get(mark) ?? 0),
     matrix: (mark) => matrixSeries(mark, figure, palette),
     flight: (mark) => flightSeries(mark, color(mark), axes),
   };
   const strip = flightOf(figure);
+  const right = Math.max(18, Math.ceil(0.5 * DIGIT * (axes[0].texts?.at(-1) ?? "").length) + 2);
   const names = figure.y.names ? Math.min(0.5 * width, 16 + LETTER * Math.max(...axes[1].data.map((name) => name.length))) : axes[1].nameGap + 20;
-  const last = axes[0].texts?.at(-1) ?? "";
+  const box = { x: names, width: width - names - right };
+  const rows = labelRows(figure, placeOn(axes[0], box), box);
+  const top = 14 + LABEL * (rows.size > 0 ? Math.max(...rows.values()) + 1 : 0);
   const zoom = figure.x.names || figure.y.names ? [] : [{ type: "inside", xAxisIndex: 0, filterMode: "none", zoomOnMouseWheel: "ctrl", moveOnMouseMove: "ctrl", moveOnMouseWheel: false, preventDefaultMouseMove: false }];
   return {
     animation: false,
     backgroundColor: "transparent",
-    grid: { left: names, right: Math.max(18, Math.ceil(0.5 * DIGIT * last.length) + 2), top: 12, bottom: 46 + strip, outerBoundsMode: "none" },
+    grid: { left: names, right, top, bottom: 46 + strip, outerBoundsMode: "none" },
     xAxis: strip ? { ...axes[0], nameGap: axes[0].nameGap + strip, axisLabel: { ...axes[0].axisLabel, margin: 8 + strip } } : axes[0],
     yAxis: axes[1],
     dataZoom: zoom,

@@ -6,7 +6,7 @@ import { readable } from "./numbers.js";
 import { saveButtons } from "./save.js";
 import { colors, isOnPaper, onTheme } from "./theme.js";
 
-const PAPER_WIDTH = 250;
+const PAPER_WIDTH = 200;
 const WHOLE_PAPER = 700;
 const views = [];
 
@@ -72,7 +72,7 @@ export class FigureView {
   }
 
   draw() {
-    // on paper three figures share the width: so wide that their text has the size of the text around
+    // on paper four figures share the width: so wide that their text has the size of the text around
     const paper = this.figure.columns === 12 ? WHOLE_PAPER : PAPER_WIDTH;
     const width = isOnPaper() ? paper : Math.max(240, Math.floor(this.plot.clientWidth));
     if (this.chart && width === this.width && this.palette === colors().background) return;

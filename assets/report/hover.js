@@ -1,6 +1,6 @@
 // What is under the pointer of a figure, with exact values and units, and the cursor that the replay moves.
 
-import { withUnit } from "./numbers.js";
+import { readable, withUnit } from "./numbers.js";
 
 // The index of the element of ascending `values` that is nearest to `value`.
 export function nearest(values, value) {
@@ -55,7 +55,7 @@ export function described(figure, at, value, toPixel) {
       const row = Math.round(value[1]);
       if (row < 0 || row >= mark.x.length) continue;
       lines.push(y.names[row], `${x.quantity}: ${withUnit(mark.x[row], x.unit)}`);
-      if (Number.isFinite(mark.low[row])) lines.push(`${mark.label}: ${withUnit(mark.low[row], "")} to ${withUnit(mark.high[row], "")}`);
+      if (Number.isFinite(mark.low[row])) lines.push(`${mark.label}: [${readable(mark.low[row])}, ${readable(mark.high[row])}]`);
     }
     if (mark.kind === "flight") {
       const index = nearest(mark.x, value[0]);
@@ -82,7 +82,7 @@ export function described(figure, at, value, toPixel) {
     isFirst = false;
     if (mark.kind === "line") lines.push(`${mark.label}: ${withUnit(mark.y[index], y.unit)}`);
     else if (mark.stacked) lines.push(`${mark.label}: ${withUnit(mark.high[index] > 0 ? mark.high[index] - mark.low[index] : mark.low[index] - mark.high[index], y.unit)}`);
-    else lines.push(`${mark.label}: ${withUnit(mark.low[index], y.unit)} to ${withUnit(mark.high[index], y.unit)}`);
+    else lines.push(`${mark.label}: [${readable(mark.low[index])}, ${readable(mark.high[index])}]${y.unit ? ` ${y.unit}` : ""}`);
   }
   if (lines.length === 0) {
     for (const mark of marks.filter((other) => other.kind === "line")) {

@@ -12,6 +12,7 @@ import { pathToFileURL } from "node:url";
 import puppeteer from "puppeteer-core";
 
 const LARGEST = 2_000_000; // bytes of a page
+const MOST_SHEETS = 8; // of paper, of missions with all their figures
 const FEWEST_COLORS = 3; // background, axes and at least one mark
 const SLICE = 8000; // pixels of a screenshot
 const [folder, ...pages] = process.argv.slice(2);
@@ -286,6 +287,25 @@ async function checkReplay(page, name) {
   if ((await clock()) === time) problems.push(`${name}: the keyboard does not step the replay`);
 }
 
+// No two texts of a figure cover each other, and the name of a limit is above the bars.
+async function checkTexts(page, name) {
+  const found = await page.evaluate(() => {
+    const wrong = [];
+    for (const figure of document.querySelectorAll("figure")) {
+      const texts = Array.from(figure.querySelectorAll(".plot svg text"), (text) => ({ text: text.textContent, box: text.getBoundingClientRect() })).filter(({ text, box }) => text.trim() && box.width > 0);
+      for (let i = 0; i < texts.length; i += 1) {
+        for (let j = i + 1; j < texts.length; j += 1) {
+          const [a, b] = [texts[i].box, texts[j].box];
+          const [x, y] = [Math.min(a.right, b.right) - Math.max(a.left, b.left), Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top)];
+          if (x > 1.5 && y > 4) wrong.push(`${figure.id}: "${texts[i].text}" and "${texts[j].text}"`);
+        }
+      }
+    }
+    return wrong;
+  });
+  for (const text of found.slice(0, 8)) problems.push(`${name}: texts cover each other: ${text}`);
+}
+
 async function checkTables(page, name) {
   const search = await page.$("input[type=search]");
   if (!search) return;
@@ -313,6 +333,7 @@ async function checked(browser, file) {
   await page.evaluate(async () => globalThis.spindriftPage.replay());
   const figures = await checkFigures(page, name, shot("light"));
   await checkHover(page, name);
+  await checkTexts(page, name);
   await checkTables(page, name);
   await checkReplay(page, name);
   await checkNumbers(page, name);
@@ -322,7 +343,9 @@ async function checked(browser, file) {
     await checkStill(page, name);
   }
   await page.mouse.move(0, 0);
-  await page.pdf({ path: join(folder, `${name}_print.pdf`), format: "A4", printBackground: true });
+  const pdf = await page.pdf({ path: join(folder, `${name}_print.pdf`), preferCSSPageSize: true, printBackground: true });
+  const sheets = Buffer.from(pdf).toString("latin1").match(/\/Type\s*\/Page\b(?!s)/g)?.length ?? 0;
+  if (sheets === 0 || (name === "net_launch" && sheets > MOST_SHEETS)) problems.push(`${name}: it is printed on ${sheets} sheets`);
   await page.close();
   const dark = await opened(browser, file, { width: 1300, height: 900 }, "dark");
   await dark.evaluate(() => globalThis.spindriftPage.drawAll());
@@ -334,6 +357,7 @@ async function checked(browser, file) {
   await middle.close();
   const narrow = await opened(browser, file, { width: 390, height: 800 }, "light");
   await checkFigures(narrow, `${name}, narrow`, shot("narrow"));
+  await checkTexts(narrow, `${name}, narrow`);
   await narrow.close();
   console.log(`${name}: ${figures} figures, ${size} bytes`);
 }
