@@ -12,6 +12,7 @@ use std::hint::black_box;
 use spindrift::analysis::fold::RunningFold;
 use spindrift::campaign::Plan;
 use spindrift::dynamics::actuation::Laws;
+use spindrift::dynamics::effects::within_arcs::Beside;
 use spindrift::dynamics::gyrostat::Gyrostat;
 use spindrift::dynamics::gyrostat::equations::Constants;
 use spindrift::dynamics::null_space::{Kernel, components, sigma};
@@ -196,11 +197,12 @@ fn right_hand_sides() {
     constants.set_run(0, &gyrostat, 1.0);
     constants.set_arc(0, &gyrostat, 0, 1.0);
     let reduced: [f64; 21] = std::array::from_fn(|i| 0.1 * i as f64);
+    let beside = Beside { torque: [0.0; 3], carrier: None };
     let counted = allocations(|| {
         let mut kernel = Kernel::<2>::new(scene);
         kernel.drive(&actuation);
         black_box(kernel.derivative(black_box(&state)));
-        black_box(constants.derivative(0.0, black_box(&reduced), [0.0; 3]));
+        black_box(constants.derivative(0.0, black_box(&reduced), &beside));
     });
     assert_eq!(counted, 0);
 }
