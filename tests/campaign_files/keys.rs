@@ -18,7 +18,7 @@ use crate::support::scratch_folder::ScratchFolder;
 const NOTHING: &str = "qqzzqqzz";
 
 /// Other texts than the one written, for any key that takes text: the first that is accepted is the change.
-const TEXTS: [&str; 30] = [
+const TEXTS: [&str; 33] = [
     "s3",
     "taylor",
     "gauss_legendre_6",
