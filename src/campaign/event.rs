@@ -1,6 +1,5 @@
 //! [`Event`]: an `[[event]]` table, a quantity over time that crosses a value.
 
-use super::columns::unit_of;
 use super::lines::Lines;
 use super::numbers::FINITE;
 use super::problem::nearest;
@@ -99,7 +98,9 @@ impl Event {
         let quantity = table.text("quantity").map(str::to_owned);
         let variables = quantity.as_ref().and_then(|text| variables(table, text, known));
         let unit = variables.as_ref().map(|variables| match &variables[..] {
-            [only] if quantity.as_deref() == Some(only.quantity.name()) => unit_of(&only.quantity),
+            [only] if quantity.as_deref() == Some(only.quantity.name()) => {
+                units::known(only.quantity.unit()).unwrap_or("1")
+            }
             _ => units::UNKNOWN,
         });
         table.measures(unit.unwrap_or(units::UNKNOWN));

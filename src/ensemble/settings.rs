@@ -1,10 +1,14 @@
 //! What a plan means for its runs: the settings of the engine ([`propagator`]) and the nominal scene ([`nominal()`]).
 
 use crate::campaign::Plan;
+use crate::math::Isa;
 use crate::ode::Control;
-use crate::propagation::PropagationSettings;
+use crate::propagation::{Engine, PropagationSettings};
 use crate::run::{Grid, StateField, StateFields};
 use crate::scene::Scene;
+
+/// Makes an engine for given settings on an instruction set.
+pub type EngineMaker = fn(&PropagationSettings, Isa) -> Box<dyn Engine>;
 
 /// The states that a law is told at the end of a run.
 const SEEN_BY_LAWS: StateFields = StateFields::NONE

@@ -12,7 +12,7 @@ use crate::ensemble::event_finder::{self, EventFinder};
 use crate::ensemble::flights::{Flights, LawDraw, nominal_attitude, observe, replayed};
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::{Rows, Shape};
-use crate::ensemble::settings::{nominal, propagator};
+use crate::ensemble::settings::{EngineMaker, nominal, propagator};
 use crate::ensemble::supervision::{Report, Supervision};
 use crate::math::Isa;
 use crate::observables::band_reader::BandReader;
@@ -27,9 +27,6 @@ use crate::scene::Scene;
 /// Scenes that are drawn and propagated together: enough that lanes seldom wait for work (each of eight lanes is loaded 16 times), few
 /// enough that scenes and workspace stay in the second-level cache.
 pub const BATCH: usize = 128;
-
-/// Makes an engine for given settings on an instruction set.
-pub type EngineMaker = fn(&PropagationSettings, Isa) -> Box<dyn Engine>;
 
 /// A plan made ready to run.
 #[derive(Debug)]
