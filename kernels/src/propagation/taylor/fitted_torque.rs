@@ -40,6 +40,9 @@ const BISECTIONS: usize = 12;
 /// Passes at most; each makes the change smaller by the square of the angle that the torque turns the body by in a step.
 const MOST_PASSES: usize = 20;
 
+/// A step that the series allow to this share is kept: their truncation is then 1.5 times as large, at the orders here.
+const SAME: f64 = 0.99;
+
 /// Coefficients of Chebyshev polynomials, for each component of the torque, B, N m.
 type Coefficients = [[f64; 3]; NODES];
 
@@ -159,7 +162,10 @@ impl FittedTorque {
     pub fn next(&mut self, track: &Track, longest: f64) -> Option<[[DoubleDouble; 3]; NODES]> {
         self.passes += 1;
         let before = self.step;
-        self.step = if self.passes == 1 { longest } else { self.step.min(longest) };
+        // what the series allow changes a little from pass to pass
+        if self.passes == 1 || longest < SAME * self.step {
+            self.step = longest;
+        }
         let mut found = self.sampled(track, self.step);
         if !self.is_resolved(&found, self.step, track.unit) {
             self.step = self.resolvable(track, self.step);
