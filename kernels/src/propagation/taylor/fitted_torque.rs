@@ -5,8 +5,8 @@
 //! is as long as the interpolation holds to the rounding of the torque: where a plate turns on or light goes off, it ends just before, and a step follows
 //! that is too short for what it misses to count. So a step is never across such a point, whose place need not be known to the effect.
 //!
-//! The torque itself is evaluated in `f64`: light is good to some 1e-16 of itself, drag to 1e-14 (the rounding of the height), and what they do to the motion with
-//! them. Everything else has all digits.
+//! The torque itself is evaluated in `f64`: light is good to some 1e-16 of itself, drag to 5e-14 (the rounding of the height); the fit to 1e-12 of the largest torque,
+//! and what it does to the motion with it. Everything else has all digits.
 
 use crate::dynamics::effects::within_arcs::Motion;
 use crate::dynamics::effects::{ChangingEffects, largest_changing_torque};
@@ -23,9 +23,9 @@ const NODES: usize = 20;
 /// Last coefficients that say whether the interpolation holds.
 const TAIL: usize = 3;
 
-/// Rounding of a torque, relative to the largest that may act: a distance of 7,000 km is rounded to 5e-10 m, and the density, which falls by e in some 50 km, by
-/// 1e-14 of itself with it.
-const ROUNDING: f64 = 2e-14;
+/// Error of the torque, relative to the largest that may act, that does not count. A distance of 7,000 km is known to some 3e-9 m, and the density, which falls by e in
+/// some 50 km, to 5e-14 of itself with it; the last coefficients have several times that, and steps below it shrink without end (2e-14: more than 23 s for 300 s).
+const ROUNDING: f64 = 1e-12;
 
 /// Change of the rate that is missed in one step at most, relative to the rate of the run's time scale: a thousandth of a rounding, for the thousands
 /// of steps at plates that turn on.
