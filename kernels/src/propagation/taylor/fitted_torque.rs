@@ -5,8 +5,8 @@
 //! is as long as the interpolation holds to the rounding of the torque: where a plate turns on or light goes off, it ends just before, and a step follows
 //! that is too short for what it misses to count. So a step is never across such a point, whose place need not be known to the effect.
 //!
-//! The torque itself is evaluated in `f64`: light is good to some 1e-16 of itself, drag to 1e-14 (the rounding of the height), and what they do to the motion with
-//! them. Everything else has all digits.
+//! The torque itself is evaluated in `f64`: light is good to some 1e-16 of itself, drag to 5e-14 (the rounding of the height); the fit to 1e-12 of the largest torque,
+//! and what it does to the motion with it. Everything else has all digits.
 
 use crate::dynamics::effects::within_arcs::Motion;
 use crate::dynamics::effects::{ChangingEffects, largest_changing_torque};
@@ -23,9 +23,9 @@ const NODES: usize = 20;
 /// Last coefficients that say whether the interpolation holds.
 const TAIL: usize = 3;
 
-/// Rounding of a torque, relative to the largest that may act: a distance of 7,000 km is rounded to 5e-10 m, and the density, which falls by e in some 50 km, by
-/// 1e-14 of itself with it.
-const ROUNDING: f64 = 2e-14;
+/// Error of the torque, relative to the largest that may act, that does not count. A distance of 7,000 km is known to some 3e-9 m, and the density, which falls by e in
+/// some 50 km, to 5e-14 of itself with it; the last coefficients have several times that, and steps below it shrink without end (2e-14: more than 23 s for 300 s).
+const ROUNDING: f64 = 1e-12;
 
 /// Change of the rate that is missed in one step at most, relative to the rate of the run's time scale: a thousandth of a rounding, for the thousands
 /// of steps at plates that turn on.
@@ -39,6 +39,9 @@ const BISECTIONS: usize = 12;
 
 /// Passes at most; each makes the change smaller by the square of the angle that the torque turns the body by in a step.
 const MOST_PASSES: usize = 20;
+
+/// A step that the series allow to this share is kept: their truncation is then 1.5 times as large, at the orders here.
+const SAME: f64 = 0.99;
 
 /// Coefficients of Chebyshev polynomials, for each component of the torque, B, N m.
 type Coefficients = [[f64; 3]; NODES];
@@ -159,7 +162,10 @@ impl FittedTorque {
     pub fn next(&mut self, track: &Track, longest: f64) -> Option<[[DoubleDouble; 3]; NODES]> {
         self.passes += 1;
         let before = self.step;
-        self.step = if self.passes == 1 { longest } else { self.step.min(longest) };
+        // what the series allow changes a little from pass to pass
+        if self.passes == 1 || longest < SAME * self.step {
+            self.step = longest;
+        }
         let mut found = self.sampled(track, self.step);
         if !self.is_resolved(&found, self.step, track.unit) {
             self.step = self.resolvable(track, self.step);
