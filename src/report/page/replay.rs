@@ -123,7 +123,9 @@ fn debris(debris: &DebrisInput) -> Value {
 /// Start, end and thrusts of the nominal arcs.
 fn arcs(scene: &Option<Scene>) -> Vec<Value> {
     let schedule = scene.iter().flat_map(|scene| scene.schedule.iter());
-    schedule.map(|arc| json!({ "start": arc.start, "end": arc.applied.until, "thrust": arc.applied.thrust })).collect()
+    // a thruster that is stuck on has no end, and JSON no infinite number
+    let end = |arc: &crate::scene::Arc| arc.applied.until.min(f64::MAX);
+    schedule.map(|arc| json!({ "start": arc.start, "end": end(arc), "thrust": arc.applied.thrust })).collect()
 }
 
 /// The motion of `shown`; `None` where nothing of it can be seen.
