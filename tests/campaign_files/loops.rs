@@ -170,7 +170,6 @@ fn every_estimator_is_accepted_on_an_orbit() {
     plan(&perfect.replacen("\"mekf\"", "\"raw\"", 1));
 }
 
-<<<<<<< ours
 /// Law: a sensor fails in one way, that its kind knows, and a device fails once; friction can change in a loop.
 #[test]
 fn failures_are_of_devices_that_can_fail_so() {
@@ -203,7 +202,8 @@ fn failures_are_of_devices_that_can_fail_so() {
         let said = refused(&failure(wrong)).to_string();
         assert!(said.contains(&format!(".{key}")) && said.contains(allowed), "{wrong}: {said}");
     }
-=======
+}
+
 /// Law: a transfer on an orbit takes less than half a revolution.
 #[test]
 fn a_transfer_takes_less_than_half_a_revolution() {
@@ -215,7 +215,6 @@ fn a_transfer_takes_less_than_half_a_revolution() {
     // pi sqrt(a^3/mu)
     let (key, allowed) = ("guidance.aim.transfer_time_s = 3000.0", "below half a period of the orbit, 2914 s");
     assert!(error.contains(key) && error.contains(allowed), "{error}");
->>>>>>> theirs
 }
 
 /// Law: one wrong key of a loop is one problem, whatever depends on it: keys of an estimator, of a modulation, of a law; parameters; columns. A loop
