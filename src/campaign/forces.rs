@@ -3,7 +3,7 @@
 use super::document::Document;
 use crate::dynamics::effects::{Effect, ForceModel};
 use crate::propagation::Method;
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneInput};
 
 /// What a method must be that integrates the effects of `model`, to follow "must be"; `None` where `method` does.
 pub fn allowed_methods(method: Method, model: ForceModel) -> Option<String> {
@@ -18,11 +18,21 @@ pub fn allowed_methods(method: Method, model: ForceModel) -> Option<String> {
     Some(format!("a method that integrates {}: one of {}", left_out.join(" and "), able.join(", ")))
 }
 
-/// Refuses a method that leaves out an effect on `scene`.
-pub(super) fn check(scene: &Scene, method: Method, document: &mut Document<'_>) {
+/// Refuses a method that leaves out an effect on `scene`, which is `input`, and a transfer that its orbit does not allow.
+pub(super) fn check(input: &SceneInput, scene: &Scene, method: Method, document: &mut Document<'_>) {
     let model = ForceModel::of(scene);
     if let Some(allowed) = allowed_methods(method, model) {
         let remedy = "write another method, or leave it out: auto integrates every effect";
         document.add("integrator.method", Some(format!("{:?}", method.name())), allowed, remedy);
+    }
+    let Some(orbit) = &scene.orbit else { return };
+    let axis = orbit.shape().semi_major_axis;
+    let half = core::f64::consts::PI * (axis / orbit.mu).sqrt() * axis;
+    for phase in &input.control.guidance {
+        if let Some(time) = phase.named("transfer_time_s").map(|numbers| numbers[0]).filter(|time| *time >= half) {
+            let allowed = format!("below half a period of the orbit, {half:.0} s: later no single impulse leads there");
+            let key = format!("guidance.{}.transfer_time_s", phase.name);
+            document.add(&key, Some(format!("{time:?}")), allowed, "write a shorter time");
+        }
     }
 }

@@ -170,6 +170,19 @@ fn every_estimator_is_accepted_on_an_orbit() {
     plan(&perfect.replacen("\"mekf\"", "\"raw\"", 1));
 }
 
+/// Law: a transfer on an orbit takes less than half a revolution.
+#[test]
+fn a_transfer_takes_less_than_half_a_revolution() {
+    let text = std::fs::read_to_string("campaigns/net_launch.toml").expect("a shipped campaign");
+    plan(&text.replacen("transfer_time_s = 300.0", "transfer_time_s = 3000.0", 1));
+    let on_orbit = format!("{text}\n[orbit]\nsemi_major_axis_m = 7e6\n");
+    plan(&on_orbit);
+    let error = refused(&on_orbit.replacen("transfer_time_s = 300.0", "transfer_time_s = 3000.0", 1)).to_string();
+    // pi sqrt(a^3/mu)
+    let (key, allowed) = ("guidance.aim.transfer_time_s = 3000.0", "below half a period of the orbit, 2914 s");
+    assert!(error.contains(key) && error.contains(allowed), "{error}");
+}
+
 /// Law: one wrong key of a loop is one problem, whatever depends on it: keys of an estimator, of a modulation, of a law; parameters; columns. A loop
 /// without phases is one problem too.
 #[test]
