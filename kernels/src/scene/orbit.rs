@@ -147,7 +147,7 @@ pub(super) fn check(scene: &SceneInput, input: &OrbitInput, problems: &mut Probl
         // NaN is refused by the limits of its key
         if shape.eccentricity >= 1.0 || shape.periapsis <= input.body_radius_m {
             let allowed = format!(
-                "with its velocity, an offset from [orbit] to an ellipse or a circle above body_radius_m = {:?} (here the eccentricity {:.4}, the periapsis {:.0} m)",
+                "an offset from [orbit] to an ellipse or a circle above body_radius_m = {:?}, position and velocity together (here the eccentricity {:.4}, the periapsis {:.0} m)",
                 input.body_radius_m, shape.eccentricity, shape.periapsis
             );
             let remedy = "on an [orbit] positions and velocities of [initial] are relative to it: write them so";
