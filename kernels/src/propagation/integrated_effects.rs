@@ -5,7 +5,7 @@
 
 use crate::dynamics::effects::Form;
 
-/// Taylor methods: what has a series. The reference solution takes all forms.
+/// Taylor methods, and the reference solution: what has a series.
 pub const fn by_taylor(form: Form) -> bool {
     match form {
         Form::Constant | Form::Series | Form::Translation | Form::Force => true,

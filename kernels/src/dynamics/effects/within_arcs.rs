@@ -266,20 +266,11 @@ macro_rules! changing_effects {
     (series { $($series:ident: $Of:ident, $Series:ident;)* } evaluated { $($evaluated:ident: $Evaluated:ident;)* }) => {
         within_arcs::changing_effects! { all { $($series: $Of;)* $($evaluated: $Evaluated;)* } }
 
-        impl<R: $crate::math::Real> ChangingEffects<R> {
-            /// Those alone that have no series.
-            pub fn evaluated(self) -> Self {
-                ChangingEffects { $($series: None,)* ..self }
-            }
-        }
-
         /// The Taylor series of the effects along a step.
         #[derive(Clone, Debug)]
         pub struct ChangingSeries<R> {
             /// What they depend on.
             pub motion: within_arcs::MotionSeries<R>,
-            /// Whether effects without a series act, and a polynomial is fitted to their torque, B, N m in the unit of time.
-            fitted: Option<Vec<[R; 3]>>,
             has_orbit: bool,
             $($series: (bool, $series::$Series<R>),)*
             /// Of all torques on the body, B, N m in the unit of time.
@@ -291,7 +282,6 @@ macro_rules! changing_effects {
             pub fn new(zero: R, order: usize) -> Self {
                 ChangingSeries {
                     motion: within_arcs::MotionSeries::new(zero, order),
-                    fitted: None,
                     has_orbit: false,
                     $($series: (false, $series::$Series::new(zero, order)),)*
                     torque: vec![[zero; 3]; order + 1],
@@ -322,15 +312,6 @@ macro_rules! changing_effects {
                 )*
             }
 
-            /// Takes `torque` as the coefficients of the torque of the effects without a series, B, N m in the unit of time; zero beyond them.
-            pub fn fit(&mut self, torque: &[[R; 3]]) {
-                let length = self.torque.len();
-                let zero = self.torque[0][0].zero();
-                let fitted = self.fitted.get_or_insert_with(|| vec![[zero; 3]; length]);
-                fitted.fill([zero; 3]);
-                fitted[..torque.len()].copy_from_slice(torque);
-            }
-
             /// Coefficient n of the sum of the torques, given those of the motion: attitude, rate and offset from the orbit (m); call in ascending
             /// order of `n`. `constant` is what acts beside them, for [`ChangingSeries::torque`].
             #[inline(always)]
@@ -351,9 +332,6 @@ macro_rules! changing_effects {
                         own = $crate::math::vector::sum(own, self.$series.1.extend(n, &self.motion));
                     }
                 )*
-                if let Some(fitted) = &self.fitted {
-                    own = $crate::math::vector::sum(own, fitted[n]);
-                }
                 self.torque[n] = if n == 0 { $crate::math::vector::sum(constant, own) } else { own };
                 own
             }

@@ -8,20 +8,19 @@
 //! method. The reference solution is the exact motion for *those* numbers; the rounding in the computation of mass properties
 //! from dimensions and densities is not an error of integration and is not counted here.
 //!
-//! Effects without a Taylor series act by a polynomial fitted to their torque ([`super::fitted_torque`]).
+//! A scene with an effect that has no Taylor series has no reference solution ([`ReferenceSolution::integrates`]).
 //!
 //! Not here: periodic folding (a solution that shared it could not judge it), lanes, failures as rows.
 
 use fearless_simd::Simd;
 
-use super::fitted_torque::{FittedTorque, Track};
 use super::jet::{Reciprocals, Scratch, expand};
 use super::lane_vectors::si_factors;
 use super::step::StepRule;
 use crate::dynamics::actuation::ActuationLaw;
 use crate::dynamics::applied::next_arc;
 use crate::dynamics::debris;
-use crate::dynamics::effects::ChangingSeries;
+use crate::dynamics::effects::{ChangingSeries, ForceModel};
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::observed::observed_state;
 use crate::dynamics::gyrostat::{
@@ -33,6 +32,7 @@ use crate::math::double_double::DoubleDouble;
 use crate::math::isa::NarrowWork;
 use crate::math::vector::{conjugate, difference, dot, hamilton, norm, product, scaled, sum};
 use crate::math::{Isa, Real};
+use crate::propagation::integrated_effects;
 use crate::propagation::settings::observes_debris_rotation;
 use crate::run::Status;
 use crate::run::{Grid, StateField, StateFields, StateTable};
@@ -75,7 +75,7 @@ impl ReferenceSolution {
     /// As [`ReferenceSolution::new`].
     ///
     /// # Panics
-    /// Where an answer of the law ends before it starts.
+    /// Where an answer of the law ends before it starts, and where the scene has an effect that it does not integrate.
     pub fn under(
         law: &mut dyn ActuationLaw,
         isa: Isa,
@@ -87,6 +87,11 @@ impl ReferenceSolution {
         Self::solve(isa, scene, Some(law), grid, fields, tolerance)
     }
 
+    /// Whether it has every effect of `model`: those that have a Taylor series.
+    pub fn integrates(model: ForceModel) -> bool {
+        model.is_integrated(integrated_effects::by_taylor)
+    }
+
     fn solve(
         isa: Isa,
         scene: &Scene,
@@ -95,6 +100,7 @@ impl ReferenceSolution {
         fields: StateFields,
         tolerance: f64,
     ) -> Result<Self, Status> {
+        assert!(Self::integrates(ForceModel::of(scene)), "the reference solution leaves out an effect");
         let rule = StepRule::new(tolerance);
         let (mut run, mut coarse) = (Gyrostat::blank(DoubleDouble::exact(0.0)), Gyrostat::blank(0.0));
         run.reset(DoubleDouble::exact(0.0), scene);
@@ -313,7 +319,6 @@ impl Integration<'_, '_> {
         let (mut reached, mut is_last) = (0.0, false);
         let turns = !self.run.effects.is_empty();
         let mut orbit = self.run.orbit.map(|orbit| ReferenceOrbit::new(self.run, &orbit));
-        let mut fitted = self.scene.and_then(|scene| FittedTorque::new(self.run, scene));
         let mut series = (turns || orbit.is_some()).then(|| ChangingSeries::new(zero, order));
         while !is_last {
             self.begin_arc(reached, unit, &state);
@@ -345,45 +350,23 @@ impl Integration<'_, '_> {
                 jet[0] = state;
                 let at = start + time * DoubleDouble::exact(unit);
                 let may_leave = self.run.offset.is_some();
-                let left = length - time;
-                if let Some((fitted, series)) = fitted.as_mut().zip(series.as_mut()) {
+                if let Some(series) = &mut series {
                     let place = orbit.as_mut().map(|orbit| orbit.begin(unit));
                     series.begin(&self.run.effects, place.as_ref(), may_leave, at, DoubleDouble::exact(unit));
-                    let along = place.is_some().then_some(series.motion.reference());
-                    let torque = fitted.start(&Track::new(&jet[..1], along, at.high, unit));
-                    series.fit(&torque);
                 }
-                let mut proposed;
-                loop {
-                    if let Some(series) = &mut series {
-                        let place = orbit.as_mut().map(|orbit| orbit.begin(unit));
-                        series.begin(&self.run.effects, place.as_ref(), may_leave, at, DoubleDouble::exact(unit));
-                    }
-                    expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, series.as_mut(), &mut jet);
-                    proposed = share * rule.step(&jet, Some(constants.torque_acceleration()));
-                    let motion = series.as_ref().filter(|_| orbit.is_some()).map(|series| &series.motion);
-                    if let Some(motion) = motion {
-                        proposed = proposed.smaller(step_of_orbit(motion.reference(), &rule));
-                    }
-                    if turns {
-                        proposed = proposed.smaller(rule.step_of_impulse(&jet));
-                    }
-                    if may_leave {
-                        proposed = proposed.smaller(rule.step_of_offset(&jet, constants.mass));
-                    }
-                    let Some(fitted) = &mut fitted else { break };
-                    let track = Track::new(&jet, motion.map(|motion| &motion.orbit), at.high, unit);
-                    let Some(torque) = fitted.next(&track, proposed.smaller(left).high) else {
-                        if fitted.step() < left.high {
-                            proposed = DoubleDouble::exact(fitted.step());
-                        }
-                        break;
-                    };
-                    if let Some(series) = &mut series {
-                        series.fit(&torque);
-                    }
+                expand::<DoubleDouble, N, true>(&now, &reciprocals, order, &mut scratch, series.as_mut(), &mut jet);
+                let mut proposed = share * rule.step(&jet, Some(constants.torque_acceleration()));
+                if let Some(series) = series.as_ref().filter(|_| orbit.is_some()) {
+                    proposed = proposed.smaller(step_of_orbit(series.motion.reference(), &rule));
+                }
+                if turns {
+                    proposed = proposed.smaller(rule.step_of_impulse(&jet));
+                }
+                if may_leave {
+                    proposed = proposed.smaller(rule.step_of_offset(&jet, constants.mass));
                 }
                 let along = series.as_ref().map(|series| series.motion.reference());
+                let left = length - time;
                 lands = !proposed.lt(left);
                 let step = if lands { left } else { proposed };
                 while let Some(at) = times.get(states.len()) {
