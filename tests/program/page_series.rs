@@ -60,7 +60,7 @@ fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f
     match (kind, text(mark, "kind"), label) {
         ("histogram_", "bars", "runs") => bars_are(found, mark, values, &what),
         ("histogram_", "bars", "of these, miss a requirement") => {
-            let all = found.array(&found.mark(text(figure, "name"), "runs")["heights"]);
+            let all = found.array(&found.mark(&format!("{kind}{column}"), "runs")["heights"]);
             let missed = of("heights");
             assert!(missed.iter().zip(&all).all(|(missed, all)| missed <= all), "{what}: {missed:?} of {all:?}");
             assert!(missed.iter().sum::<f64>() > 0.0, "{what}");
