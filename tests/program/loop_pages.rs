@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use super::page_numbers::Found;
+use super::small_campaign::RADIANS;
 use crate::support::scratch_folder::ScratchFolder;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::SingleRun;
@@ -18,7 +19,8 @@ const SPIN_SWEEP: &str = include_str!("../../campaigns/spin_sweep.toml");
 
 fn page(name: &str, text: &str) -> Found {
     let scratch = ScratchFolder::new(&format!("loop-page-{name}"));
-    scratch.file("c.toml", text);
+    // as the rows have them, where the file writes no other unit
+    scratch.file("c.toml", &(text.to_owned() + RADIANS));
     scratch.command(&format!("campaign c.toml --samples {SAMPLES} --out r")).output().expect("the program starts");
     Found::read(scratch, String::new())
 }

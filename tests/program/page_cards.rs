@@ -29,7 +29,7 @@ pub(super) fn si(text: &str) -> f64 {
 /// The text is the number, in the digits that are shown: three before a power of ten, else four.
 pub(super) fn same(text: &str, expected: &Value, what: &str) {
     let (found, expected) = (si(text), expected.as_f64().unwrap_or(f64::NAN));
-    let digits = if text.contains('\u{d7}') { 5e-3 } else { 6e-4 };
+    let digits = if text.contains(['\u{d7}', '%']) { 5e-3 } else { 6e-4 };
     let is_same = found.is_nan() && expected.is_nan() || (found - expected).abs() <= digits * expected.abs();
     assert!(is_same, "{what}: {text} for {expected}");
 }

@@ -22,6 +22,7 @@ fn texts(page: &str) -> Vec<String> {
         ("<h1", "</h1>"),
         ("<title>", "</title>"),
         ("<p class=\"facts\"", "</p>"),
+        ("<p class=\"question\"", "</p>"),
         ("<span class=\"quiet\"", "</span>"),
     ] {
         while let Some(from) = text.find(start) {

@@ -59,6 +59,12 @@ fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f
     let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
     match (kind, text(mark, "kind"), label) {
         ("histogram_", "bars", "runs") => bars_are(found, mark, values, &what),
+        ("histogram_", "bars", "of these, miss a requirement") => {
+            let all = found.array(&found.mark(&format!("{kind}{column}"), "runs")["heights"]);
+            let missed = of("heights");
+            assert!(missed.iter().zip(&all).all(|(missed, all)| missed <= all), "{what}: {missed:?} of {all:?}");
+            assert!(missed.iter().sum::<f64>() > 0.0, "{what}");
+        }
         ("histogram_", "limit", "nominal") => near(mark["at"].as_f64().expect("a place"), nominal, 1e-9, &what),
         ("histogram_" | "cumulative_", "limit", _) => {
             let at = mark["at"].as_f64().expect("a place") / factor;

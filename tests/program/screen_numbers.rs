@@ -46,7 +46,14 @@ pub(super) fn numbers(said: &str, pattern: &str) -> Vec<f64> {
 /// The numbers of the pattern are these: counts all of them, others in four digits, or in three where there are shares.
 pub(super) fn says(said: &str, pattern: &str, expected: &[f64]) {
     let found = numbers(said, pattern);
-    let digits = if pattern.contains('%') { 5.1e-3 } else { 6e-4 };
+    // the ends of an interval are rounded outward to three digits
+    let digits = if pattern.contains("[#") {
+        1.01e-2
+    } else if pattern.contains('%') {
+        5.1e-3
+    } else {
+        6e-4
+    };
     let is_same = |(found, expected): (&f64, &f64)| {
         let digits = if expected.fract() == 0.0 { 6e-4 } else { digits };
         (found - expected).abs() <= digits * expected.abs()

@@ -18,6 +18,9 @@ pub fn number(value: f64) -> String {
     } else if (1e-3..1e5).contains(&size) {
         let before = libm::floor(libm::log10(size)) as i32;
         let text = format!("{value:.*}", (3 - before).max(0) as usize);
+        if !text.contains('.') {
+            return number(libm::round(value));
+        }
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
     } else {
         let text = format!("{value:.2e}");
@@ -79,6 +82,7 @@ mod tests {
             (0.012_345, "0.01235"),
             (1.5, "1.5"),
             (70.123_4, "70.12"),
+            (3_097.4, "3,097"),
             (1.234e-13, "1.23\u{202f}\u{d7}\u{202f}10⁻¹³"),
             (2e9, "2\u{202f}\u{d7}\u{202f}10⁹"),
             (f64::NAN, "-"),
