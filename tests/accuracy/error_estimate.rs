@@ -10,6 +10,7 @@
 //! Beyond a tenth an error is not linear any more and soon bounded: there it is covered by any estimate above a twentieth.
 
 use crate::support::draws;
+use crate::support::exact::finest;
 use crate::support::observed::request;
 use crate::support::orbits::{plated, tumbling};
 use crate::support::plans;
@@ -20,7 +21,7 @@ use spindrift::math::Isa;
 use spindrift::math::symmetric::principal_axes;
 use spindrift::observables::{Group, Observer};
 use spindrift::ode::{Control, Integrator};
-use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
+use spindrift::propagation::taylor::reference_solution::ReferenceSolution;
 use spindrift::propagation::{
     CompletedRun, Method, PropagationSettings, RotationError, debris_rotation_errors, rotation_errors,
 };
@@ -79,11 +80,7 @@ impl Family {
     }
 
     fn of(name: &'static str, grid: Grid, scenes: Vec<Scene>, is_debris: bool) -> Self {
-        let solve = |scene: &Scene| {
-            ReferenceSolution::new(Isa::best(), scene, &grid, compared(is_debris), TOLERANCE)
-                .expect("the reference solution is complete")
-        };
-        let truths = scenes.iter().map(solve).collect();
+        let truths = scenes.iter().map(|scene| finest(scene, &grid, compared(is_debris))).collect();
         Family { name, grid, scenes, truths, is_debris }
     }
 }

@@ -1,6 +1,7 @@
 //! The gravity gradient on two-body orbits, by every method that integrates it: NASA's numbers, librations, the constant of a circular
 //! orbit; and orbits themselves.
 
+use crate::support::exact::finest;
 use crate::support::orbits::{MU, body, circle, leaving, plated, tumbling};
 use crate::support::runs::{Run, adaptive, everything, fixed, propagate, propagate_on};
 use spindrift::dynamics::effects::within_arcs::Motion;
@@ -352,10 +353,7 @@ fn every_method_has_every_effect_or_says_so() {
         let model = ForceModel::of(&scene);
         assert!(model.contains(effect) && !ForceModel::of(&without).contains(effect));
         let fields = everything(Method::Auto);
-        let solve = |scene: &Scene| {
-            ReferenceSolution::new(Isa::best(), scene, &grid, fields, TOLERANCE).expect("a reference solution")
-        };
-        let (reference, other) = (solve(&scene), solve(&without));
+        let [reference, other] = [&scene, &without].map(|scene| finest(scene, &grid, fields));
         let turned = RotationError::largest(rotation_errors(&other, &grid, &reference.high));
         let last = grid.points() - 1;
         let place = |solution: &ReferenceSolution| solution.high.at::<3>(StateField::ComPosition, last);
