@@ -94,8 +94,9 @@ const LONGEST_NAME: usize = 300;
 pub fn nearest<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let is_short = |name: &&str| name.len() <= LONGEST_NAME && written.len() <= LONGEST_NAME;
     let candidates: Vec<&str> = candidates.into_iter().filter(is_short).collect();
-    // a name that was not written to its end
-    if let Some(whole) = candidates.iter().find(|c| written.len() > 3 && c.starts_with(written)) {
+    // a name that was not written to its end: that which lacks least
+    let begun = candidates.iter().filter(|c| written.len() > 3 && c.starts_with(written));
+    if let Some(whole) = begun.min_by_key(|c| c.len()) {
         return Some(whole);
     }
     let close = candidates

@@ -183,7 +183,7 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         REQUIRE,
         "at_most = 1e-9",
         "at_most = 1e-9\nat_mots = 1",
-        "require[0].at_mots = 1: must be a key of [require[0]] (observable, at_all_times, confidence, quantile, at_most, bounded, fraction, mean, at_least, band, from_s, to_s); did you mean at_most?",
+        "require[0].at_mots = 1: must be a key of [require[0]] (observable, at_all_times, confidence, quantile, at_most, bounded, never, fraction, mean, at_least, band, from_s, to_s); did you mean at_most?",
     ),
     (
         BAND,
@@ -389,7 +389,8 @@ fn units_that_are_written_come_back() {
     assert_eq!(shown("rate_deg_s", "deg/s"), "rad/s");
     assert_eq!(shown("omega_se_s_x_final_rad_s", "rad/s"), "deg/s");
     assert_eq!(shown("omega_se_s_y_final_rad_s", "rad/s"), "rpm");
-    assert_eq!(shown("omega_se_s_z_final_rad_s", "rad/s"), "rad/s");
+    // angles and rates are in degrees where nothing is said
+    assert_eq!(shown("omega_se_s_z_final_rad_s", "rad/s"), "deg/s");
     assert_eq!(shown("spin_axis_angle_max_rad", "rad"), "arcsec");
     assert_eq!(shown("wheels.w1.rate_rad_s", "rad/s"), "rpm");
     let written = plan.analysis.display.of("omega_se_s_x_final_rad_s", "rad/s").written(limits[1]);

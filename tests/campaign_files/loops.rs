@@ -167,7 +167,8 @@ fn every_estimator_is_accepted_on_an_orbit() {
     let perfect = with_radar(&on_orbit).replacen("initial_attitude_sigma_rad = 0.1\n", "", 1);
     plan(&perfect.replacen("\"mekf\"", "\"perfect\"", 1));
     plan(&with_radar(&on_orbit));
-    plan(&perfect.replacen("\"mekf\"", "\"raw\"", 1));
+    let tachometers = "[[sensors]]\nname = \"t\"\nkind = \"tachometers\"\nnoise_rad_s = 0.01\n[[guidance]]";
+    plan(&perfect.replacen("\"mekf\"", "\"raw\"", 1).replacen("[[guidance]]", tachometers, 1));
 }
 
 /// Law: a sensor fails in one way, that its kind knows, and a device fails once; friction can change in a loop.

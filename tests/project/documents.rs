@@ -138,6 +138,10 @@ fn command_problem(line: &str) -> Option<String> {
         None => None,
         Some((&"cargo", arguments)) => cargo_problem(arguments),
         Some((&"spindrift" | &"target/release/spindrift", arguments)) => program_problem(arguments),
+        Some((&"python3", arguments)) => {
+            let script = arguments.first().copied().unwrap_or_default();
+            (!root().join(script).is_file()).then(|| format!("no script {script:?}"))
+        }
         Some((program, _)) if OTHER_PROGRAMS.contains(program) || root().join(program).is_file() => None,
         Some((program, _)) => Some(format!("unknown program {program}")),
     }

@@ -257,6 +257,8 @@ mod tests {
         scene.body.principal = Some(principal);
         scene.environment.body_torque_n_m = Some([0.0; 3]);
         scene.environment.magnetic_dipole_a_m2 = Some([0.0; 3]);
+        let air = &mut scene.environment;
+        (air.base_density_kg_m3, air.base_height_m, air.scale_height_m) = (Some(0.0), Some(0.0), Some(1.0));
         scene.orbit = Some(OrbitInput {
             position_m: Some([0.0; 3]),
             velocity_m_s: Some([0.0; 3]),
