@@ -61,12 +61,8 @@ fn a_new_file_runs() {
     let mut command = scratch.command(&format!("campaign mine.toml {across} --no-report --out across --verbose"));
     let said = scratch.outputs(command.env("COLUMNS", "200"), 0);
     let drivers = said.lines().find(|line| line.contains("share of the variance")).expect(&said);
-    let (of_spin, of_wheel) = drivers
-        .split_once("initial_angular_velocity_z_rad_s (")
-        .unwrap()
-        .1
-        .split_once("wheels_w1_rate_rad_s (")
-        .unwrap();
+    let (of_spin, of_wheel) =
+        drivers.split_once("initial angular velocity z (").unwrap().1.split_once("wheel w1 rate (").unwrap();
     assert!(of_spin.contains("falls with it") && of_wheel.contains("rises with it"), "{drivers}");
     // the same campaign again says how it ended, and writes the verdicts where they are asked for
     let again = scratch.prints("campaign mine.toml --out r --junit v.xml", 0);

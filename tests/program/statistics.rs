@@ -191,11 +191,13 @@ quantile = 0.9
         assert!(names.contains(&format!("initial_angular_velocity_{axis}_rad_s")), "{names:?}");
     }
     let influence = number(&inputs, "influence", drivers[0]).expect("a share");
-    let words = format!("{} ({influence:.2}", names[0]);
+    // "initial_angular_velocity_y_rad_s", as people say it
+    let said = |name: &str| name.strip_suffix("_rad_s").unwrap_or(name).replace('_', " ");
+    let words = format!("{} ({influence:.2}", said(&names[0]));
     let page = scratch.text("r/report.html");
     let line = screen.lines().find(|line| line.contains(&words)).unwrap_or_else(|| panic!("{words}: {screen}"));
     let drivers = line.trim_start().trim_start_matches("cross_spin").trim();
-    assert!(page.contains(drivers) && drivers.contains(&names[1]), "{drivers}");
+    assert!(page.contains(drivers) && drivers.contains(&said(&names[1])), "{drivers}");
 }
 
 /// Law: beyond 100,000 rows quantiles of an observable with an offset of 2e5 standard deviations are within a hundredth of one of those of the rows, a
