@@ -44,6 +44,6 @@ mod tests {
             |name: &str| (0..plan.dispersions.columns().len()).find(|column| names(*column) == name).expect("a column");
         assert_eq!(origin(&plan, of("wheels.w1.tilt_rad")), "gamma, shape 2, scale 0.1000 deg, from 0 deg");
         let spin = origin(&plan, of("initial.angular_velocity_rad_s"));
-        assert!(spin.ends_with("magnitude uniform, 0.01745 rad/s to 0.1047 rad/s"), "{spin}");
+        assert!(spin.ends_with("magnitude uniform, 1 deg/s to 6 deg/s"), "{spin}");
     }
 }

@@ -93,7 +93,7 @@ mod tests {
     fn shown_intervals_contain_theirs() {
         assert_eq!(with_interval([0.999; 2], [0.994_4, 0.999_975]), "99.9% [99.4, 99.998]");
         assert_eq!(with_interval([0.984; 2], [0.914_6, 0.999_58]), "98.4% [91.4, 99.96]");
-        assert_eq!(with_interval([0.005; 2], [0.000_612_3, 0.0123]), "0.5% [0.0612, 1.23]");
+        assert_eq!(with_interval([0.005; 2], [0.000_612_3, 0.0123]), "0.500% [0.0612, 1.23]");
         let mut left = 0.6;
         while left > 1e-9 {
             for interval in [[1.0 - left, 1.0 - 0.5 * left], [0.5 * left, left]] {

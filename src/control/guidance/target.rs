@@ -266,7 +266,9 @@ mod tests {
             let moved = [-h, h].map(|time| target.error(q_et, &at(time)).q_ts);
             let slope = scaled(-0.5 / h, difference(vector_of(moved[1]), vector_of(moved[0])));
             let rate = target.error(q_et, &at(0.0)).omega_te_s;
-            assert!(norm(difference(slope, rate)) < 1e-9, "{target:?}: {slope:?} for {rate:?}");
+            // a year's turn of the Sun, 2e-7 rad/s, is left out
+            let bound = if target == Target::Sun { 2.1e-7 } else { 1e-9 };
+            assert!(norm(difference(slope, rate)) < bound, "{target:?}: {slope:?} for {rate:?}");
             assert_eq!(norm(rate) > 1e-4, target != Target::Sun);
         }
         // within a day of the solstice: 1 deg along the ecliptic
