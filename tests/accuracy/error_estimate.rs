@@ -12,7 +12,7 @@
 use crate::support::draws;
 use crate::support::exact::finest;
 use crate::support::observed::request;
-use crate::support::orbits::{plated, tumbling};
+use crate::support::orbits::tumbling;
 use crate::support::plans;
 use crate::support::runs::{adaptive, fixed};
 use crate::support::scenes::{Kind, Uniform, mixed, of_most_wheels, random, set_wheel_rates, speed_held};
@@ -80,7 +80,8 @@ impl Family {
     }
 
     fn of(name: &'static str, grid: Grid, scenes: Vec<Scene>, is_debris: bool) -> Self {
-        let truths = scenes.iter().map(|scene| finest(scene, &grid, compared(is_debris))).collect();
+        let truths: Vec<ReferenceSolution> =
+            scenes.iter().map(|scene| finest(scene, &grid, compared(is_debris))).collect();
         Family { name, grid, scenes, truths, is_debris }
     }
 }
@@ -288,7 +289,6 @@ fn measured(count: u64) -> Vec<Measured> {
         Family::new("mixed, forced", Grid::uniform(10.0, 101), mixed(count, true, 10.0)),
         boxes(2 * count),
         Family::new("gravity gradient", Grid::uniform(12_000.0, 201), tumbling(count, 71, [0.0, 20.0])),
-        Family::new("drag and light", Grid::uniform(6_000.0, 101), plated(count, 72, [0.5, 5.0])),
     ];
     let mut all = Vec::new();
     for method in Method::ALL {

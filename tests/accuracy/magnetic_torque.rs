@@ -53,7 +53,7 @@ fn a_whole_run_is_that_of_scipy() {
         (Method::Gyrostat(Integrator::Dop853), adaptive(1e-14)),
         (Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-14)),
         (Method::Gyrostat(Integrator::GaussLegendre), fixed(5.0)),
-        (Method::Gyrostat(Integrator::RungeKutta4), fixed(0.5)),
+        (Method::Gyrostat(Integrator::RungeKutta4), fixed(0.2)),
     ] {
         let (attitude, rate) = off(FieldModel::Igrf, method, control);
         println!("{}: {attitude:.1e}, {rate:.1e} rad/s", method.name());

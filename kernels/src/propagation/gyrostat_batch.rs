@@ -168,7 +168,7 @@ impl StateCompletion {
                 if let Some(body) = &scene.mass.debris {
                     match debris_orbit {
                         Some(relative) if scene.offsets.is_some() => {
-                            debris::complete_orbit(relative, body.mass, grid, table)
+                            debris::complete_orbit(relative, body.mass, grid, table);
                         }
                         _ => debris::complete_translation(simd, scene, grid, table),
                     }

@@ -85,7 +85,7 @@ impl Places {
         let upper = (counted.to_bits() >> 32) as u32;
         let flipped = (upper.cast_signed() >> 31).cast_unsigned() | 1 << 31;
         let is_upper = is_near ^ (self.sign < 0.0);
-        (upper ^ flipped) >> (SHIFT - 32) | u32::from(is_upper) * UPPER
+        ((upper ^ flipped) >> (SHIFT - 32)) | (u32::from(is_upper) * UPPER)
     }
 }
 
