@@ -224,6 +224,8 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
     }
     // a point has no attitude and no inertia; the end of an arc at which the next one starts is a switch of that one
     unmoved.retain(|name| !name.starts_with("body.parts.tip."));
+    // air and light act on an orbit alone, which the null-space kernel refuses: tests/accuracy/orbits.rs has their truth
+    unmoved.retain(|name| !name.starts_with("environment."));
     assert_eq!(unmoved, ["actuation.0.switch_off_delay_s"]);
     println!("{count} components: moved by at least {least:e}; kernels at most {most:e} apart");
     assert!(count > 100, "{count}");
