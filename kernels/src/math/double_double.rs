@@ -157,6 +157,11 @@ impl Real for DoubleDouble {
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
     }
+    /// Of the value rounded to `f64`: the sum with a large number, which rounds one `f64`, would keep the fraction of two.
+    #[inline(always)]
+    fn nearest_integer(self) -> Self {
+        DoubleDouble::exact(self.high.nearest_integer())
+    }
     #[inline(always)]
     fn exponent(self) -> Self {
         DoubleDouble::exact(self.high.exponent())
@@ -211,6 +216,15 @@ mod tests {
             assert!(off.high.abs() <= BOUND * a.high, "{k}: {off:?}");
         }
         assert_eq!(dd(0.0).sqrt(), dd(0.0));
+    }
+
+    /// Law: the nearest integer has no fraction, however many digits the number has.
+    #[test]
+    fn the_nearest_integer_is_one() {
+        for (number, integer) in [(dd(2.3) + dd(1e-20), 2.0), (dd(-0.7) - dd(1e-18), -1.0), (dd(5.0) + dd(1e-25), 5.0)]
+        {
+            assert_eq!(number.nearest_integer(), dd(integer), "{number:?}");
+        }
     }
 
     #[test]

@@ -20,7 +20,7 @@ use super::step::StepRule;
 use crate::dynamics::actuation::ActuationLaw;
 use crate::dynamics::applied::next_arc;
 use crate::dynamics::debris;
-use crate::dynamics::effects::{ChangingSeries, Effect, ForceModel};
+use crate::dynamics::effects::{ChangingSeries, ForceModel};
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::observed::observed_state;
 use crate::dynamics::gyrostat::{
@@ -87,10 +87,9 @@ impl ReferenceSolution {
         Self::solve(isa, scene, Some(law), grid, fields, tolerance)
     }
 
-    /// Whether it has every effect of `model`: those that have a Taylor series, but for the magnetic torque, whose solution in double-double is not that
-    /// of the methods yet.
+    /// Whether it has every effect of `model`: those that have a Taylor series.
     pub fn integrates(model: ForceModel) -> bool {
-        model.is_integrated(integrated_effects::by_taylor) && !model.contains(Effect::MagneticTorque)
+        model.is_integrated(integrated_effects::by_taylor)
     }
 
     fn solve(
