@@ -372,7 +372,9 @@ fn every_method_has_every_effect_or_says_so() {
             let control = if method.has_fixed_step() { fixed(1.0) } else { adaptive(1e-12) };
             let run = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0);
             let error = RotationError::largest(rotation_errors(&reference, &grid, &run.table));
-            assert!(error.omega < 1e-9 && error.attitude < 1e-9, "{} {}: {error:?}", method.name(), effect.key());
+            // plates turn on and off within steps: 1e-9 where it counts, in both
+            let bound = if ReferenceSolution::integrates(model) { 1e-9 } else { 5e-9 };
+            assert!(error.omega < bound && error.attitude < bound, "{} {}: {error:?}", method.name(), effect.key());
             if scene.mass.debris.is_some() {
                 let off = reference.distance::<3>(&run.table, StateField::DebrisPosition, last, 1.0);
                 assert!(off < 1e-7, "{} {}: {off:e} m", method.name(), effect.key());
