@@ -6,6 +6,7 @@
 //! `libm`.
 
 use super::Real;
+use super::real::NEAREST;
 
 /// The smallest normal number: smaller arguments are replaced by it.
 const SMALLEST: f64 = f64::MIN_POSITIVE;
@@ -95,7 +96,8 @@ pub fn log2_rough<R: Real>(x: R) -> R {
 /// 2^x with a relative error of at most [`ROUGH_ERROR`] for |x| < 1000.
 #[inline(always)]
 pub fn exp2_rough<R: Real>(x: R) -> R {
-    let whole = x.nearest_integer();
+    // in double-double the sum keeps the fraction, and the power is one of two: rough enough for steps, whose bits stay as they are
+    let whole = (x + x.splat(NEAREST)) - x.splat(NEAREST);
     let rest = (x - whole) * x.splat(core::f64::consts::LN_2);
     let mut series = x.splat(1.0 / 120.0);
     for coefficient in [1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {

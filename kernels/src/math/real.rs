@@ -11,7 +11,7 @@ use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssig
 pub const TWO_52: f64 = 4_503_599_627_370_496.0;
 
 /// 1.5 * 2^52: adding and subtracting it rounds to the nearest integer.
-const NEAREST: f64 = 1.5 * TWO_52;
+pub(super) const NEAREST: f64 = 1.5 * TWO_52;
 
 /// One truth value per lane.
 pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
