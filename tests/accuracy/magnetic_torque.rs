@@ -32,13 +32,9 @@ fn scene(model: FieldModel) -> Scene {
 /// Truth: what `benches/peers/magnetic_torque.py` prints (SciPy 1.16's DOP853 at 1e-13, pyIGRF14 1.0.4, pyerfa 2.0.1.5).
 #[test]
 fn a_whole_run_is_that_of_scipy() {
-    const ATTITUDE: [f64; 4] = [
-        4.055_544_326_953_383_1e-1,
-        6.403_847_736_470_729_1e-1,
-        1.487_280_443_927_163_1e-1,
-        6.350_692_187_573_728_8e-1,
-    ];
-    const RATE: [f64; 3] = [6.180_150_465_341_059_7e-3, -2.123_144_199_926_312_7e-2, 1.763_496_712_433_495_3e-2];
+    const ATTITUDE: [f64; 4] =
+        [4.055_544_326_953_383e-1, 6.403_847_736_470_729e-1, 1.487_280_443_927_163e-1, 6.350_692_187_573_729e-1];
+    const RATE: [f64; 3] = [6.180_150_465_341_06e-3, -2.123_144_199_926_312_7e-2, 1.763_496_712_433_495_3e-2];
     let grid = Grid::uniform(6000.0, 61);
     let off = |model, method, control| {
         let run = propagate(method, control, &grid, &[scene(model)]).remove(0);

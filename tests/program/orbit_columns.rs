@@ -91,7 +91,7 @@ fn a_dipole_is_turned_by_the_field() {
         );
         row("epoch = \"2025-01-01T00:00:00Z\"", 1e-3, 2, &body)
     };
-    const FIELD: [f64; 3] = [-6513.290_588_998_474, 2186.644_337_215_031, 21391.717_240_425_576];
+    const FIELD: [f64; 3] = [-6_513.290_588_998_474, 2_186.644_337_215_031, 21_391.717_240_425_576];
     let size = FIELD.iter().map(|b| b * b).sum::<f64>().sqrt();
     let along = with(FIELD.map(|b| 2.0 * b / size));
     assert!((1e9 * along["magnetic_field_max_t"] / size - 1.0).abs() < 1e-6, "{along:?}");

@@ -12,7 +12,7 @@ use crate::scene::epoch::Epoch;
 
 /// Rotation of the Earth relative to the equinox of the epoch, turns/s: 1.00273781191135448 turns a day (Capitaine et al., 2000) and the precession
 /// in right ascension, 4612.156534 arcsec in a Julian century.
-pub const TURNS_PER_SECOND: f64 = (1.002_737_811_911_354_5 + 4_612.156_534 / (1_296_000.0 * 36_525.0)) / 86_400.0;
+pub const TURNS_PER_SECOND: f64 = (1.002_737_811_911_354_6 + 4_612.156_534 / (1_296_000.0 * 36_525.0)) / 86_400.0;
 
 /// Greenwich mean sidereal time at `epoch`, turns, from 0 to 1.
 pub fn turns_at(epoch: Epoch) -> f64 {
