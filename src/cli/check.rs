@@ -71,7 +71,7 @@ pub fn text(plan: &Plan, isa: Isa) -> Result<(String, CommandOutcome), Failure> 
             section(&mut text, "Torque of the control loop")?;
             Capacity::of(spec, &scene).lines(spec).iter().try_for_each(|line| writeln!(text, "{line}"))?;
         }
-        happenings(&mut text, &plan)?;
+        happenings(&mut text, plan)?;
         computed(&mut text, &ensemble)?;
         std::fmt::Result::Ok(())
     })();
