@@ -23,6 +23,7 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use fearless_simd::Simd;
 use spindrift::campaign::{Overrides, Plan};
+use spindrift::dynamics::effects::within_arcs::Beside;
 use spindrift::dynamics::gyrostat::equations::Constants;
 use spindrift::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ANGLES};
 use spindrift::dynamics::null_space::{Kernel, components, sigma};
@@ -132,7 +133,7 @@ fn chain<R: Real>(zero: R, run: &Gyrostat<f64>) -> f64 {
     }
     let moment = zero.splat(MOMENT);
     for _ in 0..EVALUATIONS {
-        let rate = constants.derivative(zero, &y, [zero; 3]);
+        let rate = constants.derivative(zero, &y, &Beside { torque: [zero; 3], carrier: None });
         for i in 0..WITH_ANGLES {
             y[i] = rate[i].mul_add(moment, y[i]);
         }
