@@ -8,17 +8,17 @@ use super::rows::rows;
 rows! {
     /// The measurable state at time zero (Berdoz's Sigma, (59), builds the full state from it).
     pub struct InitialInput in InitialInput [table => table] {
-    position_m: [f64; 3] = [0.0; 3], "m", "Position of p from the inertial origin, in F_e; on an [orbit] of the centre of mass, from the orbit's own point", XYZ, Plain, Limit::Finite,
+    position_m: [f64; 3] = [0.0; 3], "m", "Position of p from the inertial origin, in F_e; on an orbit of the centre of mass, from the orbit's own point", XYZ, Plain, Limit::Finite,
         (optional);
-    velocity_m_s: [f64; 3] = [0.0; 3], "m/s", "Velocity of p relative to F_e, in F_e; on an [orbit] of the centre of mass, relative to the orbit's own point", XYZ, Plain, Limit::Finite,
+    velocity_m_s: [f64; 3] = [0.0; 3], "m/s", "Velocity of p relative to F_e, in F_e; on an orbit of the centre of mass, relative to the orbit's own point", XYZ, Plain, Limit::Finite,
         (optional);
     attitude: [f64; 4] = [1.0, 0.0, 0.0, 0.0], "1", "Attitude quaternion q_es, F_s -> F_e, scalar first", WXYZ, Quaternion,
         Limit::UnitQuaternion, (optional);
     angular_velocity_rad_s: [f64; 3] = [0.0; 3], "rad/s", "Angular velocity omega^se, in F_s", XYZ, Plain, Limit::Finite,
         (optional);
-    debris_position_m: [f64; 3] = [0.0; 3], "m", "Position of the debris's centre from the inertial origin, in F_e; on an [orbit] from the orbit's own point", XYZ, Plain,
+    debris_position_m: [f64; 3] = [0.0; 3], "m", "Position of the debris's centre from the inertial origin, in F_e; on an orbit from the orbit's own point", XYZ, Plain,
         Limit::Finite, (optional with debris);
-    debris_velocity_m_s: [f64; 3] = [0.0; 3], "m/s", "Velocity of the debris's centre relative to F_e, in F_e; on an [orbit] relative to the orbit's own point", XYZ, Plain,
+    debris_velocity_m_s: [f64; 3] = [0.0; 3], "m/s", "Velocity of the debris's centre relative to F_e, in F_e; on an orbit relative to the orbit's own point", XYZ, Plain,
         Limit::Finite, (optional with debris);
     debris_attitude: [f64; 4] = [1.0, 0.0, 0.0, 0.0], "1",
         "Attitude quaternion q_sd of the debris, F_d -> F_s, scalar first", WXYZ, Quaternion, Limit::UnitQuaternion,
