@@ -1,7 +1,7 @@
 //! [`EventFinder`]: the times at which quantities of runs cross values, and how often.
 //!
 //! A crossing shows in the values of a run at two neighbouring observation points. Where its time is asked for, the same sample is flown again, with
-//! observation points between these two ([`super::crossing`]): what is observed does not change how a run is integrated, so that this works for every
+//! observation points between these two (`crossing`): what is observed does not change how a run is integrated, so that this works for every
 //! engine, effect and control loop, and a run without a crossing costs nothing. Runs are flown again in lanes, a few at a time, since each brings its
 //! own observation points.
 
