@@ -126,6 +126,12 @@ impl LoopSpec {
                 series = series.with(Series::PositionEstimateError).with(Series::VelocityEstimateError);
             }
         }
+        if self.approaches() {
+            series = series.with(Series::DebrisDistance).with(Series::DebrisSpeed);
+        }
+        if !self.thrusters.is_empty() {
+            series = series.with(Series::Impulse);
+        }
         self.wheels.iter().fold(series, |series, wheel| series.with(Series::MotorTorque.of_wheel(*wheel)))
     }
 

@@ -15,10 +15,12 @@ const SAMPLES: usize = 60;
 const NET_LAUNCH: &str = include_str!("../../campaigns/net_launch.toml");
 const SLEW_CLOSED: &str = include_str!("../../campaigns/slew_closed.toml");
 const DETUMBLE: &str = include_str!("../../campaigns/detumble.toml");
+const WHEEL_FAILURE: &str = include_str!("../../campaigns/wheel_failure.toml");
 const SPIN_SWEEP: &str = include_str!("../../campaigns/spin_sweep.toml");
 
 fn page(name: &str, text: &str) -> Found {
     let scratch = ScratchFolder::new(&format!("loop-page-{name}"));
+    scratch.file("slew_closed.toml", SLEW_CLOSED);
     // as the rows have them, where the file writes no other unit
     scratch.file("c.toml", &(text.to_owned() + RADIANS));
     scratch.command(&format!("campaign c.toml --samples {SAMPLES} --out r")).output().expect("the program starts");
@@ -55,14 +57,14 @@ fn called(text: &str) -> Vec<&'static str> {
         ("rate_estimate_error_rad_s", filter),
         ("relative_position_estimate_error_m", filter && debris),
         ("relative_velocity_estimate_error_m_s", filter && debris),
-        ("debris_distance", debris),
-        ("relative_speed", debris),
+        ("debris_distance_m", debris),
+        ("debris_relative_speed_m_s", debris),
         ("spin_axis_debris_angle_rad", debris),
         ("angular_rate_rad_s", true),
         ("wheel_torque", has("[[wheels]]")),
         ("wheel_speed", has("[[wheels]]")),
         ("thrust", has("[[thrusters]]")),
-        ("impulse", has("[[thrusters]]")),
+        ("impulse_n_s", has("[[thrusters]]")),
         ("propellant", has("isp_s")),
     ]
     .into_iter()
@@ -104,9 +106,9 @@ fn limits_are_those_of_the_file() {
     near(&of("wheel_torque"), &[("limit", 4.0), ("", -4.0)]);
     near(&of("wheel_speed"), &[("limit", 40.0 * core::f64::consts::PI)]);
     near(&of("thrust"), &[("limit of p2, p3", 10.0), ("limit of p1", 20.0)]);
-    near(&of("debris_distance"), &[("keep-out", 5.0), ("station", 10.0)]);
-    near(&of("impulse"), &[("at most 4,000\u{a0}N s", 4000.0)]);
-    near(&of("relative_speed"), &[("at most 5\u{a0}cm/s at the launch", 5.0)]);
+    near(&of("debris_distance_m"), &[("keep-out", 5.0), ("station", 10.0)]);
+    near(&of("impulse_n_s"), &[("at most 4,000\u{a0}N s", 4000.0)]);
+    near(&of("debris_relative_speed_m_s"), &[("at most 5\u{a0}cm/s at the launch", 5.0)]);
     near(&of("spin_axis_debris_angle_rad"), &[("at most 2\u{a0}deg at the launch", 2.0)]);
     near(&of("angular_rate_rad_s"), &[("at most 0.2\u{a0}deg/s at the launch", 0.2)]);
     let found = page("limits-of-slew", SLEW_CLOSED);
@@ -115,6 +117,28 @@ fn limits_are_those_of_the_file() {
     // between degrees and hundredths of one: by decades
     assert!(figure["y"]["log"] == true && figure["y"]["unit"] == "deg", "{}", figure["y"]);
     assert_eq!(found.figure("wheel_speed")["y"]["range"][0], 0.0);
+}
+
+/// Law: every figure over time marks the events of the file, each at the median of its times in the rows.
+#[test]
+fn events_are_marked_at_their_medians() {
+    let found = page("events", WHEEL_FAILURE);
+    let figures = over_time(&found);
+    assert!(figures.len() > 5);
+    for event in ["settled", "fast_wheel"] {
+        let times = found.column(&format!("{event}_time_s"));
+        // sample 0 is the nominal run
+        let mut times: Vec<f64> = times[1..].iter().copied().filter(|time| time.is_finite()).collect();
+        times.sort_by(f64::total_cmp);
+        let middle = times[(times.len() - 1) / 2]..=times[times.len() / 2];
+        for figure in &figures {
+            let is_of_event = |mark: &&Value| mark["label"] == format!("{event}, median") && mark["vertical"] == true;
+            let found: Vec<&Value> = marks(figure, "limit").filter(is_of_event).collect();
+            assert_eq!(found.len(), 1, "{event} in {}", name(figure));
+            let at = found[0]["at"].as_f64().expect("a time");
+            assert!(middle.contains(&at), "{event}: {at} of {middle:?}");
+        }
+    }
 }
 
 /// Law: as many runs are in flight as have not ended by the rows; bands end where fewer than twenty are left, and the axis where one in a hundred is, or
@@ -157,7 +181,9 @@ fn bands_end_with_their_runs() {
     }
     assert!(bands > 15, "{bands} bands");
     let last = |figure: &str, label: &str| *found.array(&found.mark(figure, label)["y"]).last().expect("points");
-    for (found, expected) in [(last("impulse", "all"), nominal[1]), (last("propellant", "nominal run"), nominal[2])] {
+    for (found, expected) in
+        [(last("impulse_n_s", "nominal run"), nominal[1]), (last("propellant", "nominal run"), nominal[2])]
+    {
         assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
     }
 }

@@ -1,6 +1,6 @@
 //! What a control loop records over time, and how steady it is: recomputed from the states of the run, its telemetry and its arcs.
 
-use super::closed_loops::{SLEW_CLOSED, plan, value};
+use super::closed_loops::{NET_LAUNCH, SLEW_CLOSED, plan, value};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
@@ -141,6 +141,38 @@ fn requirements_and_bands_are_of_the_quantities() {
     let refused = known + &require.replace("pointing_error_rad", "attitude_estimate_error_rad");
     let error = Plan::from_text("loop.toml", &refused, Overrides::default()).expect_err("no estimate").to_string();
     assert!(error.contains("require[0].band") || error.contains("band = \"attitude_estimate_error_rad\""), "{error}");
+}
+
+/// Law: at a tick, distance and speed relative to the debris are those of the centres of mass, and the impulse is that of the arcs before it.
+#[test]
+fn the_way_to_the_debris_is_that_of_the_run() {
+    const PERIOD: f64 = 0.5;
+    const TICKS: usize = 600;
+    for sample in [0, 5] {
+        let grid = Grid::uniform(TICKS as f64 * PERIOD, TICKS + 1);
+        let run = SingleRun::new(&plan(NET_LAUNCH), SampleId(sample), grid, Isa::best()).expect("a physical scene");
+        let apart = |tick: usize, debris: StateField, own: StateField| {
+            let [a, b]: [[f64; 3]; 2] = [debris, own].map(|field| run.table.at(field, tick));
+            length(std::array::from_fn(|i| a[i] - b[i]))
+        };
+        for tick in 0..=TICKS {
+            for (of, expected) in [
+                (Series::DebrisDistance, apart(tick, StateField::DebrisPosition, StateField::ComPosition)),
+                (Series::DebrisSpeed, apart(tick, StateField::DebrisVelocity, StateField::ComVelocity)),
+            ] {
+                let found = series(&run, of)[tick];
+                assert!(
+                    (found - expected).abs() < 1e-12 * expected.max(1.0),
+                    "{of:?} at tick {tick}: {found} {expected}"
+                );
+            }
+            let before = run.arcs.iter().take_while(|arc| arc.start < tick as f64 * PERIOD - 1e-9);
+            let fired = before.map(|arc| arc.applied.thrust.iter().sum::<f64>() * (arc.applied.until - arc.start));
+            let (found, expected) = (series(&run, Series::Impulse)[tick], fired.sum::<f64>());
+            assert!((found - expected).abs() <= 1e-12 * expected, "impulse at tick {tick}: {found} {expected}");
+        }
+        assert!(series(&run, Series::Impulse)[TICKS] > 10.0, "thrusters fire");
+    }
 }
 
 /// Law: the settling time of a mission and the relative performance error over a window are those of the attitudes at the ticks, in two passes.

@@ -83,6 +83,9 @@ pub fn band_series(request: &Request) -> Vec<BandSeries> {
         Series::RateEstimateError,
         Series::PositionEstimateError,
         Series::VelocityEstimateError,
+        Series::DebrisDistance,
+        Series::DebrisSpeed,
+        Series::Impulse,
         Series::MotorTorque,
     ];
     let of_values = errors.into_iter().chain(energies).map(|series| (series, false));

@@ -23,13 +23,13 @@ pub struct LawColumn {
 
 /// The quantities over time that a control loop records at the observation points: a set of series of the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LawSeries(u16);
+pub struct LawSeries(u32);
 
 impl LawSeries {
     /// No quantity.
     pub const NONE: LawSeries = LawSeries(0);
     /// Every quantity.
-    pub const ALL: LawSeries = LawSeries(u16::MAX);
+    pub const ALL: LawSeries = LawSeries(u32::MAX);
     /// How many there are, with one of each wheel that a spacecraft may have: a record has as many columns, in the order of the table.
     pub const COUNT: usize = Series::MotorTorque.index() + MAX_WHEELS - Series::PointingError.index();
 

@@ -439,6 +439,9 @@ series! {
     RateEstimateError [1]: Law, Quantity, None, [], Some(("rate_estimate_error_rad_s", "rad/s")), "Magnitude of the error of the estimated angular velocity, at the last tick of the control loop.";
     PositionEstimateError [1]: Law, Quantity, None, [], Some(("relative_position_estimate_error_m", "m")), "Distance between estimated and true position relative to the debris, at the last tick of the control loop.";
     VelocityEstimateError [1]: Law, Quantity, None, [], Some(("relative_velocity_estimate_error_m_s", "m/s")), "Magnitude of the error of the estimated velocity relative to the debris, at the last tick of the control loop.";
+    DebrisDistance [1]: Law, Quantity, None, [], Some(("debris_distance_m", "m")), "Distance from the spacecraft's centre of mass to the debris's, at the last tick of the control loop.";
+    DebrisSpeed [1]: Law, Quantity, None, [], Some(("debris_relative_speed_m_s", "m/s")), "Speed of the spacecraft's centre of mass relative to the debris's, at the last tick of the control loop.";
+    Impulse [1]: Law, Quantity, None, [], Some(("impulse_n_s", "N s")), "Sum of the impulses of all thrusters since the start, at the last tick of the control loop.";
     MotorTorque [MAX_WHEELS]: Law, Quantity, None, [], Some(("torque_{wheel}_n_m", "N m")), "Torque of motor and bearing on wheel {wheel} along its axis, within limits, which the control loop applies.";
 }
 

@@ -100,6 +100,13 @@ impl Mission {
         ] {
             self.over_time.values[place(series)] = value;
         }
+        if let Some(debris) = &truth.debris {
+            let distance = norm(difference(debris.r_gdo_e, truth.body.r_co_e));
+            let speed = norm(difference(debris.v_gdo_e, truth.body.v_co_e));
+            self.over_time.values[place(Series::DebrisDistance)] = distance;
+            self.over_time.values[place(Series::DebrisSpeed)] = speed;
+        }
+        self.over_time.values[place(Series::Impulse)] = self.outcome.impulse_total();
         if is_judged {
             self.outcome.tick(plant.scene(), truth, (error.as_ref(), guided.begins), &errors, &self.criteria);
         }

@@ -314,7 +314,7 @@ fn thrust(spec: &LoopSpec, add: &mut Add<'_>) {
         "impulse_total_n_s",
         "N s",
         "Sum of the impulses of all thrusters, fired by the loop.",
-        |o| o.impulse.iter().sum(),
+        MissionOutcome::impulse_total,
     );
     plain(
         add,
@@ -327,7 +327,7 @@ fn thrust(spec: &LoopSpec, add: &mut Add<'_>) {
     let meaning =
         "Propellant used at control.isp_s; null where that is not known. The mass of the spacecraft is constant.";
     let propellant = |o: &MissionOutcome, _: &Guidance, criteria: &MissionCriteria| {
-        finite(o.impulse.iter().sum::<f64>() / (STANDARD_GRAVITY * criteria.isp))
+        finite(o.impulse_total() / (STANDARD_GRAVITY * criteria.isp))
     };
     add(need::THRUSTERS, "propellant_kg".into(), "kg", meaning.into(), Box::new(propellant));
     if spec.approaches() {

@@ -176,6 +176,11 @@ impl MissionOutcome {
         self.plume_time += if applied.hits { applied.length } else { 0.0 };
     }
 
+    /// The sum of the impulses of all thrusters so far, N s.
+    pub fn impulse_total(&self) -> f64 {
+        self.impulse.iter().sum()
+    }
+
     /// A command is no finite number at `time`, s.
     pub fn diverges(&mut self, time: f64) {
         (self.end, self.failure) = (time, Failure::Diverged);

@@ -1,13 +1,11 @@
 //! What a control loop does over time: errors of its estimates, phases, wheels, thrusters, the way to the debris.
 
 use crate::control::STANDARD_GRAVITY;
-use crate::math::vector::{difference, norm};
 use crate::observables::Series;
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, Scale};
 use crate::report::over_time::curves::{Curves, areas, lines, over_time};
 use crate::report::over_time::figure_list::{ListedFigure, Shows};
 use crate::report::over_time::limits;
-use crate::run::StateField;
 
 /// How many times the error that a filter expects is drawn beside the errors.
 const SIGMAS: f64 = 3.0;
@@ -154,6 +152,11 @@ impl Curves<'_> {
     /// The impulse of each thruster, and that of all.
     pub(super) fn impulse(&self, listed: &ListedFigure) -> Option<Figure> {
         let impulses = self.impulses()?;
+        let (name, unit) = self.name(Series::Impulse);
+        if self.band(&name).is_some() {
+            let marks = self.marks(&name, self.nominal(Series::Impulse), listed.hue, "");
+            return Some(self.judged(listed, (&name, &unit), (listed.title, self.caption(&name)), marks));
+        }
         let fired = || impulses.iter().enumerate().filter(|(_, (_, sum))| sum.iter().any(|impulse| *impulse != 0.0));
         let line = |(index, (name, sum)): (usize, &(String, Vec<f64>))| {
             Mark::line(name.as_str(), Hue::Curve(index), Dash::Solid, self.times(), sum.clone())
@@ -163,7 +166,7 @@ impl Curves<'_> {
             marks.push(Mark::line("all", Hue::Nominal, Dash::Dashed, self.times(), total(&impulses)));
         }
         let caption = "Impulse since the start in the nominal run.".to_owned();
-        Some(self.judged(listed, ("impulse", "N s"), (listed.title, caption), marks))
+        Some(self.judged(listed, (&name, &unit), (listed.title, caption), marks))
     }
 
     /// The propellant used, where the specific impulse is known.
@@ -187,16 +190,10 @@ impl Curves<'_> {
 
     /// The distance to the debris with keep-out sphere and station, or the speed relative to it.
     pub(super) fn relative(&self, listed: &ListedFigure) -> Option<Figure> {
-        let table = &self.run?.table;
         let is_distance = listed.shows == Shows::Distance;
-        let (debris, own) = match is_distance {
-            true => (StateField::DebrisPosition, StateField::ComPosition),
-            false => (StateField::DebrisVelocity, StateField::ComVelocity),
-        };
-        let at = |point: usize| norm(difference(table.at::<3>(debris, point), table.at::<3>(own, point)));
-        let values: Vec<f64> = (0..self.times().len()).map(at).collect();
-        let label = if self.is_plot() { "" } else { "nominal run" };
-        let mut marks = lines(label, (listed.hue, Dash::Solid), &self.times(), &values);
+        let series = if is_distance { Series::DebrisDistance } else { Series::DebrisSpeed };
+        let (name, unit) = self.name(series);
+        let mut marks = self.marks(&name, self.nominal(series), listed.hue, "");
         if is_distance {
             let launches = self.plan.law.as_ref()?.spec()?.launches();
             let station = self.constant("launch_distance_m").filter(|_| launches);
@@ -205,9 +202,7 @@ impl Curves<'_> {
                 marks.extend(at.filter(|at| *at > 0.0).map(limit));
             }
         }
-        let (name, unit) = if is_distance { ("debris_distance", "m") } else { ("relative_speed", "m/s") };
-        let caption = "The nominal run, between the centres of mass.".to_owned();
-        Some(self.judged(listed, (name, unit), (listed.title, caption), marks))
+        Some(self.judged(listed, (&name, &unit), (listed.title, self.caption(&name)), marks))
     }
 }
 

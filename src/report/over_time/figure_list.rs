@@ -195,8 +195,8 @@ pub const FIGURES: &[ListedFigure] = {
             ESTIMATED_DEBRIS, &["relative_position_estimate_error_m", "relative_position_estimate_error_final_m"]),
         figure(Estimated(Series::VelocityEstimateError, "relative_velocity_expected_error_m_s"), ("Error of the estimated velocity relative to the debris", "speed", Hue::Debris),
             ESTIMATED_DEBRIS, &["relative_velocity_estimate_error_m_s", "relative_velocity_estimate_error_final_m_s"]),
-        figure(Distance, ("Distance to the debris", "distance", Hue::Debris), |scene, _| scene.approaches, &["debris_distance_min_m"]),
-        figure(RelativeSpeed, ("Speed relative to the debris", "speed", Hue::Debris), |scene, _| scene.approaches, &["relative_speed_launch_m_s"]),
+        figure(Distance, ("Distance to the debris", "distance", Hue::Debris), |scene, _| scene.approaches, &["debris_distance_m", "debris_distance_min_m"]),
+        figure(RelativeSpeed, ("Speed relative to the debris", "speed", Hue::Debris), |scene, _| scene.approaches, &["debris_relative_speed_m_s", "relative_speed_launch_m_s"]),
         // the motion
         figure(One(Series::DebrisDirection), ("Angle between s3 and the line to the debris", "angle", Hue::Debris), |scene, place| scene.debris && (scene.has_loop || place == Place::Page),
             &["spin_axis_debris_angle_rad", "pointing_error_launch_rad", "spin_axis_debris_angle_final_rad", "spin_axis_debris_angle_max_rad", "spin_axis_debris_angle_min_rad"]),
@@ -218,7 +218,7 @@ pub const FIGURES: &[ListedFigure] = {
             &["speed_{wheel}_rad_s", "speed_{wheel}_max_rad_s", "speed_peak_{wheel}_rad_s"]),
         figure(State(StateField::WheelRates, &[]), ("Wheel rates", "", Hue::Wheel(0)), |scene, place| FREE_IN_PLOT(scene, place) && scene.wheels, &[]),
         figure(Thrust, ("Thrust", "thrust", Hue::Curve(0)), |scene, _| scene.fires, &[]),
-        figure(Impulse, ("Impulse of the thrusters", "impulse", Hue::Curve(0)), |scene, _| scene.fires, &["impulse_total_n_s"]),
+        figure(Impulse, ("Impulse of the thrusters", "impulse", Hue::Curve(0)), |scene, _| scene.fires, &["impulse_n_s", "impulse_total_n_s"]),
         figure(Propellant, ("Propellant used", "mass", Hue::Total), |scene, _| scene.fires, &["propellant_kg"]),
         // energies: where nothing is controlled, or where they are asked for
         figure(One(Series::AngularMomentumSquare), ("Angular momentum about the centre of mass", "", Hue::Body), FREE_IN_PLOT, &[]),

@@ -40,8 +40,9 @@ use crate::analysis::missions::Missions;
 use crate::analysis::population::Loss;
 use crate::analysis::survey::{self, Survey};
 use crate::campaign::Plan;
+use crate::campaign::event::Event;
 use crate::ensemble::Ensemble;
-use crate::report::figure::{Figure, FigureSection};
+use crate::report::figure::{Figure, FigureSection, Mark};
 use crate::report::names;
 use crate::report::over_time::curves::{Curves, TimeBands};
 use crate::sampling::{Design, SampleId};
@@ -88,6 +89,18 @@ pub fn is_independent(plan: &Plan) -> bool {
     matches!(plan.design, Design::Random(_))
 }
 
+/// Where the events of the file happen: the median of each in the runs in which it does.
+fn event_times(plan: &Plan, statistics: &[StatisticsRow]) -> Vec<Mark> {
+    let of = |event: &Event| {
+        let name = format!("{}_time_s", event.name);
+        let row = statistics.iter().find(|row| row.name == name)?;
+        let at = row.quantiles.iter().find(|[p, ..]| *p == 0.5).map(|[_, time, ..]| *time)?;
+        let label = format!("{}, median", event.name);
+        at.is_finite().then(|| Mark::Limit { label, at, vertical: true })
+    };
+    plan.events.iter().filter_map(of).collect()
+}
+
 impl Page {
     /// The page of a campaign. Runs the nominal and the worst samples again, to show them over time.
     pub fn new(ensemble: &Ensemble<'_>, contents: &Contents) -> Self {
@@ -98,8 +111,12 @@ impl Page {
         let wheels = ensemble.request().wheels.to_vec();
         let curves = Curves::of_page(plan, nominal, &contents.bands, &wheels);
         let mut figures = outcomes::figures(plan, survey, &contents.statistics, has_intervals);
-        figures.extend(curves.figures());
-        figures.extend(curves.drift());
+        let events = event_times(plan, &contents.statistics);
+        let over_time = curves.figures().into_iter().chain(curves.drift());
+        figures.extend(over_time.map(|mut figure| {
+            figure.marks.extend(events.iter().filter(|_| figure.is_over_time).cloned());
+            figure
+        }));
         figures.extend(errors::figures(survey, has_intervals));
         figures.extend(influence::figures(plan, survey, &contents.influences));
         figures.extend(inputs::figures(plan, survey));
