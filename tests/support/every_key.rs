@@ -294,6 +294,10 @@ pub fn every_scene() -> Vec<String> {
         on_orbit(
             "semi_major_axis_m = 9e6\neccentricity = 0.0\ninclination_rad = 0.9\nascending_node_rad = 2.0\n\
              argument_of_periapsis_rad = -0.7\ntrue_anomaly_rad = 1.1",
+        )
+        .replace(
+            "angular_velocity_rad_s = [0, 0, 0.001]",
+            "attitude_orbital = [1, 0, 0, 0]\nangular_velocity_orbital_rad_s = [0, 0, 0.001]",
         ),
         on_plates(),
     ]

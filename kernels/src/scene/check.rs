@@ -72,8 +72,23 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
         debris.check(problems);
     }
     input.initial.check(has_debris, problems, |key| format!("initial.{key}").into());
-    if has_debris {
-        debris_state(&input.initial, problems);
+    states_written_twice(&input.initial, has_debris, problems);
+    if input.orbit.is_none() {
+        let InitialInput { attitude_orbital, angular_velocity_orbital_rad_s, .. } = &input.initial;
+        let of_orbit = [
+            ("attitude_orbital", attitude_orbital.as_ref().map(|numbers| &numbers[..])),
+            ("angular_velocity_orbital_rad_s", angular_velocity_orbital_rad_s.as_ref().map(|numbers| &numbers[..])),
+        ];
+        for (key, numbers) in of_orbit {
+            let Some(numbers) = numbers else { continue };
+            let allowed = "left out without an [orbit]";
+            problems.add(
+                format!("initial.{key}"),
+                shown(numbers),
+                allowed,
+                "add an [orbit] table, or delete this line",
+            );
+        }
     }
     if let Some(orbit) = &input.orbit {
         let before = problems.0.len();
@@ -107,13 +122,23 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     }
 }
 
-/// Collects what the debris has twice: relative to the spacecraft, and in F_e.
-fn debris_state(initial: &InitialInput, problems: &mut Problems) {
+/// Collects what the initial state has twice: in F_e and relative to the local orbital frame, or, of debris, relative to the spacecraft.
+fn states_written_twice(initial: &InitialInput, has_debris: bool, problems: &mut Problems) {
     let default = InitialInput::DEFAULT;
     let mut refuse = |key: &str, numbers: &[f64], other: &str| {
         let allowed = format!("left out where {other} is written");
         problems.add(format!("initial.{key}"), shown(numbers), allowed, "write one of both");
     };
+    if initial.attitude_orbital.is_some() && initial.attitude != default.attitude {
+        refuse("attitude", &initial.attitude, "attitude_orbital");
+    }
+    let rate = initial.angular_velocity_rad_s;
+    if initial.angular_velocity_orbital_rad_s.is_some() && rate != default.angular_velocity_rad_s {
+        refuse("angular_velocity_rad_s", &rate, "angular_velocity_orbital_rad_s");
+    }
+    if !has_debris {
+        return;
+    }
     if initial.debris_attitude_inertial.is_some() && initial.debris_attitude != default.debris_attitude {
         refuse("debris_attitude", &initial.debris_attitude, "debris_attitude_inertial");
     }

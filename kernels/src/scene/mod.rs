@@ -51,7 +51,7 @@ pub use error::SceneError;
 pub use input::SceneInput;
 pub use mass::MassProperties;
 pub use name::Name;
-pub use orbit::{Offset, Offsets, Orbit};
+pub use orbit::{LocalFrame, Offset, Offsets, Orbit};
 pub use parameter::Parameter;
 pub use plate::Plate;
 pub use schedule::{Actuation, Arc};

@@ -8,7 +8,7 @@ use super::error::Problems;
 use super::input::SceneInput;
 use super::schema::limit::shown;
 use super::schema::{InitialInput, OrbitInput};
-use crate::math::vector::{cross, difference, dot, norm, scaled, sum};
+use crate::math::vector::{cross, difference, dot, norm, quaternion_from_dcm, scaled, sum};
 
 /// A two-body orbit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +53,28 @@ impl Offsets {
             None => Offset::default(),
         };
         leaves.then_some(Offsets { spacecraft: Offset { position: position_m, velocity: velocity_m_s }, debris })
+    }
+}
+
+/// The local orbital frame F_o of a body: o3 points at the central body, o2 against the normal of the orbit, and o1 completes them, ahead on a circular
+/// orbit (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 2.2: roll, pitch and yaw axes).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocalFrame {
+    /// Its attitude, F_o -> F_e, scalar first.
+    pub q_eo: [f64; 4],
+    /// Its angular velocity r x v/(r . r) in F_e, rad/s.
+    pub omega_oe_e: [f64; 3],
+}
+
+impl LocalFrame {
+    /// That of a body at `r_e` from the central body with the velocity `v_e`, in F_e, m and m/s.
+    pub fn at(r_e: [f64; 3], v_e: [f64; 3]) -> Self {
+        let normal = cross(r_e, v_e);
+        let o3 = scaled(-1.0 / norm(r_e), r_e);
+        let o2 = scaled(-1.0 / norm(normal), normal);
+        let o1 = cross(o2, o3);
+        let c_eo = core::array::from_fn(|i| [o1[i], o2[i], o3[i]]);
+        LocalFrame { q_eo: quaternion_from_dcm(c_eo), omega_oe_e: scaled(1.0 / dot(r_e, r_e), normal) }
     }
 }
 
@@ -103,6 +125,11 @@ impl Orbit {
     pub fn displaced(&self, offset: &Offset) -> Self {
         let (position, velocity) = (sum(self.position, offset.position), sum(self.velocity, offset.velocity));
         Orbit { position, velocity, ..*self }
+    }
+
+    /// The local orbital frame at its position.
+    pub fn local_frame(&self) -> LocalFrame {
+        LocalFrame::at(self.position, self.velocity)
     }
 
     /// Its shape.

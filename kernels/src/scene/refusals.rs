@@ -1,7 +1,9 @@
 //! Every refusal of a scene by its key, and the nearest scene that is accepted.
 
 use super::input::SceneInput;
-use super::schema::{ActuationInput, DebrisInput, PrincipalInertia, PrincipalMoments, WheelInput, WheelMode};
+use super::schema::{
+    ActuationInput, DebrisInput, OrbitInput, PrincipalInertia, PrincipalMoments, WheelInput, WheelMode,
+};
 use super::{Name, Scene, samples};
 
 /// A change of Berdoz's scene.
@@ -16,6 +18,10 @@ fn changed(change: Change) -> SceneInput {
 
 fn arc(start_s: f64, end_s: f64) -> ActuationInput {
     ActuationInput::idle(start_s, end_s).with_thrust(&[1.0]).with_torque(&[0.5, 0.25])
+}
+
+fn low_orbit() -> OrbitInput {
+    OrbitInput { semi_major_axis_m: Some(7.0e6), ..OrbitInput::DEFAULT }
 }
 
 fn below(x: f64) -> f64 {
@@ -354,6 +360,45 @@ const REFUSALS: &[(&str, &str, Change, Change)] = &[
         "norm 1",
         |input| input.initial.attitude = [1.0 + 2e-6, 0.0, 0.0, 0.0],
         |input| input.initial.attitude = [1.0 + 0.9e-6, 0.0, 0.0, 0.0],
+    ),
+    (
+        "initial.attitude",
+        "attitude_orbital",
+        |input| {
+            input.orbit = Some(low_orbit());
+            input.initial.attitude_orbital = Some([0.0, 1.0, 0.0, 0.0]);
+            input.initial.attitude = [0.0, 1.0, 0.0, 0.0];
+        },
+        |input| {
+            input.orbit = Some(low_orbit());
+            input.initial.attitude_orbital = Some([0.0, 1.0, 0.0, 0.0]);
+        },
+    ),
+    (
+        "initial.angular_velocity_rad_s",
+        "angular_velocity_orbital_rad_s",
+        |input| {
+            input.orbit = Some(low_orbit());
+            input.initial.angular_velocity_orbital_rad_s = Some([0.0; 3]);
+            input.initial.angular_velocity_rad_s = [0.0, 0.1, 0.0];
+        },
+        |input| {
+            input.orbit = Some(low_orbit());
+            input.initial.angular_velocity_rad_s = [0.0; 3];
+            input.initial.angular_velocity_orbital_rad_s = Some([0.0; 3]);
+        },
+    ),
+    (
+        "initial.attitude_orbital",
+        "without an [orbit]",
+        |input| input.initial.attitude_orbital = Some([0.0, 1.0, 0.0, 0.0]),
+        |input| input.initial.attitude_orbital = None,
+    ),
+    (
+        "initial.angular_velocity_orbital_rad_s",
+        "without an [orbit]",
+        |input| input.initial.angular_velocity_orbital_rad_s = Some([0.0; 3]),
+        |input| input.initial.angular_velocity_orbital_rad_s = None,
     ),
     (
         "initial.debris_attitude",

@@ -20,7 +20,7 @@ impl Scene {
         checked(input, &mass)?;
         let mut scene = Scene {
             mass,
-            initial: initial_state(input),
+            initial: initial_state(input, None),
             thrusters: Vec::new(),
             schedule: Vec::with_capacity(input.actuation.len()),
             orbit: None,
@@ -50,27 +50,27 @@ impl Scene {
 
     fn take(&mut self, input: &SceneInput, mass: &MassProperties) {
         self.mass = *mass;
-        self.initial = initial_state(input);
+        self.orbit = input.orbit.as_ref().map(Orbit::of);
+        self.offsets = Offsets::of(input);
+        let of_craft = match (&self.orbit, &self.offsets) {
+            (Some(orbit), Some(offsets)) => Some(orbit.displaced(&offsets.spacecraft)),
+            (orbit, _) => *orbit,
+        };
+        self.initial = initial_state(input, of_craft.as_ref());
         self.thrusters.clear();
         self.thrusters.extend(schedule::thrusters(input));
         self.schedule.clear();
         self.schedule.extend((0..input.actuation.len()).map(|index| schedule::applied(input, index)));
-        self.orbit = input.orbit.as_ref().map(Orbit::of);
-        self.offsets = Offsets::of(input);
-        if let Some(orbit) = &self.orbit {
-            let mut orbit = *orbit;
-            if let Some(Offsets { spacecraft, debris }) = &self.offsets {
-                if mass.debris.is_some() {
-                    let of_debris = orbit.displaced(debris);
-                    (self.initial.r_gdo_e, self.initial.v_gdo_e) = (of_debris.position, of_debris.velocity);
-                }
-                orbit = orbit.displaced(spacecraft);
+        if let (Some(orbit), Some(of_craft)) = (&self.orbit, of_craft) {
+            if let Some(offsets) = self.offsets.as_ref().filter(|_| mass.debris.is_some()) {
+                let of_debris = orbit.displaced(&offsets.debris);
+                (self.initial.r_gdo_e, self.initial.v_gdo_e) = (of_debris.position, of_debris.velocity);
             }
             // p from the centre of mass, which is on the orbit or beside it
             let c_es = dcm_from_quaternion(self.initial.q_es);
             let spin = cross(self.initial.omega_se_s, mass.center);
-            self.initial.r_po_e = difference(orbit.position, product(c_es, mass.center));
-            self.initial.v_po_e = difference(orbit.velocity, product(c_es, spin));
+            self.initial.r_po_e = difference(of_craft.position, product(c_es, mass.center));
+            self.initial.v_po_e = difference(of_craft.velocity, product(c_es, spin));
         }
         plate::resolve_into(input, &mut self.plates);
         self.environment = input.environment;
@@ -100,13 +100,17 @@ fn checked(input: &SceneInput, mass: &MassProperties) -> Result<(), Vec<SceneErr
 
 /// The state at time zero (59): debris q_ed = q_es (x) q_sd, omega^de = omega^ds + C_ds omega^se, where they are not written themselves.
 ///
+/// From the local orbital frame of the spacecraft on `orbit`: q_es = q_eo (x) q_os, omega^se = omega^so + C_es^T omega^oe.
+///
 /// What belongs to debris that the scene does not have is zero (attitude: identity).
-fn initial_state(input: &SceneInput) -> InitialState {
+fn initial_state(input: &SceneInput, orbit: Option<&Orbit>) -> InitialState {
     let InitialInput {
         position_m,
         velocity_m_s,
         attitude,
         angular_velocity_rad_s,
+        attitude_orbital,
+        angular_velocity_orbital_rad_s,
         debris_position_m,
         debris_velocity_m_s,
         debris_attitude,
@@ -119,7 +123,17 @@ fn initial_state(input: &SceneInput) -> InitialState {
     for (i, wheel) in turning.enumerate() {
         (wheel_angles[i], wheel_rates[i]) = (wheel.angle_rad, wheel.rate_rad_s);
     }
-    let q_es = unit_quaternion(attitude);
+    let frame = orbit.map(Orbit::local_frame);
+    let q_es = match (attitude_orbital, &frame) {
+        (Some(q_os), Some(frame)) => hamilton(frame.q_eo, unit_quaternion(q_os)),
+        _ => unit_quaternion(attitude),
+    };
+    let angular_velocity_rad_s = match (angular_velocity_orbital_rad_s, &frame) {
+        (Some(omega_so_s), Some(frame)) => {
+            sum(omega_so_s, transposed_product(dcm_from_quaternion(q_es), frame.omega_oe_e))
+        }
+        _ => angular_velocity_rad_s,
+    };
     let mut state = InitialState {
         r_po_e: position_m,
         v_po_e: velocity_m_s,
@@ -155,6 +169,8 @@ fn initial_state(input: &SceneInput) -> InitialState {
 mod tests {
     use super::*;
     use crate::math::symmetric::{is_positive_definite, principal_axes};
+    use crate::math::vector::{dot, norm, scaled};
+    use crate::scene::schema::OrbitInput;
     use crate::scene::schema::limit::INERTIA_SLACK;
     use crate::scene::{ActuationInput, samples};
     use proptest::prelude::*;
@@ -206,6 +222,58 @@ mod tests {
         .expect("a legal scene");
         scene.resolve_into(&input).expect("a legal scene");
         assert_eq!(scene, Scene::resolve(&input).expect("a legal scene"));
+    }
+
+    /// Law: in the local orbital frame no rotation looks down with s3 and ahead with s1, and no rate turns once an orbit against the orbit's normal;
+    /// offsets of the spacecraft count. Independent truth: line of sight, direction of motion, central difference of the line of sight.
+    #[test]
+    fn the_local_orbital_frame_is_that_of_the_motion() {
+        for offset in [[0.0; 3], [4.0e5, -2.0e5, 1.0e5]] {
+            let mut input = samples::table_two();
+            let orbit = OrbitInput {
+                semi_major_axis_m: Some(8.0e6),
+                eccentricity: Some(0.1),
+                inclination_rad: Some(0.9),
+                true_anomaly_rad: Some(1.3),
+                ..OrbitInput::DEFAULT
+            };
+            input.orbit = Some(orbit);
+            input.initial.position_m = offset;
+            input.initial.velocity_m_s = [0.0; 3];
+            input.initial.attitude = [1.0, 0.0, 0.0, 0.0];
+            input.initial.angular_velocity_rad_s = [0.0; 3];
+            input.initial.attitude_orbital = Some([1.0, 0.0, 0.0, 0.0]);
+            input.initial.angular_velocity_orbital_rad_s = Some([0.0; 3]);
+            let scene = Scene::resolve(&input).expect("a scene on an orbit");
+            let own = scene.orbit.expect("an orbit");
+            let [r, v] = [sum(own.position, offset), own.velocity];
+            let unit = |vector: [f64; 3]| scaled(1.0 / norm(vector), vector);
+            let c_es = dcm_from_quaternion(scene.initial.q_es);
+            let axis = |k: usize| [c_es[0][k], c_es[1][k], c_es[2][k]];
+            let near = |a: [f64; 3], b: [f64; 3], bound: f64| {
+                assert!(norm(difference(a, b)) < bound, "{a:?} {b:?}");
+            };
+            near(axis(2), unit(r).map(|x| -x), 1e-15);
+            near(axis(1), unit(cross(r, v)).map(|x| -x), 1e-15);
+            assert!(dot(axis(0), v) > 0.0);
+            // s3 follows the line of sight: d(r/|r|)/dt = omega x r/|r|
+            let step = 0.01;
+            let at = |time: f64| unit(sum(r, scaled(time, v)));
+            let slope = difference(at(step), at(-step)).map(|x| x / (2.0 * step));
+            let omega_e = product(c_es, scene.initial.omega_se_s);
+            near(cross(omega_e, unit(r)), slope, 1e-12);
+            near(cross(omega_e, unit(cross(r, v))), [0.0; 3], 1e-18);
+            // turned by q_os, the body has its own axes there, and its rate is added in F_s
+            let q_os = unit_quaternion([0.5, 0.5, -0.5, 0.5]);
+            input.initial.attitude_orbital = Some(q_os);
+            input.initial.angular_velocity_orbital_rad_s = Some([0.1, -0.2, 0.3]);
+            let turned = Scene::resolve(&input).expect("a scene on an orbit").initial;
+            let c_os = dcm_from_quaternion(q_os);
+            let wanted = product(c_es, product(c_os, [0.0, 0.0, 1.0]));
+            near(product(dcm_from_quaternion(turned.q_es), [0.0, 0.0, 1.0]), wanted, 1e-15);
+            let rate = sum([0.1, -0.2, 0.3], transposed_product(c_os, scene.initial.omega_se_s));
+            near(turned.omega_se_s, rate, 1e-15);
+        }
     }
 
     #[test]

@@ -16,6 +16,12 @@ rows! {
         Limit::UnitQuaternion, (optional);
     angular_velocity_rad_s: [f64; 3] = [0.0; 3], "rad/s", "Angular velocity omega^se, in F_s", XYZ, Plain, Limit::Finite,
         (optional);
+    attitude_orbital: Option<[f64; 4]> = None, "1",
+        "Attitude quaternion q_os, F_s -> F_o, the local orbital frame of the spacecraft at time zero (o3 to the central body, o2 against the orbit's normal), scalar first, in place of attitude",
+        WXYZ, Quaternion, Limit::UnitQuaternion, (optional);
+    angular_velocity_orbital_rad_s: Option<[f64; 3]> = None, "rad/s",
+        "Angular velocity omega^so relative to the local orbital frame, in F_s, in place of angular_velocity_rad_s", XYZ, Plain,
+        Limit::Finite, (optional);
     debris_position_m: [f64; 3] = [0.0; 3], "m", "Position of the debris's centre from the inertial origin, in F_e; on an orbit from the orbit's own point", XYZ, Plain,
         Limit::Finite, (optional with debris);
     debris_velocity_m_s: [f64; 3] = [0.0; 3], "m/s", "Velocity of the debris's centre relative to F_e, in F_e; on an orbit relative to the orbit's own point", XYZ, Plain,
