@@ -26,6 +26,11 @@ fn magnetic_field(input: &SceneInput, problems: &mut Problems) {
             let remedy = "add magnetic_field = \"igrf\" to [environment]";
             problems.add("environment.magnetic_dipole_a_m2".to_owned(), shown(&dipole), allowed, remedy);
         }
+        if !input.torque_rods.is_empty() {
+            let allowed = "given where there are [[torque_rods]]";
+            let remedy = "add magnetic_field = \"igrf\" to [environment]";
+            problems.add("environment.magnetic_field".to_owned(), "missing".to_owned(), allowed, remedy);
+        }
         return;
     };
     let value = || format!("{:?}", model.name());
@@ -61,6 +66,9 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
         wheel.check(has_debris, problems, |key| Table::Wheel.name(wheel.name, key).into());
         wheel_inertia(wheel, problems);
     }
+    for rod in &input.torque_rods {
+        rod.check(has_debris, problems, |key| Table::TorqueRod.name(rod.name, key).into());
+    }
     for thruster in &input.thrusters {
         thruster.check(has_debris, problems, |key| Table::Thruster.name(thruster.name, key).into());
     }
@@ -73,7 +81,7 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     }
     input.initial.check(has_debris, problems, |key| format!("initial.{key}").into());
     if has_debris {
-        debris_state(&input.initial, problems);
+        initial_state(&input.initial, input.orbit.is_some(), problems);
     }
     if let Some(orbit) = &input.orbit {
         let before = problems.0.len();
@@ -107,8 +115,8 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     }
 }
 
-/// Collects what the debris has twice: relative to the spacecraft, and in F_e.
-fn debris_state(initial: &InitialInput, problems: &mut Problems) {
+/// Collects what is written twice of the initial state, in two frames, and what is relative to an orbit that is not there.
+fn initial_state(initial: &InitialInput, is_on_orbit: bool, problems: &mut Problems) {
     let default = InitialInput::DEFAULT;
     let mut refuse = |key: &str, numbers: &[f64], other: &str| {
         let allowed = format!("left out where {other} is written");
@@ -117,10 +125,17 @@ fn debris_state(initial: &InitialInput, problems: &mut Problems) {
     if initial.debris_attitude_inertial.is_some() && initial.debris_attitude != default.debris_attitude {
         refuse("debris_attitude", &initial.debris_attitude, "debris_attitude_inertial");
     }
+    if initial.attitude_orbital.is_some() && initial.attitude != default.attitude {
+        refuse("attitude", &initial.attitude, "attitude_orbital");
+    }
     let relative = initial.debris_relative_angular_velocity_rad_s;
     let is_relative = relative != default.debris_relative_angular_velocity_rad_s;
     if initial.debris_angular_velocity_rad_s.is_some() && is_relative {
         refuse("debris_relative_angular_velocity_rad_s", &relative, "debris_angular_velocity_rad_s");
+    }
+    if let Some(attitude) = initial.attitude_orbital.filter(|_| !is_on_orbit) {
+        let remedy = "add an [orbit] table, or write attitude";
+        problems.add("initial.attitude_orbital".to_owned(), shown(&attitude), "left out without an [orbit]", remedy);
     }
 }
 

@@ -8,7 +8,7 @@ use super::error::Problems;
 use super::input::SceneInput;
 use super::schema::limit::shown;
 use super::schema::{InitialInput, OrbitInput};
-use crate::math::vector::{cross, difference, dot, norm, scaled, sum};
+use crate::math::vector::{cross, difference, dot, norm, quaternion_from_dcm, scaled, sum};
 
 /// A two-body orbit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +54,17 @@ impl Offsets {
         };
         leaves.then_some(Offsets { spacecraft: Offset { position: position_m, velocity: velocity_m_s }, debris })
     }
+}
+
+/// The attitude q_eo of the local orbital frame F_o at the position `r_e` and the velocity `v_e` from the central body, F_o -> F_e, scalar first: o3 points
+/// at the central body, o2 against the normal of the orbit, and o1 completes them, ahead on a circular orbit (J. R. Wertz, *Spacecraft Attitude Determination
+/// and Control*, 1978, section 2.2: roll, pitch and yaw axes).
+pub fn local_frame(r_e: [f64; 3], v_e: [f64; 3]) -> [f64; 4] {
+    let normal = cross(r_e, v_e);
+    let o3 = scaled(-1.0 / norm(r_e), r_e);
+    let o2 = scaled(-1.0 / norm(normal), normal);
+    let o1 = cross(o2, o3);
+    quaternion_from_dcm(std::array::from_fn(|i| [o1[i], o2[i], o3[i]]))
 }
 
 /// Shape and size of an orbit.

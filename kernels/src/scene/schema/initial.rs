@@ -14,6 +14,9 @@ rows! {
         (optional);
     attitude: [f64; 4] = [1.0, 0.0, 0.0, 0.0], "1", "Attitude quaternion q_es, F_s -> F_e, scalar first", WXYZ, Quaternion,
         Limit::UnitQuaternion, (optional);
+    attitude_orbital: Option<[f64; 4]> = None, "1",
+        "Attitude quaternion q_os relative to the local orbital frame, F_s -> F_o, scalar first, in place of attitude", WXYZ, Quaternion,
+        Limit::UnitQuaternion, (optional);
     angular_velocity_rad_s: [f64; 3] = [0.0; 3], "rad/s", "Angular velocity omega^se, in F_s", XYZ, Plain, Limit::Finite,
         (optional);
     debris_position_m: [f64; 3] = [0.0; 3], "m", "Position of the debris's centre from the inertial origin, in F_e; on an orbit from the orbit's own point", XYZ, Plain,
