@@ -160,6 +160,11 @@ impl Plan {
             lines.key("name", thruster.name);
             lines.keys(Table::Thruster, instance, scene);
         }
+        for (instance, rod) in scene.torque_rods.iter().enumerate() {
+            lines.table("[[torque_rods]]");
+            lines.key("name", rod.name);
+            lines.keys(Table::TorqueRod, instance, scene);
+        }
         if self.nominal.debris.is_some() {
             lines.keys_of("[debris]", Table::Debris, 0, &self.nominal);
         }

@@ -11,7 +11,9 @@ use super::tables::{ignore_others, read_keys};
 use crate::control::actuators::modulation;
 use crate::control::guidance::phase::{MANEUVERS, Next};
 use crate::control::guidance::target::{TARGETS, Target};
-use crate::control::spec::{LoopSpec, ModelSpec};
+use crate::control::laws::rod_law::{ROD_USES, RodUse};
+use crate::control::measurement::Observes;
+use crate::control::spec::{LoopSpec, ModelSpec, PhaseSpec, SensorSpec};
 use crate::control::{ControlLaw, estimators, net_launch, parameters, sensors};
 use crate::math::symmetric::is_positive_definite;
 use crate::scene::schema::Limit;
@@ -36,11 +38,14 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
     let wheels = actuators(&mut section, "wheels", &turning(scene), "free wheels");
     let thrusters: Vec<Option<Name>> = scene.thrusters.iter().map(|thruster| Some(thruster.name)).collect();
     let thrusters = actuators(&mut section, "thrusters", &thrusters, "thrusters");
-    let has_actuators = section.has("wheels") || section.has("thrusters");
+    let rods: Vec<Option<Name>> = scene.torque_rods.iter().map(|rod| Some(rod.name)).collect();
+    let rods = actuators(&mut section, "torque_rods", &rods, "torque rods");
+    let has_actuators = section.has("wheels") || section.has("thrusters") || section.has("torque_rods");
     if !has_actuators {
-        let remedy = "add wheels = [\"w1\"] or thrusters = [\"p1\"] to [control]";
+        let remedy = "add wheels = [\"w1\"], thrusters = [\"p1\"] or torque_rods = [\"m1\"] to [control]";
         let path = section.path("wheels");
-        section.document.add(&path, None, "the names of the wheels that the loop drives, or thrusters", remedy);
+        let content = "the names of the wheels that the loop drives, or thrusters, or torque rods";
+        section.document.add(&path, None, content, remedy);
     }
     let may_fire = !has_actuators || thrusters.as_ref().is_none_or(|places| !places.is_empty());
     let holds_force = section.flag("hold_force").unwrap_or(false);
@@ -87,13 +92,15 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
     }
     section.finish();
 
+    let has_rods = rods.as_ref().is_none_or(|places| !places.is_empty());
     let sensors = root.sections("sensors", MOST_TABLES, |section| read_sensor(section, scene, period));
     if let Some(estimator) = estimator {
         let has_wheels = wheels.as_ref().is_none_or(|places| !places.is_empty());
-        check_sensors(root, &sensors, (estimator, period), [has_debris, has_wheels]);
+        check_sensors(root, &sensors, (estimator, period), [has_debris, has_wheels, has_rods]);
     }
     let mut taken = Vec::new();
-    let phases = root.sections("guidance", MOST_PHASES, |section| read_phase(section, scene, may_fire, &mut taken));
+    let phases =
+        root.sections("guidance", MOST_PHASES, |section| read_phase(section, scene, [may_fire, has_rods], &mut taken));
     if phases.is_empty() && !root.has("guidance") {
         let content = "the phases of the mission, at least one";
         let remedy =
@@ -101,12 +108,16 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
         root.document.add("guidance", None, content, remedy);
     }
     let phases = connected(root, phases, &taken);
+    if let (Some(rods), true, Some(phases)) = (&rods, sensors.iter().all(Option::is_some), &phases) {
+        check_rods(root, scene, rods, (&sensors, phases));
+    }
     let spec = LoopSpec {
         // a wrong period is told, and the columns do not depend on it
         period: period.unwrap_or(f64::NAN),
         estimator: estimator?,
         wheels: wheels?,
         thrusters: thrusters?,
+        rods: rods?,
         modulation: modulation?,
         holds_force,
         sensors: sensors.into_iter().collect::<Option<_>>()?,
@@ -120,6 +131,7 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
             .map(|wheel| wheel.name)
             .collect(),
         thruster_names: scene.thrusters.iter().map(|thruster| thruster.name).collect(),
+        rod_names: scene.torque_rods.iter().map(|rod| rod.name).collect(),
     };
     (has_actuators && !spec.phases.is_empty()).then(|| ControlLaw::closed_loop(spec))
 }
@@ -158,6 +170,37 @@ fn actuators(section: &mut Section<'_, '_>, key: &str, known: &[Option<Name>], w
     let mut places = section.names(key, &names, place, "none")?;
     places.sort_unstable();
     Some(places)
+}
+
+/// Notes which torque rods the loop, which drives those at `driven`, cannot drive or does not.
+fn check_rods(
+    root: &mut Section<'_, '_>,
+    scene: &SceneInput,
+    driven: &[usize],
+    (sensors, phases): (&[Option<SensorSpec>], &[PhaseSpec]),
+) {
+    let idle = (0..scene.torque_rods.len()).find(|place| !driven.contains(place));
+    if let Some(name) = idle.map(|place| scene.torque_rods[place].name) {
+        let allowed = "the name of one that the loop drives: nothing else does";
+        let remedy = format!("add {:?} to control.torque_rods, or delete the table", name.as_str());
+        root.document.add(&format!("torque_rods.{name}.name"), Some(format!("{:?}", name.as_str())), allowed, remedy);
+    }
+    if driven.is_empty() {
+        return;
+    }
+    let mut refuse = |allowed: &str, remedy: &str| {
+        let names: Vec<&str> = driven.iter().map(|place| scene.torque_rods[*place].name.as_str()).collect();
+        root.document.add("control.torque_rods", Some(format!("{names:?}")), allowed, remedy);
+    };
+    if !sensors.iter().flatten().any(|sensor| matches!(sensor.observes(), Observes::Field(_))) {
+        refuse(
+            "left out in a loop without a sensor of kind \"magnetometer\", by which torque rods are driven",
+            "add a [[sensors]] table with kind = \"magnetometer\"",
+        );
+    }
+    if phases.iter().all(|phase| phase.rods == RodUse::None) {
+        refuse("left out in a loop without a phase that uses them", "add rods = \"b_dot\" to a [[guidance]] table");
+    }
 }
 
 /// Notes which thrusters cannot be driven as `modulation` says.
@@ -238,6 +281,9 @@ pub(super) fn write(spec: &LoopSpec, scene: &SceneInput, lines: &mut Lines) {
         lines.key("modulation", modulation::NAMES[spec.modulation]);
         lines.key("hold_force", spec.holds_force);
     }
+    if !spec.rods.is_empty() {
+        lines.key("torque_rods", named(&spec.rods, &spec.rod_names));
+    }
     lines.keys(Table::Control, 0, scene);
     let ModelSpec { mass, center, inertia } = &spec.model;
     if mass.is_some() || center.is_some() || inertia.is_some() {
@@ -279,6 +325,9 @@ pub(super) fn write(spec: &LoopSpec, scene: &SceneInput, lines: &mut Lines) {
             "thrust",
             MANEUVERS.iter().find(|(_, maneuver)| *maneuver == phase.thrust).map_or("none", |one| one.0),
         );
+        if let Some((name, _)) = ROD_USES.iter().find(|(_, used)| *used == phase.rods && phase.rods != RodUse::None) {
+            lines.key("rods", name);
+        }
         if let Some(until) = &phase.until {
             lines.text_key("until", &until.text);
             match phase.next {

@@ -5,12 +5,13 @@ use super::tables::{ignore_others, read_keys};
 use crate::control::guidance::condition::Condition;
 use crate::control::guidance::phase::{MANEUVERS, Maneuver, Next};
 use crate::control::guidance::target::{TARGETS, Target};
+use crate::control::laws::rod_law::{ROD_USES, RodUse};
 use crate::control::laws::{self, LawKind};
 use crate::control::parameters;
 use crate::control::spec::PhaseSpec;
 use crate::scene::schema::control::kept;
 use crate::scene::table::Table;
-use crate::scene::{DeclaredTable, Name, SceneInput};
+use crate::scene::{DeclaredTable, Name, SceneInput, WheelMode};
 
 /// The word that stands for the launch of the net where a phase stands else.
 pub(super) const LAUNCH: &str = "launch";
@@ -29,7 +30,7 @@ pub(super) struct ReadPhase {
 pub(super) fn read_phase(
     section: &mut Section<'_, '_>,
     scene: &mut SceneInput,
-    has_thrusters: bool,
+    [has_thrusters, has_rods]: [bool; 2],
     taken: &mut Vec<Name>,
 ) -> Option<ReadPhase> {
     section.require("phase", Name::ALLOWED, "\"hold\"");
@@ -89,6 +90,18 @@ pub(super) fn read_phase(
             "add thrusters = [...] to [control] and a [debris] table, or delete this line",
         );
     }
+    let rods = section.name("rods", &ROD_USES.map(|(name, _)| name), |name| {
+        ROD_USES.iter().find(|(known, _)| *known == name).map(|one| one.1)
+    });
+    is_known &= rods.is_some() || !section.has("rods");
+    let rods = rods.unwrap_or(RodUse::None);
+    if rods != RodUse::None && !has_rods {
+        let remedy = "add torque_rods = [...] to [control], or delete this line";
+        section.refuse("rods", "\"none\" in a loop without torque rods", remedy);
+    }
+    if rods == RodUse::Unloading && scene.wheels.iter().all(|wheel| wheel.mode == WheelMode::Locked) {
+        section.refuse("rods", "another use where no wheel turns", "add a [[wheels]] table, or write rods = \"b_dot\"");
+    }
     if matches!((target, thrust), (Target::Transfer, Maneuver::Stop) | (Target::Stop, Maneuver::Transfer)) {
         section.refuse(
             "thrust",
@@ -116,6 +129,7 @@ pub(super) fn read_phase(
         }
     }
     let mut lists = parameters::of_phase(target, thrust, [section.has("until"), has_thrusters]);
+    lists.push(rods.parameters());
     lists.extend(law.map(|law| law.parameters));
     scene.control.guidance.push(DeclaredTable::of(own, kept(&lists)));
     let place = scene.control.guidance.len() - 1;
@@ -126,7 +140,7 @@ pub(super) fn read_phase(
     let place = law.and_then(|law| kinds.iter().position(|kind| *kind == law));
     ignore_others(section, "law", place, kinds.iter().map(|kind| (kind.name, kind.parameters)));
     section.finish();
-    let spec = PhaseSpec { name: own, law, gyroscopic, target, thrust, until, next: Next::Stay, otherwise: None };
+    let spec = PhaseSpec { name: own, law, gyroscopic, target, thrust, rods, until, next: Next::Stay, otherwise: None };
     name.map(|_| ReadPhase { spec, next, otherwise })
 }
 

@@ -11,8 +11,8 @@ use crate::scene::body::MAX_PARTS;
 use crate::scene::schema::Limit;
 use crate::scene::table::Table;
 use crate::scene::{
-    ActuationInput, ControlInput, DebrisInput, Epoch, FieldModel, MAX_THRUSTERS, MAX_WHEELS, Name, OrbitInput,
-    PartInput, PartShape, SceneInput, ThrusterInput, WheelInput, WheelMode,
+    ActuationInput, ControlInput, DebrisInput, Epoch, FieldModel, MAX_THRUSTERS, MAX_TORQUE_RODS, MAX_WHEELS, Name,
+    OrbitInput, PartInput, PartShape, SceneInput, ThrusterInput, TorqueRodInput, WheelInput, WheelMode,
 };
 use crate::scene::{MAX_PLATES, PlateInput, Shadow};
 use std::collections::HashSet;
@@ -26,6 +26,7 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     }
     read_wheels(root, &mut scene);
     read_thrusters(root, &mut scene);
+    read_torque_rods(root, &mut scene);
     if root.has("body") {
         read_body(root, &mut scene);
     }
@@ -107,6 +108,10 @@ fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
         if root.has(key) {
             root.refuse(key, "left out without [control]", "add a [control] table, or delete this one");
         }
+    }
+    if root.has("torque_rods") {
+        let allowed = "left out without [control]: a schedule does not command torque rods";
+        root.refuse("torque_rods", allowed, "add a [control] table, or delete this one");
     }
     let wheels = scene.wheels.iter().map(|wheel| {
         let values =
@@ -213,6 +218,17 @@ fn read_plates(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
         scene.plates.push(PlateInput { name, ..PlateInput::DEFAULT });
         let plate = scene.plates.len() - 1;
         read_keys(section, Table::Plate, plate, scene);
+        section.finish();
+    });
+}
+
+fn read_torque_rods(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
+    root.sections("torque_rods", MAX_TORQUE_RODS, |section| {
+        let taken: Vec<Name> = scene.torque_rods.iter().map(|rod| rod.name).collect();
+        let name = read_name(section, Table::TorqueRod, &taken);
+        scene.torque_rods.push(TorqueRodInput { name, ..TorqueRodInput::DEFAULT });
+        let rod = scene.torque_rods.len() - 1;
+        read_keys(section, Table::TorqueRod, rod, scene);
         section.finish();
     });
 }

@@ -41,6 +41,11 @@ pub(super) fn read_sensor(
     if let (Some(period), Some(own)) = (period, own_period) {
         check_times(section, period, own, latency);
     }
+    if let Some([allowed, remedy]) =
+        sensors::KINDS[kind].needs.filter(|need| !need.is_met(scene)).map(|need| need.refusal())
+    {
+        section.refuse("kind", allowed, remedy);
+    }
     // a wrong number is told, and the columns do not depend on it
     Some(SensorSpec { name, kind, period: own_period.unwrap_or(f64::NAN), latency })
 }
@@ -79,7 +84,7 @@ pub(super) fn check_sensors(
     root: &mut Section<'_, '_>,
     sensors: &[Option<SensorSpec>],
     (estimator, period): (usize, Option<f64>),
-    [has_debris, has_wheels]: [bool; 2],
+    [has_debris, has_wheels, has_rods]: [bool; 3],
 ) {
     if sensors.iter().any(Option::is_none) {
         return;
@@ -116,7 +121,8 @@ pub(super) fn check_sensors(
     if kind.knows_the_truth {
         return;
     }
-    for sensor in sensors.iter().filter(|sensor| !(kind.uses)(&sensor.observes())) {
+    let is_of_rods = |sensor: &SensorSpec| has_rods && matches!(sensor.observes(), Observes::Field(_));
+    for sensor in sensors.iter().filter(|sensor| !is_of_rods(sensor) && !(kind.uses)(&sensor.observes())) {
         let what = sensor.observes().text();
         let allowed = format!("a kind that the estimator {:?} uses: it has no use for {what}", kind.name);
         let path = format!("sensors.{}.kind", sensor.name);
@@ -124,7 +130,8 @@ pub(super) fn check_sensors(
         root.document.add(&path, Some(value), allowed, "delete the table, or write another estimator");
     }
     type Meets = fn(&Observes) -> bool;
-    let attitude: Meets = |observes| matches!(observes, Observes::Attitude(_) | Observes::Direction(_));
+    let attitude: Meets =
+        |observes| matches!(observes, Observes::Attitude(_) | Observes::Direction(_) | Observes::Field(_));
     let motion: Meets = |observes| matches!(observes, Observes::Motion(_));
     let wheel_rates: Meets = |observes| matches!(observes, Observes::WheelRates);
     for (is_needed, meets) in [(true, attitude), (has_debris, motion), (has_wheels && !kind.has_filter, wheel_rates)] {

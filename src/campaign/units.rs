@@ -45,7 +45,7 @@ const UNITS: &[(&str, &str, f64, f64)] = &[
 ];
 
 /// SI units of columns that have no other names here.
-const MORE: [&str; 12] = [
+const MORE: [&str; 13] = [
     "J",
     "W",
     "N s",
@@ -58,6 +58,7 @@ const MORE: [&str; 12] = [
     "rad/s/sqrt(s)",
     "m/s/sqrt(s)",
     "1/(N m s)",
+    "A m^2 s/T",
 ];
 
 /// A unit that texts know.
@@ -100,7 +101,7 @@ pub(super) fn known(unit: &str) -> Option<&'static str> {
 
 /// The unit at the end of a key; `1` where there is none.
 pub(super) fn in_name(key: &str) -> &'static str {
-    const ENDINGS: [(&str, &str); 21] = [
+    const ENDINGS: [(&str, &str); 22] = [
         ("_m3_s2", "m^3/s^2"),
         ("_rad_s_sqrt_s", "rad/s/sqrt(s)"),
         ("_rad_sqrt_s", "rad/sqrt(s)"),
@@ -112,6 +113,7 @@ pub(super) fn in_name(key: &str) -> &'static str {
         ("_rad_s", "rad/s"),
         ("_kg_m3", "kg/m^3"),
         ("_kg_m2", "kg m^2"),
+        ("_a_m2_s_t", "A m^2 s/T"),
         ("_a_m2", "A m^2"),
         ("_m_s", "m/s"),
         ("_n_m", "N m"),

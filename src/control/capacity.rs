@@ -2,7 +2,8 @@
 //! its thrusters can take it out again.
 
 use super::allocation::{ThrustAllocation, WheelTorque};
-use super::spec::LoopSpec;
+use super::measurement::Observes;
+use super::spec::{LoopSpec, SensorSpec};
 use crate::control::vector::{difference, dot, norm, product, scaled, sum};
 use crate::math::symmetric::principal_axes;
 use crate::scene::Scene;
@@ -89,7 +90,9 @@ impl Capacity {
         if !spec.thrusters.is_empty() && self.thruster_axes.is_empty() {
             lines.push("thrusters: torque in both directions about no axis".to_owned());
         }
-        if !self.free_axes.is_empty() {
+        if !spec.rods.is_empty() {
+            lines.push("torque rods: torque across the magnetic field".to_owned());
+        } else if !self.free_axes.is_empty() {
             let free = names(&self.free_axes);
             lines.push(format!("neither wheels nor thrusters have torque in both directions about {free}"));
         }
@@ -112,7 +115,7 @@ impl Capacity {
             ));
         }
         // rounding of the projections
-        if self.out_of_reach > 1e-9 * (self.within_reach + self.out_of_reach) {
+        if spec.rods.is_empty() && self.out_of_reach > 1e-9 * (self.within_reach + self.out_of_reach) {
             notes.push(format!(
                 "{:.3} N m s of the nominal momentum are about {}: the loop cannot stop it",
                 self.out_of_reach,
@@ -126,7 +129,8 @@ impl Capacity {
                 "the thrusters of the loop have torque in both directions{held} about {axes} alone: momentum of the wheels about the others cannot be unloaded without a turn"
             ));
         }
-        if spec.knows_the_truth() && !spec.sensors.is_empty() {
+        let is_read = |sensor: &SensorSpec| matches!(sensor.observes(), Observes::Field(_)) && !spec.rods.is_empty();
+        if spec.knows_the_truth() && !spec.sensors.iter().all(is_read) {
             notes.push("estimator = \"perfect\" reads no sensor: [[sensors]] has no effect on the runs".to_owned());
         }
         notes

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::estimators::attitude_innovation::AttitudeInnovation;
 use super::sensors::rate_gyro::GyroNoise;
-use crate::scene::DeclaredTable;
+use crate::scene::{DeclaredTable, Scene};
 
 /// Most numbers of a measurement.
 pub const MAX_VALUES: usize = 12;
@@ -68,8 +68,8 @@ impl PointMotion {
 
 /// How a filter takes a measurement of the attitude: as flight software believes the sensor, by its nominal parameters.
 pub trait AttitudeSensor: Debug + Send + Sync {
-    /// The innovation of `values` where the attitude is estimated as `q_es` (F_s -> F_e, scalar first).
-    fn innovation(&self, values: &Values, q_es: [f64; 4]) -> AttitudeInnovation;
+    /// The innovation of `values`, measured at `time` (s), where the attitude then is estimated as `q_es` (F_s -> F_e, scalar first).
+    fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation;
 }
 
 /// What the sensors of a kind say of the state, with how the nominal parameters of one say how exactly.
@@ -79,8 +79,8 @@ pub enum Observes {
     Rotation(fn(&DeclaredTable) -> GyroNoise),
     /// The attitude: quaternion F_s -> F_e, scalar first.
     Attitude(fn(&DeclaredTable) -> Arc<dyn AttitudeSensor>),
-    /// A part of the attitude, as the direction of the Sun in F_s is.
-    Direction(fn(&DeclaredTable) -> Arc<dyn AttitudeSensor>),
+    /// A part of the attitude, as the direction of the Sun in F_s is; the scene is the nominal one.
+    Direction(fn(&DeclaredTable, &Scene) -> Arc<dyn AttitudeSensor>),
     /// Position and velocity of the base point p in F_e, and of the debris's centre of mass; standard deviations in m and m/s.
     Motion(fn(&DeclaredTable) -> [f64; 2]),
     /// Attitude of the debris relative to the spacecraft F_d -> F_s, scalar first, and its rate relative to the spacecraft in F_d, rad/s; standard deviations in
@@ -88,6 +88,8 @@ pub enum Observes {
     DebrisAttitude(fn(&DeclaredTable) -> [f64; 2]),
     /// Rates of the wheels relative to the body, in the order of those that turn, rad/s.
     WheelRates,
+    /// The magnetic field in F_s, T: a part of the attitude, and what torque rods act in.
+    Field(fn(&DeclaredTable, &Scene) -> Arc<dyn AttitudeSensor>),
 }
 
 impl Observes {
@@ -100,6 +102,7 @@ impl Observes {
             Observes::Motion(_) => "positions and velocities",
             Observes::DebrisAttitude(_) => "attitude and rate of the debris",
             Observes::WheelRates => "rates of wheels",
+            Observes::Field(_) => "the magnetic field",
         }
     }
 
@@ -113,8 +116,8 @@ impl Observes {
         !matches!(self, Observes::Rotation(_) | Observes::WheelRates)
     }
 
-    /// Whether a loop has one of it at most: estimators use a single one.
+    /// Whether a loop has one of it at most: estimators, and laws of torque rods, use a single one.
     pub fn at_most_one(&self) -> bool {
-        matches!(self, Observes::Rotation(_) | Observes::WheelRates)
+        matches!(self, Observes::Rotation(_) | Observes::WheelRates | Observes::Field(_))
     }
 }

@@ -12,6 +12,7 @@ use super::measurement::Measurement;
 use super::sensors::SampledSensor;
 use super::spec::LoopSpec;
 use super::truth::{DebrisMotion, Truth};
+use super::vector::{scaled, sum};
 use crate::dynamics::actuation::{Actuation, BodyState, WheelState};
 use crate::scene::{Device, FailureInput, MAX_THRUSTERS, Scene, WheelMode};
 
@@ -39,6 +40,8 @@ pub struct Applied {
     pub saturated: [bool; 2],
     /// Largest commanded torque beyond a limit, N m.
     pub torque_excess: f64,
+    /// Whether a limit of a rod cut what was wanted.
+    pub is_rod_saturated: bool,
 }
 
 /// The truth of one run.
@@ -163,6 +166,11 @@ impl Plant {
             saturated[1] |= driven.is_speed_limited;
             torque_excess = torque_excess.max(driven.excess);
         }
-        Applied { actuation, stuck, length, saturated, torque_excess }
+        for &i in &self.spec.rods {
+            let rod = &self.drawn.torque_rods[i];
+            actuation.dipole = sum(actuation.dipole, scaled(rod.scale * commands.rods.dipoles[i], rod.axis));
+        }
+        let is_rod_saturated = commands.rods.is_limited;
+        Applied { actuation, stuck, length, saturated, torque_excess, is_rod_saturated }
     }
 }

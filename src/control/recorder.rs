@@ -4,12 +4,13 @@ use super::control_loop::SAME_TIME;
 use super::estimate::Estimate;
 use super::estimators::Consistency;
 use super::estimators::kalman::NormalizedSquare;
+use super::flight_software::Commanded;
 use super::measurement::Measurement;
 use super::sensors::{Components, KINDS as SENSORS, MeasuredQuantity};
 use super::spec::{LoopSpec, SensorSpec};
 use super::vector::difference;
 use crate::run::{Quantity, Telemetry};
-use crate::scene::{MAX_THRUSTERS, MAX_WHEELS};
+use crate::scene::MAX_WHEELS;
 
 /// The components of vectors and of quaternions.
 const XYZ: &[&str] = &["x", "y", "z"];
@@ -27,6 +28,7 @@ pub struct Recorder {
 struct Parts {
     wheels: Vec<usize>,
     thrusters: Vec<usize>,
+    rods: Vec<usize>,
     has_debris: bool,
     has_filter: bool,
     has_camera: bool,
@@ -56,8 +58,8 @@ pub struct Tick<'a> {
     pub estimate: &'a Estimate,
     /// How well the filters agree with their covariance.
     pub consistency: &'a Consistency,
-    /// Commanded motor torques, N m, and mean thrusts, N.
-    pub commanded: ([f64; MAX_WHEELS], [f64; MAX_THRUSTERS]),
+    /// What is commanded.
+    pub commanded: Commanded,
     /// What was delivered at the tick.
     pub measurements: &'a [Measurement],
 }
@@ -76,6 +78,7 @@ impl Recorder {
         let parts = Parts {
             wheels: spec.wheels.clone(),
             thrusters: spec.thrusters.clone(),
+            rods: spec.rods.clone(),
             has_debris: spec.has_debris,
             has_filter: spec.has_filter(),
             has_camera: spec.has_camera(),
@@ -197,6 +200,8 @@ impl Parts {
         add("commanded_torque", &names, "N m", "n_m", "Commanded torque of the motor of this wheel.");
         let names: Vec<&str> = self.thrusters.iter().map(|place| spec.thruster_names[*place].as_str()).collect();
         add("commanded_thrust", &names, "N", "n", "Commanded mean thrust of this thruster over the control period.");
+        let names: Vec<&str> = self.rods.iter().map(|place| spec.rod_names[*place].as_str()).collect();
+        add("commanded_dipole", &names, "A m^2", "a_m2", "Commanded dipole of this torque rod.");
         found
     }
 
@@ -233,9 +238,10 @@ impl Parts {
             row.extend(all.map(|error| error.unwrap_or(f64::NAN)));
         }
         self.measured(tick.measurements, &mut row);
-        let (torque, thrust) = tick.commanded;
-        row.extend(self.wheels.iter().map(|place| torque[*place]));
+        let Commanded { motor_torque, thrust, dipoles } = tick.commanded;
+        row.extend(self.wheels.iter().map(|place| motor_torque[*place]));
         row.extend(self.thrusters.iter().map(|place| thrust[*place]));
+        row.extend(self.rods.iter().map(|place| dipoles[*place]));
         row
     }
 

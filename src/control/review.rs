@@ -54,12 +54,13 @@ pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f
     notes
 }
 
-/// Directions without a sensor of the whole attitude: nothing measures the rotation about them.
+/// Sensors of one direction without one of the whole attitude: nothing measures the rotation about it at once.
 fn directions_alone(spec: &LoopSpec) -> Option<String> {
-    let any = |is: fn(&Observes) -> bool| spec.sensors.iter().any(|sensor| is(&sensor.observes()));
-    let is_alone = any(|observes| matches!(observes, Observes::Direction(_)))
-        && !any(|observes| matches!(observes, Observes::Attitude(_)));
-    (is_alone && !spec.knows_the_truth()).then(|| {
+    let is_whole = spec.sensors.iter().any(|sensor| matches!(sensor.observes(), Observes::Attitude(_)));
+    let mut directions =
+        spec.sensors.iter().filter(|sensor| matches!(sensor.observes(), Observes::Direction(_) | Observes::Field(_)));
+    let is_alone = directions.next().is_some_and(|first| directions.all(|other| other.kind == first.kind));
+    (is_alone && !is_whole && spec.has_filter()).then(|| {
         "control: no sensor measures the whole attitude: the estimate drifts about the direction that is measured"
             .to_owned()
     })
@@ -67,8 +68,12 @@ fn directions_alone(spec: &LoopSpec) -> Option<String> {
 
 /// What acts on the spacecraft and is not known to the filters and laws.
 fn unknown_effects(scene: &Scene) -> Option<String> {
-    let turns = |effect: &Effect| !matches!(effect.form(), Form::Translation | Form::Force);
-    let unknown: Vec<&str> = ForceModel::of(scene).effects().filter(turns).map(Effect::key).collect();
+    let is_unknown = |effect: &Effect| match effect {
+        // filters are told what torque rods do
+        Effect::MagneticTorque => scene.environment.magnetic_dipole_a_m2.is_some(),
+        other => !matches!(other.form(), Form::Translation | Form::Force),
+    };
+    let unknown: Vec<&str> = ForceModel::of(scene).effects().filter(is_unknown).map(Effect::key).collect();
     (!unknown.is_empty()).then(|| {
         format!("control: filters and laws of the loop do not know {}: it acts on the spacecraft, and is a disturbance to them", unknown.join(" and "))
     })

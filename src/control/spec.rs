@@ -4,6 +4,7 @@ use super::guidance::condition::Condition;
 use super::guidance::phase::{Maneuver, Next};
 use super::guidance::target::Target;
 use super::laws::LawKind;
+use super::laws::rod_law::RodUse;
 use super::measurement::Observes;
 use crate::observables::{LawSeries, Series};
 use crate::scene::{Name, Scene};
@@ -19,6 +20,8 @@ pub struct LoopSpec {
     pub wheels: Vec<usize>,
     /// The thrusters that it fires, by their places.
     pub thrusters: Vec<usize>,
+    /// The torque rods that it drives, by their places.
+    pub rods: Vec<usize>,
     /// How thrusters are fired, by its place in the list.
     pub modulation: usize,
     /// Whether thrusters keep a force of zero where no maneuver wants one, instead of any.
@@ -35,6 +38,8 @@ pub struct LoopSpec {
     pub wheel_names: Vec<Name>,
     /// The names of the thrusters.
     pub thruster_names: Vec<Name>,
+    /// The names of the torque rods.
+    pub rod_names: Vec<Name>,
 }
 
 /// A sensor.
@@ -94,6 +99,8 @@ pub struct PhaseSpec {
     pub target: Target,
     /// What thrust is for.
     pub thrust: Maneuver,
+    /// What torque rods are for.
+    pub rods: RodUse,
     /// The condition that ends it.
     pub until: Option<Condition>,
     /// What follows.

@@ -6,7 +6,7 @@ use spindrift::math::vector::{difference, norm};
 use spindrift::ode::Integrator;
 use spindrift::propagation::Method;
 use spindrift::run::{Grid, StateField};
-use spindrift::scene::{EnvironmentInput, Epoch, FieldModel, OrbitInput, Scene, SceneInput};
+use spindrift::scene::{Actuation, Arc, EnvironmentInput, Epoch, FieldModel, OrbitInput, Scene, SceneInput, TorqueRod};
 
 /// The scene of `benches/peers/magnetic_torque.py`.
 fn scene(model: FieldModel) -> Scene {
@@ -59,4 +59,35 @@ fn a_whole_run_is_that_of_scipy() {
     // the counter-test: a dipole is another field
     let (attitude, _) = off(FieldModel::Dipole, Method::Auto, adaptive(1e-16));
     assert!(attitude > 1e-2, "{attitude}");
+}
+
+/// Law: the torque is that of the residual dipole and the torque rods together: with part of the same dipole in rods, which are commanded anew at some times,
+/// the run is that of the residual dipole alone, by every method; where they are off for a tenth of the time it is not.
+#[test]
+fn rods_add_to_the_residual_dipole() {
+    let grid = Grid::uniform(6000.0, 61);
+    let alone = scene(FieldModel::Igrf);
+    let mut with_rods = alone.clone();
+    let rods = [0.2, 0.1, -0.3];
+    let dipole = alone.environment.magnetic_dipole_a_m2.expect("a dipole");
+    with_rods.environment.magnetic_dipole_a_m2 = Some(difference(dipole, rods));
+    with_rods.torque_rods = vec![TorqueRod { axis: [1.0, 0.0, 0.0], limit: 0.4, scale: 1.0 }];
+    let times = [0.0, 1234.5, 1300.0, 4321.0, 6000.0];
+    let arc = |ends: &[f64]| Arc { start: ends[0], applied: Actuation { dipole: rods, ..Actuation::none(ends[1]) } };
+    with_rods.schedule = times.windows(2).map(arc).collect();
+    let mut partly = with_rods.clone();
+    partly.schedule[2].applied.until -= 600.0;
+    let scenes = [alone, with_rods, partly];
+    for (method, control) in [
+        (Method::Auto, adaptive(1e-15)),
+        (Method::Gyrostat(Integrator::Dop853), adaptive(1e-13)),
+        (Method::Gyrostat(Integrator::GaussLegendre), fixed(5.0)),
+    ] {
+        let q =
+            propagate(method, control, &grid, &scenes).into_iter().map(|run| run.table.at(StateField::Attitude, 60));
+        let q: Vec<[f64; 4]> = q.collect();
+        let off = |other: [f64; 4]| (0..4).map(|i| (q[0][i] - other[i]).powi(2)).sum::<f64>().sqrt();
+        println!("{}: {:.1e}, {:.1e}", method.name(), off(q[1]), off(q[2]));
+        assert!(off(q[1]) < 1e-11 && off(q[2]) > 1e-2, "{}: {:e} {:e}", method.name(), off(q[1]), off(q[2]));
+    }
 }

@@ -13,7 +13,9 @@ use spindrift::ode::{Control, Integrator};
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::propagation::{Method, PropagationSettings, RotationError, rotation_errors};
 use spindrift::run::{Grid, StateField, StateTable};
-use spindrift::scene::{EnvironmentInput, Epoch, FieldModel, Name, OrbitInput, PlateInput, Scene, SceneInput};
+use spindrift::scene::{
+    Actuation, Arc, EnvironmentInput, Epoch, FieldModel, Name, OrbitInput, PlateInput, Scene, SceneInput, TorqueRod,
+};
 
 /// The methods that integrate the gravity gradient, with settings near rounding for motions of some mrad/s.
 fn methods() -> Vec<(Method, Control)> {
@@ -339,7 +341,26 @@ fn with_and_without(effect: Effect) -> [Scene; 2] {
             without = SceneInput { orbit: None, ..input.clone() };
         }
     }
-    [input, without].map(|input| Scene::resolve(&input).expect("a legal scene"))
+    let mut scenes = [input, without].map(|input| Scene::resolve(&input).expect("a legal scene"));
+    if effect == Effect::MagneticTorque {
+        // torque rods beside the residual dipole, switched, and off before the end
+        let until = [700.0, 1_600.0, 2_400.0];
+        let dipoles = [[40.0, -20.0, 60.0], [0.0; 3], [-90.0, 10.0, 30.0]];
+        scenes[0].torque_rods = vec![TorqueRod { axis: [1.0, 0.0, 0.0], limit: 110.0, scale: 1.0 }];
+        scenes[0].schedule = arcs_of_rods(&until, &dipoles);
+    }
+    scenes
+}
+
+/// Arcs one after another, up to the times `until` (s), in which torque rods have these dipoles, F_s, A m^2.
+fn arcs_of_rods(until: &[f64], dipoles: &[[f64; 3]]) -> Vec<Arc> {
+    let starts = [0.0].into_iter().chain(until.iter().copied());
+    let arcs = starts.zip(until.iter().zip(dipoles));
+    arcs.map(|(start, (until, dipole))| Arc {
+        start,
+        applied: Actuation { dipole: *dipole, ..Actuation::none(*until) },
+    })
+    .collect()
 }
 
 /// Law, over all effects and all methods: a method that integrates an effect finds the reference solution under it, rotation and place; one that does not

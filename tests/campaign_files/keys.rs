@@ -305,7 +305,18 @@ fn every_key_changes_the_plan_and_the_hash_of_the_rows_where_it_should() {
 
 /// Whether a table is one of the scene: its numbers are in `every_number_of_a_scene_is_in_the_plan`.
 fn is_of_scene(table: &str) -> bool {
-    let tables = ["body", "wheels", "thrusters", "debris", "initial", "orbit", "environment", "actuat", "failure"];
+    let tables = [
+        "body",
+        "wheels",
+        "thrusters",
+        "torque_rods",
+        "debris",
+        "initial",
+        "orbit",
+        "environment",
+        "actuat",
+        "failure",
+    ];
     tables.iter().any(|scene| table.trim_matches('[').starts_with(scene))
 }
 
@@ -328,9 +339,11 @@ fn every_number_of_a_scene_is_in_the_plan() {
                 if is_inertial && relative.contains(&parameter.facts().key) {
                     continue;
                 }
-                // where the spacecraft is follows from its orbit
+                // where the spacecraft is follows from its orbit, and an attitude is written in one frame
                 if plan.nominal.orbit.is_some()
                     && ["initial.position_m", "initial.velocity_m_s"].contains(&&*parameter.name())
+                    || plan.nominal.initial.attitude_orbital.is_some()
+                        && ["initial.attitude", "initial.angular_velocity_rad_s"].contains(&&*parameter.name())
                 {
                     continue;
                 }

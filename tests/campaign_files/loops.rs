@@ -1,6 +1,7 @@
 //! Control loops in campaign files: what is refused, with one problem for one mistake, and how a phase or a sensor is addressed.
 
 use spindrift::campaign::{CampaignError, Overrides, Plan};
+use spindrift::control::measurement::Observes;
 
 use crate::support::scratch_folder::ScratchFolder;
 
@@ -116,6 +117,9 @@ at_most = 100
 trajectories = "worst:1 by pointing_error_final_rad"
 "#;
 
+/// What sensors of an orbit need, before `[initial]`.
+const IN_A_FIELD: &str = "[environment]\nmagnetic_field = \"igrf\"\n[orbit]\nepoch = \"2026-11-24T00:00:00Z\"\nsemi_major_axis_m = 7e6\n[initial]";
+
 pub fn plan(text: &str) -> Plan {
     Plan::from_text("loop.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
@@ -137,12 +141,14 @@ fn a_sensor_that_nobody_uses_is_refused() {
     let mut refusals = 0;
     for estimator in &spindrift::control::estimators::KINDS {
         for kind in &spindrift::control::sensors::KINDS {
-            if kind.observes.needs_debris() || kind.observes.at_most_one() {
+            let is_field = matches!(kind.observes, Observes::Field(_));
+            if kind.observes.needs_debris() || kind.observes.at_most_one() && !is_field {
                 continue;
             }
             let name = estimator.name;
             let sensor = format!("[[sensors]]\nname = \"unused\"\nkind = \"{}\"\n", kind.name);
             let text = format!("{}{tachometers}{sensor}", raw.replacen("\"mekf\"", &format!("\"{name}\""), 1));
+            let text = if kind.needs.is_some() { text.replacen("[initial]", IN_A_FIELD, 1) } else { text };
             if estimator.knows_the_truth || (estimator.uses)(&kind.observes) {
                 plan(&text);
             } else {
@@ -153,7 +159,64 @@ fn a_sensor_that_nobody_uses_is_refused() {
             }
         }
     }
-    assert_eq!(refusals, 1, "a Sun sensor and raw measurements");
+    assert_eq!(refusals, 3, "Sun sensor, horizon sensor and magnetometer, by raw measurements");
+}
+
+/// Law: torque rods are refused without what they need: a field, a magnetometer, a phase, wheels to unload; and a rod that
+/// the loop does not drive, which nothing else does.
+#[test]
+fn torque_rods_need_what_drives_them() {
+    let rods = "[[torque_rods]]\nname = \"m1\"\naxis = [0, 0, 1]\nmax_dipole_a_m2 = 5\n";
+    let sensor = "[[sensors]]\nname = \"field\"\nkind = \"magnetometer\"\n[[guidance]]\nphase = \"brake\"\nrods = \"b_dot\"\nb_dot_gain_a_m2_s_t = 1e5\n";
+    let in_field = LOOP.replacen("[initial]", IN_A_FIELD, 1);
+    let right = in_field.replacen("[control]", &format!("{rods}[control]\ntorque_rods = [\"m1\"]"), 1) + sensor;
+    let read = plan(&right);
+    assert_eq!(read, plan(&read.text()));
+    let second = rods.replace("m1", "m2");
+    for (from, to, key, allowed) in [
+        (
+            "magnetic_field = \"igrf\"",
+            "gravity_gradient = true",
+            "environment.magnetic_field is missing",
+            "given where there are [[torque_rods]]",
+        ),
+        (
+            "[[sensors]]\nname = \"field\"\nkind = \"magnetometer\"",
+            "",
+            "control.torque_rods = [\"m1\"]",
+            "without a sensor of kind \"magnetometer\"",
+        ),
+        (
+            "rods = \"b_dot\"\nb_dot_gain_a_m2_s_t = 1e5",
+            "",
+            "control.torque_rods = [\"m1\"]",
+            "without a phase that uses them",
+        ),
+        ("\ntorque_rods = [\"m1\"]", "", "torque_rods.m1.name = \"m1\"", "the name of one that the loop drives"),
+        (
+            "[control]\n",
+            &format!("{second}[control]\n"),
+            "torque_rods.m2.name = \"m2\"",
+            "the name of one that the loop drives",
+        ),
+        ("max_dipole_a_m2 = 5", "max_dipole_a_m2 = 0", "torque_rods.m1.max_dipole_a_m2 = 0", "above zero"),
+        ("axis = [0, 0, 1]\nmax", "axis = [0, 0, 0]\nmax", "torque_rods.m1.axis", "not all zero"),
+        ("rods = \"b_dot\"\n", "rods = \"bdot\"\n", "guidance.brake.rods = \"bdot\"", "none, b_dot, unloading"),
+        ("b_dot_gain_a_m2_s_t = 1e5", "", "guidance.brake.b_dot_gain_a_m2_s_t", "above zero"),
+        (
+            "kind = \"magnetometer\"",
+            "kind = \"magnetometer\"\n[[sensors]]\nname = \"other\"\nkind = \"magnetometer\"",
+            "sensors.other.kind",
+            "at most one sensor of kind \"magnetometer\"",
+        ),
+    ] {
+        assert_eq!(right.matches(from).count(), 1, "{from}");
+        let said = refused(&right.replacen(from, to, 1)).to_string();
+        assert!(said.contains(key) && said.contains(allowed), "{to}: {said}");
+    }
+    let idle =
+        LOOP.replacen("phase = \"slew\"", "phase = \"slew\"\nrods = \"unloading\"\nrod_unloading_time_s = 100", 1);
+    assert!(refused(&idle).to_string().contains("\"none\" in a loop without torque rods"));
 }
 
 /// Law: filters, raw measurements and perfect knowledge know gravity: with thrusters and a radar a loop on an orbit is accepted.

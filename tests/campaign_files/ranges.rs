@@ -84,9 +84,11 @@ fn each_row_of_the_schema_holds_its_limit() {
             if parameter.value(&plan.nominal, 0).is_none() || is_inertial && relative.contains(&parameter.facts().key) {
                 continue;
             }
-            // where the spacecraft is follows from its orbit
+            // where the spacecraft is follows from its orbit, and an attitude is written in one frame
             if plan.nominal.orbit.is_some()
                 && ["initial.position_m", "initial.velocity_m_s"].contains(&&*parameter.name())
+                || plan.nominal.initial.attitude_orbital.is_some()
+                    && ["initial.attitude", "initial.angular_velocity_rad_s"].contains(&&*parameter.name())
             {
                 continue;
             }

@@ -2,6 +2,10 @@
 //! that is told the truth about each.
 
 use spindrift::campaign::{Overrides, Plan};
+use spindrift::dynamics::magnetic_field::MagneticField;
+use spindrift::dynamics::orbit::KeplerOrbit;
+use spindrift::math::vector::{dot, norm, scaled};
+use spindrift::scene::Scene;
 
 use crate::support::plans::rows;
 
@@ -102,4 +106,66 @@ fn the_mean_of_innovations_is_of_all_measurements() {
     let all = &table.column("attitude_innovation_mean")[1..];
     let mean = all.iter().sum::<f64>() / all.len() as f64;
     assert!((mean - 3.0).abs() < 0.1, "{mean}");
+}
+
+/// A body at rest in an inertial frame on an orbit, for 100 ticks, whose nominal orbit is the true one.
+fn on_orbit(sensors: &str) -> String {
+    let orbit = "[orbit]\nepoch = \"2026-11-24T00:00:00Z\"\nsemi_major_axis_m = 7e6\ninclination_rad = 1.7\ntrue_anomaly_rad = 0.8\n[environment]\nmagnetic_field = \"igrf\"\n";
+    format!("{AT_REST}{orbit}{sensors}")
+}
+
+/// Law: on an orbit a horizon sensor and a magnetometer lower the error as the information of the directions says that they measure, which turn: after 100 ticks
+/// the covariance is the inverse of the sum of (1 - u u^T) |u|^2/sigma^2 over the nadirs u, of length one, and the fields u, and of the tracker; each
+/// alone and both. Means of 800 runs within 4.5 standard errors, and the mean of all innovations is one.
+#[test]
+fn directions_of_an_orbit_lower_the_error_as_theory_says() {
+    const SIGMAS: [f64; 2] = [3e-3, 1e-7];
+    let horizon = format!(
+        "[[sensors]]\nname = \"horizon\"\nkind = \"horizon_sensor\"\nnoise_rad = {:?}\nboresight = [-0.7, 0.1, -0.7]\n",
+        SIGMAS[0]
+    );
+    let field =
+        format!("[[sensors]]\nname = \"field\"\nkind = \"magnetometer\"\nnoise_t = [{0:?}, {0:?}, {0:?}]\n", SIGMAS[1]);
+    let tracker = [1e-3, 2e-3, 2e-2].map(|sigma| information(100.0, sigma) + information(1.0, 0.1));
+    let mut means = Vec::new();
+    for (sensors, has) in [
+        (String::new(), [0.0; 2]),
+        (horizon.clone(), [1.0, 0.0]),
+        (field.clone(), [0.0, 1.0]),
+        (format!("{horizon}{field}"), [1.0; 2]),
+    ] {
+        let plan = Plan::from_text("c.toml", &on_orbit(&sensors), Overrides::default()).expect("a plan");
+        let nominal = Scene::resolve(&plan.nominal).expect("physical");
+        let orbit = KeplerOrbit::new(nominal.orbit.as_ref().expect("an orbit"));
+        let magnetic = MagneticField::of(&nominal).expect("a field");
+        let mut all = [[0.0; 3]; 3];
+        for (axis, row) in all.iter_mut().enumerate() {
+            row[axis] = tracker[axis];
+        }
+        for tick in 0..100 {
+            let r = orbit.state(f64::from(tick)).position;
+            let nadir = scaled(-1.0 / norm(r), r);
+            for ((u, sigma), is_there) in [nadir, magnetic.at(f64::from(tick), r)].into_iter().zip(SIGMAS).zip(has) {
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let unit = if i == j { dot(u, u) } else { 0.0 };
+                        all[i][j] += is_there * (unit - u[i] * u[j]) / (sigma * sigma);
+                    }
+                }
+            }
+        }
+        let covariance = nalgebra::Matrix3::from_fn(|i, j| all[i][j]).try_inverse().expect("all axes are measured");
+        let (mean, squares) = (covariance.trace(), (covariance * covariance).trace());
+        let n = 800.0;
+        let table = rows(&plan);
+        let column = |name| &table.column(name)[1..];
+        let found = column("attitude_estimate_error_final_rad").iter().map(|error| error * error).sum::<f64>() / n;
+        let deviation = (2.0 * squares / n).sqrt();
+        println!("{has:?}: {found:e} for {mean:e} +- {deviation:e}");
+        assert!((found - mean).abs() < 4.5 * deviation, "{has:?}: {found:e} for {mean:e} +- {deviation:e}");
+        let innovations = column("attitude_innovation_mean").iter().sum::<f64>() / n;
+        assert!((innovations - 1.0).abs() < 4.5 * (2.0 / (2.0 * 100.0 * n)).sqrt(), "{has:?}: {innovations}");
+        means.push(mean);
+    }
+    assert!(means[0] > 8.0 * means[1] && means[0] > 8.0 * means[2] && means[1] > 1.1 * means[3], "{means:?}");
 }

@@ -2,6 +2,7 @@
 //! deviation of the file.
 
 use spindrift::control::sensors::KINDS;
+use spindrift::dynamics::magnetic_field::MagneticField;
 use spindrift::math::vector::{
     conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, product, scaled, sum, transposed_product,
 };
@@ -89,6 +90,48 @@ fn file() -> String {
     text + "[[disperse]]\nparameter = \"initial.velocity_m_s\"\ndistribution = \"offset\"\noffset = 0.0\n"
 }
 
+/// Period, latency and noise of those of an orbit; fixed errors of the magnetometer; boresight and field of view of the horizon sensor, whose errors are those
+/// of the Sun sensor.
+const FIELD: [f64; 2] = [1.5, 0.5];
+const FIELD_NOISE: [f64; 3] = [3e-8, 5e-8, 4e-8];
+const FIELD_BIAS: [f64; 3] = [1e-7, -2e-7, 3e-7];
+const FIELD_SCALE: [f64; 3] = [1.02, 0.98, 1.01];
+const HORIZON: [f64; 2] = [1.0, 1.5];
+const HALF_VIEW: f64 = 0.9;
+
+/// A small satellite that tumbles on an orbit, with the sensors that need one.
+fn file_on_orbit() -> String {
+    format!(
+        "[campaign]\nname = \"orbit\"\nsamples = 4\nseed = 1\nduration_s = 300.2\n\
+         [observe]\npoints = 3\n\
+         [body]\nmass_kg = 12.0\ncenter_of_mass_m = [0.1, 0.2, -0.3]\nincludes_wheels = true\ninertia_kg_m2 = [[0.12, 0, 0], [0, 0.14, 0], [0, 0, 0.09]]\n\
+         [[wheels]]\nname = \"w1\"\naxis = [1, 0, 0]\nmass_kg = 0.1\naxial_inertia_kg_m2 = 1e-4\ntransverse_inertia_kg_m2 = 6e-5\n\
+         [initial]\nangular_velocity_rad_s = [\"3 deg/s\", \"-2 deg/s\", \"2 deg/s\"]\n\
+         [orbit]\nepoch = \"2026-11-24T00:00:00Z\"\nsemi_major_axis_m = 6.928e6\ninclination_rad = 1.7\n\
+         [environment]\nmagnetic_field = \"igrf\"\n\
+         [control]\nperiod_s = {PERIOD:?}\nestimator = \"mekf\"\nwheels = [\"w1\"]\n\
+         [[sensors]]\nname = \"field\"\nkind = \"magnetometer\"\nperiod_s = {:?}\nlatency_s = {:?}\nnoise_t = {FIELD_NOISE:?}\nbias_t = {FIELD_BIAS:?}\n\
+         scale = {FIELD_SCALE:?}\nmisalignment_rad = {MISALIGNMENT:?}\n\
+         [[sensors]]\nname = \"horizon\"\nkind = \"horizon_sensor\"\nperiod_s = {:?}\nlatency_s = {:?}\nnoise_rad = {SUN_NOISE:?}\nbias_rad = {SUN_BIAS:?}\n\
+         boresight = {BORESIGHT:?}\nhalf_field_of_view_rad = {HALF_VIEW:?}\n\
+         [[guidance]]\nphase = \"hold\"\nlaw = \"rate_damping\"\ngain_n_m_s = 1e-6\n\
+         [[disperse]]\nparameter = \"body.inertia_scale\"\ndistribution = \"offset\"\noffset = 0.0\n",
+        FIELD[0], FIELD[1], HORIZON[0], HORIZON[1]
+    )
+}
+
+/// The components along axes that are turned by [`MISALIGNMENT`] of the vector `v` of F_s.
+fn misaligned(v: [f64; 3]) -> [f64; 3] {
+    let size = norm(MISALIGNMENT);
+    let half = scaled((0.5 * size).sin() / size, MISALIGNMENT);
+    transposed_product(dcm_from_quaternion([(0.5 * size).cos(), half[0], half[1], half[2]]), v)
+}
+
+/// The angles of the direction `u_s` about a boresight along s2: s3 turned to it the shortest way, about s1, so that t1 is s1 and t2 is -s3.
+fn angles(u_s: [f64; 3]) -> Vec<f64> {
+    [u_s[0], -u_s[2]].map(|x| x.atan2(u_s[1]) + SUN_BIAS).to_vec()
+}
+
 /// The state that a sensor of these `[period, latency]` delivers at tick number `tick`; `None` where it delivers nothing.
 fn delivered(flown: &FlownLoop, tick: usize, [period, latency]: [f64; 2]) -> Option<&State> {
     let taken = tick.checked_sub((latency / PERIOD).round() as usize)?;
@@ -101,12 +144,7 @@ fn expected(kind: &str, flown: &FlownLoop, tick: usize) -> Option<Vec<f64>> {
         "rate_gyro" => {
             let [before, now] = [&flown.ticks[tick.checked_sub(1)?], &flown.ticks[tick]];
             let turn = rotation_vector(hamilton(conjugate(before.q_es), now.q_es));
-            // the axes of the gyro are turned by the misalignment: components along them
-            let size = norm(MISALIGNMENT);
-            let axis = scaled(1.0 / size, MISALIGNMENT);
-            let half = scaled((0.5 * size).sin(), axis);
-            let c = dcm_from_quaternion([(0.5 * size).cos(), half[0], half[1], half[2]]);
-            let along = transposed_product(c, turn);
+            let along = misaligned(turn);
             Some((0..3).map(|i| GYRO_SCALE[i] * along[i] / PERIOD + GYRO_BIAS[i]).collect())
         }
         "star_tracker" => {
@@ -116,9 +154,19 @@ fn expected(kind: &str, flown: &FlownLoop, tick: usize) -> Option<Vec<f64>> {
             Some(hamilton(state.q_es, [(0.5 * size).cos(), half[0], half[1], half[2]]).to_vec())
         }
         "sun_sensor" => {
-            // the boresight is s2: s3 turned to it the shortest way, about s1, so that t1 is s1 and t2 is -s3
             let sun_s = delivered(flown, tick, SUN)?.to_s(SUN_E);
-            (sun_s[1] > 0.0).then(|| [sun_s[0], -sun_s[2]].map(|x| x.atan2(sun_s[1]) + SUN_BIAS).to_vec())
+            (sun_s[1] > 0.0).then(|| angles(sun_s))
+        }
+        "horizon_sensor" => {
+            let state = delivered(flown, tick, HORIZON)?;
+            let down_s = state.to_s(scaled(-1.0 / norm(state.r_co_e), state.r_co_e));
+            (down_s[1] > HALF_VIEW.cos()).then(|| angles(down_s))
+        }
+        "magnetometer" => {
+            let state = delivered(flown, tick, FIELD)?;
+            let field = MagneticField::of(&flown.run.scene).expect("a field").at(state.time, state.r_co_e);
+            let along = misaligned(state.to_s(field));
+            Some((0..3).map(|i| FIELD_SCALE[i] * along[i] + FIELD_BIAS[i]).collect())
         }
         "ground_radar" => {
             let state = delivered(flown, tick, RADAR)?;
@@ -149,6 +197,8 @@ fn names(kind: &str) -> Vec<String> {
         "rate_gyro" => of("measured_rate_s", "xyz", "_rad_s"),
         "star_tracker" => of("measured_q_es", "wxyz", ""),
         "sun_sensor" => of("measured_sun_angle", "xy", "_rad"),
+        "horizon_sensor" => of("measured_nadir_angle", "xy", "_rad"),
+        "magnetometer" => of("measured_field_s", "xyz", "_t"),
         "ground_radar" => [("r_po", "_m"), ("v_po", "_m_s"), ("r_gdo", "_m"), ("v_gdo", "_m_s")]
             .map(|(name, unit)| of(&format!("measured_{name}_e"), "xyz", unit))
             .concat(),
@@ -168,7 +218,10 @@ fn errors(kind: &str, found: &[f64], expected: &[f64]) -> Vec<f64> {
             let turn = rotation_vector(hamilton(conjugate(q(expected)), q(found)));
             turn.iter().zip(TRACKER_NOISE).map(|(error, deviation)| error / deviation).collect()
         }
-        "sun_sensor" => found.iter().zip(expected).map(over(SUN_NOISE)).collect(),
+        "sun_sensor" | "horizon_sensor" => found.iter().zip(expected).map(over(SUN_NOISE)).collect(),
+        "magnetometer" => {
+            found.iter().zip(expected).zip(FIELD_NOISE).map(|(pair, deviation)| over(deviation)(pair)).collect()
+        }
         "ground_radar" => {
             let both = found.iter().zip(expected).enumerate();
             both.map(|(place, pair)| over(RADAR_NOISE[place / 3 % 2])(pair)).collect()
@@ -189,8 +242,10 @@ fn errors(kind: &str, found: &[f64], expected: &[f64]) -> Vec<f64> {
 #[test]
 fn every_sensor_measures_the_true_state() {
     let (nominal, noisy) = (FlownLoop::new(&file(), 0), FlownLoop::new(&file(), 1));
+    let on_orbit = [0, 1].map(|sample| FlownLoop::new(&file_on_orbit(), sample));
     for kind in &KINDS {
-        for (flown, has_noise) in [(&nominal, false), (&noisy, true)] {
+        let [quiet, other] = if kind.needs.is_some() { on_orbit.each_ref() } else { [&nominal, &noisy] };
+        for (flown, has_noise) in [(quiet, false), (other, true)] {
             let told: Vec<Vec<f64>> = names(kind.name).iter().map(|name| flown.told(name)).collect();
             let (mut delivered, mut lost) = (0, 0);
             let mut all: Vec<f64> = Vec::new();

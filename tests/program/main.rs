@@ -85,4 +85,5 @@ mod stopping;
 mod strays;
 mod table_log;
 mod threads_and_shards;
+mod torque_rods;
 mod tutorial;

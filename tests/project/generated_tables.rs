@@ -209,6 +209,9 @@ fn keys_of_loops() -> String {
     lists.push(("`[[guidance]]`".into(), &parameters::PHASE));
     lists.push(("`[[guidance]]` with `until`".into(), &parameters::CONDITION));
     lists.push(("`[[guidance]]` with thrusters".into(), &parameters::UNLOADING));
+    for (name, of) in laws::rod_law::ROD_USES {
+        lists.push((named("[[guidance]]", "rods", name), of.parameters()));
+    }
     lists.push(("`[[guidance]]`, target or thrust \"transfer\"".into(), &net_launch::parameters::TRANSFER));
     lists.push(("`[[guidance]]`, `target = \"attitude\"`".into(), &parameters::ATTITUDE));
     let mut text = String::from("| table | key | unit | default | meaning |\n| --- | --- | --- | --- | --- |\n");

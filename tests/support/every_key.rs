@@ -331,7 +331,8 @@ fn on_orbit(keys: &str) -> String {
 pub fn every_loop() -> Vec<String> {
     let base = every_table_of_loops();
     let sensors_of = |estimator: &spindrift::control::estimators::EstimatorKind| {
-        let kinds = spindrift::control::sensors::KINDS.iter();
+        // those that need an orbit: below
+        let kinds = spindrift::control::sensors::KINDS.iter().filter(|kind| kind.needs.is_none());
         let used = kinds.filter(|kind| estimator.knows_the_truth || (estimator.uses)(&kind.observes));
         used.fold(String::new(), |text, kind| {
             let name = kind.name;
@@ -376,6 +377,18 @@ pub fn every_loop() -> Vec<String> {
         files.push(format!(
             "{orbit}[control]\nperiod_s = 0.25\nwheels = [\"w1\"]\n[[guidance]]\nphase = \"turn\"\n\
              law = \"rate_damping\"\ngain_n_m_s = 1.0\ntarget = \"{target}\"\n{attitude}"
+        ));
+    }
+    let of_orbit = spindrift::control::sensors::KINDS.iter().filter(|kind| kind.needs.is_some());
+    let sensors = of_orbit.fold(String::new(), |text, kind| {
+        let name = kind.name;
+        format!("{text}[[sensors]]\nname = \"a_{name}\"\nkind = \"{name}\"\nperiod_s = 0.5\nlatency_s = 0.25\n")
+    });
+    for (name, of) in spindrift::control::laws::rod_law::ROD_USES.iter().filter(|(name, _)| *name != "none") {
+        let own = numbers(of.parameters());
+        files.push(format!(
+            "{orbit}[[torque_rods]]\nname = \"m1\"\naxis = [0, 0, 1]\nmax_dipole_a_m2 = 5.0\n[control]\nperiod_s = 0.25\n\
+             estimator = \"mekf\"\nwheels = [\"w1\"]\ntorque_rods = [\"m1\"]\n{sensors}[[guidance]]\nphase = \"turn\"\nrods = \"{name}\"\n{own}"
         ));
     }
     files

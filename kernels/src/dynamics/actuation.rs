@@ -187,6 +187,7 @@ pub fn sum(first: &Actuation, second: &Actuation) -> Actuation {
         thrust: std::array::from_fn(|i| first.thrust[i] + second.thrust[i]),
         motor_torque: std::array::from_fn(|i| first.motor_torque[i] + second.motor_torque[i]),
         body_torque: std::array::from_fn(|i| first.body_torque[i] + second.body_torque[i]),
+        dipole: std::array::from_fn(|i| first.dipole[i] + second.dipole[i]),
         ends_run: first.ends_run || second.ends_run,
     }
 }

@@ -1,11 +1,11 @@
 //! [`ArcRecord`]: the arcs that a run has flown, as what changes from each to the next.
 //!
-//! A control loop flies an arc a tick, and of the numbers of an actuation few change: forty bytes an arc for three wheels, where an [`Arc`] has 240.
+//! A control loop flies an arc a tick, and of the numbers of an actuation few change: forty bytes an arc for three wheels, where an [`Arc`] has 264.
 
 use crate::scene::{Actuation, Arc, MAX_THRUSTERS, MAX_WHEELS};
 
 /// Numbers of an actuation beside its end.
-const NUMBERS: usize = MAX_THRUSTERS + MAX_WHEELS + 3;
+const NUMBERS: usize = MAX_THRUSTERS + MAX_WHEELS + 6;
 
 /// The bit of [`Actuation::ends_run`] beside those of the numbers.
 const ENDS_RUN: u64 = 1 << NUMBERS;
@@ -42,12 +42,17 @@ impl ArcRecord {
         let thrusts = changes(&old.thrust, &new.thrust);
         let motors = changes(&old.motor_torque, &new.motor_torque);
         let body = changes(&old.body_torque, &new.body_torque);
-        let all = thrusts | motors << MAX_THRUSTERS | body << (MAX_THRUSTERS + MAX_WHEELS);
+        let dipole = changes(&old.dipole, &new.dipole);
+        let external = body | dipole << 3;
+        let all = thrusts | motors << MAX_THRUSTERS | external << (MAX_THRUSTERS + MAX_WHEELS);
         let ends_run = if new.ends_run { ENDS_RUN } else { 0 };
         self.words.extend([all | ends_run, new.until.to_bits()]);
-        for (changed, numbers) in
-            [(thrusts, &new.thrust[..]), (motors, &new.motor_torque[..]), (body, &new.body_torque[..])]
-        {
+        for (changed, numbers) in [
+            (thrusts, &new.thrust[..]),
+            (motors, &new.motor_torque[..]),
+            (body, &new.body_torque[..]),
+            (dipole, &new.dipole[..]),
+        ] {
             let mut left = changed;
             while left != 0 {
                 self.words.push(numbers[left.trailing_zeros() as usize].to_bits());
@@ -116,7 +121,9 @@ fn changes<const K: usize>(old: &[f64; K], new: &[f64; K]) -> u64 {
 /// Number `number` of an actuation.
 fn number_mut(applied: &mut Actuation, number: usize) -> &mut f64 {
     const BODY: usize = MAX_THRUSTERS + MAX_WHEELS;
+    const DIPOLE: usize = BODY + 3;
     match number {
+        DIPOLE.. => &mut applied.dipole[number - DIPOLE],
         BODY.. => &mut applied.body_torque[number - BODY],
         MAX_THRUSTERS..BODY => &mut applied.motor_torque[number - MAX_THRUSTERS],
         _ => &mut applied.thrust[number],
@@ -130,7 +137,7 @@ mod tests {
     #[test]
     fn a_record_is_its_arcs_bit_for_bit() {
         let end_of_run = Actuation { until: 9.0, ..Actuation::end_of_run() };
-        let body = Actuation { body_torque: [0.0, -0.0, 7.0], ..Actuation::none(3.5) };
+        let body = Actuation { body_torque: [0.0, -0.0, 7.0], dipole: [1.0, -0.0, 0.5], ..Actuation::none(3.5) };
         let answers = [
             Actuation::none(1.0),
             Actuation::none(2.0).with_thrust(&[1.0, 0.0, 3.0]).with_motor_torque(&[0.5; MAX_WHEELS]),

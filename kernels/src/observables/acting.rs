@@ -22,6 +22,24 @@ enum Arcs<'a> {
     Flown(&'a ArcRecord),
 }
 
+/// The dipoles of torque rods as time goes on.
+pub(super) struct Rods<I> {
+    later: I,
+    last: Option<Arc>,
+}
+
+impl<I: Iterator<Item = Arc>> Rods<I> {
+    /// That at `time`, F_s, A m^2, in the arc that ends there at a switch; times do not descend.
+    pub(super) fn dipole(&mut self, time: f64) -> [f64; 3] {
+        while self.last.is_none_or(|arc| arc.end() < time)
+            && let Some(next) = self.later.next()
+        {
+            self.last = Some(next);
+        }
+        self.last.map_or([0.0; 3], |arc| arc.applied.dipole)
+    }
+}
+
 impl<'a> Acting<'a> {
     /// The schedule of `scene` and its environment.
     pub(super) fn scheduled(scene: &'a Scene) -> Self {
@@ -31,6 +49,14 @@ impl<'a> Acting<'a> {
     /// The arcs that a run of `scene` has flown, which contain its constant effects.
     pub(super) fn flown(scene: &'a Scene, arcs: &'a ArcRecord) -> Self {
         Acting { scene, arcs: Arcs::Flown(arcs) }
+    }
+
+    /// The dipoles of torque rods, where a law drives some.
+    pub(super) fn rods(&self) -> Option<Rods<impl Iterator<Item = Arc> + use<'a>>> {
+        match self.arcs {
+            Arcs::Flown(arcs) if !self.scene.torque_rods.is_empty() => Some(Rods { later: arcs.iter(), last: None }),
+            _ => None,
+        }
     }
 
     /// The scene.

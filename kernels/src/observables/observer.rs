@@ -24,6 +24,7 @@ use super::table::Series;
 use super::weights::Weights;
 use super::window::Window;
 use crate::dynamics::arc_record::ArcRecord;
+use crate::dynamics::effects::magnetic_torque;
 use crate::dynamics::magnetic_field::MagneticField;
 use crate::math::Isa;
 use crate::math::isa::Work;
@@ -270,10 +271,9 @@ impl Work for Observation<'_> {
             if observed.has(Series::Nutation) { observer.request.nutation_axis.of(scene.mass.inertia) } else { None };
         let (sources, mass) = (&observer.sources, &scene.mass);
         let mu = scene.orbit.as_ref().map_or(f64::NAN, |orbit| orbit.mu);
-        let dipole = scene.environment.magnetic_dipole_a_m2;
-        let magnetism = dipole
-            .and_then(|dipole| Some(Magnetism { field: MagneticField::of(scene)?, dipole, times: &observer.times }));
         let times = &observer.times;
+        let magnetism = magnetic_torque::residual_dipole(scene)
+            .and_then(|dipole| Some(Magnetism { field: MagneticField::of(scene)?, dipole, acting }));
         let run = MeasuredRun {
             observed,
             sources,

@@ -1,5 +1,5 @@
 //! Where a spacecraft on an orbit is and how it is turned to the central body: its distance, the angle of s3 from nadir, the torque of the gravity
-//! gradient, the magnetic field and the torque of the residual dipole in it.
+//! gradient, the magnetic field and its torque on the residual dipole and the torque rods.
 //!
 //! Nadir is the direction from the centre of mass to the central body. The torque is that of [`crate::dynamics::effects::gravity_gradient`] at the
 //! states of the table.
@@ -39,13 +39,20 @@ pub(super) fn orbit<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTab
         dot(torque, torque).store(&mut torques[at]);
         distance.store(&mut distances[at]);
     }
-    let Some(Magnetism { field, dipole, times }) = run.magnetism else { return };
-    let (field, dipole) = (field.in_lanes(gradient.strength), constant(gradient.strength, dipole));
+    let Some(Magnetism { field, dipole, acting }) = run.magnetism else { return };
+    let (field, times) = (field.in_lanes(gradient.strength), run.times);
+    let residual = constant(gradient.strength, dipole);
+    let mut rods = acting.rods();
     let [strengths, torques] = out.write([Series::FieldStrength, Series::MagneticTorqueSquare], vectors);
     for at in 0..vectors {
         let time = std::array::from_fn(|lane| times[(WIDTH * at + lane).min(times.len() - 1)]);
         let field_e = field.at(Lanes::load(simd, &time), three(simd, position, at));
         norm(field_e).store(&mut strengths[at]);
+        let mut dipole = residual;
+        if let Some(rods) = &mut rods {
+            let of_points = time.map(|time| rods.dipole(time));
+            dipole = std::array::from_fn(|i| residual[i] + Lanes::load(simd, &of_points.map(|dipole| dipole[i])));
+        }
         let torque = cross(dipole, transposed_product(attitude.c_es(simd, at), field_e));
         dot(torque, torque).store(&mut torques[at]);
     }

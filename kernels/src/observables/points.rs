@@ -6,6 +6,7 @@ use core::ops::Range;
 
 use fearless_simd::Simd;
 
+use super::acting::Acting;
 use super::nominal_attitude::NominalAttitude;
 use super::request::SeriesSet;
 use super::rows::SeriesSource;
@@ -58,8 +59,8 @@ pub(super) struct Magnetism<'a> {
     pub(super) field: MagneticField<f64>,
     /// The residual dipole, F_s, A m^2.
     pub(super) dipole: [f64; 3],
-    /// The times of the points, s.
-    pub(super) times: &'a [f64],
+    /// When torque rods have which dipole.
+    pub(super) acting: Acting<'a>,
 }
 
 impl MeasuredRun<'_> {

@@ -48,7 +48,7 @@ pub(super) enum Scenes {
     Orbit,
     /// With a gravity gradient.
     GravityGradient,
-    /// With a magnetic dipole.
+    /// With a magnetic dipole or torque rods.
     MagneticTorque,
     /// With drag.
     Drag,

@@ -57,7 +57,7 @@ impl Column {
             Scenes::SeveralWheels => "with several wheels",
             Scenes::Orbit => "on an orbit",
             Scenes::GravityGradient => "with a gravity gradient",
-            Scenes::MagneticTorque => "with a magnetic dipole",
+            Scenes::MagneticTorque => "with a magnetic dipole or torque rods",
             Scenes::Drag => "with drag",
             Scenes::SolarPressure => "with the pressure of sunlight",
         }
@@ -429,7 +429,7 @@ series! {
     NadirAngle [1]: Orbit, Quantity, None, [ORBIT], Some(("nadir_angle_rad", "rad")), "Angle between s3 and nadir, the direction from the spacecraft's centre of mass to the central body.";
     GradientTorqueSquare [1]: Orbit, Square, None, [ORBIT], Some(("gravity_gradient_torque_n_m", "N m")), "Magnitude of the torque of the gravity gradient on the spacecraft.";
     FieldStrength [1]: Orbit, Quantity, None, [MAGNETISM], Some(("magnetic_field_t", "T")), "Magnitude of the Earth's magnetic field at the spacecraft.";
-    MagneticTorqueSquare [1]: Orbit, Square, None, [MAGNETISM], Some(("magnetic_torque_n_m", "N m")), "Magnitude of the torque of the magnetic field on the residual dipole of the spacecraft.";
+    MagneticTorqueSquare [1]: Orbit, Square, None, [MAGNETISM], Some(("magnetic_torque_n_m", "N m")), "Magnitude of the torque of the magnetic field on the residual dipole and the torque rods of the spacecraft.";
     AirDensity [1]: Surroundings, Quantity, None, [AIR], Some(("air_density_kg_m3", "kg/m^3")), "Density of the air where the spacecraft is.";
     DragTorqueSquare [1]: Surroundings, Square, None, [AIR], Some(("drag_torque_n_m", "N m")), "Magnitude of the torque of the air on the spacecraft.";
     SunHidden [1]: Surroundings, Quantity, None, [LIGHT], Some(("sun_hidden_fraction", "")), "Share of the Sun's disc that the Earth hides: 0 in light, 1 in full shadow.";
@@ -579,7 +579,7 @@ static FAMILIES: &[&[Column]] = &[
         of!(Orbit, GravityGradient, GradientTorqueSquare, Order(OrderStatistic::Max), ["gravity_gradient_torque_max_n_m"], "N m", ["Maximum magnitude of the torque of the gravity gradient on the grid."]),
         of!(Orbit, MagneticTorque, FieldStrength, Value(ValueStatistic::Max), ["magnetic_field_max_t"], "T", ["Maximum magnitude of the Earth's magnetic field on the grid."]),
         of!(Orbit, MagneticTorque, FieldStrength, Value(ValueStatistic::Mean), ["magnetic_field_mean_t"], "T", ["Mean over the points of the magnitude of the Earth's magnetic field."]),
-        of!(Orbit, MagneticTorque, MagneticTorqueSquare, Order(OrderStatistic::Max), ["magnetic_torque_max_n_m"], "N m", ["Maximum magnitude of the torque of the magnetic field on the residual dipole on the grid."]),
+        of!(Orbit, MagneticTorque, MagneticTorqueSquare, Order(OrderStatistic::Max), ["magnetic_torque_max_n_m"], "N m", ["Maximum magnitude of the torque of the magnetic field on the residual dipole and the torque rods on the grid."]),
         of!(Orbit, Drag, AirDensity, Value(ValueStatistic::Max), ["air_density_max_kg_m3"], "kg/m^3", ["Maximum density of the air where the spacecraft is, on the grid."]),
         of!(Orbit, Drag, AirDensity, Value(ValueStatistic::Mean), ["air_density_mean_kg_m3"], "kg/m^3", ["Mean over the points of the density of the air where the spacecraft is."]),
         of!(Orbit, Drag, DragTorqueSquare, Order(OrderStatistic::Max), ["drag_torque_max_n_m"], "N m", ["Maximum magnitude of the torque of the air on the grid."]),

@@ -125,6 +125,7 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> Runs<R, N> for GyrostatRuns<'_, 
         });
         let arc = run.arcs.len() - 1;
         self.constants.set_arc(lane, run, arc, 1.0);
+        self.effects.set_arc(lane, run);
         self.scale.set_lane(lane, 1.0 / run.time_unit());
         Some(run.arcs[arc].arc.end())
     }

@@ -80,7 +80,11 @@ impl Remainders {
                 }
                 (orbit.mu(), place)
             });
-            series.begin(&run.effects, place.as_ref(), false, time, 1.0);
+            let mut acting = run.effects;
+            if let Some(torque) = &mut acting.magnetic_torque {
+                torque.begin_arc(run.rods_b(&run.arcs[arc].arc));
+            }
+            series.begin(&acting, place.as_ref(), false, time, 1.0);
             &mut **series
         });
         expand::<f64, N, true>(&constants, &self.reciprocals, order, &mut self.scratch, effects, &mut self.jet);

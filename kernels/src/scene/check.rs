@@ -26,6 +26,11 @@ fn magnetic_field(input: &SceneInput, problems: &mut Problems) {
             let remedy = "add magnetic_field = \"igrf\" to [environment]";
             problems.add("environment.magnetic_dipole_a_m2".to_owned(), shown(&dipole), allowed, remedy);
         }
+        if !input.torque_rods.is_empty() {
+            let allowed = "given where there are [[torque_rods]]";
+            let remedy = "add magnetic_field = \"igrf\" to [environment]";
+            problems.add("environment.magnetic_field".to_owned(), "missing".to_owned(), allowed, remedy);
+        }
         return;
     };
     let value = || format!("{:?}", model.name());
@@ -60,6 +65,9 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     for wheel in &input.wheels {
         wheel.check(has_debris, problems, |key| Table::Wheel.name(wheel.name, key).into());
         wheel_inertia(wheel, problems);
+    }
+    for rod in &input.torque_rods {
+        rod.check(has_debris, problems, |key| Table::TorqueRod.name(rod.name, key).into());
     }
     for thruster in &input.thrusters {
         thruster.check(has_debris, problems, |key| Table::Thruster.name(thruster.name, key).into());

@@ -7,7 +7,7 @@
 use super::name::Name;
 use super::schema::{
     ActuationInput, ActuatorsInput, BodyInput, ControlInput, DebrisInput, EnvironmentInput, FailureInput, InitialInput,
-    MAX_WHEELS, OrbitInput, PartInput, PartShape, PlateInput, ThrusterInput, WheelInput, WheelMode,
+    MAX_WHEELS, OrbitInput, PartInput, PartShape, PlateInput, ThrusterInput, TorqueRodInput, WheelInput, WheelMode,
 };
 use crate::math::list::List;
 
@@ -37,6 +37,8 @@ pub struct SceneInput {
     pub wheels: Vec<WheelInput>,
     /// The thrusters.
     pub thrusters: Vec<ThrusterInput>,
+    /// The torque rods.
+    pub torque_rods: Vec<TorqueRodInput>,
     /// The debris body D, if there is one.
     pub debris: Option<DebrisInput>,
     /// The state at time zero.
@@ -78,6 +80,7 @@ impl SceneInput {
             parts: Vec::new(),
             wheels: Vec::new(),
             thrusters: Vec::new(),
+            torque_rods: Vec::new(),
             debris: None,
             initial: InitialInput::DEFAULT,
             actuation: Vec::new(),

@@ -57,9 +57,9 @@ pub use plate::Plate;
 pub use schedule::{Actuation, Arc};
 pub use schema::{
     ActuationInput, ActuatorsInput, ArcErrors, BodyInput, ControlInput, DebrisInput, DeclaredTable, Device,
-    EnvironmentInput, FailureInput, FieldModel, InitialInput, LawParameter, MAX_PLATES, MAX_THRUSTERS, MAX_WHEELS,
-    MassErrors, OrbitInput, PartInput, PartShape, PlateInput, PrincipalInertia, PrincipalMoments, SensorOutput, Shadow,
-    ThrusterInput, WheelInput, WheelMode,
+    EnvironmentInput, FailureInput, FieldModel, InitialInput, LawParameter, MAX_PLATES, MAX_THRUSTERS, MAX_TORQUE_RODS,
+    MAX_WHEELS, MassErrors, OrbitInput, PartInput, PartShape, PlateInput, PrincipalInertia, PrincipalMoments,
+    SensorOutput, Shadow, ThrusterInput, TorqueRodInput, WheelInput, WheelMode,
 };
 
 pub use thruster::Thruster;
@@ -73,6 +73,8 @@ pub struct Scene {
     pub initial: InitialState,
     /// The thrusters.
     pub thrusters: Vec<Thruster>,
+    /// The torque rods.
+    pub torque_rods: Vec<TorqueRod>,
     /// Arcs of constant actuation as they are applied, in order, not overlapping, each with start < end.
     pub schedule: Vec<Arc>,
     /// The orbit of the centre of mass; `None` where gravity is neglected.
@@ -91,6 +93,17 @@ pub struct Scene {
     pub actuators: ActuatorModels,
     /// The devices that fail during a run; the schedule has what becomes of its arcs already.
     pub failures: Vec<FailureInput>,
+}
+
+/// A torque rod: what a control law commands, and what it makes of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TorqueRod {
+    /// Axis in F_s, a unit vector, with its alignment error.
+    pub axis: [f64; 3],
+    /// Largest dipole that is commanded, A m^2.
+    pub limit: f64,
+    /// Factor of the commanded dipole.
+    pub scale: f64,
 }
 
 /// What the actuators make of the commands of a control law.

@@ -207,7 +207,9 @@ impl SceneInput {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{ActuationInput, DebrisInput, OrbitInput, PrincipalInertia, PrincipalMoments, WheelMode};
+    use crate::scene::{
+        ActuationInput, DebrisInput, OrbitInput, PrincipalInertia, PrincipalMoments, TorqueRodInput, WheelMode,
+    };
 
     const IDENTITY: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
@@ -227,6 +229,7 @@ mod tests {
         list.push(other);
         let mut inertial = full();
         inertial.initial.debris_attitude_inertial = Some(IDENTITY);
+        inertial.initial.attitude_orbital = Some(IDENTITY);
         inertial.initial.debris_angular_velocity_rad_s = Some([0.0; 3]);
         list.push(inertial);
         let mut driven = full();
@@ -259,6 +262,8 @@ mod tests {
         scene.environment.magnetic_dipole_a_m2 = Some([0.0; 3]);
         let air = &mut scene.environment;
         (air.base_density_kg_m3, air.base_height_m, air.scale_height_m) = (Some(0.0), Some(0.0), Some(1.0));
+        scene.torque_rods =
+            vec![TorqueRodInput { name: Name::of("m1"), max_dipole_a_m2: 1.0, ..TorqueRodInput::DEFAULT }];
         scene.orbit = Some(OrbitInput {
             position_m: Some([0.0; 3]),
             velocity_m_s: Some([0.0; 3]),

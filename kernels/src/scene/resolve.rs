@@ -1,11 +1,14 @@
 //! From what a person wrote to a [`Scene`]: check everything, derive, normalise; Berdoz's Sigma (59) in quaternions.
 
+use super::alignment::aligned;
 use super::error::Problems;
 use super::input::SceneInput;
 use super::mass::MassProperties;
 use super::schema::{Device, InitialInput, MAX_WHEELS, WheelMode};
 use super::unit_quaternion::unit_quaternion;
-use super::{ActuatorModels, InitialState, Offsets, Orbit, Scene, SceneError, check, failures, plate, schedule};
+use super::{
+    ActuatorModels, InitialState, Offsets, Orbit, Scene, SceneError, TorqueRod, check, failures, plate, schedule,
+};
 use crate::math::vector::{
     conjugate, cross, dcm_from_quaternion, difference, hamilton, product, sum, transposed_product,
 };
@@ -22,6 +25,7 @@ impl Scene {
             mass,
             initial: initial_state(input, None),
             thrusters: Vec::new(),
+            torque_rods: Vec::new(),
             schedule: Vec::with_capacity(input.actuation.len()),
             orbit: None,
             plates: Vec::new(),
@@ -59,6 +63,12 @@ impl Scene {
         self.initial = initial_state(input, of_craft.as_ref());
         self.thrusters.clear();
         self.thrusters.extend(schedule::thrusters(input));
+        self.torque_rods.clear();
+        self.torque_rods.extend(input.torque_rods.iter().map(|rod| TorqueRod {
+            axis: aligned(rod.axis, rod.tilt_rad, 1.0),
+            limit: rod.max_dipole_a_m2,
+            scale: rod.dipole_scale,
+        }));
         self.schedule.clear();
         self.schedule.extend((0..input.actuation.len()).map(|index| schedule::applied(input, index)));
         if let (Some(orbit), Some(of_craft)) = (&self.orbit, of_craft) {
@@ -108,8 +118,8 @@ fn initial_state(input: &SceneInput, orbit: Option<&Orbit>) -> InitialState {
         position_m,
         velocity_m_s,
         attitude,
-        angular_velocity_rad_s,
         attitude_orbital,
+        angular_velocity_rad_s,
         angular_velocity_orbital_rad_s,
         debris_position_m,
         debris_velocity_m_s,
@@ -288,6 +298,44 @@ mod tests {
         input.debris = None;
         let state = Scene::resolve(&input).expect("a legal scene").initial;
         assert_eq!((state.q_ed, state.omega_de_d), ([1.0, 0.0, 0.0, 0.0], [0.0; 3]));
+    }
+
+    /// Law: relative to the local orbital frame without a rotation s3 points at the central body, s2 against the normal of the orbit and s1 ahead; a rotation
+    /// turns the body from there; an offset from the orbit turns the frame; written twice, or without an orbit, it is refused.
+    #[test]
+    fn the_attitude_can_be_given_in_the_orbital_frame() {
+        let mut input = SceneInput::report();
+        (input.debris, input.thrusters, input.actuation) = (None, Vec::new(), Vec::new());
+        let (position, velocity) = ([6e6, -3e6, 2e6], [2e3, 5e3, 4e3]);
+        input.orbit = Some(crate::scene::OrbitInput {
+            position_m: Some(position),
+            velocity_m_s: Some(velocity),
+            body_radius_m: 1e6,
+            ..crate::scene::OrbitInput::DEFAULT
+        });
+        input.initial.attitude_orbital = Some([1.0, 0.0, 0.0, 0.0]);
+        let axes = |input: &SceneInput| {
+            let q_es = Scene::resolve(input).expect("a legal scene").initial.q_es;
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| product(dcm_from_quaternion(q_es), axis))
+        };
+        let near = |found: [f64; 3], along: [f64; 3]| {
+            let unit = along.map(|x| x / along.iter().map(|x| x * x).sum::<f64>().sqrt());
+            assert!((0..3).all(|i| (found[i] - unit[i]).abs() < 1e-15), "{found:?} for {unit:?}");
+        };
+        let normal = cross(position, velocity);
+        let [s1, s2, s3] = axes(&input);
+        near(s3, position.map(|x| -x));
+        near(s2, normal.map(|x| -x));
+        near(s1, cross(normal, position));
+        // a quarter about o3: s1 is where o2 was
+        let half = core::f64::consts::FRAC_1_SQRT_2;
+        input.initial.attitude_orbital = Some([half, 0.0, 0.0, half]);
+        near(axes(&input)[0], normal.map(|x| -x));
+        let mut twice = input.clone();
+        twice.initial.attitude = [0.5, 0.5, -0.5, 0.5];
+        assert_eq!(Scene::resolve(&twice).expect_err("written twice")[0].key, "initial.attitude");
+        input.orbit = None;
+        assert_eq!(Scene::resolve(&input).expect_err("no orbit")[0].key, "initial.attitude_orbital");
     }
 
     /// Law: the motion of the debris in F_e is that which is written there, whatever that of the spacecraft is; written twice it is refused.

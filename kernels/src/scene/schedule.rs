@@ -16,6 +16,8 @@ pub struct Actuation {
     pub motor_torque: [f64; MAX_WHEELS],
     /// External torque on the spacecraft beside that of the thrusters, in F_s, N m.
     pub body_torque: [f64; 3],
+    /// Magnetic dipole of the torque rods, in F_s, A m^2.
+    pub dipole: [f64; 3],
     /// Whether the run is over where these values begin to act: nothing after is observed.
     pub ends_run: bool,
 }
@@ -55,6 +57,7 @@ pub fn applied(input: &SceneInput, index: usize) -> Arc {
             thrust: thrusts(input, index),
             motor_torque: motor_torques(input, index),
             body_torque: [0.0; 3],
+            dipole: [0.0; 3],
             ends_run: false,
         },
     }
@@ -114,6 +117,7 @@ impl Actuation {
             thrust: [0.0; MAX_THRUSTERS],
             motor_torque: [0.0; MAX_WHEELS],
             body_torque: [0.0; 3],
+            dipole: [0.0; 3],
             ends_run: false,
         }
     }
@@ -141,10 +145,13 @@ impl Actuation {
         Actuation { motor_torque: first(torque), ..self }
     }
 
-    /// Whether any thrust, motor or body torque acts.
+    /// Whether any thrust, motor, body torque or torque rod acts.
     #[inline]
     pub fn acts(&self) -> bool {
-        self.thrust != [0.0; MAX_THRUSTERS] || self.motor_torque != [0.0; MAX_WHEELS] || self.body_torque != [0.0; 3]
+        self.thrust != [0.0; MAX_THRUSTERS]
+            || self.motor_torque != [0.0; MAX_WHEELS]
+            || self.body_torque != [0.0; 3]
+            || self.dipole != [0.0; 3]
     }
 }
 

@@ -11,7 +11,7 @@ use super::schema::limit::shown;
 use super::schema::{
     ActuationInput, ActuatorsInput, ArcErrors, BodyInput, DebrisInput, DeclaredTable, EnvironmentInput, Facts,
     FailureInput, InitialInput, LawParameter, MassErrors, OrbitInput, PartInput, PlateInput, Presence, Row,
-    ThrusterInput, WheelInput,
+    ThrusterInput, TorqueRodInput, WheelInput,
 };
 
 /// A key of a table of the schema.
@@ -170,6 +170,8 @@ tables! {
         scene.parts.get(instance).map(|part| &part.errors), scene.parts.get_mut(instance).map(|part| &mut part.errors);
     Wheel, "wheels", true, &[WheelInput::ROWS], scene.wheels.get(instance), scene.wheels.get_mut(instance);
     Thruster, "thrusters", true, &[ThrusterInput::ROWS], scene.thrusters.get(instance), scene.thrusters.get_mut(instance);
+    TorqueRod, "torque_rods", true, &[TorqueRodInput::ROWS],
+        scene.torque_rods.get(instance), scene.torque_rods.get_mut(instance);
     Debris, "debris", true, &[DebrisInput::ROWS], scene.debris.as_ref(), scene.debris.as_mut();
     Actuators, "actuators", true, &[ActuatorsInput::ROWS], Some(&scene.actuators), Some(&mut scene.actuators);
     Initial, "initial", true, &[InitialInput::ROWS], Some(&scene.initial), Some(&mut scene.initial);
@@ -221,6 +223,7 @@ impl Table {
             Table::Wheel => scene.wheels.iter().map(|wheel| wheel.name).collect(),
             Table::Thruster => scene.thrusters.iter().map(|thruster| thruster.name).collect(),
             Table::Plate => scene.plates.iter().map(|plate| plate.name).collect(),
+            Table::TorqueRod => scene.torque_rods.iter().map(|rod| rod.name).collect(),
             Table::Actuation => vec![Name::NONE; scene.actuation.len()],
             Table::Sensors => scene.control.sensors.iter().map(|sensor| sensor.name).collect(),
             Table::Guidance => scene.control.guidance.iter().map(|phase| phase.name).collect(),
@@ -301,8 +304,10 @@ impl Key {
 fn with_every_table() -> SceneInput {
     let part = PartInput { name: Name::of("part"), ..PartInput::DEFAULT };
     let plate = PlateInput { name: Name::of("plate"), ..PlateInput::DEFAULT };
+    let rod = TorqueRodInput { name: Name::of("rod"), ..TorqueRodInput::DEFAULT };
     let orbit = Some(OrbitInput::DEFAULT);
-    let scene = SceneInput { parts: vec![part], plates: vec![plate], orbit, ..SceneInput::blank() };
+    let (parts, plates, torque_rods) = (vec![part], vec![plate], vec![rod]);
+    let scene = SceneInput { parts, plates, torque_rods, orbit, ..SceneInput::blank() };
     let scene = scene.with_wheel(WheelInput { name: Name::of("wheel"), ..WheelInput::DEFAULT });
     let scene = scene.with_thruster(ThrusterInput { name: Name::of("thruster"), ..ThrusterInput::DEFAULT });
     let failures = vec![FailureInput { name: Name::of("failure"), ..FailureInput::DEFAULT }];

@@ -1,8 +1,10 @@
-//! From a wanted torque and force to commands of wheels and thrusters.
+//! From a wanted torque, force and dipole to commands of wheels, thrusters and torque rods.
 //!
+//! - [`rods`]: to dipoles of torque rods, within their limits.
 //! - [`thrust`]: to thrusts, none negative, with the least total, by a `simplex` of fixed size.
 //! - [`wheel_torque`]: to torques of wheels' motors, with the least norm.
 
+pub mod rods;
 mod simplex;
 #[cfg(test)]
 mod tests;

@@ -12,6 +12,7 @@ use crate::control::estimators::{EstimatorContext, KINDS as ESTIMATORS, KnownSen
 use crate::control::flight_software::{FlightSoftware, Parts};
 use crate::control::guidance::phase::Phase;
 use crate::control::guidance::target::Target;
+use crate::control::laws::rod_law::RodLaw;
 use crate::control::laws::{AttitudeLaw, LawSettings, MomentumUnloading};
 use crate::control::net_launch::geometry::LaunchState;
 use crate::control::net_launch::launch::PlumeCone;
@@ -60,6 +61,7 @@ fn phases(spec: &LoopSpec, tables: &[DeclaredTable]) -> Vec<Phase> {
         },
         thrust: phase.thrust,
         transfer_time: TransferNumbers::of(table).time,
+        rods: RodLaw::new(phase.rods, table),
         unloading: {
             let UnloadingNumbers { time, dead_band } = UnloadingNumbers::of(table);
             (time > 0.0).then_some(MomentumUnloading { dead_band, time_constant: time })

@@ -161,8 +161,10 @@ impl Mission {
             let truth = plant.truth(time, body, wheels);
             self.criteria.plume.hits(plant.scene(), &truth, &thrust)
         };
-        let Applied { length, saturated, torque_excess, .. } = *applied;
-        self.outcome.arc(plant.scene(), &ArcApplied { length, thrust, hits, saturated, torque_excess });
+        let Applied { length, saturated, torque_excess, is_rod_saturated, .. } = *applied;
+        let rod_dipole = norm(applied.actuation.dipole);
+        let arc = ArcApplied { length, thrust, hits, saturated, torque_excess, rod_dipole, is_rod_saturated };
+        self.outcome.arc(plant.scene(), &arc);
     }
 
     /// Records the quantities over time as they are known from `time` on, s.

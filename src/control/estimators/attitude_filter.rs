@@ -36,17 +36,19 @@ pub struct AttitudeObservation {
     pub values: Values,
     /// The sensor, as the filter believes it.
     pub sensor: Arc<dyn AttitudeSensor>,
+    /// When it was measured, s.
+    pub time: f64,
 }
 
 impl AttitudeObservation {
     /// The attitude `q_es` (F_s -> F_e, scalar first) with an error of this covariance in F_s, rad^2.
     pub fn whole(q_es: [f64; 4], covariance: [[f64; 3]; 3]) -> Self {
-        AttitudeObservation { values: values(&[&q_es]), sensor: Arc::new(WholeAttitude(covariance)) }
+        AttitudeObservation { values: values(&[&q_es]), sensor: Arc::new(WholeAttitude(covariance)), time: 0.0 }
     }
 
     /// Its innovation where the attitude is estimated as `q_es`.
     pub fn innovation(&self, q_es: [f64; 4]) -> AttitudeInnovation {
-        self.sensor.innovation(&self.values, q_es)
+        self.sensor.innovation(&self.values, q_es, self.time)
     }
 }
 

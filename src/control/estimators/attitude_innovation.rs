@@ -56,7 +56,7 @@ pub struct WholeAttitude(pub [[f64; 3]; 3]);
 const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl AttitudeSensor for WholeAttitude {
-    fn innovation(&self, values: &Values, q_es: [f64; 4]) -> AttitudeInnovation {
+    fn innovation(&self, values: &Values, q_es: [f64; 4], _time: f64) -> AttitudeInnovation {
         let value = vector_of(hamilton(conjugate(q_es), part(values, 0)));
         AttitudeInnovation::Three(Innovation { value, sensitivity: IDENTITY, covariance: self.0 })
     }

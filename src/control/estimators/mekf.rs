@@ -25,7 +25,7 @@ use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
 use crate::control::truth::{DebrisState, Truth};
 use crate::control::vector::{conjugate, dcm_from_quaternion, difference, dot, hamilton, product, scaled, sum};
 use crate::scene::schema::Limit;
-use crate::scene::{LawParameter, MAX_WHEELS, MassProperties, WheelMode};
+use crate::scene::{LawParameter, MAX_WHEELS, MassProperties, Scene, WheelMode};
 
 pub(super) const KIND: EstimatorKind = EstimatorKind {
     name: "mekf",
@@ -99,11 +99,12 @@ enum SensorModel {
 }
 
 impl SensorModel {
-    fn of(sensor: &KnownSensor<'_>) -> Self {
+    fn of(sensor: &KnownSensor<'_>, nominal: &Scene) -> Self {
         let table = sensor.parameters;
         match sensor.observes {
             Observes::Rotation(noise) => SensorModel::Gyro(noise(table), sensor.period),
-            Observes::Attitude(model) | Observes::Direction(model) => SensorModel::Attitude(model(table)),
+            Observes::Attitude(model) => SensorModel::Attitude(model(table)),
+            Observes::Direction(model) | Observes::Field(model) => SensorModel::Attitude(model(table, nominal)),
             Observes::Motion(sigmas) => SensorModel::Motion(sigmas(table)),
             Observes::DebrisAttitude(sigmas) => SensorModel::DebrisAttitude(sigmas(table)),
             Observes::WheelRates => SensorModel::WheelRates,
@@ -149,6 +150,8 @@ struct Innovations {
 struct Mekf {
     mass: MassProperties,
     tick: f64,
+    /// Since the start, s.
+    time: f64,
     sensors: Vec<SensorModel>,
     attitude: Attitude,
     motion: Delayed<TranslationFilter>,
@@ -162,7 +165,8 @@ impl Mekf {
     fn new(context: &EstimatorContext<'_>) -> Self {
         let (start, mass) = (context.start(), context.nominal.mass);
         let believed = Beliefs::of(context.parameters);
-        let sensors: Vec<SensorModel> = context.sensors.iter().map(SensorModel::of).collect();
+        let sensors: Vec<SensorModel> =
+            context.sensors.iter().map(|sensor| SensorModel::of(sensor, context.nominal)).collect();
         let gyro = sensors.iter().find_map(|sensor| match sensor {
             SensorModel::Gyro(noise, period) => Some((*noise, *period)),
             _ => None,
@@ -202,6 +206,7 @@ impl Mekf {
         Mekf {
             mass,
             tick: context.tick,
+            time: 0.0,
             sensors,
             attitude,
             motion: translation(start.r_co_e, start.v_co_e, sigmas, believed.velocity_walk),
@@ -390,10 +395,12 @@ impl Estimator for Mekf {
         if update.interval > 0.0 {
             self.propagate(update);
         }
+        self.time += update.interval;
         self.innovations.begin_tick();
         for measurement in update.measurements {
             if let SensorModel::Attitude(sensor) = &self.sensors[measurement.sensor] {
-                let observation = AttitudeObservation { values: measurement.values, sensor: sensor.clone() };
+                let time = self.time - measurement.age;
+                let observation = AttitudeObservation { values: measurement.values, sensor: sensor.clone(), time };
                 let age = ticks(measurement.age, self.tick);
                 self.innovations.attitude.take(match &mut self.attitude {
                     Attitude::WithGyro(filter, _) => filter.update(observation, age),

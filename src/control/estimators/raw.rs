@@ -14,7 +14,7 @@ pub(super) const KIND: EstimatorKind = EstimatorKind {
     knows_the_truth: false,
     has_filter: false,
     // a direction is no attitude
-    uses: |observes| !matches!(observes, Observes::Direction(_)),
+    uses: |observes| !matches!(observes, Observes::Direction(_) | Observes::Field(_)),
     parameters: &[],
     make: |context| Box::new(Raw::new(context)),
 };
@@ -74,7 +74,8 @@ impl Estimator for Raw {
                     estimate.q_es = q_es;
                 }
                 (Observes::WheelRates, _) => estimate.wheel_rates = part(values, 0),
-                (Observes::Motion(_) | Observes::DebrisAttitude(_) | Observes::Direction(_), _) => {}
+                (Observes::Motion(_) | Observes::DebrisAttitude(_), _)
+                | (Observes::Direction(_) | Observes::Field(_), _) => {}
             }
         }
         // those that are seen through the attitude of this tick, whatever the order of the sensors

@@ -7,7 +7,7 @@ use super::*;
 use crate::control::laws::plant::Body;
 use crate::control::measurement::{Values, values};
 use crate::control::rotation::quaternion_of;
-use crate::control::sensors::bench::{chi_square, sensor, table, truth};
+use crate::control::sensors::bench::{chi_square, input_on_orbit, sensor, table, truth};
 use crate::control::sensors::{self, Sensor};
 use crate::control::small_matrix::diagonal;
 use crate::control::vector::{difference, hamilton, norm, scaled};
@@ -403,7 +403,7 @@ fn wheels_follow_their_motors_and_fast_gyros_are_joined() {
 /// Law: each kind of sensor that an estimator is said to use changes its estimate, and no other does: what nobody uses is refused by `check`, not ignored.
 #[test]
 fn each_sensor_that_is_used_changes_the_estimate() {
-    let input = SceneInput::report().with_debris(DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 100.0 });
+    let input = input_on_orbit().with_debris(DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 100.0 });
     let nominal = &Scene::resolve(&input).expect("a valid scene");
     let half = std::f64::consts::FRAC_PI_2;
     let quarters = [[0.1, 0.0, 0.0], [half, 0.1, 0.0], [0.1, half, 0.0], [-half, 0.0, 0.1], [0.0, -half, 0.1]];
@@ -420,6 +420,7 @@ fn each_sensor_that_is_used_changes_the_estimate() {
                 let mut at = truth(0.0, quaternion_of(*turn), [0.03, -0.02, 0.01]);
                 at.wheels.rates = [12.0; MAX_WHEELS];
                 (at.r_po_e, at.v_po_e) = ([4.0, 5.0, 6.0], [0.1, 0.2, 0.3]);
+                at.body.r_co_e = [6.8e6, 1e6, 2e6];
                 let debris = DebrisState {
                     r_gdo_e: [20.0, 3.0, 1.0],
                     v_gdo_e: [0.0, 0.1, 0.0],

@@ -3,15 +3,33 @@
 use super::stored_momentum;
 use super::{CommandedImpulse, FlightSoftware, Guided};
 use crate::control::actuators::DelayQueue;
+use crate::control::allocation::rods::{NO_DIPOLES, RodCommand};
 use crate::control::control_loop::SAME_TIME;
 use crate::control::guidance::phase::Maneuver;
 use crate::control::guidance::target::Target;
 use crate::control::laws::LawInput;
-use crate::control::vector::{dcm_from_quaternion, difference, dot, product, scaled, sum};
-use crate::scene::{MAX_THRUSTERS, MAX_WHEELS};
+use crate::control::vector::{cross, dcm_from_quaternion, difference, dot, product, scaled, sum};
+use crate::scene::{MAX_THRUSTERS, MAX_TORQUE_RODS, MAX_WHEELS};
 
 /// What the motors are commanded, N m, by wheel.
 pub type MotorCommand = [f64; MAX_WHEELS];
+
+/// What was commanded at a control tick, as telemetry has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Commanded {
+    /// Torques of the motors, N m.
+    pub motor_torque: MotorCommand,
+    /// Mean thrusts over the control period, N.
+    pub thrust: [f64; MAX_THRUSTERS],
+    /// Dipoles of the torque rods, A m^2.
+    pub dipoles: [f64; MAX_TORQUE_RODS],
+}
+
+impl Commanded {
+    /// Nothing.
+    pub const NOTHING: Commanded =
+        Commanded { motor_torque: [0.0; MAX_WHEELS], thrust: [0.0; MAX_THRUSTERS], dipoles: [0.0; MAX_TORQUE_RODS] };
+}
 
 /// What the thrusters are commanded.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +51,8 @@ pub struct CommandsUnderWay {
     pub(super) motors: DelayQueue<MotorCommand>,
     /// Nothing is pushed in a loop without thrusters.
     pub(in crate::control) thrust: DelayQueue<Pulses>,
+    /// Nothing is pushed in a loop without torque rods.
+    pub(super) rods: DelayQueue<RodCommand>,
 }
 
 impl CommandsUnderWay {
@@ -41,6 +61,7 @@ impl CommandsUnderWay {
         CommandsUnderWay {
             motors: DelayQueue::new([0.0; MAX_WHEELS], delay, period),
             thrust: DelayQueue::new(NO_PULSES, delay, period),
+            rods: DelayQueue::new(NO_DIPOLES, delay, period),
         }
     }
 }
@@ -52,6 +73,8 @@ pub struct ActingCommands<'a> {
     pub motor_torque: &'a MotorCommand,
     /// Of the thrusters; `None` in a loop without them.
     pub pulses: Option<&'a Pulses>,
+    /// Of the torque rods.
+    pub rods: &'a RodCommand,
     /// Until when they act, s.
     pub until: f64,
 }
@@ -108,19 +131,29 @@ impl FlightSoftware {
             by_thrusters = self.believed.thruster_torque_s(mean);
             self.under_way.thrust.push(begin, pulses);
         }
+        let (mut by_others, mut rods) = (by_thrusters, NO_DIPOLES);
+        if let Some(allocation) = &self.rods {
+            let wanted = phase.rods.dipole(&self.field, stored_momentum(&self.believed, estimate));
+            rods = allocation.limited(wanted);
+            self.under_way.rods.push(begin, rods);
+            if phase.rods.unloads() {
+                by_others = sum(by_others, cross(allocation.dipole(&rods.dipoles), self.field.field_s));
+            }
+        }
         let mut motor_torque = [0.0; MAX_WHEELS];
         if let Some(allocation) = &self.wheels {
-            let motors = allocation.motors(difference(torque, by_thrusters));
+            let motors = allocation.motors(difference(torque, by_others));
             self.spec.wheels.iter().zip(motors).for_each(|(place, motor)| motor_torque[*place] = motor);
         }
-        let total =
-            motor_torque.iter().sum::<f64>() + self.spec.thrusters.iter().map(|place| mean[*place]).sum::<f64>();
+        let total = motor_torque.iter().sum::<f64>()
+            + self.spec.thrusters.iter().map(|place| mean[*place]).sum::<f64>()
+            + rods.dipoles.iter().sum::<f64>();
         if !total.is_finite() {
             return Err(NotFinite);
         }
         self.under_way.motors.push(begin, motor_torque);
         if self.is_recorded {
-            self.latest = (motor_torque, mean);
+            self.latest = Commanded { motor_torque, thrust: mean, dipoles: rods.dipoles };
         }
         Ok(())
     }
@@ -140,7 +173,13 @@ impl FlightSoftware {
                 }
             }
         }
-        ActingCommands { motor_torque, pulses, until }
+        let mut rods = &NO_DIPOLES;
+        if self.rods.is_some() {
+            let next;
+            (rods, next) = self.under_way.rods.at(time + same);
+            until = until.min(next);
+        }
+        ActingCommands { motor_torque, pulses, rods, until }
     }
 
     /// Counts what acted for `length` seconds from `time` on, as commanded: what estimators are told.
@@ -163,6 +202,11 @@ impl FlightSoftware {
                 *force_s = sum(*force_s, scaled(length, self.believed.thruster_force_s(thrust)));
                 *torque_s = sum(*torque_s, scaled(length, self.believed.thruster_torque_s(thrust)));
             }
+        }
+        if let Some(allocation) = &self.rods {
+            let (command, _) = self.under_way.rods.all();
+            let torque = cross(allocation.dipole(&command.dipoles), self.field.field_s);
+            self.commanded.torque_s = sum(self.commanded.torque_s, scaled(length, torque));
         }
         let (motor_torque, _) = self.under_way.motors.all();
         for (i, wheel) in self.believed.mass.wheels.iter().enumerate() {

@@ -8,8 +8,9 @@ pub mod commands;
 use std::sync::Arc;
 
 use self::commands::CommandsUnderWay;
-pub use self::commands::{ActingCommands, MotorCommand, Pulses};
+pub use self::commands::{ActingCommands, Commanded, MotorCommand, Pulses};
 use super::actuators::{PulseState, ThrusterDrive};
+use super::allocation::rods::RodAllocation;
 use super::allocation::thrust::ThrustAllocation;
 use super::allocation::wheel_torque::WheelTorque;
 use super::control_loop::SAME_TIME;
@@ -19,8 +20,9 @@ use super::guidance::condition::GuidanceInput;
 use super::guidance::phase::Phase;
 use super::guidance::target::{AttitudeError, OrbitMotion};
 use super::guidance::{Failure, Guidance, Progress};
+use super::laws::rod_law::MeasuredField;
 use super::laws::{AttitudeLaw, KnownBody};
-use super::measurement::{Observes, PointMotion};
+use super::measurement::{Observes, PointMotion, part};
 use super::net_launch::geometry::{LaunchGeometry, LaunchState};
 use super::net_launch::maneuver::geometry_of;
 use super::plant::Measurements;
@@ -77,6 +79,9 @@ pub struct FlightSoftware {
     pub(in crate::control) guidance: Guidance,
     wheels: Option<WheelTorque>,
     thrusters: Option<ThrustAllocation>,
+    rods: Option<RodAllocation>,
+    /// The magnetic field as measured.
+    field: MeasuredField,
     /// The projection onto the torques that the thrusters give in both directions.
     two_sided: [[f64; 3]; 3],
     thruster_drives: [ThrusterDrive; MAX_THRUSTERS],
@@ -93,8 +98,8 @@ pub struct FlightSoftware {
     /// From a command to its action, s.
     delay: f64,
     pub(in crate::control) under_way: CommandsUnderWay,
-    /// What was commanded at the last control tick: motor torques, N m, and mean thrusts, N.
-    latest: (MotorCommand, [f64; MAX_THRUSTERS]),
+    /// What was commanded at the last control tick.
+    latest: Commanded,
     commanded: CommandedImpulse,
     /// When the debris was last measured, s.
     debris_seen: f64,
@@ -145,6 +150,8 @@ impl FlightSoftware {
             wheels,
             two_sided: thrusters.as_ref().map_or([[0.0; 3]; 3], |all| all.two_sided_torques(spec.holds_force)),
             thrusters,
+            rods: (!spec.rods.is_empty()).then(|| RodAllocation::of_loop(&believed, &spec.rods)),
+            field: MeasuredField::NONE,
             thruster_drives: parts.thruster_drives,
             pulses: [PulseState::default(); MAX_THRUSTERS],
             launch,
@@ -154,7 +161,7 @@ impl FlightSoftware {
             is_recorded: parts.is_recorded,
             delay: parts.delay,
             under_way: CommandsUnderWay::new(parts.delay, spec.period),
-            latest: ([0.0; MAX_WHEELS], [0.0; MAX_THRUSTERS]),
+            latest: Commanded::NOTHING,
             commanded: NO_IMPULSE,
             debris_seen: 0.0,
             has_camera: spec.has_camera(),
@@ -168,6 +175,7 @@ impl FlightSoftware {
     /// A tick: the estimate from what is measured and from what was commanded.
     pub fn tick(&mut self, measurements: &Measurements<'_>) {
         self.note_debris(measurements);
+        self.note_field(measurements);
         let interval = measurements.time - self.last_update;
         let mean = |impulse: [f64; 3]| if interval > 0.0 { scaled(1.0 / interval, impulse) } else { [0.0; 3] };
         let motor_torques = self.commanded.motors.map(|impulse| if interval > 0.0 { impulse / interval } else { 0.0 });
@@ -183,6 +191,15 @@ impl FlightSoftware {
         self.last_update = measurements.time;
         if measurements.perfect.is_none() {
             self.commanded = NO_IMPULSE;
+        }
+    }
+
+    /// Notes the magnetic field, where it was measured.
+    fn note_field(&mut self, measurements: &Measurements<'_>) {
+        for measurement in measurements.delivered {
+            if matches!(self.spec.sensors[measurement.sensor].observes(), Observes::Field(_)) {
+                self.field.take(measurements.time - measurement.age, part(&measurement.values, 0));
+            }
         }
     }
 
@@ -221,7 +238,7 @@ impl FlightSoftware {
         }
         if self.is_recorded {
             // nothing is commanded where the mission ends
-            self.latest = ([0.0; MAX_WHEELS], [0.0; MAX_THRUSTERS]);
+            self.latest = Commanded::NOTHING;
         }
         Guided { progress, begins, error, velocity_to_go }
     }
@@ -283,8 +300,8 @@ impl FlightSoftware {
         &self.phases[self.guidance.phase]
     }
 
-    /// What was commanded at the last control tick, of a run that is recorded: motor torques, N m, and mean thrusts, N.
-    pub fn latest_commands(&self) -> (MotorCommand, [f64; MAX_THRUSTERS]) {
+    /// What was commanded at the last control tick, of a run that is recorded.
+    pub fn latest_commands(&self) -> Commanded {
         self.latest
     }
 

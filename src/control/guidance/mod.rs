@@ -168,6 +168,7 @@ mod tests {
             thrust: Maneuver::None,
             transfer_time: 0.0,
             unloading: None,
+            rods: crate::control::laws::rod_law::RodLaw::None,
         }
     }
 

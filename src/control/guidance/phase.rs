@@ -3,6 +3,7 @@
 use super::condition::Condition;
 use super::target::Target;
 use crate::control::laws::MomentumUnloading;
+use crate::control::laws::rod_law::RodLaw;
 
 /// What thrust along s3 is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +52,8 @@ pub struct Phase {
     pub transfer_time: f64,
     /// How thrusters unload the wheels; `None` where they do not.
     pub unloading: Option<MomentumUnloading>,
+    /// What torque rods do.
+    pub rods: RodLaw,
 }
 
 impl Phase {

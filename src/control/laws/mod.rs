@@ -9,6 +9,7 @@ pub mod momentum_unloading;
 mod mrp_feedback;
 mod quaternion_feedback;
 mod rate_damping;
+pub mod rod_law;
 mod slew;
 
 pub use eigenaxis::Eigenaxis;

@@ -7,6 +7,7 @@ use crate::control::estimators::{self, Consistency};
 use crate::control::guidance::phase::{Maneuver, Next};
 use crate::control::guidance::target::Target;
 use crate::control::guidance::{Failure, Guidance};
+use crate::control::laws::rod_law::RodUse;
 use crate::control::net_launch::launch::AtLaunch;
 use crate::control::spec::{LoopSpec, ModelSpec, PhaseSpec};
 use crate::observables::{ColumnKind, LawColumn, LawColumns};
@@ -32,6 +33,7 @@ mod need {
     pub const LAUNCH_WITH_WHEELS: &str = "needs debris, a phase with next = \"launch\", and wheels";
     pub const THRUSTERS: &str = "needs thrusters in control.thrusters";
     pub const PLUMES: &str = "needs debris that a phase approaches, and thrusters in control.thrusters";
+    pub const RODS: &str = "needs torque rods in control.torque_rods";
     pub const WHEELS: &str = "needs wheels in control.wheels";
     pub const FILTER: &str = "needs an estimator with a filter: mekf";
     pub const FILTER_OF_MOTION: &str = "needs an estimator with a filter: mekf, and debris that a phase approaches";
@@ -72,6 +74,9 @@ impl OutcomeColumns {
         if !spec.wheels.is_empty() {
             wheel(spec, &mut add);
         }
+        if !spec.rods.is_empty() {
+            rods(&mut add);
+        }
         estimation(spec, &mut add);
         for column in &mut list {
             match column.quantity.name() {
@@ -93,6 +98,7 @@ impl OutcomeColumns {
             gyroscopic: false,
             target: Target::LineToDebris,
             thrust: Maneuver::None,
+            rods: RodUse::None,
             until: None,
             next: Next::Launch,
             otherwise: None,
@@ -103,6 +109,7 @@ impl OutcomeColumns {
             estimator,
             wheels: vec![0],
             thrusters: vec![0],
+            rods: vec![0],
             modulation: 0,
             holds_force: false,
             sensors: Vec::new(),
@@ -111,6 +118,7 @@ impl OutcomeColumns {
             has_debris: true,
             wheel_names: vec![wheel],
             thruster_names: vec![thruster],
+            rod_names: vec![Name::of("rod")],
         };
         let placed = |text: &str| {
             ["phase", "wheel", "thruster"]
@@ -300,6 +308,25 @@ fn approach(spec: &LoopSpec, add: &mut Add<'_>) {
             |l| finite(l.speed_margin),
         );
     }
+}
+
+fn rods(add: &mut Add<'_>) {
+    plain(
+        add,
+        need::RODS,
+        "rod_dipole_max_a_m2",
+        "A m^2",
+        "Largest magnitude of the dipole of all torque rods together.",
+        |o| o.rod_dipole,
+    );
+    plain(
+        add,
+        need::RODS,
+        "rod_saturated_time_s",
+        "s",
+        "Time in which the limit of a torque rod cut what the law wanted.",
+        |o| o.rod_saturated,
+    );
 }
 
 fn thrust(spec: &LoopSpec, add: &mut Add<'_>) {

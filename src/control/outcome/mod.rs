@@ -61,6 +61,9 @@ pub struct MissionOutcome {
     /// Time in which a motor gave less than was commanded: by its limit of torque, by that of speed, s.
     saturated: [f64; 2],
     torque_excess: f64,
+    /// Largest dipole of all rods together, A m^2, and the time in which a limit cut it, s.
+    rod_dipole: f64,
+    rod_saturated: f64,
     attitude_error: [f64; 2],
     relative_error: [f64; 2],
     /// How the errors of the filters compare with their covariances, at the last tick.
@@ -80,6 +83,10 @@ pub struct ArcApplied {
     pub saturated: [bool; 2],
     /// Largest commanded torque beyond a limit, N m.
     pub torque_excess: f64,
+    /// Magnitude of the dipole of all torque rods together, A m^2.
+    pub rod_dipole: f64,
+    /// Whether a limit of a rod cut what was wanted.
+    pub is_rod_saturated: bool,
 }
 
 impl MissionOutcome {
@@ -103,6 +110,8 @@ impl MissionOutcome {
             momentum_peak: 0.0,
             saturated: [0.0; 2],
             torque_excess: 0.0,
+            rod_dipole: 0.0,
+            rod_saturated: 0.0,
             attitude_error: [0.0; 2],
             relative_error: [f64::NAN; 2],
             consistency: Consistency::default(),
@@ -165,6 +174,8 @@ impl MissionOutcome {
             self.saturated[which] += if is_saturated { applied.length } else { 0.0 };
         }
         self.torque_excess = self.torque_excess.max(applied.torque_excess);
+        self.rod_dipole = self.rod_dipole.max(applied.rod_dipole);
+        self.rod_saturated += if applied.is_rod_saturated { applied.length } else { 0.0 };
         if applied.thrust == [0.0; MAX_THRUSTERS] {
             return;
         }

@@ -19,6 +19,7 @@ pub(super) const KIND: SensorKind = SensorKind {
         let RadarNumbers { position, velocity } = RadarNumbers::of(table);
         [position, velocity]
     }),
+    needs: None,
     make: |context| Box::new(GroundRadar::new(context)),
 };
 

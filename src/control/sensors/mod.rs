@@ -10,12 +10,15 @@
 
 pub mod failing;
 mod ground_radar;
+mod horizon_sensor;
+mod magnetometer;
 pub mod rate_gyro;
 mod relative_camera;
 mod sampled;
 mod star_tracker;
 mod sun_sensor;
 mod tachometers;
+mod two_angles;
 
 pub use rate_gyro::RateGyro;
 pub use sampled::SampledSensor;
@@ -24,7 +27,7 @@ use super::measurement::{Observes, Values};
 use super::truth::Truth;
 use crate::sampling::{Noise, SampleId};
 use crate::scene::schema::Limit;
-use crate::scene::{DeclaredTable, LawParameter, Scene};
+use crate::scene::{DeclaredTable, LawParameter, Scene, SceneInput};
 
 /// A model of a sensor in one run.
 pub trait Sensor: Send {
@@ -94,8 +97,40 @@ pub struct SensorKind {
     pub quantities: &'static [MeasuredQuantity],
     /// What it says of the state.
     pub observes: Observes,
+    /// What must be there beside the spacecraft for it to measure anything; debris apart ([`Observes::needs_debris`]).
+    pub needs: Option<Need>,
     /// The sensor of a run.
     pub make: fn(&SensorContext<'_>) -> Box<dyn Sensor>,
+}
+
+/// What a sensor needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// `[orbit]`.
+    Orbit,
+    /// `environment.magnetic_field`, which is of an orbit.
+    MagneticField,
+}
+
+impl Need {
+    /// Whether it is met in `scene`.
+    pub fn is_met(self, scene: &SceneInput) -> bool {
+        match self {
+            Need::Orbit => scene.orbit.is_some(),
+            Need::MagneticField => scene.environment.magnetic_field.is_some(),
+        }
+    }
+
+    /// What is allowed where it is not met, and how to meet it.
+    pub fn refusal(self) -> [&'static str; 2] {
+        match self {
+            Need::Orbit => ["another kind without an [orbit]", "add an [orbit] table, or delete this one"],
+            Need::MagneticField => [
+                "another kind where [environment] has no magnetic_field",
+                "add magnetic_field = \"igrf\" to [environment], or delete this table",
+            ],
+        }
+    }
 }
 
 /// A vector that a sensor measures.
@@ -139,10 +174,12 @@ impl MeasuredQuantity {
 }
 
 /// All kinds.
-pub static KINDS: [SensorKind; 6] = [
+pub static KINDS: [SensorKind; 8] = [
     rate_gyro::KIND,
     star_tracker::KIND,
     sun_sensor::KIND,
+    horizon_sensor::KIND,
+    magnetometer::KIND,
     ground_radar::KIND,
     relative_camera::KIND,
     tachometers::KIND,
@@ -173,7 +210,7 @@ pub(super) mod bench {
     use super::*;
     use crate::dynamics::actuation::{BodyState, WheelState};
     use crate::math::normal;
-    use crate::scene::{MAX_WHEELS, Name, SceneInput};
+    use crate::scene::{EnvironmentInput, Epoch, FieldModel, MAX_WHEELS, Name, OrbitInput};
 
     /// The table of the sensor `name` with these numbers, and the defaults of the others.
     pub fn table(name: &str, declared: &'static [LawParameter], values: &[(&str, &[f64])]) -> DeclaredTable {
@@ -189,8 +226,21 @@ pub(super) mod bench {
     pub fn sensor(kind: &str, values: &[(&str, &[f64])], period: f64, sample: u64) -> Box<dyn Sensor> {
         let kind = super::kind(kind).expect("a kind");
         let parameters = &table("unit", kind.parameters, values);
-        let drawn = &Scene::resolve(&SceneInput::report()).expect("a valid scene");
-        (kind.make)(&SensorContext { parameters, drawn, period, sample: SampleId(sample), seed: 5 })
+        (kind.make)(&SensorContext { parameters, drawn: &on_orbit(), period, sample: SampleId(sample), seed: 5 })
+    }
+
+    /// A scene with a magnetic field.
+    pub fn on_orbit() -> Scene {
+        Scene::resolve(&input_on_orbit()).expect("a valid scene")
+    }
+
+    /// The same as a file has it.
+    pub fn input_on_orbit() -> SceneInput {
+        let epoch = Epoch::parse("2026-11-24T00:00:00Z");
+        let orbit =
+            OrbitInput { semi_major_axis_m: Some(7e6), inclination_rad: Some(1.7), epoch, ..OrbitInput::DEFAULT };
+        let environment = EnvironmentInput { magnetic_field: Some(FieldModel::Igrf), ..EnvironmentInput::DEFAULT };
+        SceneInput { orbit: Some(orbit), environment, ..SceneInput::report() }
     }
 
     /// A body at `time` with this motion about its centre of mass, which rests at the origin; no debris.

@@ -27,6 +27,7 @@ pub(super) const KIND: SensorKind = SensorKind {
         )
     }],
     observes: Observes::Rotation(GyroNoise::of),
+    needs: None,
     make: |context| Box::new(RateGyro::new(context)),
 };
 

@@ -28,6 +28,7 @@ pub(super) const KIND: SensorKind = SensorKind {
         let CameraNumbers { attitude_noise, rate_noise, .. } = CameraNumbers::of(table);
         [attitude_noise, rate_noise]
     }),
+    needs: None,
     make: |context| Box::new(RelativeCamera::new(context)),
 };
 

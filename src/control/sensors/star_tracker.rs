@@ -26,6 +26,7 @@ pub(super) const KIND: SensorKind = SensorKind {
         "Attitude quaternion measured by a star tracker, F_s -> F_e",
     )],
     observes: Observes::Attitude(|table| Arc::new(WholeAttitude(covariance_s(table)))),
+    needs: None,
     make: |context| Box::new(StarTracker::new(context)),
 };
 

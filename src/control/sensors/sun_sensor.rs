@@ -1,19 +1,14 @@
-//! A two-axis Sun sensor: the direction of the Sun in the axes of the sensor, as two angles; nothing where the Sun is out of view.
-//!
-//! The third axis of the sensor, F_t, is its boresight; the others are turned with s3 to it the shortest way. With the direction u of the Sun in F_t the angles
-//! are atan(u1/u3) and atan(u2/u3): what two crossed slits measure (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 7.1). The rotation about
-//! the direction of the Sun is not seen.
+//! A two-axis Sun sensor: the direction of the Sun in the axes of the sensor, as [two angles](super::two_angles); nothing where the Sun is out of view.
 
 use std::sync::Arc;
 
-use super::{Components, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, axes, optional};
+use super::two_angles::{AnglesInView, TwoAngles};
+use super::{Components, MeasuredQuantity, Sensor, SensorContext, SensorKind, axes, optional};
 use crate::control::declared::declared;
-use crate::control::estimators::attitude_innovation::{AttitudeInnovation, Innovation};
-use crate::control::measurement::{AttitudeSensor, Observes, Values, part, values};
-use crate::control::rotation::from_s3_to;
-use crate::control::small_matrix::{multiplied, transposed};
+use crate::control::estimators::attitude_innovation::AttitudeInnovation;
+use crate::control::measurement::{AttitudeSensor, Observes, Values};
 use crate::control::truth::Truth;
-use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, product, scaled, transposed_product};
+use crate::control::vector::{norm, scaled};
 use crate::scene::DeclaredTable;
 use crate::scene::schema::Limit;
 
@@ -26,7 +21,8 @@ pub(super) const KIND: SensorKind = SensorKind {
         ["rad", "rad"],
         "Angle of the Sun from the boresight of a Sun sensor, in the plane of this axis and the boresight",
     )],
-    observes: Observes::Direction(|table| Arc::new(Geometry::of(table))),
+    observes: Observes::Direction(|table, _| Arc::new(Geometry::of(table))),
+    needs: None,
     make: |context| Box::new(SunSensor::new(context)),
 };
 
@@ -48,84 +44,41 @@ declared! {
 /// Where a sensor and the Sun are, and how exactly it measures.
 #[derive(Clone, Copy, Debug)]
 struct Geometry {
-    /// F_t -> F_s.
-    c_st: [[f64; 3]; 3],
+    angles: TwoAngles,
     /// Unit vector to the Sun in F_e.
     sun_e: [f64; 3],
-    /// Standard deviation of each angle, rad.
-    deviation: f64,
 }
 
 impl Geometry {
     fn of(table: &DeclaredTable) -> Self {
         let numbers = SunSensorNumbers::of(table);
         let sun = numbers.sun_direction;
-        Geometry { c_st: from_s3_to(numbers.boresight), sun_e: scaled(1.0 / norm(sun), sun), deviation: numbers.noise }
+        Geometry { angles: TwoAngles::new(numbers.boresight, numbers.noise), sun_e: scaled(1.0 / norm(sun), sun) }
     }
-
-    /// The direction of the Sun in F_t at the attitude `q_es`.
-    fn sun_t(&self, q_es: [f64; 4]) -> [f64; 3] {
-        transposed_product(self.c_st, transposed_product(dcm_from_quaternion(q_es), self.sun_e))
-    }
-}
-
-/// The two angles of the direction `u` in F_t, rad.
-fn angles([x, y, z]: [f64; 3]) -> [f64; 2] {
-    [libm::atan2(x, z), libm::atan2(y, z)]
 }
 
 impl AttitudeSensor for Geometry {
-    /// The innovation is across the measured direction m: e_i = -b_i . u for two unit vectors b across m, where u is the direction as estimated. With
-    /// u' = u x d for a small error d of the attitude, b . (u x d) = (b x u) . d; the noise of the angles moves m by b_i . dm/d(angle). Unlike the difference
-    /// of the angles it has no pole where the estimate has the Sun beside the sensor.
-    fn innovation(&self, values: &Values, q_es: [f64; 4]) -> AttitudeInnovation {
-        let sun_t = self.sun_t(q_es);
-        let tangents = part::<2>(values, 0).map(libm::tan);
-        let seen = [tangents[0], tangents[1], 1.0];
-        let length = norm(seen);
-        let [across, other, _] = transposed(&from_s3_to(seen));
-        let across = [across, other];
-        let slopes: [[f64; 2]; 2] =
-            across.map(|b| std::array::from_fn(|i| b[i] * (1.0 + tangents[i] * tangents[i]) / length));
-        let variance = self.deviation * self.deviation;
-        AttitudeInnovation::Two(Innovation {
-            value: across.map(|b| -dot(b, sun_t)),
-            sensitivity: across.map(|b| product(self.c_st, cross(b, sun_t))),
-            covariance: multiplied(&slopes, &transposed(&slopes)).map(|row: [f64; 2]| row.map(|x| variance * x)),
-        })
+    fn innovation(&self, values: &Values, q_es: [f64; 4], _time: f64) -> AttitudeInnovation {
+        self.angles.innovation(values, self.angles.in_sensor(self.sun_e, q_es))
     }
 }
 
 struct SunSensor {
-    geometry: Geometry,
-    /// Cosine of the largest angle from the boresight.
-    least_cosine: f64,
-    bias: f64,
-    noise: NormalErrors<2>,
+    angles: AnglesInView,
+    sun_e: [f64; 3],
 }
 
 impl SunSensor {
     fn new(context: &SensorContext<'_>) -> Self {
         let numbers = SunSensorNumbers::of(context.parameters);
-        let half = numbers.half_field_of_view;
-        SunSensor {
-            geometry: Geometry::of(context.parameters),
-            least_cosine: if half > 0.0 { libm::cos(half).max(0.0) } else { 0.0 },
-            bias: numbers.bias,
-            noise: context.normal("noise", ["x", "y"]),
-        }
+        let Geometry { angles, sun_e } = Geometry::of(context.parameters);
+        SunSensor { angles: AnglesInView::new(context, angles, numbers.half_field_of_view, numbers.bias), sun_e }
     }
 }
 
 impl Sensor for SunSensor {
     fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
-        let sun_t = self.geometry.sun_t(truth.body.q_es);
-        if sun_t[2] <= self.least_cosine {
-            return None;
-        }
-        let errors = self.noise.scaled(count, [self.geometry.deviation; 2]);
-        let [a, b] = angles(sun_t);
-        Some(values(&[&[a + self.bias + errors[0], b + self.bias + errors[1]]]))
+        self.angles.measure(count, self.sun_e, truth.body.q_es)
     }
 }
 
@@ -135,9 +88,12 @@ mod tests {
     use super::*;
     use crate::control::estimators::attitude_filter::{AttitudeFilter, AttitudeObservation};
     use crate::control::estimators::delayed::Filter;
-    use crate::control::rotation::{quaternion_of, vector_of};
+    use crate::control::measurement::part;
+    use crate::control::rotation::{from_s3_to, quaternion_of, vector_of};
     use crate::control::sensors::rate_gyro::GyroNoise;
-    use crate::control::vector::{conjugate, difference, hamilton};
+    use crate::control::vector::{
+        conjugate, cross, dcm_from_quaternion, difference, dot, hamilton, product, transposed_product,
+    };
 
     const SUN: [f64; 3] = [0.6, 0.0, -0.8];
     const BORESIGHT: [f64; 3] = [2.0, 1.0, -2.0];
@@ -195,7 +151,7 @@ mod tests {
             let q_true = hamilton(q, quaternion_of(d));
             let seen =
                 sensor("sun_sensor", &values, 1.0, 0).measure(0, &truth(0.0, q_true, [0.0; 3])).expect("the Sun");
-            let AttitudeInnovation::Two(found) = geometry.innovation(&seen, q) else { panic!("two angles") };
+            let AttitudeInnovation::Two(found) = geometry.innovation(&seen, q, 0.0) else { panic!("two angles") };
             for (value, row) in found.value.iter().zip(found.sensitivity) {
                 assert!((value / size - row[axis]).abs() < 1e-5, "{axis}: {value} for {row:?}");
             }
@@ -227,7 +183,9 @@ mod tests {
             let mut sun = sensor("sun_sensor", &values, 1.0, run);
             for count in 0..4 {
                 let seen = sun.measure(count, &truth(0.0, q, [0.0; 3])).expect("the Sun");
-                filter.update(&AttitudeObservation { values: seen, sensor: model.clone() }).expect("an innovation");
+                filter
+                    .update(&AttitudeObservation { values: seen, sensor: model.clone(), time: 0.0 })
+                    .expect("an innovation");
             }
             for (axis, known) in [expected, expected, START].into_iter().enumerate() {
                 let deviation = filter.covariance[axis][axis].sqrt();

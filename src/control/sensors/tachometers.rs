@@ -17,6 +17,7 @@ pub(super) const KIND: SensorKind = SensorKind {
         "Rate of this wheel measured by its tachometer",
     )],
     observes: Observes::WheelRates,
+    needs: None,
     make: |context| Box::new(Tachometers::new(context)),
 };
 

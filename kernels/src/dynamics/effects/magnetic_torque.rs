@@ -57,11 +57,15 @@ impl<R: Real> MagneticTorque<R> {
     }
 }
 
+/// The dipole of the body of `scene` itself, F_s, A m^2, where the field turns that or torque rods.
+pub fn residual_dipole(scene: &Scene) -> Option<[f64; 3]> {
+    scene.environment.magnetic_dipole_a_m2.or((!scene.torque_rods.is_empty()).then_some([0.0; 3]))
+}
+
 /// The magnetic torque on `scene` in the frame B, which `c_sb` maps to F_s.
 pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<MagneticTorque<R>> {
-    let dipole = scene.environment.magnetic_dipole_a_m2?;
+    let dipole = constant(zero, residual_dipole(scene)?);
     let field = MagneticField::of(scene)?.in_lanes(zero);
-    let dipole = constant(zero, dipole);
     let residual = c_sb.map_or(dipole, |c_sb| transposed_product(c_sb, dipole));
     Some(MagneticTorque { field, residual, dipole: residual })
 }
@@ -112,10 +116,11 @@ impl<R: Real> MagneticSeries<R> {
     }
 }
 
-/// Upper bound of the torque on `scene`, N m: the dipole across the largest field at the periapsis.
+/// Upper bound of the torque on `scene`, N m: the dipole with all rods at their limits across the largest field at the periapsis.
 pub fn largest_torque(scene: &Scene) -> f64 {
-    let (Some(orbit), Some(dipole)) = (&scene.orbit, scene.environment.magnetic_dipole_a_m2) else { return 0.0 };
-    norm(dipole) * largest(orbit.shape().periapsis)
+    let (Some(orbit), Some(dipole)) = (&scene.orbit, residual_dipole(scene)) else { return 0.0 };
+    let all = scene.torque_rods.iter().fold(norm(dipole), |sum, rod| sum + (rod.scale * rod.limit).abs());
+    all * largest(orbit.shape().periapsis)
 }
 
 /// Largest rate of librations of `scene` about the field, rad/s: sqrt(|m| |B|/J) of the smallest moment.

@@ -32,7 +32,7 @@ pub enum Effect {
     ConstantTorque,
     /// `environment.gravity_gradient`.
     GravityGradient,
-    /// `environment.magnetic_dipole_a_m2`.
+    /// `environment.magnetic_dipole_a_m2`, and `[[torque_rods]]`.
     MagneticTorque,
     /// `environment.drag`.
     Drag,
@@ -96,12 +96,12 @@ impl Effect {
         }
     }
 
-    /// Whether it acts in `environment`, on an orbit or on none, which the bodies may leave or not.
-    const fn acts_in(self, environment: &EnvironmentInput, is_on_orbit: bool, may_leave: bool) -> bool {
+    /// Whether it acts in `environment`: on an orbit or on none, which the bodies may leave or not, with torque rods or without.
+    const fn acts_in(self, environment: &EnvironmentInput, [is_on_orbit, may_leave, has_rods]: [bool; 3]) -> bool {
         match self {
             Effect::ConstantTorque => environment.body_torque_n_m.is_some(),
             Effect::GravityGradient => environment.gravity_gradient,
-            Effect::MagneticTorque => environment.magnetic_dipole_a_m2.is_some(),
+            Effect::MagneticTorque => environment.magnetic_dipole_a_m2.is_some() || has_rods,
             Effect::Drag => environment.drag,
             Effect::SolarPressure => environment.solar_pressure,
             Effect::Gravity => is_on_orbit,
@@ -131,16 +131,18 @@ impl ForceModel {
 
     /// The effects on `scene`.
     pub fn of(scene: &Scene) -> Self {
-        Self::acting(&scene.environment, scene.orbit.is_some(), scene.offsets.is_some())
+        let facts = [scene.orbit.is_some(), scene.offsets.is_some(), !scene.torque_rods.is_empty()];
+        Self::acting(&scene.environment, facts)
     }
 
     /// Those that act on the scenes of `input`.
     pub fn of_input(input: &SceneInput) -> Self {
-        Self::acting(&input.environment, input.orbit.is_some(), Offsets::of(input).is_some())
+        let facts = [input.orbit.is_some(), Offsets::of(input).is_some(), !input.torque_rods.is_empty()];
+        Self::acting(&input.environment, facts)
     }
 
-    fn acting(environment: &EnvironmentInput, is_on_orbit: bool, may_leave: bool) -> Self {
-        let acts = |effect: &Effect| effect.acts_in(environment, is_on_orbit, may_leave);
+    fn acting(environment: &EnvironmentInput, facts: [bool; 3]) -> Self {
+        let acts = |effect: &Effect| effect.acts_in(environment, facts);
         Effect::ALL.into_iter().filter(acts).fold(Self::NONE, Self::with)
     }
 

@@ -127,6 +127,9 @@ pub trait WithinArcs<R: Real>: Copy {
     /// Puts those of `run` into lane `lane`.
     fn set_lane(&mut self, lane: usize, run: &Gyrostat<f64>);
 
+    /// Puts what changes in those of `run` from arc to arc into lane `lane`.
+    fn set_arc(&mut self, lane: usize, run: &Gyrostat<f64>);
+
     /// What they do at `time` (s) to a body whose integrated components are `state`, SI.
     fn act<const N: usize>(&self, time: R, state: &[R; N]) -> Beside<R>;
 
@@ -151,6 +154,8 @@ impl<R: Real> WithinArcs<R> for NoEffects {
     }
 
     fn set_lane(&mut self, _lane: usize, _run: &Gyrostat<f64>) {}
+
+    fn set_arc(&mut self, _lane: usize, _run: &Gyrostat<f64>) {}
 
     #[inline(always)]
     fn act<const N: usize>(&self, time: R, _state: &[R; N]) -> Beside<R> {
@@ -210,6 +215,13 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
             leaving.mass.set_lane(lane, run.mass);
             leaving.inverse_mass.set_lane(lane, 1.0 / run.mass);
             leaving.rate.set_lane(lane, orbit.rate());
+        }
+    }
+
+    #[inline(always)]
+    fn set_arc(&mut self, lane: usize, run: &Gyrostat<f64>) {
+        if let (Some(torque), Some(own)) = (&mut self.effects.magnetic_torque, &run.effects.magnetic_torque) {
+            torque.set_arc(lane, own);
         }
     }
 

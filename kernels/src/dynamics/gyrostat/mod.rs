@@ -264,8 +264,24 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
+    /// The dipole of the torque rods in `arc`, B, A m^2.
+    #[inline(always)]
+    pub fn rods_b(&self, arc: &Arc) -> [R; 3] {
+        self.into_b(constant(self.mass, arc.applied.dipole))
+    }
+
+    /// Switches the torque rods as they are in `arc`.
+    #[inline(always)]
+    fn switch_rods(&mut self, arc: &Arc) {
+        if self.effects.magnetic_torque.is_some() {
+            let rods = self.rods_b(arc);
+            self.effects.magnetic_torque.iter_mut().for_each(|torque| torque.begin_arc(rods));
+        }
+    }
+
     /// Starts the next arc of a run of `scene`.
     pub fn begin_arc(&mut self, scene: &Scene, arc: Arc) {
+        self.switch_rods(&arc);
         let wheels = self.wheels_at(arc.start);
         let arc = self.arc_from(scene, arc, wheels);
         self.arcs.push(arc);
@@ -275,6 +291,7 @@ impl<R: Real> Gyrostat<R> {
     #[inline(always)]
     pub fn begin_flown_arc(&mut self, scene: &Scene, arc: Arc, wheels: [WheelMotion<R>; MAX_WHEELS], times: &[f64]) {
         self.flown.push(&arc);
+        self.switch_rods(&arc);
         let next = self.arc_from(scene, arc, wheels);
         let before = self.passed;
         if let Some(last) = self.arcs.last_mut() {
@@ -415,7 +432,11 @@ impl<R: Real> Gyrostat<R> {
     /// Starts the next arc of the schedule of `scene`, at `time`.
     pub fn begin_scheduled_arc(&mut self, scene: &Scene, time: f64, duration: f64) {
         match self.scheduled.get(self.arcs.len()) {
-            Some(arc) => self.arcs.push(*arc),
+            Some(next) => {
+                let next = *next;
+                self.switch_rods(&next.arc);
+                self.arcs.push(next);
+            }
             None => self.begin_arc(scene, scheduled_arc(scene, time, duration)),
         }
     }

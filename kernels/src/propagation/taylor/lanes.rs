@@ -146,6 +146,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
             state.unit = unit;
         }
         self.vectors.constants.set_arc(lane, &self.runs[state.run], arc, unit);
+        self.effects.set_arc(lane, &self.runs[state.run]);
         state.start = bounds.start;
         state.end = bounds.end();
         state.is_last = state.end >= self.arcs.duration();

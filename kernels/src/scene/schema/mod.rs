@@ -4,8 +4,8 @@
 //! dispersable [`super::Parameter`]s and the table of keys in the documents. To add a parameter, add a row here and use the
 //! field where it acts.
 //!
-//! - [`body`], [`part`], [`mass_errors`], [`wheel`], [`thruster`], [`debris`], [`initial`], [`orbit`], [`environment`], [`plate`], [`actuators`],
-//!   [`actuation`], [`failure`]: the rows, table by table; [`control`]: those that a control law declares.
+//! - [`body`], [`part`], [`mass_errors`], [`wheel`], [`thruster`], [`torque_rod`], [`debris`], [`initial`], [`orbit`], [`environment`], [`plate`],
+//!   [`actuators`], [`actuation`], [`failure`]: the rows, table by table; [`control`]: those that a control law declares.
 //! - [`row`]: what a row is. [`limit`]: what a value must satisfy. [`numbers`]: values seen as plain numbers.
 //!
 //! A row knows its own table only; [`super::table`] says where in a scene the tables are. A table may have several instances.
@@ -31,6 +31,7 @@ pub mod principal;
 pub mod row;
 mod rows;
 pub mod thruster;
+pub mod torque_rod;
 pub mod wheel;
 
 pub use actuation::{ActuationInput, ArcErrors};
@@ -49,9 +50,12 @@ pub use plate::{MAX_PLATES, PlateInput};
 pub use principal::{PrincipalInertia, PrincipalMoments};
 pub use row::{Facts, Needs, Presence, Row, Shape};
 pub use thruster::ThrusterInput;
+pub use torque_rod::TorqueRodInput;
 pub use wheel::{WheelInput, WheelMode};
 
 /// Largest number of wheels of a spacecraft.
 pub const MAX_WHEELS: usize = 8;
 /// Largest number of thrusters of a spacecraft.
 pub const MAX_THRUSTERS: usize = 16;
+/// Largest number of torque rods of a spacecraft.
+pub const MAX_TORQUE_RODS: usize = 8;
