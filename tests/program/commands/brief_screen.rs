@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use super::small_campaign::{campaign, folder, mixed_failures};
+use crate::small_campaign::{campaign, folder, mixed_failures};
 use crate::support::scratch_folder::{ScratchFolder, column, ended};
 
 /// What the program prints on standard output, and on both, in lines of `width` characters.

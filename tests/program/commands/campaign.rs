@@ -2,7 +2,7 @@
 
 use std::fs::{self, File};
 
-use super::small_campaign::{campaign, folder};
+use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::column;
 
 /// Law: a printed command is one that a shell takes, whatever the names of the folder and of the file.
@@ -101,7 +101,7 @@ fn a_folder_in_use_is_refused() {
 #[test]
 fn instruction_sets_do_not_change_a_byte() {
     let scratch = folder("isa");
-    let loops = include_str!("../../campaigns/net_launch.toml").replace("duration_s = 2400.0", "duration_s = 60.0");
+    let loops = include_str!("../../../campaigns/net_launch.toml").replace("duration_s = 2400.0", "duration_s = 60.0");
     std::fs::write(scratch.path("loop.toml"), loops).unwrap();
     let run = |file: &str, isa: &str, code: i32| {
         let arguments = format!("campaign {file}.toml --samples 20 --out {file}-{isa}");

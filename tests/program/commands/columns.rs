@@ -4,7 +4,7 @@ use spindrift::campaign::{Overrides, Plan};
 use spindrift::control::outcome::columns::OutcomeColumns;
 use spindrift::observables::{Group, table};
 
-use super::small_campaign::folder;
+use crate::small_campaign::folder;
 use crate::support::scratch_folder::ScratchFolder;
 
 /// Law: without a campaign every column of the table is there once, with unit and meaning, under its group; with a group, those alone.

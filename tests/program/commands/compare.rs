@@ -4,8 +4,8 @@ use arrow_array::cast::AsArray;
 use serde_json::Value;
 use spindrift::statistics::two_sample::kolmogorov_smirnov;
 
-use super::screen_numbers::{numbers, says, template};
-use super::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder, mixed_failures};
+use crate::commands::screen_numbers::{numbers, says, template};
+use crate::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder, mixed_failures};
 use crate::support::scratch_folder::{ScratchFolder, column, ended, floats};
 
 /// Law: the same campaign has no shift, also from other files; another method on the same samples is compared pair by pair and differs

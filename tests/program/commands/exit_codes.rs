@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use super::screen_numbers::junit_counts;
-use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
+use crate::commands::screen_numbers::junit_counts;
+use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
 
 /// A requirement on the energy error.
 fn require(statement: &str, limit: &str) -> String {

@@ -2,14 +2,14 @@
 
 use std::fs;
 
-use super::small_campaign::folder;
+use crate::small_campaign::folder;
 use crate::support::scratch_folder::ScratchFolder;
 
 const LIMITED: &str = "[[require]]\nobservable = \"rate_w1_final_rad_s\"\nfraction = 0.5\nat_most = ";
 
 /// Runs a campaign with a limit on the speed of a wheel, then waits until a later file has a later time.
 fn run(scratch: &ScratchFolder, name: &str, limit: &str, out: &str, code: i32) {
-    let text = super::small_campaign::campaign().replace("name = \"small\"", &format!("name = \"{name}\""));
+    let text = crate::small_campaign::campaign().replace("name = \"small\"", &format!("name = \"{name}\""));
     scratch.file("c.toml", &format!("# Question: is <{name}> slow enough?\n{text}{LIMITED}{limit}\n"));
     scratch.outputs(scratch.command("campaign c.toml --samples 20 --out").arg(out), code);
     std::thread::sleep(std::time::Duration::from_millis(1100));

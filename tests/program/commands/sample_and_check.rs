@@ -3,8 +3,8 @@
 use std::fs;
 use std::process::Stdio;
 
-use super::screen_numbers::numbers;
-use super::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder};
+use crate::commands::screen_numbers::numbers;
+use crate::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder};
 use crate::support::campaigns::SPIN_DISPERSION;
 use crate::support::scratch_folder::floats;
 

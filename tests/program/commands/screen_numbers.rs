@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use serde_json::Value;
 
-use super::page_numbers::{failing, quantile};
-use super::small_campaign::mixed_failures;
+use crate::page::numbers::{failing, quantile};
+use crate::small_campaign::mixed_failures;
 use crate::support::scratch_folder::{ScratchFolder, batches, column, ended};
 use spindrift::statistics::binomial::interval;
 
 /// A line with `#` in place of each number, and the numbers; digits within a word are none, and a `#` of the line itself is `@`.
-pub(super) fn template(line: &str) -> (String, Vec<f64>) {
+pub(crate) fn template(line: &str) -> (String, Vec<f64>) {
     let (mut text, mut numbers) = (String::new(), Vec::new());
     let mut rest = line;
     while let Some(first) = rest.chars().next() {
@@ -34,7 +34,7 @@ pub(super) fn template(line: &str) -> (String, Vec<f64>) {
 }
 
 /// The numbers of a text where its first line that has the pattern has a `#`.
-pub(super) fn numbers(said: &str, pattern: &str) -> Vec<f64> {
+pub(crate) fn numbers(said: &str, pattern: &str) -> Vec<f64> {
     let of = |line: &str| {
         let (text, numbers) = template(line);
         let before = text[..text.find(pattern)?].matches('#').count();
@@ -44,7 +44,7 @@ pub(super) fn numbers(said: &str, pattern: &str) -> Vec<f64> {
 }
 
 /// The numbers of the pattern are these: counts all of them, others in four digits, or in three where there are shares.
-pub(super) fn says(said: &str, pattern: &str, expected: &[f64]) {
+pub(crate) fn says(said: &str, pattern: &str, expected: &[f64]) {
     let found = numbers(said, pattern);
     // the ends of an interval are rounded outward to three digits
     let digits = if pattern.contains("[#") {
@@ -65,7 +65,7 @@ pub(super) fn says(said: &str, pattern: &str, expected: &[f64]) {
 }
 
 /// Law: the heads of a JUnit file count the elements in it; returns tests, failures and errors.
-pub(super) fn junit_counts(junit: &str) -> [usize; 3] {
+pub(crate) fn junit_counts(junit: &str) -> [usize; 3] {
     let counts = ["<testcase ", "<failure ", "<error "].map(|element| junit.matches(element).count());
     let heads = format!("tests=\"{}\" failures=\"{}\" errors=\"{}\"", counts[0], counts[1], counts[2]);
     assert_eq!(junit.matches(&heads).count(), 2, "{heads}: {junit}");

@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use super::small_campaign::folder;
+use crate::small_campaign::folder;
 use crate::support::scratch_folder::floats;
 
 /// Law: `simulate --sample K` shows the run behind row K, bit for bit.

@@ -9,8 +9,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use super::interrupted::send;
-use super::small_campaign::{campaign, folder};
+use crate::reliability::interrupted::send;
+use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
 /// Where the programs are that stand for Slurm's.

@@ -4,10 +4,10 @@
 use nalgebra::{Matrix3, Vector3};
 use spindrift::scene::{Arc, Scene, WheelModel};
 
-use super::flown_loop::{FlownLoop, SAME_TIME, State, changed};
+use crate::loops::flown_loop::{FlownLoop, SAME_TIME, State, changed};
 
-const DETUMBLE: &str = include_str!("../../campaigns/detumble.toml");
-const SLEW_CLOSED: &str = include_str!("../../campaigns/slew_closed.toml");
+const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
+const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
 
 /// Rounding of the torques and thrusts of an arc, and of the state at its start: some ten operations, and rates of tens of rad/s over arcs of some ms.
 const AGREED: f64 = 1e-12;

@@ -1,6 +1,6 @@
 //! Loops of campaign files whose law or allocation decides the outcome: torque with a net force, slews under a torque limit, integrals against friction.
 
-use super::closed_loops::{angles, hold, plan, run, small_craft, value};
+use crate::loops::closed_loops::{angles, hold, plan, run, small_craft, value};
 use crate::support::scratch_folder::ScratchFolder;
 use spindrift::run::StateField;
 

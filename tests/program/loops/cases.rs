@@ -1,12 +1,12 @@
-//! Runs of control loops with every kind of sensor, estimator, actuator and end: what `loop_columns` recomputes.
+//! Runs of control loops with every kind of sensor, estimator, actuator and end: what `columns` recomputes.
 
-use super::flown_loop::{FlownLoop, changed, without_filters};
-use super::loop_actuators::limited_slew;
+use crate::loops::actuators::limited_slew;
+use crate::loops::flown_loop::{FlownLoop, changed, without_filters};
 
-const NET_LAUNCH: &str = include_str!("../../campaigns/net_launch.toml");
-const DETUMBLE: &str = include_str!("../../campaigns/detumble.toml");
-const SLEW_CLOSED: &str = include_str!("../../campaigns/slew_closed.toml");
-const POINT_AT_DEBRIS: &str = include_str!("../../campaigns/point_at_debris.toml");
+const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
+const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
+const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
+const POINT_AT_DEBRIS: &str = include_str!("../../../campaigns/point_at_debris.toml");
 
 /// A run, how its mission ends, and the same run without that end: what flight software estimates at the last tick is recorded there.
 pub struct Case {

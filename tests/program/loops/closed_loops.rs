@@ -13,20 +13,20 @@ use spindrift::workflow::{Campaign, Quiet, Session};
 
 use crate::support::scratch_folder::ScratchFolder;
 
-const NET_LAUNCH: &str = include_str!("../../campaigns/net_launch.toml");
-pub(super) const SLEW_CLOSED: &str = include_str!("../../campaigns/slew_closed.toml");
-const DETUMBLE: &str = include_str!("../../campaigns/detumble.toml");
+const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
+pub(crate) const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
+const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 
-pub(super) fn plan(text: &str) -> Plan {
+pub(crate) fn plan(text: &str) -> Plan {
     Plan::from_text("loop.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-pub(super) fn run(plan: &Plan, sample: u64) -> SingleRun {
+pub(crate) fn run(plan: &Plan, sample: u64) -> SingleRun {
     SingleRun::new(plan, SampleId(sample), plan.grid.clone(), Isa::best()).expect("a physical scene")
 }
 
 /// The value of the column `name` of the row of `run`.
-pub(super) fn value(run: &SingleRun, name: &str) -> f64 {
+pub(crate) fn value(run: &SingleRun, name: &str) -> f64 {
     let columns = run.request.columns();
     let place = columns.iter().position(|column| column.quantity.name() == name);
     run.row[place.unwrap_or_else(|| panic!("no column {name}"))]
@@ -54,7 +54,7 @@ fn without(text: &str, headers: &[&str]) -> String {
 }
 
 /// A spacecraft at rest with one wheel about each axis, of the inertia diag(30, 36, 24) kg m^2 with wheels that add nothing to K.
-pub(super) fn small_craft(control: &str, initial: &str) -> String {
+pub(crate) fn small_craft(control: &str, initial: &str) -> String {
     let mut text = String::from(
         "[campaign]\nname = \"loop\"\nsamples = 2\nseed = 1\nduration_s = 100\n[integrator]\nmethod = \"auto\"\ntolerance = 1e-14\n\
          [observe]\npoints = 401\ngroups = [\"final_state\", \"motion\", \"numerics\", \"energy_conservation\", \"momentum_conservation\"]\n\
@@ -166,7 +166,7 @@ fn the_arcs_flown_are_the_run() {
 }
 
 /// A loop that holds F_e with the wheels by quaternion feedback.
-pub(super) fn hold(bandwidth: f64, damping: f64, period: f64, more: &str) -> String {
+pub(crate) fn hold(bandwidth: f64, damping: f64, period: f64, more: &str) -> String {
     format!(
         "[control]\nperiod_s = {period:?}\nwheels = [\"w1\", \"w2\", \"w3\"]\n{more}[[guidance]]\nphase = \"hold\"\nlaw = \"quaternion_feedback\"\n\
          bandwidth_rad_s = {bandwidth:?}\ndamping = {damping:?}\ntarget = \"attitude\"\nattitude = [1, 0, 0, 0]\n"
@@ -174,7 +174,7 @@ pub(super) fn hold(bandwidth: f64, damping: f64, period: f64, more: &str) -> Str
 }
 
 /// The angle about s2 of a small rotation at each point.
-pub(super) fn angles(run: &SingleRun) -> Vec<f64> {
+pub(crate) fn angles(run: &SingleRun) -> Vec<f64> {
     let [w, y] = [0, 2].map(|component| run.table.column(StateField::Attitude, component));
     let points = run.grid.points();
     w[..points].iter().zip(&y[..points]).map(|(w, y)| 2.0 * y.atan2(*w)).collect()
@@ -458,7 +458,7 @@ fn drawn_actuators_act() {
 /// Law: debris at rest has no axis, but can be pointed at.
 #[test]
 fn debris_at_rest_can_be_pointed_at() {
-    let text = include_str!("../../campaigns/point_at_debris.toml")
+    let text = include_str!("../../../campaigns/point_at_debris.toml")
         .replace("debris_velocity_m_s = [0.2, 0.0, 0.0]", "debris_velocity_m_s = [0, 0, 0]");
     let run = run(&plan(&text), 0);
     assert_eq!(value(&run, "failure"), 0.0);

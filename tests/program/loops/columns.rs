@@ -10,9 +10,9 @@ use spindrift::math::vector::{
     conjugate, cross, difference, dot, hamilton, norm, product, quaternion_from_dcm, scaled, sum,
 };
 
-use super::flown_loop::{FlownLoop, State, angle_between, rotation_vector};
-use super::loop_actuators::driven_wheels;
-use super::loop_cases::{Case, cases};
+use crate::loops::actuators::driven_wheels;
+use crate::loops::cases::{Case, cases};
+use crate::loops::flown_loop::{FlownLoop, State, angle_between, rotation_vector};
 
 /// Rounding of what is summed over a run, relative to a number of size one: some thousands of arcs with 1.1e-16 each are 1e-12.
 const AGREED: f64 = 1e-11;

@@ -20,11 +20,11 @@ use spindrift::workflow::{
     verify,
 };
 
-#[path = "../../examples/control_campaign.rs"]
+#[path = "../../../examples/control_campaign.rs"]
 #[expect(dead_code, reason = "the example runs in tests/project")]
 mod example;
 
-use super::small_campaign::campaign_without_debris;
+use crate::small_campaign::campaign_without_debris;
 use crate::support::scratch_folder::ScratchFolder;
 
 /// A campaign of six hundred of these: some parts, some audits.
@@ -77,7 +77,7 @@ impl Watch for StopAfter {
 
 /// `net_launch.toml`, with all its sensors and filters, for its first 20 s.
 fn net_launch<'a>(session: Session<'a>, root: &Path) -> Campaign<'a> {
-    let text = include_str!("../../campaigns/net_launch.toml").replace("duration_s = 2400.0", "duration_s = 20.0");
+    let text = include_str!("../../../campaigns/net_launch.toml").replace("duration_s = 2400.0", "duration_s = 20.0");
     Campaign::from_text("net_launch.toml", &text, session).samples(600).audit(0.02).store(root)
 }
 

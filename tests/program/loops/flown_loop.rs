@@ -9,7 +9,7 @@ use spindrift::run::{Grid, StateField};
 use spindrift::sampling::SampleId;
 use spindrift::scene::Arc;
 
-use super::closed_loops::{plan, run};
+use crate::loops::closed_loops::{plan, run};
 
 /// Times that are closer than this, s, are one: rounding of k T, and far below any period and any pulse.
 pub const SAME_TIME: f64 = 1e-9;

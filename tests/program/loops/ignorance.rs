@@ -4,10 +4,10 @@ use spindrift::campaign::{Overrides, Plan};
 use spindrift::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
 use spindrift::scene::{Parameter, Scene};
 
-use super::closed_loops::plan;
-use super::flown_loop::{FlownLoop, changed, without_filters};
+use crate::loops::closed_loops::plan;
+use crate::loops::flown_loop::{FlownLoop, changed, without_filters};
 
-const NET_LAUNCH: &str = include_str!("../../campaigns/net_launch.toml");
+const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 
 /// `net_launch.toml` without its phases and draws, whose loop turns to an attitude and stops the motion along s3, which is that of
 /// `along_s3`, m/s.

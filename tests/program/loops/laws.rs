@@ -7,7 +7,7 @@ use spindrift::math::vector::{
     conjugate, cross, dcm_from_quaternion, difference, dot, hamilton, norm, product, scaled, sum, transposed_product,
 };
 
-use super::flown_loop::{FlownLoop, angle_between, rotation_vector};
+use crate::loops::flown_loop::{FlownLoop, angle_between, rotation_vector};
 
 /// Rounding, relative to the sum of the magnitudes of the terms of a law: some tens of operations with 1.1e-16 each.
 const AGREED: f64 = 1e-14;

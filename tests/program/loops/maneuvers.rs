@@ -2,9 +2,9 @@
 
 use spindrift::math::vector::{difference, dot, norm};
 
-use super::flown_loop::{FlownLoop, changed, without_filters};
+use crate::loops::flown_loop::{FlownLoop, changed, without_filters};
 
-const NET_LAUNCH: &str = include_str!("../../campaigns/net_launch.toml");
+const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 
 /// `net_launch.toml` at rest, with perfect knowledge and throttled thrusters, whose commands act after `delay` seconds, for `duration` seconds; it moves with
 /// the velocity `velocity` beside debris at rest, and flies `phases`.

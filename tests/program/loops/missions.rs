@@ -1,12 +1,12 @@
 //! How missions ended: on the screen, in the summary and on the page, against the rows.
 
-use super::page_cards::between;
-use super::page_numbers::Found;
-use super::screen_numbers::{numbers, says};
+use crate::commands::screen_numbers::{numbers, says};
+use crate::page::cards::between;
+use crate::page::numbers::Found;
 use crate::support::scratch_folder::{ScratchFolder, column, ended};
 use spindrift::statistics::binomial::interval;
 
-const DETUMBLE: &str = include_str!("../../campaigns/detumble.toml");
+const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 
 /// Law: the dispersed runs that are ok are counted by how their mission ended, each with its share in percent and the interval of the share, of which
 /// the bar of the page is drawn.

@@ -1,7 +1,7 @@
 //! Noise within control loops: the share of the variance that it makes, as `report --noise` says it, and what innovations say of filters.
 
-use super::closed_loops::{SLEW_CLOSED, plan, run, value};
-use super::page_numbers::{Found, found};
+use crate::loops::closed_loops::{SLEW_CLOSED, plan, run, value};
+use crate::page::numbers::{Found, found};
 
 /// A damped body whose star tracker is believed as it is: its error is noise alone, the drawn scale is none, `of_both` has a known share of it.
 const NOISY: &str = r#"

@@ -52,7 +52,7 @@ static OWN: LawKind = LawKind {
     },
 };
 
-const SLEW: &str = include_str!("../../campaigns/slew_closed.toml");
+const SLEW: &str = include_str!("../../../campaigns/slew_closed.toml");
 
 /// `slew_closed.toml` with the law of this program in place of the built-in one of the same formula.
 fn with_own_law() -> String {

@@ -2,11 +2,11 @@
 
 use spindrift::math::vector::norm;
 
-use super::flown_loop::{FlownLoop, SAME_TIME, changed, without_filters};
-use super::loop_actuators::{driven_wheels, limited_slew};
+use crate::loops::actuators::{driven_wheels, limited_slew};
+use crate::loops::flown_loop::{FlownLoop, SAME_TIME, changed, without_filters};
 
-const NET_LAUNCH: &str = include_str!("../../campaigns/net_launch.toml");
-const SLEW_CLOSED: &str = include_str!("../../campaigns/slew_closed.toml");
+const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
+const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
 
 /// The times at which the phase of `flown` changed, with the place of the phase that began.
 fn changes(flown: &FlownLoop) -> Vec<(f64, usize)> {

@@ -7,9 +7,9 @@ use spindrift::math::vector::{
 };
 use spindrift::scene::Scene;
 
-use super::flown_loop::{FlownLoop, State, changed, rotation_vector, without_filters};
+use crate::loops::flown_loop::{FlownLoop, State, changed, rotation_vector, without_filters};
 
-const NET_LAUNCH: &str = include_str!("../../campaigns/net_launch.toml");
+const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 
 /// Rounding, of positions of tens of metres and rates of wheels of tens of rad/s: an ulp of 40 is 7e-15, and states between steps have some of them.
 const AGREED: f64 = 1e-12;

@@ -1,6 +1,6 @@
 //! What a control loop records over time, and how steady it is: recomputed from the states of the run, its telemetry and its arcs.
 
-use super::closed_loops::{SLEW_CLOSED, plan, value};
+use crate::loops::closed_loops::{SLEW_CLOSED, plan, value};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;

@@ -7,7 +7,7 @@ use spindrift::math::Isa;
 use spindrift::run::{Grid, StateField};
 use spindrift::sampling::SampleId;
 
-use super::closed_loops::{SLEW_CLOSED, plan, run, small_craft, value};
+use crate::loops::closed_loops::{SLEW_CLOSED, plan, run, small_craft, value};
 
 /// The recorded column `name` of `run` at the points of its grid.
 fn shown(run: &SingleRun, name: &str) -> Vec<f64> {

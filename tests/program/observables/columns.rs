@@ -1,7 +1,7 @@
 //! Which columns a row has: skipped groups, padding and the instruction set change no bit of the others; every column of every kind of
 //! scene has a value; a failed run has what is known of it.
 
-use super::observed_tables::{
+use crate::observables::observed_tables::{
     Motion, done, free_row, golden_table, motion_table, observation, request, rotation, row, table1,
 };
 use spindrift::dynamics::effects::{Effect, ForceModel};

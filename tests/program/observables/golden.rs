@@ -1,7 +1,9 @@
 //! Observables of golden truth (25 digits): its energies and momenta are those of the equations, point by point, and are conserved to
 //! rounding. Counter-test: a small change of one state or one inertia is seen in the errors.
 
-use super::observed_tables::{ROUNDING, close, golden_table, observation, request, request_of_balances, row, table1};
+use crate::observables::observed_tables::{
+    ROUNDING, close, golden_table, observation, request, request_of_balances, row, table1,
+};
 use crate::support::golden::Golden;
 use spindrift::math::Isa;
 use spindrift::math::vector::dcm_from_quaternion;

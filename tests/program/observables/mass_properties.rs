@@ -7,7 +7,7 @@ use spindrift::observables::Group;
 use spindrift::sampling::SampleId;
 use spindrift::scene::MassProperties;
 
-use super::small_campaign::{NEGATIVE_WALLS, campaign};
+use crate::small_campaign::{NEGATIVE_WALLS, campaign};
 
 /// A density, a position of a wheel, and walls: a third of these is not physical.
 const DISPERSED: &str = r#"

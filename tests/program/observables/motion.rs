@@ -13,7 +13,7 @@ use spindrift::run::{Grid, Outcome, StateField, StateTable};
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 
-use super::observed_tables::{done, motion_table, request, rotation};
+use crate::observables::observed_tables::{done, motion_table, request, rotation};
 use crate::support::golden::Golden;
 use crate::support::observed::observed;
 use crate::support::plans::shipped;

@@ -2,7 +2,7 @@
 //!
 //! Laws: closed-form motions give their closed-form numbers. Counter-test: a balance without the work that is fed in does not close.
 
-use super::observed_tables::{
+use crate::observables::observed_tables::{
     ROUNDING, close, free_row, motion_table, observation, request, request_of_balances, rotation, row, table1,
 };
 use spindrift::math::Isa;

@@ -4,18 +4,18 @@ use std::collections::BTreeSet;
 
 use serde_json::Value;
 
-use super::page_numbers::{Found, degrees, failing, found, motion, read_number};
-use super::screen_numbers::says;
-use super::small_campaign::RADIANS;
+use crate::commands::screen_numbers::says;
+use crate::page::numbers::{Found, degrees, failing, found, motion, read_number};
+use crate::small_campaign::RADIANS;
 
 /// What is between two texts.
-pub(super) fn between<'t>(text: &'t str, from: &str, to: &str) -> &'t str {
+pub(crate) fn between<'t>(text: &'t str, from: &str, to: &str) -> &'t str {
     let (_, rest) = text.split_once(from).unwrap_or_else(|| panic!("no {from} in {text}"));
     rest.split_once(to).unwrap_or_else(|| panic!("no {to} in {rest}")).0
 }
 
 /// A number of the page in the unit of its column; NaN where there is none.
-pub(super) fn si(text: &str) -> f64 {
+pub(crate) fn si(text: &str) -> f64 {
     let percent = || Some((text.strip_suffix('%')?, "%"));
     let (number, unit) = text.split_once('\u{a0}').or_else(percent).unwrap_or((text, ""));
     let scale = match unit {
@@ -27,7 +27,7 @@ pub(super) fn si(text: &str) -> f64 {
 }
 
 /// The text is the number, in the digits that are shown: three before a power of ten, else four.
-pub(super) fn same(text: &str, expected: &Value, what: &str) {
+pub(crate) fn same(text: &str, expected: &Value, what: &str) {
     let (found, expected) = (si(text), expected.as_f64().unwrap_or(f64::NAN));
     let digits = if text.contains(['\u{d7}', '%']) { 5e-3 } else { 6e-4 };
     let is_same = found.is_nan() && expected.is_nan() || (found - expected).abs() <= digits * expected.abs();

@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
+use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
 /// A page is smaller than this, also of a million runs: `../docs/results.md`.

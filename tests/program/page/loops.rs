@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use super::page_numbers::Found;
-use super::small_campaign::RADIANS;
+use crate::page::numbers::Found;
+use crate::small_campaign::RADIANS;
 use crate::support::scratch_folder::ScratchFolder;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::SingleRun;
@@ -12,10 +12,10 @@ use spindrift::run::Grid;
 use spindrift::sampling::SampleId;
 
 const SAMPLES: usize = 60;
-const NET_LAUNCH: &str = include_str!("../../campaigns/net_launch.toml");
-const SLEW_CLOSED: &str = include_str!("../../campaigns/slew_closed.toml");
-const DETUMBLE: &str = include_str!("../../campaigns/detumble.toml");
-const SPIN_SWEEP: &str = include_str!("../../campaigns/spin_sweep.toml");
+const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
+const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
+const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
+const SPIN_SWEEP: &str = include_str!("../../../campaigns/spin_sweep.toml");
 
 fn page(name: &str, text: &str) -> Found {
     let scratch = ScratchFolder::new(&format!("loop-page-{name}"));

@@ -1,6 +1,6 @@
 //! Marks of the page that a reader compares with each other: intervals around curves, the motion of the replay, correlations, directions, shares.
 
-use super::page_numbers::{Found, found, motion};
+use crate::page::numbers::{Found, found, motion};
 
 /// Ranks from 0; equal values do not occur.
 fn ranks(values: &[f64]) -> Vec<f64> {
@@ -163,7 +163,7 @@ fn the_dominant_frequency_is_that_of_the_peak() {
 /// Law: the energy of a body over time reaches the largest value of its row, and no more than its points between see.
 #[test]
 fn energies_are_of_their_bodies() {
-    let found = found("energies", &super::small_campaign::campaign().replace("samples = 600", "samples = 60"));
+    let found = found("energies", &crate::small_campaign::campaign().replace("samples = 600", "samples = 60"));
     for body in ["body", "w1", "w2"] {
         let largest = found.all(&[&format!("energy_{body}_max_j")])[0][0];
         let curve = found.array(&found.mark(&format!("energy_{body}_j"), "nominal run")["y"]);

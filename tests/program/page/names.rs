@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::page_numbers::Found;
+use crate::page::numbers::Found;
 use crate::support::scratch_folder::ScratchFolder;
 
 /// Names of frames and symbols are no technical names.

@@ -5,8 +5,8 @@ use std::io::Read as _;
 use base64::Engine as _;
 use serde_json::Value;
 
-use super::screen_numbers::junit_counts;
-use super::small_campaign::{campaign, mixed_failures};
+use crate::commands::screen_numbers::junit_counts;
+use crate::small_campaign::{campaign, mixed_failures};
 use crate::support::scratch_folder::{self, ScratchFolder, batches, ended};
 use spindrift::workflow::{Quiet, Results, Session};
 
@@ -33,7 +33,7 @@ at_most = 40
 "#;
 
 /// A finished campaign, its page's data, and its rows.
-pub(super) struct Found {
+pub(crate) struct Found {
     pub scratch: ScratchFolder,
     pub said: String,
     pub data: Value,
@@ -49,7 +49,7 @@ fn unpacked(page: &str, id: &str) -> Vec<u8> {
     bytes
 }
 
-pub(super) fn found(name: &str, text: &str) -> Found {
+pub(crate) fn found(name: &str, text: &str) -> Found {
     let scratch = ScratchFolder::new(&format!("page-{name}"));
     scratch.file("c.toml", text);
     let mut command = scratch.command("campaign c.toml --out r --junit junit.xml --verbose");
@@ -134,7 +134,7 @@ impl Found {
 }
 
 /// The type-7 quantile (Hyndman & Fan 1996).
-pub(super) fn quantile(values: &[f64], p: f64) -> f64 {
+pub(crate) fn quantile(values: &[f64], p: f64) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let at = p * (sorted.len() - 1) as f64;
@@ -142,20 +142,20 @@ pub(super) fn quantile(values: &[f64], p: f64) -> f64 {
     sorted[low] + part * (sorted[(low + 1).min(sorted.len() - 1)] - sorted[low])
 }
 
-pub(super) fn degrees(value: f64) -> f64 {
+pub(crate) fn degrees(value: f64) -> f64 {
     value * 180.0 / core::f64::consts::PI
 }
 
 /// The groups of columns of [`motion`].
 const GROUPS: &str = "groups = [\"energy_conservation\", \"momentum_conservation\", \"final_state\", \"numerics\", \"motion\", \"energies_com\", \"exchange\"]";
 
-pub(super) fn motion() -> String {
+pub(crate) fn motion() -> String {
     campaign().replace("samples = 600", "samples = 300").replace("points = 11", &format!("points = 11\n{GROUPS}"))
         + MORE
 }
 
 /// Of these runs some end well, some are not accurate and some are not physical; all requirements are missed.
-pub(super) fn failing() -> String {
+pub(crate) fn failing() -> String {
     const REQUIRED: &str = "[audit]\nfraction = 0.2\n\
         [[require]]\nobservable = \"angular_rate_final_rad_s\"\nquantile = 0.95\nat_most = \"2100 deg/s\"\n\
         [[require]]\nobservable = \"rate_w1_final_rad_s\"\nfraction = 0.5\nat_most = 315.0\n";
@@ -163,7 +163,7 @@ pub(super) fn failing() -> String {
 }
 
 /// Law: figures are of the dispersed runs that are ok, in the unit that is written; an audit is where its row says, and an influence within its
-/// interval. What each series is: `page_series`.
+/// interval. What each series is: `series`.
 #[test]
 fn figures_show_the_rows() {
     let found = found("figures", &motion());
@@ -298,7 +298,7 @@ fn an_undecided_requirement_is_an_error() {
 }
 
 /// A number of the page: `1.23 x 10^-4` with superscripts, `1,234`.
-pub(super) fn read_number(text: &str) -> f64 {
+pub(crate) fn read_number(text: &str) -> f64 {
     let plain = text.trim().replace([',', '\u{202f}', '\u{a0}'], "").replace("\u{d7}10", "e");
     let digits = "⁰¹²³⁴⁵⁶⁷⁸⁹";
     let letter = |c: char| match digits.chars().position(|digit| digit == c) {

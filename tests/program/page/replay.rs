@@ -3,8 +3,8 @@
 use std::fs;
 use std::sync::LazyLock;
 
-use super::page_numbers::{Found, found};
-use super::small_campaign::campaign;
+use crate::page::numbers::{Found, found};
+use crate::small_campaign::campaign;
 use crate::support::scratch_folder::{ScratchFolder, floats};
 use spindrift::run::StateField;
 use spindrift::sampling::SampleId;

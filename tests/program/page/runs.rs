@@ -2,9 +2,9 @@
 
 use serde_json::Value;
 
-use super::page_numbers::{Found, degrees, found, motion, read_number};
-use super::screen_numbers::{numbers, says, template};
-use super::small_campaign::mixed_failures;
+use crate::commands::screen_numbers::{numbers, says, template};
+use crate::page::numbers::{Found, degrees, found, motion, read_number};
+use crate::small_campaign::mixed_failures;
 use crate::support::scratch_folder::{ScratchFolder, floats};
 use arrow_array::cast::AsArray as _;
 
@@ -239,7 +239,7 @@ fn two_statuses_are_told_apart() {
     let summary = found.scratch.summary("r");
     let page = found.scratch.text("r/report.html");
     let visible = page.split_once("<script").expect("scripts").0;
-    let worst = super::page_cards::between(visible, "id=\"worst\"", "</section>");
+    let worst = crate::page::cards::between(visible, "id=\"worst\"", "</section>");
     let rows: Vec<&str> = worst.split("<tr>").collect();
     // the bars are side by side
     let mut end = summary["statuses"]["ok"].as_f64().expect("a count") / 3.0;

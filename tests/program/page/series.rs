@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::page_cards::same;
-use super::page_numbers::{Found, degrees, failing, found, motion, quantile};
-use super::screen_numbers::says;
+use crate::commands::screen_numbers::says;
+use crate::page::cards::same;
+use crate::page::numbers::{Found, degrees, failing, found, motion, quantile};
 
 /// The unit of an axis over that of the column.
 fn scale(axis: &Value) -> f64 {
@@ -198,7 +198,7 @@ fn scatter_is(found: &Found, figure: &Value, outcomes: &[&str]) {
 #[test]
 fn thinned_points_are_of_their_samples() {
     const SAMPLES: usize = 17_000;
-    let campaign = super::small_campaign::campaign().replace("samples = 600", &format!("samples = {SAMPLES}"));
+    let campaign = crate::small_campaign::campaign().replace("samples = 600", &format!("samples = {SAMPLES}"));
     let found = found("series-thinned", &campaign);
     let figures = found.data["figures"].as_array().expect("figures");
     let mut points = 0;

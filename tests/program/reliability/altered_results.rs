@@ -5,8 +5,8 @@ use std::fs;
 
 use spindrift::storage::identity::sha256;
 
-use super::faulty_storage::contents;
-use super::small_campaign::{campaign, folder};
+use crate::reliability::faulty_storage::contents;
+use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
 /// A campaign with every kind of file that follows from rows, an incomplete last part, and a requirement that fails.

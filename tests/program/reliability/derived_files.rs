@@ -3,9 +3,9 @@
 use std::fs;
 use std::time::{Duration, Instant};
 
-use super::faulty_storage::contents;
-use super::interrupted::{is_ignored, send, start};
-use super::small_campaign::{campaign, folder};
+use crate::reliability::faulty_storage::contents;
+use crate::reliability::interrupted::{is_ignored, send, start};
+use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
 /// A campaign with every kind of file: a requirement that fails, retained runs, a file of numbers, an incomplete last part.

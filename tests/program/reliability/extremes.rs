@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::small_campaign::{campaign, folder};
+use crate::small_campaign::{campaign, folder};
 use arrow_array::Array;
 use arrow_array::cast::AsArray;
 

@@ -4,7 +4,7 @@ use std::fs;
 
 use spindrift::storage::identity::sha256;
 
-use super::small_campaign::folder;
+use crate::small_campaign::folder;
 use crate::support::scratch_folder::ScratchFolder;
 
 /// A line of a manifest: `body` without its last brace, and the checksum of that.

@@ -8,7 +8,7 @@ use std::{fs, io};
 use spindrift::campaign::Plan;
 use spindrift::storage::disk::Disk;
 
-use super::faulty_storage::{Fault, Faulty, Operation, contents, listed_files, make, plan, reason};
+use crate::reliability::faulty_storage::{Fault, Faulty, Operation, contents, listed_files, make, plan, reason};
 use crate::support::scratch_folder::ScratchFolder;
 
 /// What changes files, and what asks for them; reads one by one are those of `read_faults`.

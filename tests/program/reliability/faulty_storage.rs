@@ -20,7 +20,7 @@ use spindrift::storage::stored_file::StoredFile;
 use spindrift::workflow::finishing::{Finishing, complete};
 use spindrift::workflow::{Outputs, Quiet, Session, WorkflowError as Failure};
 
-use super::small_campaign::campaign_without_debris;
+use crate::small_campaign::campaign_without_debris;
 pub use crate::support::scratch_folder::contents;
 
 /// A file that a manifest lists.

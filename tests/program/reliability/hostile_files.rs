@@ -4,7 +4,7 @@
 use std::fs;
 use std::process::Command;
 
-use super::small_campaign::{campaign, folder};
+use crate::small_campaign::{campaign, folder};
 use crate::support::campaigns::FUSELAGE;
 use crate::support::scratch_folder::{ScratchFolder, contents};
 

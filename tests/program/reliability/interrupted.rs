@@ -5,8 +5,8 @@ use std::fs;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use super::faulty_storage::listed_files;
-use super::small_campaign::{campaign, folder};
+use crate::reliability::faulty_storage::listed_files;
+use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::{ScratchFolder, contents};
 
 /// Kills of the short version, which runs with all tests.

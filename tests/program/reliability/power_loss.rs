@@ -9,8 +9,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::faulty_storage::contents;
-use super::small_campaign::folder;
+use crate::reliability::faulty_storage::contents;
+use crate::small_campaign::folder;
 use crate::support::scratch_folder::ScratchFolder;
 
 /// Every so many calls the power fails in the short version.
@@ -18,7 +18,7 @@ const STEP: usize = 7;
 
 /// The library; `None` where there is no compiler for it.
 fn library(scratch: &ScratchFolder) -> Option<PathBuf> {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/power_loss.c");
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/reliability/power_loss.c");
     let library = scratch.path("power_loss.so");
     let compiled =
         Command::new("cc").args(["-shared", "-fPIC", "-O1", "-o"]).arg(&library).arg(source).args(["-ldl"]).status();

@@ -11,7 +11,7 @@ use spindrift::workflow::finishing::finish as finished;
 use spindrift::workflow::page::remade;
 use spindrift::workflow::{Outputs, Results, Verification, WorkflowError as Failure, verify as verified};
 
-use super::faulty_storage::{Fault, Faulty, Operation, contents, make, on, plan, reason, unlocked};
+use crate::reliability::faulty_storage::{Fault, Faulty, Operation, contents, make, on, plan, reason, unlocked};
 use crate::support::scratch_folder::ScratchFolder;
 
 type Files = BTreeMap<String, Vec<u8>>;

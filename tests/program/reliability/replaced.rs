@@ -8,9 +8,9 @@ use spindrift::campaign::{Overrides, Plan};
 use spindrift::storage::claim::ClaimOptions;
 use spindrift::storage::disk::{Disk, Storage};
 
-use super::faulty_storage::{self, Fault, Faulty, Operation, make, make_with, plan, reason};
-use super::interrupted::{assert_same, start};
-use super::small_campaign::{campaign_without_debris, folder};
+use crate::reliability::faulty_storage::{self, Fault, Faulty, Operation, make, make_with, plan, reason};
+use crate::reliability::interrupted::{assert_same, start};
+use crate::small_campaign::{campaign_without_debris, folder};
 use crate::support::scratch_folder::{ScratchFolder, contents};
 
 /// What is beside the results, by name.

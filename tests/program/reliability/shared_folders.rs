@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 
-use super::interrupted::assert_same;
-use super::small_campaign::{campaign, folder};
+use crate::reliability::interrupted::assert_same;
+use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
 /// Rounds of the short version, which runs with all tests.
@@ -26,7 +26,7 @@ const EIO: i32 = 5;
 #[cfg(target_os = "linux")]
 fn no_locks(scratch: &ScratchFolder) -> Option<PathBuf> {
     let (source, library) =
-        (concat!(env!("CARGO_MANIFEST_DIR"), "/tests/program/no_locks.c"), scratch.path("no_locks.so"));
+        (concat!(env!("CARGO_MANIFEST_DIR"), "/tests/program/reliability/no_locks.c"), scratch.path("no_locks.so"));
     let compiled = Command::new("cc").args(["-shared", "-fPIC", "-o"]).arg(&library).arg(source).status();
     if compiled.is_ok_and(|status| status.success()) {
         return Some(library);

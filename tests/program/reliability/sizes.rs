@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use super::faulty_storage::contents;
-use super::small_campaign::{campaign, campaign_without_debris, folder};
+use crate::reliability::faulty_storage::contents;
+use crate::small_campaign::{campaign, campaign_without_debris, folder};
 
 /// Law: counts that no disk and no memory has are refused at once with rows, bytes and time, and nothing is written.
 #[test]

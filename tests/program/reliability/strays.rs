@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use super::small_campaign::{campaign, folder};
+use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::{ScratchFolder, contents};
 
 /// Names that no file of a result has.

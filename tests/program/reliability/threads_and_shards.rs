@@ -4,8 +4,8 @@ use std::fs;
 
 use spindrift::storage::identity::sha256;
 
-use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
-use super::statistics::MORE;
+use crate::results::statistics::MORE;
+use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
 const THREADS: [u32; 4] = [1, 2, 3, 7];

@@ -8,7 +8,7 @@ use arrow_array::cast::AsArray;
 use arrow_array::types::Float64Type;
 use arrow_schema::DataType;
 
-use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
+use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
 use crate::support::scratch_folder::batches;
 
 /// All Parquet files below `folder`.

@@ -12,7 +12,7 @@ use spindrift::math::Isa;
 use spindrift::scene::Scene;
 use spindrift::storage::rows_file::AUDIT_REASON;
 
-use super::small_campaign::{campaign, folder};
+use crate::small_campaign::{campaign, folder};
 
 /// The campaign with debris of this rate, rad/s.
 fn with_debris_rate(rate: f64) -> String {

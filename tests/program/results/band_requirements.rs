@@ -4,7 +4,7 @@
 use serde_json::Value;
 use spindrift::statistics::binomial::{lower_bound, upper_bound};
 
-use super::small_campaign::{campaign, folder};
+use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::{ScratchFolder, floats};
 
 /// Dispersed samples: all but the nominal one.

@@ -1,9 +1,9 @@
 //! What a campaign says drives its outcomes, on the screen, on the cards and in the charts, against its rows.
 
-use super::page_numbers::found;
+use crate::page::numbers::found;
 use crate::support::scratch_folder::column;
 
-const DETUMBLE: &str = include_str!("../../campaigns/detumble.toml");
+const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 
 /// Law: where a thruster is dead in a few runs and these miss a limit, screen, card and chart name it first, with the counts of the rows. A rate that
 /// costs propellant in either direction is not monotonic.

@@ -5,7 +5,7 @@ use std::fs;
 
 use arrow_array::RecordBatch;
 
-use super::small_campaign::{NEGATIVE_WALLS, campaign_without_debris, folder, mixed_failures, table};
+use crate::small_campaign::{NEGATIVE_WALLS, campaign_without_debris, folder, mixed_failures, table};
 use crate::support::scratch_folder::{ScratchFolder, column, contents, ended};
 
 /// The campaign with a method whose steps depend on the sample; so few are allowed that some 7% of the runs do not end.

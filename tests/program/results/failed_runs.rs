@@ -3,8 +3,8 @@
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, RecordBatch};
 
-use super::screen_numbers::junit_counts;
-use super::small_campaign::{NEGATIVE_WALLS, campaign, folder, mixed_failures};
+use crate::commands::screen_numbers::junit_counts;
+use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder, mixed_failures};
 use crate::support::scratch_folder::{column, ended, floats};
 
 /// Status and reason of every row.

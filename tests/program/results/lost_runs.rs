@@ -2,11 +2,11 @@
 
 use serde_json::Value;
 
-use super::screen_numbers::says;
+use crate::commands::screen_numbers::says;
 use crate::support::scratch_folder::{ScratchFolder, column, ended};
 use spindrift::statistics::binomial::interval;
 
-const DETUMBLE: &str = include_str!("../../campaigns/detumble.toml");
+const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 const RUNS: usize = 120;
 
 /// The number in `path` of the summary of `r`.

@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use super::screen_numbers::says;
-use super::small_campaign::{campaign_without_debris, folder};
+use crate::commands::screen_numbers::says;
+use crate::small_campaign::{campaign_without_debris, folder};
 use crate::support::scratch_folder::column;
 
 /// Law: half the distance between estimate and limit takes four times as many runs, of means and fractions, of independent samples and of

@@ -20,7 +20,7 @@ use spindrift::storage::names::MANIFEST;
 use spindrift::storage::rows_file::identity;
 use spindrift::storage::rows_reader::{RowsError, RowsReader};
 
-use super::small_campaign::{NEGATIVE_WALLS, campaign, folder, table};
+use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder, table};
 use crate::support::scratch_folder::{ScratchFolder, column, ended, floats};
 
 /// A third of the samples is not physical, and one in some runs needs more steps than it may make.

@@ -10,7 +10,7 @@ use spindrift::statistics::moments::Moments;
 use spindrift::statistics::quantile::{Ranks, interval_ranks};
 use spindrift::statistics::replicates::mean_bounds;
 
-use super::small_campaign::{NEGATIVE_WALLS, campaign, folder};
+use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
 use crate::support::scratch_folder::{column, ended};
 
 pub const MORE: &str = r#"

@@ -5,8 +5,8 @@ use std::fs;
 use serde_json::Value;
 use spindrift::statistics::binomial::at_most;
 
-use super::screen_numbers::{junit_counts, numbers, says};
-use super::small_campaign::{campaign, folder};
+use crate::commands::screen_numbers::{junit_counts, numbers, says};
+use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::{ScratchFolder, column, ended};
 
 /// The campaign of 300 samples with `[stop]`: the median of the energy transfer of wheel 1 to within `half_width` J, with at most 2,400 samples.

@@ -11,7 +11,7 @@ use parquet::basic::Type;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use serde_json::Value;
 
-use super::small_campaign::folder;
+use crate::small_campaign::folder;
 use crate::support::scratch_folder::ScratchFolder;
 
 /// The actions of each commit of a result.
@@ -116,7 +116,7 @@ fn an_extension_adds_a_commit() {
     let first = commits(&scratch, "r");
     let content = |name: &String| fs::read(scratch.path("r").join(name)).unwrap();
     let before: Vec<Vec<u8>> = snapshot(&first).1.keys().map(content).collect();
-    scratch.file("other.toml", &super::small_campaign::campaign().replace("\"small\"", "\"other\""));
+    scratch.file("other.toml", &crate::small_campaign::campaign().replace("\"small\"", "\"other\""));
     scratch.prints("campaign other.toml --samples 900 --out r", 0);
     assert_eq!(commits(&scratch, "r"), first);
     scratch.prints("campaign small.toml --samples 2000 --out r", 0);
