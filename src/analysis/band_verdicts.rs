@@ -13,15 +13,15 @@ use crate::ensemble::Bands;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{Gate, points_gate};
 
-/// What `bands` say of what is `asked` about `band`, of so many runs that count, `failed` of them not `ok`.
+/// What `bands` say of what is `asked` about `band`, of `runs` that count.
 pub(super) fn over_time(
     asked: Asked<'_>,
     band: &BandSubject,
     bands: Option<&Bands>,
-    [runs, failed]: [u64; 2],
+    runs: u64,
     population: Population,
 ) -> Assessment {
-    let Asked { requirement, confidences, .. } = asked;
+    let Asked { requirement, confidences, failed, .. } = asked;
     let found = bands.and_then(|bands| bands.find(&band.series).map(|series| (bands, series)));
     let points: Vec<(usize, f64)> = found.map_or_else(Vec::new, |(bands, _)| {
         bands.times().iter().copied().enumerate().filter(|(_, time)| band.contains(*time)).collect()

@@ -12,6 +12,7 @@ use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
 use crate::campaign::Plan;
 use crate::run::Status;
+use crate::sampling::SampleId;
 use crate::statistics::moments::Moments;
 use crate::statistics::sketch::Sketch;
 use crate::storage::rows_reader::RowsError;
@@ -41,8 +42,6 @@ pub struct GroupCounts {
 /// What the parts of a campaign have.
 #[derive(Clone, Debug)]
 pub struct Collected {
-    /// How many samples ended with each status, in the order of [`Status::ALL`].
-    pub statuses: [u64; Status::ALL.len()],
     /// Every observable.
     pub columns: Vec<ColumnCounts>,
 }
@@ -50,7 +49,6 @@ pub struct Collected {
 /// What a part adds, apart from its sketches.
 #[derive(Clone, Debug)]
 pub struct PartCounts {
-    statuses: [u64; Status::ALL.len()],
     columns: Vec<PartColumn>,
 }
 
@@ -171,22 +169,16 @@ impl Accumulator for Collector {
     fn nothing(&self) -> Collected {
         let groups = vec![GroupCounts::default(); self.population.groups()];
         let column = ColumnCounts { groups, ..ColumnCounts::default() };
-        Collected { statuses: [0; Status::ALL.len()], columns: vec![column; self.observed.len()] }
+        Collected { columns: vec![column; self.observed.len()] }
     }
 
     fn count(&self, part: &impl PartColumns) -> Result<PartCounts, RowsError> {
         let (samples, ended) = (part.samples()?, part.statuses()?);
-        let mut statuses = [0; Status::ALL.len()];
-        let mut rows = Vec::with_capacity(part.rows());
-        for (sample, status) in samples.iter().zip(ended.iter()) {
-            let is_counted = self.population.contains(*sample);
-            if let Some(index) = Status::ALL.iter().position(|known| known == status)
-                && is_counted
-            {
-                statuses[index] += 1;
-            }
-            rows.push((is_counted && *status == Status::Done).then(|| self.population.group(*sample)));
-        }
+        let group = |(sample, status): (&SampleId, &Status)| {
+            let is_counted = self.population.contains(*sample) && *status == Status::Done;
+            is_counted.then(|| self.population.group(*sample))
+        };
+        let rows: Vec<Option<usize>> = samples.iter().zip(ended.iter()).map(group).collect();
         let are_all_of_one = self.population.groups() == 1 && !rows.contains(&None);
         let of_column = |(observed, sketches): (&Observed, &Mutex<Vec<Sketch>>)| {
             let values = observed.column(part)?;
@@ -209,11 +201,10 @@ impl Accumulator for Collector {
             Ok(PartColumn { without_value, groups: groups.collect() })
         };
         let columns = self.observed.iter().zip(&self.sketches).map(of_column).collect::<Result<_, RowsError>>()?;
-        Ok(PartCounts { statuses, columns })
+        Ok(PartCounts { columns })
     }
 
     fn merge(&self, whole: &mut Collected, part: PartCounts) {
-        whole.statuses.iter_mut().zip(part.statuses).for_each(|(sum, count)| *sum += count);
         for (column, of_part) in whole.columns.iter_mut().zip(part.columns) {
             column.without_value += of_part.without_value;
             let mut of_groups = Moments::default();

@@ -12,9 +12,11 @@
 
 use std::num::NonZeroUsize;
 
+use crate::analysis::accumulator::of_files;
 use crate::analysis::observed::Observed;
 use crate::analysis::pairing::{MOST_ROWS, ResultRows, first_dispersed, pairs};
 use crate::analysis::statistics::{self, ColumnStatistics, Statistics};
+use crate::analysis::statuses::StatusCounter;
 use crate::campaign::Requirement;
 use crate::run::{Quantity, Status};
 use crate::statistics::moments::Moments;
@@ -138,7 +140,10 @@ pub fn compare(
     second: ResultRows<'_>,
     threads: Option<NonZeroUsize>,
 ) -> Result<Comparison, RowsError> {
-    let of = |result: ResultRows<'_>| statistics::compute(result.plan, result.reader, None, threads);
+    let of = |ResultRows { plan, reader, .. }: ResultRows<'_>| {
+        let ended = of_files(&StatusCounter::new(plan), reader, threads)?;
+        statistics::compute(plan, reader, &ended, None, threads)
+    };
     let statistics = [of(first)?, of(second)?];
     let pairs = pairs(first, second)?.unwrap_or_default();
     let starts = [first_dispersed(first.plan), first_dispersed(second.plan)];

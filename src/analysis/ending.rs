@@ -10,7 +10,6 @@ use crate::analysis::tally::TallyColumns;
 use crate::analysis::verdicts::{RequirementCounter, Verdicts, assess};
 use crate::campaign::Requirement;
 use crate::ensemble::Ensemble;
-use crate::run::Status;
 use crate::storage::bands_file;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
@@ -48,12 +47,12 @@ pub fn ending(
     } else {
         None
     };
-    let verdicts = assess(plan, &counted, bands.as_ref());
+    let verdicts = assess(plan, &tally.statuses, &counted, bands.as_ref());
     let stopping = stopping(plan, plan.samples, &values, &verdicts);
     Ok(Ending {
-        rows: Status::ALL.into_iter().map(|status| tally.count(status)).sum(),
-        failed: tally.failed(),
-        not_covered: tally.audits().map_or(0, AuditTally::not_covered),
+        rows: tally.statuses.runs(),
+        failed: tally.statuses.runs() - tally.statuses.ok(),
+        not_covered: tally.audits.as_ref().map_or(0, AuditTally::not_covered),
         verdicts,
         stopping,
     })

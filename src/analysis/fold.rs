@@ -84,6 +84,7 @@ impl RowsFold {
         ) = whole;
         let (((_, collector), _), ((_, retention), (_, counter))) = self.0;
         Gathered {
+            survey: survey.finished(tally.statuses.clone()),
             tally,
             columns: collector.finish(columns),
             requirements,
@@ -91,7 +92,6 @@ impl RowsFold {
             first_rows,
             failure_rows,
             retained: retention.chosen(retained),
-            survey: survey.finished(),
             missions: counter.finished(&missions),
             bands,
         }

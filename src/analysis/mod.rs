@@ -2,7 +2,7 @@
 //!
 //! - [`fold`]: one pass over the parts, of rows in memory or in files ([`part_columns`]), in which everything that follows gathers what it needs, each
 //!   by an [`accumulator`].
-//! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`], [`order_statistics`]); [`tally`], [`audit_tally`]: statuses, worst runs, audits.
+//! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`], [`order_statistics`]); [`tally`]: how runs ended ([`statuses`]), the worst ones ([`worst_runs`]), audits ([`audit_tally`]).
 //! - [`verdicts`]: of the requirements, each an [`assessment`] (of a number of each run: `row_verdicts`; over time: `band_verdicts`); [`mod@stopping`]: whether the rows are enough. [`mod@ending`]: how the campaign ended.
 //! - [`sensitivity`]: which input matters ([`input_sensitivity`]), from the [`first_rows`] (`block_indices`: of a `saltelli` design); [`effects`]: tests whether it does, also of an [`event`];
 //!   [`drivers`]: the ranking of what the rows show; [`noise_share`]: what noise within loops does. - [`statistics_table`], [`sensitivity_table`]: both as files.
@@ -44,8 +44,10 @@ pub mod sensitivity_table;
 mod small_plan;
 pub mod statistics;
 pub mod statistics_table;
+pub mod statuses;
 pub mod stopping;
 pub mod survey;
 pub mod tally;
 pub mod trajectories;
 pub mod verdicts;
+pub mod worst_runs;

@@ -23,15 +23,13 @@ pub(super) struct GroupRuns {
 #[derive(Clone, Debug)]
 pub(super) struct RequirementRuns {
     pub(super) groups: Vec<GroupRuns>,
-    /// Runs that are not `ok`.
-    pub(super) failed: u64,
     /// Runs without a value: those, and others that have none.
     pub(super) missing: u64,
 }
 
 impl RequirementRuns {
     pub(super) fn new(groups: usize) -> Self {
-        RequirementRuns { groups: vec![GroupRuns::default(); groups], failed: 0, missing: 0 }
+        RequirementRuns { groups: vec![GroupRuns::default(); groups], missing: 0 }
     }
 
     pub(super) fn merge(&mut self, other: &RequirementRuns) {
@@ -40,7 +38,6 @@ impl RequirementRuns {
             mine.within += theirs.within;
             mine.moments.merge(&theirs.moments);
         }
-        self.failed += other.failed;
         self.missing += other.missing;
     }
 
@@ -59,6 +56,8 @@ pub(super) struct Asked<'r> {
     pub confidences: [f64; 2],
     /// Confidence of the two-sided interval.
     pub interval: f64,
+    /// Runs that are not `ok`.
+    pub failed: u64,
 }
 
 impl Asked<'_> {
@@ -139,7 +138,7 @@ pub(super) fn assessment(
         runs,
         violations: runs - within,
         missing: counts.missing,
-        failed: counts.failed,
+        failed: asked.failed,
         worst: None,
         reason,
         note,
@@ -186,7 +185,7 @@ mod tests {
 
     /// At 95%.
     fn asked(requirement: &Requirement) -> Asked<'_> {
-        Asked { requirement, confidences: [0.95; 2], interval: 0.95 }
+        Asked { requirement, confidences: [0.95; 2], interval: 0.95, failed: 0 }
     }
 
     fn requirement(statement: Statement, limit: GateLimit) -> Requirement {

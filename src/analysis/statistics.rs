@@ -17,6 +17,7 @@ use crate::analysis::column_counts::{
 use crate::analysis::observed::Observed;
 use crate::analysis::order_statistics::{AskedQuantile, CommonRanks, Order, QuantileStatistic, of_quantile};
 use crate::analysis::population::{Loss, Population};
+use crate::analysis::statuses::Statuses;
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::run::{Quantity, Status};
 use crate::statistics::gate::GateLimit;
@@ -49,9 +50,14 @@ pub struct ColumnStatistics {
     pub note: Option<String>,
     /// The quantiles of the plan, ascending.
     pub quantiles: Vec<QuantileStatistic>,
+    /// Difference of the 95% and 5% quantiles, of a campaign with audits.
+    pub spread: Option<f64>,
     /// Those of the requirements on it, each with its requirement, which runs without a value violate.
     pub required: Vec<(Requirement, QuantileStatistic)>,
 }
+
+/// The quantiles between which the spread of an observable is.
+const SPREAD: [f64; 2] = [0.05, 0.95];
 
 /// What the runs of a campaign say.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,7 +116,7 @@ impl Statistics {
     }
 }
 
-/// The statistics of `plan`: of what was counted of the first of the [`batches`] of its observables, if it was, and else from the files of its rows, on
+/// The statistics of `plan`, whose runs ended as `ended` says: of what was counted of the first of the [`batches`] of its observables, if it was, and else from the files of its rows, on
 /// `threads` threads (`None`: one per core).
 ///
 /// # Errors
@@ -118,19 +124,17 @@ impl Statistics {
 pub fn compute(
     plan: &Plan,
     reader: &RowsReader,
+    ended: &Statuses,
     mut counted: Option<Collected>,
     threads: Option<NonZeroUsize>,
 ) -> Result<Statistics, RowsError> {
     let population = Population::of(plan);
     let is_exact = is_exact(plan);
+    let loss = ended.loss();
     // of the runs that have numbers
-    let mut left = population;
-    let mut statuses = [0; Status::ALL.len()];
+    let left = population.after(loss);
     let mut columns = Vec::new();
     let mut describe = |observed: &[Observed], collected: Collected| {
-        statuses = collected.statuses;
-        let loss = Loss::of(&statuses);
-        left = population.after(loss);
         let common = CommonRanks::new(plan, left, collected.columns.first().map_or(0, |column| column.moments.count()));
         let describe = |(observed, counts)| described(plan, (left, loss), observed, counts, &common);
         columns.extend(in_parallel(observed.iter().zip(collected.columns).collect(), threads, describe));
@@ -149,7 +153,8 @@ pub fn compute(
         describe(&batch, of_batch);
     }
     let quantile_error = if is_exact { 0.0 } else { RELATIVE_ERROR };
-    Ok(Statistics { population: left, confidence: plan.analysis.confidence, statuses, quantile_error, columns })
+    let (confidence, statuses) = (plan.analysis.confidence, ended.of_population());
+    Ok(Statistics { population: left, confidence, statuses, quantile_error, columns })
 }
 
 fn described(
@@ -210,6 +215,9 @@ fn described(
         _ => None,
     });
     let required: Vec<(&Requirement, AskedQuantile)> = required.collect();
+    let is_audited = plan.audit_fraction > 0.0;
+    let ends: Vec<AskedQuantile> =
+        SPREAD.iter().filter(|_| is_audited).map(|p| AskedQuantile::new(*p, confidence, None)).collect();
     let quantiles: Vec<AskedQuantile> = plan.analysis.quantiles.iter().map(|p| asked(*p)).collect();
     let order = if is_sketched {
         Order::Sketched(ranks(&whole))
@@ -217,7 +225,7 @@ fn described(
         let count = values.len();
         place_order_statistics(
             &mut values,
-            quantiles.iter().chain(required.iter().map(|(_, one)| one)).flat_map(|one| one.places(count)),
+            quantiles.iter().chain(required.iter().map(|(_, one)| one)).chain(&ends).flat_map(|one| one.places(count)),
         );
         Order::Exact(values)
     };
@@ -230,8 +238,8 @@ fn described(
         ),
         _ => (None, None),
     };
-    let ends = |bounds: [f64; 2]| bounds.map(|end| Some(end).filter(|end| end.is_finite()));
-    let mean_interval = mean.map_or([None; 2], ends);
+    let known = |bounds: [f64; 2]| bounds.map(|end| Some(end).filter(|end| end.is_finite()));
+    let mean_interval = mean.map_or([None; 2], known);
     let deviation = deviation_bounds(&moments, one_sided);
     let quantile = |asked: &AskedQuantile| {
         let mut found = of_quantile(&order, asked);
@@ -247,9 +255,10 @@ fn described(
         moments,
         mean_interval,
         mean_error,
-        deviation_interval: mean.map_or([None; 2], |_| ends(deviation)),
+        deviation_interval: mean.map_or([None; 2], |_| known(deviation)),
         note: mean.and_then(|_| note(&moments, mean_interval)),
         quantiles: quantiles.iter().map(quantile).collect(),
+        spread: order.quantile(SPREAD[1]).zip(order.quantile(SPREAD[0])).filter(|_| is_audited).map(|(b, a)| b - a),
         required: required.iter().map(|(one, asked)| ((*one).clone(), quantile(asked))).collect(),
     }
 }
@@ -278,6 +287,7 @@ mod tests {
     use crate::analysis::accumulator::Accumulator;
     use crate::analysis::part_columns::PartColumns;
     use crate::analysis::small_plan::small_plan;
+    use crate::analysis::statuses::StatusCounter;
     use crate::run::Status;
     use crate::sampling::SampleId;
     use crate::statistics::quantile::quantile;
@@ -315,15 +325,16 @@ mod tests {
         let plan = small_plan(7, "");
         let observed = Observed::all(&plan);
         let name = observed[0].quantity.name().to_owned();
-        let collector = Collector::new(observed, Population::of(&plan), None);
+        let collector = (StatusCounter::new(&plan), Collector::new(observed, Population::of(&plan), None));
         let mut statuses = vec![Status::Done; 7];
         statuses[3] = Status::StepLimit;
         // quantiles of 1, 2, 3, 4, 10
         let part = Written(statuses, vec![99.0, 4.0, 1.0, 50.0, 3.0, 2.0, 10.0], 0);
         let mut collected = collector.nothing();
         collector.merge(&mut collected, collector.count(&part).expect("counted"));
-        let counted = collector.finish(collected);
-        let found = compute(&plan, &RowsReader::new(&Disk, Vec::new()), Some(counted), None).expect("statistics");
+        let (ended, counted) = (collected.0, collector.1.finish(collected.1));
+        let reader = RowsReader::new(&Disk, Vec::new());
+        let found = compute(&plan, &reader, &ended, Some(counted), None).expect("statistics");
         let column = found.column(&name).expect("the column");
         assert_eq!((found.samples(), found.ok(), found.quantile_error), (6, 5, 0.0));
         assert_eq!((column.moments.count(), column.moments.mean(), column.moments.max()), (5, Some(4.0), Some(10.0)));

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use crate::analysis::accumulator::{Accumulator, of_files};
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::PartColumns;
+use crate::analysis::statuses::StatusCounter;
 use crate::analysis::verdicts::{RequirementCounter, Verdicts, assess};
 use crate::campaign::Plan;
 use crate::campaign::stop::{Stop, When};
@@ -115,8 +116,8 @@ pub fn look(
         }
         Some(Stop { when: When::Decided, .. }) => {
             let bands = bands_file::read(rows.storage(), bands, threads)?;
-            let counted = of_files(&RequirementCounter::new(plan), rows, threads)?;
-            Ok(stopping(plan, samples, &[], &assess(plan, &counted, bands.as_ref())))
+            let (ended, counted) = of_files(&(StatusCounter::new(plan), RequirementCounter::new(plan)), rows, threads)?;
+            Ok(stopping(plan, samples, &[], &assess(plan, &ended, &counted, bands.as_ref())))
         }
     }
 }

@@ -3,13 +3,14 @@
 //! Its memory does not depend on the number of parts. Rows of the thinned table are chosen by a hash of the
 //! sample's number: neither a design's order nor the number of parts matters, and the same samples are chosen of the same campaign.
 
-use std::collections::BTreeMap;
-
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::first_rows::explained;
 use crate::analysis::observed::Observed;
 use crate::analysis::outcomes::{is_worst_when_low, outcomes};
 use crate::analysis::part_columns::PartColumns;
+use crate::analysis::population::Population;
+use crate::analysis::statuses::Statuses;
+use crate::analysis::worst_runs::WorstRuns;
 use crate::ensemble::Ensemble;
 use crate::ensemble::audit::AuditValue;
 use crate::observables::Group;
@@ -24,7 +25,7 @@ use crate::storage::rows_reader::RowsError;
 pub const THINNED: u64 = 16_384;
 /// Most points of a scatter plot.
 pub const SCATTER: usize = 2000;
-/// How many of the worst runs are kept for each outcome, and how many that failed for each status.
+/// How many of the worst runs are kept for each outcome.
 const KEPT: usize = 10;
 /// Most columns of outcomes in the thinned table: wheels have some each.
 const MOST_OUTCOMES: usize = 32;
@@ -39,14 +40,12 @@ pub struct SurveyedOutcome {
     pub quantity: Quantity,
     /// Whether the campaign is about it.
     pub is_outcome: bool,
-    /// Whether its small values are the bad ones.
-    pub is_worst_when_low: bool,
     /// Whether it is an error of the computation.
     pub is_error: bool,
     /// Its magnitudes if it is an error, else its values, about that of the nominal run; over the dispersed runs that are ok.
     pub sketch: Sketch,
-    /// The runs with the largest magnitudes, in descending order; where small values are bad, those with the smallest values, in ascending order.
-    pub worst: Vec<(SampleId, f64)>,
+    /// The worst runs.
+    pub worst: WorstRuns,
     /// Its value in the nominal run; NaN where that has none.
     pub nominal: f64,
     /// The confidence of its intervals, that of the statistics.
@@ -55,17 +54,6 @@ pub struct SurveyedOutcome {
     pub growth: Vec<[f64; 6]>,
     /// The number of runs at which quantiles are noted next.
     next_growth: u64,
-}
-
-/// Runs that ended with one status.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct EndedRuns {
-    /// The status.
-    pub status: Status,
-    /// How many there are.
-    pub count: u64,
-    /// The first of them, with their reasons.
-    pub first: Vec<(SampleId, String)>,
 }
 
 /// Rows of some samples.
@@ -84,10 +72,8 @@ pub struct Thinned {
 /// What the page takes from the rows.
 #[derive(Clone, Debug)]
 pub struct Survey {
-    /// Number of samples.
-    pub samples: u64,
-    /// How the runs ended; those that occur, and `ok`.
-    pub ended: Vec<EndedRuns>,
+    /// How the runs ended.
+    pub statuses: Statuses,
     /// The outcomes.
     pub outcomes: Vec<SurveyedOutcome>,
     /// Some rows.
@@ -171,8 +157,6 @@ pub struct Surveyor {
 /// What a part adds.
 #[derive(Clone, Debug)]
 pub struct SurveyedPart {
-    samples: u64,
-    ended: Vec<EndedRuns>,
     /// The runs that count.
     counted: Vec<SampleId>,
     /// Their outcomes.
@@ -197,10 +181,9 @@ impl Surveyor {
         let outcome = |column: &Observed| SurveyedOutcome {
             quantity: column.quantity.clone(),
             is_outcome: outcomes.iter().any(|name| name == column.quantity.name()),
-            is_worst_when_low: is_worst_when_low(plan, column.quantity.name()),
             is_error: !column.is_count && is_error(column.quantity.name()),
             sketch: Sketch::default(),
-            worst: Vec::new(),
+            worst: WorstRuns::new(KEPT, is_worst_when_low(plan, column.quantity.name())),
             nominal: f64::NAN,
             confidence: plan.analysis.confidence,
             growth: Vec::new(),
@@ -210,8 +193,7 @@ impl Surveyor {
         let has_estimate = observed.iter().any(|column| column.quantity.name() == estimate);
         Surveyor {
             nothing: Survey {
-                samples: 0,
-                ended: no_runs(),
+                statuses: Statuses::none(Population::of(plan)),
                 outcomes: observed.iter().map(outcome).collect(),
                 thinned: Thinned {
                     inputs: vec![Vec::new(); inputs.len()],
@@ -231,11 +213,6 @@ impl Surveyor {
     }
 }
 
-/// No run of any status.
-fn no_runs() -> Vec<EndedRuns> {
-    Status::ALL.map(|status| EndedRuns { status, count: 0, first: Vec::new() }).to_vec()
-}
-
 impl Accumulator for Surveyor {
     type Whole = Survey;
     type OfPart = SurveyedPart;
@@ -246,17 +223,6 @@ impl Accumulator for Surveyor {
 
     fn count(&self, part: &impl PartColumns) -> Result<SurveyedPart, RowsError> {
         let (samples, statuses) = (part.samples()?, part.statuses()?);
-        let mut ended = no_runs();
-        for status in statuses.iter() {
-            ended.iter_mut().filter(|ended| ended.status == *status).for_each(|ended| ended.count += 1);
-        }
-        if statuses.iter().any(|status| *status != Status::Done) {
-            let mut reasons: BTreeMap<usize, String> = part.reasons()?.into_owned().into_iter().collect();
-            for ended in ended.iter_mut().filter(|ended| ended.status != Status::Done) {
-                let rows = (0..samples.len()).filter(|row| statuses[*row] == ended.status).take(KEPT);
-                ended.first = rows.map(|row| (samples[row], reasons.remove(&row).unwrap_or_default())).collect();
-            }
-        }
         let done = |row: &usize| statuses[*row] == Status::Done;
         let counted: Vec<usize> =
             (0..samples.len()).filter(done).filter(|row| samples[*row].0 > 0 || !self.has_dispersed).collect();
@@ -274,8 +240,6 @@ impl Accumulator for Surveyor {
             }
         };
         Ok(SurveyedPart {
-            samples: samples.len() as u64,
-            ended,
             outcomes: columns.iter().map(|column| taken(column, &counted)).collect(),
             counted: counted.iter().map(|row| samples[*row]).collect(),
             nominal: nominal.map(|row| columns.iter().map(|column| column[row]).collect()),
@@ -290,11 +254,6 @@ impl Accumulator for Surveyor {
     }
 
     fn merge(&self, whole: &mut Survey, part: SurveyedPart) {
-        whole.samples += part.samples;
-        for (ended, more) in whole.ended.iter_mut().zip(part.ended) {
-            ended.count += more.count;
-            ended.first.extend(more.first.into_iter().take(KEPT - ended.first.len()));
-        }
         for (outcome, value) in whole.outcomes.iter_mut().zip(part.nominal.unwrap_or_default()) {
             outcome.nominal = value;
             // the first row of all
@@ -329,18 +288,13 @@ impl Survey {
         self.audits = chosen(&samples, SCATTER).into_iter().map(|index| self.audits[index]).collect();
     }
 
-    /// The same after the last part.
+    /// The same after the last part, with how all runs ended.
     #[must_use]
-    pub fn finished(mut self) -> Self {
+    pub fn finished(mut self, statuses: Statuses) -> Self {
         self.thin_audits();
-        self.ended.retain(|ended| ended.count > 0 || ended.status == Status::Done);
+        self.statuses = statuses;
         self.outcomes.iter_mut().for_each(SurveyedOutcome::finish);
         self
-    }
-
-    /// How many runs are ok.
-    pub fn ok(&self) -> u64 {
-        self.ended.iter().find(|ended| ended.status == Status::Done).map_or(0, |ended| ended.count)
     }
 
     /// The outcome called `name`.
@@ -359,17 +313,7 @@ impl SurveyedOutcome {
 
     /// Adds the values of `samples`; NaN is none.
     fn add(&mut self, samples: &[SampleId], values: &[f64]) {
-        let is_low = self.is_worst_when_low;
-        let badness = |value: f64| if is_low { -value } else { value.abs() };
-        for (sample, value) in samples.iter().zip(values) {
-            let size = badness(*value);
-            let is_bad = self.worst.len() < KEPT || self.worst.last().is_some_and(|(_, last)| size > badness(*last));
-            if is_bad && !size.is_nan() {
-                let at = self.worst.partition_point(|(_, other)| badness(*other) >= size);
-                self.worst.insert(at, (*sample, *value));
-                self.worst.truncate(KEPT);
-            }
-        }
+        samples.iter().zip(values).for_each(|(sample, value)| self.worst.add(*sample, *value));
         let shown = |value: &f64| if self.is_error { value.abs() } else { *value };
         let counted: Vec<f64> = values.iter().map(shown).filter(|value| !value.is_nan()).collect();
         let mut left = &counted[..];

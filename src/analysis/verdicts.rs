@@ -15,6 +15,7 @@ use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
 use crate::analysis::row_verdicts::{Asked, RequirementRuns, assessment};
 use crate::analysis::statistics::Statistics;
+use crate::analysis::statuses::Statuses;
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::ensemble::Bands;
 use crate::run::Status;
@@ -66,13 +67,9 @@ impl Verdicts {
 #[derive(Clone, Debug)]
 pub struct RequirementCounts {
     list: Vec<RequirementRuns>,
-    /// Dispersed samples that are not physical.
-    invalid: u64,
-    /// All dispersed samples.
-    samples: u64,
 }
 
-/// RequirementRuns the requirements of a campaign.
+/// Counts the requirements of a campaign.
 #[derive(Clone, Debug)]
 pub struct RequirementCounter {
     requirements: Vec<Requirement>,
@@ -99,7 +96,7 @@ impl Accumulator for RequirementCounter {
 
     fn nothing(&self) -> RequirementCounts {
         let list = vec![RequirementRuns::new(self.population.groups()); self.requirements.len()];
-        RequirementCounts { list, invalid: 0, samples: 0 }
+        RequirementCounts { list }
     }
 
     fn count(&self, part: &impl PartColumns) -> Result<RequirementCounts, RowsError> {
@@ -122,7 +119,6 @@ impl Accumulator for RequirementCounter {
                 let never_meets = is_ok && value.is_nan() && requirement.never_meets;
                 let is_met = is_ok && requirement.limit.is_met(value) || never_meets;
                 counts.groups[group].within += u64::from(is_met);
-                counts.failed += u64::from(!is_ok);
                 counts.missing += u64::from((!is_ok || value.is_nan()) && !never_meets);
                 if is_ok && has_mean && !value.is_nan() {
                     kept[group].push(value);
@@ -132,34 +128,28 @@ impl Accumulator for RequirementCounter {
                 group.moments = Moments::of_block(values);
             }
         }
-        found.samples = dispersed.len() as u64;
-        found.invalid = found.samples - dispersed.iter().filter(is_physical).count() as u64;
         Ok(found)
     }
 
     fn merge(&self, whole: &mut RequirementCounts, part: RequirementCounts) {
         whole.list.iter_mut().zip(&part.list).for_each(|(mine, theirs)| mine.merge(theirs));
-        whole.invalid += part.invalid;
-        whole.samples += part.samples;
     }
 }
 
-/// What was counted of the requirements of `plan`, and its `bands`, say of them.
-pub fn assess(plan: &Plan, counted: &RequirementCounts, bands: Option<&Bands>) -> Verdicts {
+/// What was counted of the requirements of `plan`, whose runs ended as `ended` says, and its `bands`, say of them.
+pub fn assess(plan: &Plan, ended: &Statuses, counted: &RequirementCounts, bands: Option<&Bands>) -> Verdicts {
     let requirements = &plan.analysis.requirements;
     if requirements.is_empty() {
         return Verdicts::default();
     }
     let RequirementCounter { observed, of, population, .. } = RequirementCounter::new(plan);
     let looks = plan.looks().len();
+    let failed = ended.loss().missing;
     let assessed = |(requirement, index, counts): (&Requirement, &Option<usize>, &RequirementRuns), open: usize| {
         let confidences = [looks, looks * open].map(|tests| adjusted(requirement.confidence, tests));
-        let asked = Asked { requirement, confidences, interval: plan.analysis.confidence };
+        let asked = Asked { requirement, confidences, interval: plan.analysis.confidence, failed };
         match (index, requirement.band()) {
-            (None, Some(band)) => {
-                let runs = [counts.sum(|group| group.runs), counts.failed];
-                over_time(asked, band, bands, runs, population)
-            }
+            (None, Some(band)) => over_time(asked, band, bands, counts.sum(|group| group.runs), population),
             _ => {
                 let observed = index.map(|index| &observed[index]);
                 let unit = observed.map_or_else(String::new, |observed| observed.quantity.unit().to_owned());
@@ -177,6 +167,6 @@ pub fn assess(plan: &Plan, counted: &RequirementCounts, bands: Option<&Bands>) -
     for one in &mut list {
         one.shown = plan.analysis.display.of(one.requirement.name(), &one.unit);
     }
-    let confidence = plan.analysis.confidence;
-    Verdicts { list, invalid: counted.invalid, samples: counted.samples, looks, confidence }
+    let (confidence, samples) = (plan.analysis.confidence, ended.of_population().iter().sum());
+    Verdicts { list, invalid: samples - ended.loss().runs, samples, looks, confidence }
 }

@@ -1,17 +1,18 @@
 //! [`Analysis`]: what is made of the rows: `[statistics]`, `[summary]`, `[[observable]]`, `[[require]]`, `[stop]`, `[display]`. No row depends on it.
 
 use super::columns::KnownColumns;
-use super::derived_observable::DerivedObservable;
-use super::display::Display;
+use super::derived_observable::{self, DerivedObservable};
+use super::display::{self, Display};
 use super::document::Document;
 use super::limits::{CONFIDENCE, MAX_SAMPLES};
 use super::lines::Lines;
-use super::requirement::{DEFAULT_CONFIDENCE, Requirement};
+use super::requirement::{self, DEFAULT_CONFIDENCE, Requirement};
 use super::section::Section;
 use super::size::MOST_TABLES;
-use super::stop::{Stop, When};
+use super::stop::{self, Stop, When};
 use crate::observables::Request;
 use crate::observables::window::{MAX_WINDOWS, Window};
+use crate::sampling::keys::{Kind, ListLimit, Presence, Row, Value};
 use crate::sampling::{Column, Design};
 
 /// What is made of the rows of a campaign.
@@ -35,8 +36,35 @@ pub struct Analysis {
 
 /// The quantiles of a file that does not name any.
 pub const QUANTILES: [f64; 9] = [0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999];
-/// Most quantiles.
-const MOST_QUANTILES: usize = 100;
+
+/// Which quantiles.
+const QUANTILE_LIST: ListLimit = ListLimit {
+    allowed: "1 to 100 numbers between 0 and 1, neither included, in ascending order",
+    remedy: "write it like [0.05, 0.5, 0.95]",
+    test: |list| {
+        let is_ascending = list.windows(2).all(|pair| pair[0] < pair[1]);
+        is_ascending && (1..=100).contains(&list.len()) && list.iter().all(|p| *p > 0.0 && *p < 1.0)
+    },
+};
+
+/// The keys of `[statistics]`.
+pub const STATISTICS: [Row; 2] = [
+    Row::new(
+        "quantiles",
+        Kind::Numbers(QUANTILE_LIST),
+        "Which quantiles every observable has; default: 0.1, 1, 5, 25, 50, 75, 95, 99, 99.9%",
+    ),
+    Row::new("confidence", Kind::Number, "Confidence of every interval but those of requirements")
+        .limited(CONFIDENCE)
+        .or(Presence::Or(DEFAULT_CONFIDENCE)),
+];
+
+/// The keys of `[summary]`.
+pub const SUMMARY: [Row; 1] = [Row::new(
+    "columns",
+    Kind::Observables,
+    "Observables that the screen, `summary.json` and the tables of sensitivity have besides the usual ones",
+)];
 
 impl Default for Analysis {
     fn default() -> Self {
@@ -55,10 +83,10 @@ impl Default for Analysis {
 impl Analysis {
     /// Reads the tables; what is wrong is noted, and left out here. `of_rows` are the observables of the rows.
     pub(super) fn read(root: &mut Section<'_, '_>, of_rows: Request) -> Self {
-        let rows = KnownColumns::new(of_rows);
-        let mut known = rows.clone();
+        let mut known = KnownColumns::new(of_rows);
+        root.document.known = Some(known.clone());
         let derived = root.sections("observable", MOST_TABLES, |table| {
-            let found = DerivedObservable::read(table, &rows)?;
+            let found = DerivedObservable::read(table)?;
             if known.observable(&found.name).is_some() {
                 table.refuse("name", "a name of its own", "delete one of the two [[observable]] tables");
                 return None;
@@ -66,22 +94,25 @@ impl Analysis {
             known.add(found.quantity());
             Some(found)
         });
-        let mut section = root.section("statistics");
-        let quantiles = quantiles(&mut section);
-        let confidence = section.number("confidence", CONFIDENCE);
-        section.finish();
-        let mut section = root.section("summary");
-        let summary_columns = columns(&mut section, &known);
-        section.finish();
-        let requirements = root.sections("require", MOST_TABLES, |table| Requirement::read(table, &known));
-        let stop = Stop::read(&mut root.section("stop"), &known);
+        // an observable is not made of others that are derived
+        root.document.known = Some(known);
+        let mut of = |header: &str, rows: &[Row]| {
+            let mut section = root.section(header);
+            let written = section.right_rows(rows);
+            section.finish();
+            written
+        };
+        let (statistics, summary) = (of("statistics", &STATISTICS), of("summary", &SUMMARY));
+        let summary_columns =
+            if let Some(Value::Texts(names)) = summary.get("columns") { names.clone() } else { vec![] };
+        let requirements = root.sections("require", MOST_TABLES, Requirement::read);
+        let stop = Stop::read(&mut root.section("stop"));
         let written = std::mem::take(&mut root.document.units);
-        let display = Display::read(&mut root.section("display"), &written, &known);
-        let default = Analysis::default();
+        let display = Display::read(&mut root.section("display"), written);
         Analysis {
-            quantiles: quantiles.unwrap_or(default.quantiles),
-            confidence: confidence.unwrap_or(default.confidence),
-            summary_columns: summary_columns.unwrap_or_default(),
+            quantiles: statistics.numbers("quantiles").unwrap_or(&QUANTILES).to_vec(),
+            confidence: statistics.number("confidence").unwrap_or(DEFAULT_CONFIDENCE),
+            summary_columns,
             derived: derived.into_iter().flatten().collect(),
             requirements: requirements.into_iter().flatten().collect(),
             stop,
@@ -160,47 +191,23 @@ impl Analysis {
 
     /// Writes the tables.
     pub(super) fn write(&self, lines: &mut Lines) {
-        self.derived.iter().for_each(|derived| derived.write(lines));
-        lines.table("[statistics]");
-        lines.key("quantiles", &self.quantiles);
-        lines.key("confidence", self.confidence);
+        for derived in &self.derived {
+            lines.rows("[[observable]]", &derived_observable::ROWS, |key| derived.value(key));
+        }
+        lines.rows("[statistics]", &STATISTICS, |key| {
+            Some(if key == "quantiles" { self.quantiles.as_slice().into() } else { self.confidence.into() })
+        });
         if !self.summary_columns.is_empty() {
-            lines.table("[summary]");
-            lines.key("columns", &self.summary_columns);
+            lines.rows("[summary]", &SUMMARY, |_| Some(Value::Texts(self.summary_columns.clone())));
         }
-        self.requirements.iter().for_each(|requirement| requirement.write(lines));
+        for requirement in &self.requirements {
+            lines.rows("[[require]]", &requirement::ROWS, |key| requirement.value(key));
+        }
         if let Some(stop) = &self.stop {
-            stop.write(lines);
+            lines.rows("[stop]", &stop::ROWS, |key| stop.value(key));
         }
-        self.display.write(lines);
-    }
-}
-
-fn quantiles(section: &mut Section<'_, '_>) -> Option<Vec<f64>> {
-    let list = section.numbers("quantiles", "1")?;
-    let is_ascending = list.windows(2).all(|pair| pair[0] < pair[1]);
-    let is_inside = list.iter().all(|p| *p > 0.0 && *p < 1.0);
-    if list.is_empty() || list.len() > MOST_QUANTILES || !is_ascending || !is_inside {
-        let allowed = format!("1 to {MOST_QUANTILES} numbers between 0 and 1, neither included, in ascending order");
-        section.refuse("quantiles", allowed, "write it like [0.05, 0.5, 0.95]");
-        return None;
-    }
-    Some(list)
-}
-
-fn columns(section: &mut Section<'_, '_>, known: &KnownColumns) -> Option<Vec<String>> {
-    let example = "[\"energy_error_max\"]";
-    let names = section.texts("columns", example)?;
-    for (index, name) in names.iter().enumerate() {
-        if known.observable(name).is_none() {
-            let (allowed, remedy) = known.refusal(name);
-            section.refuse_value("columns", format!("{name:?}"), format!("made of names, each {allowed}"), remedy);
-            return None;
-        }
-        if names[..index].contains(name) {
-            section.refuse("columns", "different names", format!("delete the second {name:?}"));
-            return None;
+        if self.display != Display::default() {
+            lines.rows("[display]", &display::ROWS, |key| self.display.value(key));
         }
     }
-    Some(names)
 }

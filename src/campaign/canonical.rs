@@ -6,15 +6,12 @@
 //! The row plan is the part of it that changes rows or their encoding: without the campaign's name, and with the number of samples only
 //! where the design's points depend on it. Two campaigns with the same row hash have the same rows, sample by sample.
 
-use super::bands;
 use super::canonical_draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
-use super::control;
-use super::failure_tables;
 use super::lines::Lines;
 use super::plan::Plan;
-use super::settings;
+use super::{bands, control, event, failure_tables, retention, settings};
 use crate::observables::request::NutationAxis;
-use crate::sampling::keys::{Counts, Row, Value, Values, Written};
+use crate::sampling::keys::{Counts, Row, Value, Values};
 use crate::scene::table::Table;
 use crate::scene::{ArcErrors, EnvironmentInput, Name, Shadow};
 use sha2::{Digest, Sha256};
@@ -73,10 +70,12 @@ impl Plan {
             derivation_lines(derivation, &mut lines);
         }
         self.write_settings(&settings::TAIL, whole, &mut lines);
-        self.events.iter().for_each(|event| event.write(&mut lines));
+        for event in &self.events {
+            lines.rows("[[event]]", &event::ROWS, |key| event.value(key));
+        }
         if whole {
             self.analysis.write(&mut lines);
-            self.retention.write(&mut lines);
+            lines.rows("[retain]", &retention::ROWS, |_| Some(self.retention.text().as_str().into()));
         }
         lines.into_text()
     }
@@ -89,17 +88,14 @@ impl Plan {
     /// Tables of settings: `whole`, or without the keys that do not change rows.
     fn write_settings(&self, tables: &[(&str, &[Row])], whole: bool, lines: &mut Lines) {
         for (header, rows) in tables {
-            lines.table(&format!("[{header}]"));
-            let value = |row: &Row| {
-                let path = format!("{header}.{}", row.key);
+            lines.rows(&format!("[{header}]"), rows, |key| {
+                let path = format!("{header}.{key}");
                 let is_written = match path.as_str() {
                     "campaign.samples" => whole || self.design.depends_on_samples().is_some(),
                     path => whole || !Self::OUTSIDE_ROWS.contains(&path),
                 };
-                self.setting(&path).filter(|_| is_written).map(|value| (row.key, value))
-            };
-            let values = rows.iter().filter_map(value);
-            lines.written(header, &values.fold(Written::default(), |written, (key, value)| written.with(key, value)));
+                self.setting(&path).filter(|_| is_written)
+            });
         }
     }
 

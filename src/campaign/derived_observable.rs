@@ -3,11 +3,11 @@
 //! It is evaluated when statistics are made, from the rows as they are on the disk: no row has it.
 
 use super::columns::{KnownColumns, parameter_quantity};
-use super::lines::Lines;
 use super::section::Section;
 use crate::run::Quantity;
 use crate::sampling::Column;
 use crate::sampling::expression::Expression;
+use crate::sampling::keys::{ANY_TEXT, Kind, Row, TextLimit, Value, is_name};
 use crate::scene::{Parameter, SceneInput};
 
 /// An observable that follows from others and from dispersed parameters.
@@ -22,7 +22,20 @@ pub struct DerivedObservable {
 }
 
 /// What a name must be.
-const NAME: &str = "1 to 60 small letters, digits and underscores, the first a letter";
+const NAME: TextLimit = TextLimit {
+    allowed: "1 to 60 small letters, digits and underscores, the first a letter",
+    remedy: "write it like pointing_error_deg",
+    test: |name| is_name(name, 60),
+};
+
+/// The keys of the table.
+#[rustfmt::skip]
+pub const ROWS: [Row; 3] = [
+    Row::new("name", Kind::Text(NAME), "Its name, which no column has").required_as(NAME.allowed, "\"pointing_error_deg\""),
+    Row::new("unit", Kind::Text(ANY_TEXT), "Its unit; default: a pure number"),
+    Row::new("expression", Kind::Expression, "Arithmetic over columns of the rows and dispersed parameters")
+        .required_as("arithmetic over columns and dispersed parameters", "\"2 * energy_error_max\""),
+];
 
 /// A variable of an expression.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,23 +72,15 @@ fn variable(name: &str, scene: &SceneInput, known: &KnownColumns) -> Option<Vari
 }
 
 impl DerivedObservable {
-    /// Reads one table; `None` where something is wrong, which is then noted. `known` has the observables of the rows.
-    pub(super) fn read(table: &mut Section<'_, '_>, known: &KnownColumns) -> Option<Self> {
-        table.require("name", NAME, "\"pointing_error_deg\"");
-        table.require("expression", "arithmetic over columns and dispersed parameters", "\"2 * energy_error_max\"");
-        let name = name(table, known);
-        let unit = table.text("unit").map(str::to_owned);
-        let expression = table.text("expression").map(str::to_owned);
-        let unit_passed = !table.has("unit") || unit.is_some();
-        table.finish();
-        let expression = expression?;
-        let parsed = match Expression::parse(&expression) {
-            Ok(parsed) => parsed,
-            Err(error) => {
-                table.refuse("expression", error, "correct the expression");
-                return None;
-            }
-        };
+    /// Reads one table; `None` where something is wrong, which is then noted.
+    pub(super) fn read(table: &mut Section<'_, '_>) -> Option<Self> {
+        let written = table.whole(&ROWS, &[]);
+        // what the expression says is told too where the name is wrong
+        let name = written.as_ref().and_then(|written| name(table, written.text("name")?));
+        let written = written?;
+        let known = table.document.known.as_ref()?;
+        let expression = written.text("expression")?.to_owned();
+        let parsed = Expression::parse(&expression).ok()?;
         for variable_name in parsed.variables() {
             if variable(variable_name, &table.document.scene, known).is_none() {
                 let (_, remedy) = known.refusal(variable_name);
@@ -90,8 +95,8 @@ impl DerivedObservable {
             table.refuse_value("expression", format!("{value:?}"), allowed, remedy);
             return None;
         }
-        let unit = unit.unwrap_or_default();
-        name.filter(|_| unit_passed).map(|name| DerivedObservable { name, unit, expression })
+        let unit = written.text("unit").unwrap_or_default().to_owned();
+        Some(DerivedObservable { name: name?, unit, expression })
     }
 
     /// Name, unit and meaning.
@@ -125,14 +130,13 @@ impl DerivedObservable {
         })
     }
 
-    /// Writes the table.
-    pub(super) fn write(&self, lines: &mut Lines) {
-        lines.table("[[observable]]");
-        lines.key("name", &self.name);
-        if !self.unit.is_empty() {
-            lines.key("unit", &self.unit);
+    /// The value of a key, if canonical text has it.
+    pub(super) fn value(&self, key: &str) -> Option<Value> {
+        match key {
+            "name" => Some(self.name.as_str().into()),
+            "unit" => Some(self.unit.as_str().into()).filter(|_| !self.unit.is_empty()),
+            _ => Some(self.expression.as_str().into()),
         }
-        lines.key("expression", &self.expression);
     }
 }
 
@@ -148,16 +152,10 @@ fn nominal_value(expression: &Expression, scene: &SceneInput, known: &KnownColum
 }
 
 /// A name that no column has.
-fn name(table: &mut Section<'_, '_>, known: &KnownColumns) -> Option<String> {
-    let name = table.text("name")?;
-    let is_letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-    if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(is_letter) || name.len() > 60 {
-        table.refuse("name", NAME, "write it like pointing_error_deg");
-        return None;
-    }
+fn name(table: &mut Section<'_, '_>, name: &str) -> Option<String> {
     let scene = &table.document.scene;
     let of = |parameter: Parameter| (0..parameter.width()).map(move |c| parameter_quantity(parameter, c));
-    let is_column = known.observable(name).is_some()
+    let is_column = table.document.known.as_ref()?.observable(name).is_some()
         || crate::observables::table::all().any(|column| column.quantity.name() == name)
         || Parameter::all(scene).flat_map(of).any(|quantity| quantity.name() == name);
     if is_column || ["sample_id", "status", "reason"].contains(&name) {

@@ -4,10 +4,9 @@
 
 use std::collections::BTreeMap;
 
-use super::columns::KnownColumns;
-use super::lines::Lines;
 use super::section::Section;
 use super::units;
+use crate::sampling::keys::{Kind, Row, Value};
 use crate::scene::Parameter;
 
 /// In which units numbers are shown.
@@ -64,59 +63,22 @@ const SAID: [&str; 2] = ["deg", "deg/s"];
 /// A list of units that texts know.
 const EXAMPLE: &str = "[\"deg\", \"deg/s\"]";
 
+/// The keys of the table.
+pub const ROWS: [Row; 2] = [
+    Row::new("units", Kind::Units, "Units of different quantities, in which numbers are shown; default: deg and deg/s"),
+    Row::new("columns", Kind::UnitsByName, "Units of single columns and parameters, by name"),
+];
+
 impl Display {
-    /// Reads `[display]`; `written` are units in which limits and dispersions are written, by the name of what they are of, `known` the columns
-    /// of the file.
-    pub(super) fn read(
-        section: &mut Section<'_, '_>,
-        written: &[(String, &'static str)],
-        known: &KnownColumns,
-    ) -> Self {
-        let mut units: Vec<&'static str> = Vec::new();
-        for text in section.texts("units", EXAMPLE).unwrap_or_default() {
-            match units::named(&text) {
-                None => section.refuse_value("units", format!("{text:?}"), allowed(), "choose one of these"),
-                Some(unit)
-                    if units.iter().any(|other| units::named(other).is_some_and(|other| other.of == unit.of)) =>
-                {
-                    let allowed = "of different quantities";
-                    section.refuse_value("units", format!("{text:?}"), allowed, "delete one of both");
-                }
-                Some(unit) => units.push(unit.name),
-            }
-        }
-        let mut columns: BTreeMap<String, &'static str> = written.iter().cloned().collect();
-        let names: Vec<String> = section.entries("columns").into_iter().map(|(name, _)| name).collect();
-        let scene = section.document.scene.clone();
-        let mut table = section.section("columns");
-        for name in names.clone() {
-            let Some(text) = table.text(&name) else { continue };
-            let quantity =
-                known.observable(&name).or_else(|| known.band(&name)).map(|quantity| quantity.unit().to_owned());
-            let own = quantity.or_else(|| Some(Parameter::find(&scene, &name)?.0.unit().to_owned()));
-            match (own, units::named(text)) {
-                (None, _) => {
-                    let (_, remedy) = known.refusal(&name);
-                    table.refuse(&name, "a unit of a column of the rows or of bands, or of a parameter", remedy);
-                }
-                (_, None) => table.refuse(&name, allowed(), "choose one of these"),
-                (Some(own), Some(unit)) if units::named(&own).is_none_or(|own| own.of != unit.of) => {
-                    let own = if own.is_empty() { "1".to_owned() } else { own };
-                    table.refuse(
-                        &name,
-                        format!("a unit in place of {own}"),
-                        "delete this entry, or choose another unit",
-                    );
-                }
-                (_, Some(unit)) => {
-                    let over_time = known.over_time(&name).filter(|other| !names.contains(other));
-                    columns.extend(over_time.map(|other| (other, unit.name)));
-                    columns.insert(name, unit.name);
-                }
-            }
-        }
-        table.finish();
+    /// Reads `[display]`; `written` are units in which limits and dispersions are written, by the name of what they are of.
+    pub(super) fn read(section: &mut Section<'_, '_>, written: Vec<(String, &'static str)>) -> Self {
+        let found = section.right_rows(&ROWS);
         section.finish();
+        let units = if let Some(Value::Words(units)) = found.get("units") { units.clone() } else { Vec::new() };
+        let mut columns: BTreeMap<String, &'static str> = written.into_iter().collect();
+        if let Some(Value::Units(own)) = found.get("columns") {
+            columns.extend(own.clone());
+        }
         Display { units, columns }
     }
 
@@ -136,25 +98,63 @@ impl Display {
         }
     }
 
-    /// Writes the table, where there is anything to say.
-    pub(super) fn write(&self, lines: &mut Lines) {
-        if *self == Display::default() {
-            return;
-        }
-        lines.table("[display]");
-        if !self.units.is_empty() {
-            lines.key("units", &self.units);
-        }
-        if !self.columns.is_empty() {
-            let entry = |(name, unit): (&String, &&str)| format!("{} = {unit:?}", toml::Value::from(name.as_str()));
-            let entries: Vec<String> = self.columns.iter().map(entry).collect();
-            lines.raw("columns", &format!("{{ {} }}", entries.join(", ")));
+    /// The value of a key, if canonical text has it.
+    pub(super) fn value(&self, key: &str) -> Option<Value> {
+        match key {
+            "units" if !self.units.is_empty() => Some(Value::Words(self.units.clone())),
+            "columns" if !self.columns.is_empty() => Some(Value::Units(self.columns.clone())),
+            _ => None,
         }
     }
 }
 
 fn allowed() -> String {
     format!("one of {}", units::names().collect::<Vec<_>>().join(", "))
+}
+
+/// The units that `key` lists, without those that are wrong, which are noted.
+pub(super) fn of_quantities(section: &mut Section<'_, '_>, key: &str) -> Vec<&'static str> {
+    let mut units: Vec<&'static str> = Vec::new();
+    for text in section.texts(key, EXAMPLE).unwrap_or_default() {
+        match units::named(&text) {
+            None => section.refuse_value(key, format!("{text:?}"), allowed(), "choose one of these"),
+            Some(unit) if units.iter().any(|other| units::named(other).is_some_and(|other| other.of == unit.of)) => {
+                section.refuse_value(key, format!("{text:?}"), "of different quantities", "delete one of both");
+            }
+            Some(unit) => units.push(unit.name),
+        }
+    }
+    units
+}
+
+/// The units in the table `key` by the names of columns and parameters; without those that are wrong, which are noted.
+pub(super) fn by_name(section: &mut Section<'_, '_>, key: &str) -> BTreeMap<String, &'static str> {
+    let mut columns = BTreeMap::new();
+    let names: Vec<String> = section.entries(key).into_iter().map(|(name, _)| name).collect();
+    let mut table = section.section(key);
+    for name in names.clone() {
+        let (Some(text), Some(known)) = (table.text(&name), table.document.known.as_ref()) else { continue };
+        let quantity = known.observable(&name).or_else(|| known.band(&name)).map(|quantity| quantity.unit().to_owned());
+        let own = quantity.or_else(|| Some(Parameter::find(&table.document.scene, &name)?.0.unit().to_owned()));
+        match (own, units::named(text)) {
+            (None, _) => {
+                let (_, remedy) = known.refusal(&name);
+                table.refuse(&name, "a unit of a column of the rows or of bands, or of a parameter", remedy);
+            }
+            (_, None) => table.refuse(&name, allowed(), "choose one of these"),
+            (Some(own), Some(unit)) if units::named(&own).is_none_or(|own| own.of != unit.of) => {
+                let own = if own.is_empty() { "1".to_owned() } else { own };
+                let remedy = "delete this entry, or choose another unit";
+                table.refuse(&name, format!("a unit in place of {own}"), remedy);
+            }
+            (_, Some(unit)) => {
+                let over_time = known.over_time(&name).filter(|other| !names.contains(other));
+                columns.extend(over_time.into_iter().chain([name]).map(|name| (name, unit.name)));
+            }
+        }
+    }
+    table.finish();
+    columns
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 //! A number that is missing or wrong is read as NaN and reported once; so the lower layers can still check the rest, and
 //! what they report about a key that was reported already is dropped ([`Document::add_from_below`]).
 
+use super::columns::KnownColumns;
 use super::excerpt::Excerpt;
 use super::problem::{CampaignError, Problem, SHOWN};
 use super::size;
@@ -66,6 +67,8 @@ pub struct Document<'a> {
     pub(super) is_loop_unknown: bool,
     /// Keys that are there without effect, a sentence each.
     pub(super) ignored: Vec<String>,
+    /// What the tables that follow the scene can name, once that is known.
+    pub(super) known: Option<KnownColumns>,
     /// The units in which limits and dispersions are written, by the name of the column or parameter.
     pub(super) units: Vec<(String, &'static str)>,
 }
@@ -99,6 +102,7 @@ impl<'a> Document<'a> {
             attitude_law: None,
             is_loop_unknown: false,
             ignored: Vec::new(),
+            known: None,
             units: Vec::new(),
         }
     }

@@ -1,6 +1,6 @@
 //! [`Event`]: an `[[event]]` table, a quantity over time that crosses a value.
 
-use super::lines::Lines;
+use super::columns::unit_of;
 use super::numbers::FINITE;
 use super::problem::nearest;
 use super::section::Section;
@@ -9,6 +9,7 @@ use crate::observables::band_series::{BandSeries, event_series};
 use crate::observables::{Group, Groups, Request};
 use crate::run::Quantity;
 use crate::sampling::expression::Expression;
+use crate::sampling::keys::{Kind, Row, TextLimit, Value, Written, is_name};
 
 /// In which direction a quantity crosses the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,7 +63,24 @@ pub struct Event {
 /// Most events of a file.
 pub(super) const MOST_EVENTS: usize = 16;
 /// What a name must be.
-const NAME: &str = "1 to 40 small letters, digits and underscores, the first a letter";
+const NAME: TextLimit = TextLimit {
+    allowed: "1 to 40 small letters, digits and underscores, the first a letter",
+    remedy: "write it like settled",
+    test: |name| is_name(name, 40),
+};
+const DIRECTIONS: [&str; 3] = [Direction::ALL[0].0, Direction::ALL[1].0, Direction::ALL[2].0];
+const WHICH: [&str; 3] = [Which::ALL[0].0, Which::ALL[1].0, Which::ALL[2].0];
+
+/// The keys of the table.
+#[rustfmt::skip]
+pub const ROWS: [Row; 5] = [
+    Row::new("name", Kind::Text(NAME), "Its name, from which those of its columns are made").required_as(NAME.allowed, "\"settled\""),
+    Row::new("quantity", Kind::Expression, "A quantity over time that is observed, or an expression of several")
+        .required_as("a quantity over time, or an expression of some", "\"angular_rate_rad_s\""),
+    Row::new("value", Kind::Amount, "The value that it crosses").required_as(FINITE.allowed, "0.1"),
+    Row::new("direction", Kind::Word(&DIRECTIONS), "In which direction"),
+    Row::new("which", Kind::Word(&WHICH), "Which crossing its time is of; `stays`: the last one, where the quantity stays there to the end of the run"),
+];
 
 impl Event {
     /// Reads the tables; what is wrong is noted, and left out here. `observed` is what the rows have without events.
@@ -91,31 +109,30 @@ impl Event {
     }
 
     fn read(table: &mut Section<'_, '_>, known: (&[BandSeries], &Request), taken: &[String]) -> Option<Self> {
-        table.require("name", NAME, "\"settled\"");
-        table.require("quantity", "a quantity over time, or an expression of some", "\"angular_rate_rad_s\"");
-        table.require("value", FINITE.allowed, "0.1");
-        let name = name(table, taken);
-        let quantity = table.text("quantity").map(str::to_owned);
-        let variables = quantity.as_ref().and_then(|text| variables(table, text, known));
-        let unit = variables.as_ref().map(|variables| match &variables[..] {
-            [only] if quantity.as_deref() == Some(only.quantity.name()) => {
-                units::known(only.quantity.unit()).unwrap_or("1")
-            }
-            _ => units::UNKNOWN,
-        });
-        table.measures(unit.unwrap_or(units::UNKNOWN));
-        let value = table.number("value", FINITE);
-        let direction = choice(table, "direction", &Direction::ALL);
-        let which = choice(table, "which", &Which::ALL);
-        if (direction, which) == (Some(Direction::Either), Some(Which::Stays)) {
+        let [name, quantity, rest @ ..] = &ROWS;
+        let head = table.rows(&[*name, *quantity], &[]);
+        let variables = head.as_ref().and_then(|head| variables(table, head.text("quantity")?, known));
+        let unit =
+            variables.as_ref().zip(head.as_ref()).map_or(units::UNKNOWN, |(variables, head)| match &variables[..] {
+                [only] if head.text("quantity") == Some(only.quantity.name()) => unit_of(&only.quantity),
+                _ => units::UNKNOWN,
+            });
+        table.describes(None, unit);
+        let rest = table.whole(rest, &[])?;
+        let (direction, which) = (named(&Direction::ALL, &rest, "direction")?, named(&Which::ALL, &rest, "which")?);
+        if (direction, which) == (Direction::Either, Which::Stays) {
             let allowed = "\"first\" or \"last\" where direction is \"either\"";
             table.refuse("which", allowed, "write direction = \"rising\" or \"falling\": the side on which it stays");
-            table.finish();
             return None;
         }
-        table.finish();
-        variables?;
-        Some(Event { name: name?, quantity: quantity?, value: value?, direction: direction?, which: which? })
+        let (head, _) = head.zip(variables)?;
+        let name = head.text("name")?;
+        if taken.iter().any(|other| other == name) {
+            table.refuse("name", "another name than that of the other [[event]] tables", "give each its own name");
+            return None;
+        }
+        let (name, quantity) = (name.to_owned(), head.text("quantity")?.to_owned());
+        Some(Event { name, quantity, value: rest.number("value")?, direction, which })
     }
 
     /// The expression, and the quantities that are its variables, of runs of `request`; `None` only for what [`Event::read_all`] refuses.
@@ -155,27 +172,21 @@ impl Event {
         ]
     }
 
-    /// Writes the table.
-    pub(super) fn write(&self, lines: &mut Lines) {
-        lines.table("[[event]]");
-        lines.key("name", &self.name);
-        lines.text_key("quantity", &self.quantity);
-        lines.key("value", self.value);
-        lines.key("direction", named(self.direction, &Direction::ALL));
-        lines.key("which", named(self.which, &Which::ALL));
+    /// The value of a key in canonical text.
+    pub(super) fn value(&self, key: &str) -> Option<Value> {
+        Some(match key {
+            "name" => self.name.as_str().into(),
+            "quantity" => self.quantity.as_str().into(),
+            "value" => self.value.into(),
+            "direction" => Value::Word(Direction::ALL.iter().find(|(_, one)| *one == self.direction)?.0),
+            _ => Value::Word(Which::ALL.iter().find(|(_, one)| *one == self.which)?.0),
+        })
     }
 }
 
-/// The name of `value`.
-fn named<T: PartialEq>(value: T, all: &[(&'static str, T)]) -> &'static str {
-    all.iter().find(|(_, one)| *one == value).map_or("", |(name, _)| *name)
-}
-
-/// The value of `key`, the first one where it is not written; `None` where it is wrong, which is then noted.
-fn choice<T: Copy>(table: &mut Section<'_, '_>, key: &str, all: &[(&'static str, T)]) -> Option<T> {
-    let names: Vec<&str> = all.iter().map(|(name, _)| *name).collect();
-    let found = table.name(key, &names, |text| all.iter().find(|(name, _)| *name == text).map(|(_, value)| *value));
-    if table.has(key) { found } else { Some(all[0].1) }
+/// What the word of `key` means.
+fn named<T: Copy>(all: &[(&'static str, T)], written: &Written, key: &str) -> Option<T> {
+    all.iter().find(|(name, _)| written.text(key) == Some(name)).map(|(_, value)| *value)
 }
 
 /// The quantities in `text`; `None` where it is wrong, which is then noted.
@@ -184,13 +195,7 @@ fn variables(
     text: &str,
     (series, observed): (&[BandSeries], &Request),
 ) -> Option<Vec<BandSeries>> {
-    let parsed = match Expression::parse(text) {
-        Ok(parsed) => parsed,
-        Err(error) => {
-            table.refuse("quantity", error, "correct the expression");
-            return None;
-        }
-    };
+    let parsed = Expression::parse(text).ok()?;
     if parsed.variables().is_empty() {
         table.refuse("quantity", "made of quantities over time", "name one, such as \"angular_rate_rad_s\"");
         return None;
@@ -224,19 +229,4 @@ fn refusal(name: &str, series: &[BandSeries], observed: &Request) -> (String, St
         (None, None) => format!("name some of {}", names().collect::<Vec<_>>().join(", ")),
     };
     (allowed, remedy)
-}
-
-/// A name that no other event has.
-fn name(table: &mut Section<'_, '_>, taken: &[String]) -> Option<String> {
-    let name = table.text("name")?;
-    let is_letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-    if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(is_letter) || name.len() > 40 {
-        table.refuse("name", NAME, "write it like settled");
-        return None;
-    }
-    if taken.iter().any(|other| other == name) {
-        table.refuse("name", "another name than that of the other [[event]] tables", "give each its own name");
-        return None;
-    }
-    Some(name.to_owned())
 }

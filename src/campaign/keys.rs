@@ -1,12 +1,16 @@
 //! Rows of keys ([`crate::sampling::keys`]) in a table of a campaign file: read from it, and written as canonical text.
 
-use super::data_keys;
+use super::columns::{KnownColumns, unit_of};
 use super::lines::Lines;
 use super::numbers::FINITE;
 use super::section::Section;
-use super::units;
+use super::{data_keys, display, units};
 use crate::math::vector::norm;
-use crate::sampling::keys::{Counts, Kind, NumberLimit, Presence, Row, Rule, TextLimit, Value, Values, Written};
+use crate::run::Quantity;
+use crate::sampling::expression::Expression;
+use crate::sampling::keys::{
+    ALL_BUT_ONE, Condition, Counts, Kind, NumberLimit, Presence, Row, Rule, TextLimit, Value, Values, Written,
+};
 use crate::sampling::{DistributionKind, WrittenDistribution};
 
 impl Section<'_, '_> {
@@ -23,6 +27,13 @@ impl Section<'_, '_> {
                 || !(self.has(row.key) || matches!(row.presence, Presence::Required { .. }))
         };
         (is_right && rows.iter().all(is_there)).then_some(written)
+    }
+
+    /// The same of all keys of the table.
+    pub(super) fn whole(&mut self, rows: &[Row], rules: &[Rule]) -> Option<Written> {
+        let written = self.rows(rows, rules);
+        self.finish();
+        written
     }
 
     /// What is right of that; without the keys that are wrong, which are noted.
@@ -48,9 +59,15 @@ impl Section<'_, '_> {
         let key = row.key;
         let (of_target, own) = (self.unit, units::in_name(key));
         match row.kind {
-            Kind::Amounts => self.values(key, of_target).map(Value::Numbers),
+            Kind::Amounts => {
+                self.note_unit(key);
+                self.values(key, of_target).map(Value::Numbers)
+            }
             Kind::Values => self.values(key, own).map(Value::Numbers),
-            Kind::AmountList => self.list(key, of_target, row.limit),
+            Kind::AmountList => {
+                self.note_unit(key);
+                self.list(key, of_target, row.limit)
+            }
             Kind::List => self.list(key, own, row.limit),
             Kind::Number => {
                 let limit = row.limit.unwrap_or(FINITE);
@@ -83,8 +100,92 @@ impl Section<'_, '_> {
                 let found = if table.is_present() { table.distribution() } else { None };
                 found.map(|found| Value::Distribution(found.kind.name(), found.written))
             }
+            Kind::Amount => {
+                let number = self.number_in(key, of_target, row.limit.unwrap_or(FINITE));
+                self.note_unit(key);
+                number.map(Value::from)
+            }
+            Kind::Numbers(limit) => {
+                let list = self.numbers(key, of_target)?;
+                if !(limit.test)(&list) {
+                    self.refuse(key, limit.allowed, limit.remedy);
+                    return None;
+                }
+                Some(list.as_slice().into())
+            }
+            Kind::Observable => self.quantity(key, KnownColumns::observable, KnownColumns::refusal),
+            Kind::Band => self.quantity(key, KnownColumns::band, KnownColumns::band_refusal),
+            Kind::Observables => self.observables(key).map(Value::Texts),
+            Kind::Expression => {
+                let text = self.text(key)?;
+                match Expression::parse(text) {
+                    Ok(_) => Some(text.into()),
+                    Err(error) => {
+                        self.refuse(key, error, "correct the expression");
+                        None
+                    }
+                }
+            }
+            Kind::Flag => self.flag(key).map(Value::Flag),
+            Kind::Yes => {
+                let is_yes = self.flag(key)?;
+                if !is_yes {
+                    self.refuse(key, "true where it is written", format!("delete it, or write {key} = true"));
+                }
+                is_yes.then_some(Value::Flag(true))
+            }
+            Kind::Units => Some(Value::Words(display::of_quantities(self, key))),
+            Kind::UnitsByName => Some(Value::Units(display::by_name(self, key))),
             Kind::Column => data_keys::column(self).map(Value::Column),
             Kind::Columns => data_keys::columns(self).map(Value::Columns),
+        }
+    }
+
+    /// The quantity that `key` names, which the table is about from now on.
+    fn quantity(
+        &mut self,
+        key: &str,
+        find: for<'k> fn(&'k KnownColumns, &str) -> Option<&'k Quantity>,
+        refusal: fn(&KnownColumns, &str) -> (String, String),
+    ) -> Option<Value> {
+        let name = self.text(key)?;
+        let known = self.document.known.as_ref()?;
+        let Some(quantity) = find(known, name) else {
+            let (allowed, remedy) = refusal(known, name);
+            self.refuse(key, allowed, remedy);
+            return None;
+        };
+        let unit = unit_of(quantity);
+        self.describes(name.to_owned(), unit);
+        Some(name.into())
+    }
+
+    /// Names of different observables.
+    fn observables(&mut self, key: &str) -> Option<Vec<String>> {
+        let names = self.texts(key, "[\"energy_error_max\"]")?;
+        let known = self.document.known.as_ref()?;
+        for (index, name) in names.iter().enumerate() {
+            if known.observable(name).is_none() {
+                let (allowed, remedy) = known.refusal(name);
+                self.refuse_value(key, format!("{name:?}"), format!("made of names, each {allowed}"), remedy);
+                return None;
+            }
+            if names[..index].contains(name) {
+                self.refuse(key, "different names", format!("delete the second {name:?}"));
+                return None;
+            }
+        }
+        Some(names)
+    }
+
+    /// Remembers the unit in which what the table is about is written, the first one, where that is not its own: it is shown in it, and so is what it
+    /// is over time.
+    fn note_unit(&mut self, key: &str) {
+        if let Some(unit) = self.unit_written(key).filter(|unit| *unit != self.unit)
+            && let Some(name) = self.about.take()
+        {
+            let over_time = self.document.known.as_ref().and_then(|known| known.over_time(&name));
+            self.document.units.extend(over_time.into_iter().chain([name]).map(|name| (name, unit)));
         }
     }
 
@@ -128,13 +229,13 @@ impl Section<'_, '_> {
 
     /// Whether the table obeys a rule; notes where not. `is_right`: it obeys those before.
     fn obeys(&mut self, rule: &Rule, is_right: bool) -> bool {
-        let only = |table: &mut Self, written: &[&'static str], all: &[&'static str]| {
+        let only = |table: &mut Self, written: &[&'static str], all: &[&'static str], remedy: &str| {
             let Some(second) = written.get(1) else { return true };
-            table.refuse(second, format!("the only one of {}", all.join(", ")), "delete all but one of them");
+            table.refuse(second, format!("the only one of {}", all.join(", ")), remedy);
             false
         };
         match rule {
-            Rule::One(ways, example) => {
+            Rule::One(ways, example, remedy) => {
                 // a way is called by its first key, or by the first that was written
                 let name = |way: &&[&'static str]| way.iter().copied().find(|key| self.has(key)).unwrap_or(way[0]);
                 let names: Vec<&'static str> = ways.iter().map(name).collect();
@@ -143,11 +244,11 @@ impl Section<'_, '_> {
                     self.require(names[0], &format!("given ({})", names.join(" or ")), example);
                     return false;
                 }
-                only(self, &written, &names)
+                only(self, &written, &names, remedy)
             }
             Rule::AtMostOne(keys) => {
                 let written: Vec<&'static str> = keys.iter().copied().filter(|key| self.has(key)).collect();
-                only(self, &written, keys)
+                only(self, &written, keys, ALL_BUT_ONE)
             }
             Rule::Together([(first, of_first), (second, of_second)]) => {
                 if is_right && (self.has(first) || self.has(second)) {
@@ -155,6 +256,21 @@ impl Section<'_, '_> {
                     self.require(second, &format!("given together with {first}"), of_second);
                 }
                 self.has(first) == self.has(second)
+            }
+            Rule::Only { keys, with, allowed, remedy } => {
+                let holds = |condition: &Condition| match condition {
+                    Condition::Has(key) => self.has(key),
+                    Condition::IsNot(key, word) => self.plain_text(key) != Some(word),
+                };
+                if !is_right || with.iter().all(holds) {
+                    return true;
+                }
+                let written: Vec<&str> = keys.iter().copied().filter(|key| self.has(key)).collect();
+                for key in &written {
+                    self.know(key);
+                    self.refuse(key, *allowed, *remedy);
+                }
+                written.is_empty()
             }
         }
     }
@@ -164,8 +280,7 @@ impl Section<'_, '_> {
         let name = self.required_word("distribution", DistributionKind::NAMES, "\"normal\"");
         // without a distribution nobody can say which other keys belong here
         let kind = DistributionKind::from_name(name?)?;
-        let written = self.rows(kind.keys(), kind.rules());
-        self.finish();
+        let written = self.whole(kind.keys(), kind.rules());
         written.map(|written| WrittenDistribution { kind, written })
     }
 
@@ -187,6 +302,14 @@ impl Section<'_, '_> {
 }
 
 impl Lines {
+    /// A table: of the keys `rows` those that `value` has, in their order.
+    pub(super) fn rows(&mut self, header: &str, rows: &[Row], value: impl Fn(&'static str) -> Option<Value>) {
+        self.table(header);
+        let values = rows.iter().filter_map(|row| Some((row.key, value(row.key)?)));
+        let written = values.fold(Written::default(), |written, (key, value)| written.with(key, value));
+        self.written(header, &written);
+    }
+
     /// The keys of a table. A distribution among them is a table within `[header]` and comes last.
     pub(super) fn written(&mut self, header: &str, written: &Written) {
         for (key, value) in written.entries() {
@@ -204,6 +327,14 @@ impl Lines {
                     self.table(&format!("[{header}]"));
                     self.key("distribution", name);
                     self.written(&header, written);
+                }
+                Value::Flag(flag) => self.key(key, flag),
+                Value::Texts(texts) => self.key(key, texts),
+                Value::Units(units) => {
+                    let entry =
+                        |(name, unit): (&String, &&str)| format!("{} = {unit:?}", toml::Value::from(name.as_str()));
+                    let entries: Vec<String> = units.iter().map(entry).collect();
+                    self.raw(key, &format!("{{ {} }}", entries.join(", ")));
                 }
                 Value::Column(column) => {
                     self.key(key, &column.file);

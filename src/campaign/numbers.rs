@@ -28,9 +28,9 @@ impl Section<'_, '_> {
         self.every = Some(unit);
     }
 
-    /// Says in which unit the amounts of this table are.
-    pub(super) fn describes(&mut self, unit: &'static str) {
-        self.unit = unit;
+    /// Says what this table is about, and in which unit its amounts are.
+    pub(super) fn describes(&mut self, about: impl Into<Option<String>>, unit: &'static str) {
+        (self.about, self.unit) = (about.into(), unit);
     }
 
     /// The unit in which the numbers of `key` are: that of all numbers of the table, or the one at the end of the key.
@@ -45,8 +45,12 @@ impl Section<'_, '_> {
 
     /// A number, if it was written and is allowed.
     pub fn number(&mut self, key: &str, limit: NumberLimit) -> Option<f64> {
+        self.number_in(key, self.unit_of(key), limit)
+    }
+
+    /// The same in `unit`.
+    pub(super) fn number_in(&mut self, key: &str, unit: &'static str, limit: NumberLimit) -> Option<f64> {
         let value = self.take(key)?;
-        let unit = self.unit_of(key);
         match number(value.get_ref(), unit) {
             Some(number) if (limit.test)(number) => Some(number),
             Some(_) => {

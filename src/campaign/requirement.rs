@@ -1,11 +1,10 @@
 //! [`Requirement`]: a `[[require]]` table, what a campaign must show.
 
-use super::columns::{KnownColumns, unit_of};
 use super::limits::{CONFIDENCE, PROBABILITY};
-use super::lines::Lines;
-use super::numbers::FINITE;
 use super::section::Section;
+use super::units;
 use crate::observables::window::Window;
+use crate::sampling::keys::{Condition, Kind, ListLimit, Presence, Row, Rule, Value};
 use crate::statistics::gate::GateLimit;
 
 /// What must be within the limit.
@@ -74,95 +73,93 @@ pub struct Requirement {
 
 /// Confidence where the file does not say.
 pub const DEFAULT_CONFIDENCE: f64 = 0.95;
-/// The keys that say what is required: a requirement has exactly one.
-const STATEMENTS: [&str; 3] = ["quantile", "fraction", "mean"];
-/// The keys of limits: a requirement has exactly one.
-const LIMITS: [&str; 2] = ["at_most", "at_least"];
-/// The keys of what a requirement is about: it has exactly one.
-const SUBJECTS: [&str; 2] = ["observable", "band"];
 /// What a run without a value does, in the order of `false` and `true`.
 const NEVER: [&str; 2] = ["violates", "meets"];
-/// The keys of an interval of time.
-const INTERVAL: [&str; 2] = ["from_s", "to_s"];
+/// The bounds of a mean.
+const BOUNDS: ListLimit = ListLimit {
+    allowed: "two numbers, the smaller one first: no run has a value outside of them",
+    remedy: "write it like [0.0, 1.0]",
+    test: |list| matches!(list, [low, high] if low < high),
+};
+
+/// The keys of a requirement.
+#[rustfmt::skip]
+pub const ROWS: [Row; 13] = [
+    Row::new("observable", Kind::Observable, "The observable that it is about"),
+    Row::new("band", Kind::Band, "The quantity over time that it is about"),
+    Row::new("from_s", Kind::Number, "Start of the interval of time; default: of the run"),
+    Row::new("to_s", Kind::Number, "End of the interval of time; default: of the run"),
+    Row::new("at_all_times", Kind::Flag, "Whether it is about each run at all times, and not about each time for itself; default: false"),
+    Row::new("quantile", Kind::Number, "Which quantile of the runs keeps the limit").limited(PROBABILITY),
+    Row::new("fraction", Kind::Number, "Which fraction of the runs keeps the limit").limited(PROBABILITY),
+    Row::new("mean", Kind::Yes, "Whether their mean does"),
+    Row::new("at_most", Kind::Amount, "Upper limit, in the unit of what it is about"),
+    Row::new("at_least", Kind::Amount, "Lower limit, in the unit of what it is about"),
+    Row::new("bounded", Kind::Numbers(BOUNDS), "Of a mean: between which two values every run is known to be"),
+    Row::new("never", Kind::Word(&NEVER), "Whether a run in which it never happens meets a fraction"),
+    Row::new("confidence", Kind::Number, "Confidence of the verdict").limited(CONFIDENCE).or(Presence::Or(DEFAULT_CONFIDENCE)),
+];
+
+const A_TABLE_EACH: &str = "write a [[require]] table for each";
+
+/// What they have to do with each other.
+pub const RULES: [Rule; 7] = [
+    Rule::One(&[&["observable"], &["band"]], "\"energy_error_max\"", A_TABLE_EACH),
+    Rule::One(&[&["quantile"], &["fraction"], &["mean"]], "0.99", A_TABLE_EACH),
+    Rule::One(&[&["at_most"], &["at_least"]], "1e-9", A_TABLE_EACH),
+    Rule::Only {
+        keys: &["from_s", "to_s", "at_all_times"],
+        with: &[Condition::Has("band")],
+        allowed: "left out with `observable`, which is one number of a run",
+        remedy: "delete it, or write `band`",
+    },
+    Rule::Only {
+        keys: &["mean"],
+        with: &[Condition::Has("observable")],
+        allowed: "left out with `band`: a requirement over time is about a share of the runs",
+        remedy: "write quantile or fraction",
+    },
+    Rule::Only {
+        keys: &["bounded"],
+        with: &[Condition::Has("mean")],
+        allowed: "left out without mean = true: shares and quantiles need no bounds",
+        remedy: "delete it",
+    },
+    Rule::Only {
+        keys: &["never"],
+        with: &[Condition::Has("fraction"), Condition::Has("observable")],
+        allowed: "left out where the requirement is not about a fraction of the runs and an observable",
+        remedy: "write fraction, or delete this line",
+    },
+];
 
 impl Requirement {
     /// Reads one table; `None` where something is wrong, which is then noted.
-    pub(super) fn read(table: &mut Section<'_, '_>, known: &KnownColumns) -> Option<Self> {
-        let subject = subject(table, known);
-        let at_all_times = table.flag("at_all_times");
-        let flag_passed = !table.has("at_all_times") || at_all_times.is_some();
-        if at_all_times.is_some() && !table.has("band") {
-            let allowed = "left out with `observable`, which is one number of a run";
-            table.refuse("at_all_times", allowed, "delete it, or write `band`");
-        }
-        let confidence = table.number("confidence", CONFIDENCE);
-        let statement = one_of(table, STATEMENTS, "quantile = 0.99").and_then(|key| match key {
-            "quantile" => table.number(key, PROBABILITY).map(Statement::Quantile),
-            "fraction" => table.number(key, PROBABILITY).map(Statement::Fraction),
-            _ if table.has("band") => {
-                let allowed = "left out with `band`: a requirement over time is about a share of the runs";
-                table.refuse(key, allowed, "write quantile or fraction");
-                None
-            }
-            _ => match table.flag(key) {
-                Some(true) => Some(Statement::Mean),
-                Some(false) => {
-                    table.refuse(key, "true where it is written", "delete it, or write mean = true");
-                    None
-                }
-                None => None,
-            },
-        });
-        let quantity = subject.as_ref().and_then(|subject| match subject {
-            Subject::Observable(name) => known.observable(name),
-            Subject::Band(band) | Subject::AtAllTimes { band, .. } => known.band(&band.series),
-        });
-        let unit = quantity.map(unit_of);
-        if let Some(unit) = unit {
-            table.measures(unit);
-        }
-        let limit = one_of(table, LIMITS, "at_most = 1e-9").and_then(|key| {
-            // without its unit a limit cannot be read
-            unit?;
-            let number = table.number(key, FINITE)?;
-            if let (Some(written), Some(quantity)) = (table.unit_written(key), quantity)
-                && written != quantity.unit()
-            {
-                let name = quantity.name().to_owned();
-                table.document.units.extend(known.over_time(&name).map(|name| (name, written)));
-                table.document.units.push((name, written));
-            }
-            Some(if key == "at_most" { GateLimit::AtMost(number) } else { GateLimit::AtLeast(number) })
-        });
-        let bounded = bounded(table, statement, unit.is_some());
-        let never = table.name("never", &NEVER, |text| NEVER.iter().position(|known| *known == text));
-        if table.has("never") && !(matches!(statement, Some(Statement::Fraction(_)) | None) && table.has("observable"))
-        {
-            let allowed = "left out where the requirement is not about a fraction of the runs and an observable";
-            table.refuse("never", allowed, "write fraction, or delete this line");
-        }
-        STATEMENTS.iter().chain(&LIMITS).chain(&SUBJECTS).chain(&INTERVAL).for_each(|key| table.know(key));
-        let confidence_passed = !table.has("confidence") || confidence.is_some();
-        let bounded_passed = !table.has("bounded") || bounded.is_some();
-        table.finish();
-        let (subject, statement, limit) = (subject?, statement?, limit?);
-        let confidence = confidence.unwrap_or(DEFAULT_CONFIDENCE);
-        let subject = match subject {
-            Subject::Band(band) if at_all_times == Some(true) => {
+    pub(super) fn read(table: &mut Section<'_, '_>) -> Option<Self> {
+        table.describes(None, units::UNKNOWN);
+        let written = table.whole(&ROWS, &RULES)?;
+        let number = |key| written.number(key);
+        let limit = number("at_most").map(GateLimit::AtMost).or(number("at_least").map(GateLimit::AtLeast))?;
+        let share = number("quantile").map(Statement::Quantile).or(number("fraction").map(Statement::Fraction));
+        let text = |key| written.text(key).map(str::to_owned);
+        let band = text("band").map(|series| BandSubject { series, from_s: number("from_s"), to_s: number("to_s") });
+        let subject = match band {
+            None => Subject::Observable(text("observable")?),
+            Some(band) if written.flag("at_all_times") => {
                 let is_highest = matches!(limit, GateLimit::AtMost(_));
+                let known = table.document.known.as_ref()?;
                 let (window, column) = known.window(&band.series, is_highest, [band.from_s, band.to_s])?;
                 Subject::AtAllTimes { band, window, column }
             }
-            other => other,
+            Some(band) => Subject::Band(band),
         };
-        let never_passed = !table.has("never") || never.is_some();
-        (confidence_passed && flag_passed && bounded_passed && never_passed).then_some(Requirement {
+        Some(Requirement {
             subject,
-            statement,
+            statement: share.unwrap_or(Statement::Mean),
             limit,
-            bounded,
-            never_meets: never == Some(1),
-            confidence,
+            bounded: written.numbers("bounded").and_then(|list| list.try_into().ok()),
+            never_meets: written.text("never") == Some(NEVER[1]),
+            confidence: number("confidence").unwrap_or(DEFAULT_CONFIDENCE),
         })
     }
 
@@ -206,105 +203,22 @@ impl Requirement {
         format!(" {which}{}{}", end("from", band.from_s), end("to", band.to_s))
     }
 
-    /// Writes the table.
-    pub(super) fn write(&self, lines: &mut Lines) {
-        lines.table("[[require]]");
-        match self.band() {
-            None => lines.key("observable", self.name()),
-            Some(band) => {
-                lines.key("band", &band.series);
-                let ends = INTERVAL.into_iter().zip([band.from_s, band.to_s]);
-                ends.filter_map(|(key, end)| Some((key, end?))).for_each(|(key, end)| lines.key(key, end));
-                lines.key("at_all_times", self.window().is_some());
-            }
-        }
-        match self.statement {
-            Statement::Quantile(quantile) => lines.key("quantile", quantile),
-            Statement::Fraction(fraction) => lines.key("fraction", fraction),
-            Statement::Mean => lines.key("mean", true),
-        }
-        match self.limit {
-            GateLimit::AtMost(limit) => lines.key("at_most", limit),
-            GateLimit::AtLeast(limit) => lines.key("at_least", limit),
-        }
-        if let Some([low, high]) = self.bounded {
-            lines.key("bounded", vec![low, high]);
-        }
-        if self.never_meets {
-            lines.key("never", NEVER[1]);
-        }
-        lines.key("confidence", self.confidence);
-    }
-}
-
-/// Between which values every value of a mean is known to be, if it was written; `has_unit`: the unit of the observable is known. What is wrong is noted.
-fn bounded(table: &mut Section<'_, '_>, statement: Option<Statement>, has_unit: bool) -> Option<[f64; 2]> {
-    if !has_unit {
-        table.know("bounded");
-        return None;
-    }
-    let list = table.numbers("bounded", table.unit_of("bounded"))?;
-    if statement != Some(Statement::Mean) {
-        let allowed = "left out without mean = true: shares and quantiles need no bounds";
-        table.refuse("bounded", allowed, "delete it");
-        return None;
-    }
-    match list[..] {
-        [low, high] if low < high => Some([low, high]),
-        _ => {
-            let allowed = "two numbers, the smaller one first: no run has a value outside of them";
-            table.refuse("bounded", allowed, "write it like [0.0, 1.0]");
-            None
-        }
-    }
-}
-
-/// What the table is about; `None` where that is wrong, which is then noted.
-fn subject(table: &mut Section<'_, '_>, known: &KnownColumns) -> Option<Subject> {
-    if one_of(table, SUBJECTS, "observable = \"energy_error_max\"")? == "observable" {
-        let found = observable(table, "observable", known);
-        let written: Vec<&str> = INTERVAL.into_iter().filter(|key| table.has(key)).collect();
-        for key in written {
-            table.refuse(key, "left out with `observable`, which is one number of a run", "delete it, or write `band`");
-        }
-        return found.map(Subject::Observable);
-    }
-    let ends = INTERVAL.map(|key| table.number(key, FINITE));
-    let name = table.text("band")?.to_owned();
-    if known.band(&name).is_none() {
-        let (allowed, remedy) = known.band_refusal(&name);
-        table.refuse("band", allowed, remedy);
-        return None;
-    }
-    let are_passed = INTERVAL.iter().zip(&ends).all(|(key, end)| !table.has(key) || end.is_some());
-    let [from_s, to_s] = ends;
-    are_passed.then_some(Subject::Band(BandSubject { series: name, from_s, to_s }))
-}
-
-/// The observable that `key` names; `None` where there is none, which is then noted.
-pub(super) fn observable(table: &mut Section<'_, '_>, key: &str, known: &KnownColumns) -> Option<String> {
-    let name = table.text(key)?;
-    if known.observable(name).is_none() {
-        let (allowed, remedy) = known.refusal(name);
-        table.refuse(key, allowed, remedy);
-        return None;
-    }
-    Some(name.to_owned())
-}
-
-/// The one of `keys` that was written; `None` where none was or several were, which is then noted.
-fn one_of<const N: usize>(table: &mut Section<'_, '_>, keys: [&'static str; N], example: &str) -> Option<&'static str> {
-    let written: Vec<&'static str> = keys.into_iter().filter(|key| table.has(key)).collect();
-    match written[..] {
-        [key] => Some(key),
-        [] => {
-            let (key, value) = example.split_once(" = ").unwrap_or((example, ""));
-            table.require(key, &format!("given (one of {})", keys.join(", ")), value);
-            None
-        }
-        [_, second, ..] => {
-            table.refuse(second, format!("the only one of {}", keys.join(", ")), "write a [[require]] table for each");
-            None
-        }
+    /// The value of a key, if canonical text has it.
+    pub(super) fn value(&self, key: &str) -> Option<Value> {
+        let band = self.band();
+        Some(match (key, self.statement, self.limit) {
+            ("observable", ..) if band.is_none() => self.name().into(),
+            ("band", ..) => band?.series.as_str().into(),
+            ("from_s", ..) => band?.from_s?.into(),
+            ("to_s", ..) => band?.to_s?.into(),
+            ("at_all_times", ..) => band.map(|_| self.window().is_some())?.into(),
+            ("quantile", Statement::Quantile(share), _) | ("fraction", Statement::Fraction(share), _) => share.into(),
+            ("mean", Statement::Mean, _) => true.into(),
+            ("at_most", _, GateLimit::AtMost(limit)) | ("at_least", _, GateLimit::AtLeast(limit)) => limit.into(),
+            ("bounded", ..) => self.bounded?.as_slice().into(),
+            ("never", ..) if self.never_meets => Value::Word(NEVER[1]),
+            ("confidence", ..) => self.confidence.into(),
+            _ => return None,
+        })
     }
 }

@@ -1,8 +1,7 @@
 //! The `[retain]` table: which runs keep their full time series. No row depends on it.
 
-use super::columns::KnownColumns;
-use super::lines::Lines;
 use super::section::{Section, choice};
+use crate::sampling::keys::{ANY_TEXT, Kind, Row};
 
 /// Which runs keep their full time series.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -29,21 +28,20 @@ pub enum Retention {
 const KEY: &str = "trajectories";
 /// What it may be.
 const ALLOWED: &str = "\"none\", \"all\", \"failed\", \"worst:20 by energy_error_max\" or \"sample:100\"";
+/// The keys of the table.
+pub const ROWS: [Row; 1] = [Row::new(
+    KEY,
+    Kind::Text(ANY_TEXT),
+    "Runs whose full time series are kept: `none` (default), `all`, `failed`, `worst:20 by energy_error_max`, `sample:100`",
+)];
 /// Most runs of `worst` and `sample`.
 const MOST: u64 = 1_000_000;
 
 impl Retention {
     /// Reads the table; `None` without the key, and where it is wrong, which is then noted.
-    pub(super) fn read(section: &mut Section<'_, '_>, known: &KnownColumns) -> Option<Self> {
-        let found = section.text(KEY).and_then(|text| parsed(section, text, known));
-        section.finish();
-        found
-    }
-
-    /// Writes the table.
-    pub(super) fn write(&self, lines: &mut Lines) {
-        lines.table("[retain]");
-        lines.key(KEY, self.text());
+    pub(super) fn read(section: &mut Section<'_, '_>) -> Option<Self> {
+        let written = section.whole(&ROWS, &[])?;
+        parsed(section, written.text(KEY)?)
     }
 
     /// As in a campaign file.
@@ -58,7 +56,7 @@ impl Retention {
     }
 }
 
-fn parsed(section: &mut Section<'_, '_>, text: &str, known: &KnownColumns) -> Option<Retention> {
+fn parsed(section: &mut Section<'_, '_>, text: &str) -> Option<Retention> {
     let text = text.trim();
     let (word, rest) = text.split_once(':').map_or((text, None), |(word, rest)| (word.trim(), Some(rest.trim())));
     match (word, rest) {
@@ -74,6 +72,7 @@ fn parsed(section: &mut Section<'_, '_>, text: &str, known: &KnownColumns) -> Op
                 section.refuse(KEY, ALLOWED, remedy);
                 return None;
             }
+            let known = section.document.known.as_ref()?;
             if known.observable(observable).is_none() {
                 let (allowed, remedy) = known.refusal(observable);
                 let value = format!("{text:?}");

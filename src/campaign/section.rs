@@ -20,6 +20,8 @@ pub struct Section<'d, 'a> {
     ignored: Vec<&'static str>,
     /// The unit of what the table describes and so of its distances, `std`, `min` and so on; `1` where there is none.
     pub(super) unit: &'static str,
+    /// The name of that, where people may see it in another unit.
+    pub(super) about: Option<String>,
     /// The unit of every number of the table, where all are of one kind.
     pub(super) every: Option<&'static str>,
 }
@@ -35,6 +37,7 @@ impl<'d, 'a> Section<'d, 'a> {
             known: Vec::new(),
             ignored: Vec::new(),
             unit: "1",
+            about: None,
             every: None,
         }
     }
@@ -123,6 +126,7 @@ impl<'d, 'a> Section<'d, 'a> {
             known: Vec::new(),
             ignored: Vec::new(),
             unit,
+            about: None,
             every: None,
         }
     }
@@ -153,6 +157,7 @@ impl<'d, 'a> Section<'d, 'a> {
                 known: Vec::new(),
                 ignored: Vec::new(),
                 unit: "1",
+                about: None,
                 every: None,
             };
             list.push(read(&mut section));

@@ -4,12 +4,12 @@
 use super::bands::{FEWEST_RUNS as FEWEST_BAND_RUNS, MOST_POINTS as MOST_BAND_POINTS};
 use super::chosen::MOST_CHOSEN;
 use super::compression::Compression;
-use super::description;
 use super::limits::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, TOLERANCE};
 use super::numbers::POSITIVE;
+use super::{analysis, derived_observable, description, display, event, requirement, retention, stop};
 use crate::observables::Group;
 use crate::propagation::Method;
-use crate::sampling::keys::{Kind, Row, TextLimit};
+use crate::sampling::keys::{Kind, Row, Rule, TextLimit};
 
 /// The names of all values of a type, in their order.
 macro_rules! names {
@@ -90,4 +90,16 @@ pub const TAIL: [(&str, &[Row]); 3] = [
             "How many dispersed runs, the first ones, these quantiles are of; default: 131072; all of a grid and other lists of samples"),
     ]),
     ("output", &[Row::new("compression", Kind::Word(&COMPRESSIONS), "Compression of the files of rows")]),
+];
+
+/// The tables of events, of what is made of the rows, and of what is kept of runs, with what their keys have to do with each other.
+pub const ANALYSIS: [(&str, &[Row], &[Rule]); 8] = [
+    ("[[event]]", &event::ROWS, &[]),
+    ("[[observable]]", &derived_observable::ROWS, &[]),
+    ("[statistics]", &analysis::STATISTICS, &[]),
+    ("[summary]", &analysis::SUMMARY, &[]),
+    ("[[require]]", &requirement::ROWS, &requirement::RULES),
+    ("[stop]", &stop::ROWS, &stop::RULES),
+    ("[display]", &display::ROWS, &[]),
+    ("[retain]", &retention::ROWS, &[]),
 ];

@@ -4,7 +4,7 @@
 //! NaN here and noted in the document. What is left out stays `None`: the plan fills it in.
 
 use super::analysis::Analysis;
-use super::columns::{KnownColumns, request};
+use super::columns::request;
 use super::document::Document;
 use super::event::Event;
 use super::retention::Retention;
@@ -94,9 +94,7 @@ impl Spec {
         let observed = with(&events);
         spec.events = events;
         spec.analysis = Analysis::read(&mut root, observed);
-        let mut known = KnownColumns::new(observed);
-        spec.analysis.derived.iter().for_each(|derived| known.add(derived.quantity()));
-        spec.retention = Retention::read(&mut root.section("retain"), &known);
+        spec.retention = Retention::read(&mut root.section("retain"));
         if root.document.is_loop_unknown {
             // which columns there are depends on the loop
             root.document.forget_since(noted);

@@ -1,11 +1,11 @@
 //! [`Stop`]: the `[stop]` table, when a campaign has enough samples.
 
-use super::columns::{KnownColumns, unit_of};
 use super::limits::{CONFIDENCE, MAX_SAMPLES, PROBABILITY};
-use super::lines::Lines;
 use super::numbers::POSITIVE;
-use super::requirement::{DEFAULT_CONFIDENCE, observable};
+use super::requirement::DEFAULT_CONFIDENCE;
 use super::section::Section;
+use super::units;
+use crate::sampling::keys::{Condition, Kind, Presence, Row, Rule, Value};
 use crate::statistics::looks::Goal;
 
 /// What ends a campaign.
@@ -31,75 +31,59 @@ pub struct Stop {
     pub max_samples: u64,
 }
 
-/// The names of [`When`].
-const NAMES: [&str; 2] = ["precise", "decided"];
-/// The keys of a goal.
-const GOAL: [&str; 4] = ["observable", "quantile", "half_width", "confidence"];
+/// The keys of the table; those between the first and the last one are of a goal.
+#[rustfmt::skip]
+pub const ROWS: [Row; 6] = [
+    Row::new("when", Kind::Word(&["precise", "decided"]), "What ends the campaign: that a quantile is known, or that no requirement is undecided"),
+    Row::new("observable", Kind::Observable, "The observable").required_as("the name of an observable", "\"energy_error_max\""),
+    Row::new("quantile", Kind::Number, "Which quantile of it").limited(PROBABILITY).required_as(PROBABILITY.allowed, "0.95"),
+    Row::new("half_width", Kind::Amount, "How narrow the interval of the quantile must be, in the unit of the observable")
+        .limited(POSITIVE).required_as(POSITIVE.allowed, "1e-12"),
+    Row::new("confidence", Kind::Number, "Confidence of the interval").limited(CONFIDENCE).or(Presence::Or(DEFAULT_CONFIDENCE)),
+    Row::new("max_samples", Kind::Count([2, MAX_SAMPLES]), "Most samples, sample 0 included")
+        .required_as("a whole number above campaign.samples", "100000"),
+];
+
+/// What a campaign that ends when its requirements are decided does not have.
+pub const RULES: [Rule; 1] = [Rule::Only {
+    keys: &["observable", "quantile", "half_width", "confidence"],
+    with: &[Condition::IsNot("when", "decided")],
+    allowed: "left out with when = \"decided\": the [[require]] tables say what is decided",
+    remedy: "delete it, or write when = \"precise\"",
+}];
 
 impl Stop {
     /// Reads the table; `None` where it was not written, or where something is wrong, which is then noted.
-    pub(super) fn read(table: &mut Section<'_, '_>, known: &KnownColumns) -> Option<Self> {
+    pub(super) fn read(table: &mut Section<'_, '_>) -> Option<Self> {
         if !table.is_present() {
             return None;
         }
-        let name = |text: &str| NAMES.into_iter().find(|name| *name == text);
-        let is_right = !table.has("when") || table.plain_text("when").is_some_and(|when| NAMES.contains(&when));
-        let name = table.name("when", &NAMES, name);
-        table.require("max_samples", "a whole number above campaign.samples", "100000");
-        let max_samples = table.count("max_samples", 2..=MAX_SAMPLES);
-        let when = if name == Some("decided") {
-            let written: Vec<&str> = GOAL.into_iter().filter(|key| table.has(key)).collect();
-            for key in &written {
-                let allowed = "left out with when = \"decided\": the [[require]] tables say what is decided";
-                table.refuse(key, allowed, "delete it, or write when = \"precise\"");
-            }
-            GOAL.into_iter().for_each(|key| table.know(key));
-            written.is_empty().then_some(When::Decided)
-        } else {
-            precise(table, known)
+        table.describes(None, units::UNKNOWN);
+        let rows = match table.plain_text("when") {
+            Some("decided") => vec![ROWS[0], ROWS[5]],
+            _ => ROWS.to_vec(),
         };
-        table.finish();
-        is_right.then_some(Stop { when: when?, max_samples: max_samples? })
+        let written = table.whole(&rows, &RULES)?;
+        let goal = |observable: &str| {
+            let confidence = written.number("confidence").unwrap_or(DEFAULT_CONFIDENCE);
+            let (quantile, half_width) = (written.number("quantile")?, written.number("half_width")?);
+            Some(When::Precise { observable: observable.to_owned(), goal: Goal { quantile, half_width, confidence } })
+        };
+        let when = written.text("observable").and_then(goal).unwrap_or(When::Decided);
+        Some(Stop { when, max_samples: written.count("max_samples")? })
     }
 
-    /// Writes the table.
-    pub(super) fn write(&self, lines: &mut Lines) {
-        lines.table("[stop]");
-        match &self.when {
-            When::Precise { observable, goal } => {
-                lines.key("when", "precise");
-                lines.key("observable", observable);
-                lines.key("quantile", goal.quantile);
-                lines.key("half_width", goal.half_width);
-                lines.key("confidence", goal.confidence);
-            }
-            When::Decided => lines.key("when", "decided"),
-        }
-        lines.key("max_samples", self.max_samples);
+    /// The value of a key, if canonical text has it.
+    pub(super) fn value(&self, key: &str) -> Option<Value> {
+        Some(match (key, &self.when) {
+            ("when", When::Precise { .. }) => Value::Word("precise"),
+            ("when", When::Decided) => Value::Word("decided"),
+            ("observable", When::Precise { observable, .. }) => observable.as_str().into(),
+            ("quantile", When::Precise { goal, .. }) => goal.quantile.into(),
+            ("half_width", When::Precise { goal, .. }) => goal.half_width.into(),
+            ("confidence", When::Precise { goal, .. }) => goal.confidence.into(),
+            ("max_samples", _) => self.max_samples.into(),
+            _ => return None,
+        })
     }
-}
-
-/// The goal of a precision; `None` where something is wrong, which is then noted.
-fn precise(table: &mut Section<'_, '_>, known: &KnownColumns) -> Option<When> {
-    for (key, allowed, example) in [
-        ("observable", "the name of an observable", "\"energy_error_max\""),
-        ("quantile", PROBABILITY.allowed, "0.95"),
-        ("half_width", POSITIVE.allowed, "1e-12"),
-    ] {
-        table.require(key, allowed, example);
-    }
-    let name = observable(table, "observable", known);
-    let quantile = table.number("quantile", PROBABILITY);
-    let confidence = table.number("confidence", CONFIDENCE);
-    let unit = name.as_deref().and_then(|name| known.observable(name)).map(unit_of);
-    if let Some(unit) = unit {
-        table.measures(unit);
-    }
-    // without its unit a width cannot be read
-    let half_width = unit.and_then(|_| table.number("half_width", POSITIVE));
-    table.know("half_width");
-    let confidence_passed = !table.has("confidence") || confidence.is_some();
-    let confidence = confidence.unwrap_or(DEFAULT_CONFIDENCE);
-    let goal = Goal { quantile: quantile?, half_width: half_width?, confidence };
-    confidence_passed.then_some(When::Precise { observable: name?, goal })
 }

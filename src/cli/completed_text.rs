@@ -17,7 +17,7 @@ pub fn text(completed: &Completed, replayed: &str, is_verbose: bool) -> String {
     let Completed { plan, summary, sensitivities, .. } = completed;
     let head = question(plan.description.as_deref()) + &headline(completed);
     let body = if is_verbose {
-        let drivers = drivers_text::text(plan, sensitivities);
+        let drivers = drivers_text::text(plan, sensitivities, width());
         summary.text(&drivers, replayed, width()) + &files(completed)
     } else {
         brief_text::text(plan, summary, sensitivities, replayed, width())

@@ -101,36 +101,31 @@ pub fn applied(plan: &Plan, sample: SampleId, with_mass: bool) -> String {
     let columns = plan.dispersions.columns();
     let mut draws = SceneDraws::new(plan);
     let scene = draws.scene(sample);
-    let mut lines: Vec<(String, f64, String)> = Vec::new();
+    let mut table = TextTable::new([("", Align::Left), ("", Align::Right), ("", Align::Left)]).spaced(0, 2);
     for (column, value) in columns.iter().zip(draws.applied()) {
         let nominal = format!("nominal {:?}", column.nominal);
-        lines.push((column.parameter.component_name(column.component), *value, nominal));
+        table.row([column.parameter.component_name(column.component), format!("{value:?}"), nominal]);
     }
     if let Some(scene) = scene.ok().filter(|_| with_mass) {
-        let names = MASS_COLUMNS.map(|[name, ..]| name.to_owned());
-        lines.extend(names.into_iter().zip(mass_properties(&scene)).map(|(name, value)| (name, value, String::new())));
+        let values = mass_properties(&scene);
+        MASS_COLUMNS
+            .iter()
+            .zip(values)
+            .for_each(|([name, ..], value)| table.row([(*name).to_owned(), format!("{value:?}")]));
     }
-    let width = lines.iter().map(|(name, ..)| name.len()).max().unwrap_or(0);
-    lines.iter().fold(String::new(), |mut text, (name, value, nominal)| {
-        let _ = writeln!(text, "{}", format!("{name:<width$}  {:>24}  {nominal}", format!("{value:?}")).trim_end());
-        text
-    })
+    table.text(usize::MAX)
 }
 
 /// The matrix that is used in place of one that no numbers have.
 pub fn nearest(replaced: &Replaced) -> String {
     let change = replaced.asked.iter().flatten().zip(replaced.used.iter().flatten());
     let largest = change.fold(0.0f64, |most, (asked, used)| most.max((asked - used).abs()));
-    let mut text = format!(
-        "nearest_psd: correlations of the normal scores changed by up to {}; used for {}:",
+    let mut table = TextTable::new(replaced.names.iter().map(|_| ("", Align::Right))).spaced(2, 1);
+    replaced.used.iter().for_each(|row| table.row(row.iter().map(|r| format!("{r:.6}"))));
+    format!(
+        "nearest_psd: correlations of the normal scores changed by up to {}; used for {}:\n{}",
         short(largest),
-        replaced.names.join(", ")
-    );
-    for row in &replaced.used {
-        let _ = write!(text, "\n ");
-        row.iter().for_each(|r| {
-            let _ = write!(text, " {r:>9.6}");
-        });
-    }
-    text
+        replaced.names.join(", "),
+        table.text(usize::MAX).trim_end()
+    )
 }

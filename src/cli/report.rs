@@ -22,6 +22,6 @@ pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {
     let Remade { path, size, question, end, noise } = remade(&session, &options.folder, figures, options.noise)?;
     let question = completed_text::question(question.as_deref());
     let verdict = end.verdict_line(&path);
-    screen::print(&format!("{question}{}{verdict} ({})\n", noise_text::lines(&noise), bytes(size)))?;
+    screen::print(&format!("{question}{}{verdict} ({})\n", noise_text::lines(&noise, screen::width()), bytes(size)))?;
     Ok(CommandOutcome::Done)
 }

@@ -5,6 +5,7 @@ use std::fmt::{Result, Write};
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{cross, difference, norm, product, scaled, sum};
 use crate::report::number::trimmed;
+use crate::report::text_table::{Align, TextTable};
 use crate::scene::mass::{Body, Wheel};
 use crate::scene::{MassProperties, Scene, SceneInput};
 
@@ -25,15 +26,15 @@ pub fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> R
     let debris = mass.debris.as_ref().map(|debris| ("debris".to_owned(), debris.mass));
     let body = [("body".to_owned(), mass.body.mass)];
     let all = body.into_iter().chain(wheels).chain([("spacecraft".to_owned(), mass.total)]).chain(debris);
-    for (body, mass) in all {
-        writeln!(text, "{body:<24}{:>14} kg", six(mass))?;
-    }
+    let mut table = TextTable::new([("", Align::Left), ("", Align::Right)]).spaced(0, 2);
+    all.for_each(|(body, mass)| table.row([body, format!("{} kg", six(mass))]));
+    text.push_str(&table.text(usize::MAX));
     writeln!(text, "centre of mass of the spacecraft, from p in F_s: {} m", vector(mass.center))?;
     let locked = if input.wheels.is_empty() { "" } else { ", wheels locked," };
     tensor(text, &format!("inertia of the spacecraft{locked} about its centre of mass"), mass.inertia)?;
     let (moments, axes) = principal_axes(mass.inertia);
     writeln!(text, "its principal moments {} kg m^2; principal axes in F_s, by columns:", vector(moments))?;
-    rows(text, axes)?;
+    rows(text, axes);
     if !mass.wheels.is_empty() {
         tensor(text, "the same minus the wheels' axial inertias (J*, wheels free)", mass.inertia_free)?;
         tensor(text, "inertia of the body about its own centre of mass", mass.body.inertia)?;
@@ -92,14 +93,14 @@ fn largest_part(input: &SceneInput, mass: &MassProperties) -> Option<(String, f6
 
 fn tensor(text: &mut String, name: &str, rows: [[f64; 3]; 3]) -> Result {
     writeln!(text, "{name}, kg m^2:")?;
-    self::rows(text, rows)
+    self::rows(text, rows);
+    Ok(())
 }
 
-fn rows(text: &mut String, rows: [[f64; 3]; 3]) -> Result {
-    rows.iter().try_for_each(|row| {
-        let [x, y, z] = row.map(six);
-        writeln!(text, "  {x:>14}{y:>14}{z:>14}")
-    })
+fn rows(text: &mut String, rows: [[f64; 3]; 3]) {
+    let mut table = TextTable::new([("", Align::Right); 3]);
+    rows.iter().for_each(|row| table.row(row.map(six)));
+    text.push_str(&table.text(usize::MAX));
 }
 
 #[cfg(test)]

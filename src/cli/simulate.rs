@@ -1,6 +1,5 @@
 //! `spindrift simulate`: one sample over time.
 
-use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::campaign::Plan;
@@ -15,6 +14,7 @@ use crate::report::image::{PlotError, PlotFormat};
 use crate::report::number::short;
 use crate::report::page::runs::GROUPS;
 use crate::report::simulation_figure::simulation_figure;
+use crate::report::text_table::{Align, TextTable};
 use crate::report::time_table::TimeTable;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
@@ -103,13 +103,14 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
     let columns = run.request.columns();
     let observed = columns.iter().zip(&found.observables).filter(|(_, error)| !error.is_nan());
     let errors = observed.map(|(column, error)| (column.quantity.name(), *error));
-    for (name, value) in lines {
-        let _ = writeln!(text, "{name:<40}{:>12}", short(value)); // writing to a String does not fail
-    }
-    let _ = writeln!(text, "\nnumerical error of");
-    for (name, error) in errors {
-        let _ = writeln!(text, "{name:<40}{:>12}", short(error));
-    }
+    let numbers = |lines: &mut dyn Iterator<Item = (&str, f64)>| {
+        let mut table = TextTable::new([("", Align::Left), ("", Align::Right)]);
+        lines.for_each(|(name, value)| table.row([name.to_owned(), short(value)]));
+        table.text(screen::width())
+    };
+    text += &numbers(&mut lines.into_iter());
+    text += "\nnumerical error of\n";
+    text += &numbers(&mut errors.into_iter());
     screen::print(&text)?;
     Ok(())
 }

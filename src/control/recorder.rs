@@ -2,12 +2,13 @@
 
 use super::control_loop::SAME_TIME;
 use super::estimate::Estimate;
-use super::estimators::Consistency;
 use super::estimators::kalman::NormalizedSquare;
+use super::estimators::{Consistency, ExpectedErrors};
 use super::flight_software::Commanded;
 use super::measurement::Measurement;
-use super::sensors::{Components, KINDS as SENSORS, MeasuredQuantity};
-use super::spec::{LoopSpec, SensorSpec};
+use super::sensors::{Components, KINDS as SENSORS};
+use super::spec::LoopSpec;
+use super::truth::DebrisState;
 use super::vector::difference;
 use crate::run::{Quantity, Telemetry};
 use crate::scene::MAX_WHEELS;
@@ -20,29 +21,22 @@ const WXYZ: &[&str] = &["w", "x", "y", "z"];
 #[derive(Debug)]
 pub struct Recorder {
     telemetry: Telemetry,
-    parts: Parts,
+    groups: Vec<Group>,
 }
 
-/// Which parts the loop has, and so which columns.
-#[derive(Clone, Debug)]
-struct Parts {
-    wheels: Vec<usize>,
-    thrusters: Vec<usize>,
-    rods: Vec<usize>,
-    has_debris: bool,
-    has_filter: bool,
-    has_camera: bool,
-    sensors: Vec<MeasuredColumns>,
+/// Columns that are recorded together.
+struct Group {
+    quantities: Vec<Quantity>,
+    /// Adds a value for each of them.
+    values: Values,
 }
 
-/// The columns of a sensor.
-#[derive(Clone, Debug)]
-struct MeasuredColumns {
-    /// In the names of its columns: its own name where a loop has several of its kind.
-    prefix: String,
-    quantities: &'static [MeasuredQuantity],
-    /// Its period, s.
-    period: f64,
+type Values = Box<dyn Fn(&Tick<'_>, &mut Vec<f64>) + Send + Sync>;
+
+impl std::fmt::Debug for Group {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Group").field(&self.quantities).finish()
+    }
 }
 
 /// What is recorded at a tick.
@@ -67,26 +61,10 @@ pub struct Tick<'a> {
 impl Recorder {
     /// Of a run under `spec`.
     pub fn new(spec: &LoopSpec) -> Self {
-        let columns = |sensor: &SensorSpec| {
-            let is_alone = spec.sensors.iter().filter(|other| other.kind == sensor.kind).count() == 1;
-            MeasuredColumns {
-                prefix: if is_alone { String::new() } else { format!("{}_", sensor.name) },
-                quantities: SENSORS[sensor.kind].quantities,
-                period: sensor.period,
-            }
-        };
-        let parts = Parts {
-            wheels: spec.wheels.clone(),
-            thrusters: spec.thrusters.clone(),
-            rods: spec.rods.clone(),
-            has_debris: spec.has_debris,
-            has_filter: spec.has_filter(),
-            has_camera: spec.has_camera(),
-            sensors: spec.sensors.iter().map(columns).collect(),
-        };
-        let quantities = parts.quantities(spec);
+        let groups = groups(spec);
+        let quantities = groups.iter().flat_map(|group| group.quantities.clone()).collect();
         let same = SAME_TIME * spec.period;
-        Recorder { telemetry: Telemetry { quantities, times: Vec::new(), rows: Vec::new(), same }, parts }
+        Recorder { telemetry: Telemetry { quantities, times: Vec::new(), rows: Vec::new(), same }, groups }
     }
 
     /// What was recorded.
@@ -96,174 +74,130 @@ impl Recorder {
 
     /// Records a control tick.
     pub fn tick(&mut self, tick: &Tick<'_>) {
-        let row = self.parts.row(tick);
-        assert_eq!(row.len(), self.telemetry.quantities.len(), "a value for each column");
+        let mut row = Vec::with_capacity(self.telemetry.quantities.len());
+        for group in &self.groups {
+            let end = row.len() + group.quantities.len();
+            (group.values)(tick, &mut row);
+            assert_eq!(row.len(), end, "a value for each column");
+        }
         self.telemetry.times.push(tick.time);
         self.telemetry.rows.push(row);
     }
 }
 
-impl Parts {
-    /// The columns, in the order of [`Parts::row`].
-    fn quantities(&self, spec: &LoopSpec) -> Vec<Quantity> {
-        let mut found = Vec::new();
-        let mut add = |name: &str, components: &[&str], unit: &str, suffix: &str, meaning: &str| {
-            for component in components {
-                let parts = [name, component, suffix].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>();
-                found.push(Quantity::named(parts.join("_"), unit.to_owned(), meaning.to_owned()));
-            }
+/// The columns of a loop, in their order, each group with its values.
+fn groups(spec: &LoopSpec) -> Vec<Group> {
+    let mut list = Vec::new();
+    let mut add = |name: &str, components: &[&str], [unit, suffix]: [&str; 2], meaning: &str, values: Values| {
+        let column = |component: &&str| {
+            let parts = [name, component, suffix].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>();
+            Quantity::named(parts.join("_"), unit.to_owned(), meaning.to_owned())
         };
-        add("phase", &[""], "", "", "Place of the phase of guidance.");
-        add(
-            "estimated_pointing_error",
-            &[""],
-            "rad",
-            "rad",
-            "Angle of the rotation from the estimated attitude to the target.",
-        );
-        add("estimated_q_es", WXYZ, "", "", "Estimated attitude quaternion, F_s -> F_e.");
-        add(
-            "estimated_omega_se_s",
-            XYZ,
-            "rad/s",
-            "rad_s",
-            "Estimated angular velocity of F_s relative to F_e, in F_s.",
-        );
-        add("estimated_gyro_bias_s", XYZ, "rad/s", "rad_s", "Estimated bias of the gyro, in F_s.");
-        let names: Vec<&str> = self.wheels.iter().map(|place| spec.wheel_names[*place].as_str()).collect();
-        add("estimated_rate", &names, "rad/s", "rad_s", "Estimated rate of this wheel relative to the body.");
-        if self.has_debris {
-            add(
-                "estimated_to_debris_e",
-                XYZ,
-                "m",
-                "m",
-                "Estimated position of the debris relative to the centre of mass, in F_e.",
-            );
-            add(
-                "estimated_relative_velocity_e",
-                XYZ,
-                "m/s",
-                "m_s",
-                "Estimated velocity relative to the debris, in F_e.",
-            );
-            add("estimated_q_ed", WXYZ, "", "", "Estimated attitude quaternion of the debris, F_d -> F_e.");
-            add(
-                "estimated_omega_de_d",
-                XYZ,
-                "rad/s",
-                "rad_s",
-                "Estimated angular velocity of the debris relative to F_e, in F_d.",
-            );
-        }
-        if self.has_filter {
-            let of = ["attitude", "motion"]
-                .into_iter()
-                .chain(self.has_debris.then_some("debris_motion"))
-                .chain(self.has_camera.then_some("debris"));
-            for of in of {
-                add(
-                    of,
-                    &["nees", "innovation_square"],
-                    "",
-                    "",
-                    "Normalised square of an estimation error, or of the innovation of this tick, over its degrees of freedom; null where there is none.",
-                );
-            }
-        }
-        if self.has_filter {
-            let relative =
-                [("relative_position_expected_error", "m", "m"), ("relative_velocity_expected_error", "m/s", "m_s")];
-            let own = [("attitude_expected_error", "rad", "rad"), ("rate_expected_error", "rad/s", "rad_s")];
-            let relative = relative.into_iter().filter(|_| self.has_debris);
-            for (name, unit, suffix) in own.into_iter().chain(relative) {
-                add(
-                    name,
-                    &[""],
-                    unit,
-                    suffix,
-                    "Root mean square of the magnitude of this estimation error by the filter's covariance: the root of the sum of three variances.",
-                );
-            }
-        }
-        for sensor in &self.sensors {
-            for quantity in sensor.quantities {
-                let components = match quantity.components {
-                    Components::Named(components) => components,
-                    Components::Wheels => &names,
-                };
-                let (name, [unit, suffix]) = (format!("{}{}", sensor.prefix, quantity.name), quantity.unit);
-                let meaning = format!("{}; null where none was delivered.", quantity.meaning);
-                add(&name, components, unit, suffix, &meaning);
-            }
-        }
-        add("commanded_torque", &names, "N m", "n_m", "Commanded torque of the motor of this wheel.");
-        let names: Vec<&str> = self.thrusters.iter().map(|place| spec.thruster_names[*place].as_str()).collect();
-        add("commanded_thrust", &names, "N", "n", "Commanded mean thrust of this thruster over the control period.");
-        let names: Vec<&str> = self.rods.iter().map(|place| spec.rod_names[*place].as_str()).collect();
-        add("commanded_dipole", &names, "A m^2", "a_m2", "Commanded dipole of this torque rod.");
-        found
+        list.push(Group { quantities: components.iter().map(column).collect(), values });
+    };
+    let one = |value: fn(&Tick<'_>) -> f64| -> Values { Box::new(move |tick, row| row.push(value(tick))) };
+    fn estimated<const N: usize>(value: fn(&Estimate) -> [f64; N]) -> Values {
+        Box::new(move |tick, row| row.extend(value(tick.estimate)))
     }
-
-    /// The values of a tick.
-    fn row(&self, tick: &Tick<'_>) -> Vec<f64> {
-        let estimate = tick.estimate;
-        let mut row = vec![tick.phase as f64, tick.pointing_error];
-        row.extend(estimate.q_es.iter().chain(&estimate.omega_se_s).chain(&estimate.gyro_bias_s));
-        row.extend(self.wheels.iter().map(|place| estimate.wheel_rates[*place]));
-        if self.has_debris {
-            match &estimate.debris {
-                Some(debris) => {
-                    row.extend(difference(debris.r_gdo_e, estimate.r_co_e));
-                    row.extend(difference(estimate.v_co_e, debris.v_gdo_e));
-                    row.extend(debris.q_ed.iter().chain(&debris.omega_de_d));
-                }
-                None => row.extend([f64::NAN; 13]),
-            }
-        }
-        if self.has_filter {
-            let of = tick.consistency;
-            let all = [
-                (true, [of.attitude, of.attitude_innovation]),
-                (true, [of.motion, of.motion_innovation]),
-                (self.has_debris, [of.debris_motion, of.debris_motion_innovation]),
-                (self.has_camera, [of.debris, of.debris_innovation]),
-            ];
-            let shown = all.into_iter().filter(|(is_shown, _)| *is_shown).flat_map(|(_, squares)| squares);
-            row.extend(shown.map(|square| square.map_or(f64::NAN, per_degree)));
-            let expected = of.expected;
-            let relative =
-                [expected.relative_position, expected.relative_velocity].into_iter().filter(|_| self.has_debris);
-            let all = [expected.attitude, expected.rate].into_iter().chain(relative);
-            row.extend(all.map(|error| error.unwrap_or(f64::NAN)));
-        }
-        self.measured(tick.measurements, &mut row);
-        let Commanded { motor_torque, thrust, dipoles } = tick.commanded;
-        row.extend(self.wheels.iter().map(|place| motor_torque[*place]));
-        row.extend(self.thrusters.iter().map(|place| thrust[*place]));
-        row.extend(self.rods.iter().map(|place| dipoles[*place]));
-        row
+    fn of_debris<const N: usize>(value: fn(&DebrisState, &Estimate) -> [f64; N]) -> Values {
+        let of =
+            move |estimate: &Estimate| estimate.debris.as_ref().map_or([f64::NAN; N], |debris| value(debris, estimate));
+        Box::new(move |tick, row| row.extend(of(tick.estimate)))
     }
-
-    /// The last measurement of each sensor.
-    fn measured(&self, measurements: &[Measurement], row: &mut Vec<f64>) {
-        for (place, sensor) in self.sensors.iter().enumerate() {
-            let last = measurements.iter().rev().find(|measurement| measurement.sensor == place);
-            let mut next = 0;
-            for quantity in sensor.quantities {
-                let places: Vec<usize> = match quantity.components {
-                    Components::Named(components) => (next..next + components.len()).collect(),
-                    Components::Wheels => self.wheels.iter().map(|wheel| next + wheel).collect(),
-                };
-                let interval = if quantity.is_over_period { sensor.period } else { 1.0 };
+    let rate = ["rad/s", "rad_s"];
+    let (wheels, thrusters) = (&spec.wheels, &spec.thrusters);
+    let wheel_names: Vec<&str> = wheels.iter().map(|place| spec.wheel_names[*place].as_str()).collect();
+    let thruster_names: Vec<&str> = thrusters.iter().map(|place| spec.thruster_names[*place].as_str()).collect();
+    add("phase", &[""], [""; 2], "Place of the phase of guidance.", one(|tick| tick.phase as f64));
+    let meaning = "Angle of the rotation from the estimated attitude to the target.";
+    add("estimated_pointing_error", &[""], ["rad"; 2], meaning, one(|tick| tick.pointing_error));
+    let meaning = "Estimated attitude quaternion, F_s -> F_e.";
+    add("estimated_q_es", WXYZ, [""; 2], meaning, estimated(|estimate| estimate.q_es));
+    let meaning = "Estimated angular velocity of F_s relative to F_e, in F_s.";
+    add("estimated_omega_se_s", XYZ, rate, meaning, estimated(|estimate| estimate.omega_se_s));
+    let meaning = "Estimated bias of the gyro, in F_s.";
+    add("estimated_gyro_bias_s", XYZ, rate, meaning, estimated(|estimate| estimate.gyro_bias_s));
+    let of_wheels = |value: fn(&Tick<'_>) -> [f64; MAX_WHEELS]| -> Values {
+        let wheels = wheels.clone();
+        Box::new(move |tick, row| row.extend(wheels.iter().map(|place| value(tick)[*place])))
+    };
+    let meaning = "Estimated rate of this wheel relative to the body.";
+    add("estimated_rate", &wheel_names, rate, meaning, of_wheels(|tick| tick.estimate.wheel_rates));
+    if spec.has_debris {
+        let meaning = "Estimated position of the debris relative to the centre of mass, in F_e.";
+        let value = of_debris(|debris, estimate| difference(debris.r_gdo_e, estimate.r_co_e));
+        add("estimated_to_debris_e", XYZ, ["m"; 2], meaning, value);
+        let meaning = "Estimated velocity relative to the debris, in F_e.";
+        let value = of_debris(|debris, estimate| difference(estimate.v_co_e, debris.v_gdo_e));
+        add("estimated_relative_velocity_e", XYZ, ["m/s", "m_s"], meaning, value);
+        let meaning = "Estimated attitude quaternion of the debris, F_d -> F_e.";
+        add("estimated_q_ed", WXYZ, [""; 2], meaning, of_debris(|debris, _| debris.q_ed));
+        let meaning = "Estimated angular velocity of the debris relative to F_e, in F_d.";
+        add("estimated_omega_de_d", XYZ, rate, meaning, of_debris(|debris, _| debris.omega_de_d));
+    }
+    if spec.has_filter() {
+        let meaning = "Normalised square of an estimation error, or of the innovation of this tick, over its degrees of freedom; null where there is none.";
+        type Squares = fn(&Consistency) -> [Option<NormalizedSquare>; 2];
+        let squares: [(&str, bool, Squares); 4] = [
+            ("attitude", true, |of| [of.attitude, of.attitude_innovation]),
+            ("motion", true, |of| [of.motion, of.motion_innovation]),
+            ("debris_motion", spec.has_debris, |of| [of.debris_motion, of.debris_motion_innovation]),
+            ("debris", spec.has_camera(), |of| [of.debris, of.debris_innovation]),
+        ];
+        for (name, _, of) in squares.into_iter().filter(|(_, is_there, _)| *is_there) {
+            let values: Values = Box::new(move |tick, row| {
+                row.extend(of(tick.consistency).map(|square| square.map_or(f64::NAN, per_degree)));
+            });
+            add(name, &["nees", "innovation_square"], [""; 2], meaning, values);
+        }
+        let meaning = "Root mean square of the magnitude of this estimation error by the filter's covariance: the root of the sum of three variances.";
+        type Error = fn(&ExpectedErrors) -> Option<f64>;
+        let errors: [(&str, bool, [&str; 2], Error); 4] = [
+            ("attitude", true, ["rad"; 2], |of| of.attitude),
+            ("rate", true, rate, |of| of.rate),
+            ("relative_position", spec.has_debris, ["m"; 2], |of| of.relative_position),
+            ("relative_velocity", spec.has_debris, ["m/s", "m_s"], |of| of.relative_velocity),
+        ];
+        for (name, _, unit, of) in errors.into_iter().filter(|(_, is_there, ..)| *is_there) {
+            let value: Values = Box::new(move |tick, row| row.push(of(&tick.consistency.expected).unwrap_or(f64::NAN)));
+            add(&format!("{name}_expected_error"), &[""], unit, meaning, value);
+        }
+    }
+    for (place, sensor) in spec.sensors.iter().enumerate() {
+        // its own name where a loop has several of its kind
+        let is_alone = spec.sensors.iter().filter(|other| other.kind == sensor.kind).count() == 1;
+        let prefix = if is_alone { String::new() } else { format!("{}_", sensor.name) };
+        let mut next = 0;
+        for quantity in SENSORS[sensor.kind].quantities {
+            let (components, places, width): (_, Vec<usize>, _) = match quantity.components {
+                Components::Named(list) => (list, (next..next + list.len()).collect(), list.len()),
+                Components::Wheels => (&wheel_names[..], wheels.iter().map(|wheel| next + wheel).collect(), MAX_WHEELS),
+            };
+            next += width;
+            let interval = if quantity.is_over_period { sensor.period } else { 1.0 };
+            // the last measurement of the sensor
+            let values: Values = Box::new(move |tick, row| {
+                let last = tick.measurements.iter().rev().find(|measurement| measurement.sensor == place);
                 row.extend(places.iter().map(|at| last.map_or(f64::NAN, |last| last.values[*at] / interval)));
-                next += match quantity.components {
-                    Components::Named(components) => components.len(),
-                    Components::Wheels => MAX_WHEELS,
-                };
-            }
+            });
+            let meaning = format!("{}; null where none was delivered.", quantity.meaning);
+            add(&format!("{prefix}{}", quantity.name), components, quantity.unit, &meaning, values);
         }
     }
+    let meaning = "Commanded torque of the motor of this wheel.";
+    add("commanded_torque", &wheel_names, ["N m", "n_m"], meaning, of_wheels(|tick| tick.commanded.motor_torque));
+    let places = thrusters.clone();
+    let values: Values =
+        Box::new(move |tick, row| row.extend(places.iter().map(|place| tick.commanded.thrust[*place])));
+    let meaning = "Commanded mean thrust of this thruster over the control period.";
+    add("commanded_thrust", &thruster_names, ["N", "n"], meaning, values);
+    let rod_names: Vec<&str> = spec.rods.iter().map(|place| spec.rod_names[*place].as_str()).collect();
+    let places = spec.rods.clone();
+    let values: Values =
+        Box::new(move |tick, row| row.extend(places.iter().map(|place| tick.commanded.dipoles[*place])));
+    let meaning = "Commanded dipole of this torque rod.";
+    add("commanded_dipole", &rod_names, ["A m^2", "a_m2"], meaning, values);
+    list
 }
 
 /// A normalised square over its degrees of freedom: 1 on average where a filter is right.

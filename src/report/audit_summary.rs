@@ -2,14 +2,13 @@
 //!
 //! CPU time is on the screen only: `summary.json` does not depend on the machine.
 
-use std::fmt::{self, Display, Formatter};
-
 use serde::Serialize;
 
 use crate::analysis::audit_tally::{AuditTally, Coverage, PROMISED_COVERAGE};
 use crate::ensemble::audit::AuditValue;
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use crate::report::number::short;
+use crate::report::text_table::{Align, TextTable};
 use crate::statistics::quantile::percent;
 use crate::statistics::spread::Spread;
 
@@ -113,12 +112,10 @@ impl Estimate {
 }
 
 impl Numerics {
-    /// Errors of the observable `index` among those with statistics, and the spread of its `values`; `None` where there are
-    /// no errors.
-    pub fn new(audits: &AuditTally, index: usize, values: &Spread) -> Option<Self> {
+    /// Errors of the observable `index` among those with statistics, beside the `spread` of its values; `None` where there are no errors.
+    pub fn new(audits: &AuditTally, index: usize, spread: f64) -> Option<Self> {
         let errors = &audits.observables[index];
         let p95 = errors.quantile(0.95)?;
-        let spread = values.quantile(0.95)? - values.quantile(0.05)?;
         Some(Numerics {
             count: errors.count(),
             median: errors.quantile(0.5),
@@ -189,25 +186,31 @@ pub fn cost([runs, audits]: [f64; 2]) -> String {
     format!("{} s of CPU time, {:.1}% of the total", short(audits), 100.0 * audits / (runs + audits).max(1e-9))
 }
 
-impl Display for AuditSummary {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let plain = self.audited - self.in_double_double;
-        write!(
-            f,
-            "  audit: {} runs compared with reference solutions, {} of them in double-double",
-            self.audited, self.in_double_double
-        )?;
+/// Numbers in four digits; `-` for none.
+pub(super) fn shorts<const N: usize>(values: [Option<f64>; N]) -> [String; N] {
+    values.map(|value| value.map_or("-".to_owned(), short))
+}
+
+impl AuditSummary {
+    /// The audits in lines of `width` characters.
+    pub fn text(&self, width: usize) -> String {
+        let (audited, plain) = (self.audited, self.audited - self.in_double_double);
+        let mut head = format!(
+            "  audit: {audited} runs compared with reference solutions, {} of them in double-double",
+            self.in_double_double
+        );
         if plain > 0 {
-            write!(f, ", {plain} too long for that, in plain doubles with tolerance 1e-16")?;
+            head += &format!(", {plain} too long for that, in plain doubles with tolerance 1e-16");
         }
         if self.failed > 0 {
-            write!(f, "; {} more did not reach their end", self.failed)?;
+            head += &format!("; {} more did not reach their end", self.failed);
         }
-        writeln!(f)?;
-        if self.audited == 0 {
-            return Ok(());
+        head.push('\n');
+        if audited == 0 {
+            return head;
         }
-        writeln!(f, "  {:<28}{:>12}{:>12}{:>12}{:>12}", "true error of the rotation", "median", "p95", "p99", "max")?;
+        let heads = ["median", "p95", "p99", "max"].map(|head| (head, Align::Right));
+        let mut table = TextTable::new([("true error of the rotation", Align::Title)].into_iter().chain(heads));
         let spacecraft = [
             (AuditValue::State, self.state_error),
             (AuditValue::Omega, self.omega_error),
@@ -215,15 +218,10 @@ impl Display for AuditSummary {
         ];
         let debris = self.debris_error.map(|errors| (AuditValue::Debris, errors));
         for (name, of) in spacecraft.into_iter().chain(debris) {
-            let name = name.quantity().name();
-            write!(f, "  {name:<28}")?;
-            for value in [of.median, of.p95, of.p99, of.max] {
-                write!(f, "{:>12}", value.map_or("-".to_owned(), short))?;
-            }
-            writeln!(f)?;
+            let name = [name.quantity().name().to_owned()];
+            table.row(name.into_iter().chain(shorts([of.median, of.p95, of.p99, of.max])));
         }
-        f.write_str(&self.coverage())?;
-        Ok(())
+        head + &table.text(width) + &self.coverage()
     }
 }
 
@@ -237,7 +235,7 @@ mod tests {
     fn every_selected_run_is_accounted_for() {
         let line = |audited: u64, in_double_double: u64, failed: u64| {
             let audits = AuditTally { audited, in_double_double, failed, ..AuditTally::default() };
-            AuditSummary::new(&audits, 0.5).to_string().lines().next().map(str::to_owned).unwrap_or_default()
+            AuditSummary::new(&audits, 0.5).text(200).lines().next().map(str::to_owned).unwrap_or_default()
         };
         let head = "  audit: 7 runs compared with reference solutions";
         let plain = "too long for that, in plain doubles with tolerance 1e-16";
@@ -266,12 +264,8 @@ mod tests {
         near(found.state_error.p95, 950.05);
         near(found.state_error.p99, 990.01);
         assert_eq!((found.state_error.max, found.estimate.coverage), (Some(1000.0), Some(0.75)));
-        let mut values = Spread::default();
-        (1..=100).for_each(|k| values.add(f64::from(k)));
-        let numerics = Numerics::new(&audits, 0, &values).expect("errors");
-        // of type 7: 95.05 - 5.95, each within the width of its bucket
-        assert!((numerics.spread / 89.1 - 1.0).abs() < 2.0 * RELATIVE_ERROR, "{}", numerics.spread);
-        near(numerics.share_of_spread, 950.05 / numerics.spread);
+        let numerics = Numerics::new(&audits, 0, 89.1).expect("errors");
+        near(numerics.share_of_spread, 950.05 / 89.1);
         assert_eq!(cost([3.0, 1.0]), format!("{} s of CPU time, 25.0% of the total", short(1.0)));
     }
 

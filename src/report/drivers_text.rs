@@ -8,6 +8,7 @@ use crate::campaign::{Plan, ShownUnit};
 use crate::report::names;
 use crate::report::number::{brief, outward, short};
 use crate::report::origin_text::unit_of;
+use crate::report::text_table::{Align, TextTable};
 use crate::sampling::Design;
 use crate::statistics::quantile::percent;
 
@@ -146,18 +147,17 @@ pub fn driven_by(plan: &Plan, all: &[InputSensitivity], outcome: &str) -> Vec<St
     ranked(plan, all, outcome).iter().map(|ranking| sentence(plan, outcome, ranking)).collect()
 }
 
-/// Lines for each outcome; nothing where no influence was estimated.
-pub fn text(plan: &Plan, all: &[InputSensitivity]) -> String {
-    let outcomes = outcomes(plan, all);
-    let width = outcomes.iter().map(|outcome| outcome.len()).max().unwrap_or(0);
-    let mut text = String::new();
+/// Lines of `width` characters for each outcome; nothing where no influence was estimated.
+pub fn text(plan: &Plan, all: &[InputSensitivity], width: usize) -> String {
+    let mut table = TextTable::new([("", Align::Left), ("", Align::Sentence)]);
     let mut has_rest = false;
-    for outcome in outcomes {
+    for outcome in outcomes(plan, all) {
         for ranking in &ranked(plan, all, outcome) {
-            text += &format!("  {outcome:<width$}  {}\n", sentence(plan, outcome, ranking));
+            table.row([outcome.to_owned(), sentence(plan, outcome, ranking)]);
             has_rest |= ranking.question == Question::Spread && rest(plan, ranking).is_some();
         }
     }
+    let mut text = table.text(width);
     if has_rest && !matches!(plan.design, Design::Saltelli(_)) {
         text += &format!("  {SEE_INTERACTIONS}\n");
     }

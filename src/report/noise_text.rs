@@ -2,6 +2,7 @@
 
 use crate::analysis::noise_share::NoiseShare;
 use crate::report::number::short;
+use crate::report::text_table::{Align, TextTable};
 
 /// The share of one outcome, without its name.
 pub fn words(one: &NoiseShare) -> String {
@@ -24,8 +25,9 @@ pub fn words(one: &NoiseShare) -> String {
     }
 }
 
-/// A line for each outcome.
-pub fn lines(all: &[NoiseShare]) -> String {
-    let width = all.iter().map(|one| one.observable.len()).max().unwrap_or(0);
-    all.iter().map(|one| format!("  {:<width$}  {}\n", one.observable, words(one))).collect()
+/// A line for each outcome, of lines of `width` characters.
+pub fn lines(all: &[NoiseShare], width: usize) -> String {
+    let mut table = TextTable::new([("", Align::Left), ("", Align::Sentence)]);
+    all.iter().for_each(|one| table.row([one.observable.clone(), words(one)]));
+    table.text(width)
 }

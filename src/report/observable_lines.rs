@@ -9,7 +9,8 @@ use crate::campaign::{Plan, ShownUnit};
 use crate::observables::Group;
 use crate::observables::headlines::headlines;
 use crate::report::audit_summary::Numerics;
-use crate::report::number::{outward, short};
+use crate::report::number::{brief, outward, short};
+use crate::report::text_table::{Align, TextTable};
 use crate::statistics::quantile::percent;
 
 /// A quantile of an observable.
@@ -107,6 +108,11 @@ impl ObservableLine {
         self.quantiles.iter().any(|one| one.interval != [None; 2])
     }
 
+    /// Whether one of the quantiles `ps` has.
+    fn has_interval_of(&self, ps: &[f64]) -> bool {
+        self.quantiles.iter().any(|one| ps.contains(&one.p) && one.interval != [None; 2])
+    }
+
     /// The share of runs with 1, where no run has another number than 0 and 1, and both may be.
     pub fn share_of_yes(&self) -> Option<f64> {
         let is_whole = |value: f64| value == 0.0 || value == 1.0;
@@ -155,49 +161,29 @@ fn shown(lines: &[&ObservableLine]) -> Vec<f64> {
     if usual.is_empty() { all[all.len().saturating_sub(SHOWN.len())..].to_vec() } else { usual }
 }
 
-/// Three significant digits, for the ends of intervals.
+/// The end of an interval, with a digit less where there is a power of ten; `?` for none.
 fn end(value: f64) -> String {
-    match value {
-        value if value.is_nan() => "?".to_owned(),
-        value if value == 0.0 || (0.01..1e5).contains(&value.abs()) => short(value),
-        value => format!("{value:.2e}"),
+    if value.is_nan() {
+        "?".to_owned()
+    } else {
+        Some(short(value)).filter(|text| !text.contains('e')).unwrap_or_else(|| brief(value))
     }
 }
-
-/// From this width on the name of an observable stands beside its numbers, and not above them.
-const WIDE: usize = 120;
-/// Width of a quantile with its interval, characters.
-const QUANTILE: usize = 22;
 
 /// `lines` as a table for lines of `width` characters: values, and below them the ends of their intervals; `title` is that
 /// of the first column.
 pub fn table(lines: &[&ObservableLine], title: &str, width: usize) -> String {
-    let unit =
-        |line: &ObservableLine| if line.shown.unit.is_empty() { "-".to_owned() } else { line.shown.unit.clone() };
-    let is_wide = width >= WIDE;
-    let names = lines.iter().map(|line| line.name.len()).chain([title.len()]).max().unwrap_or(0);
-    let first = if is_wide { names + 8 } else { 0 };
     let ps = shown(lines);
     let of_p = |p: &f64| if *p == 0.5 { "median".to_owned() } else { format!("p{}", percent(*p)) };
-    let cells = |texts: Vec<String>, last: &str| {
-        let cells: String = texts.iter().map(|text| format!("{text:>QUANTILE$}")).collect();
-        format!("{cells}{last:>12}").trim_end().to_owned() + "\n"
-    };
-    let heads = cells(ps.iter().map(of_p).collect(), "max");
-    let mut text = match is_wide {
-        true => format!("\n  {title:<names$}  {:>6}{heads}", "unit"),
-        false => format!("\n  {title}\n{heads}"),
-    };
+    let heads = ps.iter().map(of_p).chain(["max".to_owned()]).map(|head| (head, Align::Right));
+    let mut table = TextTable::new([(title.to_owned(), Align::Title)].into_iter().chain(heads));
     for line in lines {
         let quantiles: Vec<Option<&QuantileLine>> = ps.iter().map(|p| line.quantile(*p)).collect();
         let value = |value: Option<f64>| value.map_or("-".to_owned(), |value| short(line.shown.value(value)));
-        let values = quantiles.iter().map(|quantile| value(quantile.and_then(|one| one.value))).collect();
-        let values = cells(values, &value(line.max));
-        text += &match is_wide {
-            true => format!("  {:<names$}  {:>6}{values}", line.name, unit(line)),
-            false => format!("  {}, {}\n{values}", line.name, unit(line)).replace(", -\n", "\n"),
-        };
-        if quantiles.iter().flatten().any(|quantile| quantile.interval.iter().any(Option::is_some)) {
+        let unit = if line.shown.unit.is_empty() { String::new() } else { format!(", {}", line.shown.unit) };
+        let values = quantiles.iter().map(|quantile| value(quantile.and_then(|one| one.value)));
+        table.row([line.name.clone() + &unit].into_iter().chain(values).chain([value(line.max)]));
+        if line.has_interval_of(&ps) {
             let interval = |quantile: &Option<&QuantileLine>| {
                 let ends = quantile.map_or([None; 2], |quantile| quantile.interval);
                 let ends = ends.map(|end| line.shown.value(end.unwrap_or(f64::NAN)));
@@ -205,9 +191,10 @@ pub fn table(lines: &[&ObservableLine], title: &str, width: usize) -> String {
                 let [lower, upper] = outward(ends, digits).map(end);
                 format!("[{lower}, {upper}]")
             };
-            text += &format!("{:first$}  {}", "", cells(quantiles.iter().map(interval).collect(), ""));
+            table.row([String::new()].into_iter().chain(quantiles.iter().map(interval)));
         }
     }
+    let mut text = format!("\n{}", table.text(width));
     for p in ps {
         let notes = lines.iter().filter_map(|line| line.quantile(p).and_then(|quantile| quantile.note.as_ref()));
         if let Some(note) = notes.max_by_key(|note| note.len()) {

@@ -3,40 +3,53 @@
 use std::fmt::Write as _;
 
 use crate::ensemble::precision::{Deviation, Measurement, Setting, Skipped};
+use crate::report::number::{brief, significant};
+use crate::report::text_table::{Align, TextTable};
+
+/// The columns of [`line()`], with the widths of their numbers.
+const COLUMNS: [(&str, Align, usize); 10] = [
+    ("method", Align::Left, 17),
+    ("setting", Align::Right, 9),
+    ("us/run", Align::Right, 10),
+    ("runs/s", Align::Right, 11),
+    ("steps", Align::Right, 8),
+    ("rate", Align::Right, 9),
+    ("attitude", Align::Right, 9),
+    ("energy", Align::Right, 9),
+    ("momentum", Align::Right, 9),
+    ("notes", Align::Left, 0),
+];
+
+/// A table of which lines are shown one by one, as long as they are.
+fn table() -> TextTable {
+    let columns = COLUMNS.map(|(name, align, _)| (name, align));
+    TextTable::new(columns).at_least(&COLUMNS.map(|(.., width)| width)).spaced(0, 1)
+}
 
 /// The names of the columns of [`line()`].
 pub fn headline() -> String {
-    format!(
-        "{:<17} {:>9} {:>10} {:>11} {:>8} {:>9} {:>9} {:>9} {:>9}  {}\n",
-        "method", "setting", "us/run", "runs/s", "steps", "rate", "attitude", "energy", "momentum", "notes"
-    )
+    table().last(usize::MAX)
 }
 
 /// A measurement as a line, with its maximum errors.
-pub fn line(measurement: &Measurement) -> String {
-    let m = measurement;
-    let error = |of: Option<Deviation>| of.map_or("-".to_owned(), |error| format!("{:.1e}", error.max));
-    let mut line = format!(
-        "{:<17} {:>9} {:>10} {:>11} {:>8.0} {:>9} {:>9} {:>9} {:>9}",
-        m.method.name(),
+pub fn line(m: &Measurement) -> String {
+    let error = |of: Option<Deviation>| of.map_or("-".to_owned(), |error| significant(error.max, 2));
+    let failed = (m.runs[1] > 0).then(|| format!("{} of {} runs failed", m.runs[1], m.runs[0]));
+    let few = (m.repeats < 3).then(|| format!("{} repetition{}", m.repeats, if m.repeats == 1 { "" } else { "s" }));
+    let mut table = table();
+    table.row([
+        m.method.name().to_owned(),
         setting(m.setting),
-        significant(1e6 * m.cpu[0]),
-        significant(1.0 / m.cpu[0]),
-        m.steps,
+        brief(1e6 * m.cpu[0]),
+        brief(1.0 / m.cpu[0]),
+        format!("{:.0}", m.steps),
         error(m.rate),
         error(m.attitude),
         error(m.energy),
         error(m.momentum),
-    );
-    // writing to a String does not fail
-    if m.runs[1] > 0 {
-        let _ = write!(line, "  {} of {} runs failed", m.runs[1], m.runs[0]);
-    }
-    if m.repeats < 3 {
-        let _ = write!(line, "  {} repetition{}", m.repeats, if m.repeats == 1 { "" } else { "s" });
-    }
-    line.push('\n');
-    line
+        failed.into_iter().chain(few).collect::<Vec<_>>().join(", "),
+    ]);
+    table.last(usize::MAX)
 }
 
 /// The settings that were not measured, with the reason; empty where all were.
@@ -53,8 +66,8 @@ pub fn omissions(skipped: &[Skipped], limit: f64) -> String {
             "skipped: {} at {}: a pass over the samples would take {} s or more, the limit is {} s (--limit-s)",
             method.name(),
             settings.join(", "),
-            significant(predicted),
-            significant(limit),
+            brief(predicted),
+            brief(limit),
         );
     }
     text
@@ -68,24 +81,10 @@ fn setting(setting: Setting) -> String {
     }
 }
 
-/// A positive number in three significant digits, without an exponent.
-fn significant(value: f64) -> String {
-    if !(value > 0.0 && value.is_finite()) {
-        return format!("{value}");
-    }
-    let decimals = (2.0 - libm::floor(libm::log10(value))).clamp(0.0, 9.0) as usize;
-    format!("{value:.decimals$}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::propagation::Method;
-
-    #[test]
-    fn numbers_are_short() {
-        assert_eq!([0.012_34, 1.0, 123.4, 98_765.0].map(significant), ["0.0123", "1.00", "123", "98765"]);
-    }
 
     /// Law: a setting that is not measured is named with the reason.
     #[test]
@@ -93,7 +92,7 @@ mod tests {
         let skip = |setting| Skipped { method: Method::NullSpace, setting, predicted: 44.0 };
         let skipped = vec![skip(Setting::Tolerance(1e-11)), skip(Setting::Tolerance(1e-12))];
         let text = omissions(&skipped, 20.0);
-        assert!(text.contains("null_space at 1e-11, 1e-12") && text.contains("44.0 s"), "{text}");
+        assert!(text.contains("null_space at 1e-11, 1e-12") && text.contains("take 44 s"), "{text}");
         assert_eq!(omissions(&[], 20.0), "");
     }
 }

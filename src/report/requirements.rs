@@ -259,8 +259,8 @@ pub fn json(verdicts: &Verdicts) -> Value {
 /// gives the same bytes.
 pub fn junit(plan: &Plan, verdicts: &Verdicts, tally: &Tally, stop: Option<(bool, String)>) -> String {
     let name = escaped(&plan.name);
-    let failed = tally.failed();
-    let audit = tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction).broken_promises());
+    let failed = tally.statuses.runs() - tally.statuses.ok();
+    let audit = tally.audits.as_ref().map(|audits| AuditSummary::new(audits, plan.audit_fraction).broken_promises());
     let is_broken = audit.as_ref().is_some_and(|broken| !broken.is_empty());
     let is_missed = stop.as_ref().is_some_and(|(is_reached, _)| !is_reached);
     let (failures, errors) = (

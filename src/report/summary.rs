@@ -8,8 +8,9 @@ use crate::analysis::ending::Ending;
 use crate::analysis::missions::{MissionShare, Missions};
 use crate::analysis::outcomes::named;
 use crate::analysis::statistics::Statistics;
+use crate::analysis::statuses::{Ended, Statuses};
 use crate::analysis::stopping::{LookFound, Stopping};
-use crate::analysis::tally::{Ended, Tally, Worst};
+use crate::analysis::tally::{Tally, Worst};
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::Plan;
 use crate::ensemble::FailureReason;
@@ -20,6 +21,9 @@ use crate::run::Status;
 use crate::sampling::Replaced;
 use crate::storage::folder::IS_FINISHED;
 
+/// How many failed samples of each status are listed by number.
+pub(super) const LISTED: usize = 3;
+
 /// The statistics of a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
@@ -28,9 +32,7 @@ pub struct Summary {
     pub(super) samples: u64,
     pub(super) plan_hash: String,
     pub(super) without_nominal: bool,
-    pub(super) statuses: Vec<(&'static str, Ended)>,
-    /// Why runs failed, the most frequent first.
-    pub(super) reasons: Vec<FailureReason>,
+    pub(super) statuses: Statuses,
     pub(super) worst: Vec<Worst>,
     pub(super) lines: Vec<ObservableLine>,
     /// The observables that the file requires, names or derives.
@@ -56,20 +58,19 @@ impl Summary {
     /// The `statistics` and `verdicts` of the campaign `plan`, with the audits and the worst runs in `tally`.
     pub fn new(plan: &Plan, tally: &Tally, statistics: &Statistics, verdicts: Verdicts) -> Self {
         let numerics = |name: &str| {
-            let index = tally.headlines().iter().position(|headline| headline.quantity.name() == name)?;
-            Numerics::new(tally.audits()?, index, &tally.headlines()[index].spread)
+            let index = tally.headlines.iter().position(|headline| headline == name)?;
+            Numerics::new(tally.audits.as_ref()?, index, statistics.column(name)?.spread?)
         };
-        let audit = tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
+        let audit = tally.audits.as_ref().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
         Summary {
             warnings: Vec::new(),
             name: plan.name.clone(),
             seed: plan.seed,
             samples: plan.samples,
             plan_hash: plan.hash(),
-            statuses: Status::ALL.into_iter().map(|status| (status.name(), tally.ended(status).clone())).collect(),
-            reasons: tally.reasons().groups().into_iter().cloned().collect(),
-            without_nominal: tally.without_nominal(),
-            worst: tally.worst().to_vec(),
+            statuses: tally.statuses.clone(),
+            without_nominal: tally.without_nominal,
+            worst: tally.worst.clone(),
             lines: lines(plan, statistics, numerics),
             named: named(plan),
             columns: statistics.columns.len(),
@@ -107,15 +108,14 @@ impl Summary {
     /// The text of `summary.json`. Nothing in it depends on the machine or the clock.
     pub fn json(&self) -> String {
         let statuses: Map<String, Value> =
-            self.statuses.iter().map(|(name, ended)| ((*name).to_owned(), json!(ended.count))).collect();
-        let numbers = |ended: &Ended| ended.first.iter().map(|sample| sample.0).collect::<Vec<_>>();
-        let failed = self.statuses.iter().filter(|(name, ended)| ended.count > 0 && *name != Status::Done.name());
+            self.statuses.list().iter().map(|ended| (ended.status.name().to_owned(), json!(ended.count))).collect();
+        let numbers = |ended: &Ended| ended.first.iter().take(LISTED).map(|(sample, _)| sample.0).collect::<Vec<_>>();
         let first_failed: Map<String, Value> =
-            failed.map(|(name, ended)| ((*name).to_owned(), json!(numbers(ended)))).collect();
+            self.statuses.failed().map(|ended| (ended.status.name().to_owned(), json!(numbers(ended)))).collect();
         let reason = |one: &FailureReason| json!({ "status": one.status.name(), "count": one.count, "sample": one.first.0, "reason": one.text });
-        let reasons: Vec<Value> = self.reasons.iter().map(reason).collect();
+        let reasons: Vec<Value> = self.statuses.reasons().groups().into_iter().map(reason).collect();
         let runs = |worst: &Worst| -> Vec<Value> {
-            worst.runs.iter().map(|(sample, error)| json!({ "sample": sample.0, "error": error })).collect()
+            worst.list.runs.iter().map(|(sample, error)| json!({ "sample": sample.0, "error": error })).collect()
         };
         let worst: Map<String, Value> =
             self.worst.iter().map(|worst| (worst.name.replace(' ', "_"), json!(runs(worst)))).collect();

@@ -1,17 +1,15 @@
 //! A summary on the screen: the verdicts first, then what was found, then how well it was computed, with all that is known of it: what `--verbose` prints.
 
-use super::audit_summary::Numerics;
+use super::audit_summary::{Numerics, shorts};
 use super::number::short;
 use super::observable_lines::{ObservableLine, table};
-use super::summary::Summary;
+use super::summary::{LISTED, Summary};
+use super::text_table::{Align, TextTable};
 use super::wrapped::wrapped;
 use super::{failure_text, mission_text, requirements, warnings};
 use crate::analysis::assessment::Assessment;
 use crate::analysis::outcomes::OF_MOTION;
-use crate::analysis::tally::Ended;
-use crate::ensemble::FailureReason;
-use crate::run::Status;
-use crate::sampling::SampleId;
+use crate::analysis::statuses::Ended;
 
 /// Most observables in the table beside those that the file names.
 const MOST_MAIN: usize = 6;
@@ -28,11 +26,6 @@ const ERRORS: [(&str, &str); 4] = [
     ("state_error_estimate", "estimated error of the state"),
 ];
 
-/// Numbers of samples, separated by commas.
-fn numbers(samples: &[SampleId]) -> String {
-    samples.iter().map(SampleId::to_string).collect::<Vec<_>>().join(", ")
-}
-
 impl Summary {
     /// The text for lines of `width` characters. `drivers` are what drives the outcomes, `file` is the campaign as a word of the commands that
     /// show a run.
@@ -47,20 +40,19 @@ impl Summary {
         text += &self.found(width);
         text += &wrapped(&self.brackets(), width);
         text += &wrapped(drivers, width);
-        text += &wrapped(&self.numerics(), width);
+        text += &wrapped(&self.numerics(width), width);
         // commands stay whole, to be copied
         text + &self.replay(file)
     }
 
     /// Whether a run was computed.
     pub(super) fn is_computed(&self) -> bool {
-        self.statuses.iter().any(|(name, ended)| *name == Status::Done.name() && ended.count > 0)
+        self.statuses.ok() > 0
     }
 
     /// How the runs ended, where not all were computed.
     pub(super) fn failures(&self) -> String {
-        let is_failed = |(name, ended): &(&str, Ended)| ended.count > 0 && *name != Status::Done.name();
-        if self.statuses.iter().any(is_failed) { self.ended() } else { String::new() }
+        if self.statuses.failed().next().is_some() { self.ended() } else { String::new() }
     }
 
     /// The observables that the file requires, names or derives; those of the motion where it does none of that.
@@ -73,10 +65,7 @@ impl Summary {
 
     /// How the runs ended.
     fn ended(&self) -> String {
-        let ok = Status::Done.name();
-        let (runs, good) = self.statuses.iter().fold((0, 0), |(runs, good), (name, ended)| {
-            (runs + ended.count, if *name == ok { ended.count } else { good })
-        });
+        let (runs, good) = (self.statuses.runs(), self.statuses.ok());
         if runs == good {
             return if runs == 1 {
                 "\n  the run was computed\n".to_owned()
@@ -85,12 +74,13 @@ impl Summary {
             };
         }
         let mut text = format!("\n  {good} of {runs} runs were computed\n");
-        for (name, ended) in self.statuses.iter().filter(|(name, ended)| ended.count > 0 && *name != ok) {
-            let more = if ended.count > ended.first.len() as u64 { ", ..." } else { "" };
-            text += &format!("  {name:<16}{:>12}   samples {}{more}\n", ended.count, numbers(&ended.first));
+        for Ended { status, count, first, .. } in self.statuses.failed() {
+            let listed: Vec<String> = first.iter().take(LISTED).map(|(sample, _)| sample.to_string()).collect();
+            let more = if *count > listed.len() as u64 { ", ..." } else { "" };
+            text += &format!("  {:<16}{count:>12}   samples {}{more}\n", status.name(), listed.join(", "));
         }
-        if !self.reasons.is_empty() {
-            let groups: Vec<&FailureReason> = self.reasons.iter().collect();
+        let groups = self.statuses.reasons().groups();
+        if !groups.is_empty() {
             text += &format!("  why runs failed:\n{}", failure_text::text(&groups));
         }
         text
@@ -149,7 +139,7 @@ impl Summary {
     }
 
     /// How well it was computed: a sentence, and the audits.
-    fn numerics(&self) -> String {
+    fn numerics(&self, width: usize) -> String {
         let largest = |(name, of): &(&str, &str)| {
             let line = self.lines.iter().find(|line| line.name == *name)?;
             Some(format!("{of} {}", short(line.max?)))
@@ -160,34 +150,30 @@ impl Summary {
             text += &format!("\n  largest errors, relative: {}\n", errors.join(", "));
         }
         let Some(audit) = &self.audit else { return text };
-        text += &format!("\n{audit}");
+        text += &format!("\n{}", audit.text(width));
         let shown = self.shown();
         let audited: Vec<(&&ObservableLine, &Numerics)> =
             shown.iter().filter_map(|line| Some((line, line.numerical_error.as_ref()?))).collect();
         if audited.is_empty() {
             return text;
         }
-        let width = audited.iter().map(|(line, _)| line.name.len()).max().unwrap_or(0);
-        text += &format!(
-            "\n  numerical error, and how much of the spread (p95 - p5) it is\n  {:<width$}  {:>6}{:>12}{:>12}{:>12}{:>12}\n",
-            "", "unit", "median", "p95", "max", "share"
-        );
+        text += "\n  numerical error, and how much of the spread (p95 - p5) it is\n";
+        let heads = ["unit", "median", "p95", "max", "share"].map(|head| (head, Align::Right));
+        let mut table = TextTable::new([("", Align::Title)].into_iter().chain(heads));
         for (line, numerics) in audited {
             let unit = if line.unit.is_empty() { "-" } else { &line.unit };
-            text += &format!("  {:<width$}  {unit:>6}", line.name);
-            for value in [numerics.median, numerics.p95, numerics.max, numerics.share_of_spread] {
-                text += &format!("{:>12}", value.map_or("-".to_owned(), short));
-            }
-            text.push('\n');
+            let values = shorts([numerics.median, numerics.p95, numerics.max, numerics.share_of_spread]);
+            table.row([line.name.clone(), unit.to_owned()].into_iter().chain(values));
         }
-        text
+        text + &table.text(width)
     }
 
     /// The runs with the greatest errors and the first that failed, with the command that shows one; `file` is the campaign as
     /// a word of that command. Empty where there are none.
     fn replay(&self, file: &str) -> String {
         let mut text = String::new();
-        let worst = self.worst.iter().filter_map(|worst| Some((format!("worst {}", worst.name), worst.runs.first()?)));
+        let worst =
+            self.worst.iter().filter_map(|worst| Some((format!("worst {}", worst.name), worst.list.runs.first()?)));
         for (why, (sample, error)) in worst {
             text += &format!("  {why} {}: spindrift simulate {file} --sample {sample}\n", short(*error));
         }
@@ -197,12 +183,11 @@ impl Summary {
 
     /// The first run with each status that is not `ok`, with the command that shows it.
     pub(super) fn first_failures(&self, file: &str) -> String {
-        let failed = self.statuses.iter().filter(|(name, _)| *name != Status::Done.name());
-        let line = |(name, ended): &(&str, Ended)| {
-            let sample = ended.first.first()?;
-            Some(format!("  the first {name}: spindrift simulate {file} --sample {sample}\n"))
+        let line = |ended: &Ended| {
+            let (sample, _) = ended.first.first()?;
+            Some(format!("  the first {}: spindrift simulate {file} --sample {sample}\n", ended.status.name()))
         };
-        failed.filter_map(line).collect()
+        self.statuses.failed().filter_map(line).collect()
     }
 }
 
@@ -212,12 +197,20 @@ const EVERY_RUN_IS_OK: &str = "every run was computed";
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::population::Population;
+    use crate::analysis::statuses::Statuses;
     use crate::analysis::verdicts::Verdicts;
     use crate::campaign::ShownUnit;
+    use crate::run::Status;
+    use crate::sampling::SampleId;
 
     /// Five runs are ok and eight are not, without observables.
     fn summary() -> Summary {
-        let ended = |count: u64, first: &[u64]| Ended { count, first: first.iter().map(|id| SampleId(*id)).collect() };
+        let mut statuses = Statuses::none(Population::Independent);
+        let ended = [(Status::Done, 5..10), (Status::StepLimit, 3..5), (Status::Inaccurate, 10..16)];
+        for (status, samples) in ended {
+            samples.for_each(|sample| statuses.add(SampleId(sample), status, ""));
+        }
         Summary {
             missions: Vec::new(),
             warnings: Vec::new(),
@@ -226,13 +219,7 @@ mod tests {
             samples: 13,
             plan_hash: String::new(),
             without_nominal: true,
-            statuses: vec![
-                (Status::Done.name(), ended(5, &[])),
-                (Status::StepLimit.name(), ended(2, &[3, 4])),
-                (Status::NonFinite.name(), ended(0, &[])),
-                (Status::Inaccurate.name(), ended(6, &[5, 6])),
-            ],
-            reasons: Vec::new(),
+            statuses,
             worst: Vec::new(),
             lines: Vec::new(),
             named: Vec::new(),
@@ -253,11 +240,11 @@ mod tests {
     fn statuses_are_counted_and_failures_named() {
         let summary = summary();
         let lines = ["  5 of 13 runs were computed", "  step_limit                 2   samples 3, 4"];
-        let more = "  inaccurate                 6   samples 5, 6, ...";
+        let more = "  inaccurate                 6   samples 10, 11, 12, ...";
         assert_eq!(summary.ended(), format!("\n{}\n{}\n{more}\n", lines[0], lines[1]));
         // the command that shows the first of each
         let text = summary.text("", "plan.toml", 100);
-        for (status, sample) in [("step_limit", 3), ("inaccurate", 5)] {
+        for (status, sample) in [("step_limit", 3), ("inaccurate", 10)] {
             assert!(
                 text.contains(&format!("the first {status}: spindrift simulate plan.toml --sample {sample}\n")),
                 "{text}"

@@ -8,6 +8,8 @@ use crate::report::wrapped::wrapped;
 pub enum Align {
     /// At the left: names. Shortened in their middle where the lines are too narrow.
     Left,
+    /// At the left, the first column: names, on lines of their own above the other cells where the lines are too narrow.
+    Title,
     /// At the right: numbers.
     Right,
     /// At the left, the last column: sentences, broken into lines in their column, or below the other cells where that is too narrow.
@@ -29,6 +31,10 @@ pub struct TextTable {
     aligns: Vec<Align>,
     /// The heads are the first row; none where all are empty.
     rows: Vec<Vec<String>>,
+    /// What each column is wide at least.
+    least: Vec<usize>,
+    /// Blank characters before each line, and between columns.
+    gaps: [usize; 2],
 }
 
 impl TextTable {
@@ -36,7 +42,20 @@ impl TextTable {
     pub fn new<H: Into<String>>(columns: impl IntoIterator<Item = (H, Align)>) -> Self {
         let (heads, aligns): (Vec<String>, Vec<Align>) =
             columns.into_iter().map(|(head, align)| (head.into(), align)).unzip();
-        TextTable { aligns, rows: vec![heads] }
+        TextTable { least: vec![0; aligns.len()], aligns, rows: vec![heads], gaps: [GAP; 2] }
+    }
+
+    /// The same table with these blank characters before each line and between columns.
+    #[must_use]
+    pub fn spaced(self, before: usize, between: usize) -> Self {
+        TextTable { gaps: [before, between], ..self }
+    }
+
+    /// The same table, whose columns are this wide at least: of lines that are shown one by one.
+    #[must_use]
+    pub fn at_least(mut self, widths: &[usize]) -> Self {
+        self.least.iter_mut().zip(widths).for_each(|(least, width)| *least = *width);
+        self
     }
 
     /// Adds a row; cells that are not given are empty.
@@ -46,39 +65,68 @@ impl TextTable {
         self.rows.push(cells);
     }
 
+    /// What a column is wide where nothing is shortened.
+    fn widest(&self, column: usize) -> usize {
+        self.rows.iter().map(|row| letters(&row[column])).fold(self.least[column], usize::max)
+    }
+
+    /// Number of characters of lines with columns of these widths.
+    fn used(&self, widths: &[usize]) -> usize {
+        let [before, between] = self.gaps;
+        before + widths.iter().sum::<usize>() + between * widths.len().saturating_sub(1)
+    }
+
     /// Number of characters of its lines where nothing is shortened or broken.
     pub fn width(&self) -> usize {
-        let widest = |column: usize| self.rows.iter().map(|row| letters(&row[column])).max().unwrap_or(0);
-        (0..self.aligns.len()).map(|column| widest(column) + GAP).sum()
+        self.used(&(0..self.aligns.len()).map(|column| self.widest(column)).collect::<Vec<_>>())
     }
 
     /// The lines, none longer than `width` characters where that can be.
     pub fn text(&self, width: usize) -> String {
+        self.lines(width).concat()
+    }
+
+    /// The lines of the last row.
+    pub fn last(&self, width: usize) -> String {
+        self.lines(width).pop().unwrap_or_default()
+    }
+
+    /// The lines of each row; none of heads that are empty.
+    fn lines(&self, width: usize) -> Vec<String> {
+        let [before, between] = self.gaps;
         let has_sentences = self.aligns.last() == Some(&Align::Sentence);
         let count = self.aligns.len() - usize::from(has_sentences);
-        let mut widths: Vec<usize> =
-            (0..count).map(|column| self.rows.iter().map(|row| letters(&row[column])).max().unwrap_or(0)).collect();
-        let used = |widths: &[usize]| widths.iter().map(|width| width + GAP).sum::<usize>();
+        let mut widths: Vec<usize> = (0..count).map(|column| self.widest(column)).collect();
+        let is_above = self.aligns.first() == Some(&Align::Title) && self.used(&widths) > width;
+        if is_above {
+            widths[0] = 0;
+        }
         let sentences = self.rows.iter().map(|row| row.last().map_or(0, |cell| letters(cell))).max().unwrap_or(0);
-        let room = width.saturating_sub(used(&widths) + GAP);
+        let room = width.saturating_sub(self.used(&widths) + between);
         let is_below = has_sentences && room < sentences.min(LEAST_SENTENCE);
-        let excess = used(&widths).saturating_sub(width);
+        let excess = self.used(&widths).saturating_sub(width);
         let widest =
             (0..count).filter(|column| self.aligns[*column] == Align::Left).max_by_key(|column| widths[*column]);
         if let Some(widest) = widest {
             widths[widest] = widths[widest].min(widths[widest].saturating_sub(excess).max(LEAST_NAME));
         }
-        let mut text = String::new();
+        let mut lines = Vec::with_capacity(self.rows.len());
         for (index, row) in self.rows.iter().enumerate() {
             let is_head = index == 0;
             if is_head && row.iter().all(String::is_empty) {
                 continue;
             }
-            let mut line = String::new();
-            for ((cell, width), align) in row.iter().zip(&widths).zip(&self.aligns) {
+            let (mut text, mut line) = (String::new(), " ".repeat(before));
+            for (column, ((cell, width), align)) in row.iter().zip(&widths).zip(&self.aligns).enumerate() {
+                if column == 0 && is_above {
+                    if !cell.is_empty() {
+                        text += &format!("{line}{cell}\n");
+                    }
+                    continue;
+                }
                 let cell = fitted(cell, *width, letters);
                 let space = " ".repeat(width - letters(&cell));
-                line += "  ";
+                line += &" ".repeat(if column == 0 { 0 } else { between });
                 line += &if *align == Align::Right { space + &cell } else { cell + &space };
             }
             let sentence = row.last().filter(|_| has_sentences).map_or("", String::as_str);
@@ -91,14 +139,16 @@ impl TextTable {
                     text += &wrapped(&format!("{:BELOW$}{sentence}\n", ""), width);
                 }
             } else {
-                let begin = letters(&line) + GAP;
-                let lines = wrapped(sentence, width.saturating_sub(begin).max(LEAST_SENTENCE));
+                let begin = letters(&line) + between;
+                let said = wrapped(sentence, width.saturating_sub(begin).max(LEAST_SENTENCE));
                 let hanging = format!("\n{:begin$}", "");
-                text += format!("{line}  {}", lines.split("\n  ").collect::<Vec<_>>().join(&hanging)).trim_end();
+                let said = said.split("\n  ").collect::<Vec<_>>().join(&hanging);
+                text += format!("{line}{:between$}{said}", "").trim_end();
                 text.push('\n');
             }
+            lines.push(text);
         }
-        text
+        lines
     }
 }
 
@@ -146,6 +196,40 @@ mod tests {
         let narrow = table().text(40);
         assert_eq!(narrow.matches("normal about").count(), 1, "{narrow}");
         assert!(narrow.lines().any(|line| line.trim() == "uniform"), "{narrow}");
+    }
+
+    /// Law: a title stands beside its numbers, and above them where the lines are too narrow; rows without one have no such line.
+    #[test]
+    fn titles_stand_above_where_lines_are_narrow() {
+        let mut table = TextTable::new([("outcome", Align::Title), ("median", Align::Right)]);
+        table.row(["angular_rate_final_rad_s", "1.5"]);
+        table.row(["", "[1.4, 1.6]"]);
+        assert_eq!(
+            table.text(38).lines().collect::<Vec<_>>(),
+            [
+                "  outcome                       median",
+                "  angular_rate_final_rad_s         1.5",
+                "                            [1.4, 1.6]",
+            ]
+        );
+        let narrow = table.text(37);
+        let lines: Vec<&str> = narrow.lines().map(str::trim_start).collect();
+        assert_eq!(lines, ["outcome", "median", "angular_rate_final_rad_s", "1.5", "[1.4, 1.6]"], "{narrow}");
+        assert!(narrow.lines().all(|line| letters(line) <= 28), "{narrow}");
+    }
+
+    /// Law: lines that are shown one by one stand below each other as those of the whole table do.
+    #[test]
+    fn single_lines_are_those_of_the_table() {
+        let new = || TextTable::new([("a", Align::Left), ("b", Align::Right)]).at_least(&[6, 8]).spaced(0, 1);
+        let (mut all, mut shown) = (new(), new().last(80));
+        for cells in [["one", "1"], ["three", "-12.5"]] {
+            all.row(cells);
+            let mut one = new();
+            one.row(cells);
+            shown += &one.last(80);
+        }
+        assert_eq!((all.text(80), shown.lines().last()), (shown.clone(), Some("three     -12.5")));
     }
 
     /// Law: a name is cut in its middle; a table without heads has no line for them.

@@ -1,13 +1,13 @@
 //! [`TimeTable`]: the main states of one run at some of its points, as text that fits a terminal.
 
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
 
 use crate::campaign::Plan;
 use crate::observables::Series;
 use crate::report::fitted_text::fitted;
-use crate::report::number::short;
+use crate::report::number::{short, significant};
 use crate::report::over_time::figure_list::{ListedFigure, Place, Shows, Traits, figures_of};
+use crate::report::text_table::{Align, TextTable};
 use crate::run::StateField;
 use crate::scene::Name;
 use crate::storage::timeseries::{TimeColumn, TimeSeries};
@@ -112,32 +112,25 @@ impl TimeTable {
         TimeTable::of(main, wheels.collect(), points.len(), width)
     }
 
-    fn of(mut main: Vec<TimeTableColumn>, mut wheels: Vec<TimeTableColumn>, points: usize, width: usize) -> Self {
+    fn of(main: Vec<TimeTableColumn>, mut wheels: Vec<TimeTableColumn>, points: usize, width: usize) -> Self {
         let names = wheels.iter().map(|wheel| wheel.name.clone()).collect::<Vec<_>>();
         let headers = distinct(&names.iter().map(|name| format!("rate {name}")).collect::<Vec<_>>());
         wheels.iter_mut().zip(headers).for_each(|(wheel, header)| wheel.name = header);
-        let mut used = 0;
-        let mut fits = |column: &TimeTableColumn| {
-            used += column.width() + usize::from(used > 0);
-            used <= width
+        let table = |columns: &[&TimeTableColumn]| {
+            let mut table =
+                TextTable::new(columns.iter().map(|column| (column.name.as_str(), Align::Right))).spaced(0, 1);
+            table.row(columns.iter().map(|column| column.below));
+            (0..points).for_each(|point| table.row(columns.iter().map(|column| column.cells[point].as_str())));
+            table
         };
-        // the time is always shown
-        let shown_main = main.iter().take_while(|column| fits(column)).count().max(1).min(main.len());
-        let shown_wheels = wheels.iter().take_while(|column| fits(column)).count();
-        let mut left_out: Vec<String> = main.drain(shown_main..).map(|column| column.title()).collect();
-        left_out.extend(of_wheels(&names[shown_wheels..], names.len()));
-        wheels.truncate(shown_wheels);
-        let columns: Vec<TimeTableColumn> = main.into_iter().chain(wheels).collect();
-        let mut text = String::new();
-        let mut line = |cell: &dyn Fn(&TimeTableColumn) -> String| {
-            let cells: Vec<String> =
-                columns.iter().map(|column| format!("{:>width$}", cell(column), width = column.width())).collect();
-            let _ = writeln!(text, "{}", cells.join(" ")); // writing to a String does not fail
-        };
-        line(&|column| column.name.clone());
-        line(&|column| column.below.to_owned());
-        (0..points).for_each(|point| line(&|column| column.cells[point].clone()));
-        TimeTable { text, points, left_out: left_out.join(", ") }
+        let of_main = main.len();
+        let all: Vec<&TimeTableColumn> = main.iter().chain(&wheels).collect();
+        // the time is always shown, and wheels where all others are
+        let fits = |count: &usize| table(&all[..*count]).width() <= width;
+        let shown = (1..=all.len()).take_while(fits).last().unwrap_or(1).min(all.len());
+        let mut left_out: Vec<String> = all[shown.min(of_main)..of_main].iter().map(|column| column.title()).collect();
+        left_out.extend(of_wheels(&names[shown.saturating_sub(of_main)..], names.len()));
+        TimeTable { text: table(&all[..shown]).text(width), points, left_out: left_out.join(", ") }
     }
 }
 
@@ -151,12 +144,6 @@ struct TimeTableColumn {
 }
 
 impl TimeTableColumn {
-    fn width(&self) -> usize {
-        let letters = |text: &str| text.chars().count();
-        let header = letters(&self.name).max(letters(self.below));
-        self.cells.iter().map(|cell| letters(cell)).fold(header, usize::max)
-    }
-
     /// Its name where it is not shown.
     fn title(&self) -> String {
         if self.below == "error" { format!("{} error", self.name) } else { self.name.clone() }
@@ -171,8 +158,7 @@ impl Digits {
                 let text = format!("{value:.4}");
                 if text == "-0.0000" { "0.0000".to_owned() } else { text }
             }
-            Digits::Magnitude if value == 0.0 => "0".to_owned(),
-            Digits::Magnitude => format!("{value:.1e}"),
+            Digits::Magnitude => significant(value, 2),
         }
     }
 }

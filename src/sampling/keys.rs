@@ -4,6 +4,7 @@
 //! A distribution and a design list their rows. Reading, error messages, canonical text and the tables of the documents follow from them.
 
 use crate::scene::Parameter;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// What a number may be.
@@ -28,9 +29,49 @@ pub struct TextLimit {
     pub test: fn(&str) -> bool,
 }
 
+/// Any text.
+pub const ANY_TEXT: TextLimit = TextLimit { allowed: "text", remedy: "write it in quotes", test: |_| true };
+
+/// Whether `text` is a name of at most `most` small letters, digits and underscores, the first a letter.
+pub fn is_name(text: &str, most: usize) -> bool {
+    let is_letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    text.starts_with(|c: char| c.is_ascii_lowercase()) && text.chars().all(is_letter) && text.len() <= most
+}
+
+/// What several numbers may be together.
+#[derive(Clone, Copy, Debug)]
+pub struct ListLimit {
+    /// In words, to follow `must be`.
+    pub allowed: &'static str,
+    /// What to do otherwise.
+    pub remedy: &'static str,
+    /// Whether finite numbers are allowed.
+    pub test: fn(&[f64]) -> bool,
+}
+
 /// What the value of a key is.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
+    /// A finite number, in the unit of what the table is about.
+    Amount,
+    /// Several of them.
+    Numbers(ListLimit),
+    /// The name of an observable; the table is about it.
+    Observable,
+    /// Names of different observables.
+    Observables,
+    /// The name of a quantity over time that has bands; the table is about it.
+    Band,
+    /// Arithmetic over names.
+    Expression,
+    /// `true` or `false`.
+    Flag,
+    /// `true`, where it is written.
+    Yes,
+    /// Units of different quantities.
+    Units,
+    /// A table with the units of columns and parameters.
+    UnitsByName,
     /// A finite number, or an array of one for each component, in the unit of what is dispersed.
     Amounts,
     /// The same of pure numbers, or in the unit at the end of the key.
@@ -175,12 +216,36 @@ pub const FILE_OF_PARAMETERS: Row = Row::new(
 /// What several keys of a table have to do with each other.
 #[derive(Clone, Copy, Debug)]
 pub enum Rule {
-    /// Exactly one of several ways to say something is written, each with one or several keys; an example for the first key.
-    One(&'static [&'static [&'static str]], &'static str),
+    /// Exactly one of several ways to say something is written, each with one or several keys; an example for the first key, and what to do where there
+    /// are several.
+    One(&'static [&'static [&'static str]], &'static str, &'static str),
     /// At most one of these is written.
     AtMostOne(&'static [&'static str]),
     /// All of these are written, or none; each with an example.
     Together([(&'static str, &'static str); 2]),
+    /// Some keys have a meaning under conditions alone.
+    Only {
+        /// The keys.
+        keys: &'static [&'static str],
+        /// The conditions, all of which hold.
+        with: &'static [Condition],
+        /// What the keys must be otherwise: `left out ...`.
+        allowed: &'static str,
+        /// What to do then.
+        remedy: &'static str,
+    },
+}
+
+/// What to do where only one of several keys may be there.
+pub const ALL_BUT_ONE: &str = "delete all but one of them";
+
+/// What a table says.
+#[derive(Clone, Copy, Debug)]
+pub enum Condition {
+    /// It has this key.
+    Has(&'static str),
+    /// The key does not say this word.
+    IsNot(&'static str, &'static str),
 }
 
 /// One number for all components, or one for each.
@@ -270,11 +335,29 @@ pub enum Value {
     Column(DataColumn),
     /// Columns of one file, each for one number of the scene.
     Columns(Vec<DataColumn>),
+    /// Yes or no.
+    Flag(bool),
+    /// Names.
+    Texts(Vec<String>),
+    /// Units by the names of what is shown in them.
+    Units(BTreeMap<String, &'static str>),
 }
 
 impl From<f64> for Value {
     fn from(number: f64) -> Self {
         Value::Numbers(Values::All(number))
+    }
+}
+
+impl From<&[f64]> for Value {
+    fn from(list: &[f64]) -> Self {
+        Value::Numbers(Values::Each(list.to_vec()))
+    }
+}
+
+impl From<bool> for Value {
+    fn from(flag: bool) -> Self {
+        Value::Flag(flag)
     }
 }
 
@@ -356,6 +439,11 @@ impl Written {
     /// The whole number of `key`.
     pub fn count(&self, key: &str) -> Option<u64> {
         if let Value::Counts(Counts::All(count)) = self.get(key)? { Some(*count) } else { None }
+    }
+
+    /// Whether `key` says yes.
+    pub fn flag(&self, key: &str) -> bool {
+        self.get(key) == Some(&Value::Flag(true))
     }
 
     /// The text or the word of `key`.

@@ -20,7 +20,6 @@ use crate::report::audit_summary::AuditSummary;
 use crate::report::summary::SummaryEnd;
 use crate::report::warnings::warnings;
 use crate::report::{requirements, stopping_text};
-use crate::run::Status;
 use crate::storage::atomic;
 use crate::storage::rows_reader::RowsReader;
 use crate::workflow::error::WorkflowError;
@@ -52,9 +51,9 @@ impl Analysed {
     /// How the campaign ended.
     pub fn end(&self) -> SummaryEnd {
         let ending = Ending {
-            rows: Status::ALL.into_iter().map(|status| self.tally.count(status)).sum(),
-            failed: self.tally.failed(),
-            not_covered: self.tally.audits().map_or(0, AuditTally::not_covered),
+            rows: self.tally.statuses.runs(),
+            failed: self.tally.statuses.runs() - self.tally.statuses.ok(),
+            not_covered: self.tally.audits.as_ref().map_or(0, AuditTally::not_covered),
             verdicts: self.verdicts.clone(),
             stopping: self.stopping.clone(),
         };
@@ -72,10 +71,12 @@ pub fn computed(
     gathered: Gathered,
     threads: Option<NonZeroUsize>,
 ) -> Result<Analysed, WorkflowError> {
+    let ended = &gathered.tally.statuses;
     let statistics =
-        statistics::compute(plan, reader, Some(gathered.columns), threads).map_err(WorkflowError::files)?;
-    let verdicts = verdicts::assess(plan, &gathered.requirements, gathered.bands.as_ref()).with_quantiles(&statistics);
-    let audit = gathered.tally.audits().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
+        statistics::compute(plan, reader, ended, Some(gathered.columns), threads).map_err(WorkflowError::files)?;
+    let verdicts = verdicts::assess(plan, ended, &gathered.requirements, gathered.bands.as_ref());
+    let verdicts = verdicts.with_quantiles(&statistics);
+    let audit = gathered.tally.audits.as_ref().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
     let failures = match statistics.loss().is_big() {
         true => sensitivity::of_failures(plan, &gathered.failure_rows, threads),
         false => Vec::new(),

@@ -135,7 +135,7 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
         sensitivities: analysed.sensitivities,
         end,
         made: job.made,
-        is_audited: analysed.tally.audits().is_some(),
+        is_audited: analysed.tally.audits.is_some(),
         files: records.len(),
         bytes: folder.size(),
     })

@@ -121,19 +121,19 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         REQUIRE,
         "observable = \"energy_error_max\"\n",
         "",
-        "require[0].observable is missing: must be given (one of observable, band); add observable = \"energy_error_max\" to this table",
+        "require[0].observable is missing: must be given (observable or band); add observable = \"energy_error_max\" to this table",
     ),
     (
         REQUIRE,
         "quantile = 0.99\n",
         "",
-        "require[0].quantile is missing: must be given (one of quantile, fraction, mean); add quantile = 0.99 to this table",
+        "require[0].quantile is missing: must be given (quantile or fraction or mean); add quantile = 0.99 to this table",
     ),
     (
         REQUIRE,
         "at_most = 1e-9\n",
         "",
-        "require[0].at_most is missing: must be given (one of at_most, at_least); add at_most = 1e-9 to this table",
+        "require[0].at_most is missing: must be given (at_most or at_least); add at_most = 1e-9 to this table",
     ),
     (
         REQUIRE,
@@ -183,7 +183,7 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         REQUIRE,
         "at_most = 1e-9",
         "at_most = 1e-9\nat_mots = 1",
-        "require[0].at_mots = 1: must be a key of [require[0]] (observable, at_all_times, confidence, quantile, at_most, bounded, never, fraction, mean, at_least, band, from_s, to_s); did you mean at_most?",
+        "require[0].at_mots = 1: must be a key of [require[0]] (observable, band, from_s, to_s, at_all_times, quantile, fraction, mean, at_most, at_least, bounded, never, confidence); did you mean at_most?",
     ),
     (
         BAND,

@@ -246,12 +246,13 @@ fn keys_of_tables() -> String {
         .iter()
         .chain(&settings::TAIL)
         .map(|(header, keys)| (format!("`[{header}]`"), keys.to_vec(), &[][..]));
-    for (table, rows, rules) in settings.chain(kinds).chain(designs) {
+    let analysis = settings::ANALYSIS.iter().map(|(table, keys, rules)| (format!("`{table}`"), keys.to_vec(), *rules));
+    for (table, rows, rules) in settings.chain(kinds).chain(designs).chain(analysis) {
         for row in &rows {
             let is_of =
-                |rule: &&Rule| matches!(rule, Rule::One(ways, _) if ways.iter().any(|way| way.contains(&row.key)));
+                |rule: &&Rule| matches!(rule, Rule::One(ways, ..) if ways.iter().any(|way| way.contains(&row.key)));
             let one = rules.iter().find(is_of).map(|rule| match rule {
-                Rule::One(ways, _) => {
+                Rule::One(ways, ..) => {
                     ways.iter().map(|way| format!("`{}`", way.join("`, `"))).collect::<Vec<_>>().join(" or ")
                 }
                 _ => String::new(),
@@ -268,6 +269,16 @@ fn keys_of_tables() -> String {
                 Kind::AmountList => ("an array of numbers".to_owned(), "of the parameter"),
                 Kind::List => ("an array of numbers".to_owned(), ""),
                 Kind::Number => ("a number".to_owned(), ""),
+                Kind::Amount => ("a number".to_owned(), "of what the table is about"),
+                Kind::Numbers(limit) => (limit.allowed.to_owned(), ""),
+                Kind::Observable => ("the name of an observable".to_owned(), ""),
+                Kind::Observables => ("an array of names of observables".to_owned(), ""),
+                Kind::Band => ("the name of a quantity over time".to_owned(), ""),
+                Kind::Expression => ("an expression".to_owned(), ""),
+                Kind::Flag => ("`true` or `false`".to_owned(), ""),
+                Kind::Yes => ("`true`".to_owned(), ""),
+                Kind::Units => ("an array of units".to_owned(), ""),
+                Kind::UnitsByName => ("a table of units by name".to_owned(), ""),
                 Kind::Vector => ("three numbers".to_owned(), ""),
                 Kind::Matrix => ("three rows of three numbers".to_owned(), ""),
                 Kind::Count([least, most]) => (format!("a whole number from {least} to {most}"), ""),

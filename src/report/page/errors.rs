@@ -24,7 +24,7 @@ const TAIL_RANGE: f64 = 1e12;
 /// Histogram and exceedance of each error, estimate against truth, steps. `has_intervals`: whether the runs are independent.
 pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
     let mut figures: Vec<Figure> = Vec::new();
-    if survey.ok() < FEWEST_RUNS {
+    if survey.statuses.ok() < FEWEST_RUNS {
         return figures;
     }
     let errors = survey.outcomes.iter().enumerate();
@@ -54,7 +54,7 @@ pub fn of_runs(shown: usize, all: u64) -> String {
 /// The dispersed runs of the thinned table that are ok: their rows.
 pub fn shown_rows(survey: &Survey) -> Vec<usize> {
     let thinned = &survey.thinned;
-    let is_alone = survey.samples == 1;
+    let is_alone = survey.statuses.runs() == 1;
     (0..thinned.samples.len())
         .filter(|row| thinned.statuses[*row] == Status::Done && (is_alone || thinned.samples[*row] != 0))
         .collect()
@@ -75,7 +75,7 @@ pub fn histogram(survey: &Survey, index: usize, outcome: &SurveyedOutcome, secti
         edges: bins.clone(),
     }];
     let nominal = if outcome.is_error { outcome.nominal.abs() } else { outcome.nominal };
-    if survey.samples > 1
+    if survey.statuses.runs() > 1
         && bins.first().is_some_and(|low| nominal >= *low)
         && bins.last().is_some_and(|high| nominal <= *high)
     {
@@ -130,7 +130,7 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         shape: PointShape::Disc,
         x,
         y,
-        samples: outcome.worst.first().map(|(sample, _)| sample.0 as f64).into_iter().collect(),
+        samples: outcome.worst.runs.first().map(|(sample, _)| sample.0 as f64).into_iter().collect(),
     });
     let interval = if has_intervals {
         format!(" Band: Clopper-Pearson, {}.", interval_label(outcome.confidence))

@@ -105,10 +105,10 @@ fn words(status: Status) -> &'static str {
 
 /// The stacked bar of statuses with their counts, the first reason, and the command that replays it.
 pub fn status(plan: &Plan, survey: &Survey) -> String {
-    let total = survey.samples.max(1) as f64;
+    let (ok, all) = (survey.statuses.ok(), survey.statuses.runs());
     let (mut x, mut bars, mut legend) = (0.0, String::new(), String::new());
-    for ended in &survey.ended {
-        let share = 100.0 * ended.count as f64 / total;
+    for ended in survey.statuses.list().iter().filter(|ended| ended.count > 0 || ended.status == Status::Done) {
+        let share = 100.0 * ended.count as f64 / all.max(1) as f64;
         let class = ended.status.name();
         // a few runs among a million are still seen
         let width = if ended.count > 0 { share.max(0.6) } else { 0.0 };
@@ -118,16 +118,16 @@ pub fn status(plan: &Plan, survey: &Survey) -> String {
             grouped(ended.count)
         );
         x += width;
-        let percent = if ended.count == survey.samples { "all".to_owned() } else { format!("{}%", number(share)) };
+        let percent = if ended.count == all { "all".to_owned() } else { format!("{}%", number(share)) };
         legend += &format!(
             "<li><svg class=\"key\" viewBox=\"0 0 14 14\" aria-hidden=\"true\"><rect class=\"status {class}\" width=\"14\" height=\"14\"/></svg><b>{}</b> {} <span class=\"quiet\">({percent})</span></li>",
             grouped(ended.count),
             words(ended.status),
         );
     }
-    let failed: Vec<_> = survey.ended.iter().filter(|ended| ended.status != Status::Done).collect();
-    let reasons: String = failed
-        .iter()
+    let reasons: String = survey
+        .statuses
+        .failed()
         .filter_map(|ended| ended.first.first().map(|first| (ended, first)))
         .map(|(ended, (sample, reason))| {
             format!(
@@ -137,7 +137,7 @@ pub fn status(plan: &Plan, survey: &Survey) -> String {
             )
         })
         .collect();
-    let verdict = match (survey.ok(), survey.samples) {
+    let verdict = match (ok, all) {
         (ok, all) if ok == all => {
             if all == 1 {
                 "The run was computed.".to_owned()
@@ -256,7 +256,9 @@ pub fn verdicts(cards: &[Card], has_requirements: bool, said: &[String]) -> Stri
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::survey::{EndedRuns, Thinned};
+    use crate::analysis::population::Population;
+    use crate::analysis::statuses::Statuses;
+    use crate::analysis::survey::Thinned;
     use crate::campaign::Overrides;
     use crate::ode::Integrator;
     use crate::propagation::Method;
@@ -278,15 +280,10 @@ mod tests {
         const ESCAPED: &str = "a law said: rate &lt; 0 &amp; &lt;img src=x onerror=alert(1)&gt;";
         let text = include_str!("../../../campaigns/spin_sweep.toml");
         let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        let first = vec![(SampleId(3), REASON.to_owned())];
-        let survey = Survey {
-            samples: 10,
-            ended: vec![EndedRuns { status: Status::InternalError, count: 2, first }],
-            outcomes: Vec::new(),
-            thinned: Thinned::default(),
-            audits: Vec::new(),
-            audited: 0,
-        };
+        let mut statuses = Statuses::none(Population::Independent);
+        statuses.add(SampleId(3), Status::InternalError, REASON);
+        let survey =
+            Survey { statuses, outcomes: Vec::new(), thinned: Thinned::default(), audits: Vec::new(), audited: 0 };
         let run = ShownRun {
             sample: SampleId(3),
             why: "failed".to_owned(),

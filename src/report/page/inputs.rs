@@ -49,7 +49,7 @@ fn input(plan: &Plan, survey: &Survey, index: usize) -> Figure {
         caption: format!(
             "{} of {} dispersed samples; {}.{line}",
             values.len(),
-            survey.samples.saturating_sub(1),
+            survey.statuses.runs().saturating_sub(1),
             origin(plan, index)
         ),
         columns: 4,

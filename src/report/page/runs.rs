@@ -71,7 +71,7 @@ pub fn shown_runs(plan: &Plan, survey: &Survey, isa: Isa) -> Vec<ShownRun> {
             list.push((sample, why));
         }
     }
-    let panicked = survey.ended.iter().filter(|ended| ended.status == Status::InternalError);
+    let panicked = survey.statuses.failed().filter(|ended| ended.status == Status::InternalError);
     let panicked: Vec<&(SampleId, String)> = panicked.flat_map(|ended| &ended.first).collect();
     let one = |(sample, why): (SampleId, String)| match panicked.iter().find(|(other, _)| *other == sample) {
         // a run that ended in a panic would do so again
@@ -124,9 +124,8 @@ fn row(plan: &Plan, run: &SingleRun, inputs: &[f64], isa: Isa, sample: SampleId)
 
 /// Failed runs, the first of each kind first, then the worst values of each outcome in turn; of the errors where the campaign has no outcome.
 fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
-    let failed = survey.ended.iter().filter(|ended| ended.status != Status::Done);
     let mut first: Vec<(usize, SampleId, String)> = Vec::new();
-    for ended in failed {
+    for ended in survey.statuses.failed() {
         let of_kind = ended.first.iter().enumerate();
         first.extend(
             of_kind
@@ -139,11 +138,11 @@ fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
     let outcomes: Vec<_> = survey.outcomes.iter().filter(|outcome| outcome.is_outcome).collect();
     let errors: Vec<_> = survey.outcomes.iter().filter(|outcome| outcome.is_error && !outcome.is_outcome).collect();
     let outcomes = if outcomes.is_empty() { errors } else { outcomes };
-    let deepest = outcomes.iter().map(|outcome| outcome.worst.len()).max().unwrap_or(0);
+    let deepest = outcomes.iter().map(|outcome| outcome.worst.runs.len()).max().unwrap_or(0);
     for place in 0..deepest {
         for outcome in &outcomes {
-            let is_low = outcome.is_worst_when_low;
-            if let Some((sample, value)) = outcome.worst.get(place).filter(|(_, value)| is_low || *value != 0.0) {
+            let is_low = outcome.worst.is_low;
+            if let Some((sample, value)) = outcome.worst.runs.get(place).filter(|(_, value)| is_low || *value != 0.0) {
                 if outcome.quantity.name() == "launched" {
                     // the others are no worse than each other
                     if *value == 0.0 {

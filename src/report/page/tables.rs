@@ -189,7 +189,7 @@ pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> S
 <details><summary>The whole plan</summary><pre class=\"plan\"><code>{}</code></pre></details>{files}
 <details><summary>What the columns on this page mean</summary><dl class=\"glossary\">{glossary}</dl></details>
 <details><summary>Libraries in this page, and their licences</summary><p>Apache ECharts 6.1.0 (Apache-2.0) with ZRender (BSD-3-Clause) and tslib (0BSD) draws the plots, three.js 0.187.0 (MIT) the replay.</p><pre id=\"licences\" class=\"plan\"></pre></details>\n",
-        grouped(survey.samples),
+        grouped(survey.statuses.runs()),
         plan.hash(),
         env!("CARGO_PKG_VERSION"),
         escaped(&plan.text()),

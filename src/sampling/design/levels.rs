@@ -4,7 +4,7 @@
 //! Levels are computed where they are needed, not stored: a file may ask for any number of them.
 
 use crate::sampling::error::{DispersionError, Table, error_of};
-use crate::sampling::keys::{Counts, Kind, Row, Rule, Value, Values, Written};
+use crate::sampling::keys::{ALL_BUT_ONE, Counts, Kind, Row, Rule, Value, Values, Written};
 
 use super::traits::MAX_SAMPLES;
 
@@ -23,7 +23,7 @@ pub const LEVELS: [Row; 2] = [
 ];
 
 /// One of them is written.
-pub const ONE_OF_LEVELS: Rule = Rule::One(&[&["levels"], &["quantiles"]], "5");
+pub const ONE_OF_LEVELS: Rule = Rule::One(&[&["levels"], &["quantiles"]], "5", ALL_BUT_ONE);
 
 /// The levels of each dimension, as written.
 #[derive(Clone, Debug, PartialEq)]

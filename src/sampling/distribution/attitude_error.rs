@@ -6,7 +6,7 @@ use super::traits::{Map, NumberWords, Together};
 use crate::math::normal::quantile;
 use crate::math::vector::{dot, hamilton, norm, scaled};
 use crate::sampling::error::{DispersionError, error};
-use crate::sampling::keys::{Kind, Row, Rule, Value, Values};
+use crate::sampling::keys::{ALL_BUT_ONE, Kind, Row, Rule, Value, Values};
 
 /// The distribution.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +34,7 @@ impl Together for AttitudeError {
         Row::values("std_rad", "Standard deviations of the components of the rotation vector"),
         Row::new("covariance_rad2", Kind::Matrix, "Covariance matrix of the rotation vector, by rows, rad^2"),
     ];
-    const RULES: &'static [Rule] = &[Rule::One(&[&["std_rad"], &["covariance_rad2"]], "0.01")];
+    const RULES: &'static [Rule] = &[Rule::One(&[&["std_rad"], &["covariance_rad2"]], "0.01", ALL_BUT_ONE)];
     type Map = AttitudeErrorMap;
 
     fn map(target: &JointTarget<'_>) -> Result<AttitudeErrorMap, DispersionError> {

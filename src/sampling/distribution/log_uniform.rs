@@ -3,7 +3,7 @@
 use super::target::{LOGARITHM, Target};
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Row, Rule};
+use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
 
 /// The distribution.
 #[derive(Clone, Copy, Debug)]
@@ -38,8 +38,10 @@ impl Scalar for LogUniform {
             |x| x > 1.0,
         ),
     ];
-    const RULES: &'static [Rule] =
-        &[Rule::One(&[&["factor"], &["min", "max"]], "2.0"), Rule::Together([("min", "0.1"), ("max", "10.0")])];
+    const RULES: &'static [Rule] = &[
+        Rule::One(&[&["factor"], &["min", "max"]], "2.0", ALL_BUT_ONE),
+        Rule::Together([("min", "0.1"), ("max", "10.0")]),
+    ];
     type Quantile = LogUniformQuantile;
 
     fn quantiles(target: &Target<'_>) -> Result<Vec<LogUniformQuantile>, DispersionError> {

@@ -4,7 +4,7 @@ use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::normal::{quantile, quantiles};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Row, Rule};
+use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
 
 /// The keys of a standard deviation.
 pub(super) const SPREAD: [Row; 3] = [
@@ -14,7 +14,7 @@ pub(super) const SPREAD: [Row; 3] = [
 ];
 
 /// One of them is written.
-pub(super) const ONE_SPREAD: Rule = Rule::One(&[&["std"], &["relative_std"], &["three_sigma"]], "0.1");
+pub(super) const ONE_SPREAD: Rule = Rule::One(&[&["std"], &["relative_std"], &["three_sigma"]], "0.1", ALL_BUT_ONE);
 
 /// The distribution.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Row, Rule};
+use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
 
 /// The distribution.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ impl Scalar for Offset {
         Row::amounts("offset", "Difference from the nominal value"),
         Row::values("relative_offset", "The same as a fraction of the nominal value"),
     ];
-    const RULES: &'static [Rule] = &[Rule::One(&[&["offset"], &["relative_offset"]], "0.1")];
+    const RULES: &'static [Rule] = &[Rule::One(&[&["offset"], &["relative_offset"]], "0.1", ALL_BUT_ONE)];
     type Quantile = Fixed;
 
     fn quantiles(target: &Target<'_>) -> Result<Vec<Fixed>, DispersionError> {

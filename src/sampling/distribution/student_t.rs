@@ -7,7 +7,7 @@ use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::incomplete_beta::logit_quantile;
 use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Row, Rule};
+use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
 
 /// The distribution.
 #[derive(Clone, Copy, Debug)]
@@ -66,7 +66,7 @@ impl Scalar for StudentT {
             Row::amounts("scale", "Scale about the nominal value").not_negative(),
             Row::values("relative_scale", "Scale as a fraction of the nominal value").not_negative(),
         ];
-    const RULES: &'static [Rule] = &[Rule::One(&[&["scale"], &["relative_scale"]], "0.1")];
+    const RULES: &'static [Rule] = &[Rule::One(&[&["scale"], &["relative_scale"]], "0.1", ALL_BUT_ONE)];
     type Quantile = StudentTQuantile;
 
     fn quantiles(target: &Target<'_>) -> Result<Vec<StudentTQuantile>, DispersionError> {

@@ -5,7 +5,7 @@ use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::math::normal::{probability, quantile, quantiles};
 use crate::sampling::error::{DispersionError, error};
-use crate::sampling::keys::{Row, Rule, Written};
+use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule, Written};
 
 /// The keys of a lower and of an upper bound: absolute, relative, in sigmas.
 const LOWER_KEYS: [&str; 3] = ["lower", "relative_lower", "lower_sigmas"];
@@ -97,7 +97,7 @@ impl Scalar for TruncatedNormal {
     ];
     const RULES: &'static [Rule] = &[
         ONE_SPREAD,
-        Rule::One(&[&["sigmas"], &BOTH_KEYS], "3"),
+        Rule::One(&[&["sigmas"], &BOTH_KEYS], "3", ALL_BUT_ONE),
         Rule::AtMostOne(&LOWER_KEYS),
         Rule::AtMostOne(&UPPER_KEYS),
     ];

@@ -3,7 +3,7 @@
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Row, Rule};
+use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
 
 /// The distribution.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,7 @@ impl Scalar for Uniform {
         Row::amounts("max", "Upper end"),
     ];
     const RULES: &'static [Rule] = &[
-        Rule::One(&[&["half_width"], &["relative_half_width"], &["min", "max"]], "0.1"),
+        Rule::One(&[&["half_width"], &["relative_half_width"], &["min", "max"]], "0.1", ALL_BUT_ONE),
         Rule::Together([("min", "0.0"), ("max", "1.0")]),
     ];
     type Quantile = UniformQuantile;

@@ -1,0 +1,154 @@
+//! [`Statuses`]: how the runs of a campaign ended, counted once: summary, page, statistics and verdicts read it.
+
+use crate::analysis::accumulator::Accumulator;
+use crate::analysis::part_columns::PartColumns;
+use crate::analysis::population::{Loss, Population};
+use crate::campaign::Plan;
+use crate::ensemble::FailureReasons;
+use crate::run::Status;
+use crate::sampling::SampleId;
+use crate::storage::rows_reader::RowsError;
+
+/// How many failed samples of each status are known by number.
+const KEPT: usize = 10;
+
+/// The samples that ended with one status.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ended {
+    /// The status.
+    pub status: Status,
+    /// How many there are.
+    pub count: u64,
+    /// How many of these are samples that statistics are about.
+    pub of_population: u64,
+    /// The first of them, ascending, with their reasons; none of `ok`.
+    pub first: Vec<(SampleId, String)>,
+}
+
+/// How runs ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Statuses {
+    list: [Ended; Status::ALL.len()],
+    reasons: FailureReasons,
+    population: Population,
+}
+
+/// The samples of a part, how they ended, and the reasons by row.
+pub type StatusPart = (Vec<SampleId>, Vec<Status>, Vec<(usize, String)>);
+
+impl Statuses {
+    /// No runs, of a `population`.
+    pub fn none(population: Population) -> Self {
+        let none = |status| Ended { status, count: 0, of_population: 0, first: Vec::new() };
+        Statuses { list: Status::ALL.map(none), reasons: FailureReasons::default(), population }
+    }
+
+    /// Counts a run; `reason` is why it failed.
+    pub fn add(&mut self, sample: SampleId, status: Status, reason: &str) {
+        let of_population = self.population.contains(sample);
+        for ended in self.list.iter_mut().filter(|ended| ended.status == status) {
+            ended.count += 1;
+            ended.of_population += u64::from(of_population);
+            let at = ended.first.partition_point(|(other, _)| *other < sample);
+            if status != Status::Done && at < KEPT {
+                ended.first.insert(at, (sample, reason.to_owned()));
+                ended.first.truncate(KEPT);
+            }
+        }
+        if !reason.is_empty() {
+            self.reasons.add_run(sample, status, reason);
+        }
+    }
+
+    /// The samples that ended with each status, in the order of [`Status::ALL`].
+    pub fn list(&self) -> &[Ended] {
+        &self.list
+    }
+
+    /// Those whose runs failed.
+    pub fn failed(&self) -> impl Iterator<Item = &Ended> {
+        self.list.iter().filter(|ended| ended.status != Status::Done && ended.count > 0)
+    }
+
+    /// How many there are.
+    pub fn runs(&self) -> u64 {
+        self.list.iter().map(|ended| ended.count).sum()
+    }
+
+    /// How many are `ok`.
+    pub fn ok(&self) -> u64 {
+        self.runs() - self.failed().map(|ended| ended.count).sum::<u64>()
+    }
+
+    /// How many of those that statistics are about ended with each status, in the order of [`Status::ALL`].
+    pub fn of_population(&self) -> [u64; Status::ALL.len()] {
+        self.list.each_ref().map(|ended| ended.of_population)
+    }
+
+    /// Those of them that have no numbers.
+    pub fn loss(&self) -> Loss {
+        Loss::of(&self.of_population())
+    }
+
+    /// Why runs failed.
+    pub fn reasons(&self) -> &FailureReasons {
+        &self.reasons
+    }
+}
+
+/// Counts [`Statuses`].
+#[derive(Clone, Copy, Debug)]
+pub struct StatusCounter(Population);
+
+impl StatusCounter {
+    /// Of the campaign `plan`.
+    pub fn new(plan: &Plan) -> Self {
+        StatusCounter(Population::of(plan))
+    }
+}
+
+impl Accumulator for StatusCounter {
+    type Whole = Statuses;
+    type OfPart = StatusPart;
+
+    fn nothing(&self) -> Statuses {
+        Statuses::none(self.0)
+    }
+
+    fn count(&self, part: &impl PartColumns) -> Result<StatusPart, RowsError> {
+        let (samples, statuses) = (part.samples()?, part.statuses()?.into_owned());
+        let has_failed = statuses.iter().any(|status| *status != Status::Done);
+        let reasons = if has_failed { part.reasons()?.into_owned() } else { Vec::new() };
+        Ok((samples, statuses, reasons))
+    }
+
+    fn merge(&self, whole: &mut Statuses, (samples, statuses, reasons): StatusPart) {
+        let mut reasons = reasons.iter().peekable();
+        for (row, (sample, status)) in samples.into_iter().zip(statuses).enumerate() {
+            let reason = reasons.next_if(|(at, _)| *at == row).map_or("", |(_, text)| text);
+            whole.add(sample, status, reason);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: every sample is counted; the first failed ones are listed by number with their reasons, whatever the order of the rows is; statistics
+    /// are about the dispersed ones.
+    #[test]
+    fn samples_are_counted_and_the_first_failed_ones_listed() {
+        let mut statuses = Statuses::none(Population::Independent);
+        for sample in [5, 1, 9, 0, 3, 20, 21, 22, 23, 24, 25, 26] {
+            statuses.add(SampleId(sample), Status::NonFinite, &format!("at {sample} s"));
+        }
+        statuses.add(SampleId(2), Status::Done, "");
+        let failed: Vec<&Ended> = statuses.failed().collect();
+        assert_eq!((failed.len(), failed[0].count, failed[0].of_population), (1, 12, 11));
+        let first: Vec<u64> = failed[0].first.iter().map(|(sample, _)| sample.0).collect();
+        assert_eq!((first, &*failed[0].first[2].1), (vec![0, 1, 3, 5, 9, 20, 21, 22, 23, 24], "at 3 s"));
+        assert_eq!((statuses.runs(), statuses.ok(), statuses.loss()), (13, 1, Loss { missing: 11, runs: 12 }));
+        assert_eq!(statuses.reasons().groups()[0].count, 12);
+    }
+}

@@ -1,0 +1,152 @@
+//! One screen for a campaign: its question first, its verdict last, and between them what fits 24 lines of 80 characters.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::small_campaign::{campaign, folder, mixed_failures};
+use crate::support::scratch_folder::{ScratchFolder, column, ended};
+
+/// What the program prints on standard output, and on both, in lines of `width` characters.
+fn said(scratch: &ScratchFolder, command: &mut Command, width: usize, code: i32) -> (String, String) {
+    let output = command.current_dir(&scratch.0).env("COLUMNS", width.to_string()).output().expect("the program runs");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(code), "{command:?}\n{out}{err}");
+    (out.clone(), out + &err)
+}
+
+/// Law: without `--verbose` the shipped campaigns that a reader tries first take at most 24 lines of at most 80 characters; the question of the file comes first,
+/// and the last line counts the verdicts of the summary and names the page, which is there. No row is about what nobody asked for, and a number within brackets
+/// has at most three digits. `--verbose` says more, and ends the same.
+#[test]
+fn a_campaign_fits_a_screen() {
+    let scratch = ScratchFolder::new("brief-screen");
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    for (name, code, question) in [
+        ("spin_sweep", 0, "How large are the conservation errors of a run, "),
+        ("net_launch", 5, "With which probability does the spacecraft reach "),
+        ("slew_closed", 5, "How far does a small satellite point off after a slew "),
+        ("detumble", 0, "How long do wheels and thrusters take "),
+        ("acceptance", 3, "Does this spacecraft, integrated by the default method, "),
+    ] {
+        let file = shipped.join(format!("{name}.toml"));
+        let run = |options: &[&str]| {
+            let mut command = scratch.command("campaign");
+            said(&scratch, command.arg(&file).args(["--samples", "200"]).args(options), 80, code)
+        };
+        let (out, all) = run(&[]);
+        assert!(all.lines().count() <= 24, "{name}: {} lines\n{all}", all.lines().count());
+        assert!(all.lines().all(|line| line.chars().count() <= 80), "{name}:\n{all}");
+        assert!(out.starts_with(question), "{name}:\n{out}");
+
+        let summary = scratch.summary(&format!("results/{name}"));
+        let list = summary["requirements"]["list"].as_array().expect("requirements");
+        let count = |word: &str| list.iter().filter(|one| one["verdict"] == word).count();
+        let counted = ["PASS", "FAIL", "UNDECIDED"].map(|word| (count(word), word));
+        let counted = counted.iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("{count} {word}"));
+        let verdict =
+            if list.is_empty() { "200 runs computed".to_owned() } else { counted.collect::<Vec<_>>().join(", ") };
+        let page = format!("results/{name}/report.html");
+        assert_eq!(out.lines().last(), Some(format!("{verdict} -> {page}").as_str()), "{out}");
+        assert!(scratch.path(&page).is_file());
+
+        // every requirement has a line with its word, and what nobody asked for has none
+        let words = out
+            .lines()
+            .filter(|line| ["PASS", "FAIL", "UNDECIDED"].iter().any(|word| line.trim_start().starts_with(word)));
+        assert_eq!(words.count(), list.len(), "{out}");
+        for name in ["omega_se_s_x_", "energy_error_max"] {
+            let is_asked = list.is_empty()
+                || list.iter().any(|one| one["observable"].as_str().is_some_and(|of| of.starts_with(name)));
+            assert_eq!(out.contains(name), is_asked, "{out}");
+        }
+        for brackets in out.split('[').skip(1).filter_map(|rest| rest.split_once(']')) {
+            for number in brackets.0.split(", ").filter(|number| number.parse::<f64>().is_ok()) {
+                let digits = number.split('e').next().unwrap_or("").trim_start_matches(['-', '0', '.']);
+                let count = digits.chars().filter(char::is_ascii_digit).count();
+                let is_whole = !number.contains(['.', 'e']);
+                assert!(count <= 3 || is_whole, "{number} in\n{out}");
+            }
+        }
+        let (verbose, _) = run(&["--verbose", "--overwrite"]);
+        assert_eq!((verbose.lines().next(), verbose.lines().last()), (out.lines().next(), out.lines().last()));
+        assert!(verbose.lines().count() > 2 * out.lines().count() || name == "spin_sweep", "{verbose}");
+        assert!(verbose.contains("energy_error_max") && verbose.contains("worst conservation error"), "{verbose}");
+    }
+}
+
+/// Law: the last line is the same wherever a finished result is met: by the campaign that made it, by the same command again, by `finish`, and by `report`, which adds
+/// the size of the page. Without a page it names the folder; where runs failed it counts those that did not, also beside verdicts.
+#[test]
+fn the_last_line_is_the_verdict_and_the_page() {
+    let scratch = folder("last-line");
+    scratch.file(
+        "mixed.toml",
+        &(mixed_failures() + "[[require]]\nobservable = \"rate_w1_final_rad_s\"\nfraction = 0.01\nat_most = 1e9\n"),
+    );
+    let last = |arguments: &str, code: i32| {
+        let (out, _) = said(&scratch, &mut scratch.command(arguments), 80, code);
+        out.lines().last().unwrap_or_default().to_owned()
+    };
+    let made = last("campaign mixed.toml --out r", 1);
+    let ok = ended(&scratch.rows("r")).iter().filter(|(_, status)| status == "ok").count();
+    let all = column(&scratch.rows("r"), "sample_id").len();
+    assert!(ok < all, "some fail");
+    assert_eq!(made, format!("1 PASS, {ok} of {all} runs computed -> r/report.html"));
+    for again in ["campaign mixed.toml --out r", "finish r"] {
+        assert_eq!(last(again, 1), made, "{again}");
+    }
+    assert!(last("report r", 0).starts_with(&format!("{made} (")));
+    scratch.file("plain.toml", &campaign());
+    assert_eq!(last("campaign plain.toml --samples 20 --no-report --out p", 0), "20 runs computed -> p");
+    assert_eq!(last("report p", 0).split(" (").next(), Some("20 runs computed -> p/report.html"));
+}
+
+/// Law: colour comes where it is asked for, on results, help and messages, and adds nothing but itself; in a pipe there is none without being asked, and what a file
+/// contains cannot colour anything.
+#[test]
+fn colour_adds_only_itself() {
+    let scratch = folder("colour");
+    scratch.prints("new mine.toml", 0);
+    let plain = |text: &str| {
+        let mut rest = text.split('\x1b');
+        let first = rest.next().unwrap_or_default().to_owned();
+        rest.fold(first, |text, part| text + part.split_once('m').expect("a code ends").1)
+    };
+    for (arguments, code, word) in [
+        ("campaign mine.toml --out r", 0, "\x1b[32m\x1b[1mPASS\x1b[0m"),
+        ("campaign --help", 0, "\x1b[1mUsage:\x1b[0m"),
+        ("campaign mine.toml --samples many", 2, "\x1b[31m\x1b[1merror:\x1b[0m"),
+        ("campaign absent.toml", 2, "\x1b[31m\x1b[1merror:\x1b[0m"),
+    ] {
+        scratch.prints("campaign mine.toml --out r", 0);
+        let without = scratch.prints(arguments, code);
+        assert!(!without.contains('\x1b'), "{arguments}: {without:?}");
+        assert_eq!(without, scratch.prints(&format!("{arguments} --color never"), code));
+        let with = scratch.prints(&format!("{arguments} --color=always"), code);
+        assert!(with.contains(word), "{arguments}: {with:?}");
+        assert_eq!(plain(&with), without);
+    }
+    scratch.file("named.toml", &campaign().replace("[campaign]", "[campaign]\ndescription = \"\\u001b[31mred\""));
+    let refused = scratch.prints("campaign named.toml --color always", 2);
+    assert!(!refused.contains("\x1b[31mred"), "{refused:?}");
+}
+
+/// Law: what `sample` prints of every shipped campaign fits lines of 80 characters, and says every dispersed parameter.
+#[test]
+fn sample_fits_a_screen() {
+    let scratch = ScratchFolder::new("sample-screen");
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(shipped).expect("campaigns") {
+        let file = entry.expect("an entry").path();
+        if file.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let (out, all) = said(&scratch, scratch.command("sample").arg(&file), 80, 0);
+        let long: Vec<&str> = all.lines().filter(|line| line.chars().count() > 80).collect();
+        assert!(long.is_empty(), "{}: {long:#?}", file.display());
+        seen += usize::from(out.contains("percentiles of"));
+    }
+    assert!(seen > 20, "{seen} campaigns with dispersions");
+}

@@ -1,0 +1,122 @@
+//! `spindrift campaign` from outside: files, exit codes, what it never overwrites.
+
+use std::fs::{self, File};
+
+use crate::small_campaign::{campaign, folder};
+use crate::support::scratch_folder::column;
+
+/// Law: a printed command is one that a shell takes, whatever the names of the folder and of the file.
+#[test]
+fn printed_commands_are_quoted() {
+    let scratch = folder("quoted");
+    scratch.file("it's small.toml", &campaign());
+    let run = |options: &[&str]| {
+        let all = [&["campaign", "it's small.toml", "--samples", "20", "--out"], options].concat();
+        scratch.outputs(scratch.command("").args(all), 0)
+    };
+    let said = run(&["r out", "--threads", "1", "--verbose"]);
+    let printed = said.lines().find_map(|line| Some(line.split_once("spindrift simulate ")?.1)).expect("a command");
+    assert!(printed.starts_with("'r out/plan.toml' --sample "), "{said}");
+    let said = run(&["s out", "--shard", "1/1"]);
+    assert!(said.contains("spindrift finish 's out'\n"), "{said}");
+}
+
+#[test]
+fn a_campaign_runs_once_and_then_says_so() {
+    let scratch = folder("once");
+    let said = scratch.prints("campaign small.toml", 0);
+    assert!(said.contains("small: 600 runs computed in ") && said.contains("energy_error_max"), "{said}");
+    let parts = scratch.parts("results/small");
+    let names: Vec<&str> = parts.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["part-000000.parquet", "part-000001.parquet", "part-000002.parquet"]);
+    assert_eq!(scratch.summary("results/small")["statuses"]["ok"], 600);
+
+    let said = scratch.prints("campaign small.toml", 0);
+    assert!(said.contains("already complete"), "{said}");
+    assert_eq!(scratch.parts("results/small"), parts, "nothing was touched");
+
+    // every sample once, in order
+    let ids = column(&scratch.rows("results/small"), "sample_id");
+    assert_eq!(ids, (0..600).map(f64::from).collect::<Vec<f64>>());
+}
+
+/// Law: the plan in a results folder gives the same result again.
+#[test]
+fn the_kept_plan_reproduces_the_result() {
+    let scratch = folder("plan");
+    scratch.prints("campaign small.toml --samples 300 --seed 11", 0);
+    scratch.prints("campaign results/small/plan.toml --out again", 0);
+    assert_eq!(scratch.parts("results/small"), scratch.parts("again"));
+}
+
+#[test]
+fn another_plan_never_replaces_a_result_without_being_told() {
+    let scratch = folder("overwrite");
+    scratch.prints("campaign small.toml --samples 300 --shard 1/2 --out half", 0);
+    let said = scratch.prints("campaign small.toml --samples 300 --seed 9 --out half", 4);
+    assert!(said.contains("unfinished result of another plan"), "{said}");
+    scratch.prints("campaign small.toml --samples 300", 0);
+    let before = scratch.parts("results/small");
+    let said = scratch.prints("campaign small.toml --samples 300 --seed 8", 4);
+    assert!(said.contains("another plan") && said.contains("--overwrite"), "{said}");
+    assert_eq!(scratch.parts("results/small"), before);
+    scratch.prints("campaign small.toml --samples 20 --seed 8 --overwrite", 0);
+    assert_eq!(scratch.parts("results/small").len(), 1, "parts of the old result are gone");
+    scratch.prints("campaign small.toml --samples 20 --seed 8", 0);
+}
+
+#[test]
+fn what_is_not_a_result_is_left_alone() {
+    let scratch = folder("foreign");
+    fs::create_dir(scratch.path("thesis")).unwrap();
+    scratch.file("thesis/chapter1.tex", "precious");
+    for flags in ["", "--overwrite"] {
+        let said = scratch.prints(&format!("campaign small.toml --out thesis {flags}"), 4);
+        assert!(said.contains("not part of a result of spindrift"), "{said}");
+    }
+    scratch.file("thesis/summary.json", r#"{"of": "chapter 1"}"#);
+    scratch.prints("campaign small.toml --out thesis --overwrite", 4);
+    assert_eq!(fs::read_dir(scratch.path("thesis")).unwrap().count(), 2);
+    // a file where the folder should be
+    scratch.file("notes", "precious");
+    scratch.prints("campaign small.toml --out notes", 4);
+    assert_eq!(scratch.text("notes"), "precious");
+}
+
+/// Law: two processes never write to one folder.
+#[test]
+#[cfg(unix)]
+fn a_folder_in_use_is_refused() {
+    let scratch = folder("busy");
+    fs::create_dir(scratch.path("out")).unwrap();
+    let held = File::open(scratch.path("out")).unwrap();
+    held.lock().unwrap();
+    let said = scratch.prints("campaign small.toml --samples 3 --out out", 4);
+    assert!(said.contains("another process"), "{said}");
+    drop(held);
+    scratch.prints("campaign small.toml --samples 3 --out out", 0);
+}
+
+/// Law: the choice of instruction set changes no byte, without and with a control loop, and an impossible choice is bad input.
+#[test]
+fn instruction_sets_do_not_change_a_byte() {
+    let scratch = folder("isa");
+    let loops = include_str!("../../../campaigns/net_launch.toml").replace("duration_s = 2400.0", "duration_s = 60.0");
+    std::fs::write(scratch.path("loop.toml"), loops).unwrap();
+    let run = |file: &str, isa: &str, code: i32| {
+        let arguments = format!("campaign {file}.toml --samples 20 --out {file}-{isa}");
+        scratch.outputs(scratch.command(&arguments).env("SPINDRIFT_ISA", isa), code)
+    };
+    for file in ["small", "loop"] {
+        // the requirements of a mission do not hold in a minute of it
+        let code = if file == "loop" { 3 } else { 0 };
+        for isa in spindrift::math::Isa::available() {
+            run(file, isa.name(), code);
+        }
+        for isa in spindrift::math::Isa::available() {
+            let [one, plain] = [isa.name(), "plain"].map(|isa| scratch.parts(&format!("{file}-{isa}")));
+            assert_eq!(one, plain, "{file} on {}", isa.name());
+        }
+    }
+    run("small", "abacus", 2);
+}

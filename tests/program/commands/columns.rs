@@ -1,0 +1,142 @@
+//! `spindrift columns` from outside: names, units and meanings, of all campaigns and of one.
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::control::outcome::columns::OutcomeColumns;
+use spindrift::observables::{Group, table};
+
+use crate::small_campaign::folder;
+use crate::support::scratch_folder::ScratchFolder;
+
+/// Law: without a campaign every column of the table is there once, with unit and meaning, under its group; with a group, those alone.
+#[test]
+fn every_column_is_shown() {
+    let scratch = folder("all-columns");
+    let wide = |arguments: &str| scratch.prints_wide(arguments, 0);
+    let both = wide("columns");
+    // those of control loops are the last
+    let (all, of_loops) = both.split_once("\ncontrol loop\n").expect("columns of loops");
+    assert_eq!(of_loops.lines().count(), OutcomeColumns::of_all_loops().len());
+    let mut group = "";
+    let mut shown = 0;
+    for line in all.lines().filter(|line| !line.is_empty()) {
+        match line.strip_prefix("  ") {
+            None => group = line,
+            Some(entry) => {
+                let name = entry.split_whitespace().next().unwrap();
+                let column = table::all().find(|column| column.quantity.name() == name).expect(name);
+                assert_eq!(column.group.name(), group, "{name}");
+                let is_explained = entry.contains(column.quantity.meaning()) && entry.contains(column.quantity.unit());
+                assert!(is_explained, "{entry}");
+                shown += 1;
+            }
+        }
+    }
+    assert_eq!(shown, table::all().count());
+    let exchange = wide("columns exchange");
+    let of_group = table::all().filter(|column| column.group == Group::Exchange).count();
+    assert_eq!(exchange.lines().count(), 1 + of_group);
+    let refused = scratch.prints("columns exchagne", 2);
+    assert!(refused.contains("did you mean exchange?"), "{refused}");
+    // a word finds the columns that have it in name, unit or meaning, and no others
+    let word = wide("columns TILTS");
+    let has = |text: &str| text.to_lowercase().contains("tilts");
+    let meant = table::all().map(|column| column.quantity.clone());
+    let meant = meant.filter(|one| has(one.name()) || has(one.unit()) || has(one.meaning())).count();
+    assert!(meant > 2 && word.lines().filter(|line| line.starts_with("  ")).count() == meant, "{word}");
+}
+
+/// Law: the file that `new` writes has the name that was asked for and runs as it is, with its requirement decided; a file that is there stays.
+#[test]
+fn a_new_file_runs() {
+    let scratch = ScratchFolder::new("new-file");
+    scratch.prints("new mine.toml", 0);
+    let text = std::fs::read_to_string(scratch.path("mine.toml")).unwrap();
+    assert!(text.contains("name = \"mine\""), "{text}");
+    let said = scratch.prints("campaign mine.toml --out r", 0);
+    assert!(said.contains("PASS"), "{said}");
+    scratch.prints("new mine.toml", 4);
+    assert_eq!(std::fs::read_to_string(scratch.path("mine.toml")).unwrap(), text);
+    // a wheel across the spin: its momentum tilts the spin axis, and a faster spin holds it
+    let across = "--set wheels.w1.axis=[0,1,0] --set require[0].at_most=4";
+    let mut command = scratch.command(&format!("campaign mine.toml {across} --no-report --out across --verbose"));
+    let said = scratch.outputs(command.env("COLUMNS", "200"), 0);
+    let drivers = said.lines().find(|line| line.contains("share of the variance")).expect(&said);
+    let (of_spin, of_wheel) =
+        drivers.split_once("initial angular velocity z (").unwrap().1.split_once("wheel w1 rate (").unwrap();
+    assert!(of_spin.contains("falls with it") && of_wheel.contains("rises with it"), "{drivers}");
+    // the same campaign again says how it ended, and writes the verdicts where they are asked for
+    let again = scratch.prints("campaign mine.toml --out r --junit v.xml", 0);
+    assert!(again.contains("PASS") && again.contains("r/report.html"), "{again}");
+    let verdicts = std::fs::read_to_string(scratch.path("v.xml")).unwrap();
+    assert!(verdicts.contains("testcase") && !verdicts.contains("<failure"), "{verdicts}");
+    std::fs::remove_file(scratch.path("v.xml")).unwrap();
+    scratch.prints("finish r --junit v.xml", 0);
+    assert_eq!(std::fs::read_to_string(scratch.path("v.xml")).unwrap(), verdicts);
+}
+
+/// Law: with a campaign the columns are those of its files of rows, in their order; a group that it does not observe is refused.
+#[test]
+fn the_columns_of_a_campaign_are_those_of_its_rows() {
+    let scratch = folder("own-columns");
+    scratch.prints("campaign small.toml --samples 10 --audit 1 --out r", 0);
+    let rows = &scratch.table("r/runs/part-000000.parquet");
+    let names: Vec<String> = rows.schema().fields().iter().map(|field| field.name().clone()).collect();
+    let text = scratch.prints_wide("columns --campaign small.toml", 0);
+    let shown: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("  ")?.split_whitespace().next()).collect();
+    let without_audits: Vec<&String> = names.iter().filter(|name| !name.starts_with("audit_")).collect();
+    assert_eq!(shown, without_audits);
+    let refused = scratch.prints("columns motion --campaign small.toml", 2);
+    assert!(refused.contains("motion: must be a group"), "{refused}");
+    assert!(scratch.prints("columns exchange --campaign small.toml", 0).contains("exchange_w1_peak_to_peak_j"));
+}
+
+/// Law: the columns of a loop are found without a campaign, each with what it needs; the list has every column of every shipped loop, and what a shipped loop has not
+/// needs something. Lines fit the terminal.
+#[test]
+fn columns_of_loops_are_found() {
+    let scratch = ScratchFolder::new("loop-columns");
+    let mut command = scratch.command("columns pointing");
+    let said = scratch.outputs(command.env("COLUMNS", "80"), 0);
+    assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+    let words = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    for (name, need) in [
+        ("pointing_error_final_rad", "(needs a phase with a target)"),
+        ("pointing_error_launch_rad", "(needs debris, and a phase with next = \"launch\")"),
+    ] {
+        let (_, after) = words.split_once(name).expect(name);
+        assert!(after[..after.find(')').expect("a need") + 1].ends_with(need), "{name}: {said}");
+    }
+    let known = OutcomeColumns::of_all_loops();
+    let mut seen = std::collections::BTreeSet::new();
+    for name in ["net_launch", "slew_closed", "detumble", "no_debris", "detumble_magnetic"] {
+        let file = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let plan = Plan::load(file.as_ref(), Overrides::default()).expect("a campaign");
+        let Some(spec) = plan.law.as_ref().and_then(|law| law.spec()) else { continue };
+        let names =
+            |list: &[spindrift::scene::Name]| list.iter().map(|name| name.as_str().to_owned()).collect::<Vec<_>>();
+        let phases = spec.phases.iter().map(|phase| phase.name.as_str().to_owned()).collect();
+        let places =
+            [("<phase>", phases), ("<wheel>", names(&spec.wheel_names)), ("<thruster>", names(&spec.thruster_names))];
+        let mut expected = std::collections::BTreeSet::new();
+        for (quantity, _) in &known {
+            let place = places.iter().find(|(place, _)| quantity.name().contains(place));
+            match place {
+                None => drop(expected.insert((quantity.name().to_owned(), quantity.name()))),
+                Some((place, names)) => {
+                    expected.extend(names.iter().map(|name| (quantity.name().replace(place, name), quantity.name())));
+                }
+            }
+        }
+        let columns = OutcomeColumns::of(spec).columns();
+        for column in columns.list.iter() {
+            let found = expected.iter().find(|(own, _)| own == column.quantity.name());
+            seen.insert(found.unwrap_or_else(|| panic!("{name}: {}", column.quantity.name())).1.to_owned());
+        }
+        for (quantity, need) in known.iter().filter(|(_, need)| need.is_empty()) {
+            let is_there =
+                quantity.name().contains('<') || columns.list.iter().any(|one| one.quantity.name() == quantity.name());
+            assert!(is_there, "{name}: {} needs {need:?}", quantity.name());
+        }
+    }
+    assert_eq!(seen.len(), known.len(), "net_launch has all of them but those of rods: {seen:?}");
+}

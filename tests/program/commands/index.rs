@@ -1,0 +1,66 @@
+//! `spindrift index`: all results below a folder.
+
+use std::fs;
+
+use crate::small_campaign::folder;
+use crate::support::scratch_folder::ScratchFolder;
+
+const LIMITED: &str = "[[require]]\nobservable = \"rate_w1_final_rad_s\"\nfraction = 0.5\nat_most = ";
+
+/// Runs a campaign with a limit on the speed of a wheel, then waits until a later file has a later time.
+fn run(scratch: &ScratchFolder, name: &str, limit: &str, out: &str, code: i32) {
+    let text = crate::small_campaign::campaign().replace("name = \"small\"", &format!("name = \"{name}\""));
+    scratch.file("c.toml", &format!("# Question: is <{name}> slow enough?\n{text}{LIMITED}{limit}\n"));
+    scratch.outputs(scratch.command("campaign c.toml --samples 20 --out").arg(out), code);
+    std::thread::sleep(std::time::Duration::from_millis(1100));
+}
+
+/// Law: each finished result below the folder has a row, on the screen and on the page, with the verdicts and runs of its summary and a link to its page; results of one
+/// campaign stand together, the latest first, with the keys and verdicts that changed since the run before; what cannot be read is named with its reason. The page loads
+/// nothing, the results stay as they are, and the lines fit the terminal.
+#[test]
+fn every_result_has_a_row() {
+    let scratch = folder("index");
+    run(&scratch, "first", "1e9", "all/z old", 0);
+    run(&scratch, "other", "1e9", "all/deep/er/other", 0);
+    run(&scratch, "first", "0.0", "all/a new", 3);
+    scratch.prints("campaign c.toml --samples 600 --shard 1/2 --out all/half", 0);
+    scratch.prints("campaign c.toml --samples 20 --out all/broken", 3);
+    scratch.file("all/broken/summary.json", "{}");
+    let before = scratch.parts("all/a new");
+    let mut command = scratch.command("index all");
+    let said = scratch.outputs(command.env("COLUMNS", "80"), 0);
+    assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+    assert_eq!(said.lines().last(), Some("3 results -> all/index.html"), "{said}");
+    let at = |text: &str| said.find(text).unwrap_or_else(|| panic!("no {text} in\n{said}"));
+    assert!(at("a new") < at("z old") && at("z old") < at("deep/er/other"), "{said}");
+    let flat = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    for words in [
+        "1 FAIL 20",
+        "require[0].at_most: 1000000000.0 -> 0.0",
+        "half not finished",
+        "broken summary.json is none of spindrift",
+    ] {
+        assert!(flat.contains(words), "{words}: {said}");
+    }
+    assert!(flat.contains("z old (first)") && !flat.contains("other (other)"), "{said}");
+
+    let page = scratch.text("all/index.html");
+    assert_eq!(page.matches("first run").count(), 2, "{page}");
+    for place in ["a%20new", "z%20old", "deep/er/other"] {
+        let link = format!("href=\"./{place}/report.html\"");
+        assert_eq!(page.matches(&link).count(), 1, "{link}");
+        assert!(scratch.path("all").join(place.replace("%20", " ")).join("report.html").is_file());
+    }
+    assert!(page.contains("is &lt;other&gt; slow enough?") && !page.contains("<other>"), "markup of a question");
+    assert!(page.contains("default-src 'none'") && !page.contains("http://") && !page.contains("https://"));
+    assert!(page.contains("<td class=\"text verdict fail\">1 FAIL</td><td>20</td>"), "{page}");
+    assert!(page.contains("<li>half: not finished"), "{page}");
+    assert_eq!(scratch.parts("all/a new"), before);
+
+    // a result is no place for the page
+    assert!(scratch.prints("index all/half", 2).contains("is itself a result"));
+    fs::create_dir(scratch.path("empty")).unwrap();
+    assert!(scratch.prints("index empty", 2).contains("there is no result"));
+    scratch.prints("index absent", 2);
+}

@@ -1,0 +1,300 @@
+//! `spindrift sample`, `check`, and what all commands share: bad input, a closed pipe.
+
+use std::fs;
+use std::process::Stdio;
+
+use crate::commands::screen_numbers::numbers;
+use crate::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder};
+use crate::support::campaigns::SPIN_DISPERSION;
+use crate::support::scratch_folder::floats;
+
+/// Law: `sample` gives the samples of the campaign, in both formats, and says which of them are invalid.
+#[test]
+fn sample_draws_the_rows_of_the_campaign() {
+    let scratch = folder("drawn");
+    scratch.file("thin.toml", &(campaign() + NEGATIVE_WALLS));
+    let said = scratch.prints("sample thin.toml --out s.csv --plot s.svg", 0);
+    for expected in
+        ["of 599 draws", "body.parts.fuselage.wall_thickness_m", "uniform, -0.02", "initial.angular_velocity_rad_s.z"]
+    {
+        assert!(said.contains(expected), "{expected} in:\n{said}");
+    }
+    scratch.prints("sample thin.toml --out s.parquet --plot s.png", 0);
+    let text = scratch.text("s.csv");
+    let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    assert_eq!(names[..3], ["sample_id", "status", "initial_angular_velocity_x_rad_s"]);
+    assert_eq!(text.lines().count(), 601);
+    let parquet = &scratch.table("s.parquet");
+    scratch.prints("campaign thin.toml --out r", 1);
+    let rows = scratch.rows("r");
+    // the last columns are the mass properties of what was drawn
+    assert_eq!(names[names.len() - 7..][..2], ["mass_kg", "center_of_mass_x_m"]);
+    for name in &names[2..names.len() - 7] {
+        let run: Vec<u64> = rows.iter().flat_map(|batch| floats(batch, name)).map(f64::to_bits).collect();
+        let drawn: Vec<u64> = floats(parquet, name).into_iter().map(f64::to_bits).collect();
+        let column = names.iter().position(|other| other == name).unwrap();
+        let written =
+            text.lines().skip(1).map(|line| line.split(',').nth(column).unwrap().parse::<f64>().unwrap().to_bits());
+        assert_eq!(drawn, run, "{name}");
+        assert!(written.eq(run), "{name}");
+    }
+    let invalid = text.lines().filter(|line| line.contains(",invalid_sample,")).count();
+    assert!((100..300).contains(&invalid), "a third is thinner than nothing: {invalid}");
+    assert!(scratch.text("s.svg").contains("Rank correlation"));
+    assert!(fs::read(scratch.path("s.png")).unwrap().starts_with(b"\x89PNG"));
+    let statuses: Vec<&str> = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
+    let [mass, a, b, c] = [
+        "mass_kg",
+        "principal_moment_smallest_kg_m2",
+        "principal_moment_middle_kg_m2",
+        "principal_moment_largest_kg_m2",
+    ]
+    .map(|column| floats(parquet, column));
+    for row in 0..600 {
+        assert_eq!(a[row].is_nan(), statuses[row] == "invalid_sample");
+        let is_physical = a[row] <= b[row] && b[row] <= c[row] && c[row] <= a[row] + b[row] && mass[row] > 0.0;
+        assert!(is_physical || a[row].is_nan(), "{row}");
+    }
+    // the nominal one is that of `check`
+    let check = scratch.prints("check thin.toml", 0);
+    assert!(check.contains(&format!("{} kg", format!("{:.2}", mass[0]).trim_end_matches('0'))), "{check}");
+    // one sample, in all digits, here and in `simulate`
+    let sample = (1..600).find(|row| statuses[*row] != "invalid_sample").unwrap();
+    let line = text.lines().nth(sample + 1).unwrap().split(',').nth(2).unwrap();
+    for command in ["sample", "simulate"] {
+        let said = scratch.prints(&format!("{command} thin.toml --sample {sample}"), 0);
+        assert!(said.contains("initial.angular_velocity_rad_s.x") && said.contains(line), "{line} in:\n{said}");
+    }
+    assert!(
+        scratch.prints(&format!("sample thin.toml --sample {sample}"), 0).contains("principal_moment_largest_kg_m2")
+    );
+    scratch.prints("sample thin.toml --sample 600", 2);
+    scratch.prints("sample thin.toml --out s.txt", 2);
+    scratch.prints("sample thin.toml --samples 0", 2);
+}
+
+#[test]
+fn check_shows_what_would_run() {
+    let scratch = folder("check");
+    scratch.file("no_debris.toml", &campaign_without_debris());
+    let said = scratch.prints_wide("check small.toml --plan", 0);
+    for expected in [
+        "small: 600 runs of 1 s, method auto, tolerance 1e-10, no requirement\n",
+        "samples = 600",
+        "1982.77",
+        "3054.59",
+        "J_xy = -integral of x y dm",
+        "initial.angular_velocity_rad_s.x",
+        "needed by ",
+        "not computed: no requested observable needs it",
+        "inertia of the spacecraft, wheels locked,",
+        "angular momentum of the spacecraft about its centre of mass",
+        "== Estimate",
+    ] {
+        assert!(said.contains(expected), "{expected} in:\n{said}");
+    }
+    assert!(
+        said.contains("wheel rates  ")
+            && said.contains("velocity of the debris  ")
+            && !said.contains("not computed: there is no"),
+        "{said}"
+    );
+    // masses add up, and the largest part has its share of them
+    let kg = |body: &str| {
+        let line = said.lines().find(|line| line.starts_with(&format!("{body} "))).expect(body);
+        line.split_whitespace().rev().nth(1).expect("a mass").parse::<f64>().expect("a number")
+    };
+    let [body, whole] = ["body", "spacecraft"].map(kg);
+    assert!((body + kg("wheel w1") + kg("wheel w2") - whole).abs() < 0.02, "{said}");
+    let share = numbers(&said, "largest part: body.parts.fuselage, # % of the mass of the spacecraft")[0];
+    assert!((share - 100.0 * body / whole).abs() < 0.051, "{share}: {said}");
+    let said = scratch.prints_wide("check no_debris.toml", 0);
+    assert!(said.contains("wheel rates  ") && !said.contains("of the debris"), "{said}");
+    assert!(!scratch.path("results").exists(), "check writes nothing");
+}
+
+/// Law: `check` of a scene has no line about what the scene and the method do not have.
+#[test]
+fn check_has_no_line_about_what_is_not_there() {
+    let scratch = folder("check-bare");
+    let bare = "[campaign]\nname = \"bare\"\nsamples = 1\nseed = 0\nduration_s = 2\n[body]\nmass_kg = 10\n\
+                inertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]\n[initial]\nangular_velocity_rad_s = [0, 0, 1]\n";
+    scratch.file("bare.toml", bare);
+    let said = scratch.prints_wide("check bare.toml", 0);
+    assert!(said.contains("inertia of the spacecraft about its centre of mass"), "{said}");
+    assert!(said.contains("angular velocity of the body ") && said.contains("attitude quaternion "), "{said}");
+    let listed = said.split("== Mass properties").nth(1).expect("mass properties");
+    for absent in ["wheel", "debris", "thrust", "actuat", "impulse", "null_space", "there is no"] {
+        let line = listed.lines().find(|line| line.contains(absent) && !line.starts_with("observed groups"));
+        assert_eq!(line, None, "{said}");
+    }
+    // a thruster that is there, and whose command acts in no run: it is not computed, and neither is its work
+    let thruster = "[[thrusters]]\nname = \"p1\"\nposition_m = [0.1, 0, 0]\ndirection = [0, 0, 1]\n";
+    let arc = |keys: &str| format!("{bare}{thruster}[[actuation]]\nend_s = 9\nthrust_n = {{ p1 = 1.0 }}\n{keys}\n");
+    let says_work = |keys: &str| {
+        scratch.file("bare.toml", &arc(keys));
+        let said = scratch.prints_wide("check bare.toml", 0);
+        let is_computed = !said.contains("not computed: no command of the schedule acts");
+        assert_eq!(said.contains("work of actuators") || said.contains("impulse"), is_computed, "{said}");
+        is_computed
+    };
+    assert!(says_work("start_s = 1"));
+    assert!(!says_work("start_s = 2"));
+}
+
+/// Law: below the components of a dispersed rate, attitude or alignment error are the percentiles of its magnitude, which are those of the
+/// drawn values; below those of other parameters there are none. What looks like a mistake is noted.
+#[test]
+fn check_shows_magnitudes_and_implausible_numbers() {
+    let scratch = folder("check-magnitudes");
+    let more = "[[disperse]]\nparameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\nstd_rad = 0.1\n\
+                [[disperse]]\nparameter = \"wheels.w1.tilt_rad\"\ndistribution = \"normal\"\nstd = 5\n\
+                [[disperse]]\nparameter = \"wheels.w2.rate_rad_s\"\ndistribution = \"normal\"\nstd = 5\n";
+    scratch.file("more.toml", &(campaign() + more));
+    let said = scratch.prints_wide("check more.toml", 0);
+    let row = |name: &str| {
+        let line = said
+            .lines()
+            .position(|line| line.trim_start().starts_with(name))
+            .unwrap_or_else(|| panic!("{name} in:\n{said}"));
+        let text = said.lines().nth(line).unwrap().trim_start().strip_prefix(name).unwrap();
+        // the unit comes first
+        let numbers: Vec<f64> = text.split_whitespace().skip(1).map_while(|word| word.parse().ok()).collect();
+        (line, numbers)
+    };
+    let (above, _) = row("initial.angular_velocity_rad_s.z");
+    let (below, rates) = row("|initial.angular_velocity_rad_s|");
+    assert_eq!(below, above + 1, "{said}");
+    scratch.prints("sample more.toml --out drawn.csv", 0);
+    let table = scratch.text("drawn.csv");
+    let names: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let place = ["x", "y", "z"].map(|axis| {
+        let name = format!("initial_angular_velocity_{axis}_rad_s");
+        names.iter().position(|other| *other == name).unwrap_or_else(|| panic!("{name} in {names:?}"))
+    });
+    let mut sizes: Vec<f64> = Vec::new();
+    for line in table.lines().skip(2) {
+        let cells: Vec<&str> = line.split(',').collect();
+        sizes.push(place.iter().map(|index| cells[*index].parse::<f64>().unwrap().powi(2)).sum::<f64>().sqrt());
+    }
+    sizes.sort_by(f64::total_cmp);
+    // 599 draws, the quantile of type 7
+    assert_eq!(sizes.len(), 599);
+    for (p, shown) in [0.01, 0.5, 0.99].into_iter().zip(&rates[1..]) {
+        let rank: f64 = p * 598.0;
+        let (below, part) = (rank as usize, rank.fract());
+        let expected = sizes[below] + part * (sizes[below + 1] - sizes[below]);
+        // four digits are shown
+        assert!((shown / expected - 1.0).abs() < 1e-3, "{shown} {expected}");
+    }
+    let (_, angles) = row("initial.attitude: angle from nominal (rad)");
+    // std 0.1 rad about each of three axes: the length has the quantiles 0.1 times 0.339, 1.538, 3.368 of the chi distribution with three
+    // degrees of freedom; those of 599 draws are within a fifth
+    for (shown, chi) in angles[1..].iter().zip([0.0339, 0.1538, 0.3368]) {
+        assert!(angles[0] == 0.0 && (0.5..1.3).contains(&(shown / chi)), "{angles:?}");
+    }
+    row("|wheels.w1.tilt_rad|");
+    assert!(!said.contains("|wheels.w2") && !said.contains("|initial.debris"), "{said}");
+    let notes = said.split("== Notes\n").nth(1).unwrap_or_else(|| panic!("{said}"));
+    assert!(notes.lines().any(|note| note.starts_with("wheels.w1.tilt_rad, as dispersed")), "{notes}");
+}
+
+#[test]
+fn bad_input_ends_with_code_2_and_says_everything() {
+    let scratch = folder("bad");
+    let bad = campaign().replace("outer_radius_m = 1.0", "outer_radius_m = -1.0").replace("seed = 7", "sead = 7");
+    scratch.file("bad.toml", &bad);
+    for command in ["campaign", "check", "simulate"] {
+        let said = scratch.prints(&format!("{command} bad.toml"), 2);
+        assert!(said.contains("bad.toml:5") && said.contains("sead") && said.contains("outer_radius_m"), "{said}");
+        let said = scratch.prints(&format!("{command} missing"), 2);
+        assert!(said.contains("campaigns/missing.toml"), "{said}");
+    }
+    scratch.prints("campaign small.toml --samples 0", 2);
+    scratch.prints("campaign small.toml --threads 0", 2);
+    let cores = std::thread::available_parallelism().unwrap().get();
+    let many = 4 * cores + 1;
+    for command in ["campaign small.toml", "finish r", "verify r", "compare r r", "report r"] {
+        let said = scratch.prints(&format!("{command} --threads {many}"), 2);
+        let allowed =
+            format!("must be a whole number from 1 to {}: 4 for each core that this process has ({cores})", 4 * cores);
+        assert!(said.contains(&allowed), "{command}: {said}");
+    }
+    scratch.prints("campaign small.toml --samples many", 2);
+    scratch.prints("", 2);
+    assert!(!scratch.path("results").exists(), "nothing is written for bad input");
+    assert!(scratch.prints("--help", 0).contains("Exit codes"));
+}
+
+/// Law: a reader that closes the pipe early is no error and no panic.
+#[test]
+#[cfg(unix)]
+fn a_closed_pipe_is_no_panic() {
+    let scratch = folder("pipe");
+    for arguments in ["simulate small.toml", "check small.toml", "--help"] {
+        let mut child = scratch.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!said.contains("panicked"), "{arguments}: {said}");
+        assert_eq!(output.status.code(), Some(0), "{arguments}: {said}");
+    }
+}
+
+/// Law: of two files with the same name, the one in the current folder is meant and not the one in `campaigns`, for every command; and a file
+/// that has exactly the name is meant before one that has it with `.toml`. Without either, the one in `campaigns` is.
+#[test]
+fn a_file_of_the_current_folder_comes_first() {
+    let scratch = folder("find");
+    let with_seed = |seed: u32| campaign().replace("seed = 7", &format!("seed = {seed}"));
+    let is_meant = |name: &str, seed: u32| {
+        let line = format!("\nseed = {seed}\n");
+        let said = scratch.prints(&format!("check {name} --plan"), 0);
+        assert!(said.contains(&line), "check {name}, {seed}: {said}");
+        scratch.prints(&format!("campaign {name} --samples 3 --out r{seed}{name} --no-report"), 0);
+        let plan = scratch.text(&format!("r{seed}{name}/plan.toml"));
+        assert!(plan.contains(&line), "campaign {name}, {seed}: {plan}");
+    };
+    scratch.file("campaigns/x.toml", &with_seed(101));
+    is_meant("x", 101);
+    is_meant("x.toml", 101);
+    scratch.file("x.toml", &with_seed(102));
+    is_meant("x", 102);
+    is_meant("x.toml", 102);
+    scratch.file("x", &with_seed(103));
+    is_meant("x", 103);
+    is_meant("x.toml", 102);
+    scratch.file("campaigns/x", &with_seed(104));
+    is_meant("x", 103);
+}
+
+/// Law: a figure of drawn samples is of the dispersed ones: where what is drawn does not depend on the nominal value, only the note that names
+/// this value, left of an axis that it is far from, does. Counter-test: another seed.
+#[test]
+fn a_figure_of_samples_is_without_the_nominal_one() {
+    let scratch = folder("drawn-nominal");
+    let drawn = "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s.x\"\ndistribution = \"uniform\"\nmin = 1.0\nmax = 2.0\n\
+                 [[disperse]]\nparameter = \"initial.angular_velocity_rad_s.y\"\ndistribution = \"uniform\"\nmin = 1.0\nmax = 2.0\n";
+    let scene = campaign_without_debris();
+    for (name, nominal) in [("near", "[-20.0, -30.0, 31.0]"), ("far", "[-2000.0, -500.0, 31.0]")] {
+        let text = scene.replace("[0, 3.141592653589793, 31.41592653589793]", nominal).replace(SPIN_DISPERSION, drawn);
+        assert!(text.contains(nominal) && text.contains(drawn));
+        scratch.file(&format!("{name}.toml"), &text);
+    }
+    let figure = |name: &str, options: &str| {
+        scratch.prints(&format!("sample {name}.toml --plot {name}.svg {options}"), 0);
+        let svg = scratch.text(&format!("{name}.svg"));
+        // outlines of letters: another number has other digits
+        let drawn = svg.lines().filter(|line| !line.starts_with("<path id")).map(str::to_owned);
+        let (notes, lines): (Vec<_>, Vec<_>) = drawn.partition(|line| line.contains("aria-label=\"nominal -"));
+        assert_eq!(notes.len(), 2, "both nominal values are far left of what is drawn");
+        (notes, lines)
+    };
+    for samples in [3, 40, 600] {
+        let options = format!("--samples {samples}");
+        let [near, far] = ["near", "far"].map(|name| figure(name, &options));
+        assert_ne!(near.0, far.0);
+        assert!(near.1 == far.1, "{samples} samples");
+        assert!(near.1 != figure("near", &format!("{options} --seed 8")).1, "{samples} samples");
+    }
+}

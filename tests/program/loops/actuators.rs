@@ -1,0 +1,220 @@
+//! What wheels and thrusters make of the commands of a control loop: recomputed from the telemetry and the true states at the starts of the arcs, and
+//! compared with what was flown.
+
+use nalgebra::{Matrix3, Vector3};
+use spindrift::scene::{Arc, Scene, WheelModel};
+
+use crate::loops::flown_loop::{FlownLoop, SAME_TIME, State, changed};
+
+const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
+const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
+
+/// Rounding of the torques and thrusts of an arc, and of the state at its start: some ten operations, and rates of tens of rad/s over arcs of some ms.
+const AGREED: f64 = 1e-12;
+
+/// What acts on a wheel over an arc, recomputed.
+#[derive(Clone, Copy, Debug)]
+pub struct Driven {
+    /// On the wheel, N m.
+    pub torque: f64,
+    /// What was commanded, with its scale and bias, beyond what the motor gives, N m.
+    pub excess: f64,
+    pub is_torque_limited: bool,
+    pub is_speed_limited: bool,
+    /// Whether friction is what stops the wheel.
+    pub is_stopped: bool,
+}
+
+/// What `model` makes of `commanded` on the wheel number `wheel` of `scene`, at the rate `rate`, over `length` seconds.
+pub fn driven(scene: &Scene, wheel: usize, commanded: f64, rate: f64, length: f64) -> Driven {
+    let model: WheelModel = scene.actuators.wheels[wheel];
+    // Omega' = tau (1/J + a.K^-1 a): the body takes the opposite torque
+    let of_wheel = scene.mass.wheels[wheel];
+    let axis = Vector3::from(of_wheel.axis);
+    let rows = scene.mass.inertia_free.concat();
+    let inverse = Matrix3::from_row_slice(&rows).try_inverse().expect("an inertia");
+    let inertia = 1.0 / (1.0 / of_wheel.axial + axis.dot(&(inverse * axis)));
+    let asked = if commanded == 0.0 { 0.0 } else { model.torque_scale * commanded + model.torque_bias };
+    let within = asked.abs().min(model.torque_limit) * asked.signum();
+    // to the limit of the speed at the end of the arc, against the friction at its start
+    let along = rate * within.signum();
+    let against = if along > 0.0 { model.coulomb_friction + model.viscous_friction * along } else { 0.0 };
+    let room = (inertia * (model.speed_limit - along) / length + against).max(0.0);
+    let motor = within.abs().min(room) * within.signum();
+    // viscous friction where the wheel keeps its direction, and no more than stops it
+    let mut after = rate + motor * length / inertia;
+    let mut friction = 0.0;
+    if after * rate > 0.0 {
+        let torque = (model.viscous_friction * rate.abs()).min(after.abs() * inertia / length);
+        friction -= torque * rate.signum();
+        after -= torque * length / inertia * rate.signum();
+    }
+    let to_stop = after.abs() * inertia / length;
+    friction -= model.coulomb_friction.min(to_stop) * after.signum();
+    Driven {
+        torque: motor + friction,
+        excess: (asked - motor).abs(),
+        is_torque_limited: asked.abs() > model.torque_limit,
+        is_speed_limited: within.abs() > room * (1.0 + AGREED),
+        is_stopped: model.coulomb_friction > 0.0 && to_stop < model.coulomb_friction,
+    }
+}
+
+/// What acts on each wheel over each arc of `flown`, by the commands that have reached the motors at its start.
+pub fn driven_wheels(flown: &FlownLoop) -> Vec<Vec<Driven>> {
+    let spec = flown.spec();
+    let commands: Vec<Vec<f64>> = spec
+        .wheels
+        .iter()
+        .map(|wheel| flown.told(&format!("commanded_torque_{}_n_m", spec.wheel_names[*wheel])))
+        .collect();
+    let of_arc = |(arc, state): &(Arc, State)| {
+        let tick = acting(flown, arc.start);
+        let wheels = 0..flown.run.scene.mass.wheels.len();
+        wheels
+            .map(|wheel| {
+                let place = spec.wheels.iter().position(|driven| *driven == wheel);
+                let commanded = place.zip(tick).map_or(0.0, |(place, tick)| commands[place][tick]);
+                driven(&flown.run.scene, wheel, commanded, state.wheel_rates[wheel], arc.end() - arc.start)
+            })
+            .collect()
+    };
+    flown.arcs.iter().map(of_arc).collect()
+}
+
+/// The tick whose command acts at `time`: the last that is at least `control.delay_s` ago.
+pub fn acting(flown: &FlownLoop, time: f64) -> Option<usize> {
+    let delay = flown.control("delay_s");
+    let came = |state: &State| state.time + delay < time + SAME_TIME;
+    flown.ticks.partition_point(came).checked_sub(1)
+}
+
+/// The torque of every motor over every arc of `flown` is what its wheel makes of the command; how often each effect was met: limit of the torque, of the
+/// speed, a wheel that friction stops, neither.
+fn assert_driven(flown: &FlownLoop) -> [usize; 4] {
+    let mut met = [0; 4];
+    for ((arc, state), wheels) in flown.arcs.iter().zip(driven_wheels(flown)) {
+        for (wheel, driven) in wheels.iter().enumerate() {
+            let model = flown.run.scene.actuators.wheels[wheel];
+            let scale = model.torque_limit.min(1.0);
+            let off = arc.applied.motor_torque[wheel] - driven.torque;
+            assert!(off.abs() < AGREED * scale, "{} s, wheel {wheel} at {state:?}: {off:e}, {driven:?}", arc.start);
+            met[0] += usize::from(driven.is_torque_limited);
+            met[1] += usize::from(driven.is_speed_limited);
+            met[2] += usize::from(driven.is_stopped);
+            met[3] += usize::from(!driven.is_torque_limited && !driven.is_speed_limited && !driven.is_stopped);
+        }
+    }
+    met
+}
+
+/// `slew_closed.toml` with motors that their limits cut and bearings that stop them, for its slew alone.
+pub fn limited_slew() -> String {
+    changed(
+        SLEW_CLOSED,
+        &[
+            ("duration_s = \"3 min\"", "duration_s = 70.1"),
+            ("time_s >= 30", "time_s >= 5"),
+            ("torque_limit_n_m = 0.02", "torque_limit_n_m = 0.007\ncoulomb_friction_n_m = 3e-4"),
+            ("speed_limit_rad_s = \"4000 rpm\"", "speed_limit_rad_s = 45"),
+            ("viscous_friction_n_m_s = 1e-6", "viscous_friction_n_m_s = 2e-5"),
+        ],
+    ) + "\n[[disperse]]\nparameter = \"wheels.w2.torque_bias_n_m\"\ndistribution = \"offset\"\noffset = 2e-4\n"
+}
+
+/// Law: a motor gives the command that is `delay_s` old, with its scale and bias, within the limits of its torque and of its wheel's speed, and friction
+/// acts; for delays of none, of a part of a period, and of more than one.
+#[test]
+fn motors_give_what_their_wheels_make_of_the_commands() {
+    for delay in ["0.0", "0.05", "0.25", "0.6"] {
+        let text = changed(&limited_slew(), &[("delay_s = 0.05", &format!("delay_s = {delay}"))]);
+        let met = assert_driven(&FlownLoop::new(&text, 3));
+        assert!(met.iter().all(|count| *count > 20), "each effect is met, delay {delay}: {met:?}");
+    }
+    let met =
+        assert_driven(&FlownLoop::new(&changed(DETUMBLE, &[("duration_s = \"10 min\"", "duration_s = 90.2")]), 5));
+    assert!(met[3] > 100, "{met:?}");
+}
+
+/// Thrusts over the arcs of `flown`: those that the commands, `delay_s` later, and the drawn thrusters make; how many pulses ended within a period.
+fn assert_fired(flown: &FlownLoop, is_on_off: bool) -> usize {
+    let spec = flown.spec();
+    let (period, delay) = (spec.period, flown.control("delay_s"));
+    let mut pulses = 0;
+    for thruster in spec.thrusters.iter().copied() {
+        let commands = flown.told(&format!("commanded_thrust_{}_n", spec.thruster_names[thruster]));
+        // flight software knows the thrust of the file
+        let believed = flown.plan.nominal.thrusters[thruster].max_thrust_n.unwrap_or(f64::INFINITY);
+        let drawn = flown.run.scene.actuators.thrusters[thruster];
+        for (arc, _) in &flown.arcs {
+            for share in [1e-4, 0.5, 1.0 - 1e-4] {
+                let time = arc.start + share * (arc.end() - arc.start);
+                let expected = acting(flown, time).map_or(0.0, |tick| {
+                    let since = time - (flown.ticks[tick].time + delay);
+                    let mean = commands[tick];
+                    if !is_on_off {
+                        return drawn.thrust_scale * mean.min(drawn.max_thrust);
+                    }
+                    let on_time = (mean / believed * period).max(drawn.min_on_time);
+                    if mean > 0.0 && since < on_time { drawn.thrust_scale * drawn.max_thrust } else { 0.0 }
+                });
+                let found = arc.applied.thrust[thruster];
+                assert!((found - expected).abs() < AGREED * 20.0, "p{thruster} at {time}: {found} for {expected}");
+            }
+        }
+        let ends = flown
+            .arcs
+            .windows(2)
+            .filter(|pair| pair[0].0.applied.thrust[thruster] > pair[1].0.applied.thrust[thruster]);
+        pulses += ends.count();
+    }
+    pulses
+}
+
+/// Law: a thruster fires `delay_s` after its command: at the thrust that was commanded, or at its own for as long as makes the mean; a valve that is slower
+/// or weaker than flight software knows fires longer or less. In every modulation.
+#[test]
+fn thrusters_give_what_their_valves_make_of_the_commands() {
+    let drawn = "\n[[disperse]]\nparameter = \"thrusters.p3.min_on_time_s\"\ndistribution = \"offset\"\noffset = 0.05\n\
+        [[disperse]]\nparameter = \"thrusters.p1.max_thrust_n\"\ndistribution = \"offset\"\noffset = -13.0\n";
+    for modulation in spindrift::control::actuators::modulation::NAMES {
+        for delay in ["0.0", "0.1", "0.7"] {
+            let change = [
+                ("modulation = \"pulse_width\"", &format!("modulation = \"{modulation}\"")[..]),
+                ("delay_s = 0.1", &format!("delay_s = {delay}")),
+                ("duration_s = \"10 min\"", "duration_s = 90.2"),
+                ("[\"0.5 deg/s\", \"0.8 deg/s\"", "[\"3 deg/s\", \"0.8 deg/s\""),
+            ];
+            let flown = FlownLoop::new(&(changed(DETUMBLE, &change) + drawn), 2);
+            let is_on_off = modulation != "throttled";
+            let ended = assert_fired(&flown, is_on_off);
+            assert!(ended > 3, "{modulation}, delay {delay}: {ended} pulses");
+        }
+    }
+}
+
+/// Law: where P1 makes up for the force of P2 or P3, which turn the body, the change of velocity is that of the net force, far below the sum of the impulses
+/// over the mass.
+#[test]
+fn opposing_thrusts_change_no_velocity() {
+    let change = [
+        ("duration_s = \"10 min\"", "duration_s = 60.2"),
+        ("modulation = \"pulse_width\"", "modulation = \"pulse_width\"\nhold_force = true"),
+    ];
+    let flown = FlownLoop::new(&changed(DETUMBLE, &change), 0);
+    let columns = flown.run.request.columns();
+    let value = |name: &str| flown.run.row[columns.iter().position(|one| one.quantity.name() == name).expect(name)];
+    let momentum = value("impulse_total_n_s");
+    let mass = flown.run.scene.mass.total;
+    let opposed: f64 = flown
+        .arcs
+        .iter()
+        .map(|(arc, _)| {
+            let [first, second, third, ..] = arc.applied.thrust;
+            (first - second - third).abs() * (arc.end() - arc.start) / mass
+        })
+        .sum();
+    assert!((value("delta_v_m_s") - opposed).abs() < AGREED, "{} for {opposed}", value("delta_v_m_s"));
+    assert!(momentum > 10.0 && opposed < 0.7 * momentum / mass, "{momentum} N s, {opposed} m/s");
+    assert!(flown.arcs.iter().any(|(arc, _)| arc.applied.thrust[0] > 0.0), "P1 has fired");
+}

@@ -1,0 +1,244 @@
+//! A stored campaign under a control law of a program's own: `examples/control_campaign.rs`, with audits and retained runs.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::control::{ControlLaw, LawContext};
+use spindrift::dynamics::actuation::{Actuation, BodyState, WheelState};
+use spindrift::ensemble::SingleRun;
+use spindrift::math::Isa;
+use spindrift::run::Status;
+use spindrift::sampling::SampleId;
+use spindrift::scene::Actuated;
+use spindrift::storage::claim::Shard;
+use spindrift::workflow::{
+    Campaign, CampaignOutcome, Finished, Outputs, Quiet, Results, Session, Verification, Watch, WorkflowError, finish,
+    verify,
+};
+
+#[path = "../../../examples/control_campaign.rs"]
+#[expect(dead_code, reason = "the example runs in tests/project")]
+mod example;
+
+use crate::small_campaign::campaign_without_debris;
+use crate::support::scratch_folder::ScratchFolder;
+
+/// A campaign of six hundred of these: some parts, some audits.
+fn campaign<'a>(session: Session<'a>, root: &Path) -> Campaign<'a> {
+    example::campaign(session).samples(600).audit(0.02).store(root)
+}
+
+fn threads(session: Session<'_>, threads: usize) -> Session<'_> {
+    session.on_threads(NonZeroUsize::new(threads))
+}
+
+/// Every file of a result.
+fn files(root: &Path) -> BTreeMap<String, Vec<u8>> {
+    let (mut found, mut folders) = (BTreeMap::new(), vec![root.to_owned()]);
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                found.insert(path.strip_prefix(root).unwrap().display().to_string(), fs::read(&path).unwrap());
+            }
+        }
+    }
+    assert!(found.len() > 5, "{:?}", found.keys());
+    found
+}
+
+/// Stops a campaign, and what is under way, after so many runs.
+struct StopAfter {
+    runs: u64,
+    done: AtomicU64,
+    stop: AtomicBool,
+}
+
+impl Watch for StopAfter {
+    fn advance(&self, samples: u64) {
+        if self.done.fetch_add(samples, Ordering::SeqCst) + samples >= self.runs {
+            self.stop.store(true, Ordering::SeqCst);
+        }
+    }
+
+    fn stop(&self) -> &AtomicBool {
+        &self.stop
+    }
+
+    fn abandon(&self) -> &AtomicBool {
+        &self.stop
+    }
+}
+
+/// `net_launch.toml`, with all its sensors and filters, for its first 20 s.
+fn net_launch<'a>(session: Session<'a>, root: &Path) -> Campaign<'a> {
+    let text = include_str!("../../../campaigns/net_launch.toml").replace("duration_s = 2400.0", "duration_s = 20.0");
+    Campaign::from_text("net_launch.toml", &text, session).samples(600).audit(0.02).store(root)
+}
+
+/// Law: one and two threads, a campaign that is stopped in the midst of a part and continued, and shards give the same bytes; they are verified by
+/// computing every row again. So it is under a law of the program's own and under a loop of the file.
+#[test]
+fn a_campaign_under_a_law_is_a_function_of_its_plan() {
+    is_a_function_of_its_plan("own", Some(&example::law()), campaign);
+    is_a_function_of_its_plan("loop", None, net_launch);
+}
+
+fn session<'a>(watch: &'a dyn Watch, law: Option<&'a ControlLaw>) -> Session<'a> {
+    let session = Session::new(watch).unwrap();
+    law.map_or(session, |law| session.under(law))
+}
+
+fn is_a_function_of_its_plan(
+    which: &str,
+    law: Option<&ControlLaw>,
+    campaign: for<'a> fn(Session<'a>, &Path) -> Campaign<'a>,
+) {
+    let scratch = ScratchFolder::new(&format!("law-bytes-{which}"));
+    let quiet = Quiet::default();
+    let session_of = session;
+    let session = session_of(&quiet, law);
+    let of = |name: &str| scratch.path(name);
+    campaign(threads(session, 1), &of("one")).results().unwrap();
+    let expected = files(&of("one"));
+
+    campaign(threads(session, 2), &of("two")).results().unwrap();
+    assert!(files(&of("two")) == expected, "{which}: two threads");
+
+    let stopping = StopAfter { runs: 300, done: AtomicU64::new(0), stop: AtomicBool::new(false) };
+    let stopped = campaign(threads(session_of(&stopping, law), 1), &of("stopped")).prepare().unwrap();
+    let Ok(CampaignOutcome::Stopped { samples: 600, left }) = stopped.unwrap().run() else { panic!("it is stopped") };
+    assert!((1..600).contains(&left), "{left} left");
+    campaign(session, &of("stopped")).results().unwrap();
+    assert!(files(&of("stopped")) == expected, "{which}: stopped and continued");
+
+    for number in 1..=3 {
+        let shard = campaign(session, &of("shards")).shard(Shard { number, of: 3 }).prepare().unwrap().unwrap();
+        assert!(matches!(shard.run(), Ok(CampaignOutcome::ShardDone { .. })));
+    }
+    let finished = finish(&session, &of("shards"), &Outputs::default(), &|_| Ok(())).unwrap();
+    assert!(matches!(finished, Finished::Now(_)));
+    assert!(files(&of("shards")) == expected, "{which}: three shards");
+
+    let verified = verify(&session, &of("one"), Verification { fraction: 1.0, repair: false }).unwrap().unwrap();
+    assert_eq!(verified.problems, 0);
+    // a damaged part is computed again under the law
+    let part = fs::read_dir(of("one").join("runs")).unwrap().next().unwrap().unwrap().path();
+    fs::write(&part, b"no rows").unwrap();
+    let repaired = verify(&session, &of("one"), Verification { fraction: 0.0, repair: true }).unwrap().unwrap();
+    assert!(repaired.problems > 0 && files(&of("one")) == expected);
+}
+
+/// Law: a sample replayed alone is its row, bit for bit; the law has acted in it, tick by tick; audits judge the arcs flown and find small errors;
+/// balances of energy and momentum contain the work of the motors.
+#[test]
+fn rows_under_a_law_are_its_runs() {
+    let scratch = ScratchFolder::new("law-rows");
+    let (quiet, law) = (Quiet::default(), example::law());
+    let session = Session::new(&quiet).unwrap().under(&law);
+    let results = campaign(session, &scratch.path("r")).results().unwrap();
+    let columns = results.plan().request().columns();
+    let rows: Vec<Vec<f64>> = columns.iter().map(|column| results.column(column.quantity.name()).unwrap()).collect();
+    for sample in [0, 1, 7, 8, 255, 256, 599] {
+        let run = results.replay(SampleId(sample)).unwrap();
+        assert_eq!((run.outcome.status, run.arcs.len()), (Status::Done, 240));
+        for ((column, row), value) in columns.iter().zip(&rows).zip(&run.row) {
+            let stored = row[sample as usize];
+            assert!(stored.to_bits() == value.to_bits() || (stored.is_nan() && value.is_nan()), "{sample} {column:?}");
+        }
+        assert!(run.audit(results.plan(), session.isa).unwrap().state() < 1e-11, "sample {sample}");
+    }
+    let audited: Vec<f64> =
+        results.column("audit_state_error").unwrap().into_iter().filter(|error| !error.is_nan()).collect();
+    assert!(audited.len() > 3 && audited.iter().all(|error| *error < 1e-11), "{audited:?}");
+    // what is audited is the run of the row: it estimates the same error
+    let [own, of_audit] =
+        ["state_error_estimate", "audit_state_error_estimate"].map(|name| results.column(name).unwrap());
+    for (own, of_audit) in own.iter().zip(&of_audit).filter(|(_, of_audit)| !of_audit.is_nan()) {
+        assert_eq!(own, of_audit);
+    }
+    let [work, energy, momentum] = ["work_motors_final_j", "energy_error_max", "angular_momentum_error_max"]
+        .map(|name| results.column(name).unwrap());
+    assert!(work.iter().skip(1).all(|work| work.abs() > 1e-6), "motors work in each run that is dispersed");
+    assert!(energy.iter().chain(&momentum).all(|error| error.abs() < 1e-12));
+    // parameters of the law are drawn, and matter: the law holds
+    let stiffness = results.column("control_stiffness_n_m").unwrap();
+    assert!(stiffness[0] == 0.6 && stiffness[1] != stiffness[2]);
+    let last = ["x", "y", "z"].map(|axis| results.column(&format!("omega_se_s_{axis}_final_rad_s")).unwrap());
+    let first = ["x", "y", "z"].map(|axis| results.column(&format!("initial_angular_velocity_{axis}_rad_s")).unwrap());
+    let sum = |rates: &[Vec<f64>; 3]| rates.iter().flatten().map(|rate| rate * rate).sum::<f64>().sqrt();
+    assert!(sum(&last) < 0.03 * sum(&first), "{} {}", sum(&last), sum(&first));
+}
+
+/// Law: a result under a law is opened with that law alone, and a changed parameter is another campaign.
+#[test]
+fn the_law_is_part_of_the_plan() {
+    let scratch = ScratchFolder::new("law-plan");
+    let (quiet, law) = (Quiet::default(), example::law());
+    let session = Session::new(&quiet).unwrap();
+    let root = scratch.path("r");
+    example::campaign(session.under(&law)).samples(20).store(&root).results().unwrap();
+    let reason = |session: Session<'_>| match Results::open(&root, session) {
+        Err(WorkflowError::Files(reason)) => reason,
+        _ => panic!("refused"),
+    };
+    let without = reason(session);
+    assert!(without.contains("control") && without.contains("plan.toml"), "{without}");
+    let idle = |_: &LawContext<'_>| |_: f64, _: &BodyState, _: &WheelState| Actuation::none(f64::INFINITY);
+    let other = ControlLaw::new("idle", Actuated::NONE, law.parameters(), idle);
+    let refused = reason(session.under(&other));
+    assert!(refused.contains("wheel_hold") && refused.contains("idle"), "{refused}");
+    // the program itself brings no law
+    let said = scratch.prints("report r", 4);
+    assert!(said.contains("control"), "{said}");
+    let text = fs::read_to_string(root.join("plan.toml")).unwrap();
+    let hash = |text: &str| {
+        let prepared = Campaign::from_text("p.toml", text, session.under(&law)).prepare().unwrap().unwrap();
+        prepared.plan().row_hash()
+    };
+    assert!(text.contains("law = \"wheel_hold\"") && text.contains("damping_n_m_s = 6.0"), "{text}");
+    assert_ne!(hash(&text), hash(&text.replace("damping_n_m_s = 6.0", "damping_n_m_s = 6.5")));
+    let negative = Campaign::from_text(
+        "p.toml",
+        &text.replace("damping_n_m_s = 6.0", "damping_n_m_s = -6.0"),
+        session.under(&law),
+    );
+    let Err(WorkflowError::Input(reason)) = negative.prepare() else { panic!("refused") };
+    assert!(reason.contains("control.damping_n_m_s = -6.0"), "{reason}");
+}
+
+/// Law: a law knows the nominal scene, and models of sensors the drawn one: each is what it says, in the nominal run and in a dispersed one. The schedule of
+/// the scene adds to the law.
+#[test]
+fn a_law_has_the_nominal_and_the_drawn_scene() {
+    let make = |context: &LawContext<'_>| {
+        let torque = [context.drawn.mass.total, context.nominal.mass.total, context.sample.0 as f64];
+        move |_: f64, _: &BodyState, _: &WheelState| Actuation { body_torque: torque, ..Actuation::none(f64::INFINITY) }
+    };
+    let law = ControlLaw::new("scenes", Actuated { body_torque: true, ..Actuated::NONE }, &[], make);
+    let overrides = Overrides { law: Some(law), ..Overrides::default() };
+    let text = campaign_without_debris()
+        + "[[disperse]]\nparameter = \"body.parts.fuselage.mass_scale\"\ndistribution = \"uniform\"\nmin = 0.5\nmax = 1.5\n";
+    let scheduled = text.clone() + "[[actuation]]\nstart_s = 0.25\nend_s = 0.5\ntorque_n_m = { w1 = 3.0 }\n";
+    let plan = |text: &str| Plan::from_text("scenes.toml", text, overrides.clone()).unwrap();
+    let run = |text: &str, sample: u64| {
+        let plan = plan(text);
+        SingleRun::new(&plan, SampleId(sample), plan.grid.clone(), Isa::best()).unwrap()
+    };
+    let nominal = run(&text, 0).scene.mass.total;
+    for sample in [0, 3, 9] {
+        let run = run(&text, sample);
+        assert_eq!(run.arcs.len(), 1);
+        assert_eq!(run.arcs[0].applied.body_torque, [run.scene.mass.total, nominal, sample as f64]);
+        assert_eq!(run.scene.mass.total == nominal, sample == 0, "the mass of sample {sample} is drawn");
+    }
+    let arcs = run(&scheduled, 3).arcs;
+    let shown: Vec<(f64, f64, bool)> =
+        arcs.iter().map(|arc| (arc.start, arc.applied.motor_torque[0], arc.applied.body_torque[2] == 3.0)).collect();
+    assert_eq!(shown, [(0.0, 0.0, true), (0.25, 3.0, true), (0.5, 0.0, true)]);
+}

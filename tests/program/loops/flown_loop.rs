@@ -1,0 +1,199 @@
+//! A run of a control loop with its true states at every control tick and at the start of every arc: what tests recompute from.
+
+use spindrift::campaign::Plan;
+use spindrift::control::spec::LoopSpec;
+use spindrift::ensemble::SingleRun;
+use spindrift::math::Isa;
+use spindrift::math::vector::{conjugate, dcm_from_quaternion, dot};
+use spindrift::run::{Grid, StateField};
+use spindrift::sampling::SampleId;
+use spindrift::scene::Arc;
+
+use crate::loops::closed_loops::{plan, run};
+
+/// Times that are closer than this, s, are one: rounding of k T, and far below any period and any pulse.
+pub const SAME_TIME: f64 = 1e-9;
+
+/// The true state at a time.
+#[derive(Clone, Debug)]
+pub struct State {
+    pub time: f64,
+    pub q_es: [f64; 4],
+    pub omega_se_s: [f64; 3],
+    pub r_co_e: [f64; 3],
+    pub v_co_e: [f64; 3],
+    pub wheel_rates: Vec<f64>,
+    pub debris: Option<Debris>,
+}
+
+/// The true state of the debris.
+#[derive(Clone, Copy, Debug)]
+pub struct Debris {
+    pub r_gdo_e: [f64; 3],
+    pub v_gdo_e: [f64; 3],
+    pub q_ed: [f64; 4],
+    pub omega_de_d: [f64; 3],
+}
+
+impl State {
+    /// s3 in F_e.
+    pub fn s3_e(&self) -> [f64; 3] {
+        self.to_e([0.0, 0.0, 1.0])
+    }
+
+    /// The vector `v` of F_s in F_e.
+    pub fn to_e(&self, v: [f64; 3]) -> [f64; 3] {
+        dcm_from_quaternion(self.q_es).map(|row| dot(row, v))
+    }
+
+    /// The vector `v` of F_e in F_s.
+    pub fn to_s(&self, v: [f64; 3]) -> [f64; 3] {
+        dcm_from_quaternion(conjugate(self.q_es)).map(|row| dot(row, v))
+    }
+
+    /// The debris.
+    pub fn debris(&self) -> Debris {
+        self.debris.expect("a scene with debris")
+    }
+}
+
+/// A run and what it was made from.
+pub struct FlownLoop {
+    pub plan: Plan,
+    pub run: SingleRun,
+    /// The true states at the control ticks, up to the one at which the run ended.
+    pub ticks: Vec<State>,
+    /// The arcs, each with the true state at its start; the one that marks the end of the run is not among them.
+    pub arcs: Vec<(Arc, State)>,
+    /// When the mission launched or failed.
+    pub end: Option<f64>,
+}
+
+impl FlownLoop {
+    /// Sample `sample` of the campaign file `text`.
+    pub fn new(text: &str, sample: u64) -> Self {
+        let plan = plan(&unjudged(text));
+        let first = run(&plan, sample);
+        let period = plan.law.as_ref().and_then(|law| law.spec()).expect("a loop").period;
+        let duration = plan.grid.duration();
+        let end = first.arcs.last().filter(|arc| arc.applied.ends_run).map(|arc| arc.start);
+        let ticks: Vec<f64> = (0..)
+            .map(|tick| f64::from(tick) * period)
+            .take_while(|time| *time < duration - SAME_TIME && end.is_none_or(|end| *time < end + SAME_TIME))
+            .collect();
+        let mut times: Vec<f64> = ticks.iter().copied().chain(first.arcs.iter().map(|arc| arc.start)).collect();
+        times.push(duration);
+        times.sort_by(f64::total_cmp);
+        times.dedup_by(|later, earlier| *later - *earlier < SAME_TIME);
+        // a time that rounding took beyond the end
+        *times.last_mut().expect("the duration") = duration;
+        let run = SingleRun::new(&plan, SampleId(sample), Grid::at(times), Isa::best()).expect("a physical scene");
+        assert!(run.arcs == first.arcs, "the arcs do not depend on what is observed");
+        let state = |time: f64| state_at(&run, time);
+        let arcs = run.arcs.iter().filter(|arc| !arc.applied.ends_run).map(|arc| (*arc, state(arc.start))).collect();
+        FlownLoop { ticks: ticks.into_iter().map(state).collect(), arcs, end, plan, run }
+    }
+
+    /// What the loop consists of.
+    pub fn spec(&self) -> &LoopSpec {
+        self.plan.law.as_ref().and_then(|law| law.spec()).expect("a loop")
+    }
+
+    /// The number `key` of `[control]`, as the file has it; zero where the loop has no such key.
+    pub fn control(&self, key: &str) -> f64 {
+        self.plan.nominal.control.named(key).map_or(0.0, |numbers| numbers[0])
+    }
+
+    /// The numbers `key` of the phase at `place`, as the file has them.
+    pub fn guidance(&self, place: usize, key: &str) -> Option<&[f64]> {
+        self.plan.nominal.control.guidance[place].named(key)
+    }
+
+    /// The place of the column `name` of the telemetry.
+    fn place(&self, name: &str) -> usize {
+        let quantities = &self.run.telemetry.quantities;
+        quantities.iter().position(|one| one.name() == name).unwrap_or_else(|| panic!("no {name} in the telemetry"))
+    }
+
+    /// What is recorded as `name` at each control tick at which the loop went on.
+    pub fn told(&self, name: &str) -> Vec<f64> {
+        let place = self.place(name);
+        let rows = self.run.telemetry.rows.iter().zip(&self.run.telemetry.times);
+        rows.filter(|(_, time)| **time < self.plan.grid.duration() - SAME_TIME).map(|(row, _)| row[place]).collect()
+    }
+
+    /// The same of a vector or a quaternion, `name` with a place for the component: `estimated_q_es_#`.
+    pub fn told_vector<const N: usize>(&self, name: &str) -> Vec<[f64; N]> {
+        let letters = if N == 4 { ["w", "x", "y", "z"] } else { ["x", "y", "z", ""] };
+        let columns: [Vec<f64>; N] = std::array::from_fn(|i| self.told(&name.replace('#', letters[i])));
+        (0..columns[0].len()).map(|tick| columns.each_ref().map(|column| column[tick])).collect()
+    }
+}
+
+/// The state of `run` at `time`, one of the times of its grid.
+fn state_at(run: &SingleRun, time: f64) -> State {
+    let times = run.grid.times();
+    let point = times.partition_point(|other| *other < time - SAME_TIME);
+    assert!((times[point] - time).abs() < SAME_TIME, "{time} is observed");
+    let at = |field| run.table.at::<3>(field, point);
+    let debris = run.scene.mass.debris.is_some().then(|| Debris {
+        r_gdo_e: at(StateField::DebrisPosition),
+        v_gdo_e: at(StateField::DebrisVelocity),
+        q_ed: run.table.at(StateField::DebrisAttitude, point),
+        omega_de_d: at(StateField::DebrisRate),
+    });
+    let wheels = 0..run.scene.mass.wheels.len();
+    State {
+        time,
+        q_es: run.table.at(StateField::Attitude, point),
+        omega_se_s: at(StateField::Rate),
+        r_co_e: at(StateField::ComPosition),
+        v_co_e: at(StateField::ComVelocity),
+        wheel_rates: wheels.map(|wheel| run.table.column(StateField::WheelRates, wheel)[point]).collect(),
+        debris,
+    }
+}
+
+/// `text` without requirements: a loop that has been changed need not have their columns.
+fn unjudged(text: &str) -> String {
+    let (mut kept, mut is_kept) = (String::new(), true);
+    for line in text.lines() {
+        is_kept = if line.starts_with('[') { line.trim() != "[[require]]" } else { is_kept };
+        kept += if is_kept { line } else { "" };
+        kept.push('\n');
+    }
+    kept
+}
+
+/// `text` with each of `changes`, which must be there.
+pub fn changed(text: &str, changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(text.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    })
+}
+
+/// `text`, whose loop has filters, with another estimator: `raw` or `perfect`.
+pub fn without_filters(text: &str, estimator: &str) -> String {
+    let text = changed(text, &[("estimator = \"mekf\"", &format!("estimator = \"{estimator}\""))]);
+    let of_filters = ["initial_", "debris_position_sigma", "debris_velocity_sigma"];
+    let is_kept = |line: &&str| !of_filters.iter().any(|start| line.starts_with(start) && line.contains("_sigma_"));
+    text.lines().filter(is_kept).collect::<Vec<_>>().join("\n") + "\n"
+}
+
+/// The angle between two vectors, rad.
+pub fn angle_between(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let [a, b] = [a, b].map(|v| v.map(|x| x / size(v)));
+    // W. Kahan: right at any angle
+    let [apart, together] = [-1.0, 1.0].map(|sign| size(std::array::from_fn(|i| a[i] + sign * b[i])));
+    2.0 * apart.atan2(together)
+}
+
+/// The rotation vector of the quaternion `q`, rad, by the shorter way.
+pub fn rotation_vector(q: [f64; 4]) -> [f64; 3] {
+    let [w, x, y, z] = if q[0] < 0.0 { q.map(|x| -x) } else { q };
+    let sine = (x * x + y * y + z * z).sqrt();
+    let factor = if sine > 0.0 { 2.0 * sine.atan2(w) / sine } else { 2.0 };
+    [factor * x, factor * y, factor * z]
+}

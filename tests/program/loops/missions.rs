@@ -1,0 +1,72 @@
+//! How missions ended: on the screen, in the summary and on the page, against the rows.
+
+use crate::commands::screen_numbers::{numbers, says};
+use crate::page::cards::between;
+use crate::page::numbers::Found;
+use crate::support::scratch_folder::{ScratchFolder, column, ended};
+use spindrift::statistics::binomial::interval;
+
+const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
+
+/// Law: the dispersed runs that are ok are counted by how their mission ended, each with its share in percent and the interval of the share, of which
+/// the bar of the page is drawn.
+#[test]
+fn ends_are_those_of_the_rows() {
+    let scratch = ScratchFolder::new("missions");
+    // some runs are at rest by then, and the nominal one is not
+    let text = DETUMBLE.replace("timeout_s = 500.0", "timeout_s = 40.0");
+    scratch.file("c.toml", &text);
+    let mut command = scratch.command("campaign c.toml --samples 40 --out r --verbose");
+    let output = command.env("COLUMNS", "200").output().expect("the program starts");
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let rows = scratch.rows("r");
+    let (failures, ended) = (column(&rows, "failure"), ended(&rows));
+    let ok: Vec<usize> = (1..40).filter(|row| ended[*row].1 == "ok").collect();
+    let runs = ok.len() as f64;
+    let missions = scratch.summary("r")["missions"].as_array().expect("missions").clone();
+    let found = Found::read(scratch, String::new());
+    let page = found.visible();
+    let table = between(&page, "<section id=\"missions\">", "</section>");
+    let mut all = 0.0;
+    for (end, code, words) in [("not_failed", 0.0, "did not fail"), ("timeout", 1.0, "failed: a phase took too long")] {
+        let count = ok.iter().filter(|row| failures[**row] == code).count() as u64;
+        let [low, high] = interval(count, ok.len() as u64, 0.95);
+        let share = count as f64 / runs;
+        let one = missions.iter().find(|one| one["end"] == end).expect(end);
+        assert_eq!([&one["count"], &one["runs"]].map(|number| number.as_u64()), [Some(count), Some(ok.len() as u64)]);
+        let percents = [share, low, high].map(|share| 100.0 * share);
+        let counted = [&[count as f64, runs][..], &percents].concat();
+        says(&said, &format!("# of # missions {words}: #% [#, #]"), &counted);
+        let row = table.split("<tr>").find(|row| row.contains(words)).expect("a row");
+        says(
+            row,
+            "<td class=\"number\">#</td><td class=\"number\">#% [#, #]</td>",
+            &[&[count as f64][..], &percents].concat(),
+        );
+        let places = numbers(row, "x1=\"#%\" x2=\"#%\"");
+        let width = numbers(between(row, "<rect", "/>"), "width=\"#%\"")[0];
+        for (place, known) in [(width, share), (places[0], low), (places[1], high)] {
+            assert!((place - 100.0 * known).abs() < 6e-4, "{place} for {known}: {row}");
+        }
+        all += count as f64;
+    }
+    assert!(all == runs && missions.len() == 2, "{missions:?}");
+    // a figure counts the runs that have a value; those that failed never came to rest
+    let began = found.rows(&["phase_rest_begin_s"]);
+    let known = began.iter().filter(|(_, row)| row[0].is_finite()).count();
+    let scatter = found.figure("scatter_phase_rest_begin_s_initial_angular_velocity_y_rad_s");
+    assert!(known < began.len() && scatter["caption"] == format!("{known} runs that were computed."), "{scatter}");
+    // what failed is the mission, and not its computation
+    let worst = between(&page, "id=\"worst\"", "</section>");
+    for row in worst.split("<tr>").skip(3) {
+        let sample = between(row, "<th scope=\"row\">", "</th>").parse::<usize>().expect("a sample");
+        let mission = if failures[sample] == 1.0 { "; mission failed: a phase took too long" } else { "" };
+        assert!(row.contains(&format!("<td class=\"text\">computed{mission}</td>")), "{row}");
+    }
+    assert!(said.contains("all 40 runs were computed") && page.contains("All 40 runs were computed."), "{said}");
+    for (end, class) in [("did not fail", "ok"), ("failed: a phase took too long", "failed")] {
+        let row = table.split("<tr>").find(|row| row.contains(end)).expect("a row");
+        assert!(row.contains(&format!("class=\"mission {class}\"")), "{row}");
+    }
+    assert!(failures[0] == 1.0 || failures[0] == 0.0);
+}

@@ -1,0 +1,136 @@
+//! Noise within control loops: the share of the variance that it makes, as `report --noise` says it, and what innovations say of filters.
+
+use crate::loops::closed_loops::{SLEW_CLOSED, plan, run, value};
+use crate::page::numbers::{Found, found};
+
+/// A damped body whose star tracker is believed as it is: its error is noise alone, the drawn scale is none, `of_both` has a known share of it.
+const NOISY: &str = r#"
+[campaign]
+name = "noisy"
+samples = 401
+seed = 5
+duration_s = 4
+[observe]
+points = 3
+[body]
+mass_kg = 100
+center_of_mass_m = [0, 0, 0]
+inertia_kg_m2 = [[30, 0, 0], [0, 36, 0], [0, 0, 24]]
+includes_wheels = true
+[[wheels]]
+name = "w1"
+axis = [1, 0, 0]
+mass_kg = 1
+axial_inertia_kg_m2 = 0.01
+transverse_inertia_kg_m2 = 0.006
+[control]
+period_s = 0.5
+estimator = "raw"
+wheels = ["w1"]
+[[sensors]]
+name = "tracker"
+kind = "star_tracker"
+noise_rad = [1e-3, 0, 0]
+[[sensors]]
+name = "tachometers"
+kind = "tachometers"
+[[guidance]]
+phase = "damp"
+law = "rate_damping"
+gain_n_m_s = 0.1
+[[disperse]]
+parameter = "body.inertia_scale"
+distribution = "normal"
+std = 0.001
+[summary]
+columns = ["attitude_estimate_error_final_rad"]
+[[observable]]
+name = "of_scene"
+expression = "body.inertia_scale"
+[[observable]]
+name = "of_both"
+expression = "body.inertia_scale + attitude_estimate_error_final_rad"
+"#;
+
+/// Share and ends of the interval of `outcome`, per cent.
+fn said(text: &str, outcome: &str) -> [f64; 3] {
+    let line = text
+        .lines()
+        .find(|line| line.trim_start().starts_with(&format!("{outcome} ")))
+        .unwrap_or_else(|| panic!("{text}"));
+    let (_, numbers) = line.split_once("noise within the loop is ").unwrap();
+    let mut numbers = numbers.split(['%', '[', ',', ']']).filter_map(|word| word.trim().parse::<f64>().ok());
+    std::array::from_fn(|_| numbers.next().unwrap())
+}
+
+fn variance(values: &[f64]) -> f64 {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len() as f64
+}
+
+/// Law: what the scene alone decides has no noise, what a sensor alone decides is all noise, and a sum has the share that the variances of its parts say; the
+/// page says the same as the screen; without a loop there is no noise to ask for.
+#[test]
+fn noise_is_told_from_scenes() {
+    let run = found("noise", NOISY);
+    let parts = run.rows(&["attitude_estimate_error_final_rad", "body_inertia_scale"]);
+    let [of_noise, of_scene] = [0, 1].map(|k| variance(&parts.iter().map(|(_, row)| row[k]).collect::<Vec<f64>>()));
+    let page_before = run.data.to_string();
+    assert!(page_before.contains("report DIR --noise 256"), "the page says how");
+    let text = run.scratch.prints("report r --noise 400", 0);
+    // the page says how it was made, and is made again
+    run.scratch.prints("verify r --fraction 0", 0);
+    assert!(
+        text.contains("of_scene                           noise within the loop changes it in none of 400 scenes"),
+        "{text}"
+    );
+    let [share, low, high] = said(&text, "attitude_estimate_error_final_rad");
+    assert!(share > 90.0 && low < 100.0 && high == 100.0, "{text}");
+    let [share, low, high] = said(&text, "of_both");
+    let expected = 100.0 * of_noise / (of_noise + of_scene);
+    assert!((20.0..60.0).contains(&expected) && (low..high).contains(&expected), "{expected}: {text}");
+    assert!((share / expected - 1.0).abs() < 0.2 && high - low < 20.0, "{expected}: {text}");
+    let again = Found::read(run.scratch, String::new());
+    let caption = again.figure("influence_of_both")["caption"].as_str().unwrap();
+    let words = format!(
+        "oise within the loop is {}",
+        text.split_once("of_both").unwrap().1.split_once("loop is ").unwrap().1.lines().next().unwrap()
+    );
+    assert!(caption.contains(&words), "{caption} does not say {words}");
+
+    let scratch = again.scratch;
+    let start = NOISY.find("[control]").unwrap();
+    let end = NOISY.find("[[disperse]]").unwrap();
+    let text = NOISY.replace(&NOISY[start..end], "").replace("attitude_estimate_error_final_rad", "energy_error_max");
+    scratch.file("open.toml", &text);
+    scratch.prints("campaign open.toml --out open", 0);
+    let refused = scratch.prints("report open --noise 8", 2);
+    assert!(refused.contains("no control loop") && refused.contains("leave out --noise"), "{refused}");
+}
+
+/// Law: the mean innovation of a row is that of the ticks recorded; of a filter that is told the truth it is 1 (twelve runs of 360 attitudes with 12,900
+/// degrees of freedom: five standard errors are 0.062).
+#[test]
+fn innovations_say_whether_a_filter_is_right() {
+    let right =
+        SLEW_CLOSED.replace("std = 1e-4", "std = 1e-12").replace("std = \"20 arcsec\"", "std = \"1e-6 arcsec\"");
+    assert_ne!(right, SLEW_CLOSED);
+    let mean = |text: &str| {
+        let plan = plan(text);
+        let of = |sample| {
+            let run = run(&plan, sample);
+            let mean = value(&run, "attitude_innovation_mean");
+            let telemetry = &run.telemetry;
+            let column =
+                telemetry.quantities.iter().position(|one| one.name() == "attitude_innovation_square").unwrap();
+            let recorded: Vec<f64> = telemetry.rows.iter().map(|row| row[column]).filter(|x| x.is_finite()).collect();
+            assert!(recorded.len() > 350, "{}", recorded.len());
+            let expected = recorded.iter().sum::<f64>() / recorded.len() as f64;
+            assert!((mean / expected - 1.0).abs() < 1e-13, "{mean} for {expected}");
+            mean
+        };
+        (1..=12).map(of).sum::<f64>() / 12.0
+    };
+    let found = mean(&right);
+    assert!((found - 1.0).abs() < 0.062, "{found}");
+}

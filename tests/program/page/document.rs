@@ -1,0 +1,189 @@
+//! `report.html`: small, self-contained, safe against the text of the file, complete without runs that
+//! are ok. What a reader sees in it is tested in a browser (`.ci/browser`).
+
+use std::fs;
+
+use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
+use crate::support::scratch_folder::ScratchFolder;
+
+/// A page is smaller than this, also of a million runs: `../docs/results.md`.
+const LARGEST: usize = 2_000_000;
+
+fn page(scratch: &ScratchFolder, result: &str) -> String {
+    scratch.text(&format!("{result}/report.html"))
+}
+
+/// The static part of a page: what a reader sees without scripts.
+fn visible(page: &str) -> &str {
+    page.split_once("<script").expect("a page has scripts").0
+}
+
+/// Law: `--no-report` leaves the page out, and `--figures` writes each figure as SVG and PNG.
+#[test]
+fn figures_are_files_too() {
+    let scratch = folder("page-figures");
+    scratch.prints("campaign small.toml --samples 40 --out plain --no-report", 0);
+    assert!(!scratch.path("plain/report.html").exists());
+    scratch.prints("report plain --figures figures", 0);
+    let names = |extension: &str| -> Vec<String> {
+        let entries =
+            fs::read_dir(scratch.path("figures")).expect("a folder").map(|entry| entry.expect("an entry").path());
+        let mut names: Vec<String> = entries
+            .filter(|path| path.extension().is_some_and(|found| found == extension))
+            .map(|path| path.file_stem().expect("a name").to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    };
+    let (svg, png) = (names("svg"), names("png"));
+    assert_eq!(svg, png);
+    for expected in [
+        "drift_energy",
+        "energy_transfer",
+        "energy_phase",
+        "energy_spectrum",
+        "tail_energy_error_max",
+        "correlation_achieved",
+    ] {
+        assert!(svg.iter().any(|name| name == expected), "{expected} is not among {svg:?}");
+    }
+    let text = scratch.text("figures/drift_energy.svg");
+    assert!(text.starts_with("<svg") && text.contains("Drift of energy"), "{text}");
+    let said = scratch.prints("report campaigns", 4);
+    assert!(said.contains("has no result of spindrift"), "{said}");
+}
+
+/// Law: nothing in the page is loaded from the network: no element refers to an address, and its policy forbids it.
+#[test]
+fn the_page_needs_no_network() {
+    let scratch = folder("page-offline");
+    scratch.prints("campaign small.toml --samples 40 --out small", 0);
+    let page = page(&scratch, "small");
+    assert!(page.len() < LARGEST, "{} bytes", page.len());
+    for reference in ["src=\"http", "href=\"http", "url(http", "@import", "src=\"//", "<link rel=\"stylesheet\""] {
+        assert!(!page.contains(reference), "{reference}");
+    }
+    assert!(page.contains("default-src 'none'"), "the policy");
+}
+
+/// Law: text of the campaign file is text in the page, never markup.
+#[test]
+fn text_of_the_file_is_escaped() {
+    const ATTACK: &str = "</script><img src=x onerror=alert(1)><!-- & \\\"quoted\\\"";
+    let scratch = folder("page-escaped");
+    let text = campaign().replace("name = \"small\"", &format!("name = \"small\"\ndescription = \"{ATTACK}\""));
+    let compared = "[[observable]]\nname = \"is_seen\"\nunit = \"<i>u\"\nexpression = \"1e-16<energy_error_max\"\n";
+    scratch.file("attack.toml", &(text + compared));
+    scratch.prints("campaign attack.toml --samples 20 --out attack", 0);
+    let attacked = page(&scratch, "attack");
+    assert!(!attacked.contains("<img src=x") && !attacked.contains("<!-- &"), "markup of the description");
+    assert!(
+        visible(&attacked)
+            .contains("&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;&lt;!-- &amp; &quot;quoted&quot;")
+    );
+    // a unit is in cards, in the list of worst runs and in the table of statistics
+    assert!(!attacked.contains("<i>u") && visible(&attacked).matches("&lt;i&gt;u").count() >= 3);
+    // in the plan, among the meanings of columns and in the table of statistics
+    assert!(!attacked.contains("<energy_error_max") && visible(&attacked).matches("&lt;energy_error_max").count() >= 3);
+    // the counter-test: the same page without it has as many scripts
+    scratch.prints("campaign small.toml --samples 20 --out plain", 0);
+    let scripts = |page: &str| (page.matches("<script").count(), page.matches("</script>").count());
+    assert_eq!(scripts(&attacked), scripts(&page(&scratch, "plain")));
+}
+
+/// Law: runs that failed are counted with reason and replay command; a campaign without a run that is ok, and one of the nominal run
+/// alone, have a page too, in which no number is NaN.
+#[test]
+fn pages_of_failures() {
+    let scratch = folder("page-failures");
+    scratch.file("thin.toml", &(campaign() + NEGATIVE_WALLS));
+    scratch.prints("campaign thin.toml --samples 100 --out thin", 1);
+    let found = page(&scratch, "thin");
+    assert!(
+        visible(&found).contains("invalid: not physical")
+            && visible(&found).contains("spindrift simulate plan.toml --sample")
+    );
+    scratch.file("short.toml", &campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1"));
+    scratch.prints("campaign short.toml --samples 30 --out short", 1);
+    scratch.prints("campaign small.toml --samples 1 --out one", 0);
+    for (result, sentence) in [
+        ("short", "None of 30 runs was computed"),
+        ("one", "The run was computed."),
+        ("thin", "of 100 runs were computed"),
+    ] {
+        let page = page(&scratch, result);
+        assert!(visible(&page).contains(sentence), "{result}: {sentence}");
+        let mut words = visible(&page).split(|letter: char| !letter.is_alphanumeric());
+        assert!(words.all(|word| word != "NaN" && word != "inf"), "{result}");
+    }
+}
+
+/// Law: what the file of `new` asks of the integration it gets: nothing on its screen or page is above what the tolerance promises, whatever the draws.
+/// A method whose steps add up to more than ten times its tolerance is named.
+#[test]
+fn the_campaign_of_new_holds_its_tolerance() {
+    let scratch = ScratchFolder::new("page-new");
+    scratch.prints("new start.toml", 0);
+    let above = "above what the tolerance promises";
+    for (folder, change) in [("a", ""), ("b", " --set campaign.seed=810"), ("c", " --set campaign.duration_s=600.0")] {
+        let said = scratch.prints(&format!("campaign start.toml --verbose --out {folder}{change}"), 0);
+        assert!(said.contains("largest errors, relative") && !said.contains("above"), "{said}");
+        let page = page(&scratch, folder);
+        assert!(visible(&page).contains("Largest relative errors") && !page.contains(above), "{change}");
+    }
+    let other =
+        "--set integrator.method=dormand_prince --set integrator.tolerance=1e-6 --set campaign.duration_s=3000.0";
+    scratch.prints(&format!("campaign start.toml --out d {other}"), 0);
+    assert!(page(&scratch, "d").contains(above));
+}
+
+/// Law: the page answers first: verdict in the title of the tab and beside the name, then the cards and what drives the outcome; the outcome comes before the
+/// replay, that before the motion over time, and what is seldom needed is folded away at the end.
+#[test]
+fn the_page_answers_first() {
+    let scratch = ScratchFolder::new("page-order");
+    let required =
+        |limit: &str| format!("[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.5\nat_most = {limit}\n");
+    for (limits, code, word, counts) in
+        [(&["1.0"][..], 0, "PASS", "1 PASS"), (&["1.0", "1e-30"], 3, "FAIL", "1 PASS, 1 FAIL")]
+    {
+        let requirements: String = limits.iter().map(|limit| required(limit)).collect();
+        scratch.file("c.toml", &(campaign() + &requirements));
+        scratch.prints("campaign c.toml --samples 60 --out r --overwrite", code);
+        let page = page(&scratch, "r");
+        let visible = visible(&page);
+        assert!(visible.contains(&format!("<title>{word}: small - spindrift</title>")), "{word}");
+        let head = visible.split_once("<h1>").expect("a name").1.split_once("</h1>").expect("an end").0;
+        assert!(
+            head.starts_with("small") && head.contains(&format!(">{word}</span>")) && head.contains(counts),
+            "{head}"
+        );
+        let parts = [
+            "<title>",
+            "<nav",
+            "<h1>",
+            "id=\"verdicts\"",
+            "id=\"drivers\"",
+            "id=\"status\"",
+            "id=\"outcome\"",
+            "id=\"replay\"",
+            "id=\"time\"",
+            "id=\"influence\"",
+            "id=\"worst\"",
+            "id=\"numerics\"",
+            "id=\"inputs\"",
+            "id=\"statistics\"",
+            "id=\"provenance\"",
+        ];
+        let places: Vec<usize> =
+            parts.iter().map(|part| visible.find(part).unwrap_or_else(|| panic!("{part}"))).collect();
+        assert!(places.is_sorted(), "{parts:?} at {places:?}");
+        for folded in ["inputs", "statistics"] {
+            let section = visible.split_once(&format!("<section id=\"{folded}\">")).expect(folded).1;
+            let section = section.split_once("</section>").expect("an end").0;
+            let fold = section.find("<details class=\"fold\">").expect("a fold that is closed");
+            let content = section.find("class=\"figures\"").expect("figures");
+            assert!(fold < content, "{folded}");
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! The figures over time of the page of a control loop: which there are, their limits, bands and runs in flight, against file, rows and telemetry.
+
+use serde_json::Value;
+
+use crate::page::numbers::Found;
+use crate::small_campaign::RADIANS;
+use crate::support::scratch_folder::ScratchFolder;
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::ensemble::SingleRun;
+use spindrift::math::Isa;
+use spindrift::run::Grid;
+use spindrift::sampling::SampleId;
+
+const SAMPLES: usize = 60;
+const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
+const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
+const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
+const WHEEL_FAILURE: &str = include_str!("../../../campaigns/wheel_failure.toml");
+const SPIN_SWEEP: &str = include_str!("../../../campaigns/spin_sweep.toml");
+
+fn page(name: &str, text: &str) -> Found {
+    let scratch = ScratchFolder::new(&format!("loop-page-{name}"));
+    scratch.file("slew_closed.toml", SLEW_CLOSED);
+    // as the rows have them, where the file writes no other unit
+    scratch.file("c.toml", &(text.to_owned() + RADIANS));
+    scratch.command(&format!("campaign c.toml --samples {SAMPLES} --out r")).output().expect("the program starts");
+    Found::read(scratch, String::new())
+}
+
+/// The figures of the section, in their order.
+fn over_time(found: &Found) -> Vec<&Value> {
+    let figures = found.data["figures"].as_array().expect("figures");
+    figures.iter().filter(|figure| figure["section"] == "time").collect()
+}
+
+fn name(figure: &Value) -> &str {
+    figure["name"].as_str().expect("a name")
+}
+
+fn marks<'v>(figure: &'v Value, kind: &'v str) -> impl Iterator<Item = &'v Value> {
+    figure["marks"].as_array().expect("marks").iter().filter(move |mark| mark["kind"] == kind)
+}
+
+fn limits(figure: &Value) -> Vec<(String, f64)> {
+    let limit = |mark: &Value| (mark["label"].as_str().unwrap_or("").to_owned(), mark["at"].as_f64().expect("a place"));
+    marks(figure, "limit").map(limit).collect()
+}
+
+/// The figures that a scene calls for, by what its file says.
+fn called(text: &str) -> Vec<&'static str> {
+    let has = |what: &str| text.contains(what);
+    let (debris, filter) = (has("[debris]"), has("estimator = \"mekf\""));
+    [
+        ("pointing_error_rad", has("target = ")),
+        ("phases", true),
+        ("attitude_estimate_error_rad", filter),
+        ("rate_estimate_error_rad_s", filter),
+        ("relative_position_estimate_error_m", filter && debris),
+        ("relative_velocity_estimate_error_m_s", filter && debris),
+        ("debris_distance_m", debris),
+        ("debris_relative_speed_m_s", debris),
+        ("spin_axis_debris_angle_rad", debris),
+        ("angular_rate_rad_s", true),
+        ("wheel_torque", has("[[wheels]]")),
+        ("wheel_speed", has("[[wheels]]")),
+        ("thrust", has("[[thrusters]]")),
+        ("impulse_n_s", has("[[thrusters]]")),
+        ("propellant", has("isp_s")),
+    ]
+    .into_iter()
+    .filter_map(|(name, is_called)| is_called.then_some(name))
+    .collect()
+}
+
+/// Law: the page of a loop has the figures that its scene calls for, in the order of the list, and none of an energy, unless a requirement is about one; that
+/// of a spinning body has energies, and nothing of a loop.
+#[test]
+fn a_loop_has_the_figures_of_a_loop() {
+    for (file, text) in [("net_launch", NET_LAUNCH), ("slew_closed", SLEW_CLOSED), ("detumble", DETUMBLE)] {
+        let found = page(file, text);
+        let names: Vec<&str> = over_time(&found).into_iter().map(name).collect();
+        assert_eq!(names, called(text), "{file}");
+    }
+    let groups = DETUMBLE.replace("\"numerics\"]", "\"numerics\", \"energies\"]");
+    let asks = groups + "\n[[require]]\nobservable = \"energy_body_final_j\"\nquantile = 0.9\nat_most = 1e6\n";
+    let found = page("asks", &asks);
+    let names: Vec<&str> = over_time(&found).into_iter().map(name).collect();
+    assert!(names.contains(&"energy_body_j") && names.contains(&"phases"), "{names:?}");
+    let found = page("free", SPIN_SWEEP);
+    let names: Vec<&str> = over_time(&found).into_iter().map(name).collect();
+    assert!(names.contains(&"energy_body_j") && names.contains(&"energy_transfer"), "{names:?}");
+    let of_loops = ["pointing_error_rad", "phases", "wheel_torque", "thrust", "propellant"];
+    assert!(of_loops.iter().all(|name| !names.contains(name)), "{names:?}");
+}
+
+/// Law: the limits that are drawn are those of the file: of requirements in their units, of wheels on both sides of the torque, of thrusters, the keep-out
+/// sphere and the station.
+#[test]
+fn limits_are_those_of_the_file() {
+    let found = page("limits", NET_LAUNCH);
+    let of = |figure: &str| limits(found.figure(figure));
+    let near = |found: &[(String, f64)], expected: &[(&str, f64)]| {
+        let is_one = |(a, b): (&(String, f64), &(&str, f64))| a.0 == b.0 && (a.1 - b.1).abs() <= 1e-12 * b.1.abs();
+        assert!(found.len() == expected.len() && found.iter().zip(expected).all(is_one), "{found:?} {expected:?}");
+    };
+    near(&of("wheel_torque"), &[("limit", 4.0), ("", -4.0)]);
+    near(&of("wheel_speed"), &[("limit", 40.0 * core::f64::consts::PI)]);
+    near(&of("thrust"), &[("limit of p2, p3", 10.0), ("limit of p1", 20.0)]);
+    near(&of("debris_distance_m"), &[("keep-out", 5.0), ("station", 10.0)]);
+    near(&of("impulse_n_s"), &[("at most 4,000\u{a0}N s", 4000.0)]);
+    near(&of("debris_relative_speed_m_s"), &[("at most 5\u{a0}cm/s at the launch", 5.0)]);
+    near(&of("spin_axis_debris_angle_rad"), &[("at most 2\u{a0}deg at the launch", 2.0)]);
+    near(&of("angular_rate_rad_s"), &[("at most 0.2\u{a0}deg/s at the launch", 0.2)]);
+    let found = page("limits-of-slew", SLEW_CLOSED);
+    let figure = found.figure("pointing_error_rad");
+    near(&limits(figure), &[("at most 0.1\u{a0}deg at the end", 0.1)]);
+    // between degrees and hundredths of one: by decades
+    assert!(figure["y"]["log"] == true && figure["y"]["unit"] == "deg", "{}", figure["y"]);
+    assert_eq!(found.figure("wheel_speed")["y"]["range"][0], 0.0);
+}
+
+/// Law: every figure over time marks the events of the file, each at the median of its times in the rows.
+#[test]
+fn events_are_marked_at_their_medians() {
+    let found = page("events", WHEEL_FAILURE);
+    let figures = over_time(&found);
+    assert!(figures.len() > 5);
+    for event in ["settled", "fast_wheel"] {
+        let times = found.column(&format!("{event}_time_s"));
+        // sample 0 is the nominal run
+        let mut times: Vec<f64> = times[1..].iter().copied().filter(|time| time.is_finite()).collect();
+        times.sort_by(f64::total_cmp);
+        let middle = times[(times.len() - 1) / 2]..=times[times.len() / 2];
+        for figure in &figures {
+            let is_of_event = |mark: &&Value| mark["label"] == format!("{event}, median") && mark["vertical"] == true;
+            let found: Vec<&Value> = marks(figure, "limit").filter(is_of_event).collect();
+            assert_eq!(found.len(), 1, "{event} in {}", name(figure));
+            let at = found[0]["at"].as_f64().expect("a time");
+            assert!(middle.contains(&at), "{event}: {at} of {middle:?}");
+        }
+    }
+}
+
+/// Law: as many runs are in flight as have not ended by the rows; bands end where fewer than twenty are left, and the axis where one in a hundred is, or
+/// with the nominal run. Impulse and propellant end with those of the nominal row.
+#[test]
+fn bands_end_with_their_runs() {
+    let found = page("flight", NET_LAUNCH);
+    let ends: Vec<f64> = found.column("end_time_s");
+    // NaN: a run that has not ended
+    let left = |time: f64| ends.iter().filter(|end| end.is_nan() || **end >= time - 1e-6).count();
+    let columns = found.all(&["end_time_s", "impulse_total_n_s", "propellant_kg"]);
+    let nominal: Vec<f64> = columns.into_iter().map(|column| column[0]).collect();
+    let mut bands = 0;
+    for figure in over_time(&found) {
+        let strip = marks(figure, "flight").next().unwrap_or_else(|| panic!("{}", name(figure)));
+        assert_eq!(strip["runs"].as_f64(), Some(ends.len() as f64));
+        let [times, counts] = ["x", "counts"].map(|key| found.array(&strip[key]));
+        assert!(times.len() >= 200, "{} points", times.len());
+        for (time, count) in times.iter().zip(&counts) {
+            assert_eq!(*count, left(*time) as f64, "{} at {time} s", name(figure));
+        }
+        assert!(counts[0] == ends.len() as f64 && counts[counts.len() - 1] < 20.0);
+        let axis = figure["x"]["range"][1].as_f64().expect("an end");
+        let last = times.iter().copied().find(|time| left(*time) as f64 <= 0.01 * ends.len() as f64);
+        let run = nominal[0];
+        assert!(
+            axis >= last.expect("all end") - 1e-9 && axis <= last.unwrap().max(run) + 1e-9,
+            "{axis} {last:?} {run}"
+        );
+        for mark in marks(figure, "band").filter(|mark| mark["label"].as_str().is_some_and(|label| label.contains('%')))
+        {
+            bands += 1;
+            let x = found.array(&mark["x"]);
+            assert!(x.iter().all(|time| left(*time) >= 20), "{} of {}", mark["label"], name(figure));
+        }
+        // pieces of a band have no number that is none
+        for mark in marks(figure, "line") {
+            assert!(found.array(&mark["y"]).iter().all(|value| value.is_finite()), "{}", name(figure));
+        }
+    }
+    assert!(bands > 15, "{bands} bands");
+    let last = |figure: &str, label: &str| *found.array(&found.mark(figure, label)["y"]).last().expect("points");
+    for (found, expected) in
+        [(last("impulse_n_s", "nominal run"), nominal[1]), (last("propellant", "nominal run"), nominal[2])]
+    {
+        assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
+    }
+}
+
+/// Law: the bound beside an estimation error is three times what the filter's covariance says at that time: at the start what the file says, and later
+/// what the loop recorded of the nominal run.
+#[test]
+fn bounds_are_of_the_filter() {
+    let found = page("bounds", NET_LAUNCH);
+    let plan = Plan::from_text("net_launch", NET_LAUNCH, Overrides::default()).expect("valid");
+    let start = 3.0 * 3.0_f64.sqrt();
+    for (figure, column, expected) in [
+        ("attitude_estimate_error_rad", "attitude_expected_error_rad", start * 2.0_f64.to_radians()),
+        // spacecraft and debris, 1 m each and 0.02 m/s each
+        ("relative_position_estimate_error_m", "relative_position_expected_error_m", start * 2.0_f64.sqrt()),
+        ("relative_velocity_estimate_error_m_s", "relative_velocity_expected_error_m_s", start * 2.0_f64.sqrt() * 0.02),
+    ] {
+        let mark = found.mark(figure, "3 sigma of the filter");
+        let [x, y] = ["x", "y"].map(|key| found.array(&mark[key]));
+        assert!((y[0] / expected - 1.0).abs() < 1e-6, "{figure}: {} {expected}", y[0]);
+        let grid = Grid::at(x.clone());
+        let run = SingleRun::new(&plan, SampleId(0), grid, Isa::best()).expect("physical");
+        let place = run.telemetry.quantities.iter().position(|one| one.name() == column).expect("recorded");
+        let held = &run.telemetry.held_at(&x)[place];
+        for (point, (bound, known)) in y.iter().zip(held).enumerate() {
+            assert!((bound / (3.0 * known) - 1.0).abs() < 1e-6, "{figure} at {} s: {bound} {known}", x[point]);
+        }
+        assert!(y[y.len() - 1] < 0.2 * y[0], "{figure}");
+    }
+}
+
+/// Law: `simulate --plot` draws the figures of the page, and `simulate` prints what the requirements are about first.
+#[test]
+fn simulate_shows_what_the_scene_calls_for() {
+    let scratch = ScratchFolder::new("loop-plot");
+    scratch.file("slew.toml", SLEW_CLOSED);
+    scratch.file("detumble.toml", DETUMBLE);
+    scratch.prints("simulate slew.toml --sample 3 --plot slew.svg", 0);
+    scratch.prints("simulate detumble.toml --plot detumble.svg", 0);
+    let [slew, detumble] = ["slew.svg", "detumble.svg"].map(|file| scratch.text(file));
+    for title in
+        ["Pointing error", "Phases", "Error of the estimated attitude", "Torque of the wheels", "Speed of the wheels"]
+    {
+        assert!(slew.contains(&format!("aria-label=\"{title}")), "{title}");
+    }
+    for title in ["Phases", "Thrust", "Impulse of the thrusters", "Propellant", "Angular rate of the body"] {
+        assert!(detumble.contains(&format!("aria-label=\"{title}")), "{title}");
+    }
+    for svg in [&slew, &detumble] {
+        assert!(!svg.contains("Kinetic energy") && !svg.contains("Attitude quaternion"));
+    }
+    let said = scratch.prints("simulate slew.toml", 0);
+    let header = said.lines().next().expect("a header").split_whitespace().collect::<Vec<_>>();
+    assert_eq!(header[..3], ["time", "phase", "pointing"], "{said}");
+    assert!(!header.contains(&"q_es_w"), "{said}");
+}

@@ -1,0 +1,175 @@
+//! Marks of the page that a reader compares with each other: intervals around curves, the motion of the replay, correlations, directions, shares.
+
+use crate::page::numbers::{Found, found, motion};
+
+/// Ranks from 0; equal values do not occur.
+fn ranks(values: &[f64]) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let mut ranks = vec![0.0; values.len()];
+    order.iter().enumerate().for_each(|(rank, place)| ranks[*place] = rank as f64);
+    ranks
+}
+
+/// Spearman's coefficient of values without ties: 1 - 6 sum d^2 / (n (n^2 - 1)).
+fn spearman(x: &[f64], y: &[f64]) -> f64 {
+    let n = x.len() as f64;
+    let squares: f64 = ranks(x).iter().zip(ranks(y)).map(|(a, b)| (a - b).powi(2)).sum();
+    1.0 - 6.0 * squares / (n * (n * n - 1.0))
+}
+
+/// The dispersed rows of a column.
+fn dispersed(found: &Found, name: &str) -> Vec<f64> {
+    found.all(&[name])[0][1..].to_vec()
+}
+
+/// Law: a fraction lies in its interval, which is the narrower the more runs there are.
+#[test]
+fn fractions_lie_in_their_intervals() {
+    let found = found("fractions", &motion());
+    for figure in ["cumulative_angular_rate_final_rad_s", "tail_energy_error_max"] {
+        let band = found.mark(figure, "95% interval");
+        let line = if figure.starts_with("tail") { "fraction of runs above" } else { "fraction of runs" };
+        let y = found.array(&found.mark(figure, line)["y"]);
+        let [low, high] = ["low", "high"].map(|key| found.array(&band[key]));
+        for k in 0..y.len() {
+            assert!(
+                low[k] <= y[k] && y[k] <= high[k] && low[k] < high[k],
+                "{figure}: {} in {} to {}",
+                y[k],
+                low[k],
+                high[k]
+            );
+            assert!(high[k] - low[k] < 0.13, "two standard deviations of 299 runs are 0.06");
+        }
+    }
+}
+
+/// Law: what is replayed is the run: rates, attitude and the angle of each wheel, at the end as in the row; the momentum is that of the row
+/// throughout, since no torque acts.
+#[test]
+fn the_replay_moves_as_the_run() {
+    let found = found("moves", &motion());
+    let names = ["omega_se_s_x_final_rad_s", "omega_se_s_y_final_rad_s", "omega_se_s_z_final_rad_s"];
+    let quaternion = ["q_es_w_final", "q_es_x_final", "q_es_y_final", "q_es_z_final"];
+    let (rates, attitudes) = (found.all(&names), found.all(&quaternion));
+    let wheels = found.all(&["rate_w1_final_rad_s", "rate_w2_final_rad_s"]);
+    let momentum = found.all(&["angular_momentum_initial_n_m_s"]);
+    for run in found.data["replay"]["runs"].as_array().expect("runs") {
+        let row = run["sample"].as_u64().expect("a sample") as usize;
+        let [omega, attitude, angles, times, h] =
+            ["omega", "attitude", "angles", "times", "momentum"].map(|key| found.array(&run[key]));
+        let points = times.len();
+        let near = |value: f64, expected: f64, scale: f64, what: &str| {
+            assert!((value - expected).abs() < 1e-5 * scale, "{what} of {row}: {value} for {expected}");
+        };
+        for k in 0..3 {
+            near(omega[3 * (points - 1) + k], rates[k][row], 40.0, "rate");
+        }
+        for k in 0..4 {
+            near(attitude[4 * (points - 1) + k], attitudes[k][row], 1.0, "attitude");
+        }
+        for (wheel, rate) in wheels.iter().enumerate() {
+            let [before, after] = [points - 2, points - 1].map(|point| angles[2 * point + wheel]);
+            let step = times[points - 1] - times[points - 2];
+            // angles may be reduced to a turn
+            let turned = core::f64::consts::TAU;
+            let expected = (rate[row] * step).rem_euclid(turned);
+            let moved = (after - before).rem_euclid(turned);
+            let off = (moved - expected).abs();
+            assert!(off.min(turned - off) < 0.02, "wheel {wheel} of {row}: {moved} for {expected}");
+        }
+        for vector in h.chunks_exact(3) {
+            let size = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+            near(size, momentum[0][row], momentum[0][row], "momentum");
+        }
+    }
+}
+
+/// Law: the matrix of correlations has Spearman's coefficients of the inputs, with their signs.
+#[test]
+fn correlations_have_their_signs() {
+    let found = found("signs", &motion());
+    let figure = found.figure("correlation_achieved");
+    let names: Vec<String> = figure["y"]["names"]
+        .as_array()
+        .expect("names")
+        .iter()
+        .map(|name| name.as_str().expect("a name").to_owned())
+        .collect();
+    let column = |name: &String| dispersed(&found, &found.column_called(name));
+    let columns: Vec<Vec<f64>> = names.iter().map(column).collect();
+    assert_eq!(columns.len(), 3);
+    let values = found.array(&figure["marks"][0]["values"]);
+    let expected = (0..9).map(|k| spearman(&columns[k / 3], &columns[k % 3]));
+    let mut negative = 0;
+    for (value, expected) in values.iter().zip(expected) {
+        assert!((value - expected).abs() < 1e-9, "{value} for {expected}");
+        negative += usize::from(*value < 0.0);
+    }
+    assert!(negative > 0, "a sign to be seen");
+}
+
+/// Law: each input that is named as a driver has the direction of its rank correlation with the outcome.
+#[test]
+fn every_named_driver_has_its_direction() {
+    let text = motion().replace(
+        "omega_se_s_z_final_rad_s / angular_rate_final_rad_s",
+        "initial.angular_velocity_rad_s.y - 0.3 * initial.angular_velocity_rad_s.z",
+    );
+    let found = found("directions", &text);
+    let start = found.said.find("driven by").expect("drivers");
+    let said = &found.said[start..start + found.said[start..].find("\n\n").expect("an end")];
+    let mut seen = [0; 2];
+    for line in said.lines().skip(1).filter(|line| line.contains("with it")) {
+        let (outcome, drivers) = line.trim_start().split_once(' ').expect("an outcome");
+        let ordinates = if outcome == "spin_ratio" {
+            let [y, z] = ["y", "z"].map(|axis| dispersed(&found, &format!("initial_angular_velocity_{axis}_rad_s")));
+            y.iter().zip(z).map(|(y, z)| y - 0.3 * z).collect()
+        } else {
+            dispersed(&found, outcome)
+        };
+        for driver in drivers.split("), ").filter(|driver| driver.contains("with it")) {
+            let (input, _) = driver.trim_start().split_once(" (").expect("an input");
+            let rises = spearman(&dispersed(&found, &found.column_called(input)), &ordinates) > 0.0;
+            assert!(driver.contains(if rises { "rises with it" } else { "falls with it" }), "{line}");
+            seen[usize::from(rises)] += 1;
+        }
+    }
+    assert!(seen[0] > 0 && seen[1] > 0, "both directions: {said}");
+}
+
+/// Law: the dominant frequency is where the amplitude is largest, within a bin, and that of the nominal row.
+#[test]
+fn the_dominant_frequency_is_that_of_the_peak() {
+    let found = found(
+        "peak",
+        &motion().replace("duration_s = 1.0", "duration_s = 10.0").replace("points = 11", "points = 101"),
+    );
+    let curve = found.mark("energy_spectrum", "amplitude");
+    let [x, y] = ["x", "y"].map(|key| found.array(&curve[key]));
+    let top = (0..y.len()).max_by(|a, b| y[*a].total_cmp(&y[*b])).expect("a peak");
+    let marks = found.figure("energy_spectrum")["marks"].as_array().expect("marks");
+    let limit = marks.iter().find(|mark| mark["kind"] == "limit").expect("a mark");
+    let at = limit["at"].as_f64().expect("a place");
+    let of_row = found.all(&["exchange_frequency_hz"])[0][0];
+    for expected in [x[top], of_row] {
+        assert!((at - expected).abs() <= x[1] - x[0], "{at} for {expected}");
+    }
+    let said = limit["label"].as_str().expect("a label").trim_start_matches("dominant: ").trim_end_matches(" Hz");
+    assert!((said.parse::<f64>().expect("a number") / at - 1.0).abs() < 1e-3, "{said} for {at}");
+}
+
+/// Law: the energy of a body over time reaches the largest value of its row, and no more than its points between see.
+#[test]
+fn energies_are_of_their_bodies() {
+    let found = found("energies", &crate::small_campaign::campaign().replace("samples = 600", "samples = 60"));
+    for body in ["body", "w1", "w2"] {
+        let largest = found.all(&[&format!("energy_{body}_max_j")])[0][0];
+        let curve = found.array(&found.mark(&format!("energy_{body}_j"), "nominal run")["y"]);
+        let top = curve.into_iter().fold(0.0, f64::max);
+        assert!(top >= largest * (1.0 - 1e-6) && top < 1.05 * largest, "{body}: {top} for {largest}");
+        let title = found.figure(&format!("energy_{body}_j"))["title"].as_str().expect("a title").to_owned();
+        assert!(title.ends_with(&format!(" {body}")), "{title} of energy_{body}_j");
+    }
+}

@@ -1,0 +1,11 @@
+//! The report page against rows and summary.
+
+pub mod cards;
+pub mod document;
+pub mod loops;
+pub mod marks;
+pub mod names;
+pub mod numbers;
+pub mod replay;
+pub mod runs;
+pub mod series;

@@ -1,0 +1,128 @@
+//! What quantities are called on the page: in words, each with a name of its own, in units that people say; technical names are in tooltips and commands.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::page::numbers::Found;
+use crate::support::scratch_folder::ScratchFolder;
+
+/// Names of frames and symbols are no technical names.
+const SYMBOLS: [&str; 10] = ["F_s", "F_e", "F_d", "F_o", "C_es", "q_es", "omega_se", "A_d", "H_s", "n_d"];
+
+/// What a reader sees of a static page: without styles, code, and what is in tags.
+fn texts(page: &str) -> Vec<String> {
+    let mut text = page.to_owned();
+    for (start, end) in [
+        ("<style", "</style>"),
+        ("<code", "</code>"),
+        ("<pre", "</pre>"),
+        ("<h1", "</h1>"),
+        ("<title>", "</title>"),
+        ("<p class=\"facts\"", "</p>"),
+        ("<p class=\"question\"", "</p>"),
+        ("<span class=\"quiet\"", "</span>"),
+    ] {
+        while let Some(from) = text.find(start) {
+            let Some(length) = text[from..].find(end) else { break };
+            text.replace_range(from..from + length + end.len(), " ");
+        }
+    }
+    text.split('<').filter_map(|part| part.split_once('>')).map(|(_, text)| text.trim().to_owned()).collect()
+}
+
+/// Words with an underscore that are no symbols.
+fn technical(text: &str) -> Vec<String> {
+    let words = text.split(|letter: char| !(letter.is_ascii_alphanumeric() || letter == '_' || letter == '.'));
+    let is_name = |word: &&str| word.contains('_') && !SYMBOLS.iter().any(|symbol| word.starts_with(symbol));
+    words.filter(is_name).map(str::to_owned).collect()
+}
+
+/// Names on a figure: title, axes, legend.
+fn names_of(figure: &Value) -> Vec<String> {
+    let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+    let mut names = vec![text(&figure["title"]), text(&figure["x"]["quantity"]), text(&figure["y"]["quantity"])];
+    for axis in ["x", "y"] {
+        names.extend(figure[axis]["names"].as_array().into_iter().flatten().map(text));
+    }
+    names.extend(figure["marks"].as_array().into_iter().flatten().map(|mark| text(&mark["label"])));
+    names
+}
+
+/// Law: of every shipped campaign no name on the page has an underscore, in figures, lists, tables, cards and sentences; no two quantities have one name, and no two
+/// figures one title; angles and rates are in degrees where the file does not say otherwise.
+#[test]
+fn shown_names_are_words_and_unique() {
+    let scratch = ScratchFolder::new("page-names");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let mut seen = 0;
+    for entry in fs::read_dir(&folder).expect("campaigns") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
+        let command = format!("campaign {} --samples 12 --out {name}", path.display());
+        let output = scratch.command(&command).output().expect("the program starts");
+        assert!(matches!(output.status.code(), Some(0 | 1 | 3 | 5)), "{name}: {output:?}");
+        let page = scratch.text(&format!("{name}/report.html"));
+        let data = Found::data_of(&page);
+        // the names of phases are those of the file
+        let file =
+            format!("{}{}", fs::read_to_string(&path).expect("a file"), scratch.text(&format!("{name}/plan.toml")));
+        let is_phase = |word: &String| file.contains(&format!("phase = \"{word}\""));
+
+        let mut wrong: Vec<String> = Vec::new();
+        let figures = data["figures"].as_array().expect("figures");
+        let mut titles: BTreeMap<String, String> = BTreeMap::new();
+        for figure in figures {
+            let of = figure["name"].as_str().expect("a name");
+            wrong.extend(names_of(figure).iter().flat_map(|name| technical(name)).map(|word| format!("{of}: {word}")));
+            let title = figure["title"].as_str().expect("a title").to_owned();
+            if let Some(other) = titles.insert(title.clone(), of.to_owned()) {
+                wrong.push(format!("{other} and {of} are both called {title}"));
+            }
+            for axis in ["x", "y"] {
+                let unit = figure[axis]["unit"].as_str().unwrap_or_default();
+                if ["rad", "rad/s"].contains(&unit) && !file.contains(&format!("\"{unit}\"")) {
+                    wrong.push(format!("{of} is in {unit}"));
+                }
+            }
+        }
+        let columns = data["pairs"]["columns"].as_array().cloned().unwrap_or_default();
+        let mut called: BTreeMap<String, String> = BTreeMap::new();
+        for column in &columns {
+            let [name, of] = ["name", "column"].map(|key| column[key].as_str().expect(key).to_owned());
+            wrong.extend(technical(&name));
+            if let Some(other) = called.insert(name.clone(), of.clone()) {
+                wrong.push(format!("{other} and {of} are both called {name}"));
+            }
+        }
+        for run in data["replay"]["runs"].as_array().into_iter().flatten() {
+            for number in run["live"].as_array().into_iter().flatten() {
+                wrong.extend(technical(number["name"].as_str().unwrap_or_default()));
+            }
+        }
+        // rows of the table of statistics
+        let visible = page.split_once("<script").expect("scripts").0;
+        let (_, statistics) = visible.split_once("id=\"statistics\"").expect("statistics");
+        let mut rows: BTreeMap<&str, &str> = BTreeMap::new();
+        for row in statistics.split("<th scope=\"row\" title=\"").skip(1) {
+            let Some((title, rest)) = row.split_once("\">") else { continue };
+            let (column, shown) =
+                (title.split(':').next().unwrap_or_default(), rest.split('<').next().unwrap_or_default());
+            if let Some(other) = rows.insert(shown, column) {
+                wrong.push(format!("{other} and {column} are both called {shown}"));
+            }
+        }
+        // the explanations of columns may name keys of the file
+        let sentences = visible.split("<section id=\"provenance\"").next().expect("a page");
+        wrong.extend(texts(sentences).iter().flat_map(|text| technical(text)));
+        wrong.retain(|word| !is_phase(&word.rsplit(' ').next().unwrap_or_default().to_owned()));
+        assert!(wrong.is_empty(), "{name}: {wrong:#?}");
+        seen += rows.len();
+    }
+    assert!(seen > 1000, "{seen} rows of statistics");
+}

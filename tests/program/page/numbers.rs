@@ -1,0 +1,444 @@
+//! The numbers of the page, of the screen and of JUnit against the rows: every figure is computed here by another way.
+
+use std::io::Read as _;
+
+use base64::Engine as _;
+use serde_json::Value;
+
+use crate::commands::screen_numbers::junit_counts;
+use crate::small_campaign::{campaign, mixed_failures};
+use crate::support::scratch_folder::{self, ScratchFolder, batches, ended};
+use spindrift::workflow::{Quiet, Results, Session};
+
+/// Requirements in degrees per second and of a smallest value, a derived observable, audits, every group with a motion.
+const MORE: &str = r#"
+[audit]
+fraction = 0.2
+[[observable]]
+name = "spin_ratio"
+expression = "omega_se_s_z_final_rad_s / angular_rate_final_rad_s"
+[[require]]
+observable = "angular_rate_final_rad_s"
+quantile = 0.95
+at_most = "2100 deg/s"
+[[require]]
+observable = "nutation_angle_min_rad"
+fraction = 0.9
+at_least = "1e-4 deg"
+confidence = 0.9
+[[require]]
+observable = "angular_rate_final_rad_s"
+mean = true
+at_most = 40
+"#;
+
+/// A finished campaign, its page's data, and its rows.
+pub(crate) struct Found {
+    pub scratch: ScratchFolder,
+    pub said: String,
+    pub data: Value,
+    bytes: Vec<u8>,
+}
+
+fn unpacked(page: &str, id: &str) -> Vec<u8> {
+    let start = page.find(&format!("id=\"{id}\">")).unwrap_or_else(|| panic!("no block {id}")) + id.len() + 6;
+    let text = &page[start..start + page[start..].find('<').expect("an end")];
+    let compressed = base64::engine::general_purpose::STANDARD.decode(text).expect("Base64");
+    let mut bytes = Vec::new();
+    flate2::read::GzDecoder::new(&compressed[..]).read_to_end(&mut bytes).expect("gzip");
+    bytes
+}
+
+pub(crate) fn found(name: &str, text: &str) -> Found {
+    let scratch = ScratchFolder::new(&format!("page-{name}"));
+    scratch.file("c.toml", text);
+    let mut command = scratch.command("campaign c.toml --out r --junit junit.xml --verbose");
+    let output = command.env("COLUMNS", "200").output().expect("the program starts");
+    let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    Found::read(scratch, said)
+}
+
+impl Found {
+    /// The page of the result `r` in a folder, and what the program `said`.
+    pub fn read(scratch: ScratchFolder, said: String) -> Self {
+        let page = scratch.text("r/report.html");
+        let data = Found::data_of(&page);
+        let bytes = unpacked(&page, "numbers");
+        Found { scratch, said, data, bytes }
+    }
+
+    /// The column that the page calls `words`.
+    pub fn column_called(&self, words: &str) -> String {
+        let columns = self.data["pairs"]["columns"].as_array().expect("columns");
+        let column = columns.iter().find(|column| column["name"] == words).unwrap_or_else(|| panic!("no {words}"));
+        column["column"].as_str().expect("a column").to_owned()
+    }
+
+    /// The data of a page.
+    pub fn data_of(page: &str) -> Value {
+        serde_json::from_slice(&unpacked(page, "data")).expect("JSON")
+    }
+
+    pub fn array(&self, place: &Value) -> Vec<f64> {
+        let [at, count, width] = [0, 1, 2].map(|k| usize::try_from(place[k].as_u64().expect("a place")).unwrap());
+        let bytes = &self.bytes[at..at + count * width];
+        match width {
+            8 => bytes.chunks_exact(8).map(|eight| f64::from_le_bytes(eight.try_into().unwrap())).collect(),
+            _ => bytes.chunks_exact(4).map(|four| f64::from(f32::from_le_bytes(four.try_into().unwrap()))).collect(),
+        }
+    }
+
+    pub fn figure(&self, name: &str) -> &Value {
+        let figures = self.data["figures"].as_array().expect("figures");
+        figures.iter().find(|figure| figure["name"] == name).unwrap_or_else(|| panic!("no figure {name}"))
+    }
+
+    pub fn mark(&self, figure: &str, label: &str) -> &Value {
+        let marks = self.figure(figure)["marks"].as_array().expect("marks");
+        marks.iter().find(|mark| mark["label"] == label).unwrap_or_else(|| panic!("no {label} in {figure}: {marks:?}"))
+    }
+
+    /// The column of the dispersed runs that are ok.
+    pub fn column(&self, name: &str) -> Vec<f64> {
+        self.rows(&[name]).into_iter().map(|(_, row)| row[0]).collect()
+    }
+
+    /// The columns of every row, in the order of the samples; what the file derives is in a file of its own.
+    pub fn all(&self, names: &[&str]) -> Vec<Vec<f64>> {
+        let watch = Quiet::default();
+        let results =
+            Results::open(self.scratch.path("r"), Session::new(&watch).expect("a session")).expect("a result");
+        let derived = |name: &str| scratch_folder::column(&batches(&self.scratch.path("r/observables.parquet")), name);
+        names.iter().map(|name| results.column(name).unwrap_or_else(|_| derived(name))).collect()
+    }
+
+    /// The quantile `p` of an observable in the summary.
+    pub fn quantile(&self, name: &str, p: &Value) -> Value {
+        let list = self.scratch.summary("r")["observables"].take();
+        let one = list.as_array().expect("a list").iter().find(|one| one["name"] == name).expect(name);
+        one["quantiles"].as_array().expect("quantiles").iter().find(|one| one["p"] == *p).expect("a quantile").clone()
+    }
+
+    /// The page without its scripts.
+    pub fn visible(&self) -> String {
+        self.scratch.text("r/report.html").split_once("<script").expect("scripts").0.to_owned()
+    }
+
+    /// Sample and columns of the dispersed runs that are ok.
+    pub fn rows(&self, names: &[&str]) -> Vec<(u64, Vec<f64>)> {
+        let columns = self.all(names);
+        let ended = ended(&self.scratch.rows("r"));
+        let dispersed = (1..ended.len()).filter(|row| ended[*row].1 == "ok");
+        dispersed.map(|row| (row as u64, columns.iter().map(|column| column[row]).collect())).collect()
+    }
+}
+
+/// The type-7 quantile (Hyndman & Fan 1996).
+pub(crate) fn quantile(values: &[f64], p: f64) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let at = p * (sorted.len() - 1) as f64;
+    let (low, part) = (at.floor() as usize, at.fract());
+    sorted[low] + part * (sorted[(low + 1).min(sorted.len() - 1)] - sorted[low])
+}
+
+pub(crate) fn degrees(value: f64) -> f64 {
+    value * 180.0 / core::f64::consts::PI
+}
+
+/// The groups of columns of [`motion`].
+const GROUPS: &str = "groups = [\"energy_conservation\", \"momentum_conservation\", \"final_state\", \"numerics\", \"motion\", \"energies_com\", \"exchange\"]";
+
+pub(crate) fn motion() -> String {
+    campaign().replace("samples = 600", "samples = 300").replace("points = 11", &format!("points = 11\n{GROUPS}"))
+        + MORE
+}
+
+/// Of these runs some end well, some are not accurate and some are not physical; all requirements are missed.
+pub(crate) fn failing() -> String {
+    const REQUIRED: &str = "[audit]\nfraction = 0.2\n\
+        [[require]]\nobservable = \"angular_rate_final_rad_s\"\nquantile = 0.95\nat_most = \"2100 deg/s\"\n\
+        [[require]]\nobservable = \"rate_w1_final_rad_s\"\nfraction = 0.5\nat_most = 315.0\n";
+    mixed_failures().replace("points = 11", &format!("points = 11\n{GROUPS}")) + REQUIRED
+}
+
+/// Law: figures are of the dispersed runs that are ok, in the unit that is written; an audit is where its row says, and an influence within its
+/// interval. What each series is: `series`.
+#[test]
+fn figures_show_the_rows() {
+    let found = found("figures", &motion());
+    let caption = |figure: &str| found.figure(figure)["caption"].as_str().expect("a caption").to_owned();
+    assert!(caption("cumulative_angular_rate_final_rad_s").contains("Fraction of the 299 runs"));
+    assert!(caption("histogram_angular_rate_final_rad_s").contains("Histogram of 299 runs"));
+
+    for axis in ["histogram_angular_rate_final_rad_s", "cumulative_angular_rate_final_rad_s"] {
+        assert_eq!(found.figure(axis)["x"]["unit"], "deg/s");
+    }
+    // audits: the estimate across, the truth upwards, of each sample
+    let audits = found.mark("audits", "audited runs");
+    let [samples, estimates, truths] = ["samples", "x", "y"].map(|key| found.array(&audits[key]));
+    assert!(samples.len() > 30);
+    let rows = found.rows(&["state_error_estimate", "audit_state_error"]);
+    for k in 0..samples.len() {
+        let Some((_, row)) = rows.iter().find(|(sample, _)| *sample as f64 == samples[k]) else { continue };
+        assert_eq!([estimates[k], truths[k]], row[..], "sample {}", samples[k]);
+    }
+    let below = (0..samples.len()).filter(|k| truths[*k] > estimates[*k]).count();
+    let caption = found.figure("audits")["caption"].as_str().unwrap();
+    assert!(caption.contains(&format!("the estimate is too small: {below} of those shown")), "{caption}");
+    // an influence lies within its interval
+    let whiskers =
+        found.data["figures"].as_array().unwrap().iter().flat_map(|figure| figure["marks"].as_array().unwrap());
+    let whiskers: Vec<&Value> = whiskers.filter(|mark| mark["kind"] == "whiskers").collect();
+    assert!(!whiskers.is_empty());
+    for mark in whiskers {
+        let [low, x, high] = ["low", "x", "high"].map(|key| found.array(&mark[key]));
+        for k in 0..x.len() {
+            assert!(low[k].is_nan() || low[k] <= x[k] && x[k] <= high[k], "{} in {} to {}", x[k], low[k], high[k]);
+        }
+    }
+    // below the diagonal is where the estimate, across, is the larger one
+    assert_eq!(found.figure("audits")["x"]["quantity"], "state error estimate");
+}
+
+/// Law: the strongest input of an outcome is that with the largest squared rank correlation, and the text says whether the outcome rises or falls
+/// with it.
+#[test]
+fn drivers_have_their_direction() {
+    let falling =
+        motion().replace("omega_se_s_z_final_rad_s / angular_rate_final_rad_s", "100 - angular_rate_final_rad_s");
+    let found = found("drivers", &falling);
+    for (outcome, word) in [("angular_rate_final_rad_s", "rises"), ("spin_ratio", "falls")] {
+        let line = found.said.lines().find(|line| line.trim_start().starts_with(outcome) && line.contains("with it"));
+        let line = line.unwrap_or_else(|| panic!("{outcome}: {}", found.said));
+        let first = line.split(')').next().unwrap();
+        assert!(first.contains("initial angular velocity z") && first.contains(word), "{line}");
+    }
+}
+
+/// Law: what the screen prints of an observable is what `summary.json` has, in the unit that is shown: median called median, ends of intervals
+/// in their order; verdicts come first; JUnit has the same words.
+#[test]
+fn screen_and_junit_say_what_the_summary_has() {
+    let found = found("screen", &motion());
+    let summary = found.scratch.summary("r");
+    let said = &found.said;
+    assert!(
+        said.find("requirements").expect("verdicts") < said.find("runs were computed").unwrap(),
+        "verdicts first: {said}"
+    );
+    assert!(said.find("runs were computed").unwrap() < said.find("dispersed runs").unwrap());
+    for absent in ["q_es_w_final", "time_reached_s", "steps"] {
+        assert!(!said.contains(absent), "{absent}: {said}");
+    }
+    let line = said.lines().position(|line| line.trim_start().starts_with("angular_rate_final_rad_s ")).expect(said);
+    let numbers = |text: &str| -> Vec<f64> {
+        let cleaned = text.replace(['[', ']', ','], " ");
+        cleaned.split_whitespace().filter_map(|word| word.parse().ok()).collect()
+    };
+    let (values, ends) = (numbers(said.lines().nth(line).unwrap()), numbers(said.lines().nth(line + 1).unwrap()));
+    assert!(said.lines().nth(line).unwrap().contains("deg/s"));
+    let head = said.lines().find(|line| line.contains("median")).expect("a head");
+    let order: Vec<&str> = head.split_whitespace().filter(|word| word.starts_with('p') || *word == "median").collect();
+    assert_eq!(order, ["median", "p95", "p99.9"]);
+    let of = |name: &str| {
+        let list = summary["observables"].as_array().unwrap();
+        list.iter().find(|one| one["name"] == name).unwrap_or_else(|| panic!("{name}")).clone()
+    };
+    let rate = of("angular_rate_final_rad_s");
+    let near = |found: f64, expected: f64, what: &str| {
+        assert!((found / expected - 1.0).abs() < 2e-3, "{what}: {found} for {expected}");
+    };
+    let quantile_of = |p: f64| {
+        let list = rate["quantiles"].as_array().unwrap();
+        list.iter().find(|one| one["p"] == p).unwrap().clone()
+    };
+    for (k, p) in [0.5, 0.95, 0.999].into_iter().enumerate() {
+        near(values[k], degrees(quantile_of(p)["value"].as_f64().unwrap()), &format!("p{p}"));
+        near(
+            degrees(quantile_of(p)["value"].as_f64().unwrap()),
+            quantile(&found.column("angular_rate_final_rad_s"), p) * 180.0 / core::f64::consts::PI,
+            "rows",
+        );
+    }
+    near(values[3], degrees(rate["max"].as_f64().unwrap()), "max");
+    let median_interval = quantile_of(0.5)["interval"].clone();
+    near(ends[0], degrees(median_interval[0].as_f64().unwrap()), "lower end");
+    near(ends[1], degrees(median_interval[1].as_f64().unwrap()), "upper end");
+    assert!(ends[0] < values[0] && values[0] < ends[1], "{ends:?}");
+
+    let junit = found.scratch.text("junit.xml");
+    for one in summary["requirements"]["list"].as_array().unwrap() {
+        let (sentence, verdict) = (one["requirement"].as_str().unwrap(), one["verdict"].as_str().unwrap());
+        assert!(said.contains(&format!("{verdict:<10} {sentence}")), "{sentence}");
+        let case = junit.split("<testcase").find(|case| case.contains(sentence)).unwrap_or_else(|| panic!("{junit}"));
+        let expected = [("PASS", [false, false]), ("FAIL", [true, false]), ("UNDECIDED", [false, true])];
+        let (_, expected) = expected.iter().find(|(word, _)| *word == verdict).expect("a verdict");
+        assert_eq!([case.contains("<failure"), case.contains("<error")], *expected, "{case}");
+        // the unit that was written, and the limit as it was
+        if sentence.contains("p95") {
+            assert!(sentence.contains("at most 2100.0 deg/s"), "{sentence}");
+        }
+    }
+}
+
+/// Law: a requirement that the runs cannot decide is an error of JUnit, and no failure: here the limit is the quantile itself.
+#[test]
+fn an_undecided_requirement_is_an_error() {
+    let first = found("undecided-first", &motion());
+    let median = quantile(&first.column("angular_rate_final_rad_s"), 0.5);
+    let text = motion().replace("quantile = 0.95", "quantile = 0.5").replace("\"2100 deg/s\"", &format!("{median:?}"));
+    let found = found("undecided", &text);
+    let junit = found.scratch.text("junit.xml");
+    let case = junit.split("<testcase").find(|case| case.contains("p50 of")).expect("the case");
+    assert!(case.contains("<error type=\"undecided\"") && !case.contains("<failure"), "{case}");
+    assert!(found.said.contains("UNDECIDED  p50 of"), "{}", found.said);
+    let [_, failures, errors] = junit_counts(&junit);
+    assert_ne!(failures, errors, "an exchange would be seen");
+}
+
+/// A number of the page: `1.23 x 10^-4` with superscripts, `1,234`.
+pub(crate) fn read_number(text: &str) -> f64 {
+    let plain = text.trim().replace([',', '\u{202f}', '\u{a0}'], "").replace("\u{d7}10", "e");
+    let digits = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+    let letter = |c: char| match digits.chars().position(|digit| digit == c) {
+        Some(place) => char::from(b'0' + place as u8),
+        None if c == '⁻' => '-',
+        None => c,
+    };
+    plain.chars().map(letter).collect::<String>().parse().unwrap_or_else(|_| panic!("{text:?} is no number"))
+}
+
+/// Law: cards, the sentence on numerics and the table of statistics are the numbers of the rows, in the unit that is shown.
+#[test]
+fn static_numbers_are_those_of_the_rows() {
+    let found = found("static", &motion());
+    let page = found.scratch.text("r/report.html");
+    let visible = page.split_once("<script").expect("scripts").0;
+    assert!(visible.contains(">at most 2,100\u{a0}deg/s</text>"), "the limit on the scale of the card");
+    let sentence = visible.split_once("Largest relative errors: energy ").expect("a sentence").1;
+    let largest = found.column("energy_error_max").into_iter().fold(0.0, f64::max);
+    let shown = read_number(sentence.split(", angular").next().unwrap());
+    assert!((shown / largest - 1.0).abs() < 0.02, "{shown} for {largest}");
+    let rates: Vec<f64> = found.column("angular_rate_final_rad_s").into_iter().map(degrees).collect();
+    let row = visible.split("<tr>").find(|row| row.contains("title=\"angular_rate_final_rad_s: ")).expect("a row");
+    assert!(row.contains("<td class=\"unit\">deg/s</td>"), "{row}");
+    let cells: Vec<f64> = row
+        .split("data-value=\"")
+        .skip(1)
+        .map(|cell| cell.split('"').next().unwrap().parse().expect("a number"))
+        .collect();
+    let mean = rates.iter().sum::<f64>() / rates.len() as f64;
+    let deviation = (rates.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (rates.len() - 1) as f64).sqrt();
+    let ends = [f64::min, f64::max].map(|end| rates.iter().copied().reduce(end).unwrap());
+    let quantiles = [0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999].map(|p| quantile(&rates, p));
+    let expected = [&[rates.len() as f64, mean, deviation, ends[0]][..], &quantiles, &[ends[1]]].concat();
+    assert_eq!(cells.len(), expected.len());
+    for (cell, expected) in cells.iter().zip(&expected) {
+        assert!((cell / expected - 1.0).abs() < 2e-3, "{cell} for {expected} in {cells:?}");
+    }
+}
+
+/// Law: of a campaign in which runs failed the screen says how many are left out, a reason is text on the page and no markup, and a run that
+/// is not ok has no derived observable.
+#[test]
+fn runs_that_failed_are_left_out() {
+    use arrow_array::{Array as _, cast::AsArray as _};
+    let scratch = ScratchFolder::new("page-left-out");
+    let derived = "[[observable]]\nname = \"twice\"\nexpression = \"2 * energy_error_max\"\n";
+    scratch.file("c.toml", &(mixed_failures().replace("samples = 600", "samples = 200") + derived));
+    let said = scratch.prints("campaign c.toml --out r --verbose", 1);
+    let summary = scratch.summary("r");
+    let ok = summary["statuses"]["ok"].as_u64().expect("a count");
+    let nominal = 1;
+    let treatment = summary["statistics"]["failed_runs"].as_str().expect("a text");
+    assert!(treatment.starts_with(&format!("{} of 199", 199 + nominal - ok)), "{treatment}: {ok} of 200 are ok");
+    assert!(said.contains(treatment) && said.contains(&format!("{ok} of 200 runs were computed")), "{said}");
+    let mut listed = [0; 2];
+    for table in batches(&scratch.path("r/observables.parquet")) {
+        let statuses = table.column_by_name("status").unwrap().as_string::<i32>().clone();
+        let values = table.column_by_name("twice").unwrap().as_primitive::<arrow_array::types::Float64Type>().clone();
+        for row in 0..values.len() {
+            assert_eq!(values.is_valid(row), statuses.value(row) == "ok", "{}", statuses.value(row));
+            listed[usize::from(values.is_valid(row))] += 1;
+        }
+    }
+    assert_eq!(listed, [200 - ok as usize, ok as usize]);
+    // why a wall is refused
+    let reasons = summary["failure_reasons"].as_array().unwrap();
+    let reason = |status: &str| reasons.iter().find(|one| one["status"] == status).unwrap()["reason"].as_str().unwrap();
+    let page = scratch.text("r/report.html");
+    let visible = page.split_once("<script").expect("scripts").0;
+    let escaped =
+        reason("invalid_sample").replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;");
+    assert!(visible.contains(escaped.trim_end_matches('.')), "{escaped}");
+    assert!(!visible.contains("<img"), "no markup");
+}
+
+/// Law: a derived observable can be had sample by sample; a changed expression makes it anew and runs nothing.
+#[test]
+fn derived_observables_are_a_file() {
+    use arrow_array::{Array as _, Float64Array, Int64Array, RecordBatch};
+    let found = found("derived", &motion());
+    let tables = || batches(&found.scratch.path("r/observables.parquet"));
+    let column = |name: &str| -> Vec<f64> {
+        let of = |table: &RecordBatch| {
+            let values = table.column_by_name(name).unwrap().as_any().downcast_ref::<Float64Array>().unwrap();
+            values.iter().map(|value| value.unwrap_or(f64::NAN)).collect::<Vec<f64>>()
+        };
+        tables().iter().flat_map(of).collect()
+    };
+    let rows = found.rows(&["omega_se_s_z_final_rad_s", "angular_rate_final_rad_s"]);
+    let of = |table: RecordBatch| {
+        table.column_by_name("sample_id").unwrap().as_any().downcast_ref::<Int64Array>().unwrap().clone()
+    };
+    let samples: Vec<Option<i64>> =
+        tables().into_iter().flat_map(|table| of(table).iter().collect::<Vec<_>>()).collect();
+    let ratio = column("spin_ratio");
+    for (sample, row) in &rows {
+        let place = samples.iter().position(|one| *one == i64::try_from(*sample).ok()).expect("the sample");
+        assert_eq!(ratio[place], row[0] / row[1], "sample {sample}");
+    }
+    let before = found.scratch.parts("r");
+    found.scratch.file(
+        "c.toml",
+        &motion().replace("omega_se_s_z_final_rad_s / angular_rate", "2 * omega_se_s_z_final_rad_s / angular_rate"),
+    );
+    found.scratch.command("campaign c.toml --out r").output().expect("the program starts");
+    assert_eq!(found.scratch.parts("r"), before, "no run is repeated");
+    assert_eq!(column("spin_ratio"), ratio.iter().map(|value| 2.0 * value).collect::<Vec<_>>());
+    // without one there is no file
+    let without = motion().replace(
+        "[[observable]]\nname = \"spin_ratio\"\nexpression = \"omega_se_s_z_final_rad_s / angular_rate_final_rad_s\"\n",
+        "",
+    );
+    found.scratch.file("c.toml", &without);
+    found.scratch.command("campaign c.toml --out r").output().expect("the program starts");
+    assert!(!found.scratch.path("r/observables.parquet").exists());
+}
+
+/// Law: an outcome that answers yes or no is a share with its interval against the number of runs, and no histogram; at the confidence of the file.
+#[test]
+fn yes_or_no_is_a_share() {
+    let derived = "[[observable]]\nname = \"is_fast\"\nexpression = \"angular_rate_final_rad_s > 30\"\n";
+    let found = found("yes", &(motion() + derived + "[statistics]\nconfidence = 0.9\n"));
+    let names: Vec<&str> =
+        found.data["figures"].as_array().unwrap().iter().map(|one| one["name"].as_str().unwrap()).collect();
+    assert!(!names.contains(&"histogram_is_fast") && !names.contains(&"cumulative_is_fast"), "{names:?}");
+    assert!(names.contains(&"histogram_angular_rate_final_rad_s"), "others have one: {names:?}");
+    let [x, y] = ["x", "y"].map(|key| found.array(&found.mark("share_is_fast", "share of runs")[key]));
+    let values = found.column("is_fast");
+    assert_eq!(x.last(), Some(&(values.len() as f64)));
+    let band = found.mark("share_is_fast", "90% interval");
+    let [low, high] = ["low", "high"].map(|key| found.array(&band[key]));
+    for k in 0..x.len() {
+        let share = values[..x[k] as usize].iter().sum::<f64>() / x[k];
+        assert!((y[k] - share).abs() < 1e-12 && low[k] <= y[k] && y[k] <= high[k], "{} of {}: {share}", y[k], x[k]);
+    }
+    let last = x.len() - 1;
+    assert!(high[last] - low[last] < high[0] - low[0], "narrower with more runs");
+    // the same confidence at every interval
+    for figure in ["cumulative_angular_rate_final_rad_s", "tail_energy_error_max"] {
+        found.mark(figure, "90% interval");
+    }
+}

@@ -1,0 +1,217 @@
+//! The replay of the page: what it shows of a run at a time is what `simulate` writes of that sample at that time, and what its row has.
+
+use std::fs;
+use std::sync::LazyLock;
+
+use crate::page::numbers::{Found, found};
+use crate::small_campaign::campaign;
+use crate::support::scratch_folder::{ScratchFolder, floats};
+use spindrift::run::StateField;
+use spindrift::sampling::SampleId;
+use spindrift::workflow::{Quiet, Results, Session};
+
+/// Missions of which one fails.
+static MISSIONS: LazyLock<Found> = LazyLock::new(|| {
+    let text =
+        fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/campaigns/net_launch.toml")).expect("a campaign");
+    let scratch = ScratchFolder::new("page-missions");
+    scratch.file("c.toml", &text.replace("samples = 1024 ", "samples = 40 "));
+    scratch.command("campaign c.toml --out r").output().expect("the program starts");
+    Found::read(scratch, String::new())
+});
+
+fn near(found: f64, expected: f64, scale: f64, what: &str) {
+    assert!((found - expected).abs() <= 1e-6 * scale.max(expected.abs()), "{what}: {found} for {expected}");
+}
+
+/// Law: the numbers beside the replay are those of `simulate` for that sample at that time: rates and wheel speeds, and what follows from its
+/// positions; the propellant at the end is that of the row, and never falls.
+#[test]
+fn live_numbers_are_those_of_simulate() {
+    let found = &*MISSIONS;
+    let runs = found.data["replay"]["runs"].as_array().expect("runs");
+    let [propellants, ends] = ["propellant_kg", "end_time_s"].map(|name| found.all(&[name]).remove(0));
+    for run in runs.iter().take(3) {
+        let sample = run["sample"].as_u64().expect("a sample");
+        let times = found.array(&run["times"]);
+        let places = [0, times.len() / 3, times.len() / 2, times.len() - 1];
+        let list: Vec<String> = places.iter().map(|place| format!("{}", times[*place])).collect();
+        found
+            .scratch
+            .prints(&format!("simulate c.toml --sample {sample} --times {} --out s.parquet", list.join(",")), 0);
+        let table = found.scratch.table("s.parquet");
+        let live = run["live"].as_array().expect("numbers");
+        let shown = |name: &str, component: usize, place: usize| {
+            let number =
+                live.iter().find(|number| number["name"] == name).unwrap_or_else(|| panic!("{name}: {live:?}"));
+            let width = number["components"].as_array().expect("components").len().max(1);
+            found.array(&number["values"])[width * place + component]
+        };
+        let watch = Quiet::default();
+        let results = Results::open(found.scratch.path("r"), Session::new(&watch).unwrap()).unwrap();
+        let center = results.replay(SampleId(sample)).unwrap().scene.mass.center;
+        for (row, place) in places.into_iter().enumerate() {
+            let of = |name: &str| floats(&table, name)[row];
+            for (component, axis) in ["x", "y", "z"].into_iter().enumerate() {
+                near(
+                    shown("Angular velocity", component, place),
+                    of(&format!("omega_se_s_{axis}_rad_s")),
+                    1e-3,
+                    "rate",
+                );
+            }
+            for (wheel, name) in ["w1", "w2"].into_iter().enumerate() {
+                near(shown("Wheel speed", wheel, place), of(&format!("rate_{name}_rad_s")), 1.0, "wheel");
+            }
+            // c = p + C_es times its place in F_s, columns by the quaternion
+            let [w, x, y, z] = ["w", "x", "y", "z"].map(|part| of(&format!("q_es_{part}")));
+            let dcm = [
+                [w * w + x * x - y * y - z * z, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+                [2.0 * (x * y + w * z), w * w - x * x + y * y - z * z, 2.0 * (y * z - w * x)],
+                [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z],
+            ];
+            let axes = ["x", "y", "z"].into_iter().zip(dcm);
+            let apart = axes.map(|(axis, row)| {
+                let offset: f64 = row.iter().zip(center).map(|(c, r)| c * r).sum();
+                of(&format!("r_gdo_e_{axis}_m")) - of(&format!("r_po_e_{axis}_m")) - offset
+            });
+            let distance = apart.map(|value| value * value).sum::<f64>().sqrt();
+            near(shown("Distance to the debris", 0, place), distance, 1.0, "distance");
+            let pointing = found.array(&live[0]["values"])[place];
+            assert!(live[0]["name"] != "Pointing error" || pointing.is_nan() || (0.0..=3.15).contains(&pointing));
+        }
+        let used: Vec<f64> = (0..times.len()).map(|place| shown("Propellant used", 0, place)).collect();
+        assert!(used.windows(2).all(|pair| pair[0] <= pair[1]) && used[0] == 0.0, "{used:?}");
+        // the last point is up to an interval before the end
+        let (sample, last) = (sample as usize, used[used.len() - 1]);
+        assert!(last <= propellants[sample] * (1.0 + 1e-6) && last > 0.97 * propellants[sample], "{last}");
+        assert!(times[times.len() - 1] <= if ends[sample].is_finite() { ends[sample] } else { 2400.0 });
+    }
+}
+
+/// Law: a pointing error that is shown is the one of the run at that time: the true angle to the target, against the estimate that `simulate`
+/// records within the error of the estimate.
+#[test]
+fn pointing_errors_are_those_of_the_run() {
+    let found = &*MISSIONS;
+    let run = &found.data["replay"]["runs"][0];
+    let live =
+        run["live"].as_array().expect("numbers").iter().find(|number| number["name"] == "Pointing error").expect("it");
+    let (times, shown) = (found.array(&run["times"]), found.array(&live["values"]));
+    let known: Vec<usize> = (0..times.len()).filter(|place| shown[*place].is_finite()).step_by(3).collect();
+    assert!(known.len() > 10 && live["held"] == true);
+    let list: Vec<String> = known.iter().map(|place| times[*place].to_string()).collect();
+    found.scratch.prints(&format!("simulate c.toml --times {} --out p.parquet", list.join(",")), 0);
+    let table = found.scratch.table("p.parquet");
+    let estimated = floats(&table, "estimated_pointing_error_rad");
+    for (row, place) in known.into_iter().enumerate() {
+        // the star tracker of the nominal run is within some arc minutes
+        assert!(
+            (shown[place] - estimated[row]).abs() < 3e-3,
+            "{} for {} at {}",
+            shown[place],
+            estimated[row],
+            times[place]
+        );
+    }
+}
+
+/// Law: phases are marked at the times of the rows, and the end of a mission at its end; a run has failed where its row says so.
+#[test]
+fn phase_marks_are_at_the_times_of_the_rows() {
+    let found = &*MISSIONS;
+    let runs = found.data["replay"]["runs"].as_array().expect("runs");
+    let phases = runs[0]["loop"]["phases"].as_array().expect("phases");
+    let (mut failed, mut ended) = (0, 0);
+    for run in runs {
+        let row = run["sample"].as_u64().expect("a sample") as usize;
+        let mut expected = Vec::new();
+        for phase in phases {
+            let name = phase.as_str().expect("a name");
+            expected.push((found.all(&[&format!("phase_{name}_begin_s")])[0][row], name.to_owned()));
+        }
+        let [launched, end, failure] = ["launched", "end_time_s", "failure"].map(|name| found.all(&[name])[0][row]);
+        let marks: Vec<(f64, String)> = run["marks"]
+            .as_array()
+            .expect("marks")
+            .iter()
+            .map(|mark| (mark["time"].as_f64().expect("a time"), mark["name"].as_str().expect("a name").to_owned()))
+            .collect();
+        assert!(marks.windows(2).all(|pair| pair[0].0 <= pair[1].0), "{marks:?}");
+        let begun: Vec<_> = expected.into_iter().filter(|(time, _)| time.is_finite()).collect();
+        assert!(begun.iter().all(|mark| marks.contains(mark)), "{begun:?} in {marks:?}");
+        assert_eq!(marks.len(), begun.len() + usize::from(end.is_finite()), "{marks:?}");
+        if end.is_finite() {
+            let (time, name) = marks.last().expect("an end");
+            assert!(*time == end && (name == "launched") == (launched == 1.0), "{marks:?}");
+            ended += 1;
+        }
+        assert_eq!(run["failed"], launched == 0.0 || failure >= 1.0, "sample {row}");
+        failed += usize::from(run["failed"] == true);
+    }
+    assert!(failed > 0 && failed < runs.len() && ended > 5, "{failed} of {} failed", runs.len());
+}
+
+/// Law: what leads to the launch is drawn where it is: the axis is the direction of the debris's velocity, with the distances of the file.
+#[test]
+fn the_goal_of_an_approach_is_that_of_the_file() {
+    let found = &*MISSIONS;
+    let watch = Quiet::default();
+    let results = Results::open(found.scratch.path("r"), Session::new(&watch).unwrap()).unwrap();
+    assert_eq!(found.data["replay"]["scene"]["keep_out"], 5.0);
+    for run in found.data["replay"]["runs"].as_array().expect("runs") {
+        let table = results.replay(SampleId(run["sample"].as_u64().expect("a sample"))).unwrap().table;
+        let velocity: [f64; 3] = table.at(StateField::DebrisVelocity, 0);
+        let speed = velocity.map(|v| v * v).iter().sum::<f64>().sqrt();
+        assert_eq!(run["goal"]["distance"], 10.0);
+        for (axis, v) in velocity.into_iter().enumerate() {
+            near(run["goal"]["axis"][axis].as_f64().expect("a number"), v / speed, 1.0, "axis");
+        }
+    }
+}
+
+/// Law: the path that is drawn is the recorded one: the debris is where it is relative to the centre of mass of the spacecraft, at every time.
+#[test]
+fn the_drawn_path_is_the_recorded_one() {
+    let found = found("debris", &campaign());
+    let watch = Quiet::default();
+    let results = Results::open(found.scratch.path("r"), Session::new(&watch).unwrap()).unwrap();
+    for run in found.data["replay"]["runs"].as_array().expect("runs") {
+        let sample = SampleId(run["sample"].as_u64().expect("a sample"));
+        let recorded = results.replay(sample).unwrap();
+        let (times, shown) = (found.array(&run["times"]), found.array(&run["debris"]["relative"]));
+        assert_eq!(shown.len(), 3 * times.len());
+        let mut seen = 0;
+        for (point, time) in recorded.grid.times().iter().enumerate() {
+            let place = times.iter().position(|other| (other - time).abs() < 1e-6).expect("the time of a row");
+            let [debris, com]: [[f64; 3]; 2] =
+                [StateField::DebrisPosition, StateField::ComPosition].map(|field| recorded.table.at(field, point));
+            for axis in 0..3 {
+                near(shown[3 * place + axis], debris[axis] - com[axis], 1.0, "relative position");
+                seen += usize::from((debris[axis] - com[axis]).abs() > 1e-3);
+            }
+        }
+        assert!(seen > 10, "they are apart");
+    }
+    assert!(found.data["replay"]["runs"][0]["goal"].is_null() && found.data["replay"]["scene"]["keep_out"] == 0.0);
+}
+
+/// Law: the page has a still of the replay without scripts, with the path, the station and the keep-out sphere at one scale: their sizes are in
+/// the ratio of the file, and the bar is of its length.
+#[test]
+fn the_still_is_at_scale() {
+    let page = MISSIONS.visible();
+    let still = page.split_once("<svg class=\"still\"").expect("a still").1.split_once("</svg>").expect("an end").0;
+    let number = |element: &str, key: &str| -> f64 {
+        let rest = still.split_once(&format!("class=\"{element}\"")).unwrap_or_else(|| panic!("no {element}")).1;
+        rest.split_once(&format!(" {key}=\"")).expect(key).1.split('"').next().unwrap().parse().expect("a number")
+    };
+    let bar = number("bar", "x2") - number("bar", "x1");
+    let label = still.rsplit_once("<text").expect("a label").1;
+    let length: f64 = label.split_once('>').unwrap().1.split('\u{a0}').next().unwrap().parse().expect("a length");
+    assert!((bar / length / (number("keep-out", "r") / 5.0) - 1.0).abs() < 0.02, "{bar} for {length} m");
+    // the station is nearer to the debris in the picture than its distance, and not by more than the view shortens
+    let apart = ["cx", "cy"].map(|key| number("station", key) - number("debris", key));
+    let apart = (apart[0] * apart[0] + apart[1] * apart[1]).sqrt() * length / bar;
+    assert!(apart <= 10.1 && apart > 2.0, "{apart} m");
+}

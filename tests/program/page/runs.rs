@@ -1,0 +1,286 @@
+//! What the page and the screen say of single runs, of the nominal one, of inputs and of both axes of a figure, against the rows.
+
+use serde_json::Value;
+
+use crate::commands::screen_numbers::{numbers, says, template};
+use crate::page::numbers::{Found, degrees, found, motion, read_number};
+use crate::small_campaign::mixed_failures;
+use crate::support::scratch_folder::{ScratchFolder, floats};
+use arrow_array::cast::AsArray as _;
+
+fn near(found: f64, expected: f64, tolerance: f64, what: &str) {
+    assert!((found - expected).abs() <= tolerance * expected.abs().max(1e-300), "{what}: {found} for {expected}");
+}
+
+/// Smallest and largest of the ends of `values`.
+fn ends(values: &[f64]) -> [f64; 2] {
+    [f64::min, f64::max].map(|end| values.iter().copied().reduce(end).expect("values"))
+}
+
+fn last(values: &[f64]) -> f64 {
+    *values.last().expect("values")
+}
+
+/// Law: the numbers beside a replayed run are those of its row, in the unit that is shown, with those that the file derives.
+#[test]
+fn numbers_beside_the_replay_are_of_the_row() {
+    let found = found("replay", &motion());
+    let names = ["angular_rate_final_rad_s", "nutation_angle_min_rad", "omega_se_s_z_final_rad_s"];
+    let columns = found.all(&names);
+    let runs = found.data["replay"]["runs"].as_array().expect("runs");
+    assert_eq!(runs.len(), 11, "the nominal run and ten");
+    let sizes = |list: &str, key: &str| -> Vec<Value> {
+        let list = found.data["replay"]["scene"][list].as_array().expect("shapes").iter();
+        list.map(|shape| shape[key].clone()).collect()
+    };
+    // radius and length of the fuselage, of the wheels, and the sides of the debris, as the file has them
+    assert_eq!(sizes("parts", "size"), [serde_json::json!([1.0, 3.0])]);
+    assert_eq!(
+        [sizes("wheels", "radius"), sizes("wheels", "length")],
+        [0.25, 0.1].map(|size| vec![Value::from(size); 2])
+    );
+    assert_eq!(found.data["replay"]["scene"]["debris"], serde_json::json!([0.2, 0.2, 0.2]));
+    for run in runs {
+        let row = run["sample"].as_u64().expect("a sample") as usize;
+        let [rate, nutation, spin] = [0, 1, 2].map(|column| columns[column][row]);
+        let shown = |title: &str| -> String {
+            let list = run["numbers"].as_array().expect("numbers");
+            let one = list.iter().find(|one| one[0] == title).unwrap_or_else(|| panic!("{title}: {list:?}"));
+            one[1].as_str().expect("a text").to_owned()
+        };
+        for (title, unit, expected) in [
+            ("Final angular rate", "deg/s", degrees(rate)),
+            ("Minimum nutation angle", "deg", degrees(nutation)),
+            ("Spin ratio", "", spin / rate),
+            ("Final angular velocity about s3", "rad/s", spin),
+        ] {
+            let text = shown(title);
+            let number = text.strip_suffix(unit).unwrap_or_else(|| panic!("{title}: {text}"));
+            near(read_number(number), expected, 6e-4, &format!("{title} of sample {row}"));
+        }
+    }
+}
+
+/// Law: what is across is across and what is upwards is upwards: an outcome against its input, the energy of a wheel against that of the
+/// body; each point is a run.
+#[test]
+fn axes_are_not_exchanged() {
+    let found = found("axes", &motion());
+    let [input, outcome] = ["initial_angular_velocity_z_rad_s", "angular_rate_final_rad_s"];
+    let figure = format!("scatter_{outcome}_{input}");
+    let points = found.mark(&figure, "computed");
+    let [samples, x, y] = ["samples", "x", "y"].map(|key| found.array(&points[key]));
+    assert_eq!(samples.len(), 299);
+    let columns = found.all(&[input, outcome]);
+    for k in 0..samples.len() {
+        let row = samples[k] as usize;
+        near(x[k], columns[0][row], 1e-6, "input");
+        near(y[k], degrees(columns[1][row]), 1e-6, "outcome");
+    }
+    assert_eq!([&found.figure(&figure)["x"]["unit"], &found.figure(&figure)["y"]["unit"]], ["rad/s", "deg/s"]);
+
+    // the page looks at more points than the campaign: it sees the extremes at least
+    let peaks = found.all(&["exchange_body_peak_to_peak_j", "exchange_w1_peak_to_peak_j"]);
+    let wheel = found.mark("energy_phase", "wheel w1");
+    for (key, peak) in [("x", peaks[0][0]), ("y", peaks[1][0])] {
+        let [low, high] = ends(&found.array(&wheel[key]));
+        assert!(high - low >= 0.999 * peak && high - low < 1.2 * peak, "{key}: {} for {peak}", high - low);
+    }
+}
+
+/// Law: the nominal run is sample 0, at the end of its curves and in the histograms; an input has the unit in which it was written.
+#[test]
+fn nominal_is_nominal() {
+    let text = motion().replace("std = [0.5, 0.5, 1.5]", "std = [\"30 deg/s\", \"30 deg/s\", \"90 deg/s\"]");
+    let found = found("nominal", &text);
+    let names = ["angular_rate_final_rad_s", "rate_w1_final_rad_s", "initial_angular_velocity_z_rad_s"];
+    let columns = found.all(&names);
+    let curve = |figure: &str| last(&found.array(&found.mark(figure, "nominal run")["y"]));
+    near(curve("angular_rate_rad_s"), degrees(columns[0][0]), 1e-6, "rate");
+    near(curve("speed_w1_rad_s"), columns[1][0], 1e-6, "wheel");
+    near(
+        found.mark("histogram_angular_rate_final_rad_s", "nominal")["at"].as_f64().unwrap(),
+        degrees(columns[0][0]),
+        1e-9,
+        "mark",
+    );
+
+    let figure = found.figure("input_initial_angular_velocity_z_rad_s");
+    assert_eq!(figure["x"]["unit"], "deg/s");
+    assert!(figure["caption"].as_str().unwrap().contains("normal, std 90 deg/s"), "{figure}");
+    let bars = found.mark("input_initial_angular_velocity_z_rad_s", "samples");
+    let [edges, heights] = ["edges", "heights"].map(|key| found.array(&bars[key]));
+    let inputs: Vec<f64> = columns[2][1..].iter().copied().map(degrees).collect();
+    assert_eq!(heights.iter().sum::<f64>(), 299.0);
+    for (edge, end) in [edges[0], last(&edges)].into_iter().zip(ends(&inputs)) {
+        near(edge, end, 1e-6, "the end of the bars");
+    }
+    let center = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>() / y.iter().sum::<f64>();
+    let middles: Vec<f64> = edges.windows(2).map(|ends| 0.5 * (ends[0] + ends[1])).collect();
+    let mean = inputs.iter().sum::<f64>() / 299.0;
+    assert!((center(&middles, &heights) - mean).abs() < edges[1] - edges[0]);
+    // the curve of the distribution has its centre at the nominal value, which is the mean of a normal distribution
+    let expected = found.mark("input_initial_angular_velocity_z_rad_s", "expected counts");
+    let [x, y] = ["x", "y"].map(|key| found.array(&expected[key]));
+    near(y.iter().sum(), 299.0, 0.02, "expected samples");
+    near(center(&x, &y), degrees(columns[2][0]), 0.01, "centre");
+    // the printed table of the draws has the same unit
+    let said = found.scratch.prints_wide("check c.toml", 0);
+    let row = said.lines().find(|line| line.starts_with("  initial.angular_velocity_rad_s.z ")).expect("a row");
+    let words: Vec<&str> = row.split_whitespace().collect();
+    assert_eq!(words[1], "deg/s", "{row}");
+    near(words[2].parse().unwrap(), degrees(columns[2][0]), 1e-3, "nominal");
+    near(words[5].parse::<f64>().unwrap() - words[3].parse::<f64>().unwrap(), 2.0 * 2.326 * 90.0, 0.15, "1% to 99%");
+    assert!(row.ends_with("normal, std 90 deg/s"), "{row}");
+}
+
+/// Law: on a screen of any width each observable has its values under their heads, and the ends of each interval in order around its value.
+#[test]
+fn every_line_of_the_screen_is_the_summary() {
+    let found = found("lines", &motion());
+    let summary = found.scratch.summary("r");
+    let observables = summary["observables"].as_array().expect("observables");
+    for width in ["80", "200"] {
+        let mut command = found.scratch.command("campaign c.toml --out r --overwrite --verbose");
+        let output = command.env("COLUMNS", width).output().expect("the program starts");
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        let table = &said[said.find("dispersed runs").expect("a table")..said.find("in brackets:").expect("an end")];
+        let lines: Vec<&str> = table.lines().collect();
+        let mut seen = Vec::new();
+        for (place, line) in lines.iter().enumerate() {
+            let name = line.split_whitespace().next().unwrap_or("").trim_end_matches(',');
+            let Some(one) = observables.iter().find(|one| one["name"] == name) else { continue };
+            seen.push(name.to_owned());
+            let below = usize::from(width == "80");
+            let [values, ends] = [lines[place + below], lines[place + below + 1]].map(|line| template(line).1);
+            let is_in_degrees = line.contains("deg");
+            let shown = |value: &Value| {
+                let value = value.as_f64().expect("a number");
+                if is_in_degrees { degrees(value) } else { value }
+            };
+            assert_eq!(is_in_degrees, ["angular_rate_final_rad_s", "nutation_angle_min_rad"].contains(&name), "{line}");
+            let of_p = |p: f64| {
+                let list = one["quantiles"].as_array().expect("quantiles");
+                list.iter().find(|quantile| quantile["p"] == p).expect("a quantile")
+            };
+            assert_eq!(values.len(), 4, "{line}");
+            for (value, p) in values.iter().zip([0.5, 0.95, 0.999]) {
+                near(*value, shown(&of_p(p)["value"]), 1e-3, &format!("p{p} of {name}"));
+            }
+            near(values[3], shown(&one["max"]), 1e-3, &format!("maximum of {name}"));
+            let interval = &of_p(0.5)["interval"];
+            for (end, expected) in ends.iter().zip([&interval[0], &interval[1]]) {
+                near(*end, shown(expected), 5e-3, &format!("interval of the median of {name}"));
+            }
+            assert!(ends[0] <= ends[1] && ends[2] <= ends[3], "{name}: {ends:?}");
+        }
+        let first = ["angular_rate_final_rad_s", "nutation_angle_min_rad", "spin_ratio"];
+        assert_eq!(seen[..3], first, "what the file requires and derives comes first");
+        let columns = found.scratch.table("r/statistics.parquet").num_rows();
+        assert!(
+            seen.len() <= 9 && said.contains(&format!("{} more in statistics.parquet", columns - seen.len())),
+            "{said}"
+        );
+    }
+}
+
+/// Law: hovering over a quantile of the table shows its own interval, lower end first.
+#[test]
+fn intervals_are_in_order() {
+    let visible = found("intervals", &motion()).visible();
+    let row = visible.split("<tr>").find(|row| row.contains("title=\"angular_rate_final_rad_s: ")).expect("a row");
+    let cells: Vec<&str> = row.split("<td data-value").filter(|cell| cell.contains(" [")).collect();
+    assert!(cells.len() >= 5, "{row}");
+    for cell in cells {
+        let value: f64 = cell.split('"').nth(1).unwrap().parse().unwrap();
+        let words = cell.split_once(" [").unwrap().1.split(']').next().unwrap();
+        let (low, high) = words.split_once(", ").unwrap();
+        let [low, high] = [low, high].map(|end| if end == "not bounded" { f64::NAN } else { read_number(end) });
+        // a missing end is NaN and above or below nothing; others are rounded outward
+        assert!(!(low > value || high < value), "{value} in {low} to {high}");
+    }
+}
+
+/// Law: the strongest input stands first, with the share that the screen says; the bars descend.
+#[test]
+fn bars_of_influence_descend() {
+    let found = found("influence", &motion());
+    for outcome in ["angular_rate_final_rad_s", "spin_ratio"] {
+        let figure = format!("influence_{outcome}");
+        let shares = found.array(&found.mark(&figure, "95% interval")["x"]);
+        assert!(shares.windows(2).all(|pair| pair[0] >= pair[1]), "{shares:?}");
+        let first = found.figure(&figure)["y"]["names"][0].as_str().expect("a name");
+        let line = found.said.lines().find(|line| line.trim_start().starts_with(outcome) && line.contains("with it"));
+        let line = line.unwrap_or_else(|| panic!("{outcome}: {}", found.said));
+        assert!(line.contains(&format!("{first} ({:.2},", shares[0])), "{line}");
+        // what the numbers are, in the same words in both places
+        assert!(line.ends_with("; share of the variance"), "{line}");
+        assert_eq!(found.figure(&figure)["x"]["quantity"], "share of the variance");
+        // what a regression explains, in percent, and of how many runs
+        let table = found.scratch.table("r/sensitivity.parquet");
+        let observables = table.column_by_name("observable").expect("names").as_string::<i32>();
+        let row = observables.iter().position(|name| name == Some(outcome)).expect("a row");
+        let known = [299.0, 100.0 * floats(&table, "r_squared")[row]];
+        let meaning = found.figure(&figure)["caption"].as_str().expect("a caption");
+        says(meaning, "of # runs", &known[..1]);
+        let share = numbers(meaning, "A regression on all inputs explains #% of the variance")[0];
+        assert!((share - known[1]).abs() < 0.051, "{share}% for {known:?}");
+    }
+}
+
+/// Law: of a campaign in which runs failed in two ways the bar counts each, and the list of worst runs has the first of each with its reason, and
+/// then runs that are ok; a failed run is not among the points that are ok.
+#[test]
+fn two_statuses_are_told_apart() {
+    let scratch = ScratchFolder::new("page-statuses");
+    scratch.file("c.toml", &mixed_failures().replace("samples = 600", "samples = 300"));
+    scratch.prints("campaign c.toml --out r", 1);
+    let found = Found::read(scratch, String::new());
+    let summary = found.scratch.summary("r");
+    let page = found.scratch.text("r/report.html");
+    let visible = page.split_once("<script").expect("scripts").0;
+    let worst = crate::page::cards::between(visible, "id=\"worst\"", "</section>");
+    let rows: Vec<&str> = worst.split("<tr>").collect();
+    // the bars are side by side
+    let mut end = summary["statuses"]["ok"].as_f64().expect("a count") / 3.0;
+    for (status, words) in [("invalid_sample", "invalid: not physical"), ("inaccurate", "inaccurate")] {
+        let count = summary["statuses"][status].as_u64().expect("a count");
+        let share =
+            visible.split("<li>").skip(1).find(|item| item.contains(words) && item.contains("<b>")).expect(status);
+        assert!(share.contains(&format!("<b>{count}</b>")), "{status}: {share}");
+        says(share, "(#%)", &[count as f64 / 3.0]);
+        let bar =
+            numbers(&visible.replace("<rect", "\n<rect"), &format!("status {status}\" x=\"#%\" y=\"#\" width=\"#%"));
+        assert!((bar[0] - end).abs() < 2e-3 && (bar[2] - count as f64 / 3.0).abs() < 1e-3, "{bar:?} from {end} on");
+        end += bar[2];
+        let reasons = summary["failure_reasons"].as_array().unwrap();
+        let of = reasons.iter().filter(|one| one["status"] == status);
+        let sample = of.map(|one| one["sample"].as_u64().expect("a sample")).min().expect("a reason");
+        let row = rows.iter().find(|row| row.contains(&format!("computation failed: {status}"))).expect("a row");
+        assert!(row.contains(&format!("<b>{status}</b>: ")), "{row}");
+        assert!(row.starts_with(&format!("<th scope=\"row\">{sample}</th>")), "{sample}: {row}");
+        let first = format!("first in sample {sample}: ");
+        let said = visible.split("<p class=\"reason\">").find(|said| said.contains(words) && said.contains(&first));
+        assert!(said.expect("the reason").contains(&format!("--sample {sample}</code>")), "{sample}");
+        // each replay command is that of its own row
+        assert!(row.contains(&format!("--sample {sample}</code>")), "{row}");
+    }
+    let is_ok = |row: &&&str| row.contains("<td class=\"text\">computed</td>");
+    assert!(rows.iter().filter(is_ok).count() >= 5, "{worst}");
+    let scatter = found.data["figures"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|figure| figure["name"].as_str().is_some_and(|name| name.starts_with("scatter_")));
+    let marks = scatter.expect("a figure")["marks"].as_array().unwrap();
+    let samples = |label: &str| -> Vec<f64> {
+        let mark = marks.iter().find(|mark| mark["label"].as_str().is_some_and(|name| name.starts_with(label)));
+        found.array(&mark.expect("a mark")["samples"])
+    };
+    let ok = summary["statuses"]["ok"].as_u64().unwrap();
+    let dispersed_ok = ok - 1; // the nominal run is ok
+    assert_eq!(samples("computed").len() as u64, dispersed_ok);
+    assert_eq!(samples("not computed").len() as u64, 300 - ok);
+    assert!(!samples("computed").contains(&0.0));
+    assert!(samples("not computed").iter().all(|sample| !samples("computed").contains(sample)));
+}

@@ -1,0 +1,184 @@
+//! Results that somebody has altered, with every checksum made right again, and results that are not finished: what the program says follows from
+//! the rows, and what it has not compared is named.
+
+use std::fs;
+
+use spindrift::storage::identity::sha256;
+
+use crate::reliability::faulty_storage::contents;
+use crate::small_campaign::{campaign, folder};
+use crate::support::scratch_folder::ScratchFolder;
+
+/// A campaign with every kind of file that follows from rows, an incomplete last part, and a requirement that fails.
+fn everything(scratch: &ScratchFolder, result: &str, seed: u64) {
+    let numbers: String = (0..20).map(|row| format!("{}\n", 0.02 + 0.001 * f64::from(row))).collect();
+    scratch.file("walls.csv", &format!("wall\n{numbers}"));
+    let more = r#"
+[retain]
+trajectories = "sample:2"
+[[observable]]
+name = "twice"
+expression = "2 * energy_error_max"
+[[require]]
+observable = "energy_error_max"
+quantile = 0.5
+at_most = 1e-30
+[[disperse]]
+parameter = "body.parts.fuselage.wall_thickness_m"
+distribution = "empirical"
+file = "walls.csv"
+column = "wall"
+"#;
+    scratch.file("all.toml", &(campaign().replace("samples = 600", "samples = 40") + more));
+    scratch.prints(&format!("campaign all.toml --seed {seed} --out {result}"), 3);
+}
+
+/// The lines of the manifest of `r`.
+fn lines(scratch: &ScratchFolder) -> Vec<String> {
+    scratch.text("r/manifest.jsonl").lines().map(str::to_owned).collect()
+}
+
+/// Writes the file `name` of `r` with the content `bytes`, and the manifest with its checksum.
+fn alter(scratch: &ScratchFolder, name: &str, bytes: &[u8]) {
+    let path = scratch.path("r").join(name);
+    let record =
+        |bytes: &[u8]| format!("\"name\":\"{name}\",\"bytes\":{},\"sha256\":\"{}\"", bytes.len(), sha256(bytes));
+    let (before, after) = (record(&fs::read(&path).unwrap()), record(bytes));
+    fs::write(&path, bytes).unwrap();
+    let altered = |line: String| {
+        let (body, _) = line.rsplit_once(",\"crc\"").unwrap();
+        let body = body.replace(&before, &after);
+        format!("{body},\"crc\":\"{:08x}\"}}\n", crc32fast::hash(body.as_bytes()))
+    };
+    let text: String = lines(scratch).into_iter().map(altered).collect();
+    assert!(text.contains(&after), "{name} is listed");
+    scratch.file("r/manifest.jsonl", &text);
+}
+
+/// Law: whichever file that follows from the rows is replaced by that of other rows, under right checksums: `verify` finds it and names it, and a repair makes
+/// the same bytes again.
+#[test]
+fn every_altered_file_is_found_under_right_checksums() {
+    let scratch = folder("altered");
+    everything(&scratch, "r", 7);
+    everything(&scratch, "other", 8);
+    let (whole, other) = (contents(&scratch.path("r")), contents(&scratch.path("other")));
+    let is_derived = |name: &&String| {
+        let is_own = ["manifest.jsonl", "_SUCCESS"].contains(&name.as_str());
+        !is_own && !["runs/", "bands/"].iter().any(|folder| name.starts_with(folder))
+    };
+    let names: Vec<&String> = whole.keys().filter(is_derived).collect();
+    for kind in
+        ["summary", "statistics", "sensitivity", "observables", "bands", "report", "trajectories/", "_delta_log/"]
+    {
+        assert!(names.iter().any(|name| name.starts_with(kind)), "{kind} in {names:?}");
+    }
+    for name in names {
+        let altered = other.get(name).filter(|bytes| **bytes != whole[name]).cloned();
+        // what no other rows have under this name gets a byte more
+        let altered = altered.unwrap_or_else(|| [whole[name].as_slice(), b"\n"].concat());
+        alter(&scratch, name, &altered);
+        let said = scratch.prints("verify r --fraction 1", 4);
+        let shown = match name.split('/').next() {
+            Some("versions" | "_delta_log") => "_delta_log: is not the log of these rows",
+            // its name is its checksum, which the plan has
+            Some("data") => "must be the SHA-256 of the file",
+            _ => name,
+        };
+        assert!(said.contains(shown), "{name}: {said}");
+        // a plan and a file of numbers follow from nothing
+        if name == "plan.toml" || name.starts_with("data/") {
+            fs::remove_dir_all(scratch.path("r")).unwrap();
+            everything(&scratch, "r", 7);
+        } else {
+            scratch.prints("verify r --fraction 1 --repair", 0);
+        }
+        assert!(contents(&scratch.path("r")) == whole, "{name}");
+    }
+    scratch.prints("verify r --fraction 1", 0);
+}
+
+/// Law: a summary that says PASS where the rows say FAIL is shown by no command, whatever checksums say; one that is right is.
+#[test]
+fn verdicts_are_those_of_the_rows() {
+    let scratch = folder("altered-verdicts");
+    everything(&scratch, "r", 7);
+    let text = scratch.text("r/summary.json");
+    assert!(text.contains("\"verdict\": \"FAIL\""));
+    let commands = ["campaign all.toml --seed 7 --out r", "finish r", "verify r --fraction 0", "verify r"];
+    let changes = [
+        ("\"verdict\": \"FAIL\"", "\"verdict\": \"PASS\""),
+        ("\"ok\": 40", "\"ok\": 39"),
+        ("at most 1e-30", "at most 1e-3"),
+    ];
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from} in {text}");
+        alter(&scratch, "summary.json", text.replace(from, to).as_bytes());
+        for command in commands {
+            let said = scratch.prints(command, 4);
+            assert!(said.contains("summary.json") && !said.contains("PASS"), "{command}: {said}");
+        }
+        alter(&scratch, "summary.json", text.as_bytes());
+    }
+    for command in &commands[..2] {
+        assert!(scratch.prints(command, 3).contains("FAIL"), "{command}");
+    }
+}
+
+/// Law: a result without its mark, or with something in it, is not called sound: `verify` ends with 5, after it has compared what the manifest lists; an altered
+/// file is found all the same. The same command for all: the campaign's, which finishes it.
+#[test]
+fn a_result_without_its_mark_is_not_sound() {
+    let scratch = folder("altered-mark");
+    everything(&scratch, "r", 7);
+    let whole = contents(&scratch.path("r"));
+    let text = scratch.text("r/summary.json");
+    let marks: [&dyn Fn(); 2] =
+        [&|| fs::remove_file(scratch.path("r/_SUCCESS")).unwrap(), &|| scratch.file("r/_SUCCESS", "x")];
+    for unmark in marks {
+        unmark();
+        let said = scratch.prints("verify r --fraction 1", 5);
+        assert!(said.contains("not finished: _SUCCESS is missing, or not empty"), "{said}");
+        fs::write(scratch.path("r/statistics.parquet"), "altered").unwrap();
+        assert!(scratch.prints("verify r", 4).contains("statistics.parquet"));
+        fs::write(scratch.path("r/statistics.parquet"), &whole["statistics.parquet"]).unwrap();
+        alter(&scratch, "summary.json", text.replace("\"verdict\": \"FAIL\"", "\"verdict\": \"PASS\"").as_bytes());
+        assert!(scratch.prints("verify r", 4).contains("summary.json"));
+        scratch.prints("campaign all.toml --seed 7 --out r", 3);
+        assert!(contents(&scratch.path("r")) == whole);
+    }
+}
+
+/// Law: where the manifest has no last line, nothing says what follows from the rows: `verify` names every such file as not compared, and ends with 5.
+#[test]
+fn what_is_not_compared_is_named() {
+    let scratch = folder("altered-unlisted");
+    everything(&scratch, "r", 7);
+    let whole = contents(&scratch.path("r"));
+    let mut kept = lines(&scratch);
+    kept.pop();
+    scratch.file("r/manifest.jsonl", &(kept.join("\n") + "\n"));
+    let said = scratch.prints("verify r --fraction 1", 5);
+    let (_, named) = said.split_once("not compared, since nothing says what should be in them: ").expect("named");
+    let top = ["plan.toml", "manifest.jsonl", "_SUCCESS"];
+    for name in whole.keys() {
+        let is_compared =
+            top.contains(&name.as_str()) || ["runs/", "bands/", "data/"].iter().any(|folder| name.starts_with(folder));
+        assert_eq!(named.contains(name.as_str()), !is_compared, "{name}: {said}");
+    }
+    scratch.prints("verify r --repair", 0);
+    assert!(contents(&scratch.path("r")) == whole);
+}
+
+/// Law: a result that was made longer has the log and the copies of both versions, and is sound.
+#[test]
+fn a_longer_result_is_sound() {
+    let scratch = folder("altered-longer");
+    for samples in [300, 400, 600] {
+        scratch.prints(&format!("campaign small.toml --samples {samples} --out r"), 0);
+        let said = scratch.prints("verify r --fraction 1", 0);
+        assert!(said.contains("files made of plan and rows again and compared: sound"), "{said}");
+    }
+    scratch.prints("report r", 0);
+    scratch.prints("verify r", 0);
+}

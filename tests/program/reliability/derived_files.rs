@@ -1,0 +1,291 @@
+//! The files that follow from the rows of a result are as safe as the rows: whatever happens to one of them is found, and it is made again.
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use crate::reliability::faulty_storage::contents;
+use crate::reliability::interrupted::{is_ignored, send, start};
+use crate::small_campaign::{campaign, folder};
+use crate::support::scratch_folder::ScratchFolder;
+
+/// A campaign with every kind of file: a requirement that fails, retained runs, a file of numbers, an incomplete last part.
+fn everything(name: &str) -> ScratchFolder {
+    let scratch = folder(name);
+    let numbers: String = (0..20).map(|row| format!("{}\n", 0.02 + 0.001 * f64::from(row))).collect();
+    scratch.file("walls.csv", &format!("wall\n{numbers}"));
+    let more = r#"
+[retain]
+trajectories = "sample:2"
+[[require]]
+observable = "energy_error_max"
+quantile = 0.5
+at_most = 1e-30
+[[disperse]]
+parameter = "body.parts.fuselage.wall_thickness_m"
+distribution = "empirical"
+file = "walls.csv"
+column = "wall"
+"#;
+    scratch.file("all.toml", &(campaign().replace("samples = 600", "samples = 40") + more));
+    scratch.prints("campaign all.toml --out r", 3);
+    scratch
+}
+
+/// Law: any file, of rows or made of them, that is flipped in a bit, cut off, emptied, deleted or replaced is found by `verify`, named, and refused
+/// by the commands that read the result; each of the repairing commands makes it again with the same bytes, and the exit code is that of the
+/// rows. (Of the manifest and the mark, other tests say what they lose.)
+#[test]
+fn every_damage_is_found_and_made_again() {
+    let scratch = everything("derived");
+    let root = scratch.path("r");
+    let whole = contents(&root);
+    let names: Vec<&String> =
+        whole.keys().filter(|name| !["manifest.jsonl", "_SUCCESS"].contains(&name.as_str())).collect();
+    for kind in ["summary.json", "statistics", "sensitivity", "bands.parquet", "report.html", "plan.toml"] {
+        assert!(names.iter().any(|name| name.contains(kind)), "{kind} in {names:?}");
+    }
+    for folder in ["runs/", "bands/", "trajectories/", "_delta_log/", "versions/", "data/"] {
+        assert!(names.iter().any(|name| name.starts_with(folder)), "{folder} in {names:?}");
+    }
+    let damages: [fn(&mut Vec<u8>); 4] = [
+        |bytes| {
+            let middle = bytes.len() / 2;
+            bytes[middle] ^= 1;
+        },
+        |bytes| bytes.truncate(bytes.len() - 1),
+        Vec::clear,
+        |bytes| *bytes = b"other".to_vec(),
+    ];
+    let repairs = [("verify r --repair", 0), ("campaign all.toml --out r", 3), ("finish r", 3)];
+    for (index, name) in names.into_iter().enumerate() {
+        let path = root.join(name.as_str());
+        for way in 0..=damages.len() {
+            match damages.get(way) {
+                Some(damage) => {
+                    let mut bytes = whole[name].clone();
+                    damage(&mut bytes);
+                    fs::write(&path, bytes).unwrap();
+                }
+                None => fs::remove_file(&path).unwrap(),
+            }
+            let said = scratch.prints("verify r --fraction 0", 4);
+            assert!(said.contains(name.as_str()), "{name}: {said}");
+            scratch.prints("compare r r", 4);
+            let is_of_rows = ["runs/", "bands/"].iter().any(|folder| name.starts_with(folder));
+            let repair = match name.split('/').next() {
+                // a file of numbers follows from nothing: the campaign's command has the original
+                Some("data") => 1,
+                _ if is_of_rows => (index + way) % 2,
+                _ => (index + way) % repairs.len(),
+            };
+            if is_of_rows || name.starts_with("data/") {
+                scratch.prints("finish r", 4);
+            }
+            let (repair, code) = repairs[repair];
+            scratch.prints(repair, code);
+            assert!(contents(&root) == whole, "{name}, way {way}: {repair}");
+        }
+    }
+    scratch.prints("verify r --fraction 1", 0);
+}
+
+/// Law: the page made again is listed with its checksum, and a damaged one is made again; nothing else may be damaged then.
+#[test]
+fn a_page_that_is_made_again_is_listed() {
+    let scratch = everything("derived-page");
+    let root = scratch.path("r");
+    let whole = contents(&root);
+    fs::write(root.join("report.html"), "other").unwrap();
+    scratch.prints("report r", 0);
+    assert!(contents(&root) == whole);
+    scratch.prints("campaign all.toml --no-report --overwrite --out bare", 3);
+    scratch.prints("report bare", 0);
+    scratch.prints("verify bare", 0);
+    assert!(contents(&scratch.path("bare")) == whole);
+    fs::write(root.join("statistics.parquet"), "other").unwrap();
+    scratch.prints("report r", 4);
+}
+
+/// Law: a flipped bit in a file of rows ends `report` and `compare`, at whichever byte, and nothing is written.
+#[test]
+fn rows_with_a_flipped_bit_are_not_read() {
+    let scratch = folder("derived-flips");
+    scratch.prints("campaign small.toml --samples 300 --out r", 0);
+    let path = scratch.path("r/runs/part-000001.parquet");
+    let whole = fs::read(&path).unwrap();
+    let page = fs::read(scratch.path("r/report.html")).unwrap();
+    for part in 0..20 {
+        let mut bytes = whole.clone();
+        bytes[part * whole.len() / 20] ^= 1 << (part % 8);
+        fs::write(&path, bytes).unwrap();
+        for command in ["report r", "compare r r"] {
+            assert!(scratch.prints(command, 4).contains("runs/part-000001.parquet"), "byte {part}/20");
+        }
+    }
+    assert!(fs::read(scratch.path("r/report.html")).unwrap() == page);
+}
+
+/// Law: an extension that is not finished leaves the summary of the rows before, which says so; the finished one says so too.
+#[test]
+fn a_summary_of_the_rows_before_says_so() {
+    let scratch = folder("derived-summary");
+    scratch.prints("campaign small.toml --samples 300 --no-report --out r", 0);
+    assert_eq!(scratch.summary("r")["finished"], true);
+    scratch.prints("campaign small.toml --samples 900 --no-report --shard 1/2 --out r", 0);
+    assert_eq!((&scratch.summary("r")["finished"], &scratch.summary("r")["samples"]), (&false.into(), &300.into()));
+    scratch.prints("campaign small.toml --samples 900 --no-report --out r", 0);
+    assert_eq!((&scratch.summary("r")["finished"], &scratch.summary("r")["samples"]), (&true.into(), &900.into()));
+}
+
+/// Law: a repair that a signal stops finishes nothing and ends with the code of the signal; the same command continues to the same bytes.
+#[test]
+#[cfg(unix)]
+fn a_repair_that_is_stopped_continues() {
+    // started with `nohup` or in the background, this process and its children ignore the signal
+    if is_ignored(2) {
+        return;
+    }
+    let scratch = folder("derived-stopped");
+    let samples = "campaign small.toml --samples 20000 --no-report --threads 1 --out r";
+    scratch.prints(samples, 0);
+    let whole = contents(&scratch.path("r"));
+    let mut stopped = 0;
+    for tenths in [1, 2, 4, 8, 16] {
+        let parts = scratch.part_files("r");
+        for path in &parts {
+            fs::write(path, "damaged").unwrap();
+        }
+        let mut child = start(&scratch, "verify r --repair --fraction 0 --threads 1");
+        // some part is made again; a part that is being replaced may be absent for a moment
+        let is_damaged = |path| fs::read(path).is_ok_and(|bytes| bytes == b"damaged");
+        let begun = Instant::now();
+        while parts.iter().all(is_damaged) && begun.elapsed() < Duration::from_secs(20) {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        std::thread::sleep(Duration::from_millis(tenths));
+        send("INT", child.id());
+        let code = child.wait().unwrap().code();
+        if code == Some(130) {
+            stopped += 1;
+            assert!(!scratch.path("r/_SUCCESS").exists(), "a part of the rows is no result");
+            scratch.prints("report r", 2);
+            scratch.prints("finish r", 4);
+        } else {
+            assert_eq!(code, Some(0), "either stopped or done");
+        }
+        scratch.prints("verify r --repair", 0);
+        assert!(contents(&scratch.path("r")) == whole);
+    }
+    assert!(stopped > 0, "no repair was stopped in time");
+}
+
+/// Law: a result that has lost its manifest is made again from its plan: its parts are computed again, since nothing says what they had. An
+/// altered part is never taken for sound, whatever stops the repair; other commands name the remedy.
+#[test]
+fn a_lost_manifest_is_made_again() {
+    let scratch = folder("derived-manifest");
+    scratch.prints("campaign small.toml --out r", 0);
+    let root = scratch.path("r");
+    let whole = contents(&root);
+    for damaged in [None, Some("runs/part-000001.parquet"), Some("bands/part-000002.parquet")] {
+        fs::remove_file(root.join("manifest.jsonl")).unwrap();
+        if let Some(name) = damaged {
+            let mut bytes = whole[name].clone();
+            let middle = bytes.len() / 2;
+            bytes[middle] ^= 1;
+            fs::write(root.join(name), bytes).unwrap();
+        }
+        for command in ["verify r", "finish r", "report r", "campaign small.toml --out r"] {
+            let said = scratch.prints(command, 4);
+            assert!(said.contains("spindrift verify r --repair"), "{command}: {said}");
+        }
+        let said = scratch.prints("verify r --repair", 0);
+        assert!(said.contains("manifest.jsonl: missing"), "{said}");
+        assert!(contents(&root) == whole, "{damaged:?}");
+    }
+    // the plan is not that of the parts: nothing is made
+    fs::remove_file(root.join("manifest.jsonl")).unwrap();
+    let other = fs::read_to_string(root.join("plan.toml")).unwrap().replace("seed = 7", "seed = 8");
+    scratch.file("r/plan.toml", &other);
+    scratch.prints("verify r --repair", 4);
+    assert!(!root.join("manifest.jsonl").exists());
+}
+
+/// Law: a commit of the table's log that the program did not write is damage, since engines would believe it; other files under names of the
+/// result that nothing lists are named, and left alone.
+#[test]
+fn what_engines_would_read_is_listed() {
+    let scratch = folder("derived-foreign");
+    scratch.prints("campaign small.toml --no-report --out r", 0);
+    let root = scratch.path("r");
+    let whole = contents(&root);
+    let commit = "r/_delta_log/00000000000000000001.json";
+    let remove = "{\"remove\":{\"path\":\"runs/part-000000.parquet\",\"deletionTimestamp\":0,\"dataChange\":true}}\n";
+    for repair in ["verify r --repair", "campaign small.toml --no-report --out r", "finish r --no-report"] {
+        scratch.file(commit, remove);
+        for command in ["verify r --fraction 0", "report r", "compare r r"] {
+            let said = scratch.prints(command, 4);
+            assert!(said.contains("_delta_log/00000000000000000001.json"), "{command}: {said}");
+        }
+        scratch.prints(repair, 0);
+        assert!(contents(&root) == whole, "{repair}");
+    }
+    scratch.file("r/report.html", "another page");
+    let said = scratch.prints("verify r", 0);
+    assert!(said.contains("report.html: not part of the result"), "{said}");
+    fs::remove_file(root.join("report.html")).unwrap();
+    // a mark with something in it is no mark: the same command makes it again
+    scratch.file("r/_SUCCESS", "x");
+    scratch.prints("campaign small.toml --no-report --out r", 0);
+    assert!(contents(&root) == whole);
+}
+
+/// Law: a manifest without its line of the plan is damaged, and a page made again does not lose the plan; where the first line is of other rows
+/// than the plan of the second, nothing is replaced.
+#[test]
+fn lines_of_identity_and_plan_belong_together() {
+    let scratch = folder("derived-plan-line");
+    for (result, seed) in [("r", 7), ("other", 8)] {
+        scratch.prints(&format!("campaign small.toml --samples 300 --seed {seed} --no-report --out {result}"), 0);
+    }
+    let text = |result: &str| scratch.text(&format!("{result}/manifest.jsonl"));
+    let (mine, other) = (text("r"), text("other"));
+    let without =
+        |line: usize| mine.lines().enumerate().filter(move |(at, _)| *at != line).map(|(_, line)| format!("{line}\n"));
+    scratch.file("r/manifest.jsonl", &without(1).collect::<String>());
+    assert!(scratch.prints("verify r", 4).contains("manifest.jsonl:2"));
+    scratch.prints("report r", 4);
+    scratch.prints("verify r --repair", 0);
+    assert_eq!(text("r"), mine);
+    let mixed = format!("{}\n{}", other.lines().next().unwrap(), without(0).collect::<String>());
+    scratch.file("r/manifest.jsonl", &mixed);
+    let rows = scratch.parts("r");
+    scratch.prints("verify r", 4);
+    scratch.prints("campaign small.toml --samples 300 --seed 8 --no-report --out r", 4);
+    assert_eq!((text("r"), scratch.parts("r")), (mixed, rows));
+}
+
+/// Law: a shard that is started again on a finished result ends with 0 and changes nothing; with other questions it is refused; shards that ask
+/// different questions are not finished, and the campaign's command says whose answers are meant.
+#[test]
+fn shards_change_no_finished_result() {
+    let scratch = folder("derived-shards");
+    let require = |limit: &str| {
+        let gate = format!("\n[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.5\nat_most = {limit}\n");
+        campaign() + &gate
+    };
+    scratch.file("strict.toml", &require("1e-30"));
+    scratch.file("loose.toml", &require("1.0"));
+    for (file, shard) in [("strict", "1/2"), ("loose", "2/2")] {
+        scratch.prints(&format!("campaign {file}.toml --no-report --shard {shard} --out r"), 0);
+    }
+    let said = scratch.prints("finish r --no-report", 4);
+    assert!(said.contains("require") && said.contains("1e-30") && said.contains("1.0"), "{said}");
+    scratch.prints("campaign strict.toml --no-report --out r", 3);
+    let whole = contents(&scratch.path("r"));
+    scratch.prints("campaign strict.toml --no-report --shard 1/2 --out r", 0);
+    assert!(contents(&scratch.path("r")) == whole);
+    scratch.prints("campaign loose.toml --no-report --shard 1/2 --out r", 4);
+    assert!(contents(&scratch.path("r")) == whole);
+    scratch.prints("campaign strict.toml --no-report --out r", 3);
+}

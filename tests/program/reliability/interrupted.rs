@@ -1,0 +1,263 @@
+//! Campaigns that are killed, stopped by signals, divided into shards, damaged or made longer: the dataset is always that of one
+//! uninterrupted process, byte for byte.
+
+use std::fs;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use crate::reliability::faulty_storage::listed_files;
+use crate::small_campaign::{campaign, folder};
+use crate::support::scratch_folder::{ScratchFolder, contents};
+
+/// Kills of the short version, which runs with all tests.
+const KILLS: u32 = 100;
+/// Samples of the campaign that is killed: some 0.1 s.
+const SAMPLES: u64 = 5_000;
+/// A kill comes at most this long after the start, ms.
+const LATEST_MS: u64 = 90;
+/// After so many kills a campaign may end: on a slow machine its last step alone takes longer than [`LATEST_MS`].
+const OF_ONE: u32 = 12;
+
+/// Checks that two datasets are the same files with the same bytes.
+pub fn assert_same(scratch: &ScratchFolder, one: &str, other: &str) {
+    let (one, other) = (contents(&scratch.path(one)), contents(&scratch.path(other)));
+    assert_eq!(one.keys().collect::<Vec<_>>(), other.keys().collect::<Vec<_>>());
+    for (name, bytes) in &one {
+        assert!(*bytes == other[name], "{name} differs");
+    }
+}
+
+/// Starts the program in the background.
+pub fn start(scratch: &ScratchFolder, arguments: &str) -> Child {
+    scratch.command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+}
+
+/// The files that the manifest of an interrupted result lists; each must be there whole.
+fn committed(scratch: &ScratchFolder, result: &str) -> usize {
+    let files = listed_files(&scratch.path(result));
+    for file in &files {
+        assert_eq!(fs::metadata(&file.path).unwrap().len(), file.bytes, "{}", file.path.display());
+    }
+    files.len()
+}
+
+/// Kills the campaign `kills` times at instants that follow from `seed`, continuing it until it is complete, and starts again; every
+/// complete result is that of the uninterrupted campaign, and no committed part is lost.
+fn kill_and_continue(kills: u32, seed: u64) {
+    let scratch = folder(&format!("kill-{seed}"));
+    let command = format!("campaign small.toml --samples {SAMPLES} --no-report");
+    scratch.prints(&format!("{command} --out whole"), 0);
+    let (mut killed, mut completed, mut state) = (0, 0, seed);
+    while killed < kills || completed == 0 {
+        let mut before = 0;
+        for _ in 0..OF_ONE {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let mut child = start(&scratch, &format!("{command} --out half"));
+            std::thread::sleep(Duration::from_millis((state >> 33) % LATEST_MS));
+            let has_ended = child.try_wait().unwrap().is_some();
+            child.kill().unwrap();
+            let ended = child.wait().unwrap();
+            if has_ended || ended.success() {
+                assert!(ended.success(), "{ended}");
+                break;
+            }
+            killed += 1;
+            let now = committed(&scratch, "half");
+            assert!(now >= before, "{now} files are listed after {before}");
+            before = now;
+        }
+        scratch.prints(&format!("{command} --out half"), 0);
+        assert_same(&scratch, "half", "whole");
+        fs::remove_dir_all(scratch.path("half")).unwrap();
+        completed += 1;
+    }
+}
+
+#[test]
+fn a_killed_campaign_continues_to_the_same_bytes() {
+    kill_and_continue(KILLS, 1);
+}
+
+/// The long version: 1,000 kills.
+#[test]
+#[ignore = "minutes: cargo test --release --test program -- --ignored a_thousand_kills"]
+fn a_thousand_kills() {
+    kill_and_continue(10 * KILLS, 2);
+}
+
+/// Law: more samples add parts and keep the rows; the result is that of a campaign of so many samples.
+#[test]
+fn a_finished_campaign_is_extended() {
+    let scratch = folder("extend");
+    scratch.prints("campaign small.toml --samples 900 --out grown", 0);
+    let before = scratch.parts("grown");
+    let said = scratch.prints("campaign small.toml --samples 2000 --out grown", 0);
+    assert!(said.contains("768 samples are there already, 1232 to run"), "{said}");
+    assert_eq!(scratch.parts("grown")[..3], before[..3], "whole parts stay");
+    scratch.prints("campaign small.toml --samples 2000 --out whole", 0);
+    // table engines see that it grew: the log has a commit more and a copy of the last part before (table_log.rs), which the last line lists
+    for result in ["grown", "whole"] {
+        scratch.prints(&format!("verify {result}"), 0);
+        let manifest = scratch.text(&format!("{result}/manifest.jsonl"));
+        let parts: Vec<&str> = manifest.lines().filter(|line| !line.contains("finished")).collect();
+        scratch.file(&format!("{result}/manifest.jsonl"), &parts.join("\n"));
+        for log in ["_delta_log", "versions"] {
+            fs::remove_dir_all(scratch.path(result).join(log)).unwrap();
+        }
+    }
+    assert_same(&scratch, "grown", "whole");
+    for result in ["grown", "whole"] {
+        scratch.prints(&format!("campaign small.toml --samples 2000 --out {result}"), 0);
+    }
+    assert_same(&scratch, "grown", "whole");
+    let said = scratch.prints("campaign small.toml --samples 100 --out grown", 4);
+    assert!(said.contains("2000 rows"), "{said}");
+}
+
+/// Law: what does not change rows changes no part: verdicts and names are made again without a run.
+#[test]
+fn other_questions_of_the_same_rows_run_nothing() {
+    let scratch = folder("questions");
+    scratch.prints("campaign small.toml --out r", 0);
+    let before = scratch.parts("r");
+    let require = "\n[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.9\nat_most = 1e-30\n";
+    scratch.file("strict.toml", &format!("{}{require}", campaign().replace("\"small\"", "\"strict\"")));
+    let said = scratch.prints("campaign strict.toml --out r", 3);
+    assert!(said.contains("600 samples are there already, 0 to run") && said.contains("FAIL"), "{said}");
+    assert_eq!(scratch.parts("r"), before);
+    assert!(scratch.text("r/plan.toml").contains("strict"));
+    scratch.prints("campaign strict.toml --out r", 3);
+}
+
+/// Law: whichever line of the manifest is damaged, it is said once, and the result is made whole.
+#[test]
+fn a_damaged_manifest_is_recovered() {
+    let scratch = folder("manifest");
+    scratch.prints("campaign small.toml --out whole", 0);
+    let text = scratch.text("whole/manifest.jsonl");
+    let lines = text.lines().count();
+    for line in 1..lines {
+        let mut changed: Vec<String> = text.lines().map(str::to_owned).collect();
+        changed[line] = changed[line].replacen('0', "1", 1).replacen("true", "tru3", 1);
+        scratch.prints("campaign small.toml --out r", 0);
+        fs::write(scratch.path("r/manifest.jsonl"), format!("{}\n", changed.join("\n"))).unwrap();
+        let said = scratch.prints("campaign small.toml --out r", 0);
+        assert_eq!(said.matches("manifest.jsonl:").count(), 1, "{said}");
+        assert_same(&scratch, "r", "whole");
+    }
+}
+
+/// Law: what a campaign that was stopped has left beyond the samples that are asked for now is not part of the result: neither a part that is
+/// listed, since parts are not made in order, nor files that no line lists, as a crash before that line leaves them.
+#[test]
+fn fewer_samples_than_before() {
+    let scratch = folder("fewer");
+    scratch.prints("campaign small.toml --out whole", 0);
+    let longer = |result: &str, kept: &[&str]| {
+        scratch.prints(&format!("campaign small.toml --samples 1100 --shard 1/1 --out {result}"), 0);
+        let shard = scratch.path(result).join("shards/1-of-1.jsonl");
+        let text = fs::read_to_string(&shard).unwrap();
+        let lines = text.lines().filter(|line| kept.iter().any(|kept| line.contains(kept)));
+        fs::write(
+            scratch.path(result).join("manifest.jsonl"),
+            lines.map(|line| format!("{line}\n")).collect::<String>(),
+        )
+        .unwrap();
+        fs::remove_file(shard).unwrap();
+    };
+    // parts 0 and 3 are listed: 512 rows, up to sample 1023
+    longer("r", &["\"spindrift\"", "\"part\":0", "\"part\":3"]);
+    let said = scratch.prints("campaign small.toml --out r", 4);
+    assert!(said.contains("1024 rows of this plan, more than its 600 samples"), "{said}");
+    // parts 0 and 1 are listed, and the files of 2, 3 and 4 are there
+    longer("s", &["\"spindrift\"", "\"part\":0", "\"part\":1"]);
+    assert!(scratch.path("s/runs/part-000004.parquet").exists());
+    scratch.prints("campaign small.toml --out s", 0);
+    assert_same(&scratch, "s", "whole");
+    // the same in the folder that is to replace a result, as an interrupted command leaves it
+    longer("u", &["\"spindrift\"", "\"part\":0", "\"part\":3"]);
+    scratch.prints("campaign small.toml --out t --seed 9", 0);
+    let digits = "0123456789abcdef";
+    scratch.file("u/_REPLACEMENT", &format!("{digits}\n"));
+    fs::rename(scratch.path("u"), scratch.path(&format!(".t.{digits}.new"))).unwrap();
+    scratch.prints("campaign small.toml --out t --overwrite", 0);
+    assert!(!scratch.path(&format!(".t.{digits}.new")).exists());
+    assert_same(&scratch, "t", "whole");
+}
+
+/// Law: `--overwrite` keeps the old result until the new one is complete, and never touches what is not ours.
+#[test]
+fn the_old_result_stays_until_the_new_one_is_complete() {
+    let scratch = folder("replace");
+    scratch.prints("campaign small.toml --out r", 0);
+    scratch.prints("campaign small.toml --out whole --seed 9", 0);
+    let old = contents(&scratch.path("r"));
+    let mut child = start(&scratch, &format!("campaign small.toml --seed 9 --overwrite --out r --samples {SAMPLES}"));
+    std::thread::sleep(Duration::from_millis(80));
+    child.kill().unwrap();
+    if !child.wait().unwrap().success() {
+        assert!(contents(&scratch.path("r")) == old, "the old result is as it was");
+    }
+    scratch.prints("campaign small.toml --seed 9 --overwrite --out r", 0);
+    assert_same(&scratch, "r", "whole");
+    let beside = fs::read_dir(&scratch.0).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    assert_eq!(beside.filter(|name| name.starts_with('.')).collect::<Vec<_>>(), [""; 0]);
+
+    for (name, place) in [
+        ("notes.txt", "r/notes.txt"),
+        ("foreign part", "r/runs/part-00000-6f1c.snappy.parquet"),
+        ("unlisted part", "r/runs/part-000099.parquet"),
+    ] {
+        scratch.file(place, "precious");
+        let said = scratch.prints("campaign small.toml --overwrite --out r", 4);
+        assert!(said.contains("not part of a result"), "{name}: {said}");
+        assert_eq!(fs::read_to_string(scratch.path(place)).unwrap(), "precious");
+        fs::remove_file(scratch.path(place)).unwrap();
+    }
+    fs::create_dir(scratch.path("other")).unwrap();
+    scratch.file("other/plan.toml", "a plan of another program");
+    scratch.prints("campaign small.toml --overwrite --out other", 4);
+    assert_eq!(scratch.text("other/plan.toml"), "a plan of another program");
+}
+
+/// Sends a signal by the shell's own command: a program of that name is not on every machine.
+#[cfg(unix)]
+pub fn send(signal: &str, process: u32) {
+    let command = format!("kill -s {signal} {process}");
+    assert!(Command::new("sh").args(["-c", &command]).status().unwrap().success());
+}
+
+/// Whether this process ignores a signal.
+#[cfg(unix)]
+pub fn is_ignored(signal: i32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.is_some_and(|mask| u64::from_str_radix(mask.trim(), 16).unwrap() >> (signal - 1) & 1 == 1)
+}
+
+/// Law: a signal ends a campaign with its code, keeps what is committed, and the same command continues.
+#[cfg(unix)]
+#[test]
+fn signals_stop_and_the_command_continues() {
+    let scratch = folder("signals");
+    let command = format!("campaign small.toml --samples {} --no-report --threads 1", 5 * SAMPLES);
+    for (signal, number) in [("HUP", 1), ("INT", 2), ("USR1", 10), ("TERM", 15)] {
+        // a signal that this process ignores is ignored by its children too: so it is meant (`nohup`)
+        if is_ignored(number) {
+            continue;
+        }
+        let code = 128 + number;
+        let before = committed(&scratch, "r");
+        let mut child = start(&scratch, &format!("{command} --out r"));
+        while committed(&scratch, "r") == before && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        send(signal, child.id());
+        let ended = child.wait().unwrap();
+        assert_eq!(ended.code(), Some(code), "SIG{signal}");
+        assert!(committed(&scratch, "r") > before);
+    }
+    scratch.prints(&format!("{command} --out r"), 0);
+    scratch.prints(&format!("{command} --out whole"), 0);
+    assert_same(&scratch, "r", "whole");
+}

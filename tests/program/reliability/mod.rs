@@ -1,0 +1,18 @@
+//! Whatever happens to processes, disks and files: always the same bytes, or an error that says why.
+
+pub mod altered_results;
+pub mod derived_files;
+pub mod extremes;
+pub mod false_manifests;
+pub mod faults;
+pub mod faulty_storage;
+pub mod hostile_files;
+pub mod interrupted;
+#[cfg(target_os = "linux")]
+pub mod power_loss;
+pub mod read_faults;
+pub mod replaced;
+pub mod shared_folders;
+pub mod sizes;
+pub mod strays;
+pub mod threads_and_shards;

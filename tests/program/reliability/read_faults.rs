@@ -1,0 +1,312 @@
+//! A fault at the k-th read of a dataset, for every k, in every command that reads one: a file that cannot be read now is an error that names it
+//! and the cause. It is never taken for a file that is damaged: nothing is dropped, removed or written again for it.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use spindrift::storage::disk::{Disk, Storage};
+use spindrift::storage::manifest::{Manifest, PartRecord};
+use spindrift::workflow::finishing::finish as finished;
+use spindrift::workflow::page::remade;
+use spindrift::workflow::{Outputs, Results, Verification, WorkflowError as Failure, verify as verified};
+
+use crate::reliability::faulty_storage::{Fault, Faulty, Operation, contents, make, on, plan, reason, unlocked};
+use crate::support::scratch_folder::ScratchFolder;
+
+type Files = BTreeMap<String, Vec<u8>>;
+
+/// Samples of two parts, and of three.
+const SAMPLES: [u64; 2] = [260, 520];
+
+/// The numbers of Linux of the errors that reading has: EIO, EACCES, ENOENT.
+const UNREADABLE: [i32; 3] = [5, 13, 2];
+
+/// Of the reads within open files, every so many fail in the short version of the test: there are some hundred of each command, nearly all of
+/// columns. No multiple of it is a multiple of the reads of a column.
+const STEP: usize = 23;
+
+fn is_read(operation: Operation) -> bool {
+    operation != Operation::Write
+}
+
+/// The faults that an operation can have.
+fn faults(operation: Operation) -> Vec<Fault> {
+    let errors = match operation {
+        Operation::Write => &[][..],
+        Operation::Open | Operation::List => &UNREADABLE,
+        Operation::Length | Operation::Read | Operation::Lock => &UNREADABLE[..1],
+    };
+    let end = (operation == Operation::Read).then_some(Fault::End);
+    errors.iter().map(|number| Fault::System(*number)).chain(end).collect()
+}
+
+/// What the message says of a fault. A folder that is not there, by what the disk says, is an empty one.
+fn causes(fault: Fault) -> Vec<String> {
+    match fault.error() {
+        Some(error) => {
+            vec![error.to_string(), "has no result of spindrift".to_owned(), "its folder did not show it".to_owned()]
+        }
+        None => vec!["the file ends after ".to_owned()],
+    }
+}
+
+/// A command on the dataset in a folder.
+type Command = fn(&'static dyn Storage, &Path) -> Result<(), Failure>;
+
+fn make_small(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
+    make(storage, root, &plan(SAMPLES[0]), false)
+}
+
+fn make_large(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
+    make(storage, root, &plan(SAMPLES[1]), false)
+}
+
+fn finish(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
+    let outputs = Outputs { without_page: true, ..Outputs::default() };
+    on(storage, |session| finished(session, root, &outputs, &|_| Ok(())).map(|_| ()))
+}
+
+fn verify(storage: &'static dyn Storage, root: &Path, repair: bool) -> Result<(), Failure> {
+    on(storage, |session| verified(session, root, Verification { fraction: 0.0, repair }).map(|_| ()))
+}
+
+fn verify_only(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
+    verify(storage, root, false)
+}
+
+fn repair(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
+    verify(storage, root, true)
+}
+
+fn report(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
+    on(storage, |session| remade(session, root, None, None).map(|_| ()))
+}
+
+fn compare(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
+    on(storage, |session| {
+        let [first, second] = [Results::open(root, *session)?, Results::open(root, *session)?];
+        first.end()?;
+        first.compare(&second).map(|_| ())
+    })
+}
+
+/// Puts the files of a dataset into an empty folder.
+fn restore(root: &Path, files: &Files) {
+    let _ = fs::remove_dir_all(root);
+    for (name, bytes) in files {
+        let path = root.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
+    }
+}
+
+/// The parts that the manifest lists.
+fn parts(files: &Files) -> BTreeMap<u64, PartRecord> {
+    Manifest::of(&files["manifest.jsonl"]).parts
+}
+
+/// Whether the summary says that it is of the rows that are there.
+fn is_finished(files: &Files) -> bool {
+    let summary: serde_json::Value = serde_json::from_slice(&files["summary.json"]).unwrap();
+    summary["finished"].as_bool().unwrap()
+}
+
+/// A dataset before a command, and the command.
+struct Case<'a> {
+    name: &'a str,
+    command: Command,
+    start: &'a Files,
+    /// The part that is damaged at the start, or has more rows at the end.
+    made_again: Option<u64>,
+}
+
+/// How many reads a command has, and how many of their faults it said.
+#[derive(Debug, Default)]
+struct Count {
+    reads: usize,
+    faults: usize,
+    errors: usize,
+}
+
+impl Case<'_> {
+    /// Lets reads of the command fail in every way, once and from then on: all that open, list and lock, and of those within an open file every
+    /// `step`-th.
+    fn check(&self, root: &Path, step: usize) -> Count {
+        let (name, start) = (self.name, self.start);
+        restore(root, start);
+        let counted = Faulty::new(is_read, u64::MAX, false, Fault::End);
+        (self.command)(counted, root).unwrap_or_else(|error| panic!("{name}: {error:?}"));
+        let goal = contents(root);
+        let reads = counted.done();
+        println!("{name}: {} reads", reads.len());
+        // bytes that come in pieces, some of them after an interruption, are the same bytes
+        restore(root, start);
+        (self.command)(Faulty::new(is_read, 0, true, Fault::Piecewise), root).unwrap();
+        assert!(contents(root) == goal, "{name}: in pieces");
+        restore(root, start);
+        let mut count = Count { reads: reads.len(), ..Count::default() };
+        for (fails, (operation, path)) in reads.iter().enumerate() {
+            let is_within = matches!(operation, Operation::Read | Operation::Length);
+            if step > 1 && is_within && fails % step != 0 {
+                continue;
+            }
+            let all = faults(*operation);
+            // in the short version each has one fault, and all take turns
+            let ways = all.iter().flat_map(|fault| [(*fault, false), (*fault, true)]);
+            let (skipped, taken) = if step > 1 { (count.faults % (2 * all.len()), 1) } else { (0, usize::MAX) };
+            for (fault, persists) in ways.skip(skipped).take(taken) {
+                let what = format!(
+                    "{name}: {fault:?} at read {fails} ({operation:?} {}), persists: {persists}",
+                    path.display()
+                );
+                let faulty = Faulty::new(is_read, fails as u64, persists, fault);
+                let ended = (self.command)(faulty, root);
+                count.faults += 1;
+                count.errors += usize::from(ended.is_err());
+                // what is looked for and may be absent is told by the next read only
+                let failed = faulty.done().split_off(fails);
+                let paths = failed.iter().take(if persists { failed.len() } else { 1 }).map(|(_, path)| path);
+                self.check_end(&what, root, paths.collect(), (ended, fault), &goal);
+            }
+        }
+        count
+    }
+
+    /// That the command ended as it should have, and left what it should have.
+    fn check_end(
+        &self,
+        what: &str,
+        root: &Path,
+        paths: Vec<&PathBuf>,
+        (ended, fault): (Result<(), Failure>, Fault),
+        goal: &Files,
+    ) {
+        let now = contents(root);
+        match &ended {
+            Ok(()) => assert!(now == *goal, "{what}: ended well with other files"),
+            Err(failure) => {
+                let message = reason(failure);
+                let is_nothing =
+                    message.contains("has no result of spindrift") && fault == Fault::System(UNREADABLE[2]);
+                assert!(matches!(failure, Failure::Files(_)) || is_nothing, "{what}: {message}");
+                let names = |path: &&PathBuf| message.contains(path.to_str().unwrap());
+                assert!(paths.iter().any(names), "{what}: no path in {message:?}");
+                assert!(causes(fault).iter().any(|cause| message.contains(cause)), "{what}: no cause in {message:?}");
+            }
+        }
+        if now == *self.start {
+            // running again starts from the same files: that is how the goal was made
+            return;
+        }
+        let (before, after) = (parts(self.start), parts(&now));
+        for (number, part) in before.iter().filter(|(number, _)| self.made_again != Some(**number)) {
+            assert_eq!(after.get(number), Some(part), "{what}: part {number} was dropped");
+            for file in &part.files {
+                assert!(now.get(&file.name) == self.start.get(&file.name), "{what}: {} was changed", file.name);
+            }
+        }
+        // the summary of the rows before says so while there are others
+        let is_growing = |name: &str| {
+            name.ends_with(".tmp")
+                || name.ends_with("manifest.jsonl")
+                || name.ends_with("summary.json") && !is_finished(&now)
+        };
+        for (name, bytes) in now.iter().filter(|(name, _)| !is_growing(name)) {
+            let is_known = [goal, self.start].iter().any(|files| files.get(name) == Some(bytes));
+            assert!(is_known, "{what}: {name} is neither as before nor as it will be");
+        }
+        if now != *goal {
+            unlocked(|| (self.command)(&Disk, root)).unwrap_or_else(|error| panic!("{what}: again: {error:?}"));
+            let again = contents(root);
+            assert_eq!(again.keys().collect::<Vec<_>>(), goal.keys().collect::<Vec<_>>(), "{what}: again");
+            assert!(again == *goal, "{what}: again");
+        }
+        restore(root, self.start);
+    }
+}
+
+/// Law: whichever read fails, in whichever way, once or from then on: the command says so with path and cause and code 4, or ends as if nothing had
+/// happened; no part that is sound is dropped, removed or made again; and the same command without the fault ends with the same bytes.
+#[test]
+fn reads_of_campaign_may_fail() {
+    reads_fail("campaign", STEP);
+}
+
+/// The same of `finish`.
+#[test]
+fn reads_of_finish_may_fail() {
+    reads_fail("finish", STEP);
+}
+
+/// The same of `verify`, with `--repair` and without.
+#[test]
+fn reads_of_verify_may_fail() {
+    reads_fail("verify", STEP);
+}
+
+/// The same of `report`.
+#[test]
+fn reads_of_report_may_fail() {
+    reads_fail("report", STEP);
+}
+
+/// The same of `compare`.
+#[test]
+fn reads_of_compare_may_fail() {
+    reads_fail("compare", STEP);
+}
+
+/// The same law with every fault at every read within every file.
+#[ignore = "a minute: cargo test --release --test program -- --ignored every_read_may_fail"]
+#[test]
+fn every_read_may_fail() {
+    reads_fail("", 1);
+}
+
+/// Lets reads of the commands whose names begin with `of` fail.
+fn reads_fail(of: &str, step: usize) {
+    let scratch = ScratchFolder::new(&format!("read-faults-{of}-{step}"));
+    let root = scratch.path("r");
+    make_small(&Disk, &root).unwrap();
+    let whole = contents(&root);
+    make_large(&Disk, &root).unwrap();
+    let longer = contents(&root);
+    assert_eq!(longer.keys().filter(|name| name.starts_with("_delta_log/")).count(), 2, "a campaign made longer");
+    // what a killed process leaves: parts and their manifest
+    let without_end = |files: &Files, parts: usize| -> Files {
+        let made = ["runs/", "bands/"];
+        let numbers: Vec<String> = (0..parts).map(|part| format!("part-{part:06}.")).collect();
+        let is_kept = |name: &str| {
+            name == "plan.toml"
+                || made.iter().any(|folder| name.starts_with(folder))
+                    && numbers.iter().any(|number| name.contains(number))
+        };
+        let mut kept: Files =
+            files.iter().filter(|(name, _)| is_kept(name)).map(|(name, bytes)| (name.clone(), bytes.clone())).collect();
+        let manifest = String::from_utf8(files["manifest.jsonl"].clone()).unwrap();
+        let lines = manifest.lines().take(2 + parts).map(|line| format!("{line}\n"));
+        kept.insert("manifest.jsonl".to_owned(), lines.collect::<String>().into_bytes());
+        kept
+    };
+    let (interrupted, unfinished) = (without_end(&longer, 2), without_end(&whole, 2));
+    let mut damaged = whole.clone();
+    damaged.get_mut("runs/part-000001.parquet").unwrap()[200] ^= 4;
+    let case = |name, command, start| Case { name, command, start, made_again: None };
+    let cases = [
+        case("campaign, interrupted", make_large as Command, &interrupted),
+        Case { name: "campaign, extended", command: make_large, start: &whole, made_again: Some(1) },
+        case("campaign, complete", make_large, &longer),
+        case("finish", finish, &unfinished),
+        case("verify", verify_only, &longer),
+        case("verify --repair of a sound result", repair, &longer),
+        Case { name: "verify --repair", command: repair, start: &damaged, made_again: Some(1) },
+        case("report", report, &whole),
+        case("compare", compare, &whole),
+    ];
+    for case in cases.iter().filter(|case| case.name.starts_with(of)) {
+        let count = case.check(&root, step);
+        println!("{}: {count:?}", case.name);
+        assert!(count.reads > 20 && count.faults > 10 && count.errors * 2 > count.faults, "{}: {count:?}", case.name);
+    }
+}

@@ -1,0 +1,99 @@
+//! What cannot be done is refused before anything is written, with the numbers; what is much is done with `--yes` only.
+
+use std::fs;
+
+use crate::reliability::faulty_storage::contents;
+use crate::small_campaign::{campaign, campaign_without_debris, folder};
+
+/// Law: counts that no disk and no memory has are refused at once with rows, bytes and time, and nothing is written.
+#[test]
+fn what_no_machine_can_do_is_refused() {
+    let scratch = folder("sizes");
+    scratch.file("points.toml", &campaign().replace("points = 11", "points = 10000000"));
+    scratch.file("more.toml", &campaign().replace("samples = 600", "samples = 1000000000000000000"));
+    let stop = "[stop]\nobservable = \"energy_error_max\"\nquantile = 0.5\nhalf_width = 1e-30\nmax_samples = 9007199254740992\n";
+    scratch.file("stop.toml", &format!("{}{stop}", campaign()));
+    scratch.file("precise.toml", &campaign().replace("samples = 600", "samples = 900000000000"));
+    for (command, said) in [
+        ("campaign small.toml --out r --samples 9007199254740992", "9.007e15 runs of small: about"),
+        ("campaign small.toml --out r --samples 9007199254740992", "of files in `r`"),
+        ("campaign small.toml --out r --samples 9007199254740992", "the disk has"),
+        ("campaign small.toml --out r --samples 9007199254740992 --yes --overwrite", "the disk has"),
+        ("campaign small.toml --out r --samples 9007199254740992 --shard 1/1000000", "of memory"),
+        (
+            "campaign small.toml --out r --samples 1e7",
+            "must be a whole number without decimal point or exponent; write 10000000",
+        ),
+        (
+            "campaign more.toml --out r",
+            "campaign.samples = 1000000000000000000: must be a whole number from 1 to 9007199254740992",
+        ),
+        ("campaign points.toml --out r", "observe.points = 10000000: must be a whole number from 2 to 1000000"),
+        ("sample small.toml --samples 1e7", "write 10000000"),
+        ("sample small.toml --samples 9007199254740992", "that is more than 24 hours of CPU time; --yes starts it"),
+        ("sample small.toml --samples 9007199254740992 --out s.csv --yes", "9.007e15 samples of small"),
+        (
+            "sample small.toml --samples 9007199254740992 --plot s.svg",
+            "that is more than 24 hours of CPU time; --yes starts it",
+        ),
+        (
+            "precision precise.toml --samples 9007199254740992 --out r",
+            "reference solutions of 900000000000 samples of small",
+        ),
+        ("campaign stop.toml --out r", "with --yes it starts, and may end earlier ([stop])"),
+    ] {
+        let found = scratch.prints(command, 2);
+        assert!(found.contains(said), "{command}: {found}");
+    }
+    let entries: Vec<String> =
+        fs::read_dir(&scratch.0).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    assert!(entries.iter().all(|name| name.ends_with(".toml") || name == "campaigns"), "{entries:?}");
+}
+
+/// Law: a long campaign starts with `--yes` only; a shard of it, and what is left of one that is nearly there, without.
+#[test]
+fn what_is_long_is_asked_for() {
+    let scratch = folder("long");
+    // some 20 ms a run at most, so that a probe does not measure it as nothing
+    let long =
+        campaign().replace("duration_s = 1.0", "duration_s = 1000.0").replace("tolerance = 1e-10", "tolerance = 1e-14");
+    scratch.file("long.toml", &long.replace("method = \"auto\"", "method = \"null_space\"").replace("1e-14", "1e-10"));
+    let said = scratch.prints("campaign long.toml --out r --samples 20000", 2);
+    assert!(said.contains("that is more than 24 hours of CPU time; --yes starts it"), "{said}");
+    assert!(!scratch.path("r").exists());
+    scratch.prints("campaign small.toml --out r --samples 600", 0);
+    scratch.prints("campaign small.toml --out r --samples 700 --yes", 0);
+}
+
+/// Law: what needs `--yes` in an empty folder needs it too where it replaces a complete result, which stays as it is without; where it does not
+/// replace it, `--yes` is needed for what is left only.
+#[test]
+fn what_is_replaced_is_asked_for() {
+    let scratch = folder("long-again");
+    // a run stops after the first steps, which show that the steps left do not suffice; the estimate takes them all
+    let method = "method = \"null_space\"\nmax_steps = 1000000000";
+    let long = campaign_without_debris()
+        .replace("duration_s = 1.0", "duration_s = 1e9")
+        .replace("method = \"auto\"", method)
+        .replace("samples = 600", "samples = 2");
+    scratch.file("long.toml", &long);
+    let asks = "cannot be estimated: sample 0 needs more than 20000 steps";
+    let said = scratch.prints("campaign long.toml --out r", 2);
+    assert!(said.contains(asks) && said.contains("2 runs of small") && !scratch.path("r").exists(), "{said}");
+    scratch.prints("campaign long.toml --out r --yes", 1);
+    let before = contents(&scratch.path("r"));
+    assert!(before.contains_key("summary.json"));
+
+    let said = scratch.prints("campaign long.toml --out r --overwrite", 2);
+    assert!(said.contains(asks) && said.contains("2 runs of small"), "{said}");
+    assert!(contents(&scratch.path("r")) == before, "refused, and the result is another");
+    let said = scratch.prints("campaign long.toml --out r", 1);
+    assert!(said.contains("already complete"), "{said}");
+    assert!(contents(&scratch.path("r")) == before);
+    let entries = fs::read_dir(&scratch.0).unwrap().count();
+    assert_eq!(entries, 4, "a folder of a replacement is left");
+
+    let said = scratch.prints("campaign long.toml --out r --samples 4", 2);
+    assert!(said.contains(asks) && said.contains("2 runs of small"), "{said}");
+    scratch.prints("campaign long.toml --out r --overwrite --yes", 1);
+}

@@ -1,0 +1,76 @@
+//! Null, never NaN: what is no finite number is absent in every file of a result, so that the maximum and the mean of a column are numbers.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use arrow_array::Array;
+use arrow_array::cast::AsArray;
+use arrow_array::types::Float64Type;
+use arrow_schema::DataType;
+
+use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
+use crate::support::scratch_folder::batches;
+
+/// All Parquet files below `folder`.
+fn tables(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let of = |path: PathBuf| if path.is_dir() { tables(&path) } else { vec![path] };
+    let is_table = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "parquet");
+    entries.flat_map(of).filter(is_table).collect()
+}
+
+/// The columns of a table whose maximum or mean, as a query engine computes them, is no finite number; and how many columns there are.
+fn without_maximum(path: &Path) -> (Vec<String>, usize) {
+    let (mut wrong, mut columns) = (Vec::new(), 0);
+    for batch in batches(path) {
+        for (field, column) in batch.schema().fields().iter().zip(batch.columns()) {
+            if *field.data_type() != DataType::Float64 {
+                continue;
+            }
+            columns += 1;
+            let values: Vec<f64> = column.as_primitive::<Float64Type>().iter().flatten().collect();
+            // engines order NaN above all numbers
+            let max = values.iter().copied().max_by(f64::total_cmp).unwrap_or(0.0);
+            let mean = values.iter().map(|value| value / values.len() as f64).sum::<f64>();
+            if !(max.is_finite() && mean.is_finite()) {
+                wrong.push(format!("{}: {}", path.display(), field.name()));
+            }
+        }
+    }
+    (wrong, columns)
+}
+
+/// Law: in every table of a campaign with failed, audited, retained and unphysical runs, maximum and mean of every column are finite; a value
+/// that an `ok` run does not have is null, and in CSV an empty cell.
+#[test]
+fn every_column_has_a_maximum_and_a_mean() {
+    let scratch = folder("absent");
+    // five points are too few for a frequency: the runs are `ok` and have none
+    let text = campaign().replace("samples = 600", "samples = 40").replace("points = 11", "points = 5");
+    let rest = "[retain]\ntrajectories = \"all\"\n[audit]\nfraction = 0.2\n";
+    scratch.file("small.toml", &format!("{text}{NEGATIVE_WALLS}{rest}"));
+    scratch.prints("campaign small.toml --out r", 1);
+    scratch.prints("sample small.toml --out s.parquet", 0);
+    let files = [tables(&scratch.path("r")), vec![scratch.path("s.parquet")]].concat();
+    assert!(files.len() > 20, "{} files", files.len());
+    let (mut wrong, mut columns) = (Vec::new(), 0);
+    for file in &files {
+        let (found, count) = without_maximum(file);
+        wrong.extend(found);
+        columns += count;
+    }
+    assert!(wrong.is_empty() && columns > 500, "{} of {columns} columns:\n{}", wrong.len(), wrong.join("\n"));
+    let rows = scratch.table("r/runs/part-000000.parquet");
+    let statuses = rows.column_by_name("status").unwrap().as_string::<i32>();
+    let frequency = rows.column_by_name("exchange_frequency_hz").unwrap();
+    let ok: Vec<usize> = (0..rows.num_rows()).filter(|row| statuses.value(*row) == "ok").collect();
+    assert!(ok.len() > 10 && ok.iter().all(|row| frequency.is_null(*row)));
+    let mass = scratch.table("s.parquet");
+    let mass = mass.column_by_name("mass_kg").unwrap();
+    assert!(mass.null_count() > 5 && mass.null_count() < 40, "{}", mass.null_count());
+    scratch.prints("sample small.toml --out s.csv", 0);
+    let text = scratch.text("s.csv");
+    let unphysical = text.lines().filter(|line| line.contains("invalid_sample")).collect::<Vec<_>>();
+    assert!(unphysical.len() > 5 && unphysical.iter().all(|line| line.ends_with(",,,,,,,")), "{text}");
+    assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+}

@@ -1,0 +1,86 @@
+//! The limit of the work of an audit, and progress within a part.
+
+use std::num::NonZeroUsize;
+use std::sync::Mutex;
+
+use arrow_array::Array;
+use arrow_array::cast::AsArray;
+use arrow_array::types::Float64Type;
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::ensemble::{Auditor, Ensemble, NoAudit, Parts, Rows, Sink, Supervision, run};
+use spindrift::math::Isa;
+use spindrift::scene::Scene;
+use spindrift::storage::rows_file::AUDIT_REASON;
+
+use crate::small_campaign::{campaign, folder};
+
+/// The campaign with debris of this rate, rad/s.
+fn with_debris_rate(rate: f64) -> String {
+    let text = campaign().replace("samples = 600", "samples = 6");
+    let text = text.replace("= [100, 0, 0]", &format!("= [{rate:?}, 0, 0]"));
+    format!("{text}[audit]\nfraction = 1.0\n")
+}
+
+/// Law: a run whose audit is beyond the limit has none, and its row says why; the run itself is `ok`. Slower debris is audited.
+#[test]
+fn an_audit_has_a_limit() {
+    let scratch = folder("audit-limit");
+    // the limit is of the debris alone, and below it nothing is refused
+    for (rate, is_within) in [(8000.0, true), (40_000.0, false)] {
+        let plan = Plan::from_text("fast", &with_debris_rate(rate), Overrides::default()).unwrap();
+        let scene = Scene::resolve(&plan.nominal).unwrap();
+        let found = Auditor::new(&plan, Isa::best(), &plan.grid).audit(&scene);
+        assert_eq!(found.is_ok(), is_within, "{rate}: {found:?}");
+        assert!(is_within || matches!(found, Err(NoAudit::Limit { units }) if units > 16_384.0));
+    }
+    for (rate, is_audited) in [(100.0, true), (1e7, false)] {
+        scratch.file("fast.toml", &with_debris_rate(rate));
+        scratch.prints("campaign fast.toml --out r --overwrite", 0);
+        let rows = &scratch.table("r/runs/part-000000.parquet");
+        let reasons = rows.column_by_name(AUDIT_REASON).unwrap().as_string::<i32>();
+        let errors = rows.column_by_name("audit_state_error").unwrap().as_primitive::<Float64Type>();
+        for row in 0..6 {
+            assert_eq!((errors.is_valid(row), reasons.is_null(row)), (is_audited, is_audited), "{rate}, row {row}");
+        }
+        if !is_audited {
+            let expected = "units of time (powers of two near the inverse of its rate), more than the 16384";
+            assert!(reasons.iter().flatten().all(|reason| reason.contains(expected)), "{}", reasons.value(0));
+            let said = scratch.prints("simulate fast.toml --audit", 0);
+            assert!(said.contains("sample 0 has no audit: the debris turns for"), "{said}");
+        }
+    }
+}
+
+/// Takes rows and forgets them.
+struct Nowhere;
+
+impl Sink for Nowhere {
+    type Error = String;
+
+    fn take(&self, _: &Rows) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// What a campaign of one part tells of its progress.
+fn told(text: &str) -> Vec<u64> {
+    let plan = Plan::from_text("long", text, Overrides::default()).unwrap();
+    let told = Mutex::new(Vec::new());
+    let progress = |samples| told.lock().unwrap().push(samples);
+    let ensemble = Ensemble::new(&plan, Isa::best());
+    run(&ensemble, Parts::of(plan.samples), NonZeroUsize::new(1), &Nowhere, Supervision::progress(&progress)).unwrap();
+    told.into_inner().unwrap()
+}
+
+/// Law: of long runs, and of audited ones, progress is told within a batch; of short ones once for a batch. Each sample is told once.
+#[test]
+fn progress_is_told_within_a_batch() {
+    let short = campaign().replace("samples = 600", "samples = 64").replace("duration_s = 1.0", "duration_s = 0.001");
+    let long = short.replace("duration_s = 0.001", "duration_s = 10.0").replace("\"auto\"", "\"runge_kutta_4\"");
+    let long = long.replace("tolerance = 1e-10", "step_s = 0.001");
+    let audited = format!("{short}[audit]\nfraction = 1.0\n");
+    for (text, expected) in [(&short, 1), (&long, 64), (&audited, 64)] {
+        let told = told(text);
+        assert_eq!((told.len(), told.iter().sum::<u64>()), (expected, 64), "{told:?}");
+    }
+}

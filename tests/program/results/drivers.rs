@@ -1,0 +1,41 @@
+//! What a campaign says drives its outcomes, on the screen, on the cards and in the charts, against its rows.
+
+use crate::page::numbers::found;
+use crate::support::scratch_folder::column;
+
+const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
+
+/// Law: where a thruster is dead in a few runs and these miss a limit, screen, card and chart name it first, with the counts of the rows. A rate that
+/// costs propellant in either direction is not monotonic.
+#[test]
+fn a_dead_thruster_is_named() {
+    const SCALE: &str = "parameter = \"thrusters.p2.thrust_scale\"\ndistribution = \"normal\"\nstd = 0.03";
+    let dead =
+        "parameter = \"thrusters.p2.thrust_scale\"\ndistribution = \"bernoulli\"\nvalue = 0.0\nprobability = 0.04";
+    assert!(DETUMBLE.contains(SCALE));
+    let found = found(
+        "dead",
+        &DETUMBLE.replace(SCALE, dead).replace("samples = 1024", "samples = 400").replace("\"5 min\"", "\"64 s\""),
+    );
+    let rows = found.scratch.rows("r");
+    let [scale, began] = ["thrusters_p2_thrust_scale", "phase_rest_begin_s"].map(|name| column(&rows, name));
+    let runs = |value: f64| (1..400).filter(|row| scale[*row] == value).collect::<Vec<_>>();
+    let missed = |rows: &[usize]| rows.iter().filter(|row| began[**row].is_nan() || began[**row] > 64.0).count();
+    let [dead, alive] = [0.0, 1.0].map(runs);
+    let counts = [missed(&dead), dead.len(), missed(&alive), alive.len()];
+    assert!(counts[0] >= 4 && counts[2] < 4, "{counts:?}");
+    let [a, m, b, n] = counts;
+    let words =
+        format!("thruster p2 thrust scale = 0: {a} of {m} miss the limit; = 1: {b} of {n} miss the limit (risk ratio");
+    let is_said = |line: &str| line.trim_start().starts_with("phase_rest_begin_s") && line.contains(&words);
+    assert!(found.said.lines().any(is_said), "{words}: {}", found.said);
+    assert!(found.visible().contains(&words));
+    let chart = found.figure("influence_phase_rest_begin_s_event");
+    assert_eq!(chart["y"]["names"][0], "thruster p2 thrust scale", "{chart}");
+    let is_said = |line: &str| {
+        line.trim_start().starts_with("propellant_kg")
+            && line.contains("initial angular velocity x")
+            && line.contains("not monotonic")
+    };
+    assert!(found.said.lines().any(is_said), "{}", found.said);
+}

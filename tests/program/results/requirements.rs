@@ -1,0 +1,70 @@
+//! How many runs would decide a requirement that is undecided, and at which confidence one that fails alone would.
+
+use serde_json::Value;
+
+use crate::commands::screen_numbers::says;
+use crate::small_campaign::{campaign_without_debris, folder};
+use crate::support::scratch_folder::column;
+
+/// Law: half the distance between estimate and limit takes four times as many runs, of means and fractions, of independent samples and of
+/// replicates.
+#[test]
+fn half_the_distance_takes_four_times_the_runs() {
+    let scratch = folder("runs-that-decide");
+    // normal with mean zero, known without a run
+    let observable = "[[observable]]\nname = \"spin\"\nexpression = \"initial.angular_velocity_rad_s.x\"\n";
+    let designs =
+        ["random\"", "sobol\"\nreplicates = 8", "latin_hypercube\"\nreplicates = 10", "halton\"\nreplicates = 5"];
+    for design in designs {
+        let samples = campaign_without_debris().replace("samples = 600", "samples = 401");
+        let text = format!("{samples}[design]\nkind = \"{design}\n{observable}");
+        let answers = |statements: &[String], code: i32| -> Vec<Value> {
+            let require = |statement: &String| format!("[[require]]\nobservable = \"spin\"\n{statement}\n");
+            scratch.file("asked.toml", &(text.clone() + &statements.iter().map(require).collect::<String>()));
+            scratch.prints("campaign asked.toml --out r --overwrite --no-report", code);
+            scratch.summary("r")["requirements"]["list"].as_array().unwrap().clone()
+        };
+        let statements: [fn(f64) -> String; 2] = [
+            |limit| format!("mean = true\nat_least = {limit:?}"),
+            |fraction| format!("fraction = {fraction:?}\nat_most = 0.1"),
+        ];
+        for (statement, passes) in statements.into_iter().zip([-1e3, 0.01]) {
+            let found = &answers(&[statement(passes)], 0)[0];
+            let [estimate, lower] = [&found["estimate"], &found["bounds"][0]].map(|value| value.as_f64().unwrap());
+            // within the bounds nothing is decided
+            let limits = [0.4, 0.2].map(|part| statement(estimate - part * (estimate - lower)));
+            let found = answers(&limits, 5);
+            let runs = [0, 1].map(|index| found[index]["runs_that_would_decide"].as_f64().unwrap());
+            // fractions: their variance is that at another target; whole numbers of runs
+            assert!(
+                runs[0] > 400.0 && (runs[1] / runs[0] / 4.0 - 1.0).abs() < 0.06,
+                "{design}: {runs:?} runs, {found:?}"
+            );
+        }
+    }
+}
+
+/// Law: a requirement that fails by itself and not at its share of the error of both is undecided, and the confidences that are named are the one at
+/// which it is missed and then the one at which it is not.
+#[test]
+fn a_requirement_may_fail_alone() {
+    let scratch = folder("fails-alone");
+    let observable = "[[observable]]\nname = \"spin\"\nexpression = \"initial.angular_velocity_rad_s.x\"\n";
+    let text = campaign_without_debris().replace("samples = 600", "samples = 300") + observable;
+    scratch.file("drawn.toml", &text);
+    scratch.prints("campaign drawn.toml --out drawn --no-report", 0);
+    let mut drawn = column(&scratch.rows("drawn"), "initial_angular_velocity_x_rad_s").split_off(1);
+    drawn.sort_by(f64::total_cmp);
+    // of 299 at least one half has to be within; exact lower tails of 1/2: 134 within have 4.1%, 133 3.2%, 132 2.5%
+    let require = |limit: f64| format!("[[require]]\nobservable = \"spin\"\nfraction = 0.5\nat_most = {limit:?}\n");
+    scratch.file("asked.toml", &(text + &require(0.5 * (drawn[132] + drawn[133])) + &require(1e3)));
+    let mut command = scratch.command("campaign asked.toml --out r --no-report --junit junit.xml --verbose");
+    let said = scratch.outputs(command.env("COLUMNS", "300"), 5);
+    let one = &scratch.summary("r")["requirements"]["list"][0];
+    assert_eq!((&one["verdict"], &one["violations"]), (&"UNDECIDED".into(), &166.into()));
+    let known = ["confidence_of_pass_and_bounds", "confidence_of_fail"].map(|key| 100.0 * one[key].as_f64().unwrap());
+    assert!((known[0] - 95.0).abs() < 1e-9 && (known[1] - 97.5).abs() < 1e-9, "{known:?}");
+    for said in [said, scratch.text("junit.xml")] {
+        says(&said, "missed at #%, not at the #% of all together", &known);
+    }
+}

@@ -1,0 +1,223 @@
+//! Retained runs: which they are follows from the rows, and their files are those of `simulate`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+use arrow_array::cast::AsArray;
+use arrow_array::types::Int64Type;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use spindrift::analysis::accumulator::of_files;
+use spindrift::analysis::trajectories::{Retained, file_name, save};
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::ensemble::Ensemble;
+use spindrift::math::Isa;
+use spindrift::sampling::SampleId;
+use spindrift::storage::disk::Disk;
+use spindrift::storage::folder::Folder;
+use spindrift::storage::names::MANIFEST;
+use spindrift::storage::rows_file::identity;
+use spindrift::storage::rows_reader::{RowsError, RowsReader};
+
+use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder, table};
+use crate::support::scratch_folder::{ScratchFolder, column, ended, floats};
+
+/// A third of the samples is not physical, and one in some runs needs more steps than it may make.
+fn file(retain: &str) -> String {
+    let few_steps = campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 17");
+    format!("{few_steps}{NEGATIVE_WALLS}\n[retain]\ntrajectories = \"{retain}\"\n")
+}
+
+fn plan(retain: &str) -> Plan {
+    Plan::from_text("small.toml", &file(retain), Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn rows(scratch: &ScratchFolder) -> RowsReader {
+    RowsReader::new(&Disk, scratch.part_files("r"))
+}
+
+/// The samples whose runs are retained.
+fn retained(plan: &Plan, rows: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Vec<SampleId>, RowsError> {
+    let retained = Retained::new(plan);
+    Ok(retained.chosen(of_files(&retained, rows, threads)?))
+}
+
+/// Law: each rule chooses the runs that it says, whatever the threads: none, all that were run, the failed, the worst by magnitude, as
+/// many as asked for, without the nominal one.
+#[test]
+fn rules_choose_what_they_say() {
+    let scratch = folder("retained");
+    scratch.file("small.toml", &file("none"));
+    scratch.prints("campaign small.toml --out r", 1);
+    let reader = rows(&scratch);
+    let table = scratch.rows("r");
+    let all = ended(&table);
+    let chosen = |retain: &str| -> Vec<u64> {
+        let plan = plan(retain);
+        let found = retained(&plan, &reader, None).unwrap();
+        assert_eq!(found, retained(&plan, &reader, NonZeroUsize::new(1)).unwrap(), "{retain}");
+        found.into_iter().map(|sample| sample.0).collect()
+    };
+    let those = |is_meant: &dyn Fn(&str) -> bool| -> Vec<u64> {
+        all.iter().filter(|(_, status)| is_meant(status)).map(|(sample, _)| *sample).collect()
+    };
+    assert!(chosen("none").is_empty());
+    assert_eq!(chosen("all"), those(&|status| status != "invalid_sample"));
+    let failed = those(&|status| status == "step_limit");
+    assert!(failed.len() > 3 && failed.len() < 300, "{} runs reach the limit", failed.len());
+    assert_eq!(chosen("failed"), failed);
+    // greatest magnitudes: of errors, of a number with a sign, and of counts, where many are equal and the first are taken
+    for observable in ["energy_error_max", "energy_error_rate_per_s", "steps"] {
+        let values = column(&table, observable).into_iter().zip(ended(&table));
+        let with_value = values.filter(|(value, (sample, _))| *sample > 0 && !value.is_nan());
+        let mut sizes: Vec<(f64, u64)> = with_value.map(|(value, (sample, _))| (value.abs(), sample)).collect();
+        sizes.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut worst: Vec<u64> = sizes[..20].iter().map(|(_, sample)| *sample).collect();
+        worst.sort_unstable();
+        assert_eq!(chosen(&format!("worst:20 by {observable}")), worst);
+        assert_eq!(chosen(&format!("worst:100000 by {observable}")).len(), sizes.len());
+    }
+    let physical: BTreeSet<u64> = those(&|status| status != "invalid_sample").into_iter().collect();
+    let some = chosen("sample:100");
+    assert!(
+        some.len() < 100 && some.len() > 40 && !some.contains(&0),
+        "two thirds of 100 are physical: {}",
+        some.len()
+    );
+    assert!(some.iter().all(|sample| physical.contains(sample)));
+    assert!(some.iter().any(|sample| *sample > 400), "they are not the first");
+    assert_eq!(chosen("sample:599").len(), physical.len() - 1);
+}
+
+/// A dataset without parts in `root`.
+fn dataset(plan: &Plan, root: &Path) -> Folder {
+    let identity = identity(&Ensemble::new(plan, Isa::best()));
+    Folder::open(&Disk, root, (plan.text(), identity), (MANIFEST.to_owned(), None), BTreeMap::new()).unwrap()
+}
+
+/// Law: the file of a retained run is that of `simulate --sample K --out`, byte for byte, also of a run that failed, for any number of
+/// threads. Counter-test: that of another sample differs.
+#[test]
+fn files_are_those_of_simulate() {
+    let scratch = folder("trajectories");
+    let retain = "failed";
+    scratch.file("small.toml", &file(retain));
+    scratch.prints("campaign small.toml --out r", 1);
+    let (plan, isa) = (plan(retain), Isa::best());
+    let failed = retained(&plan, &rows(&scratch), None).unwrap();
+    let samples: Vec<SampleId> = [0, 2].into_iter().map(SampleId).chain(failed.into_iter().take(2)).collect();
+    let [one, two] = ["one", "two"].map(|name| scratch.path(name).join("trajectories"));
+    for (path, threads) in [(&one, 1), (&two, 2)] {
+        fs::create_dir_all(path).unwrap();
+        let dataset = dataset(&plan, path.parent().unwrap());
+        save(&plan, &samples, (isa, NonZeroUsize::new(threads)), &|name, bytes| dataset.write(name, bytes)).unwrap();
+    }
+    let mut seen = BTreeSet::new();
+    for sample in &samples {
+        let name = file_name(*sample);
+        let bytes = fs::read(one.join(&name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let code = i32::from(sample.0 > 2);
+        scratch.prints(&format!("simulate small.toml --sample {sample} --out s.parquet"), code);
+        assert!(bytes == fs::read(scratch.path("s.parquet")).unwrap(), "{name}");
+        assert!(bytes == fs::read(two.join(&name)).unwrap(), "{name}, two threads");
+        assert!(seen.insert(bytes), "{name} is like another");
+    }
+    assert_eq!(fs::read_dir(&one).unwrap().count(), samples.len());
+    fs::create_dir(scratch.path("missing")).unwrap();
+    let dataset = dataset(&plan, &scratch.path("missing"));
+    let refused =
+        save(&plan, &samples, (isa, None), &|name, bytes| dataset.write(name, bytes)).unwrap_err().to_string();
+    assert!(refused.contains("missing") && refused.contains("sample-00000"), "{refused}");
+}
+
+/// Law: a campaign ends with the trajectories that its file asks for; where only that is changed, no sample is run again and the others are
+/// removed.
+#[test]
+fn a_campaign_keeps_what_its_file_asks_for() {
+    let scratch = folder("retain");
+    let kept = |retain: &str, code: i32| -> BTreeSet<String> {
+        scratch.file("small.toml", &file(retain));
+        scratch.prints("campaign small.toml --out r", code);
+        let entries = fs::read_dir(scratch.path("r/trajectories")).into_iter().flatten();
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    };
+    let expected = |retain: &str| -> BTreeSet<String> {
+        retained(&plan(retain), &rows(&scratch), None).unwrap().into_iter().map(file_name).collect()
+    };
+    let worst = "worst:3 by energy_error_max";
+    let found = kept(worst, 1);
+    assert_eq!((found.len(), &found), (3, &expected(worst)));
+    let rows = scratch.parts("r");
+    for name in &found {
+        let sample = name.trim_start_matches("sample-").trim_end_matches(".parquet");
+        scratch.prints(&format!("simulate small.toml --sample {sample} --out s.parquet"), 0);
+        let simulated = fs::read(scratch.path("s.parquet")).unwrap();
+        assert!(fs::read(scratch.path("r/trajectories").join(name)).unwrap() == simulated, "{name}");
+    }
+    let other = kept("sample:4", 1);
+    assert_eq!(other, expected("sample:4"));
+    assert!(found != other && rows == scratch.parts("r"));
+    assert!(kept("none", 1).is_empty());
+}
+
+/// Law: a campaign ends with bands of the runs that are ok, the same bytes for any number of threads; without points there are none.
+#[test]
+fn a_campaign_ends_with_bands() {
+    let scratch = folder("bands");
+    scratch.file("small.toml", &(campaign() + NEGATIVE_WALLS));
+    let files = [1, 2].map(|threads| {
+        scratch.prints(&format!("campaign small.toml --threads {threads} --out r{threads}"), 1);
+        fs::read(scratch.path(&format!("r{threads}/bands.parquet"))).unwrap()
+    });
+    assert!(files[0] == files[1]);
+    let bands = &scratch.table("r1/bands.parquet");
+    assert_eq!(bands.num_rows(), 10 * 11, "ten quantities at the eleven points of the grid");
+    let file = SerializedFileReader::new(fs::File::open(scratch.path("r1/bands.parquet")).unwrap()).unwrap();
+    let metadata = file.metadata().file_metadata().key_value_metadata().unwrap();
+    let error = metadata.iter().find(|pair| pair.key == "spindrift.bands.relative_error").unwrap();
+    assert_eq!(error.value.as_deref(), Some("0.015625"));
+    let [min, low, median, high, max] = ["min", "p05", "p50", "p95", "max"].map(|name| floats(bands, name));
+    for row in 0..bands.num_rows() {
+        let numbers = [min[row], low[row], median[row], high[row], max[row]];
+        assert!(numbers.is_sorted(), "row {row}: {numbers:?}");
+    }
+    let ended = ended(&scratch.rows("r1"));
+    let ok = ended.iter().filter(|(sample, status)| *sample > 0 && status == "ok");
+    let counts = bands.column_by_name("count").unwrap();
+    let counts = counts.as_primitive::<Int64Type>().values();
+    let ok = ok.count() as i64;
+    assert!(ok < 599 && counts.iter().all(|count| *count == ok), "{ok} runs are ok: {counts:?}");
+    scratch.file("small.toml", &(campaign() + "[bands]\npoints = 0\n"));
+    scratch.prints("campaign small.toml --out none", 0);
+    assert!(
+        !scratch.path("none/bands.parquet").exists()
+            && !scratch.path("none/bands").join("part-000000.parquet").exists()
+    );
+}
+
+/// Law: a part without a run that is ok changes no band, whether it is the first, in the middle or the last.
+#[test]
+fn failed_parts_change_no_band() {
+    let scratch = folder("bands-failed-parts");
+    // the first part has the nominal run and 255 samples
+    let bands = |name: &str, parts: &[(bool, usize)]| {
+        let mut spins = (0..).map(|index| 31.0 + 0.01 * f64::from(index));
+        let fails = parts.iter().flat_map(|(fails, count)| std::iter::repeat_n(*fails, *count));
+        let (rows, text) = table(fails.map(|fails| (fails, if fails { 31.0 } else { spins.next().unwrap() })));
+        scratch.file("table.csv", &rows);
+        scratch.file("table.toml", &text);
+        let code = i32::from(parts.iter().any(|(fails, _)| *fails));
+        scratch.prints(&format!("campaign table.toml --out {name} --no-report"), code);
+        assert_eq!(scratch.rows(name)[0].num_rows(), 256);
+        scratch.table(&format!("{name}/bands.parquet"))
+    };
+    let whole = bands("whole", &[(false, 300)]);
+    for (name, parts) in [
+        ("first", vec![(true, 255), (false, 256), (false, 44)]),
+        ("middle", vec![(false, 255), (true, 256), (false, 45)]),
+        ("last", vec![(false, 300), (true, 300)]),
+    ] {
+        assert!(bands(name, &parts) == whole, "{name}");
+    }
+}
