@@ -13,7 +13,7 @@ use spindrift::workflow::{Campaign, Quiet, Session};
 
 use crate::support::scratch_folder::ScratchFolder;
 
-const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
+pub const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 pub(crate) const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
 const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 
