@@ -10,7 +10,6 @@ use crate::run::Quantity;
 use crate::sampling::expression::Expression;
 use crate::storage::rows_reader::RowsError;
 
-/// An observable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observed {
     /// Name, unit and meaning.

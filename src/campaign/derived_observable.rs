@@ -13,7 +13,6 @@ use crate::scene::{Parameter, SceneInput};
 /// An observable that follows from others and from dispersed parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DerivedObservable {
-    /// Its name.
     pub name: String,
     /// Its unit; empty for a pure number.
     pub unit: String,

@@ -160,7 +160,6 @@ impl Section<'_, '_> {
         Some(name.into())
     }
 
-    /// Names of different observables.
     fn observables(&mut self, key: &str) -> Option<Vec<String>> {
         let names = self.texts(key, "[\"energy_error_max\"]")?;
         let known = self.document.known.as_ref()?;

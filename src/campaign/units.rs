@@ -63,7 +63,6 @@ const MORE: [&str; 12] = [
 /// A unit that texts know.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Unit {
-    /// Its name.
     pub name: &'static str,
     /// The SI unit that it measures in; itself, of one.
     pub of: &'static str,
@@ -131,7 +130,6 @@ pub(super) fn in_name(key: &str) -> &'static str {
 pub(super) struct UnitProblem {
     /// What is allowed, to follow "must be".
     pub allowed: String,
-    /// What to do.
     pub remedy: String,
 }
 
