@@ -3,20 +3,29 @@
 
 use spindrift::campaign::{Overrides, Plan};
 
-use crate::support::campaigns::{SMALL_BODY, small_wheel};
 use crate::support::plans::rows;
 
 /// A body at rest for 100 ticks, with a gyro without errors and the sensors that follow.
-fn at_rest() -> String {
-    const HEAD: &str = r#"[campaign]
+const AT_REST: &str = r#"
+[campaign]
 name = "at_rest"
 samples = 801
 seed = 5
 duration_s = 100
 [observe]
 points = 3
-"#;
-    const REST: &str = r#"[control]
+[body]
+mass_kg = 100
+center_of_mass_m = [0, 0, 0]
+inertia_kg_m2 = [[30, 0, 0], [0, 36, 0], [0, 0, 24]]
+includes_wheels = true
+[[wheels]]
+name = "w1"
+axis = [1, 0, 0]
+mass_kg = 1
+axial_inertia_kg_m2 = 0.01
+transverse_inertia_kg_m2 = 0.006
+[control]
 period_s = 1
 estimator = "mekf"
 wheels = ["w1"]
@@ -38,8 +47,6 @@ name = "coarse"
 kind = "star_tracker"
 noise_rad = [1e-3, 2e-3, 2e-2]
 "#;
-    [HEAD, SMALL_BODY, &small_wheel("w1", [1, 0, 0]), REST].concat()
-}
 
 const SUN: &str = "[[sensors]]\nname = \"sun\"\nkind = \"sun_sensor\"\nnoise_rad = 3e-3\nboresight = [1, 0, 0]\n";
 const SECOND: &str = "[[sensors]]\nname = \"fine\"\nkind = \"star_tracker\"\nperiod_s = 2\nnoise_rad = [4e-4, 4e-4, 4e-3]\nboresight = [0, 1, 0]\n";
@@ -67,7 +74,7 @@ fn each_sensor_lowers_the_error_as_theory_says() {
         (SECOND.into(), [none, second]),
         (format!("{SUN}{SECOND}"), [sun, second]),
     ] {
-        let plan = Plan::from_text("c.toml", &(at_rest() + &sensors), Overrides::default()).expect("a plan");
+        let plan = Plan::from_text("c.toml", &format!("{AT_REST}{sensors}"), Overrides::default()).expect("a plan");
         let table = rows(&plan);
         let column = |name| &table.column(name)[1..];
         let n = 800.0;
@@ -89,7 +96,7 @@ fn each_sensor_lowers_the_error_as_theory_says() {
 #[test]
 fn the_mean_of_innovations_is_of_all_measurements() {
     let doubled = "[[disperse]]\nparameter = \"sensors.coarse.noise_rad\"\ndistribution = \"offset\"\noffset = [1e-3, 2e-3, 2e-2]\n";
-    let text = at_rest() + SECOND + doubled;
+    let text = format!("{AT_REST}{SECOND}{doubled}");
     let plan = Plan::from_text("c.toml", &text, Overrides::default()).expect("a plan");
     let table = rows(&plan);
     let all = &table.column("attitude_innovation_mean")[1..];
