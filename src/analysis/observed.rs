@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::analysis::part_columns::PartColumns;
 use crate::campaign::Plan;
-use crate::campaign::columns::KnownColumns;
+use crate::campaign::known_columns::KnownColumns;
 use crate::observables::ColumnKind;
 use crate::run::Quantity;
 use crate::sampling::expression::Expression;

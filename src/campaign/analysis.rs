@@ -1,9 +1,9 @@
 //! [`Analysis`]: what is made of the rows: `[statistics]`, `[summary]`, `[[observable]]`, `[[require]]`, `[stop]`, `[display]`. No row depends on it.
 
-use super::columns::KnownColumns;
 use super::derived_observable::{self, DerivedObservable};
 use super::display::{self, Display};
 use super::document::Document;
+use super::known_columns::KnownColumns;
 use super::lines::Lines;
 use super::numbers::{CONFIDENCE, MAX_SAMPLES};
 use super::requirement::{self, DEFAULT_CONFIDENCE, Requirement};

@@ -2,7 +2,8 @@
 //!
 //! It is evaluated when statistics are made, from the rows as they are on the disk: no row has it.
 
-use super::columns::{KnownColumns, parameter_quantity};
+use super::columns::parameter_quantity;
+use super::known_columns::KnownColumns;
 use super::section::Section;
 use crate::run::Quantity;
 use crate::sampling::Column;

@@ -4,8 +4,8 @@
 //! A number that is missing or wrong is read as NaN and reported once; so the lower layers can still check the rest, and
 //! what they report about a key that was reported already is dropped ([`Document::add_from_below`]).
 
-use super::columns::KnownColumns;
 use super::excerpt::Excerpt;
+use super::known_columns::KnownColumns;
 use super::problem::{CampaignError, Problem, SHOWN};
 use super::size;
 use super::sources::{SourceText, Sources, lay_over, moved_table, put, value_at};

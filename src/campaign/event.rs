@@ -1,6 +1,6 @@
 //! [`Event`]: an `[[event]]` table, a quantity over time that crosses a value.
 
-use super::columns::unit_of;
+use super::known_columns::unit_of;
 use super::numbers::FINITE;
 use super::problem::nearest;
 use super::section::Section;

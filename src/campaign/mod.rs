@@ -8,7 +8,7 @@
 //!   a control loop; `failure_tables`: devices that fail; [`draws`]: those
 //!   that say what is drawn; `keys`: rows of keys, read and written;
 //!   [`data`], `data_columns`, `data_keys`: files of numbers; `parameter`: names of parameters; [`bands`].
-//! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`columns`]: what they can name;
+//! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`known_columns`]: what they can name; [`columns`]: what runs are observed for;
 //!   [`event`]: quantities that cross a value; [`event_columns`]: when events and failures happened.
 //!   [`retention`]: which runs keep their time series.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other. - [`chosen`], `plan_rows`: which samples are its rows.
@@ -45,6 +45,7 @@ pub mod find;
 pub mod forces;
 pub mod input_file;
 mod keys;
+pub mod known_columns;
 mod lines;
 pub mod lists;
 pub mod notes;

@@ -4,12 +4,13 @@
 use super::analysis::Analysis;
 use super::bands;
 use super::chosen::Chosen;
-use super::columns::{KnownColumns, request};
+use super::columns::request;
 use super::description;
 use super::document::Document;
 use super::draws::DrawTables;
 use super::event::Event;
 use super::forces;
+use super::known_columns::KnownColumns;
 use super::numbers::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
 use super::problem::{CampaignError, Problem};
 use super::retention::Retention;
