@@ -9,12 +9,9 @@ use crate::storage::rows_reader::{RowsError, RowsReader};
 
 /// Gathers something from the parts of a campaign.
 pub trait Accumulator: Sync {
-    /// What all parts have.
     type Whole: Send;
-    /// What one part adds.
     type OfPart: Send;
 
-    /// What no part has.
     fn nothing(&self) -> Self::Whole;
 
     /// What a part adds, on any thread; each part is counted once.

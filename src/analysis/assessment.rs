@@ -8,7 +8,6 @@ use crate::statistics::quantile::percent;
 /// What the runs say of one requirement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assessment {
-    /// The requirement.
     pub requirement: Requirement,
     /// The confidence of a pass and of the bounds, and that of a failure, after corrections for several looks and several requirements.
     pub confidences: [f64; 2],

@@ -52,7 +52,6 @@ impl Coverage {
 /// Counts over the audited runs.
 #[derive(Clone, Debug, Default)]
 pub struct AuditTally {
-    /// Runs that were audited.
     pub audited: u64,
     /// Selected runs that did not reach their end, or whose reference solution did not.
     pub failed: u64,

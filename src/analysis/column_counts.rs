@@ -22,7 +22,6 @@ use crate::storage::rows_reader::RowsError;
 pub struct ColumnCounts {
     /// Runs that are `ok` and have no value of it.
     pub without_value: u64,
-    /// Of all values.
     pub moments: Moments,
     /// Group by group ([`Population::group`]).
     pub groups: Vec<GroupCounts>,
@@ -31,7 +30,6 @@ pub struct ColumnCounts {
 /// The values of a group of samples: themselves, or a sketch of them.
 #[derive(Clone, Debug, Default)]
 pub struct GroupCounts {
-    /// Their moments.
     pub moments: Moments,
     /// The values, where they are kept.
     pub values: Vec<f64>,
@@ -42,7 +40,6 @@ pub struct GroupCounts {
 /// What the parts of a campaign have.
 #[derive(Clone, Debug)]
 pub struct Collected {
-    /// Every observable.
     pub columns: Vec<ColumnCounts>,
 }
 
@@ -122,12 +119,10 @@ pub fn batches(plan: &Plan) -> Vec<Vec<Observed>> {
     Observed::all(plan).chunks(at_a_time.max(1) as usize).map(<[Observed]>::to_vec).collect()
 }
 
-/// Counts observables.
 #[derive(Debug)]
 pub struct Collector {
     observed: Vec<Observed>,
     population: Population,
-    /// Whether values are kept.
     is_exact: bool,
     /// For each observable, the sketch of each group. Counts do not depend on the order in which parts are added.
     sketches: Vec<Mutex<Vec<Sketch>>>,

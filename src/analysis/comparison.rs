@@ -57,7 +57,6 @@ pub struct ColumnComparison {
     pub moved_p_value: Option<f64>,
     /// The same, adjusted for the number of observables.
     pub adjusted_moved_p_value: Option<f64>,
-    /// Pairs whose values differ.
     pub differing_pairs: u64,
     /// Whether a requirement of either plan names it.
     pub is_required: bool,
@@ -68,7 +67,6 @@ pub struct ColumnComparison {
 }
 
 impl ColumnComparison {
-    /// The largest shift.
     pub fn largest(&self) -> Option<&Shift> {
         self.shifts.iter().max_by(|a, b| a.relative.total_cmp(&b.relative))
     }
@@ -84,10 +82,8 @@ impl ColumnComparison {
     }
 }
 
-/// Two results compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// The statistics of each.
     pub statistics: [Statistics; 2],
     /// Samples of both that were drawn alike and are `ok` in both; 0 where the results are not paired.
     pub pairs: u64,
@@ -246,7 +242,6 @@ struct Tests {
     moved: Option<f64>,
     /// What decides whether it is shifted.
     p_value: Option<f64>,
-    /// Pairs whose values differ.
     differing: u64,
 }
 

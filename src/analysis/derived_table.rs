@@ -6,7 +6,7 @@ use crate::analysis::observed::Observed;
 use crate::campaign::Plan;
 use crate::run::{Quantity, Status};
 use crate::storage::columnar::{Cells, Content, EncodingError, Heading, Layout, Packing};
-use crate::storage::provenance::provenance;
+use crate::storage::identity::provenance;
 use crate::storage::rows_file::{SAMPLE_ID, STATUS};
 use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
 

@@ -42,7 +42,6 @@ pub enum Question {
 /// An input in a ranking.
 #[derive(Clone, Copy, Debug)]
 pub struct Ranked<'a> {
-    /// The input.
     pub input: &'a InputSensitivity,
     /// Its share of the variance: of the outcome, or of whether the event occurs.
     pub share: Estimate,
@@ -53,14 +52,11 @@ pub struct Ranked<'a> {
 /// The inputs of an outcome: first its drivers, then the others, each the greatest share first.
 #[derive(Clone, Debug)]
 pub struct Ranking<'a> {
-    /// What is asked.
     pub question: Question,
-    /// The inputs.
     pub inputs: Vec<Ranked<'a>>,
 }
 
 impl<'a> Ranking<'a> {
-    /// Its drivers.
     pub fn drivers(&self) -> impl Iterator<Item = &Ranked<'a>> {
         self.inputs.iter().filter(|ranked| ranked.is_driver)
     }

@@ -17,9 +17,7 @@ const MOSTLY_EQUAL: f64 = 0.5;
 /// How an observable goes with an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// It rises with it.
     Rises,
-    /// It falls with it.
     Falls,
     /// It rises in a part of the input's range and falls in another.
     NotMonotonic,
@@ -39,7 +37,6 @@ pub struct Level {
 pub enum Dependence {
     /// Of an input with few values: each in ascending order; which of them differs most from the others, and the risk ratio of that.
     Levels {
-        /// The values.
         levels: Vec<Level>,
         /// The index of the one that differs most.
         most: usize,
@@ -63,7 +60,6 @@ pub enum Dependence {
 /// The effect of an input on an event.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OnEvent {
-    /// The event.
     pub event: Event,
     /// Share of the variance of whether it occurs.
     pub share: Estimate,

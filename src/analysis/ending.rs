@@ -13,10 +13,8 @@ use crate::ensemble::Ensemble;
 use crate::storage::bands_file;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
-/// How a campaign ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ending {
-    /// Number of rows.
     pub rows: u64,
     /// Number of runs that are not `ok`.
     pub failed: u64,

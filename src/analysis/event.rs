@@ -16,7 +16,6 @@ const ROWS_OF_TAIL: [usize; 2] = [100, 5];
 /// The tail where no requirement has another: the worst twentieth.
 const TAIL: f64 = 0.05;
 
-/// What occurs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Occurs {
     /// A limit on the outcome is missed, as runs without a value do.
@@ -30,7 +29,6 @@ pub enum Occurs {
 }
 
 impl Occurs {
-    /// Its name in files.
     pub const fn name(self) -> &'static str {
         match self {
             Occurs::Missed => "missed",
@@ -44,7 +42,6 @@ impl Occurs {
 /// An event of an outcome.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
-    /// What occurs.
     pub occurs: Occurs,
     /// In how many of all runs.
     pub of: Occurrence,

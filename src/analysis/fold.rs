@@ -42,7 +42,6 @@ pub struct Gathered {
     pub tally: Tally,
     /// The observables of the first of the [`batches`].
     pub columns: Collected,
-    /// Of each requirement.
     pub requirements: RequirementCounts,
     /// Of the observable of `[stop]`, run by run; none without.
     pub stop_values: Vec<f64>,
@@ -52,7 +51,6 @@ pub struct Gathered {
     pub failure_rows: RowTable,
     /// Samples whose runs are retained, ascending.
     pub retained: Vec<SampleId>,
-    /// What the page shows.
     pub survey: Survey,
     /// How missions ended, of a campaign under a control loop.
     pub missions: Missions,

@@ -12,19 +12,14 @@ pub const LEAST_SHARE: f64 = 0.1;
 /// What one input means for one observable. What does not apply is `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InputSensitivity {
-    /// The observable.
     pub observable: String,
     /// The input: a column of the rows, or for a `saltelli` design what one distribution disperses.
     pub input: String,
-    /// Number of rows.
     pub rows: u64,
-    /// Pearson's correlation.
     pub pearson: Option<Estimate>,
-    /// Spearman's rank correlation.
     pub spearman: Option<Estimate>,
     /// Rank correlation with the other inputs held fixed.
     pub partial_rank: Option<Estimate>,
-    /// Standardised regression coefficient.
     pub regression: Option<Estimate>,
     /// Share of the variance that the regression on all inputs explains, corrected for their number.
     pub r_squared: Option<Estimate>,

@@ -14,9 +14,7 @@ use crate::storage::rows_reader::RowsError;
 pub struct MissionShare {
     /// `launched`, the name of a failure, or `flying` where the run ended before either; `not_failed` in a loop that launches nothing.
     pub end: &'static str,
-    /// Number of runs.
     pub count: u64,
-    /// Number of all runs.
     pub runs: u64,
     /// Runs of those that were not computed, which may have ended in this way or not.
     pub missing: u64,
@@ -31,7 +29,6 @@ impl MissionShare {
     }
 }
 
-/// Counts how missions ended.
 #[derive(Clone, Debug)]
 pub struct MissionCounter {
     has_loop: bool,
@@ -58,7 +55,6 @@ impl MissionCounter {
         }
     }
 
-    /// What was counted.
     pub fn finished(&self, counts: &MissionCounts) -> Missions {
         let (counts, missing) = counts;
         let runs = counts.iter().sum::<u64>() + missing;

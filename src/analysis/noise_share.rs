@@ -18,7 +18,6 @@ use crate::statistics::share_within::share_within;
 /// The share of an outcome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoiseShare {
-    /// The outcome.
     pub observable: String,
     /// Scenes of which both runs have a value.
     pub scenes: usize,

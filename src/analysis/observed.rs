@@ -4,13 +4,12 @@ use std::borrow::Cow;
 
 use crate::analysis::part_columns::PartColumns;
 use crate::campaign::Plan;
-use crate::campaign::columns::KnownColumns;
+use crate::campaign::known_columns::KnownColumns;
 use crate::observables::ColumnKind;
 use crate::run::Quantity;
 use crate::sampling::expression::Expression;
 use crate::storage::rows_reader::RowsError;
 
-/// An observable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observed {
     /// Name, unit and meaning.

@@ -12,9 +12,7 @@ use crate::statistics::sketch::Ranks;
 /// A quantile of the runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QuantileStatistic {
-    /// Which.
     pub p: f64,
-    /// Confidence of its interval.
     pub confidence: f64,
     /// The sample quantile (type 7).
     pub value: Option<f64>,
@@ -28,7 +26,6 @@ pub struct QuantileStatistic {
 pub enum Order {
     /// The values; those that quantiles ask for are at their places in ascending order.
     Exact(Vec<f64>),
-    /// Ranks of a sketch.
     Sketched(Ranks),
 }
 
@@ -98,9 +95,7 @@ impl CommonRanks {
 /// A quantile that is asked for.
 #[derive(Clone, Copy)]
 pub struct AskedQuantile {
-    /// Its probability.
     pub p: f64,
-    /// Of its interval.
     pub confidence: f64,
     /// The ranks of its interval, where the population has intervals.
     pub ranks: Option<IntervalRanks>,

@@ -12,9 +12,7 @@ pub const MOST_ROWS: usize = MOST_EXACT as usize + 1;
 /// A result: its plan and the files of its rows.
 #[derive(Clone, Copy, Debug)]
 pub struct ResultRows<'r> {
-    /// The plan.
     pub plan: &'r Plan,
-    /// The rows.
     pub reader: &'r RowsReader,
 }
 

@@ -13,7 +13,6 @@ use crate::storage::rows_reader::{PartReader, RowsError};
 
 /// The columns of one part.
 pub trait PartColumns {
-    /// Number of rows.
     fn rows(&self) -> usize;
 
     /// The numbers of the samples, row by row.

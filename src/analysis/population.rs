@@ -10,9 +10,7 @@ pub const LISTED: &str = "campaign.only";
 /// Runs of a population that have no numbers, because they were not computed to their end or not accurately. Samples that are not physical are no part of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Loss {
-    /// Runs without numbers.
     pub missing: u64,
-    /// All runs.
     pub runs: u64,
 }
 
@@ -40,7 +38,6 @@ impl Loss {
 /// How samples represent the population.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Population {
-    /// Independent samples of it.
     Independent,
     /// So many independent replicates of a design whose samples are not independent of each other.
     Replicated(u64),
@@ -48,7 +45,6 @@ pub enum Population {
     Dependent(&'static str),
     /// Chosen samples: not one of a population.
     Chosen(&'static str),
-    /// The nominal sample alone.
     Nominal,
     /// What a big loss leaves.
     Incomplete(Loss),
@@ -84,7 +80,6 @@ impl Population {
         }
     }
 
-    /// Whether statistics have intervals.
     pub fn has_intervals(self) -> bool {
         matches!(self, Population::Independent | Population::Replicated(_))
     }

@@ -50,7 +50,6 @@ impl RequirementRuns {
 /// What is asked of the runs.
 #[derive(Clone, Copy)]
 pub(super) struct Asked<'r> {
-    /// The requirement.
     pub requirement: &'r Requirement,
     /// It passes at the first confidence, and fails at the second.
     pub confidences: [f64; 2],
@@ -271,7 +270,7 @@ mod tests {
     #[test]
     fn intervals_are_two_sided() {
         let p95 = Requirement { confidence: 0.99, ..requirement(Statement::Fraction(0.95), GateLimit::AtMost(1.0)) };
-        let asked = Asked { requirement: &p95, confidences: [0.99; 2], interval: 0.9 };
+        let asked = Asked { requirement: &p95, confidences: [0.99; 2], interval: 0.9, failed: 0 };
         let counts = counts(&[(499, 490, &[])]);
         let found = assessment(asked, String::new(), &counts, Population::Independent, false);
         let [lower, upper] = found.interval;

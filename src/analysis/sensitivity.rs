@@ -60,7 +60,6 @@ pub(super) struct Prepared {
     /// Those that are kept; `None` where there are none.
     regressors: [Option<Regressors>; 2],
     orders: Vec<Vec<usize>>,
-    /// For the tests.
     tested: Vec<Option<TestedInput>>,
     /// Rank correlations of the inputs.
     correlations: Vec<Vec<f64>>,

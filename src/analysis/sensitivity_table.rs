@@ -21,7 +21,6 @@ const PARTS: [EstimatePart; 3] = [
     ("_upper", ": upper end of its interval", |estimate| estimate.upper),
 ];
 
-/// The measures.
 const MEASURES: [Measure; 10] = [
     (
         "influence",

@@ -64,14 +64,12 @@ const SPREAD: [f64; 2] = [0.05, 0.95];
 pub struct Statistics {
     /// How the samples represent the population.
     pub population: Population,
-    /// Confidence of the intervals.
     pub confidence: f64,
     /// How many of the samples that statistics are about ended with each status, in the order of [`Status::ALL`].
     pub statuses: [u64; Status::ALL.len()],
     /// Bound of the error of quantiles, relative to their magnitude or to their distance from a typical value, whichever is smaller; 0 where
     /// they are exact.
     pub quantile_error: f64,
-    /// Every observable.
     pub columns: Vec<ColumnStatistics>,
 }
 
@@ -97,7 +95,6 @@ impl Statistics {
         column.required.iter().find(|(one, _)| one == requirement).map(|(_, quantile)| quantile)
     }
 
-    /// The runs without numbers.
     pub fn loss(&self) -> Loss {
         Loss::of(&self.statuses)
     }

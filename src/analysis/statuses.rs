@@ -15,9 +15,7 @@ const KEPT: usize = 10;
 /// The samples that ended with one status.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ended {
-    /// The status.
     pub status: Status,
-    /// How many there are.
     pub count: u64,
     /// How many of these are samples that statistics are about.
     pub of_population: u64,
@@ -25,7 +23,6 @@ pub struct Ended {
     pub first: Vec<(SampleId, String)>,
 }
 
-/// How runs ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Statuses {
     list: [Ended; Status::ALL.len()],
@@ -65,12 +62,10 @@ impl Statuses {
         &self.list
     }
 
-    /// Those whose runs failed.
     pub fn failed(&self) -> impl Iterator<Item = &Ended> {
         self.list.iter().filter(|ended| ended.status != Status::Done && ended.count > 0)
     }
 
-    /// How many there are.
     pub fn runs(&self) -> u64 {
         self.list.iter().map(|ended| ended.count).sum()
     }
@@ -90,7 +85,6 @@ impl Statuses {
         Loss::of(&self.of_population())
     }
 
-    /// Why runs failed.
     pub fn reasons(&self) -> &FailureReasons {
         &self.reasons
     }

@@ -24,14 +24,11 @@ pub struct Stopping {
     pub look: usize,
     /// How many looks there may be.
     pub looks: usize,
-    /// What it found.
     pub found: LookFound,
 }
 
-/// What a look found.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LookFound {
-    /// Of a quantile.
     Precision(Look),
     /// Of requirements: how many are undecided.
     Undecided(usize),
@@ -56,7 +53,6 @@ impl Stopping {
 #[derive(Clone, Debug)]
 pub struct ObservedValues {
     observed: Vec<Observed>,
-    /// Samples below this count.
     samples: u64,
 }
 

@@ -44,7 +44,6 @@ pub struct SurveyedOutcome {
     pub is_error: bool,
     /// Its magnitudes if it is an error, else its values, about that of the nominal run; over the dispersed runs that are ok.
     pub sketch: Sketch,
-    /// The worst runs.
     pub worst: WorstRuns,
     /// Its value in the nominal run; NaN where that has none.
     pub nominal: f64,
@@ -56,12 +55,10 @@ pub struct SurveyedOutcome {
     next_growth: u64,
 }
 
-/// Rows of some samples.
 #[derive(Clone, Debug, Default)]
 pub struct Thinned {
     /// The samples, ascending.
     pub samples: Vec<u64>,
-    /// How each ended.
     pub statuses: Vec<Status>,
     /// Inputs as applied, column by column.
     pub inputs: Vec<Vec<f64>>,
@@ -72,11 +69,8 @@ pub struct Thinned {
 /// What the page takes from the rows.
 #[derive(Clone, Debug)]
 pub struct Survey {
-    /// How the runs ended.
     pub statuses: Statuses,
-    /// The outcomes.
     pub outcomes: Vec<SurveyedOutcome>,
-    /// Some rows.
     pub thinned: Thinned,
     /// Estimated and true error of audited runs, at most [`SCATTER`]: sample, estimate, truth.
     pub audits: Vec<[f64; 3]>,
@@ -154,12 +148,9 @@ pub struct Surveyor {
     has_dispersed: bool,
 }
 
-/// What a part adds.
 #[derive(Clone, Debug)]
 pub struct SurveyedPart {
-    /// The runs that count.
     counted: Vec<SampleId>,
-    /// Their outcomes.
     outcomes: Vec<Vec<f64>>,
     /// Those of the nominal run.
     nominal: Option<Vec<f64>>,

@@ -27,18 +27,15 @@ const LISTED: usize = 3;
 /// The runs with the greatest values of an error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Worst {
-    /// The error.
     pub name: &'static str,
     /// Indices among the observables of a row; the error is the maximum of their magnitudes.
     indices: Vec<usize>,
-    /// The runs.
     pub list: WorstRuns,
 }
 
 /// How runs ended, the worst ones, and the audits.
 #[derive(Clone, Debug)]
 pub struct Tally {
-    /// How runs ended.
     pub statuses: Statuses,
     /// Whether the statistics are those of the dispersed samples, without the nominal one; otherwise the nominal sample is the only one.
     pub without_nominal: bool,
@@ -62,16 +59,13 @@ pub struct TallyColumns {
     wanted: Vec<usize>,
     /// Indices of those whose errors audits have.
     audited: Vec<usize>,
-    /// Indices of the headlines.
     headlines: Vec<usize>,
     has_debris: bool,
 }
 
-/// What a part adds.
 #[derive(Clone, Debug)]
 pub struct TallyPart {
     ended: StatusPart,
-    /// Observables by their indices.
     values: BTreeMap<usize, Vec<f64>>,
     audits: Vec<(SampleId, Option<Audit>)>,
 }

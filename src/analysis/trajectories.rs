@@ -39,12 +39,7 @@ pub enum TrajectoryError {
     Threads(String),
     /// A time series could not be encoded.
     #[error("{}: {source}", path.display())]
-    Encoding {
-        /// Its file.
-        path: PathBuf,
-        /// Why.
-        source: EncodingError,
-    },
+    Encoding { path: PathBuf, source: EncodingError },
     /// A file could not be written.
     #[error(transparent)]
     File(#[from] StorageError),

@@ -32,7 +32,6 @@ pub struct Verdicts {
     pub list: Vec<Assessment>,
     /// Dispersed samples that are not physical: outside of the population.
     pub invalid: u64,
-    /// All dispersed samples.
     pub samples: u64,
     /// At how many looks the requirements may be decided: one without `[stop]`.
     pub looks: usize,
@@ -52,7 +51,6 @@ impl Verdicts {
         self
     }
 
-    /// How many requirements failed.
     pub fn failed(&self) -> usize {
         self.list.iter().filter(|one| one.gate.decision == Decision::Fail).count()
     }

@@ -9,7 +9,6 @@ pub struct WorstRuns {
     most: usize,
     /// Whether small values are the bad ones.
     pub is_low: bool,
-    /// Samples with their values.
     pub runs: Vec<(SampleId, f64)>,
 }
 

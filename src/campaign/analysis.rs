@@ -1,11 +1,11 @@
 //! [`Analysis`]: what is made of the rows: `[statistics]`, `[summary]`, `[[observable]]`, `[[require]]`, `[stop]`, `[display]`. No row depends on it.
 
-use super::columns::KnownColumns;
 use super::derived_observable::{self, DerivedObservable};
 use super::display::{self, Display};
 use super::document::Document;
-use super::limits::{CONFIDENCE, MAX_SAMPLES};
+use super::known_columns::KnownColumns;
 use super::lines::Lines;
+use super::numbers::{CONFIDENCE, MAX_SAMPLES};
 use super::requirement::{self, DEFAULT_CONFIDENCE, Requirement};
 use super::section::Section;
 use super::size::MOST_TABLES;
@@ -37,7 +37,6 @@ pub struct Analysis {
 /// The quantiles of a file that does not name any.
 pub const QUANTILES: [f64; 9] = [0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999];
 
-/// Which quantiles.
 const QUANTILE_LIST: ListLimit = ListLimit {
     allowed: "1 to 100 numbers between 0 and 1, neither included, in ascending order",
     remedy: "write it like [0.05, 0.5, 0.95]",
@@ -189,7 +188,6 @@ impl Analysis {
         (0..self.requirements.len()).filter(is_first).filter_map(of)
     }
 
-    /// Writes the tables.
     pub(super) fn write(&self, lines: &mut Lines) {
         for derived in &self.derived {
             lines.rows("[[observable]]", &derived_observable::ROWS, |key| derived.value(key));

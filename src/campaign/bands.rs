@@ -16,7 +16,6 @@ pub const MOST_POINTS: u64 = 257;
 pub const RUNS: u64 = 1 << 17;
 /// Fewest: a 1% quantile of them has ten runs beyond it.
 pub const FEWEST_RUNS: u64 = 1000;
-/// The key.
 const KEY: &str = "bands.points";
 
 /// The number of points of a campaign whose grid has `grid` points; what is wrong with it is noted.

@@ -6,7 +6,7 @@
 //! The row plan is the part of it that changes rows or their encoding: without the campaign's name, and with the number of samples only
 //! where the design's points depend on it. Two campaigns with the same row hash have the same rows, sample by sample.
 
-use super::canonical_draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
+use super::draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
 use super::lines::Lines;
 use super::plan::Plan;
 use super::{bands, control, event, failure_tables, retention, settings};

@@ -43,7 +43,6 @@ impl Chosen {
         }
     }
 
-    /// The numbers.
     pub fn samples(&self) -> &[u64] {
         &self.0
     }

@@ -21,7 +21,6 @@ use crate::scene::schema::control::kept;
 use crate::scene::table::Table;
 use crate::scene::{BodyInput, DeclaredTable, Name, Scene, SceneError, SceneInput, WheelMode};
 
-/// Most phases.
 const MOST_PHASES: usize = 64;
 
 /// Reads the control loop of a file that has `[control]`; its numbers become parameters of `scene`. `None` where something is wrong.

@@ -2,7 +2,8 @@
 //!
 //! It is evaluated when statistics are made, from the rows as they are on the disk: no row has it.
 
-use super::columns::{KnownColumns, parameter_quantity};
+use super::columns::parameter_quantity;
+use super::known_columns::KnownColumns;
 use super::section::Section;
 use crate::run::Quantity;
 use crate::sampling::Column;
@@ -13,7 +14,6 @@ use crate::scene::{Parameter, SceneInput};
 /// An observable that follows from others and from dispersed parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DerivedObservable {
-    /// Its name.
     pub name: String,
     /// Its unit; empty for a pure number.
     pub unit: String,

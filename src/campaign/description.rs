@@ -5,7 +5,6 @@ use crate::sampling::keys::TextLimit;
 /// Most characters of a description.
 const LONGEST: usize = 1000;
 
-/// What it may be.
 pub(super) const LIMIT: TextLimit = TextLimit {
     allowed: "a text of 1 to 1000 characters",
     remedy: "write the question that the campaign answers, or delete the key",

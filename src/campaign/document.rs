@@ -4,8 +4,8 @@
 //! A number that is missing or wrong is read as NaN and reported once; so the lower layers can still check the rest, and
 //! what they report about a key that was reported already is dropped ([`Document::add_from_below`]).
 
-use super::columns::KnownColumns;
 use super::excerpt::Excerpt;
+use super::known_columns::KnownColumns;
 use super::problem::{CampaignError, Problem, SHOWN};
 use super::size;
 use super::sources::{SourceText, Sources, lay_over, moved_table, put, value_at};
@@ -49,7 +49,6 @@ pub struct Document<'a> {
     more: usize,
     /// Where each line begins, bytes.
     starts: Vec<usize>,
-    /// Where each key is.
     pub(super) spans: BTreeMap<String, Spans>,
     /// The files of numbers that were read, each with the SHA-256 of its bytes.
     pub(super) files: Vec<(PathBuf, String)>,
@@ -147,7 +146,6 @@ impl<'a> Document<'a> {
         Ok(whole)
     }
 
-    /// Parses one file.
     fn parse_file(&self, source: &'a SourceText) -> Result<DeTable<'a>, CampaignError> {
         let (file, text) = (&source.name, &self.text[source.range.clone()]);
         if let Some(problem) = size::of_text(file, text) {
@@ -289,7 +287,6 @@ impl<'a> Document<'a> {
         self.text.get(self.starts[number - 1]..end).unwrap_or("").trim_end()
     }
 
-    /// A value as written.
     pub(super) fn text_of(&self, value: &Spanned<DeValue<'a>>) -> &'a str {
         self.text.get(value.span()).unwrap_or("")
     }

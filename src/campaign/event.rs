@@ -1,6 +1,6 @@
 //! [`Event`]: an `[[event]]` table, a quantity over time that crosses a value.
 
-use super::columns::unit_of;
+use super::known_columns::unit_of;
 use super::numbers::FINITE;
 use super::problem::nearest;
 use super::section::Section;
@@ -14,20 +14,15 @@ use crate::sampling::keys::{Kind, Row, TextLimit, Value, Written, is_name};
 /// In which direction a quantity crosses the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// In either.
     Either,
-    /// From below to above.
     Rising,
-    /// From above to below.
     Falling,
 }
 
 /// Which crossing of a run its time is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
-    /// The first.
     First,
-    /// The last.
     Last,
     /// The last, where the quantity stays on that side to the end of the run; time zero where it is there all the time.
     Stays,
@@ -48,7 +43,6 @@ impl Which {
 /// A quantity over time that crosses a value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
-    /// Its name.
     pub name: String,
     /// The quantity: the name of one over time, or an expression of several.
     pub quantity: String,

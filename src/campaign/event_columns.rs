@@ -32,7 +32,6 @@ pub(super) fn of_failures(scene: &SceneInput) -> Vec<LawColumn> {
     scene.failures.iter().flat_map(of).collect()
 }
 
-/// A column.
 fn column(name: String, unit: &str, meaning: String, kind: ColumnKind) -> LawColumn {
     LawColumn { quantity: Quantity::named(name, unit.to_owned(), meaning), kind, codes: &[] }
 }

@@ -14,7 +14,6 @@ const BEFORE: usize = 30;
 pub struct Excerpt {
     /// The line, or the part of it around the mark, without control characters.
     pub line: String,
-    /// Characters before the mark.
     pub before: usize,
     /// Characters that are marked, at least one.
     pub marked: usize,

@@ -17,7 +17,6 @@ pub enum InputError {
     /// It has so many bytes.
     #[error("{0} bytes are too many")]
     Size(u64),
-    /// A file operation failed.
     #[error(transparent)]
     Io(#[from] io::Error),
 }

@@ -1,6 +1,6 @@
 //! Rows of keys ([`crate::sampling::keys`]) in a table of a campaign file: read from it, and written as canonical text.
 
-use super::columns::{KnownColumns, unit_of};
+use super::known_columns::{KnownColumns, unit_of};
 use super::lines::Lines;
 use super::numbers::FINITE;
 use super::section::Section;
@@ -160,7 +160,6 @@ impl Section<'_, '_> {
         Some(name.into())
     }
 
-    /// Names of different observables.
     fn observables(&mut self, key: &str) -> Option<Vec<String>> {
         let names = self.texts(key, "[\"energy_error_max\"]")?;
         let known = self.document.known.as_ref()?;

@@ -65,7 +65,6 @@ impl Lines {
         }
     }
 
-    /// The text.
     pub(super) fn into_text(self) -> String {
         self.0
     }

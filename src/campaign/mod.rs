@@ -5,18 +5,17 @@
 //! - [`document`], [`section`], [`numbers`], [`lists`]: a TOML document that is read key by key and remembers the lines. By hand and not by
 //!   serde's derive, which stops at the first error and knows no line of a key that passed.
 //! - [`spec`]: a campaign file as written; [`settings`]: keys that are no part of the scene; `scene`: those of the scene, from [`crate::scene::schema`]; `control`, `sensor_tables`, `phase_tables`: those of
-//!   a control loop; `failure_tables`: devices that fail; [`disperse`],
-//!   [`design`], [`dependence`]: those that say what is drawn; `keys`: rows of keys, read and written;
-//!   [`data`], `data_columns`, `data_keys`: files of numbers; `parameter`: names of parameters; [`limits`]; [`compression`]; [`bands`].
-//! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`columns`]: what they can name;
+//!   a control loop; `failure_tables`: devices that fail; [`draws`]: those
+//!   that say what is drawn; `keys`: rows of keys, read and written;
+//!   [`data`], `data_columns`, `data_keys`: files of numbers; `parameter`: names of parameters; [`bands`].
+//! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`known_columns`]: what they can name; [`columns`]: what runs are observed for;
 //!   [`event`]: quantities that cross a value; [`event_columns`]: when events and failures happened.
 //!   [`retention`]: which runs keep their time series.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other. - [`chosen`], `plan_rows`: which samples are its rows.
 //! - `units`: units in values.
 //! - [`notes`]: what is allowed and probably not meant.
-//! - `draw_tables`: the tables of draws with their places in the file.
 //! - [`mod@draw`]: from a plan and the number of a sample to its scene.
-//! - [`canonical`], [`canonical_draws`], `lines`: the plan as text that reads back to the same plan, and its hash.
+//! - [`canonical`], `lines`: the plan as text that reads back to the same plan, and its hash.
 //! - [`difference`]: the keys in which two plans differ; [`common_draws`]: whether they draw the same samples. - [`mod@find`]: which file a name means.
 //!
 //! Not here: what is physical ([`crate::scene`]) and what can be drawn ([`crate::sampling`]); their errors get lines here.
@@ -24,25 +23,20 @@
 pub mod analysis;
 pub mod bands;
 pub mod canonical;
-pub mod canonical_draws;
 pub mod chosen;
 pub mod columns;
 pub mod common_draws;
-pub mod compression;
 mod control;
 pub mod data;
 mod data_columns;
 mod data_keys;
-pub mod dependence;
 pub mod derived_observable;
 mod description;
-pub mod design;
 pub mod difference;
-pub mod disperse;
 mod display;
 pub mod document;
 pub mod draw;
-mod draw_tables;
+pub mod draws;
 pub mod event;
 pub mod event_columns;
 pub mod excerpt;
@@ -51,7 +45,7 @@ pub mod find;
 pub mod forces;
 pub mod input_file;
 mod keys;
-pub mod limits;
+pub mod known_columns;
 mod lines;
 pub mod lists;
 pub mod notes;
@@ -75,7 +69,6 @@ mod tables;
 mod units;
 
 pub use analysis::Analysis;
-pub use compression::Compression;
 pub use derived_observable::DerivedObservable;
 pub use display::{Display, ShownUnit};
 pub use draw::{SceneDraws, draw};
@@ -85,5 +78,6 @@ pub use plan::{FilesRead, Overrides, Plan};
 pub use problem::{CampaignError, Problem};
 pub use requirement::{Requirement, Statement};
 pub use retention::Retention;
+pub use settings::Compression;
 pub use spec::Spec;
 pub use stop::Stop;

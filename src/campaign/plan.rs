@@ -4,16 +4,17 @@
 use super::analysis::Analysis;
 use super::bands;
 use super::chosen::Chosen;
-use super::columns::{KnownColumns, request};
-use super::compression::Compression;
+use super::columns::request;
 use super::description;
 use super::document::Document;
-use super::draw_tables::DrawTables;
+use super::draws::DrawTables;
 use super::event::Event;
 use super::forces;
-use super::limits::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
+use super::known_columns::KnownColumns;
+use super::numbers::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
 use super::problem::{CampaignError, Problem};
 use super::retention::Retention;
+use super::settings::Compression;
 use super::size;
 use super::sources::Sources;
 use super::spec::Spec;
@@ -30,7 +31,6 @@ use crate::scene::schedule::applied;
 use crate::scene::{Scene, SceneInput};
 use std::path::{Path, PathBuf};
 
-/// What will run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Name of the campaign and of its folder of results.
@@ -43,13 +43,10 @@ pub struct Plan {
     pub chosen: Option<Chosen>,
     /// The number of samples that the file says, where the campaign has ended at another one (`[stop]`); the plan as text says this one.
     pub written_samples: Option<u64>,
-    /// Seed of every draw.
     pub seed: u64,
     /// The times at which each run is observed.
     pub grid: Grid,
-    /// Kernel and method.
     pub method: Method,
-    /// Tolerances of local errors.
     pub tolerance: Tolerance,
     /// The fixed step, s; `Some` exactly where the method has one.
     pub step_s: Option<f64>,
@@ -59,13 +56,9 @@ pub struct Plan {
     pub groups: Vec<Group>,
     /// Whose angle from the angular momentum nutation is.
     pub nutation_axis: NutationAxis,
-    /// The nominal scene.
     pub nominal: SceneInput,
-    /// The design as written.
     pub design: Design,
-    /// The dispersions as written.
     pub dispersed: Vec<Dispersion>,
-    /// The correlations as written.
     pub correlated: Vec<Correlation>,
     /// The derived parameters as written.
     pub derived: Vec<Derivation>,
@@ -94,7 +87,6 @@ pub struct Plan {
 /// The files that a plan was made from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FilesRead {
-    /// The campaign file.
     pub campaign: PathBuf,
     /// The files that it extends.
     pub extended: Vec<PathBuf>,
@@ -103,7 +95,6 @@ pub struct FilesRead {
 }
 
 impl FilesRead {
-    /// All of them.
     pub fn paths(&self) -> Vec<PathBuf> {
         std::iter::once(&self.campaign)
             .chain(&self.extended)

@@ -19,7 +19,6 @@ pub struct Problem {
     pub value: Option<String>,
     /// What it must be (to follow the words `must be`).
     pub allowed: String,
-    /// What to do.
     pub remedy: String,
     /// The line with a mark under what is wrong, where the file has it.
     pub excerpt: Option<Excerpt>,
@@ -53,7 +52,6 @@ pub struct CampaignError {
 }
 
 impl CampaignError {
-    /// A single reason.
     pub(super) fn of(problem: Problem) -> Self {
         CampaignError { problems: vec![problem], more: 0, note: None, is_unreadable: false }
     }

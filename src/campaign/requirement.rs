@@ -1,6 +1,6 @@
 //! [`Requirement`]: a `[[require]]` table, what a campaign must show.
 
-use super::limits::{CONFIDENCE, PROBABILITY};
+use super::numbers::{CONFIDENCE, PROBABILITY};
 use super::section::Section;
 use super::units;
 use crate::observables::window::Window;
@@ -57,7 +57,6 @@ impl BandSubject {
 /// What a campaign must show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Requirement {
-    /// What it is about.
     pub subject: Subject,
     /// What of it must be within the limit.
     pub statement: Statement,
@@ -67,7 +66,6 @@ pub struct Requirement {
     pub bounded: Option<[f64; 2]>,
     /// Of a fraction: whether a run without a value, of something that never happens, meets it; otherwise it violates it.
     pub never_meets: bool,
-    /// With which confidence.
     pub confidence: f64,
 }
 

@@ -6,7 +6,6 @@ use crate::sampling::keys::{ANY_TEXT, Kind, Row};
 /// Which runs keep their full time series.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Retention {
-    /// None.
     #[default]
     None,
     /// All, the nominal one among them.
@@ -14,19 +13,12 @@ pub enum Retention {
     /// Those that are not `ok`.
     Failed,
     /// The dispersed runs with the largest magnitudes of an observable, this many.
-    Worst {
-        /// How many.
-        count: u64,
-        /// The observable.
-        observable: String,
-    },
+    Worst { count: u64, observable: String },
     /// This many dispersed runs, chosen at random.
     Sample(u64),
 }
 
-/// The key.
 const KEY: &str = "trajectories";
-/// What it may be.
 const ALLOWED: &str = "\"none\", \"all\", \"failed\", \"worst:20 by energy_error_max\" or \"sample:100\"";
 /// The keys of the table.
 pub const ROWS: [Row; 1] = [Row::new(
@@ -94,7 +86,6 @@ fn parsed(section: &mut Section<'_, '_>, text: &str) -> Option<Retention> {
     }
 }
 
-/// A number of runs.
 fn runs(section: &mut Section<'_, '_>, text: &str) -> Option<u64> {
     let count = text.trim().parse().ok().filter(|count| (1..=MOST).contains(count));
     if count.is_none() {

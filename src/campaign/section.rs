@@ -9,7 +9,6 @@ use toml::de::{DeTable, DeValue};
 /// One table of a document while it is read.
 #[derive(Debug)]
 pub struct Section<'d, 'a> {
-    /// Where problems go.
     pub document: &'d mut Document<'a>,
     path: String,
     /// What a table of a list is called in messages, once its name is known.
@@ -27,7 +26,6 @@ pub struct Section<'d, 'a> {
 }
 
 impl<'d, 'a> Section<'d, 'a> {
-    /// The whole document.
     pub fn root(document: &'d mut Document<'a>, table: &'d DeTable<'a>) -> Self {
         Section {
             document,

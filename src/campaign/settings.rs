@@ -3,9 +3,7 @@
 
 use super::bands::{FEWEST_RUNS as FEWEST_BAND_RUNS, MOST_POINTS as MOST_BAND_POINTS};
 use super::chosen::MOST_CHOSEN;
-use super::compression::Compression;
-use super::limits::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, TOLERANCE};
-use super::numbers::POSITIVE;
+use super::numbers::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, POSITIVE, TOLERANCE};
 use super::{analysis, derived_observable, description, display, event, requirement, retention, stop};
 use crate::observables::Group;
 use crate::propagation::Method;
@@ -103,3 +101,31 @@ pub const ANALYSIS: [(&str, &[Row], &[Rule]); 8] = [
     ("[display]", &display::ROWS, &[]),
     ("[retain]", &retention::ROWS, &[]),
 ];
+
+/// Compression of the files of rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compression {
+    /// LZ4: nearly as small as Zstandard, twice as fast to write.
+    Lz4,
+    /// Zstandard, level 1: the smallest.
+    Zstd,
+    None,
+}
+
+impl Compression {
+    pub const ALL: [Compression; 3] = [Compression::Lz4, Compression::Zstd, Compression::None];
+
+    /// The name in campaign files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Compression::Lz4 => "lz4",
+            Compression::Zstd => "zstd",
+            Compression::None => "none",
+        }
+    }
+
+    /// The compression called `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|compression| compression.name() == name)
+    }
+}

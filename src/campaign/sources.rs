@@ -13,10 +13,8 @@ use toml::de::{DeTable, DeValue};
 /// Most files that extend one another.
 const MOST_FILES: usize = 8;
 
-/// One text.
 #[derive(Clone, Debug)]
 pub(super) struct SourceText {
-    /// Its name in messages.
     pub name: String,
     /// The folder from which its paths count.
     pub folder: PathBuf,

@@ -1,6 +1,6 @@
 //! [`Spec`]: a campaign file as written, key by key.
 //!
-//! Every key of the file is read here (those of `[[disperse]]` in [`super::disperse`]); a number that is missing or wrong is
+//! Every key of the file is read here (those of `[[disperse]]` in [`super::draws`]); a number that is missing or wrong is
 //! NaN here and noted in the document. What is left out stays `None`: the plan fills it in.
 
 use super::analysis::Analysis;
@@ -11,7 +11,7 @@ use super::retention::Retention;
 use super::section::Section;
 use super::settings;
 use super::size::MOST_TABLES;
-use super::{dependence, design, disperse, scene};
+use super::{draws, scene};
 use crate::observables::Group;
 use crate::observables::request::NutationAxis;
 use crate::propagation::Method;
@@ -54,7 +54,7 @@ impl Spec {
 
         let scene = scene::read(&mut root);
         root.document.scene = scene.clone();
-        let design = design::read(&mut root.section("design"));
+        let design = draws::design(&mut root.section("design"));
         let has_size = design.as_ref().is_none_or(Design::has_size);
 
         let mut settings = Vec::new();
@@ -69,9 +69,9 @@ impl Spec {
             }
         };
         read(&mut root, &settings::HEAD);
-        let dispersions = root.sections("disperse", MOST_TABLES, disperse::read);
-        let correlations = root.sections("correlate", MOST_TABLES, dependence::correlation);
-        let derivations = root.sections("derive", MOST_TABLES, dependence::derivation);
+        let dispersions = root.sections("disperse", MOST_TABLES, draws::dispersion);
+        let correlations = root.sections("correlate", MOST_TABLES, draws::correlation);
+        let derivations = root.sections("derive", MOST_TABLES, draws::derivation);
 
         read(&mut root, &settings::TAIL);
         let mut spec = Spec {

@@ -1,19 +1,17 @@
 //! [`Stop`]: the `[stop]` table, when a campaign has enough samples.
 
-use super::limits::{CONFIDENCE, MAX_SAMPLES, PROBABILITY};
 use super::numbers::POSITIVE;
+use super::numbers::{CONFIDENCE, MAX_SAMPLES, PROBABILITY};
 use super::requirement::DEFAULT_CONFIDENCE;
 use super::section::Section;
 use super::units;
 use crate::sampling::keys::{Condition, Kind, Presence, Row, Rule, Value};
 use crate::statistics::looks::Goal;
 
-/// What ends a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub enum When {
     /// That a quantile of an observable is known well enough.
     Precise {
-        /// The observable.
         observable: String,
         /// Which quantile, and how narrow its interval must be, in the unit of the observable.
         goal: Goal,
@@ -25,7 +23,6 @@ pub enum When {
 /// When a campaign has enough samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stop {
-    /// What ends it.
     pub when: When,
     /// Most samples, sample 0 included.
     pub max_samples: u64,

@@ -64,7 +64,6 @@ const MORE: [&str; 13] = [
 /// A unit that texts know.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Unit {
-    /// Its name.
     pub name: &'static str,
     /// The SI unit that it measures in; itself, of one.
     pub of: &'static str,
@@ -133,7 +132,6 @@ pub(super) fn in_name(key: &str) -> &'static str {
 pub(super) struct UnitProblem {
     /// What is allowed, to follow "must be".
     pub allowed: String,
-    /// What to do.
     pub remedy: String,
 }
 

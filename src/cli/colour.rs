@@ -4,14 +4,11 @@ use std::io::IsTerminal;
 
 use clap::ValueEnum;
 
-/// When there is colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Colour {
     /// On a terminal, unless the variable NO_COLOR is set or the terminal is dumb.
     Auto,
-    /// Also in a pipe.
     Always,
-    /// Nowhere.
     Never,
 }
 
@@ -39,7 +36,6 @@ const VERDICTS: [(&str, &str); 7] = [
 /// The headings of help texts.
 const HEADINGS: [&str; 6] = ["Usage:", "Arguments:", "Options:", "Commands:", "Examples:", "Exit codes:"];
 
-/// What a text is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A result, or help.

@@ -61,7 +61,6 @@ fn found(sections: &[ColumnSection], word: &str) -> Option<Vec<ColumnSection>> {
     (!found.is_empty()).then_some(found)
 }
 
-/// Columns with a title.
 #[derive(Clone)]
 pub struct ColumnSection {
     /// The group, or what else they have in common.

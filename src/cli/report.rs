@@ -5,8 +5,8 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::refuse_within;
 use crate::cli::terminal::Terminal;
 use crate::cli::{completed_text, screen};
-use crate::report::noise_text;
 use crate::report::number::bytes;
+use crate::report::share_text;
 use crate::workflow::Session;
 use crate::workflow::page::{Remade, remade};
 
@@ -22,6 +22,6 @@ pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {
     let Remade { path, size, question, end, noise } = remade(&session, &options.folder, figures, options.noise)?;
     let question = completed_text::question(question.as_deref());
     let verdict = end.verdict_line(&path);
-    screen::print(&format!("{question}{}{verdict} ({})\n", noise_text::lines(&noise, screen::width()), bytes(size)))?;
+    screen::print(&format!("{question}{}{verdict} ({})\n", share_text::noise_lines(&noise), bytes(size)))?;
     Ok(CommandOutcome::Done)
 }

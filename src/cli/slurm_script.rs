@@ -26,9 +26,7 @@ const WARNING_S: u64 = 60;
 /// The time limit of a task.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TimeLimit {
-    /// As Slurm reads it.
     pub text: String,
-    /// In seconds.
     pub seconds: u64,
 }
 
@@ -65,19 +63,14 @@ impl TimeLimit {
 /// What the scripts have to know.
 #[derive(Clone, Copy, Debug)]
 pub struct Jobs<'a> {
-    /// The campaign.
     pub name: &'a str,
-    /// The program.
     pub program: &'a Path,
-    /// The campaign file.
     pub file: &'a Path,
     /// The folder of the result.
     pub out: &'a Path,
     /// Further arguments of `campaign`.
     pub arguments: &'a [String],
-    /// Number of tasks.
     pub shards: u64,
-    /// Cores of a task.
     pub cpus: u64,
     /// Time limit of a task.
     pub time: &'a TimeLimit,

@@ -36,7 +36,7 @@ const EXTREMES: f64 = 50.0;
 /// Memory of the program itself, bytes, and of each part: its samples, its record, and its line of the manifest.
 const PROGRAM: [f64; 2] = [3e7, 1000.0];
 /// Most memory of one thread for each observation point, bytes: of runs with debris and actuation, and what audits add. Measured are 1600 to 7000, and
-/// 2200 to 7300 (tests/program/memory.rs).
+/// 2200 to 7300 (tests/program/commands/memory.rs).
 const POINT: [f64; 2] = [8500.0, 7500.0];
 /// Columns of a time series, of its states and of what is observed of them: at most.
 const SERIES: f64 = 80.0;
@@ -227,13 +227,11 @@ impl Workload {
     }
 }
 
-/// A number of things.
 fn count(number: f64, thing: &str) -> String {
     let end = if number == 1.0 { "" } else { "s" };
     if number < 1e15 { format!("{} {thing}{end}", number as u64) } else { format!("{} {thing}s", short(number)) }
 }
 
-/// A time for people.
 fn time(seconds: f64) -> String {
     let units = [(120.0, 1.0, "s"), (7200.0, 60.0, "minutes"), (172_800.0, 3600.0, "hours"), (8.64e7, 86400.0, "days")];
     let found = units.into_iter().find(|(below, ..)| seconds < *below);

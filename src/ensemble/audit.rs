@@ -48,9 +48,7 @@ const PLAIN_TOLERANCE: f64 = 1e-16;
 pub enum AuditValue {
     /// The larger of the next two.
     State,
-    /// Error of omega.
     Omega,
-    /// Error of the attitude.
     Attitude,
     /// Error of the rotation of the debris; only where there is one.
     Debris,
@@ -191,7 +189,6 @@ pub enum NoAudit {
     },
 }
 
-/// Which samples are audited.
 #[derive(Debug)]
 pub struct Selection {
     stream: Stream,

@@ -30,7 +30,6 @@ const RECENT: usize = 32;
 /// Bound of the rounding of a value that is put together from the nominal one and a deviation: some units in the last place.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// What bands are of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandLayout {
     /// Each series, and the form in which its numbers are kept.
@@ -247,7 +246,6 @@ impl PartialEq for Bands {
 pub struct OtherCampaign;
 
 impl Bands {
-    /// Of no run.
     pub fn new(layout: Arc<BandLayout>) -> Self {
         Bands { runs: [0; 2], columns: vec![BandColumn::default(); layout.columns()], layout }
     }
@@ -347,7 +345,6 @@ impl Bands {
         self.quantiles(series, point, [p])[0]
     }
 
-    /// Several of them.
     pub fn quantiles<const N: usize>(&self, series: usize, point: usize, p: [f64; N]) -> [Option<f64>; N] {
         let (index, column) = self.column(series, point);
         let (form, reference) = (self.layout.form(index), self.layout.reference(index));

@@ -12,7 +12,6 @@ use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 /// Samples as drawn: what was applied, and whether the scene is physical.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnScenes {
-    /// The first sample.
     pub first: SampleId,
     /// Whether each sample's scene is physical; one that is not would be a row with status `invalid_sample`.
     pub physical: Vec<bool>,
@@ -141,7 +140,6 @@ impl DrawnScenes {
         }
     }
 
-    /// Number of samples.
     pub fn count(&self) -> usize {
         self.physical.len()
     }

@@ -10,9 +10,7 @@ use crate::sampling::SampleId;
 /// Runs that failed for one reason: with the same status, and with texts that differ in their numbers only.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FailureReason {
-    /// How they ended.
     pub status: Status,
-    /// How many there are.
     pub count: u64,
     /// The one with the smallest number.
     pub first: SampleId,

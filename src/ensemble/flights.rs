@@ -18,7 +18,6 @@ use crate::scene::{Arc, ControlInput, Scene};
 /// What the law of a run depends on beside its scene.
 #[derive(Clone, Debug)]
 pub struct LawDraw {
-    /// The sample.
     pub sample: SampleId,
     /// The parameters of the law as drawn.
     pub parameters: ControlInput,
@@ -113,7 +112,6 @@ impl<'p> Flights<'p> {
         }
     }
 
-    /// Flies the nominal run.
     pub fn fly_nominal(&mut self, finish: &mut FlightCallback<'_>) {
         let draw = LawDraw { sample: SampleId(0), parameters: self.plan.nominal.control.clone() };
         let draws = if self.plan.law.is_some() { std::slice::from_ref(&draw) } else { &[] };

@@ -8,7 +8,6 @@ use crate::scene::{SceneInput, unit_quaternion::unit_quaternion};
 /// A number that follows from all components of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Magnitude {
-    /// The parameter.
     pub parameter: Parameter,
 }
 

@@ -1,6 +1,6 @@
 //! Layer 6: many runs on all cores. A row is a pure function of (plan, sample).
 //!
-//! - [`mod@parts`]: how samples are divided into parts; [`run_cost`]: their size. - [`rows`]: the rows of a part. - [`sink`]: takes the rows.
+//! - [`mod@parts`]: how samples are divided into parts; [`run_cost`]: their size. - [`rows`]: the rows of a part. - [`Sink`]: takes the rows.
 //! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread.
 //! - [`runner`]: distributes parts to threads; [`supervision`]: what it is told. - [`drawn`]: sampled parameters without runs; [`percentiles`]: theirs.
 //! - [`bands`]: quantiles over time, counted run by run (in `deviation_window`).
@@ -8,13 +8,12 @@
 //! - [`single`]: one run with its states. [`flights`]: runs under the control law of the plan.
 //! - [`event_finder`]: when quantities cross values, located in `crossing`.
 //! - [`audit`]: runs compared with a reference solution. - [`precision`]: run time against error for every method.
-//! - [`settings`]: observables and engine of a plan. - [`probe`]: time of a run and of an audit. - [`cpu_clock`]: CPU time of a thread.
+//! - [`settings`]: observables and engine of a plan. - [`probe`]: time of a run and of an audit.
 //!
 //! Not here: file formats (`storage`), and what a run is (`run`, `propagation`).
 
 pub mod audit;
 pub mod bands;
-pub mod cpu_clock;
 mod crossing;
 mod deviation_window;
 pub mod drawn;
@@ -33,7 +32,6 @@ pub mod run_cost;
 pub mod runner;
 pub mod settings;
 pub mod single;
-pub mod sink;
 pub mod supervision;
 pub mod worker;
 
@@ -44,9 +42,8 @@ pub use failure_reasons::{FailureReason, FailureReasons};
 pub use parts::{Part, PartId, Parts};
 pub use percentiles::Percentiles;
 pub use rows::{Rows, Shape};
-pub use runner::{RunError, run};
+pub use runner::{RunError, Sink, run};
 pub use settings::EngineMaker;
 pub use single::SingleRun;
-pub use sink::Sink;
 pub use supervision::Supervision;
 pub use worker::{Ensemble, Worker};

@@ -27,10 +27,8 @@ const OF_THE_USUAL_SIZE: u64 = 2560;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PartId(pub u64);
 
-/// A part: consecutive samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// Its number.
     pub id: PartId,
     /// Its first sample, counted from zero among those that run: its number, where all run.
     pub first: SampleId,
@@ -85,12 +83,10 @@ impl Parts {
         self.largest
     }
 
-    /// Number of samples.
     pub fn samples(self) -> u64 {
         self.samples
     }
 
-    /// Number of parts.
     pub fn count(self) -> u64 {
         let (mut left, mut parts) = (self.samples, 0);
         for (size, many) in self.sizes() {
@@ -131,7 +127,6 @@ impl Parts {
         None
     }
 
-    /// All parts in order.
     pub fn iter(self) -> impl Iterator<Item = Part> {
         (0..self.count()).filter_map(move |id| self.part(PartId(id)))
     }

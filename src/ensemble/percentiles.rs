@@ -18,7 +18,6 @@ pub struct Percentiles {
 
 #[derive(Clone, Debug)]
 enum HeldColumns {
-    /// All values.
     Values(Vec<Vec<f64>>),
     /// Sketches about the nominal values.
     Sketches(Vec<Sketch>),
@@ -61,7 +60,6 @@ impl Percentiles {
         &self.nominal
     }
 
-    /// Number of dispersed samples.
     pub fn count(&self) -> u64 {
         self.count
     }

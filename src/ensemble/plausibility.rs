@@ -164,7 +164,6 @@ fn driven_wheels(input: &SceneInput) -> Vec<String> {
     turning.enumerate().filter_map(note).collect()
 }
 
-/// A mass of tons.
 fn mass(input: &SceneInput) -> Option<String> {
     let mass = Scene::resolve(input).ok()?.mass.total;
     (mass >= HEAVY).then(|| {

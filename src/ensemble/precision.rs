@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::campaign::{Plan, SceneDraws};
 use crate::dynamics::gyrostat::Gyrostat;
-use crate::ensemble::cpu_clock::thread_seconds;
+use crate::ensemble::run_cost::thread_seconds;
 use crate::ensemble::single::states;
 use crate::ensemble::worker::BATCH;
 use crate::math::Isa;
@@ -40,22 +40,17 @@ pub enum Setting {
 /// Maximum and root mean square of an error over samples and observation points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// Maximum.
     pub max: f64,
-    /// Root mean square.
     pub rms: f64,
 }
 
 /// What was measured of one method at one setting. Errors are `None` where their states are not integrated or all runs failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
-    /// Kernel and method.
     pub method: Method,
-    /// Its tolerance or step.
     pub setting: Setting,
     /// CPU time of a run, s: median and minimum of the repetitions.
     pub cpu: [f64; 2],
-    /// Repetitions.
     pub repeats: usize,
     /// Number of runs, and of those that failed.
     pub runs: [usize; 2],
@@ -74,15 +69,12 @@ pub struct Measurement {
 /// A setting that was not measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Skipped {
-    /// Kernel and method.
     pub method: Method,
-    /// Its tolerance or step.
     pub setting: Setting,
     /// Predicted time of a pass over the samples, s.
     pub predicted: f64,
 }
 
-/// Which states are integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum States {
     /// Every state that the scene has, as `simulate` shows them.
@@ -91,10 +83,8 @@ pub enum States {
     Observed,
 }
 
-/// Limits of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Timed repetitions.
     pub repeats: usize,
     /// CPU time that one pass over the samples may take, s.
     pub limit: f64,
@@ -141,7 +131,6 @@ impl<'p> Precision<'p> {
         Ok(Precision { plan, isa, fields, request, scenes, references })
     }
 
-    /// Number of samples.
     pub fn samples(&self) -> usize {
         self.scenes.len()
     }

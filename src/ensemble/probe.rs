@@ -36,7 +36,6 @@ pub fn limited(plan: &Plan) -> Plan {
 /// A sample whose run takes longer than a probe.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LongRun {
-    /// The first one.
     pub sample: SampleId,
     /// The time that it reaches in [`PACE_STEPS`] steps, s.
     pub reached: f64,
@@ -47,7 +46,6 @@ pub struct LongRun {
 pub struct RunProbe {
     /// Time of a run on one core, without its audit, s; of no meaning where one is too long.
     pub seconds: f64,
-    /// Their rows.
     pub rows: Rows,
     /// A run that is too long to be measured; its row says that it has failed.
     pub too_long: Option<LongRun>,
@@ -88,7 +86,6 @@ impl RunProbe {
         }
     }
 
-    /// Number of runs.
     pub fn count(&self) -> usize {
         self.rows.part().count
     }
@@ -107,7 +104,6 @@ impl RunProbe {
                 && self.rows.statuses()[1..].iter().all(|status| *status != Status::Done)
     }
 
-    /// Why they failed.
     pub fn reasons(&self) -> FailureReasons {
         let mut reasons = FailureReasons::default();
         reasons.add(&self.rows);
@@ -120,7 +116,6 @@ impl RunProbe {
 pub struct AuditProbe {
     /// Time of an audit on one core, s.
     pub seconds: f64,
-    /// Number of audits.
     pub count: u32,
 }
 

@@ -15,9 +15,7 @@ const CACHE_LINE: usize = 8;
 /// What columns a row has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
-    /// Number of dispersed values.
     pub parameters: usize,
-    /// Number of observables.
     pub observables: usize,
 }
 
@@ -60,7 +58,6 @@ impl Rows {
         }
     }
 
-    /// The same with bands.
     #[must_use]
     pub fn with_bands(self, bands: Option<PartBands>) -> Self {
         Rows { bands, ..self }

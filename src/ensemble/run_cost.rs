@@ -58,3 +58,19 @@ pub fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
     let run = evaluations.min(most) * each + plan.grid.points() as f64 * POINT_S;
     run * (1.0 + AUDIT * plan.audit_fraction)
 }
+
+/// CPU time that this thread has used, s, to the nanosecond.
+#[cfg(unix)]
+pub fn thread_seconds() -> f64 {
+    let now = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
+}
+
+/// Elapsed time, s: the standard library has no CPU time.
+#[cfg(not(unix))]
+pub fn thread_seconds() -> f64 {
+    use std::sync::LazyLock;
+    use std::time::Instant;
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    START.elapsed().as_secs_f64()
+}

@@ -4,15 +4,14 @@
 //! Rayon's parallel iterators, which split ranges in halves, were rejected: the parts completed at any moment would be scattered
 //! over the campaign instead of being its first ones, apart from those under way.
 
+use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-
-use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use thiserror::Error;
 
 use crate::ensemble::parts::Part;
-use crate::ensemble::sink::Sink;
+use crate::ensemble::rows::Rows;
 use crate::ensemble::supervision::Supervision;
 use crate::ensemble::worker::Ensemble;
 
@@ -22,7 +21,6 @@ pub enum RunError<E> {
     /// Threads could not be started.
     #[error("cannot start the threads: {0}")]
     Threads(#[from] ThreadPoolBuildError),
-    /// The sink refused rows.
     #[error("{0}")]
     Sink(E),
 }
@@ -83,4 +81,18 @@ pub fn run<S: Sink>(
         Some(error) => Err(RunError::Sink(error)),
         None => Ok(()),
     }
+}
+
+/// Takes the rows of finished parts.
+///
+/// Called from several threads, with parts in any order. Each part is offered once; what the sink does with it must not depend
+/// on the parts before it.
+pub trait Sink: Sync {
+    type Error: Send;
+
+    /// Takes the rows of one part. After an error the campaign starts no further part.
+    ///
+    /// # Errors
+    /// Where the rows could not be stored.
+    fn take(&self, rows: &Rows) -> Result<(), Self::Error>;
 }

@@ -37,11 +37,9 @@ pub struct SingleRun {
     pub scene: Scene,
     /// The times of the table's points; the first is zero, whether it was asked for or not.
     pub grid: Grid,
-    /// The states.
     pub table: StateTable,
     /// The arcs of constant actuation that the run has flown.
     pub arcs: Vec<Arc>,
-    /// How the run ended.
     pub outcome: Outcome,
     /// Why it is not `ok`; empty where it is.
     pub reason: String,
@@ -51,7 +49,6 @@ pub struct SingleRun {
     pub telemetry: Telemetry,
     /// The row of the sample, as a campaign on this grid has it, with the columns of [`SingleRun::request`].
     pub row: Vec<f64>,
-    /// What the row holds.
     pub request: Request,
 }
 

@@ -7,11 +7,11 @@ use std::sync::{Arc, OnceLock};
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Auditor, Selection};
 use crate::ensemble::bands::{BandLayout, PartBands};
-use crate::ensemble::cpu_clock::thread_seconds;
 use crate::ensemble::event_finder::{self, EventFinder};
 use crate::ensemble::flights::{Flights, LawDraw, nominal_attitude, observe, replayed};
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::{Rows, Shape};
+use crate::ensemble::run_cost::thread_seconds;
 use crate::ensemble::settings::{EngineMaker, nominal, propagator};
 use crate::ensemble::supervision::{Report, Supervision};
 use crate::math::Isa;
@@ -56,7 +56,6 @@ impl<'p> Ensemble<'p> {
         self
     }
 
-    /// The plan.
     pub fn plan(&self) -> &'p Plan {
         self.plan
     }
@@ -66,12 +65,10 @@ impl<'p> Ensemble<'p> {
         self.isa
     }
 
-    /// What is observed.
     pub fn request(&self) -> &Request {
         &self.request
     }
 
-    /// What integrates the runs.
     pub fn propagator(&self) -> &PropagationSettings {
         &self.propagator
     }
@@ -367,7 +364,6 @@ impl Worker<'_> {
     }
 }
 
-/// What a panic said.
 fn message(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
     format!("the program failed in this run: {}", text.unwrap_or("no message"))

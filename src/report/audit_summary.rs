@@ -23,7 +23,6 @@ pub struct Numerics {
     pub p95: Option<f64>,
     /// 99% quantile, type 7.
     pub p99: Option<f64>,
-    /// Maximum.
     pub max: Option<f64>,
     /// Difference of the 95% and 5% quantiles of the observable.
     pub spread: f64,
@@ -34,13 +33,11 @@ pub struct Numerics {
 /// Order statistics of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Quantiles {
-    /// Median.
     pub median: Option<f64>,
     /// 95% quantile, type 7.
     pub p95: Option<f64>,
     /// 99% quantile, type 7.
     pub p99: Option<f64>,
-    /// Maximum.
     pub max: Option<f64>,
 }
 
@@ -75,7 +72,6 @@ pub struct Estimate {
 pub struct AuditSummary {
     /// Fraction of the samples selected for audits.
     pub fraction: f64,
-    /// Runs that were audited.
     pub audited: u64,
     /// Selected runs that did not reach their end, or whose reference solution did not.
     pub failed: u64,

@@ -41,11 +41,9 @@ impl ComparedVerdict {
 /// Two results compared, with what is said of them beside their numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Compared<'c> {
-    /// The numbers.
     pub comparison: &'c Comparison,
     /// The keys in which the plans differ.
     pub keys: &'c [KeyDifference],
-    /// The verdicts.
     pub verdicts: &'c [ComparedVerdict],
     /// The shift that is allowed, where one is.
     pub tolerance: Option<f64>,

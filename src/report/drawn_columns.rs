@@ -16,15 +16,12 @@ const ROUNDING_DEG: f64 = 1e-6;
 /// is more than rounding.
 #[derive(Clone, Debug)]
 pub struct DrawnColumns<'p> {
-    /// Their names.
     pub names: Vec<String>,
     /// The parameter that each is of, with its unit; both empty of an angle, which its name has.
     pub parameters: Vec<(String, String)>,
-    /// Their nominal values.
     pub nominal: Vec<f64>,
     /// The distribution that was asked for, where a column has one that is known.
     pub asked: Vec<Option<Asked<'p>>>,
-    /// The samples.
     pub drawn: DrawnScenes,
 }
 

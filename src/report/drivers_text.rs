@@ -12,7 +12,6 @@ use crate::report::text_table::{Align, TextTable};
 use crate::sampling::Design;
 use crate::statistics::quantile::percent;
 
-/// Inputs that are named.
 const NAMED: usize = 2;
 
 /// How a campaign shows interactions.
@@ -48,7 +47,6 @@ pub fn verb(outcome: &str, event: &Event) -> String {
     }
 }
 
-/// A ranking in words.
 pub fn sentence(plan: &Plan, outcome: &str, ranking: &Ranking<'_>) -> String {
     match &ranking.question {
         Question::Event(event) => of_event(plan, &verb(outcome, event), event, ranking),

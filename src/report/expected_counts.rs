@@ -12,7 +12,6 @@ const HALVINGS: u32 = 40;
 /// The distribution of a column that has one of its own.
 #[derive(Clone, Debug)]
 pub enum Asked<'p> {
-    /// A dispersed number.
     Number(&'p Distribution),
     /// That of many draws, ascending.
     Drawn(Arc<[f64]>),

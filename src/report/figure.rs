@@ -13,13 +13,11 @@ pub enum Hue {
     Body,
     /// A wheel, by its index.
     Wheel(usize),
-    /// The debris.
     Debris,
     /// All bodies together, or a quantity of no body.
     Total,
     /// The nominal run in front of others.
     Nominal,
-    /// Runs that failed.
     Failed,
     /// One of many curves of a panel, by its index.
     Curve(usize),
@@ -47,13 +45,9 @@ impl Hue {
 /// How a curve is dashed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
-    /// Not at all.
     Solid,
-    /// Dashes.
     Dashed,
-    /// Dots.
     Dotted,
-    /// Long dashes.
     Long,
 }
 
@@ -74,10 +68,8 @@ impl Dash {
     }
 }
 
-/// The shape of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PointShape {
-    /// Discs.
     Disc,
     /// Crosses: runs that failed, what is marked.
     Cross,
@@ -88,7 +80,6 @@ pub enum PointShape {
 /// How values are laid out along an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Scale {
-    /// Proportional.
     Linear,
     /// By decades; values that are not positive are not shown.
     Log,
@@ -99,7 +90,6 @@ pub enum Scale {
 /// An axis: quantity, unit, scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// What it shows.
     pub quantity: String,
     /// Its unit; empty where it has none.
     pub unit: String,
@@ -114,7 +104,6 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// A linear axis.
     pub fn linear(quantity: impl Into<String>, unit: &str) -> Self {
         Axis {
             quantity: quantity.into(),
@@ -126,12 +115,10 @@ impl Axis {
         }
     }
 
-    /// A logarithmic axis.
     pub fn log(quantity: impl Into<String>, unit: &str) -> Self {
         Axis { scale: Scale::Log, ..Axis::linear(quantity, unit) }
     }
 
-    /// An axis of names.
     pub fn names(names: Vec<String>) -> Self {
         Axis { scale: Scale::Names(names), ..Axis::linear("", "") }
     }
@@ -164,87 +151,48 @@ impl Axis {
 /// What is drawn on a pair of axes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mark {
-    /// A curve.
     Line {
-        /// Name in the legend.
         label: String,
-        /// Colour.
         hue: Hue,
-        /// How it is dashed.
         dash: Dash,
         /// Abscissae, ascending.
         x: Vec<f64>,
-        /// Ordinates.
         y: Vec<f64>,
     },
     /// The area between two curves.
     Band {
-        /// Name in the legend.
         label: String,
-        /// Colour.
         hue: Hue,
-        /// Opacity.
         opacity: f64,
         /// Abscissae, ascending.
         x: Vec<f64>,
-        /// Lower curve.
         low: Vec<f64>,
-        /// Upper curve.
         high: Vec<f64>,
         /// Whether it is one of several on top of each other: its height is its value.
         stacked: bool,
     },
-    /// Points.
     Points {
-        /// Name in the legend.
         label: String,
-        /// Colour.
         hue: Hue,
-        /// Their shape.
         shape: PointShape,
-        /// Abscissae.
         x: Vec<f64>,
-        /// Ordinates.
         y: Vec<f64>,
         /// The samples that they show; empty where they show none.
         samples: Vec<f64>,
     },
-    /// Bars between neighbouring edges.
     Bars {
-        /// Name in the legend.
         label: String,
-        /// Colour.
         hue: Hue,
         /// Edges, ascending; one more than heights.
         edges: Vec<f64>,
-        /// Heights.
         heights: Vec<f64>,
     },
     /// Values with intervals, one for each name of the vertical axis; NaN where there is none.
-    Whiskers {
-        /// Name in the legend.
-        label: String,
-        /// Colour.
-        hue: Hue,
-        /// Values.
-        x: Vec<f64>,
-        /// Lower ends.
-        low: Vec<f64>,
-        /// Upper ends.
-        high: Vec<f64>,
-    },
+    Whiskers { label: String, hue: Hue, x: Vec<f64>, low: Vec<f64>, high: Vec<f64> },
     /// A straight line across the figure.
-    Limit {
-        /// What it is.
-        label: String,
-        /// Where it is.
-        at: f64,
-        /// Whether it is vertical.
-        vertical: bool,
-    },
+    Limit { label: String, at: f64, vertical: bool },
     /// How many runs have not ended: a strip under the horizontal axis.
     Flight {
-        /// Name in the legend.
         label: String,
         /// Times, ascending, s.
         x: Vec<f64>,
@@ -286,7 +234,6 @@ impl Mark {
         }
     }
 
-    /// A curve.
     pub fn line(label: impl Into<String>, hue: Hue, dash: Dash, x: Vec<f64>, y: Vec<f64>) -> Self {
         Mark::Line { label: label.into(), hue, dash, x, y }
     }
@@ -337,15 +284,11 @@ impl Mark {
 pub enum FigureSection {
     /// What the campaign is about.
     Outcome,
-    /// What happened over time.
     Time,
-    /// Numerical errors and work.
     Numerics,
-    /// What drives the outcome.
     Influence,
     /// What was asked for and applied.
     Inputs,
-    /// Statistics of the outcome.
     Statistics,
 }
 
@@ -363,14 +306,11 @@ impl FigureSection {
     }
 }
 
-/// A figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Its anchor in the page and its name as a file.
     pub name: String,
-    /// Where it is.
     pub section: FigureSection,
-    /// What it shows.
     pub title: String,
     /// What bands, marks and N mean.
     pub caption: String,
@@ -378,9 +318,7 @@ pub struct Figure {
     pub columns: u8,
     /// Whether the abscissa is the time of a run, so that the replay moves a cursor in it.
     pub is_over_time: bool,
-    /// The horizontal axis.
     pub x: Axis,
-    /// The vertical axis.
     pub y: Axis,
     /// What is drawn, from back to front.
     pub marks: Vec<Mark>,

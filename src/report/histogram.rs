@@ -5,7 +5,6 @@ use crate::report::expected_counts::Asked;
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape, Scale};
 use crate::report::number::short;
 
-/// Bars of a histogram.
 const BARS: usize = 40;
 /// A nominal value farther from all samples than this fraction of their span is named at the edge: the samples keep two thirds of the axis.
 const FAR: f64 = 0.5;

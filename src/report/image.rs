@@ -13,7 +13,6 @@ use crate::storage::atomic;
 
 /// Pixels of SVG to an inch.
 const SVG_DPI: f64 = 96.0;
-/// Millimetres of an inch.
 const INCH: f64 = 25.4;
 
 /// Why a plot could not be made.
@@ -33,9 +32,7 @@ pub enum PlotError {
 /// The formats of a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlotFormat {
-    /// Scalable vector graphics.
     Svg,
-    /// Portable network graphics.
     Png,
 }
 
@@ -115,7 +112,6 @@ pub(super) fn pixels(svg: &str, dpi: f64) -> Result<Pixmap, PlotError> {
     Ok(pixmap)
 }
 
-/// An SVG as PNG.
 fn png(svg: &str, dpi: f64) -> Result<Vec<u8>, PlotError> {
     pixels(svg, dpi)?.encode_png().map_err(|error| PlotError::Drawing(error.to_string()))
 }

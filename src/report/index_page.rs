@@ -9,7 +9,6 @@ use crate::report::text_table::{Align, TextTable};
 /// The style of every page.
 const STYLE: &str = include_str!("../../assets/report/page.css");
 
-/// A finished result.
 #[derive(Clone, Debug)]
 pub struct IndexEntry {
     /// Its folder, from the one that is indexed.
@@ -18,7 +17,6 @@ pub struct IndexEntry {
     pub campaign: String,
     /// The question that it answers.
     pub question: Option<String>,
-    /// How it ended.
     pub end: SummaryEnd,
     /// The version of the program that made it.
     pub version: String,
@@ -35,7 +33,6 @@ pub struct IndexEntry {
 pub struct Unreadable {
     /// The folder, from the one that is indexed.
     pub folder: PathBuf,
-    /// Why.
     pub reason: String,
 }
 

@@ -1,7 +1,7 @@
 //! Layer 9: text and figures for people.
 //!
-//! - [`brief_text`], [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`warnings`]: what comes before them. - [`failure_text`]: why runs failed. [`share_text`]: shares of runs. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. [`noise_text`]: what noise does. - [`precision_text`]: work-precision measurements as text.
-//! - [`figure`]: what a figure shows. - [`sheet`]: figures on one picture, drawn with `panel`, `axis`, `legend`, `marks`, `shapes` as `svg`; [`image`]: its files. - [`fitted_text`]: text that is shortened to a width. - `escaped`: text within markup.
+//! - [`brief_text`], [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`warnings`]: what comes before them. - [`failure_text`]: why runs failed. [`share_text`]: shares of runs, and of noise. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. - [`precision_text`]: work-precision measurements as text.
+//! - [`figure`]: what a figure shows. - [`sheet`]: figures on one picture, drawn with `panel`, `axis`, `legend`, `marks`, `shapes` as `svg`; [`image`]: its files. - `escaped`: text within markup.
 //! - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in [`histogram`]s, with [`expected_counts`], of numbers drawn together by [`marginal`]; [`origin_text`]: in words), [`precision_figure`]: the figures of the commands; [`over_time`]: those over time, of the page too.
 //! - [`comparison_text`]: two results compared. - [`stopping_text`]: looks of a campaign with `[stop]`.
 //! - [`text_table`]: rows of cells that fit a terminal. - [`time_table`]: one run over time on a terminal. - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file. [`index_page`]: all results of a folder.
@@ -17,7 +17,6 @@ mod escaped;
 pub mod expected_counts;
 pub mod failure_text;
 pub mod figure;
-pub mod fitted_text;
 pub mod histogram;
 pub mod image;
 pub mod index_page;
@@ -26,7 +25,6 @@ pub mod marginal;
 mod marks;
 pub mod mission_text;
 pub mod names;
-pub mod noise_text;
 pub mod number;
 pub mod observable_lines;
 pub mod origin_text;

@@ -16,7 +16,6 @@ use crate::statistics::quantile::percent;
 /// A quantile of an observable.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct QuantileLine {
-    /// Which.
     pub p: f64,
     /// The sample quantile (type 7).
     pub value: Option<f64>,
@@ -30,18 +29,15 @@ pub struct QuantileLine {
 /// The statistics of an observable.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ObservableLine {
-    /// The observable.
     pub name: String,
     /// Its unit; empty for a pure number.
     pub unit: String,
     /// The unit in which the screen shows it.
     #[serde(skip)]
     pub shown: ShownUnit,
-    /// Number of values.
     pub count: u64,
     /// Runs that are `ok` and have none.
     pub without_value: u64,
-    /// Mean.
     pub mean: Option<f64>,
     /// Ends of its interval; null where the runs do not bound it, or no interval holds.
     pub mean_interval: [Option<f64>; 2],
@@ -52,11 +48,8 @@ pub struct ObservableLine {
     /// What keeps the runs from telling mean and standard deviation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mean_note: Option<String>,
-    /// Skewness.
     pub skewness: Option<f64>,
-    /// Minimum.
     pub min: Option<f64>,
-    /// Maximum.
     pub max: Option<f64>,
     /// The quantiles of the plan.
     pub quantiles: Vec<QuantileLine>,

@@ -159,7 +159,6 @@ impl<'f> Panel<'f> {
         panel.draw_flight(svg);
     }
 
-    /// The figure's marks.
     pub(super) fn marks(&self) -> &'f [Mark] {
         &self.figure.marks
     }

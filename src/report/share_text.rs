@@ -1,6 +1,9 @@
 //! Shares of runs in words: "98.4% [91.5, 99.96]".
 
+use crate::analysis::noise_share::NoiseShare;
+use crate::report::number::short;
 use crate::report::number::{brief, outward};
+use crate::report::text_table::{Align, TextTable};
 
 /// Digits of a share in per cent, and of what is left to 100 where it is less than one.
 const DIGITS: i32 = 3;
@@ -61,6 +64,34 @@ pub fn with_interval([least, most]: [f64; 2], interval: [f64; 2]) -> String {
         }
         _ => share,
     }
+}
+
+/// The share of one outcome, without its name.
+pub fn of_noise(one: &NoiseShare) -> String {
+    let scenes = one.scenes;
+    match one.share {
+        // no interval: of what never happened the differences are unknown
+        Some(share) if share.value == 0.0 => {
+            format!("noise within the loop changes it in none of {scenes} scenes, each flown twice")
+        }
+        Some(share) => {
+            let [value, lower, upper] =
+                [share.value, share.lower, share.upper].map(|part| short(100.0 * part.clamp(0.0, 1.0)));
+            format!(
+                "noise within the loop is {value}% [{lower}, {upper}] of the variance ({scenes} scenes, each flown twice)"
+            )
+        }
+        None => format!(
+            "noise within the loop has no share of a variance ({scenes} scenes with a value, which do not vary)"
+        ),
+    }
+}
+
+/// A line for each outcome.
+pub fn noise_lines(all: &[NoiseShare]) -> String {
+    let mut table = TextTable::new([("", Align::Left), ("", Align::Sentence)]);
+    all.iter().for_each(|one| table.row([one.observable.clone(), of_noise(one)]));
+    table.text(usize::MAX)
 }
 
 #[cfg(test)]

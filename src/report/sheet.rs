@@ -164,7 +164,6 @@ mod tests {
         Figure { is_over_time: true, ..Figure::new("Kinetic energy of the body", time, y, marks) }
     }
 
-    /// Panels of every kind.
     fn sheet(has_common_legend: bool) -> Sheet {
         let names = || Axis::names((0..5).map(|k| format!("initial.angular_velocity_rad_s.{k}")).collect());
         let wave = |size: f64, base: f64| move |k: usize| base + size * libm::sin(0.05 * k as f64);

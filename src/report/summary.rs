@@ -41,7 +41,6 @@ pub struct Summary {
     pub(super) columns: usize,
     pub(super) verdicts: Verdicts,
     pub(super) missions: Missions,
-    /// How statistics were made.
     pub(super) intervals: String,
     pub(super) treatment: String,
     pub(super) confidence: f64,
@@ -179,7 +178,6 @@ impl Summary {
 /// How a campaign ended, as its rows and its summary both say.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SummaryEnd {
-    /// Number of rows.
     pub rows: u64,
     /// Number of runs that are not `ok`.
     pub failed: u64,

@@ -63,7 +63,6 @@ impl Summary {
         self.named.iter().filter_map(|name| self.lines.iter().find(|line| line.name == *name)).collect()
     }
 
-    /// How the runs ended.
     fn ended(&self) -> String {
         let (runs, good) = (self.statuses.runs(), self.statuses.ok());
         if runs == good {

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 use crate::report::escaped::escaped;
-use crate::report::fitted_text::fitted;
+use crate::report::wrapped::fitted;
 
 static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
 
@@ -17,7 +17,6 @@ static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
 pub(super) const INK: &str = "#1a1a1a";
 pub(super) const LABEL: f64 = 12.0;
 
-/// The font of figures.
 pub(super) struct Font {
     face: Option<Face<'static>>,
 }
@@ -147,7 +146,6 @@ impl Svg {
         self.element("polyline", &attributes);
     }
 
-    /// An area.
     pub(super) fn area(&mut self, list: &[[f64; 2]], color: &str, opacity: f64) {
         let attributes = [("points", points(list)), ("fill", color.to_owned()), ("fill-opacity", length(opacity))];
         self.element("polygon", &attributes);
@@ -166,7 +164,6 @@ impl Svg {
         self.element("rect", &attributes);
     }
 
-    /// A disc.
     pub(super) fn disc(&mut self, [x, y]: [f64; 2], radius: f64, color: &str, opacity: f64) {
         let attributes = [
             ("cx", length(x)),
@@ -251,7 +248,6 @@ impl Svg {
         self.body += "</g>\n";
     }
 
-    /// The file.
     pub(super) fn finish(self) -> String {
         let [width, height] = self.size.map(length);
         let letters = self.letters.iter().filter(|(_, path)| !path.is_empty());

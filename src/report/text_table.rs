@@ -1,6 +1,6 @@
 //! [`TextTable`]: rows of cells as lines that fit a terminal. Every table on a screen is one.
 
-use crate::report::fitted_text::fitted;
+use crate::report::wrapped::fitted;
 use crate::report::wrapped::wrapped;
 
 /// Where the text of a column stands.
@@ -10,7 +10,6 @@ pub enum Align {
     Left,
     /// At the left, the first column: names, on lines of their own above the other cells where the lines are too narrow.
     Title,
-    /// At the right: numbers.
     Right,
     /// At the left, the last column: sentences, broken into lines in their column, or below the other cells where that is too narrow.
     Sentence,

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use crate::campaign::Plan;
 use crate::observables::Series;
-use crate::report::fitted_text::fitted;
 use crate::report::number::{short, significant};
 use crate::report::over_time::figure_list::{ListedFigure, Place, Shows, Traits, figures_of};
 use crate::report::text_table::{Align, TextTable};
+use crate::report::wrapped::fitted;
 use crate::run::StateField;
 use crate::scene::Name;
 use crate::storage::timeseries::{TimeColumn, TimeSeries};
@@ -21,11 +21,9 @@ const SHORTEST_HEADER: usize = 10;
 /// How the numbers of a column are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Digits {
-    /// Four significant digits.
     Short,
     /// Four decimals, of numbers from -1 to 1.
     Decimals,
-    /// Two significant digits.
     Magnitude,
 }
 
@@ -81,7 +79,6 @@ fn columns_of(plan: &Plan, wheels: &[Name]) -> Vec<(TimeColumn, &'static str, &'
 pub struct TimeTable {
     /// Two lines of headers, then one line for each point.
     pub text: String,
-    /// Number of points.
     pub points: usize,
     /// The columns that are too many for the width, in words; empty where none is.
     pub left_out: String,
@@ -134,7 +131,6 @@ impl TimeTable {
     }
 }
 
-/// A column in text.
 #[derive(Clone, Debug)]
 struct TimeTableColumn {
     name: String,

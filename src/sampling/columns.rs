@@ -5,11 +5,8 @@ use crate::scene::{Parameter, SceneInput};
 /// One number of the scene that a draw writes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
-    /// The parameter.
     pub parameter: Parameter,
-    /// Its component.
     pub component: usize,
-    /// The nominal value.
     pub nominal: f64,
 }
 
@@ -18,7 +15,6 @@ pub struct Column {
 pub struct Columns(Vec<Column>);
 
 impl Columns {
-    /// All of them.
     pub fn list(&self) -> &[Column] {
         &self.0
     }

@@ -15,14 +15,11 @@ use crate::scene::Parameter;
 pub enum Measure {
     /// Correlations of the normal scores: of the values where these are normal.
     Scores,
-    /// Spearman's rank correlations.
     Ranks,
-    /// Covariances of normal values.
     Covariance,
 }
 
 impl Measure {
-    /// All of them.
     pub const ALL: [Measure; 3] = [Measure::Scores, Measure::Ranks, Measure::Covariance];
 
     /// The key in campaign files.
@@ -49,7 +46,6 @@ pub enum Numbers {
 pub struct Correlation {
     /// The parameters, whole or by component.
     pub parameters: Vec<(Parameter, Option<usize>)>,
-    /// What the numbers are.
     pub measure: Measure,
     /// The numbers, in the order of the parameters and their components.
     pub numbers: Numbers,
@@ -74,11 +70,9 @@ const SAME: f64 = 1e-9;
 /// A component with the dimension and the distribution that a `[[disperse]]` table gives it.
 type Drawn<'d> = (usize, &'d Distribution);
 
-/// What one table says.
 struct Pairs {
     table: usize,
     measure: Measure,
-    /// The numbers as written.
     shown: String,
     nearest_psd: bool,
     /// The components, each with its dimension.

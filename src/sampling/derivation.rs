@@ -9,11 +9,9 @@ use crate::scene::{Parameter, SceneInput};
 /// A `[[derive]]` table as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivation {
-    /// The parameter.
     pub parameter: Parameter,
     /// The component that is meant, if not all are.
     pub component: Option<usize>,
-    /// The expression.
     pub expression: String,
 }
 
@@ -29,13 +27,10 @@ impl Derivation {
 /// A column that is computed from others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derived {
-    /// The column.
     pub column: usize,
-    /// How.
     expression: Expression,
     /// What each variable of the expression is.
     sources: Vec<DerivedInput>,
-    /// The expression as written.
     pub text: String,
 }
 

@@ -39,15 +39,12 @@ impl Dispersion {
 /// What is to be drawn, as written.
 #[derive(Clone, Copy, Debug)]
 pub struct Draws<'a> {
-    /// Seed of all draws.
     pub seed: u64,
     /// Number of samples, sample 0 included; `None` where the file does not say.
     pub samples: Option<u64>,
     /// Where the samples are in the unit cube.
     pub design: &'a Design,
-    /// The distributions.
     pub disperse: &'a [Dispersion],
-    /// Dependence between them.
     pub correlate: &'a [Correlation],
     /// Parameters that follow from others.
     pub derive: &'a [Derivation],

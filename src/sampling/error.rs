@@ -31,7 +31,6 @@ impl std::fmt::Display for Table {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{table}.{key}{}: must be {allowed}; {remedy}", .value.as_ref().map_or(" is missing".to_owned(), |value| format!(" = {value}")))]
 pub struct DispersionError {
-    /// Which table.
     pub table: Table,
     /// Its key that is wrong: `parameter`, `std`, ...
     pub key: &'static str,
@@ -39,7 +38,6 @@ pub struct DispersionError {
     pub value: Option<String>,
     /// What it must be (to follow the words `must be`).
     pub allowed: String,
-    /// What to do.
     pub remedy: String,
 }
 

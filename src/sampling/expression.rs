@@ -45,7 +45,6 @@ enum Binary {
     NotEqual,
 }
 
-/// A function.
 #[derive(Clone, Copy, Debug)]
 enum Function {
     One(fn(f64) -> f64),

@@ -12,7 +12,6 @@ use std::sync::Arc;
 pub struct NumberLimit {
     /// In words, to follow `must be`.
     pub allowed: &'static str,
-    /// What to do otherwise.
     pub remedy: &'static str,
     /// Whether a number is allowed.
     pub test: fn(f64) -> bool,
@@ -23,13 +22,11 @@ pub struct NumberLimit {
 pub struct TextLimit {
     /// In words, to follow `must be`.
     pub allowed: &'static str,
-    /// What to do otherwise.
     pub remedy: &'static str,
     /// Whether a text is allowed.
     pub test: fn(&str) -> bool,
 }
 
-/// Any text.
 pub const ANY_TEXT: TextLimit = TextLimit { allowed: "text", remedy: "write it in quotes", test: |_| true };
 
 /// Whether `text` is a name of at most `most` small letters, digits and underscores, the first a letter.
@@ -43,7 +40,6 @@ pub fn is_name(text: &str, most: usize) -> bool {
 pub struct ListLimit {
     /// In words, to follow `must be`.
     pub allowed: &'static str,
-    /// What to do otherwise.
     pub remedy: &'static str,
     /// Whether finite numbers are allowed.
     pub test: fn(&[f64]) -> bool,
@@ -54,21 +50,17 @@ pub struct ListLimit {
 pub enum Kind {
     /// A finite number, in the unit of what the table is about.
     Amount,
-    /// Several of them.
     Numbers(ListLimit),
     /// The name of an observable; the table is about it.
     Observable,
-    /// Names of different observables.
     Observables,
     /// The name of a quantity over time that has bands; the table is about it.
     Band,
-    /// Arithmetic over names.
     Expression,
     /// `true` or `false`.
     Flag,
     /// `true`, where it is written.
     Yes,
-    /// Units of different quantities.
     Units,
     /// A table with the units of columns and parameters.
     UnitsByName,
@@ -80,9 +72,7 @@ pub enum Kind {
     AmountList,
     /// An array of pure finite numbers.
     List,
-    /// One finite number.
     Number,
-    /// Three finite numbers.
     Vector,
     /// Three rows of three finite numbers.
     Matrix,
@@ -92,7 +82,6 @@ pub enum Kind {
     Counts(u64),
     /// Different numbers of samples, ascending, at most so many.
     Samples(usize),
-    /// A text.
     Text(TextLimit),
     /// One of these words; the first one where the key is left out.
     Word(&'static [&'static str]),
@@ -111,11 +100,9 @@ pub enum Kind {
 /// Whether a key must be written, and what holds where it is not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Presence {
-    /// It must be.
     Required {
         /// What it must be, in words.
         allowed: &'static str,
-        /// A value.
         example: &'static str,
     },
     /// It may be left out; the meaning, or a rule of the table, says what holds then.
@@ -129,9 +116,7 @@ pub enum Presence {
 /// One key of a table.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
-    /// The key.
     pub key: &'static str,
-    /// What its value is.
     pub kind: Kind,
     /// Whether it must be written.
     pub presence: Presence,
@@ -139,7 +124,6 @@ pub struct Row {
     pub limit: Option<NumberLimit>,
     /// Where its numbers are multiples of those of another key: that key, and what they are divided by.
     pub multiple_of: Option<(&'static str, f64)>,
-    /// What it is.
     pub meaning: &'static str,
 }
 
@@ -225,13 +209,11 @@ pub enum Rule {
     Together([(&'static str, &'static str); 2]),
     /// Some keys have a meaning under conditions alone.
     Only {
-        /// The keys.
         keys: &'static [&'static str],
         /// The conditions, all of which hold.
         with: &'static [Condition],
         /// What the keys must be otherwise: `left out ...`.
         allowed: &'static str,
-        /// What to do then.
         remedy: &'static str,
     },
 }
@@ -239,10 +221,8 @@ pub enum Rule {
 /// What to do where only one of several keys may be there.
 pub const ALL_BUT_ONE: &str = "delete all but one of them";
 
-/// What a table says.
 #[derive(Clone, Copy, Debug)]
 pub enum Condition {
-    /// It has this key.
     Has(&'static str),
     /// The key does not say this word.
     IsNot(&'static str, &'static str),
@@ -251,7 +231,6 @@ pub enum Condition {
 /// One number for all components, or one for each.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
-    /// The same for all.
     All(f64),
     /// One each, in the order of the components.
     Each(Vec<f64>),
@@ -266,7 +245,6 @@ impl Values {
         }
     }
 
-    /// All of its numbers.
     pub fn numbers(&self) -> &[f64] {
         match self {
             Values::All(value) => std::slice::from_ref(value),
@@ -286,7 +264,6 @@ impl Values {
 /// One whole number for all dimensions, or one for each.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Counts {
-    /// The same for all.
     All(u64),
     /// One each, in the order of the file.
     Each(Vec<u64>),
@@ -319,15 +296,10 @@ impl DataColumn {
 pub enum Value {
     /// Numbers: one, one for each component, a list, a vector.
     Numbers(Values),
-    /// A matrix by rows.
     Matrix([[f64; 3]; 3]),
-    /// Whole numbers.
     Counts(Counts),
-    /// A text of people.
     Text(String),
-    /// A word.
     Word(&'static str),
-    /// Several words.
     Words(Vec<&'static str>),
     /// A distribution: its name and its keys.
     Distribution(&'static str, Written),
@@ -335,9 +307,7 @@ pub enum Value {
     Column(DataColumn),
     /// Columns of one file, each for one number of the scene.
     Columns(Vec<DataColumn>),
-    /// Yes or no.
     Flag(bool),
-    /// Names.
     Texts(Vec<String>),
     /// Units by the names of what is shown in them.
     Units(BTreeMap<String, &'static str>),
@@ -378,7 +348,6 @@ impl From<&str> for Value {
 pub struct Written(Vec<(&'static str, Value)>);
 
 impl Written {
-    /// A table without keys.
     pub const NONE: Written = Written(Vec::new());
 
     /// The same table in which `key` is written.

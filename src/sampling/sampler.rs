@@ -26,7 +26,6 @@ pub struct Sampler<'a> {
     nominal: Vec<[bool; BLOCK]>,
     /// Normal scores of the block, dimension by dimension; those of dimensions that no copula has mean nothing.
     scores: Vec<[f64; BLOCK]>,
-    /// Which dimensions have scores.
     correlated: Vec<bool>,
     /// Values of the block, column by column.
     values: Vec<[f64; BLOCK]>,

@@ -11,7 +11,6 @@ pub struct Assigned {
     pub first: usize,
     /// The columns that it writes, in the order of the distribution's values.
     pub columns: Vec<usize>,
-    /// The distribution.
     pub map: Transform,
 }
 
@@ -20,7 +19,6 @@ pub struct Assigned {
 pub enum Transform {
     /// One u, one value.
     Scalar(Distribution),
-    /// Several together.
     Joint(Joint),
 }
 

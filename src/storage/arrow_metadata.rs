@@ -10,7 +10,6 @@ use parquet::file::metadata::KeyValue;
 
 use crate::storage::heading::{Content, Heading};
 
-/// The key.
 const KEY: &str = "ARROW:schema";
 
 /// What comes before the length of a message.

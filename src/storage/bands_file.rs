@@ -21,7 +21,6 @@ use crate::storage::rows_reader::{PartReader, RowsError};
 
 /// Key of the metadata: what the bands are of.
 const LAYOUT_KEY: &str = "spindrift.bands";
-/// Number of runs.
 const RUNS_KEY: &str = "spindrift.bands.runs";
 /// How many of them are counted.
 const COUNTED_KEY: &str = "spindrift.bands.counted";

@@ -7,13 +7,12 @@ use crate::ensemble::Bands;
 use crate::run::Quantity;
 use crate::statistics::deviation::RELATIVE_ERROR;
 use crate::storage::columnar::{Cells, Content, Heading, Layout, Packing};
-use crate::storage::provenance::provenance;
+use crate::storage::identity::provenance;
 
 /// The quantiles: name of the column, and fraction of the runs.
 pub const QUANTILES: [(&str, f64); 7] =
     [("p01", 0.01), ("p05", 0.05), ("p25", 0.25), ("p50", 0.5), ("p75", 0.75), ("p95", 0.95), ("p99", 0.99)];
 
-/// The columns.
 pub fn headings() -> Vec<Heading> {
     let word = |name, meaning| Heading::new(Quantity::new(name, "", meaning), Content::Word);
     let unit = "in the unit of the series";

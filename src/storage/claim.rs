@@ -28,7 +28,6 @@ const PAUSE: Duration = Duration::from_millis(10);
 pub struct Shard {
     /// Its number, from 1.
     pub number: u64,
-    /// How many there are.
     pub of: u64,
 }
 
@@ -81,7 +80,6 @@ pub struct Finished {
 /// A dataset that is ready for parts, locked against other processes until it is dropped.
 #[derive(Debug)]
 pub struct Ready {
-    /// The dataset.
     pub folder: Folder,
     /// Its final folder, if it replaces another result.
     pub replaces: Option<PathBuf>,
@@ -97,7 +95,6 @@ pub struct Ready {
 /// How a campaign wants its folder.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ClaimOptions {
-    /// Replace what is there.
     pub overwrite: bool,
     /// The part of the work that this process does.
     pub shard: Option<Shard>,

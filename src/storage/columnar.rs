@@ -32,7 +32,6 @@ pub enum Cells<'a> {
     Real(&'a [f64], Option<&'a [bool]>),
     /// Counts, with the same mask.
     Count(Vec<u64>, Option<&'a [bool]>),
-    /// Words.
     Word(Vec<&'static str>),
     /// Texts; absent ones are null.
     Text(Vec<Option<&'a str>>),
@@ -90,7 +89,6 @@ impl Layout {
         Layout { properties, ..self }
     }
 
-    /// The columns.
     pub fn columns(&self) -> &[Heading] {
         &self.columns
     }

@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 use crate::campaign::Plan;
 use crate::run::Quantity;
 use crate::storage::columnar::{Cells, Content, Heading, Layout, Packing};
-use crate::storage::provenance::provenance;
+use crate::storage::identity::provenance;
 
 /// A column with its values.
 #[derive(Clone, Debug)]
@@ -33,7 +33,6 @@ impl DescribedColumn {
         DescribedColumn { heading, values: Values::Texts(texts.collect()) }
     }
 
-    /// A column of counts.
     pub fn counts(name: &str, meaning: &str, counts: impl Iterator<Item = u64>) -> Self {
         let heading = Heading::new(quantity(name, meaning), Content::Count);
         DescribedColumn { heading, values: Values::Counts(counts.collect()) }
@@ -54,7 +53,6 @@ impl DescribedColumn {
         &self.heading
     }
 
-    /// Its values.
     pub fn cells(&self) -> Cells<'_> {
         match &self.values {
             Values::Texts(texts) => Cells::Text(texts.iter().map(Option::as_deref).collect()),

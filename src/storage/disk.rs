@@ -117,7 +117,6 @@ pub trait Storage: Debug + Send + Sync {
 /// An entry of a folder.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Entry {
-    /// Its name.
     pub name: String,
     /// Whether it is a folder; a link to a folder is none.
     pub is_folder: bool,
@@ -127,7 +126,6 @@ pub struct Entry {
     pub size: u64,
 }
 
-/// The real file system.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Disk;
 
@@ -310,9 +308,7 @@ fn unless_absent(result: io::Result<()>) -> io::Result<()> {
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {source}", path.display())]
 pub struct StorageError {
-    /// The file or folder.
     pub path: PathBuf,
-    /// Why.
     pub source: io::Error,
 }
 

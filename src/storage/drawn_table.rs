@@ -9,7 +9,7 @@ use crate::ensemble::drawn::MASS_COLUMNS;
 use crate::run::{Quantity, Status};
 use crate::storage::atomic;
 use crate::storage::columnar::{Cells, Content, Heading, Layout, Packing};
-use crate::storage::provenance::provenance;
+use crate::storage::identity::provenance;
 use crate::storage::rows_file::{SAMPLE_ID, STATUS, parameter_headings};
 use crate::storage::table::{TableError, TableFormat, csv_header, write_number};
 

@@ -33,9 +33,7 @@ pub const IS_FINISHED: &str = "finished";
 /// A file of a part: its name below the folder of the dataset, and its content.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartFile {
-    /// The name.
     pub name: String,
-    /// The content.
     pub bytes: Vec<u8>,
     /// SHA-256 of the content, in hexadecimal.
     pub sha256: String,
@@ -119,12 +117,10 @@ impl Folder {
         self.root.join(name)
     }
 
-    /// The folder.
     pub fn root(&self) -> &Path {
         &self.root
     }
 
-    /// The file operations.
     pub fn storage(&self) -> &'static dyn Storage {
         self.storage
     }
@@ -134,7 +130,6 @@ impl Folder {
         &self.plan
     }
 
-    /// What the rows are.
     pub fn identity(&self) -> &Identity {
         &self.identity
     }

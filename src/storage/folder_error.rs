@@ -19,7 +19,6 @@ pub enum FolderError {
         "`{folder}` contains {what} of another plan:\n  {differences}\nchoose another --out, or replace it with --overwrite"
     )]
     Occupied {
-        /// The folder.
         folder: String,
         /// A result, or an unfinished one.
         what: &'static str,
@@ -30,20 +29,12 @@ pub enum FolderError {
     #[error(
         "`{folder}` contains {found} rows of this plan, more than its {asked} samples; leave --samples out, choose another --out, or replace it with --overwrite"
     )]
-    Larger {
-        /// The folder.
-        folder: String,
-        /// Rows that are there.
-        found: u64,
-        /// Samples of the plan.
-        asked: u64,
-    },
+    Larger { folder: String, found: u64, asked: u64 },
     /// Its shards are of different plans.
     #[error(
         "`{folder}` has rows of different plans: {conflict}\nremove the manifest of the wrong one, so that its parts are made again, or run the campaign with --overwrite"
     )]
     Mixed {
-        /// The folder.
         folder: String,
         /// Which shard differs, in which keys.
         conflict: String,
@@ -52,32 +43,19 @@ pub enum FolderError {
     #[error(
         "`{folder}` has lost its manifest.jsonl; this makes its rows again from its plan.toml: spindrift verify {folder} --repair"
     )]
-    Lost {
-        /// The folder.
-        folder: String,
-    },
+    Lost { folder: String },
     /// Everything is there, and a shard has other keys that change no row.
     #[error(
         "`{folder}` is finished, and the plan of this shard has other keys that change no row; run the campaign without --shard: it answers from the rows that are there"
     )]
-    Answered {
-        /// The folder.
-        folder: String,
-    },
-    /// It has something else.
+    Answered { folder: String },
     #[error(
         "`{folder}` contains `{entry}`, which is not part of a result of spindrift; move it away, or choose another --out"
     )]
-    Foreign {
-        /// The folder.
-        folder: String,
-        /// What it has.
-        entry: String,
-    },
+    Foreign { folder: String, entry: String },
     /// Another process writes to it.
     #[error("another process is using `{folder}`{owner}; wait for it, or choose another folder")]
     Busy {
-        /// The folder.
         folder: String,
         /// Who it is, where that is known.
         owner: String,
@@ -87,20 +65,13 @@ pub enum FolderError {
         "`{folder}` cannot be replaced, because it cannot be renamed: {why}; choose a folder below it or another one as --out, and run the command in another folder, or remove what is in it and leave --overwrite out"
     )]
     Immovable {
-        /// The folder.
         folder: String,
         /// What keeps it from being renamed.
         why: std::io::Error,
     },
     /// There is no result in it.
     #[error("`{folder}` has no result of spindrift: {why}")]
-    Nothing {
-        /// The folder.
-        folder: String,
-        /// What is missing.
-        why: String,
-    },
-    /// A file operation failed.
+    Nothing { folder: String, why: String },
     #[error(transparent)]
     Storage(#[from] StorageError),
 }

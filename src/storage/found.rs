@@ -21,7 +21,6 @@ pub(super) const MOST_PLAN: u64 = 1 << 28;
 pub enum FolderContents {
     /// Nothing, or only what a campaign left that was stopped before it wrote its manifest.
     Blank,
-    /// A dataset.
     Dataset(Box<Found>),
     /// Something that is no dataset: the first entry.
     Foreign(String),
@@ -42,7 +41,6 @@ pub struct Found {
     pub shards_differ: Option<String>,
     /// The records of its manifests by their names.
     pub manifests: BTreeMap<String, Manifest>,
-    /// Whether everything is there.
     pub is_finished: bool,
     /// Whether it has a page, or had one.
     pub has_page: bool,
@@ -97,7 +95,6 @@ impl Found {
         self.foreign.iter().chain(&self.strays).chain(&self.unlisted).next()
     }
 
-    /// Number of rows.
     pub fn rows(&self) -> u64 {
         self.parts().values().map(|part| part.rows).sum()
     }

@@ -8,12 +8,9 @@ use parquet::schema::types::{Type, TypePtr};
 
 use crate::run::Quantity;
 
-/// Type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
-    /// Real numbers.
     Real,
-    /// Counts.
     Count,
     /// Short words, few of them distinct.
     Word,
@@ -24,7 +21,6 @@ pub enum Content {
 pub struct Heading {
     /// Name, unit and meaning.
     pub quantity: Quantity,
-    /// Type.
     pub content: Content,
     /// Whether a value may be absent.
     pub nullable: bool,

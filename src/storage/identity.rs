@@ -15,19 +15,13 @@ use crate::storage::manifest::{ARITHMETIC, FORMAT, Identity};
 const MARK: &str = "dataset";
 /// Keys of the metadata of a file of rows: version of the format.
 const FORMAT_KEY: &str = "spindrift.format";
-/// Version of the arithmetic.
 const ARITHMETIC_KEY: &str = "spindrift.arithmetic";
 /// Hash of the row plan.
 const ROW_HASH_KEY: &str = "spindrift.row_hash";
-/// Seed of all draws.
 const SEED_KEY: &str = "spindrift.seed";
-/// Hash of the columns.
 const COLUMNS_KEY: &str = "spindrift.columns";
-/// Number of the part.
 pub const PART_KEY: &str = "spindrift.part";
-/// Its first sample.
 const FIRST_KEY: &str = "spindrift.first_sample";
-/// Its number of samples.
 const SAMPLES_KEY: &str = "spindrift.samples";
 
 /// SHA-256 of `bytes`, in hexadecimal.
@@ -82,4 +76,25 @@ pub fn in_rows(bytes: Bytes) -> Option<(Identity, PartId, usize)> {
         columns: (*pairs.get(COLUMNS_KEY)?).to_owned(),
     };
     Some((identity, PartId(pairs.get(PART_KEY)?.parse().ok()?), pairs.get(SAMPLES_KEY)?.parse().ok()?))
+}
+
+/// Identity of the rows and the row plan, for files of rows: all that changes them, and nothing else. The name of the campaign, the version of
+/// the program and the instruction set are not part of it: no bit of a row depends on them.
+pub fn row_provenance(plan: &Plan, identity: &Identity) -> HashMap<String, String> {
+    let plan = ("spindrift.row_plan", plan.row_text());
+    let pairs = metadata(identity).into_iter().chain([plan]);
+    pairs.map(|(key, value)| (key.to_owned(), value)).collect()
+}
+
+/// Version of the program, campaign, seed, and the plan with its hash. The instruction set is not part of it: no bit of a
+/// row depends on it.
+pub fn provenance(plan: &Plan) -> HashMap<String, String> {
+    let pairs = [
+        ("spindrift.version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("spindrift.campaign", plan.name.clone()),
+        ("spindrift.seed", plan.seed.to_string()),
+        ("spindrift.plan_hash", plan.hash()),
+        ("spindrift.plan", plan.text()),
+    ];
+    pairs.map(|(key, value)| (key.to_owned(), value)).into()
 }

@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::ensemble::{Part, PartId};
 use crate::sampling::SampleId;
 use crate::storage::names::{PART_BANDS, RUNS, is_derived, is_ours};
+use std::path::PathBuf;
 
 /// Version of these lines, and of the files that they list: counts are Int64 since 2, parts have other sizes and bands coarser buckets since 3;
 /// since 4 the manifest has the plan and lists the files that follow from the rows, and every file of rows has the whole [`Identity`];
@@ -36,7 +37,6 @@ pub struct Identity {
     pub arithmetic: u32,
     /// SHA-256 of the row plan, in hexadecimal.
     pub row_hash: String,
-    /// Seed of all draws.
     pub seed: u64,
     /// SHA-256 of names and types of the columns, in hexadecimal.
     pub columns: String,
@@ -65,13 +65,9 @@ impl FileRecord {
 /// A part that is whole.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PartRecord {
-    /// Its number.
     pub part: u64,
-    /// Its first sample.
     pub first_sample: u64,
-    /// Number of rows.
     pub rows: u64,
-    /// Its files.
     pub files: Vec<FileRecord>,
 }
 
@@ -82,31 +78,23 @@ impl PartRecord {
     }
 }
 
-/// A line.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Record {
-    /// The first line.
     Identity(Identity),
     /// A part that is whole.
     Part(PartRecord),
     /// What `plan.toml` has.
     Plan {
-        /// Its text.
         plan: String,
     },
     /// A part that is no longer to be used.
     Dropped {
-        /// Its number.
         dropped: u64,
     },
-    /// Everything is there.
     Finished {
-        /// Always true.
         finished: bool,
-        /// Number of parts.
         parts: u64,
-        /// Number of rows.
         rows: u64,
         /// The files that follow from plan and rows, ascending by name.
         files: Vec<FileRecord>,
@@ -214,7 +202,6 @@ impl Manifest {
 pub(super) mod tests {
     use super::*;
 
-    /// That of some dataset.
     pub fn identity() -> Identity {
         Identity {
             spindrift: "dataset".to_owned(),
@@ -328,5 +315,21 @@ pub(super) mod tests {
             let read = Manifest::of(format!("{}{line}", text()).as_bytes());
             assert!(!read.is_finished && read.derived.is_empty() && read.damaged == [7], "{name}");
         }
+    }
+}
+
+/// The files of parts, in the order of the parts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PartsRead {
+    pub rows: Vec<PathBuf>,
+    pub bands: Vec<PathBuf>,
+}
+
+impl PartsRead {
+    /// Those of `parts`; `path` finds a file by its name.
+    pub fn of(parts: &[PartRecord], path: impl Fn(&str) -> PathBuf) -> Self {
+        let names = || parts.iter().flat_map(|part| &part.files).map(|file| file.name.as_str());
+        let of = |folder: &str| names().filter(|name| name.starts_with(folder)).map(&path).collect();
+        PartsRead { rows: of(RUNS), bands: of(PART_BANDS) }
     }
 }

@@ -2,12 +2,12 @@
 //!
 //! - [`found`]: what is in the folder of a result. - [`mod@claim`]: whether a campaign may write there, [`folder_error`]: and if not, why.
 //! - [`folder`]: the dataset, and the protocol by which parts are added, [`whole_file`]: and each file. [`manifest`]: what it consists of,
-//!   [`mod@identity`]: what its rows are, [`names`]: of its files, [`parts_read`]: the files of parts by what is in them.
+//!   [`mod@identity`]: what its rows are, [`names`]: of its files.
 //! - [`replacement`]: a result takes the place of an older one. - [`table_log`]: the log by which table engines read the rows.
 //! - [`verify`]: whether files are what was written, [`recovery`]: the manifest of a result that has lost it.
 //! - [`disk`]: file operations, [`stored_file`]: of open files. - [`atomic`]: files that are whole or absent.
 //! - [`rows_file`]: the files of rows, which [`part_sink`] writes and [`rows_reader`] reads, through [`parquet_source`]; [`bands_file`]: of bands.
-//! - [`columnar`]: columns ([`heading`]) to Parquet, with [`arrow_metadata`] and [`provenance`]. - [`table`]: tables in a single file: [`timeseries`], [`bands_table`],
+//! - [`columnar`]: columns ([`heading`]) to Parquet, with [`arrow_metadata`]. - [`table`]: tables in a single file: [`timeseries`], [`bands_table`],
 //!   [`drawn_table`], [`precision_table`], [`described_table`]. - [`parallel`]: threads.
 //!
 //! Not here: what the rows say (`analysis`), text and figures for people (`report`), and reading tables for a campaign (`campaign`).
@@ -31,9 +31,7 @@ pub mod names;
 pub mod parallel;
 pub mod parquet_source;
 pub mod part_sink;
-pub mod parts_read;
 pub mod precision_table;
-pub mod provenance;
 pub mod recovery;
 pub mod replacement;
 pub mod rows_file;

@@ -5,23 +5,17 @@ use std::path::{Path, PathBuf};
 
 use crate::ensemble::PartId;
 
-/// The resolved plan.
 pub const PLAN: &str = "plan.toml";
 /// What the dataset consists of.
 pub const MANIFEST: &str = "manifest.jsonl";
 /// The empty file that says that everything is there.
 pub const SUCCESS: &str = "_SUCCESS";
-/// The summary for programs.
 pub const SUMMARY: &str = "summary.json";
-/// Statistics of every observable.
 pub const STATISTICS: &str = "statistics.parquet";
 /// The observables that the file derives, sample by sample.
 pub const OBSERVABLES: &str = "observables.parquet";
-/// What drives the observables.
 pub const SENSITIVITY: &str = "sensitivity.parquet";
-/// Quantiles over time.
 pub const BANDS: &str = "bands.parquet";
-/// The page.
 pub const REPORT: &str = "report.html";
 /// Folder of the files of rows.
 pub const RUNS: &str = "runs";

@@ -24,7 +24,6 @@ pub enum PartError {
     /// They could not be encoded.
     #[error("a part could not be encoded: {0}")]
     Encoding(#[from] ParquetError),
-    /// A file operation failed.
     #[error(transparent)]
     Storage(#[from] StorageError),
     /// The thread that writes could not be started.
@@ -41,7 +40,6 @@ pub trait CountRows: std::fmt::Debug + Sync {
     fn add(&self, rows: &Rows);
 }
 
-/// An encoded part.
 type Encoded = (Part, Vec<PartFile>);
 
 /// Memory of the files of parts that are written, for those of later parts.
@@ -65,7 +63,6 @@ impl Buffers {
     }
 }
 
-/// Encodes parts.
 #[derive(Debug)]
 pub struct PartFiles {
     rows: RowsFile,

@@ -9,12 +9,11 @@ use crate::ensemble::precision::{Deviation, Measurement, Setting};
 use crate::run::Quantity;
 use crate::storage::atomic;
 use crate::storage::columnar::{Cells, Content, Heading, Layout, Packing};
-use crate::storage::provenance::provenance;
+use crate::storage::identity::provenance;
 
 /// A column of numbers: what it is, and its value.
 type NumberColumn = (Quantity, fn(&Measurement) -> Option<f64>);
 
-/// The columns of numbers.
 static COLUMNS: [NumberColumn; 17] = [
     (Quantity::new("tolerance", "", "Relative and absolute tolerance; absent for a fixed step."), |m| {
         tolerance(m.setting)

@@ -13,9 +13,9 @@ use crate::observables::ColumnKind;
 use crate::observables::headlines::headlines;
 use crate::run::Quantity;
 use crate::storage::columnar::{Cells, Content, Heading, Layout, Packing};
+use crate::storage::identity::row_provenance;
 use crate::storage::identity::{self, part_metadata};
 use crate::storage::manifest::Identity;
-use crate::storage::provenance::row_provenance;
 
 /// Name of the column that numbers the samples.
 pub const SAMPLE_ID: &str = "sample_id";
@@ -32,7 +32,6 @@ pub const AUDIT_REASON: &str = "audit_reason";
 #[derive(Clone, Debug)]
 pub struct RowsFile {
     layout: Layout,
-    /// Content of each observable.
     contents: Vec<Content>,
     /// The columns of audits; none where the campaign has no audits.
     audits: Vec<AuditValue>,
@@ -138,7 +137,6 @@ impl RowsFile {
         Ok(RowsFile { layout, contents, audits, audited: audited_observables(ensemble) })
     }
 
-    /// Number of columns.
     pub fn columns(&self) -> usize {
         self.layout.columns().len()
     }

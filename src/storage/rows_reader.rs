@@ -26,7 +26,6 @@ use crate::storage::rows_file::{REASON, SAMPLE_ID, STATUS};
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{path}: {what}")]
 pub struct RowsError {
-    /// The file.
     pub path: String,
     /// What is wrong with it.
     pub what: String,
@@ -53,12 +52,10 @@ impl RowsReader {
         RowsReader { storage, files }
     }
 
-    /// The file operations.
     pub fn storage(&self) -> &'static dyn Storage {
         self.storage
     }
 
-    /// The files.
     pub fn files(&self) -> &[PathBuf] {
         &self.files
     }
@@ -145,7 +142,6 @@ impl PartReader {
         &self.path
     }
 
-    /// Number of rows.
     pub fn rows(&self) -> usize {
         self.rows
     }
@@ -278,9 +274,7 @@ impl PartReader {
 /// The values of a column without gaps, and which rows have one (1); `None` where all have.
 #[derive(Clone, Debug)]
 pub enum DecodedColumn {
-    /// Real numbers.
     Real(Vec<f64>, Option<Vec<i16>>),
-    /// Counts.
     Count(Vec<i64>, Option<Vec<i16>>),
     /// Texts, as their bytes.
     Text(Vec<ByteArray>, Option<Vec<i16>>),

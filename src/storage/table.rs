@@ -11,9 +11,7 @@ use crate::storage::columnar::Heading;
 /// The formats of a table in a single file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableFormat {
-    /// Apache Parquet.
     Parquet,
-    /// Comma-separated values.
     Csv,
 }
 
@@ -26,7 +24,6 @@ pub enum TableError {
     /// An operation on the file failed.
     #[error(transparent)]
     Io(#[from] io::Error),
-    /// Parquet encoding failed.
     #[error(transparent)]
     Parquet(#[from] ParquetError),
 }

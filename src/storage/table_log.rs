@@ -136,7 +136,6 @@ fn commit_of(version: usize) -> String {
 struct Log {
     /// The columns of the table, as text.
     columns: String,
-    /// Its commits.
     commits: Vec<FileRecord>,
     /// The files that the last version lists.
     files: Files,
@@ -292,7 +291,6 @@ mod tests {
             .map(|(name, unit, content)| Heading::new(Quantity::new(name, unit, "What it \"means\"."), content))
     }
 
-    /// A dataset without parts.
     fn dataset(name: &str) -> (Root, Folder) {
         let root = std::env::temp_dir().join(format!("spindrift-log-{}-{name}", std::process::id()));
         let _ = std::fs::remove_dir_all(&root);

@@ -18,7 +18,7 @@ use crate::sampling::SampleId;
 use crate::scene::Name;
 use crate::storage::atomic;
 use crate::storage::columnar::{Cells, Content, Heading, Layout, Packing};
-use crate::storage::provenance::provenance;
+use crate::storage::identity::provenance;
 use crate::storage::table::{TableError, TableFormat, write_csv, write_number};
 
 /// A series of the observables that is not a column here: the total is the sum of its bodies.
@@ -37,11 +37,9 @@ pub enum TimeColumn {
     Recorded(usize),
 }
 
-/// A table over time.
 #[derive(Clone, Debug)]
 pub struct TimeSeries {
     headings: Vec<Heading>,
-    /// What each column shows.
     keys: Vec<TimeColumn>,
     columns: Vec<Vec<f64>>,
     wheels: Vec<Name>,
@@ -85,7 +83,6 @@ impl TimeSeries {
         &self.wheels
     }
 
-    /// The columns.
     pub fn headings(&self) -> &[Heading] {
         &self.headings
     }
@@ -101,7 +98,6 @@ impl TimeSeries {
         self.headings.iter().map(|heading| &heading.quantity).zip(self.columns.iter().map(Vec::as_slice))
     }
 
-    /// Number of points.
     pub fn points(&self) -> usize {
         self.columns.first().map_or(0, Vec::len)
     }

@@ -24,12 +24,9 @@ use crate::storage::atomic;
 use crate::storage::rows_reader::RowsReader;
 use crate::workflow::error::WorkflowError;
 
-/// What the rows say.
 #[derive(Clone, Debug)]
 pub struct Analysed {
-    /// Of every observable.
     pub statistics: Statistics,
-    /// Of the requirements.
     pub verdicts: Verdicts,
     /// Of what drives the main observables.
     pub sensitivities: Vec<InputSensitivity>,
@@ -48,7 +45,6 @@ pub struct Analysed {
 }
 
 impl Analysed {
-    /// How the campaign ended.
     pub fn end(&self) -> SummaryEnd {
         let ending = Ending {
             rows: self.tally.statuses.runs(),

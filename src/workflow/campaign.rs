@@ -189,7 +189,6 @@ pub struct PreparedCampaign<'a> {
 }
 
 impl PreparedCampaign<'_> {
-    /// What will run.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }

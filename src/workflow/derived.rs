@@ -39,10 +39,8 @@ impl Destination for Folder {
     }
 }
 
-/// Which page is made.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum PageKind {
-    /// None.
     Without,
     /// One of the rows alone.
     OfRows,
@@ -62,7 +60,6 @@ pub(super) struct Derivation<'a> {
     pub retained: &'a [SampleId],
 }
 
-/// What was made.
 pub(super) struct Derived {
     pub analysed: Analysed,
     pub page: Option<Page>,

@@ -56,10 +56,8 @@ pub fn plan_of_failed(
     plan.only(samples).map(|plan| Some((plan, files))).map_err(input)
 }
 
-/// A run that failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FailedRun {
-    /// The sample.
     pub sample: SampleId,
     /// How it ended, and why.
     pub what: String,
@@ -91,11 +89,9 @@ fn said(status: Status, reason: Option<&str>) -> String {
 /// Passes rows on, and lets no further part start after one with a run that failed.
 #[derive(Debug)]
 pub struct FailFast<'a, 's> {
-    /// Where the rows go.
     pub sink: &'a PartSink<'s>,
     /// Whether a failed run stops the campaign.
     pub is_on: bool,
-    /// Set where one did.
     pub stop: &'a AtomicBool,
     /// The first that failed, in the order of the samples, of the parts that were made.
     pub first: &'a Mutex<Option<FailedRun>>,

@@ -17,8 +17,8 @@ use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
 use crate::storage::folder::Folder;
 use crate::storage::identity;
 use crate::storage::manifest::PartRecord;
+use crate::storage::manifest::PartsRead;
 use crate::storage::names::{PLAN, TRAJECTORIES};
-use crate::storage::parts_read::PartsRead;
 use crate::storage::replacement::replace;
 use crate::storage::rows_file::{headings, identity};
 use crate::storage::rows_reader::RowsReader;
@@ -46,9 +46,7 @@ pub struct Outputs {
 /// What a process has run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Made {
-    /// Number of samples.
     pub samples: u64,
-    /// Elapsed time.
     pub elapsed: Duration,
     /// CPU time of runs and of audits, s; measured where there are audits.
     pub seconds: [f64; 2],
@@ -57,19 +55,14 @@ pub struct Made {
 /// A result that has just been finished.
 #[derive(Clone, Debug)]
 pub struct Completed {
-    /// Its plan.
     pub plan: Plan,
-    /// Its folder.
     pub root: PathBuf,
-    /// What the rows say.
     pub summary: Summary,
     /// What drives the main observables.
     pub sensitivities: Vec<InputSensitivity>,
-    /// How it ended.
     pub end: SummaryEnd,
     /// What this process has run of it.
     pub made: Option<Made>,
-    /// Whether runs were audited.
     pub is_audited: bool,
     /// Number of files of rows.
     pub files: usize,
@@ -82,9 +75,7 @@ pub struct Completed {
 pub struct Finishing<'a> {
     /// With what it is finished.
     pub session: Session<'a>,
-    /// The campaign.
     pub ensemble: &'a Ensemble<'a>,
-    /// The dataset.
     pub ready: &'a Ready,
     /// Where it is for its user.
     pub root: &'a Path,
@@ -214,7 +205,6 @@ pub(super) fn say_notes(session: &Session<'_>, root: &Path, notes: &[String]) {
 pub enum Finished {
     /// It has made what was missing.
     Now(Box<Completed>),
-    /// Everything was there already.
     Already(SummaryEnd),
 }
 

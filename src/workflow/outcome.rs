@@ -14,14 +14,12 @@ pub enum CampaignOutcome {
     AlreadyFinished(SummaryEnd),
     /// The parts of a shard are there.
     ShardDone {
-        /// The shard.
         shard: Shard,
         /// What this process has run.
         made: Made,
     },
     /// It was stopped; the same campaign continues.
     Stopped {
-        /// Samples of the campaign.
         samples: u64,
         /// Samples that are not there yet.
         left: u64,

@@ -14,9 +14,9 @@ use crate::report::shell_word::quoted_path;
 use crate::report::summary::SummaryEnd;
 use crate::storage::claim::open;
 use crate::storage::folder::relist;
+use crate::storage::manifest::PartsRead;
 use crate::storage::manifest::{FileRecord, PartRecord};
 use crate::storage::names::{MANIFEST, REPORT};
-use crate::storage::parts_read::PartsRead;
 use crate::storage::rows_reader::RowsReader;
 use crate::storage::whole_file::place;
 use crate::workflow::analysed::{Analysed, computed};
@@ -27,13 +27,11 @@ use crate::workflow::source::plan_of_sound;
 /// A page that was made again.
 #[derive(Clone, Debug)]
 pub struct Remade {
-    /// Its path.
     pub path: PathBuf,
     /// Its size, bytes.
     pub size: u64,
     /// The question that the campaign answers.
     pub question: Option<String>,
-    /// How the campaign ended.
     pub end: SummaryEnd,
     /// The share of noise in the outcomes, where it was asked for.
     pub noise: Vec<NoiseShare>,
@@ -83,7 +81,6 @@ pub fn remade(
 
 /// Begins the mark in a page that says by how many scenes the share of noise was measured, so that the same page can be made again.
 const NOISE_MARK: &str = "<meta name=\"noise-scenes\" content=\"";
-/// Before it.
 const BEFORE_MARK: &str = "<meta charset=\"utf-8\">\n";
 
 /// The page of a result whose parts are `records`, and the share of noise in its outcomes, measured by so many `scenes`, where that is asked for.

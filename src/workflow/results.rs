@@ -15,8 +15,8 @@ use crate::sampling::SampleId;
 use crate::storage::claim::{FolderError, Locks, open};
 use crate::storage::folder::MOST_SUMMARY;
 use crate::storage::manifest::PartRecord;
+use crate::storage::manifest::PartsRead;
 use crate::storage::names::{SUMMARY, TRAJECTORIES};
-use crate::storage::parts_read::PartsRead;
 use crate::storage::rows_reader::RowsReader;
 use crate::workflow::analysed::{Analysed, computed, write_junit};
 use crate::workflow::ending::end_of;
@@ -57,12 +57,10 @@ impl<'a> Results<'a> {
         Ok(Results { session, root, plan, parts, reader, bands: read.bands, _locks: locks })
     }
 
-    /// Its folder.
     pub fn root(&self) -> &Path {
         &self.root
     }
 
-    /// What was run.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }

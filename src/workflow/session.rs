@@ -54,9 +54,7 @@ impl Watch for Quiet {
 /// With what work is done.
 #[derive(Clone, Copy)]
 pub struct Session<'a> {
-    /// Where files are.
     pub storage: &'static dyn Storage,
-    /// The instruction set.
     pub isa: Isa,
     /// How many threads run and read; `None`: one per core.
     pub threads: Option<NonZeroUsize>,
@@ -64,7 +62,6 @@ pub struct Session<'a> {
     pub law: Option<&'a ControlLaw>,
     /// The law of attitude that the program brings, for phases that name it.
     pub attitude_law: Option<&'static LawKind>,
-    /// Who is told.
     pub watch: &'a dyn Watch,
 }
 

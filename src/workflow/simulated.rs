@@ -12,7 +12,6 @@ use crate::workflow::error::WorkflowError;
 /// A run, and its table over time.
 #[derive(Clone, Debug)]
 pub struct Simulated {
-    /// The run.
     pub run: SingleRun,
     /// Its states and what is observed of them, at the points that were asked for.
     pub series: TimeSeries,

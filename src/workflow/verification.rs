@@ -155,9 +155,7 @@ fn choice<T: Copy>(list: &[T], fraction: f64) -> Vec<T> {
     (0..count).map(|index| list[index * list.len() / count]).collect()
 }
 
-/// How a repair ended.
 enum Repair {
-    /// The result is finished.
     Done(Box<Completed>),
     /// A signal stopped it, with so many samples left.
     Stopped(u64),

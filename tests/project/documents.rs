@@ -194,7 +194,7 @@ fn the_readme_shows_what_new_writes() {
     assert!(picture.windows(4).any(|four| four == b"acTL"), "it does not move");
 }
 
-/// Checked: every campaign file in the documents is valid. That of the tutorial is written block by block (`tests/program/tutorial.rs`).
+/// Checked: every campaign file in the documents is valid. That of the tutorial is written block by block (`tests/program/commands/tutorial.rs`).
 #[test]
 fn every_campaign_file_is_valid() {
     let mut count = 0;

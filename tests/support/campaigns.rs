@@ -77,3 +77,14 @@ parameter = \"initial.angular_velocity_rad_s\"
 distribution = \"normal\"
 std = [0.5, 0.5, 1.5]
 ";
+
+/// A small body, to whose inertia diag(30, 36, 24) kg m^2 its wheels add nothing.
+pub const SMALL_BODY: &str = "[body]\nmass_kg = 100\ncenter_of_mass_m = [0, 0, 0]\n\
+    inertia_kg_m2 = [[30, 0, 0], [0, 36, 0], [0, 0, 24]]\nincludes_wheels = true\n";
+
+/// A wheel of it about `axis`.
+pub fn small_wheel(name: &str, axis: [u8; 3]) -> String {
+    format!(
+        "[[wheels]]\nname = {name:?}\naxis = {axis:?}\nmass_kg = 1\naxial_inertia_kg_m2 = 0.01\ntransverse_inertia_kg_m2 = 0.006\n"
+    )
+}

@@ -2,7 +2,6 @@
 
 /// How often a curve may turn back until it is drawn as its envelope: some ten pixels for each swing.
 const MOST_TURNS: usize = 110;
-/// Intervals of an envelope.
 const ENVELOPE: usize = 60;
 
 /// How often a series turns back.

@@ -8,10 +8,8 @@ use crate::report::figure::Hue;
 use crate::run::StateField;
 use crate::scene::Name;
 
-/// What a scene has.
 #[derive(Clone, Debug)]
 pub struct Traits {
-    /// A control loop.
     pub has_loop: bool,
     /// A phase of the loop that wants an attitude.
     pub points: bool,
@@ -19,13 +17,10 @@ pub struct Traits {
     pub estimates: bool,
     /// Debris that the loop goes to.
     pub approaches: bool,
-    /// Debris.
     pub debris: bool,
-    /// Wheels that turn.
     pub wheels: bool,
     /// Wheels that the loop drives.
     pub drives: bool,
-    /// Thrusters that it fires.
     pub fires: bool,
     /// What the requirements are about.
     asked: Vec<String>,
@@ -67,7 +62,6 @@ impl Traits {
     }
 }
 
-/// Where figures are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// On the page: the nominal run and bands of the others.
@@ -76,7 +70,6 @@ pub enum Place {
     Plot,
 }
 
-/// What a figure shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shows {
     /// A series of the observables.
@@ -89,11 +82,9 @@ pub enum Shows {
     State(StateField, &'static [&'static str]),
     /// The phases of the loop.
     Phases,
-    /// The thrusts.
     Thrust,
     /// The impulses of the thrusters.
     Impulse,
-    /// The propellant used.
     Propellant,
     /// The distance to the debris.
     Distance,
@@ -111,16 +102,13 @@ pub enum Shows {
     Balances,
 }
 
-/// A figure over time.
 #[derive(Clone, Copy, Debug)]
 pub struct ListedFigure {
-    /// What it shows.
     pub shows: Shows,
     /// Its title; where there is one for each wheel or body, its beginning.
     pub title: &'static str,
     /// What is along its vertical axis.
     pub quantity: &'static str,
-    /// Its colour.
     pub hue: Hue,
     /// Whether a scene calls for it at a place.
     called: fn(&Traits, Place) -> bool,
@@ -159,7 +147,6 @@ const ENERGIES: &[&str] = &[
     "energy_{wheel}_peak_to_peak_j",
 ];
 const CHANGES: &[&str] = &["exchange_body_j", "exchange_{wheel}_j"];
-/// Nothing is controlled.
 const FREE: fn(&Traits, Place) -> bool = |scene, _| !scene.has_loop;
 /// The same, on the page alone, or in plots alone.
 const FREE_ON_PAGE: fn(&Traits, Place) -> bool = |scene, place| !scene.has_loop && place == Place::Page;

@@ -25,7 +25,6 @@ pub enum Judged {
 }
 
 impl Judged {
-    /// Its word.
     pub const fn word(self) -> &'static str {
         match self {
             Judged::Pass => "PASS",
@@ -63,9 +62,7 @@ impl Judged {
 /// A requirement with its verdict, or a finding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Card {
-    /// How it was judged.
     pub judged: Judged,
-    /// The outcome in words.
     pub quantity: String,
     /// The requirement, or the finding, as a sentence.
     pub sentence: String,
@@ -171,7 +168,6 @@ pub fn driven_by(outcome: &str, influences: &[Influence]) -> String {
 }
 
 impl Card {
-    /// The card as HTML.
     pub fn html(&self) -> String {
         let mut rows = String::new();
         let mut row = |term: &str, text: &str| {

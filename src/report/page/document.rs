@@ -36,13 +36,10 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 
 
 /// A section of the page.
 pub struct PageSection {
-    /// Anchor.
     pub anchor: &'static str,
-    /// Title.
     pub title: &'static str,
     /// What it answers, in a sentence.
     pub lead: String,
-    /// Static content.
     pub html: String,
     /// Whether figures are put into it.
     pub has_figures: bool,

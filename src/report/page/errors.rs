@@ -224,7 +224,6 @@ fn audits(survey: &Survey) -> Option<Figure> {
     })
 }
 
-/// With a capital letter.
 pub fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())

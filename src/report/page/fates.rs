@@ -12,7 +12,6 @@ pub enum Fate {
     Met,
     /// It misses the limit of a requirement on runs, or its mission failed.
     Missed,
-    /// It was not computed.
     NotComputed,
 }
 

@@ -14,7 +14,6 @@ use crate::campaign::{Plan, Statement};
 use crate::ensemble::Bands;
 use crate::report::drivers_text::{self, SEE_INTERACTIONS, outcomes, ranked, verb};
 use crate::report::names;
-use crate::report::noise_text;
 use crate::report::over_time::curves::{FEWEST, TimeBands};
 use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
@@ -23,6 +22,7 @@ use crate::report::page::influence::Influence;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::tables::StatisticsRow;
 use crate::report::requirements::{assumed, runs_needed, together};
+use crate::report::share_text;
 use crate::report::stopping_text;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::GateLimit;
@@ -33,9 +33,7 @@ const BANDS: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
 /// What a campaign ends with.
 #[derive(Clone, Copy, Debug)]
 pub struct Analysis<'a> {
-    /// Statistics of every observable.
     pub statistics: &'a Statistics,
-    /// Verdicts on the requirements.
     pub verdicts: &'a Verdicts,
     /// What every input means for the main observables.
     pub sensitivities: &'a [InputSensitivity],
@@ -127,7 +125,7 @@ fn row(column: &ColumnStatistics, statistics: &Statistics) -> StatisticsRow {
 /// The influences on each outcome, the strongest first.
 fn influences(plan: &Plan, all: &[InputSensitivity], noise: &[NoiseShare], survey: &Survey) -> Vec<Influence> {
     let of_noise = |name: &str| match noise.iter().find(|one| one.observable == name) {
-        Some(share) => format!(" {}.", sentence(&noise_text::words(share))),
+        Some(share) => format!(" {}.", sentence(&share_text::of_noise(share))),
         None if plan.law.is_some() => {
             " Noise within the loop is no input: `spindrift report DIR --noise 256` measures its share.".to_owned()
         }

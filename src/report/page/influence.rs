@@ -8,13 +8,11 @@ use crate::report::page::errors::{sentence, shown_rows};
 use crate::report::page::fates::{self, Fate};
 use crate::run::Quantity;
 
-/// Bars of a tornado.
 const MOST_INPUTS: usize = 12;
 
 /// How strongly inputs act on an outcome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Influence {
-    /// The outcome.
     pub outcome: String,
     /// Of a ranking for an event: what the runs do in which it occurs, and whether the outcome has a spread besides; `None` of its spread.
     pub event: Option<(String, bool)>,

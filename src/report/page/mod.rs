@@ -56,13 +56,10 @@ pub struct Contents {
     pub missions: Missions,
     /// Quantiles over time; empty where they were not made.
     pub bands: Vec<TimeBands>,
-    /// Statistics of the observables.
     pub statistics: Vec<StatisticsRow>,
-    /// What drives the outcomes.
     pub influences: Vec<Influence>,
     /// What comes before every number; mostly nothing.
     pub warnings: Vec<String>,
-    /// Runs without numbers.
     pub loss: Loss,
     /// The verdicts of the requirements; empty where the file has none.
     pub verdicts: Vec<Card>,
@@ -72,10 +69,8 @@ pub struct Contents {
     pub files: Vec<(String, String)>,
 }
 
-/// A finished page.
 #[derive(Clone, Debug)]
 pub struct Page {
-    /// The file.
     pub html: String,
     /// Its figures, in their order.
     pub figures: Vec<Figure>,

@@ -147,7 +147,6 @@ fn marked(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow>) -
     median.into_iter().chain(high).copied().collect()
 }
 
-/// The cumulative distribution.
 fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, has_intervals: bool) -> Figure {
     let (x, y, low, high) = curve(&outcome.sketch, outcome.confidence);
     let mut marks = Vec::new();

@@ -22,7 +22,6 @@ use crate::scene::{DebrisInput, PartInput, PartShape, Scene, SceneInput, WheelMo
 /// A part of the body as it is drawn.
 #[derive(Clone, Debug)]
 pub struct ShownPart {
-    /// Its name.
     pub name: String,
     /// Its shape, as campaign files call it.
     pub shape: &'static str,

@@ -37,15 +37,12 @@ pub const GROUPS: [Group; 7] = [
 /// A run that the page shows.
 #[derive(Clone, Debug)]
 pub struct ShownRun {
-    /// The sample.
     pub sample: SampleId,
-    /// Why it is shown.
     pub why: String,
     /// How it ended; the reason where it is not ok.
     pub status: Status,
     /// Why it is not ok; empty where it is.
     pub reason: String,
-    /// Its inputs as applied.
     pub inputs: Vec<f64>,
     /// The numbers of its row, by the names of their columns, as the campaign has them: the run may be shown at other times. Empty where it has none.
     pub row: Vec<(String, f64)>,

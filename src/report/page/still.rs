@@ -15,7 +15,6 @@ use crate::scene::WheelMode;
 const SIDE: f64 = 380.0;
 /// What is left free around it.
 const MARGIN: f64 = 34.0;
-/// Corners of a circle.
 const CORNERS: usize = 24;
 /// Points of a curve, at most.
 const MOST_POINTS: usize = 400;
@@ -129,7 +128,6 @@ fn circle(axis: [f64; 3], center: [f64; 3], radius: f64) -> Vec<[f64; 3]> {
 }
 
 impl ShownPart {
-    /// Its edges in F_s.
     fn edges(&self) -> Vec<Vec<[f64; 3]>> {
         let size = |k: usize| self.size.get(k).copied().unwrap_or(0.1);
         let own: Vec<Vec<[f64; 3]>> = match self.shape {

@@ -14,24 +14,17 @@ use crate::run::Status;
 /// Inputs of a run that are listed; those farthest from nominal first, as multiples of their spread.
 const MOST_INPUTS: usize = 3;
 
-/// Statistics of one observable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StatisticsRow {
-    /// Name of the column.
     pub name: String,
-    /// Its unit.
     pub unit: String,
-    /// What it is.
     pub meaning: String,
-    /// How many runs.
     pub count: u64,
     /// Mean; NaN where there is none.
     pub mean: f64,
     /// Standard deviation; NaN where there is none.
     pub deviation: f64,
-    /// Smallest.
     pub min: f64,
-    /// Largest.
     pub max: f64,
     /// Confidence of the intervals; NaN where the design has none.
     pub confidence: f64,

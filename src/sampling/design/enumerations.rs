@@ -3,7 +3,6 @@
 /// Declares the enumerations over all designs, and passes each call on to the one that is meant.
 macro_rules! designs {
     ($($Name:ident = $Kind:ty),* $(,)?) => {
-        /// A design as written.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Design {
             $(

@@ -5,11 +5,9 @@ use super::traits::{BLOCK, Dimensions, Kind, PointSource, Size, by_point};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Row, Rule, Written};
 
-/// All combinations of levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridDesign(pub Levels);
 
-/// Its points.
 #[derive(Clone, Debug)]
 pub struct Grid {
     levels: Levels,

@@ -17,7 +17,6 @@ use crate::sampling::stream::key;
 /// Number of cells of the finest digit that is scrambled, at most: half a cell is still seen next to one.
 const FINEST: u64 = 1 << 52;
 
-/// One dimension.
 #[derive(Clone, Debug)]
 struct Radix {
     base: u64,
@@ -28,7 +27,6 @@ struct Radix {
     weights: Vec<u64>,
     /// What the images of zero of this digit and all after it add up to.
     rests: Vec<u64>,
-    /// Number of cells.
     cells: f64,
 }
 

@@ -59,7 +59,6 @@ impl Permutation {
 /// The points of a Latin hypercube, or of several.
 #[derive(Debug)]
 pub struct LatinHypercube {
-    /// Strata of each hypercube.
     strata: u64,
     /// The permutations of each dimension, one for each hypercube.
     permutations: Vec<Vec<Permutation>>,

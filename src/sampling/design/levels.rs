@@ -8,7 +8,6 @@ use crate::sampling::keys::{ALL_BUT_ONE, Counts, Kind, Row, Rule, Value, Values,
 
 use super::traits::MAX_SAMPLES;
 
-/// Their keys.
 pub const LEVELS: [Row; 2] = [
     Row::new(
         "levels",

@@ -9,7 +9,6 @@ use crate::sampling::keys::{Row, Rule, Written};
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneAtATimeDesign(pub Levels);
 
-/// Its points.
 #[derive(Clone, Debug)]
 pub struct OneAtATime {
     levels: Levels,

@@ -4,11 +4,9 @@ use super::traits::{BLOCK, Dimensions, Kind, PointSource, streams};
 use crate::sampling::keys::Written;
 use crate::sampling::stream::Stream;
 
-/// The random design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RandomDesign;
 
-/// Its points.
 #[derive(Debug)]
 pub struct RandomPoints(Vec<Stream>);
 

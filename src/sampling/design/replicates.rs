@@ -27,7 +27,6 @@ pub const REPLICATES: Row = Row::new(
 pub struct Replicates(u64);
 
 impl Replicates {
-    /// The design itself.
     pub const ONE: Replicates = Replicates(1);
 
     /// So many, from 1 to 1024; `None` for other numbers.
@@ -48,7 +47,6 @@ impl Replicates {
         }
     }
 
-    /// How many there are.
     pub fn count(self) -> u64 {
         self.0
     }

@@ -4,7 +4,6 @@ use super::random::RandomPoints;
 use super::traits::{Dimensions, Kind, Size};
 use crate::sampling::keys::{DataColumn, FILE_OF_PARAMETERS, Row, Value, Written};
 
-/// Rows of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableDesign(pub Vec<DataColumn>);
 

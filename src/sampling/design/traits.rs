@@ -17,7 +17,6 @@ pub const NOMINAL: f64 = f64::NAN;
 /// What a design is made for: the random dimensions of a campaign.
 #[derive(Clone, Copy, Debug)]
 pub struct Dimensions<'a> {
-    /// Seed of all draws.
     pub seed: u64,
     /// Number of samples, sample 0 included.
     pub samples: u64,
@@ -32,17 +31,14 @@ pub struct Dimensions<'a> {
 pub enum Size {
     /// As many as there are samples; the file must say.
     Any,
-    /// This many.
     Points(u64),
     /// More than can be numbered.
     TooMany,
 }
 
-/// A design as written.
 pub trait Kind: Clone + Debug + PartialEq {
     /// The name in campaign files.
     const NAME: &'static str;
-    /// Its keys.
     const KEYS: &'static [Row] = &[];
     /// What its keys have to do with each other.
     const RULES: &'static [Rule] = &[];
@@ -56,7 +52,6 @@ pub trait Kind: Clone + Debug + PartialEq {
     const DEPENDS_ON_SAMPLES: Option<[&'static str; 2]> = None;
     /// Why parameters cannot be correlated, if they cannot; and the remedy.
     const EXCLUDES_CORRELATION: Option<[&'static str; 2]> = None;
-    /// Its points.
     type Points: PointSource;
 
     /// The design of what a file says.

@@ -8,7 +8,6 @@ use crate::math::vector::{dot, hamilton, norm, scaled};
 use crate::sampling::error::{DispersionError, error};
 use crate::sampling::keys::{ALL_BUT_ONE, Kind, Row, Rule, Value, Values};
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct AttitudeError;
 
@@ -89,7 +88,6 @@ impl Map for AttitudeErrorMap {
     }
 }
 
-/// A diagonal covariance.
 fn variances(index: usize, values: &Values) -> Result<[[f64; 3]; 3], DispersionError> {
     let list = match values {
         Values::All(value) => [*value; 3],

@@ -6,7 +6,6 @@ use super::traits::Scalar;
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::Row;
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Bernoulli;
 

@@ -12,11 +12,9 @@ use crate::sampling::keys::Row;
 /// Allowed shape parameters: outside, the distribution is a spike or two.
 const SHAPES: std::ops::RangeInclusive<f64> = 0.01..=1e4;
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Beta;
 
-/// A shape parameter.
 const fn shape(key: &'static str, meaning: &'static str) -> Row {
     let remedy = "1 is a uniform distribution";
     Row::values(key, meaning).within("a number from 0.01 to 1e4", remedy, |x| SHAPES.contains(&x))

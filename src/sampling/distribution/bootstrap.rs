@@ -7,7 +7,6 @@ use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{FILE_OF_PARAMETERS, Row};
 use std::sync::Arc;
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Bootstrap;
 
@@ -27,7 +26,6 @@ impl BootstrapMap {
         }
     }
 
-    /// The number of rows.
     pub fn rows(&self) -> usize {
         self.columns.iter().map(|column| column.len()).min().unwrap_or(0)
     }

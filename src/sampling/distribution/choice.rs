@@ -7,14 +7,12 @@ use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Kind, Row};
 use std::sync::Arc;
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Choice;
 
 /// Ready to be drawn: one of a list of values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChoiceQuantile {
-    /// Ascending.
     values: Arc<[f64]>,
     /// Probability of this value or a smaller one.
     cumulative: Arc<[f64]>,

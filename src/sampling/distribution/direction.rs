@@ -17,7 +17,6 @@ use std::marker::PhantomData;
 #[derive(Clone, Copy, Debug)]
 pub struct UniformDirection<N>(PhantomData<N>);
 
-/// Uniform over a cone.
 #[derive(Clone, Copy, Debug)]
 pub struct Cone<N>(PhantomData<N>);
 
@@ -29,7 +28,6 @@ const AXIS: Row = Row::new("axis", Kind::Vector, "The axis, of any length; defau
 const MAGNITUDE: Row =
     Row::new("magnitude", Kind::Distribution, "The distribution of the length; default: the nominal one");
 
-/// Ready to be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectionMap<Q> {
     /// Two unit vectors across the axis, then the axis.
@@ -47,7 +45,6 @@ enum Magnitude<Q> {
 /// How a direction is distributed about an axis; the azimuth is uniform in all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum DirectionSpread {
-    /// Uniform over the sphere.
     Sphere,
     /// Uniform over the cone of this half-angle, rad, above 0 and at most pi.
     Cone {

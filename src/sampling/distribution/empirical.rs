@@ -15,7 +15,6 @@ pub enum Interpolation {
     Linear,
 }
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Empirical;
 

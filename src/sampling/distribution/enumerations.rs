@@ -3,7 +3,6 @@
 /// Declares the enumerations over all distributions, and passes each call on to the one that is meant.
 macro_rules! distributions {
     (one number: $($Scalar:ident),* ; several together: $($Name:ident = $Together:ty),* $(,)?) => {
-        /// The kinds of distributions.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum DistributionKind {
             $(
@@ -17,14 +16,12 @@ macro_rules! distributions {
         }
 
         impl DistributionKind {
-            /// All kinds.
             pub const ALL: &'static [DistributionKind] = &[$(Self::$Scalar,)* $(Self::$Name,)*];
 
             /// The names in campaign files.
             pub const NAMES: &'static [&'static str] =
                 &[$(<$Scalar as Scalar>::NAME,)* $(<$Together as Together>::NAME,)*];
 
-            /// The keys.
             pub const fn keys(self) -> &'static [Row] {
                 match self {
                     $( Self::$Scalar => <$Scalar as Scalar>::KEYS, )*

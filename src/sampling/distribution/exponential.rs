@@ -6,16 +6,13 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Presence, Row};
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Exponential;
 
-/// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExponentialQuantile {
     /// Mean above `min`, > 0.
     pub scale: f64,
-    /// Lower end.
     pub min: f64,
 }
 

@@ -9,11 +9,9 @@ use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Presence, Row};
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Gamma;
 
-/// Ready to be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GammaQuantile {
     shape: f64,

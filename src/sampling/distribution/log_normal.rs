@@ -6,11 +6,9 @@ use crate::math::normal::{quantile, quantiles};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Presence, Row};
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct LogNormal;
 
-/// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogNormalQuantile {
     /// Median, > 0.

@@ -5,11 +5,9 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct LogUniform;
 
-/// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogUniformQuantile {
     min: f64,

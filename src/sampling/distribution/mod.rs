@@ -94,12 +94,9 @@ impl DistributionKind {
     }
 }
 
-/// A distribution as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrittenDistribution {
-    /// The kind.
     pub kind: DistributionKind,
-    /// Its keys.
     pub written: Written,
 }
 

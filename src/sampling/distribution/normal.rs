@@ -16,14 +16,11 @@ pub(super) const SPREAD: [Row; 3] = [
 /// One of them is written.
 pub(super) const ONE_SPREAD: Rule = Rule::One(&[&["std"], &["relative_std"], &["three_sigma"]], "0.1", ALL_BUT_ONE);
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Normal;
 
-/// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalQuantile {
-    /// Mean.
     pub mean: f64,
     /// Standard deviation, >= 0.
     pub std: f64,

@@ -5,7 +5,6 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Offset;
 

@@ -11,11 +11,9 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Presence, Row};
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Pert;
 
-/// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PertQuantile {
     alpha: f64,

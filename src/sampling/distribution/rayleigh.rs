@@ -6,11 +6,9 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::Row;
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Rayleigh;
 
-/// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayleighQuantile {
     scale: f64,

@@ -9,11 +9,9 @@ use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct StudentT;
 
-/// Ready to be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudentTQuantile {
     degrees_of_freedom: f64,

@@ -16,7 +16,6 @@ pub struct Target<'a> {
     pub nominals: &'a [f64],
     /// The keys of the distribution.
     pub rows: &'static [Row],
-    /// What the file says.
     pub written: &'a Written,
 }
 
@@ -135,13 +134,11 @@ impl Target<'_> {
 pub struct JointTarget<'a> {
     /// Which `[[disperse]]` table, counted from zero.
     pub index: usize,
-    /// The parameter.
     pub parameter: Parameter,
     /// The component that was named, which is wrong.
     pub component: Option<usize>,
     /// The nominal values of all components.
     pub nominals: &'a [f64],
-    /// What the file says.
     pub written: &'a Written,
 }
 

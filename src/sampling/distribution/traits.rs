@@ -18,11 +18,9 @@ pub struct NumberWords<'a> {
 pub trait Scalar {
     /// The name in campaign files.
     const NAME: &'static str;
-    /// Its keys.
     const KEYS: &'static [Row];
     /// What its keys have to do with each other.
     const RULES: &'static [Rule] = &[];
-    /// What it becomes.
     type Quantile: Quantile;
 
     /// The quantile function of each component.
@@ -41,7 +39,6 @@ pub fn each_score(z: &[f64; 8], values: &mut [f64; 8], of: impl Fn(f64) -> f64) 
     true
 }
 
-/// A quantile function.
 pub trait Quantile: Clone + Debug + PartialEq {
     /// The value below which the fraction `u` of the distribution lies, 0 < u < 1.
     fn quantile(&self, u: f64) -> f64;
@@ -85,11 +82,9 @@ pub trait Quantile: Clone + Debug + PartialEq {
 pub trait Together {
     /// The name in campaign files.
     const NAME: &'static str;
-    /// Its keys.
     const KEYS: &'static [Row];
     /// What its keys have to do with each other.
     const RULES: &'static [Rule] = &[];
-    /// What it becomes.
     type Map: Map;
 
     /// The map to be drawn.
@@ -124,7 +119,6 @@ pub const MAX_DIMENSIONS: usize = 8;
 
 /// The distributions of one number that others have within them: of a magnitude, of an angle. The list of distributions is one.
 pub trait Nested {
-    /// What they become.
     type Quantile: Quantile;
 
     /// The quantile function about `nominal` of the distribution with this name and these keys, which the table `key` has.

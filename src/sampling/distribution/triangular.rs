@@ -5,18 +5,13 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Presence, Row};
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangular;
 
-/// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriangularQuantile {
-    /// Lower bound.
     pub min: f64,
-    /// Most likely value.
     pub mode: f64,
-    /// Upper bound.
     pub max: f64,
 }
 

@@ -17,7 +17,6 @@ const fn sigmas(key: &'static str, meaning: &'static str) -> Row {
     Row::values(key, meaning).within("> 0", "3 cuts off 0.27% of the normal distribution", |x| x > 0.0)
 }
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct TruncatedNormal;
 

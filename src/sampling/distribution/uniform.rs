@@ -5,14 +5,11 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Uniform;
 
-/// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UniformQuantile {
-    /// Lower bound.
     pub min: f64,
     /// Upper bound, >= min.
     pub max: f64,

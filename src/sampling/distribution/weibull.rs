@@ -6,18 +6,15 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Presence, Row};
 
-/// The distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Weibull;
 
-/// Ready to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WeibullQuantile {
     /// Shape, > 0.
     pub shape: f64,
     /// Scale, > 0.
     pub scale: f64,
-    /// Lower end.
     pub min: f64,
 }
 

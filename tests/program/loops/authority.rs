@@ -1,6 +1,7 @@
 //! Loops of campaign files whose law or allocation decides the outcome: torque with a net force, slews under a torque limit, integrals against friction.
 
 use crate::loops::closed_loops::{angles, hold, plan, run, small_craft, value};
+use crate::support::campaigns::SMALL_BODY;
 use crate::support::scratch_folder::ScratchFolder;
 use spindrift::run::StateField;
 
@@ -10,7 +11,7 @@ fn stop(count: usize, more: &str) -> String {
     let mut text = format!(
         "[campaign]\nname = \"canted\"\nsamples = 2\nseed = 1\nduration_s = 200\n[integrator]\nmethod = \"auto\"\ntolerance = 1e-12\n\
          [observe]\npoints = 101\ngroups = [\"final_state\", \"numerics\"]\n\
-         [body]\nmass_kg = 100\ncenter_of_mass_m = [0, 0, 0]\ninertia_kg_m2 = [[30, 0, 0], [0, 36, 0], [0, 0, 24]]\n\
+         {SMALL_BODY}\
          [initial]\nangular_velocity_rad_s = [0.02, -0.03, 0.025]\n\
          [control]\nperiod_s = 0.5\nthrusters = [{}]\n{more}\
          [[guidance]]\nphase = \"stop\"\nlaw = \"rate_damping\"\ngain_n_m_s = 3.0\n",

@@ -11,6 +11,7 @@ use spindrift::sampling::SampleId;
 use spindrift::scene::Arc;
 use spindrift::workflow::{Campaign, Quiet, Session};
 
+use crate::support::campaigns::{SMALL_BODY, small_wheel};
 use crate::support::scratch_folder::ScratchFolder;
 
 pub const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
@@ -55,18 +56,11 @@ fn without(text: &str, headers: &[&str]) -> String {
 
 /// A spacecraft at rest with one wheel about each axis, of the inertia diag(30, 36, 24) kg m^2 with wheels that add nothing to K.
 pub(crate) fn small_craft(control: &str, initial: &str) -> String {
-    let mut text = String::from(
-        "[campaign]\nname = \"loop\"\nsamples = 2\nseed = 1\nduration_s = 100\n[integrator]\nmethod = \"auto\"\ntolerance = 1e-14\n\
-         [observe]\npoints = 401\ngroups = [\"final_state\", \"motion\", \"numerics\", \"energy_conservation\", \"momentum_conservation\"]\n\
-         [body]\nmass_kg = 100\ncenter_of_mass_m = [0, 0, 0]\ninertia_kg_m2 = [[30, 0, 0], [0, 36, 0], [0, 0, 24]]\nincludes_wheels = true\n",
-    );
-    for (name, axis) in [("w1", "[1, 0, 0]"), ("w2", "[0, 1, 0]"), ("w3", "[0, 0, 1]")] {
-        let _ = write!(
-            text,
-            "[[wheels]]\nname = \"{name}\"\naxis = {axis}\nmass_kg = 1\naxial_inertia_kg_m2 = 0.01\ntransverse_inertia_kg_m2 = 0.006\n"
-        );
-    }
-    text + "[initial]\n" + initial + "\n" + control
+    const HEAD: &str = "[campaign]\nname = \"loop\"\nsamples = 2\nseed = 1\nduration_s = 100\n\
+        [integrator]\nmethod = \"auto\"\ntolerance = 1e-14\n[observe]\npoints = 401\n\
+        groups = [\"final_state\", \"motion\", \"numerics\", \"energy_conservation\", \"momentum_conservation\"]\n";
+    let wheels = [("w1", [1, 0, 0]), ("w2", [0, 1, 0]), ("w3", [0, 0, 1])].map(|(name, axis)| small_wheel(name, axis));
+    [HEAD, SMALL_BODY, &wheels.concat(), "[initial]\n", initial, "\n", control].concat()
 }
 
 /// Law: one and two threads give the same rows, and a sample simulated alone is its row, bit for bit, with sensors, filters and pulses.

@@ -2,28 +2,19 @@
 
 use crate::loops::closed_loops::{SLEW_CLOSED, plan, run, value};
 use crate::page::numbers::{Found, found};
+use crate::support::campaigns::{SMALL_BODY, small_wheel};
 
 /// A damped body whose star tracker is believed as it is: its error is noise alone, the drawn scale is none, `of_both` has a known share of it.
-const NOISY: &str = r#"
-[campaign]
+fn noisy() -> String {
+    const HEAD: &str = r#"[campaign]
 name = "noisy"
 samples = 401
 seed = 5
 duration_s = 4
 [observe]
 points = 3
-[body]
-mass_kg = 100
-center_of_mass_m = [0, 0, 0]
-inertia_kg_m2 = [[30, 0, 0], [0, 36, 0], [0, 0, 24]]
-includes_wheels = true
-[[wheels]]
-name = "w1"
-axis = [1, 0, 0]
-mass_kg = 1
-axial_inertia_kg_m2 = 0.01
-transverse_inertia_kg_m2 = 0.006
-[control]
+"#;
+    const REST: &str = r#"[control]
 period_s = 0.5
 estimator = "raw"
 wheels = ["w1"]
@@ -51,6 +42,8 @@ expression = "body.inertia_scale"
 name = "of_both"
 expression = "body.inertia_scale + attitude_estimate_error_final_rad"
 "#;
+    [HEAD, SMALL_BODY, &small_wheel("w1", [1, 0, 0]), REST].concat()
+}
 
 /// Share and ends of the interval of `outcome`, per cent.
 fn said(text: &str, outcome: &str) -> [f64; 3] {
@@ -72,7 +65,7 @@ fn variance(values: &[f64]) -> f64 {
 /// page says the same as the screen; without a loop there is no noise to ask for.
 #[test]
 fn noise_is_told_from_scenes() {
-    let run = found("noise", NOISY);
+    let run = found("noise", &noisy());
     let parts = run.rows(&["attitude_estimate_error_final_rad", "body_inertia_scale"]);
     let [of_noise, of_scene] = [0, 1].map(|k| variance(&parts.iter().map(|(_, row)| row[k]).collect::<Vec<f64>>()));
     let page_before = run.data.to_string();
@@ -99,9 +92,10 @@ fn noise_is_told_from_scenes() {
     assert!(caption.contains(&words), "{caption} does not say {words}");
 
     let scratch = again.scratch;
-    let start = NOISY.find("[control]").unwrap();
-    let end = NOISY.find("[[disperse]]").unwrap();
-    let text = NOISY.replace(&NOISY[start..end], "").replace("attitude_estimate_error_final_rad", "energy_error_max");
+    let noisy = noisy();
+    let start = noisy.find("[control]").unwrap();
+    let end = noisy.find("[[disperse]]").unwrap();
+    let text = noisy.replace(&noisy[start..end], "").replace("attitude_estimate_error_final_rad", "energy_error_max");
     scratch.file("open.toml", &text);
     scratch.prints("campaign open.toml --out open", 0);
     let refused = scratch.prints("report open --noise 8", 2);
