@@ -3,7 +3,6 @@
 use super::document::Document;
 use crate::dynamics::effects::{Effect, ForceModel};
 use crate::propagation::Method;
-use crate::propagation::taylor::reference_solution::ReferenceSolution;
 use crate::scene::{Scene, SceneInput};
 
 /// What a method must be that integrates the effects of `model`, to follow "must be"; `None` where `method` does.
@@ -19,28 +18,9 @@ pub fn allowed_methods(method: Method, model: ForceModel) -> Option<String> {
     Some(format!("a method that integrates {}: one of {}", left_out.join(" and "), able.join(", ")))
 }
 
-/// The effects of `model` that the reference solution does not integrate, by their keys; `None` where it integrates all.
-pub fn without_reference(model: ForceModel) -> Option<String> {
-    let is_left_out = |effect: &Effect| !ReferenceSolution::integrates(ForceModel::NONE.with(*effect));
-    let left_out: Vec<&str> = model.effects().filter(is_left_out).map(Effect::key).collect();
-    (!left_out.is_empty()).then(|| left_out.join(" and "))
-}
-
-/// Refuses a method that leaves out an effect on `scene`, which is `input`, an audit by a reference solution that does, and a transfer that its orbit does
-/// not allow.
-pub(super) fn check(
-    input: &SceneInput,
-    scene: &Scene,
-    method: Method,
-    audit_fraction: f64,
-    document: &mut Document<'_>,
-) {
+/// Refuses a method that leaves out an effect on `scene`, which is `input`, and a transfer that its orbit does not allow.
+pub(super) fn check(input: &SceneInput, scene: &Scene, method: Method, document: &mut Document<'_>) {
     let model = ForceModel::of(scene);
-    if let Some(left_out) = without_reference(model).filter(|_| audit_fraction > 0.0) {
-        let allowed = format!("0 with {left_out}: the reference solution does not integrate it");
-        let remedy = "leave it out; two tolerances that agree show the error too";
-        document.add("audit.fraction", Some(format!("{audit_fraction:?}")), allowed, remedy);
-    }
     if let Some(allowed) = allowed_methods(method, model) {
         let remedy = "write another method, or leave it out: auto integrates every effect";
         document.add("integrator.method", Some(format!("{:?}", method.name())), allowed, remedy);

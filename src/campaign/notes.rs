@@ -3,7 +3,6 @@
 use super::plan::Plan;
 use super::requirement::{Requirement, Subject};
 use crate::control::{ControlLaw, review};
-use crate::dynamics::effects::{Effect, ForceModel, Form};
 use crate::observables::accuracy::Accuracy;
 use crate::sampling::design::{MAX_SAMPLES, Size};
 use crate::scene::Scene;
@@ -33,15 +32,6 @@ impl Plan {
         if runs > last && self.analysis.requirements.iter().any(is_of_bands) {
             notes.push(format!(
                 "quantiles over time are of the first {last} runs, and a requirement at each time may stay undecided; bands.runs = {runs} counts all"
-            ));
-        }
-        let is_rough = |effect: &Effect| effect.form() == Form::Evaluated;
-        let rough: Vec<&str> =
-            ForceModel::of_input(&self.nominal).effects().filter(is_rough).map(Effect::key).collect();
-        if !rough.is_empty() {
-            notes.push(format!(
-                "with {} errors can be a thousand times state_error_estimate, which does not see plates turn on and off; compare runs at two tolerances",
-                rough.join(" and ")
             ));
         }
         if let (Some(spec), Ok(scene)) = (self.law.as_ref().and_then(ControlLaw::spec), Scene::resolve(&self.nominal)) {

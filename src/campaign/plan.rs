@@ -306,10 +306,7 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
     let tolerance = Tolerance { relative: relative.unwrap_or(default), absolute: absolute.unwrap_or(default) };
 
     match Scene::resolve(&spec.scene) {
-        Ok(scene) => {
-            let audit_fraction = spec.settings("audit").number("fraction").unwrap_or(0.0);
-            forces::check(&spec.scene, &scene, method, audit_fraction, document);
-        }
+        Ok(scene) => forces::check(&spec.scene, &scene, method, document),
         Err(errors) => {
             let found = errors.into_iter().map(|e| (e.key.into_owned(), Some(e.value), e.allowed, e.remedy.to_owned()));
             document.add_from_below(found.collect());

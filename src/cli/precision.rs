@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::campaign::forces::{allowed_methods, without_reference};
+use crate::campaign::forces::allowed_methods;
 use crate::cli::arguments::PrecisionOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::refuse_inputs;
@@ -29,12 +29,6 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
     let isa = isa()?;
     start_threads().map_err(|error| Failure::Files(format!("cannot start the threads: {error}")))?;
     let model = ForceModel::of(&nominal(&plan));
-    if let Some(left_out) = without_reference(model) {
-        return Err(Failure::Input(format!(
-            "{}: errors are measured against a reference solution, which does not integrate {left_out}",
-            options.file.display()
-        )));
-    }
     let methods = options
         .methods
         .clone()

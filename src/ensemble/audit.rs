@@ -2,10 +2,10 @@
 //!
 //! The reference solution is the Taylor solution in double-double ([`crate::propagation::taylor::reference_solution`]), which shares neither
 //! method nor periodic folding with the audited run. Where the run is too long for that, it is the Taylor method at 1e-16 in plain
-//! doubles, and the row says so ([`Audit::reference_tolerance`]). The audited run is repeated with the states that the comparison
+//! doubles, and the row says so ([`Audit::reference_tolerance`]); there is none of drag and sunlight, which have no Taylor series. The audited run is repeated with the states that the comparison
 //! needs; an audit does not change the row of the campaign.
 //!
-//! An audit has a limit: where the debris turns so fast that its reference solution would take longer than the whole audit of other runs, there
+//! An audit has a limit: where a body turns so fast that its reference solution would take longer than the whole audit of other runs, there
 //! is none, and the row says so ([`NoAudit`]). The limit counts units of time of the motion, not seconds of a clock.
 //!
 //! Which samples are audited is drawn from a stream of its own, `audit`: it does not depend on threads, parts or other draws.
@@ -14,6 +14,7 @@ use thiserror::Error;
 
 use crate::campaign::Plan;
 use crate::dynamics::debris;
+use crate::dynamics::effects::ForceModel;
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::ensemble::flights::nominal_attitude;
 use crate::ensemble::settings::propagator;
@@ -85,7 +86,7 @@ static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
     Quantity::new(
         "audit_truth_tolerance",
         "",
-        "Tolerance of the reference solution that the run was compared with: 1e-31 in double-double, 1e-16 in plain doubles where the run was too long for double-double.",
+        "Tolerance of the reference solution that the run was compared with: 1e-31 in double-double, 1e-17 there with drag or sunlight, 1e-16 in plain doubles where the run was too long for double-double.",
     ),
     Quantity::new(
         "audit_state_error_estimate",
@@ -178,10 +179,14 @@ pub enum NoAudit {
     Reference(Status),
     /// It is beyond the limit of work.
     #[error(
-        "the debris turns for {units:e} units of time (powers of two near the inverse of its rate), more than the {MOST_UNITS_OF_DEBRIS} that an audit integrates in double-double"
+        "the {body} turns for {units:e} units of time (powers of two near the inverse of its rate), more than the {most} that an audit integrates in double-double"
     )]
     Limit {
-        /// Units of time of the debris in the run.
+        /// The debris, or the spacecraft where there is no Taylor series of its motion.
+        body: &'static str,
+        /// The limit.
+        most: f64,
+        /// Units of time of the body in the run.
         units: f64,
     },
 }
@@ -320,18 +325,21 @@ impl Auditor {
 
     /// The reference solution of `scene` with the fields `fields`, and its tolerance.
     fn reference_solution(&self, scene: &Scene, fields: StateFields) -> Result<(ReferenceSolution, f64), NoAudit> {
-        let duration = self.grid.duration();
+        let (duration, model) = (self.grid.duration(), ForceModel::of(scene));
         let unit = Gyrostat::new(0.0, scene, duration).time_unit();
         if duration <= MOST_UNITS * unit {
             let mut debris = Gyrostat::blank(0.0);
             if debris::set_rotation(&mut debris, scene) && observes_debris_rotation(fields) {
                 let units = duration / debris.time_unit();
                 if units > MOST_UNITS_OF_DEBRIS {
-                    return Err(NoAudit::Limit { units });
+                    return Err(NoAudit::Limit { body: "debris", most: MOST_UNITS_OF_DEBRIS, units });
                 }
             }
             let solution = ReferenceSolution::new(self.isa, scene, &self.grid, fields, reference_solution::TOLERANCE);
-            return Ok((solution.map_err(NoAudit::Reference)?, reference_solution::TOLERANCE));
+            return Ok((solution.map_err(NoAudit::Reference)?, ReferenceSolution::tolerance(model)));
+        }
+        if !Method::Taylor.integrates(model) {
+            return Err(NoAudit::Limit { body: "spacecraft", most: MOST_UNITS, units: duration / unit });
         }
         let tolerance = Tolerance { relative: PLAIN_TOLERANCE, absolute: PLAIN_TOLERANCE };
         let control = Control { tolerance, step: None, max_steps: self.most_steps };

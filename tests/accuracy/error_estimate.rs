@@ -10,12 +10,13 @@
 //! Beyond a tenth an error is not linear any more and soon bounded: there it is covered by any estimate above a twentieth.
 
 use crate::support::draws;
-use crate::support::exact::finest;
+use crate::support::exact::solved;
 use crate::support::observed::request;
-use crate::support::orbits::tumbling;
+use crate::support::orbits::{in_thin_air, plated, tumbling};
 use crate::support::plans;
 use crate::support::runs::{adaptive, fixed};
 use crate::support::scenes::{Kind, Uniform, mixed, of_most_wheels, random, set_wheel_rates, speed_held};
+use rayon::prelude::*;
 use spindrift::dynamics::effects::ForceModel;
 use spindrift::math::Isa;
 use spindrift::math::symmetric::principal_axes;
@@ -81,7 +82,7 @@ impl Family {
 
     fn of(name: &'static str, grid: Grid, scenes: Vec<Scene>, is_debris: bool) -> Self {
         let truths: Vec<ReferenceSolution> =
-            scenes.iter().map(|scene| finest(scene, &grid, compared(is_debris))).collect();
+            scenes.par_iter().map(|scene| solved(scene, &grid, compared(is_debris))).collect();
         Family { name, grid, scenes, truths, is_debris }
     }
 }
@@ -289,6 +290,8 @@ fn measured(count: u64) -> Vec<Measured> {
         Family::new("mixed, forced", Grid::uniform(10.0, 101), mixed(count, true, 10.0)),
         boxes(2 * count),
         Family::new("gravity gradient", Grid::uniform(12_000.0, 201), tumbling(count, 71, [0.0, 20.0])),
+        Family::new("air and light", Grid::uniform(6_000.0, 101), plated(count, 71, [0.0, 20.0])),
+        Family::new("drag_tumble", Grid::uniform(6_000.0, 101), in_thin_air(count, 5)),
     ];
     let mut all = Vec::new();
     for method in Method::ALL {

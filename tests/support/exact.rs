@@ -1,15 +1,14 @@
 //! Scenes with their reference solution (double-double), and the errors of runs.
 
 use rayon::prelude::*;
-use spindrift::dynamics::effects::ForceModel;
 use spindrift::math::Isa;
-use spindrift::ode::{Control, Integrator};
+use spindrift::ode::Control;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::propagation::{Method, PropagationSettings, RotationError, rotation_errors};
 use spindrift::run::{Grid, StateField, StateFields, StateTable, Status};
 use spindrift::scene::Scene;
 
-use super::runs::{Run, adaptive, blocks, propagate_on};
+use super::runs::{Run, blocks, propagate_on};
 
 /// Scenes, and the reference solution of their rotation at the times of a grid.
 pub struct Exact {
@@ -28,11 +27,7 @@ impl Exact {
     /// Solves `scenes` in double-double.
     pub fn new(scenes: Vec<Scene>, grid: Grid) -> Self {
         let fields = blocks([StateField::Rate, StateField::Attitude]);
-        let solve = |scene: &Scene| {
-            ReferenceSolution::new(Isa::best(), scene, &grid, fields, TOLERANCE)
-                .expect("the reference solution is complete")
-        };
-        let truths = scenes.par_iter().map(solve).collect();
+        let truths = scenes.par_iter().map(|scene| solved(scene, &grid, fields)).collect();
         Exact { scenes, grid, truths }
     }
 
@@ -58,15 +53,7 @@ impl Exact {
     }
 }
 
-/// The reference solution of `scene`; where an effect acts that it does not integrate, the finest that a method has in `f64`.
-pub fn finest(scene: &Scene, grid: &Grid, fields: StateFields) -> ReferenceSolution {
-    if ReferenceSolution::integrates(ForceModel::of(scene)) {
-        return ReferenceSolution::new(Isa::best(), scene, grid, fields, TOLERANCE).expect("a reference solution");
-    }
-    let method = Method::Gyrostat(Integrator::Dop853);
-    let settings = PropagationSettings::new(method, adaptive(1e-15), grid.clone(), fields, scene);
-    let run = propagate_on(Isa::best(), &settings, std::slice::from_ref(scene)).remove(0);
-    assert_eq!(run.outcome.status, Status::Done);
-    let low = StateTable::new(fields, scene.mass.wheels.len(), grid.points());
-    ReferenceSolution { high: run.table, low }
+/// The reference solution of `scene`.
+pub fn solved(scene: &Scene, grid: &Grid, fields: StateFields) -> ReferenceSolution {
+    ReferenceSolution::new(Isa::best(), scene, grid, fields, TOLERANCE).expect("the reference solution is complete")
 }

@@ -62,6 +62,50 @@ pub fn plated(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
     inputs(count, seed, rates).into_iter().map(plates).map(resolved).collect()
 }
 
+/// The satellite of `drag_tumble.toml` between 400 and 500 km, where the table of densities has kinks, on orbits with shadow, that tumbles with 0.01 to 2 deg/s.
+pub fn in_thin_air(count: u64, seed: u64) -> Vec<Scene> {
+    let mut u = Uniform::new(seed);
+    let plate = |name: &str, area: f64, normal: [f64; 3], center_m: [f64; 3]| PlateInput {
+        name: Name::of(name),
+        area_m2: area,
+        normal,
+        center_m,
+        specular: 0.1,
+        diffuse: 0.3,
+        ..PlateInput::DEFAULT
+    };
+    let mut scene = || {
+        let mut angle = || Some(u.between(-3.0, 3.0));
+        let orbit = OrbitInput {
+            eccentricity: Some(0.005),
+            true_anomaly_rad: angle(),
+            ascending_node_rad: angle(),
+            epoch: Epoch::parse("2026-11-24T00:00:00Z"),
+            ..circle(6.828e6, 0.9)
+        };
+        let mut input = body([6.0, 5.0, 4.0], orbit);
+        (input.body.mass_kg, input.body.center_of_mass_m) = (Some(60.0), Some([0.0, 0.0, 0.02]));
+        input.environment.drag = true;
+        input.environment.solar_pressure = true;
+        input.environment.density_scale = libm::exp(u.between(-0.7, 0.7));
+        input.plates = vec![
+            plate("front", 0.4, [1.0, 0.0, 0.0], [0.25, 0.0, 0.0]),
+            plate("rear", 0.4, [-1.0, 0.0, 0.0], [-0.25, 0.0, 0.0]),
+            plate("left", 0.4, [0.0, 1.0, 0.0], [0.0, 0.25, 0.0]),
+            plate("right", 0.4, [0.0, -1.0, 0.0], [0.0, -0.25, 0.0]),
+            plate("top", 0.25, [0.0, 0.0, 1.0], [0.0, 0.0, 0.4]),
+            plate("bottom", 0.25, [0.0, 0.0, -1.0], [0.0, 0.0, -0.4]),
+            plate("cells", 0.5, [0.0, 0.0, 1.0], [0.0, 0.75, 0.0]),
+            plate("back", 0.5, [0.0, 0.0, -1.0], [0.0, 0.75, 0.0]),
+        ];
+        input.initial.attitude = u.unit_quaternion();
+        let rate = libm::pow(10.0, u.between(-2.0, 0.3)).to_radians();
+        input.initial.angular_velocity_rad_s = u.vector::<3>(1.0).map(|x| rate * x);
+        resolved(input)
+    };
+    (0..count).map(|_| scene()).collect()
+}
+
 /// The scene of `input`.
 fn resolved(input: SceneInput) -> Scene {
     Scene::resolve(&input).unwrap_or_else(|errors| panic!("{}", errors[0]))

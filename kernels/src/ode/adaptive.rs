@@ -34,6 +34,8 @@ impl<M: Embedded> LaneMethod for Adaptive<M> {
             floor: zero,
             starting: zero.never(),
             retry: zero.never(),
+            cut: zero.never(),
+            resumed: zero,
         }
     }
 }
@@ -51,6 +53,9 @@ pub struct AdaptiveStepper<M: Embedded, R: Real, const N: usize> {
     /// At the start of an arc; after a rejection of the same step.
     starting: R::Mask,
     retry: R::Mask,
+    /// Where the step ends at a switch, and the length of the step that it replaces, s.
+    cut: R::Mask,
+    resumed: R,
 }
 
 impl<M: Embedded, R: Real, const N: usize> AdaptiveStepper<M, R, N> {
@@ -79,12 +84,14 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
     fn start_arc(&mut self, lane: usize, _start: f64, _end: f64) {
         self.starting.set(lane, true);
         self.retry.set(lane, false);
+        self.cut.set(lane, false);
     }
 
     #[inline(always)]
     fn idle(&mut self, lane: usize) {
         self.starting.set(lane, false);
         self.retry.set(lane, false);
+        self.cut.set(lane, false);
         self.length.set_lane(lane, 0.0);
         self.longest.set_lane(lane, 0.0);
     }
@@ -99,7 +106,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         let length = self.length.larger(self.floor).smaller(self.longest);
         let remaining = lanes.arc_end - lanes.time;
         let beyond = (length * length.splat(M::CONTROLLER.landing)).lt(remaining);
-        let lands = !beyond & !self.retry;
+        let lands = !(beyond | self.retry | self.cut);
         self.attempted = R::select(lands, remaining, length);
         let end = R::select(lands, lanes.arc_end, lanes.time + self.attempted);
         Proposal { step: Step { time: lanes.time, end, length: end - lanes.time }, lands }
@@ -158,7 +165,32 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         let last = *M::last(&self.stages);
         let first = M::first(&mut self.stages);
         *first = chosen(accepted, &last, first);
+        if self.cut.any() {
+            self.length = R::select(self.cut & accepted, self.length.larger(self.resumed), self.length);
+            self.cut = self.cut & rejected;
+        }
         // a rejected step of the shortest length
         rejected & !self.floor.lt(self.attempted)
+    }
+
+    #[inline(always)]
+    fn slopes(&self) -> [&[R; N]; 2] {
+        [M::at_start(&self.stages), M::last(&self.stages)]
+    }
+
+    #[inline(always)]
+    fn cut(&mut self, lanes: R::Mask, length: R) {
+        self.resumed = R::select(lanes & !self.cut, self.attempted, self.resumed);
+        self.length = R::select(lanes, length, self.length);
+        self.retry = self.retry & !lanes;
+        self.cut = self.cut | lanes;
+    }
+
+    #[inline(always)]
+    fn renew<Q: System<R, N>>(&mut self, system: &Q, renewed: R::Mask, lanes: &mut StepperLane<R, N>) {
+        let slope = system.derivative(lanes.time, &lanes.now.state);
+        let first = M::first(&mut self.stages);
+        *first = chosen(renewed, &slope, first);
+        lanes.evaluations += lanes.time.indicator(renewed);
     }
 }

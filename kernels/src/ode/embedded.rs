@@ -38,6 +38,9 @@ pub trait Embedded: Copy {
     /// The derivative at the start of the step.
     fn first<R: Real, const N: usize>(stages: &mut Self::Stages<R, N>) -> &mut [R; N];
 
+    /// The same, to be read.
+    fn at_start<R: Real, const N: usize>(stages: &Self::Stages<R, N>) -> &[R; N];
+
     /// The derivative at the end of the step.
     fn last<R: Real, const N: usize>(stages: &Self::Stages<R, N>) -> &[R; N];
 

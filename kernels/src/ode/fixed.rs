@@ -178,4 +178,15 @@ impl<M: FixedStep, R: Real, const N: usize> Stepper<R, N> for FixedStepper<M, R,
         self.taken += self.taken.splat(1.0);
         !attempt.sound
     }
+
+    #[inline(always)]
+    fn slopes(&self) -> [&[R; N]; 2] {
+        unreachable!("equal steps do not end at switches")
+    }
+
+    #[inline(always)]
+    fn cut(&mut self, _lanes: R::Mask, _length: R) {}
+
+    #[inline(always)]
+    fn renew<Q: System<R, N>>(&mut self, _system: &Q, _renewed: R::Mask, _lanes: &mut StepperLane<R, N>) {}
 }

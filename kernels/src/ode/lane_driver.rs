@@ -10,6 +10,7 @@ use super::explicit::{Carried, Step, each};
 use super::lane_slot::{LaneSlots, LoadedRun};
 use super::runs::{EndedRun, Recorder, Runs, Termination};
 use super::step_control::{Control, PACE_STEPS, is_out_of_reach};
+use super::switches::Switches;
 use super::system::System;
 use crate::math::{Mask, Real};
 
@@ -118,6 +119,16 @@ pub trait Stepper<R: Real, const N: usize> {
 
     /// Chooses the length of the next step; true in the lanes that cannot continue.
     fn advance(&mut self, proposal: &Proposal<R>, attempt: &Attempt<R>) -> R::Mask;
+
+    /// The derivatives at both ends of the step that was attempted last.
+    fn slopes(&self) -> [&[R; N]; 2];
+
+    /// After [`Stepper::advance`]: the next step of the lanes `lanes` has the length `length`, s, and those after it the length of the step
+    /// that this one is to replace.
+    fn cut(&mut self, lanes: R::Mask, length: R);
+
+    /// Evaluates the derivative at the current time again in the lanes `lanes`, where its branches have changed.
+    fn renew<Q: System<R, N>>(&mut self, system: &Q, renewed: R::Mask, lanes: &mut StepperLane<R, N>);
 }
 
 impl<R: Real, const N: usize> StepperLane<R, N> {
@@ -241,7 +252,7 @@ fn of_lane<R: Real, const N: usize>(state: &[R; N], lane: usize) -> [f64; N] {
 /// Integrates all runs to the end of their last arcs.
 ///
 /// `zero` determines the kind of number: a scalar or lanes. At every observation time the recorder gets the integrated
-/// components: at time zero the initial state itself, at the end of a step the step's own state, elsewhere dense output. A run
+/// components: at time zero the initial state itself, at the end of a step the step's own state, elsewhere dense output. Steps end at switches. A run
 /// whose state becomes non-finite, whose step becomes too short or that takes more than `control.max_steps` steps ends there; one
 /// that cannot do with them ends as soon as that is clear.
 /// Call inside [`crate::math::Isa::run`].
@@ -261,10 +272,18 @@ where
         let loaded = slots.load_lane(lane, runs, recorder);
         lanes.start(lane, loaded, recorder.next_time(lane), (&mut stepper, control));
     }
+    let has_switches = !M::HAS_FIXED_STEP && runs.has_switches();
+    let mut switches = Switches::new(zero);
     while slots.any_occupied() {
+        if has_switches {
+            switches.choose(runs, &mut stepper, &mut lanes);
+        }
         let proposal = stepper.propose(&*runs, &mut lanes);
         let step = proposal.step;
-        let attempt = stepper.attempt(&*runs, step, &mut lanes, &mut end);
+        let mut attempt = stepper.attempt(&*runs, step, &mut lanes, &mut end);
+        if has_switches {
+            switches.find(&*runs, &mut stepper, &mut lanes, (step, control), &mut attempt, &end.state);
+        }
         lanes.accepted += zero.indicator(attempt.accepted);
         lanes.rejected += zero.indicator(!attempt.accepted);
         lanes.error_sum += R::select(attempt.accepted, attempt.error, zero);
@@ -275,7 +294,10 @@ where
             record(&*runs, &mut stepper, &mut lanes, step, limit, &end.state, recorder);
         }
 
-        let failed = stepper.advance(&proposal, &attempt);
+        let mut failed = stepper.advance(&proposal, &attempt);
+        if has_switches {
+            failed = failed & !switches.cut(&mut stepper, &attempt);
+        }
         lanes.time = R::select(attempt.accepted, step.end, lanes.time);
         lanes.now = Carried::select(attempt.accepted, &end, &lanes.now);
 
@@ -288,7 +310,10 @@ where
                 if arrived.test(lane) {
                     let time = lanes.time.lane(lane);
                     match runs.next_arc(lane, time, &lanes.state(lane)) {
-                        Some(end) => lanes.start_arc(lane, time, end, (&mut stepper, control)),
+                        Some(end) => {
+                            lanes.start_arc(lane, time, end, (&mut stepper, control));
+                            switches.start_arc(lane);
+                        }
                         None => ended = Some(Termination::Completed),
                     }
                 } else if failed.test(lane) {
@@ -303,6 +328,7 @@ where
                     slots.clear(lane);
                     let loaded = slots.load_lane(lane, runs, recorder);
                     lanes.start(lane, loaded, recorder.next_time(lane), (&mut stepper, control));
+                    switches.start_arc(lane);
                 }
             }
         }

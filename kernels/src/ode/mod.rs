@@ -4,6 +4,8 @@
 //! - [`integrate`]: the driver of all methods: runs in lanes, arc by arc.
 //! - [`integrators`]: the list of integrators. [`Adaptive`]: step control by the tolerance, for [`embedded`] pairs.
 //!   [`Fixed`]: equal steps.
+//! - [`extrapolation`]: steps of high order for reference solutions.
+//! - [`switches`]: steps that end where the right-hand side changes its branch.
 //! - [`tableau`]: the coefficients. `explicit`: stages of explicit methods and the compensated step.
 //! - [`ErrorModel`]: what a method knows about its errors.
 
@@ -11,12 +13,14 @@ pub mod adaptive;
 pub mod embedded;
 mod error_model;
 pub mod explicit;
+pub mod extrapolation;
 pub mod fixed;
 pub mod integrators;
 pub mod lane_driver;
 mod lane_slot;
 mod runs;
 mod step_control;
+pub mod switches;
 mod system;
 pub mod tableau;
 

@@ -5,8 +5,8 @@ use crate::math::Real;
 
 /// Runs to be integrated. A lane whose run has ended is loaded with the next one.
 ///
-/// A run consists of arcs; within each arc the right-hand side is smooth. Integration restarts at every boundary, exactly
-/// there.
+/// A run consists of arcs; within each arc the right-hand side is smooth but for its switches ([`super::switches`]). Integration restarts at every
+/// boundary, exactly there.
 pub trait Runs<R: Real, const N: usize>: System<R, N> {
     /// Number of runs.
     fn count(&self) -> usize;
@@ -17,6 +17,11 @@ pub trait Runs<R: Real, const N: usize>: System<R, N> {
     /// Prepares lane `lane` for the arc that starts at `time`, s, from `state`, and returns the end of the arc, s, which is later
     /// than `time`; `None` if `time` is the end of the run. Called at time zero and at the end of every arc.
     fn next_arc(&mut self, lane: usize, time: f64, state: &[f64; N]) -> Option<f64>;
+
+    /// Takes the branches that are right at `time`, s, and `state` in the lanes `lanes`, until it is called again; only where
+    /// [`System::has_switches`].
+    #[inline(always)]
+    fn choose_branches(&mut self, _lanes: R::Mask, _time: R, _state: &[R; N]) {}
 }
 
 /// Receives the states of the runs `Q` at their observation times.

@@ -1,5 +1,6 @@
 //! What an integrator needs of a problem: the right-hand side, in lanes, and a norm of errors.
 
+use super::explicit::Step;
 use crate::math::Real;
 
 /// A first-order system y' = f(t, y) of `N` components, in lanes.
@@ -13,6 +14,25 @@ pub trait System<R: Real, const N: usize> {
     /// components by their meaning. The norm must be homogeneous in `error` (twice the error, twice the ratio): the choice of
     /// the first step also asks for the norm of a derivative or of a state.
     fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R;
+
+    /// Whether f has branches ([`super::switches`]); all that follows is asked only then.
+    #[inline(always)]
+    fn has_switches(&self) -> bool {
+        false
+    }
+
+    /// The smallest of the switch functions, each positive where its branch is right: below zero a branch has ended.
+    #[inline(always)]
+    fn margin(&self, time: R, _state: &[R; N]) -> R {
+        time.splat(f64::INFINITY)
+    }
+
+    /// The fraction of `step` at which a switch function may be below zero that is above at both `ends`, states with their derivatives
+    /// ([`super::switches::dip`]); infinite where there is none.
+    #[inline(always)]
+    fn dip(&self, step: Step<R>, _ends: [[&[R; N]; 2]; 2]) -> R {
+        step.time.splat(f64::INFINITY)
+    }
 }
 
 /// Relative and absolute tolerance.

@@ -7,6 +7,8 @@ use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, O
 use crate::math::Real;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{dot, norm, sum};
+use crate::ode::explicit::Step;
+use crate::ode::switches::beside;
 use crate::ode::{Runs, System, Tolerance};
 
 /// Offsets from an orbit below this, m, are compared with it.
@@ -89,6 +91,22 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_
         }
         ratio * self.scale.splat(1.0 / tolerance.relative) + poison
     }
+
+    #[inline(always)]
+    fn has_switches(&self) -> bool {
+        E::ACT && self.effects.has_switches()
+    }
+
+    #[inline(always)]
+    fn margin(&self, time: R, state: &[R; N]) -> R {
+        self.effects.margin(time, state)
+    }
+
+    #[inline(always)]
+    fn dip(&self, step: Step<R>, ends: [[&[R; N]; 2]; 2]) -> R {
+        let (times, [after, before]) = beside(step, ends);
+        self.effects.dip(times, [ends[0][0], &after, &before, ends[1][0]])
+    }
 }
 
 impl<R: Real, E: WithinArcs<R>, const N: usize> Runs<R, N> for GyrostatRuns<'_, R, E> {
@@ -127,5 +145,10 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> Runs<R, N> for GyrostatRuns<'_, 
         self.constants.set_arc(lane, run, arc, 1.0);
         self.scale.set_lane(lane, 1.0 / run.time_unit());
         Some(run.arcs[arc].arc.end())
+    }
+
+    #[inline(always)]
+    fn choose_branches(&mut self, lanes: R::Mask, time: R, state: &[R; N]) {
+        self.effects.choose_branches(lanes, time, state);
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::dynamics::effects::Form;
 
-/// Taylor methods, and the reference solution: what has a series.
+/// Taylor methods: what has a series.
 pub const fn by_taylor(form: Form) -> bool {
     match form {
         Form::Constant | Form::Series | Form::Translation | Form::Force => true,
@@ -15,6 +15,13 @@ pub const fn by_taylor(form: Form) -> bool {
 
 /// Runge-Kutta methods on the gyrostat with an error estimate.
 pub const fn by_runge_kutta(form: Form) -> bool {
+    match form {
+        Form::Constant | Form::Series | Form::Evaluated | Form::Translation | Form::Force => true,
+    }
+}
+
+/// The reference solution: Taylor series, or extrapolation where an effect has none.
+pub const fn by_reference(form: Form) -> bool {
     match form {
         Form::Constant | Form::Series | Form::Evaluated | Form::Translation | Form::Force => true,
     }

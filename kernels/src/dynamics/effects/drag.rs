@@ -10,7 +10,7 @@ use crate::dynamics::environment::EARTH_RATE;
 use crate::dynamics::environment::air::Air;
 
 use crate::math::Real;
-use crate::math::vector::{cross, dcm_from_quaternion, scaled, sum, transposed_product};
+use crate::math::vector::{cross, dcm_from_quaternion, norm, scaled, sum, transposed_product};
 use crate::scene::Scene;
 
 /// The drag on one run, one per lane.
@@ -39,9 +39,28 @@ impl<R: Real> Drag<R> {
     /// The torque on a body, B, N m.
     #[inline(always)]
     pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
-        let density = self.air.density(motion.place.distance);
-        let wind = Air::relative_velocity(&motion.place);
-        self.torque_at(density, transposed_product(dcm_from_quaternion(motion.attitude), wind))
+        self.torque_at(self.air.density(motion.place.distance), flow(motion))
+    }
+
+    /// Chooses the sides of the plates and the band of the air in the lanes `lanes`.
+    #[inline(always)]
+    pub fn choose_branches(&mut self, lanes: R::Mask, motion: &Motion<R>) {
+        self.air.choose_branches(lanes, motion.place.distance);
+        self.plates.choose_branches(lanes, flow(motion));
+    }
+
+    /// Gives `visit` the switch functions in `M` states.
+    #[inline(always)]
+    pub fn switches<const M: usize>(&self, motions: &[Motion<R>; M], visit: &mut impl FnMut([R; M])) {
+        let mut distances = [motions[0].time; M];
+        let mut directions = [[motions[0].time; 3]; M];
+        for m in 0..M {
+            distances[m] = motions[m].place.distance;
+            let velocity = flow(&motions[m]);
+            directions[m] = scaled(distances[m].splat(1.0) / norm(velocity), velocity);
+        }
+        self.air.switches(&distances, visit);
+        self.plates.switches(&directions, visit);
     }
 
     /// The density of the air at the distance `distance` m from the Earth's centre, kg/m^3.
@@ -62,11 +81,17 @@ impl<R: Real> Drag<R> {
     }
 }
 
+/// The velocity relative to the air, B, m/s.
+#[inline(always)]
+fn flow<R: Real>(motion: &Motion<R>) -> [R; 3] {
+    transposed_product(dcm_from_quaternion(motion.attitude), Air::relative_velocity(&motion.place))
+}
+
 /// The air about the Earth of `scene`.
 pub fn air_of(scene: &Scene) -> Option<Air<f64>> {
     let orbit = scene.orbit.as_ref().filter(|_| scene.environment.drag)?;
     let exponential = scene.environment.exponential().map(Option::unwrap_or_default);
-    Some(Air { scale: scene.environment.density_scale, surface: orbit.body_radius, exponential })
+    Some(Air::new(scene.environment.density_scale, orbit.body_radius, exponential))
 }
 
 /// The drag on `scene` in the frame B, which `c_sb` maps to F_s.

@@ -1,4 +1,7 @@
 //! [`PlatesInLanes`]: the plates of a spacecraft for one run per lane, in the frame B of the equations.
+//!
+//! The cosine between a plate's normal and what comes upon it is its switch function: below zero the plate faces away. Where steps end at switches the
+//! side is chosen once and then frozen.
 
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
@@ -21,12 +24,15 @@ pub struct PlateInLanes<R, const K: usize> {
     pub arm: [R; 3],
     /// What acts on it, times its area.
     pub numbers: [R; K],
+    /// The least and the largest that it feels of the cosine: zero and infinity until its side is chosen, then minus infinity and infinity, or zero.
+    limits: [R; 2],
 }
 
 impl<R: Real, const K: usize> PlatesInLanes<R, K> {
     /// None.
     pub fn none(zero: R) -> Self {
-        let plate = PlateInLanes { normal: [zero; 3], arm: [zero; 3], numbers: [zero; K] };
+        let limits = [zero, zero.splat(f64::INFINITY)];
+        let plate = PlateInLanes { normal: [zero; 3], arm: [zero; 3], numbers: [zero; K], limits };
         PlatesInLanes { plates: [plate; MAX_PLATES], count: 0 }
     }
 
@@ -54,6 +60,34 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
             for (number, own) in plate.numbers.iter_mut().zip(own.numbers) {
                 number.set_lane(lane, own);
             }
+            for (limit, own) in plate.limits.iter_mut().zip(own.limits) {
+                limit.set_lane(lane, own);
+            }
+        }
+    }
+
+    /// Chooses the side of each plate in the lanes `lanes`, where `direction` is that against which something comes.
+    #[inline(always)]
+    pub fn choose_branches(&mut self, lanes: R::Mask, direction: [R; 3]) {
+        let zero = direction[0].zero();
+        let infinite = zero.splat(f64::INFINITY);
+        for plate in &mut self.plates[..self.count] {
+            let faces = zero.lt(dot(plate.normal, direction));
+            plate.limits[0] = R::select(lanes, R::select(faces, -infinite, zero), plate.limits[0]);
+            plate.limits[1] = R::select(lanes, R::select(faces, infinite, zero), plate.limits[1]);
+        }
+    }
+
+    /// Gives `visit` the switch function of each plate in its branch, at the same unit vector in `M` states.
+    #[inline(always)]
+    pub fn switches<const M: usize>(&self, directions: &[[R; 3]; M], visit: &mut impl FnMut([R; M])) {
+        for plate in self.iter() {
+            let mut cosines = [plate.limits[1]; M];
+            for (cosine, direction) in cosines.iter_mut().zip(directions) {
+                let own = dot(plate.normal, *direction);
+                *cosine = R::select(own.zero().lt(plate.limits[1]), own, -own);
+            }
+            visit(cosines);
         }
     }
 
@@ -65,10 +99,11 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
 }
 
 impl<R: Real, const K: usize> PlateInLanes<R, K> {
-    /// The cosine of the angle between the normal and the unit vector `direction`, zero where the plate faces away.
+    /// The cosine of the angle between the normal and the unit vector `direction`, zero where the plate faces away; on a side that was chosen the cosine
+    /// itself, or zero.
     #[inline(always)]
     pub fn facing(&self, direction: [R; 3]) -> R {
-        dot(self.normal, direction).larger(direction[0].zero())
+        dot(self.normal, direction).larger(self.limits[0]).smaller(self.limits[1])
     }
 }
 

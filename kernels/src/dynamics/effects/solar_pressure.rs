@@ -7,7 +7,7 @@
 
 use super::plates::{PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
-use crate::dynamics::environment::shadow::lit;
+use crate::dynamics::environment::shadow::{Zone, lit};
 use crate::dynamics::environment::sun::{Sun, sun};
 use crate::math::Real;
 use crate::math::vector::{cross, dcm_from_quaternion, scaled, sum, transposed_product};
@@ -25,6 +25,7 @@ pub struct SolarPressure<R> {
     /// 1 - c_s, 2 c_s and 2 c_d/3, each times the pressure at 1 au, N/m^2.
     plates: PlatesInLanes<R, 3>,
     light: Light<R>,
+    zone: Zone<R>,
 }
 
 /// When it is where the Sun shines, one per lane.
@@ -52,8 +53,14 @@ impl<R: Real> Light<R> {
     /// The Sun at `time`, s, and the share of its disc that is visible from `position`, F_e, m.
     #[inline(always)]
     pub fn at(&self, time: R, position: [R; 3]) -> (Sun<R>, R) {
-        let sun = sun(time.mul_add(time.splat(DAY), self.epoch));
+        let sun = self.sun(time);
         (sun, lit(self.shadow, position, &sun, self.radius))
+    }
+
+    /// The Sun at `time`, s.
+    #[inline(always)]
+    fn sun(&self, time: R) -> Sun<R> {
+        sun(time.mul_add(time.splat(DAY), self.epoch))
     }
 }
 
@@ -64,12 +71,13 @@ impl<R: Real> SolarPressure<R> {
     /// One that does not act.
     pub fn none(zero: R) -> Self {
         let light = Light { epoch: zero, radius: zero, shadow: Shadow::Cone };
-        SolarPressure { plates: PlatesInLanes::none(zero), light }
+        SolarPressure { plates: PlatesInLanes::none(zero), light, zone: Zone::none(zero) }
     }
 
     /// Puts `own` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, own: &SolarPressure<f64>) {
         self.plates.set_lane(lane, &own.plates);
+        self.zone.set_lane(lane, &own.zone);
         self.light.epoch.set_lane(lane, own.light.epoch);
         self.light.radius.set_lane(lane, own.light.radius);
         // no number: the same in all runs of a plan
@@ -79,9 +87,33 @@ impl<R: Real> SolarPressure<R> {
     /// The torque on a body, B, N m.
     #[inline(always)]
     pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
-        let (sun, lit) = self.light.at(motion.time, motion.place.position);
-        let direction = transposed_product(dcm_from_quaternion(motion.attitude), sun.direction);
-        self.torque_at(lit / (sun.distance * sun.distance), direction)
+        let sun = self.light.sun(motion.time);
+        let lit = self.zone.lit(self.light.shadow, motion.place.position, &sun, self.light.radius);
+        self.torque_at(lit / (sun.distance * sun.distance), seen(&sun, motion))
+    }
+
+    /// Chooses the sides of the plates, and light or shadow, in the lanes `lanes`.
+    #[inline(always)]
+    pub fn choose_branches(&mut self, lanes: R::Mask, motion: &Motion<R>) {
+        let sun = self.light.sun(motion.time);
+        self.zone.choose_branches(lanes, self.light.shadow, motion.place.position, &sun, self.light.radius);
+        self.plates.choose_branches(lanes, seen(&sun, motion));
+    }
+
+    /// Gives `visit` the switch functions in `M` states.
+    #[inline(always)]
+    pub fn switches<const M: usize>(&self, motions: &[Motion<R>; M], visit: &mut impl FnMut([R; M])) {
+        let mut edges = [[motions[0].time; M]; 2];
+        let mut directions = [[motions[0].time; 3]; M];
+        for (m, motion) in motions.iter().enumerate() {
+            let sun = self.light.sun(motion.time);
+            let own = self.zone.switches(self.light.shadow, motion.place.position, &sun, self.light.radius);
+            (edges[0][m], edges[1][m]) = (own[0], own[1]);
+            directions[m] = seen(&sun, motion);
+        }
+        visit(edges[0]);
+        visit(edges[1]);
+        self.plates.switches(&directions, visit);
     }
 
     /// The same at `share` of the pressure at 1 au, where `sun` is the unit vector to the Sun, B.
@@ -98,6 +130,12 @@ impl<R: Real> SolarPressure<R> {
     }
 }
 
+/// The unit vector to the Sun, B.
+#[inline(always)]
+fn seen<R: Real>(sun: &Sun<R>, motion: &Motion<R>) -> [R; 3] {
+    transposed_product(dcm_from_quaternion(motion.attitude), sun.direction)
+}
+
 /// The light on `scene` in the frame B, which `c_sb` maps to F_s.
 pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<SolarPressure<R>> {
     let light = Light::of(zero, scene).filter(|_| scene.environment.solar_pressure)?;
@@ -105,7 +143,7 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
     let plates = PlatesInLanes::of(zero, scene, c_sb, |plate| {
         [1.0 - plate.specular, 2.0 * plate.specular, 2.0 / 3.0 * plate.diffuse].map(|share| pressure * share)
     });
-    Some(SolarPressure { plates, light })
+    Some(SolarPressure { plates, light, zone: Zone::none(zero) })
 }
 
 /// Upper bound of the torque on `scene`, N m: in light at the smallest distance, all plates across it.

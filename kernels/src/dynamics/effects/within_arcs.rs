@@ -44,6 +44,16 @@ pub struct Motion<R> {
     pub place: OrbitState<R>,
 }
 
+impl<R: Real> Motion<R> {
+    /// That of a body whose integrated components are `state`, at `time`, s, where it is at `place`.
+    #[inline(always)]
+    pub fn of<const N: usize>(time: R, state: &[R; N], place: OrbitState<R>) -> Self {
+        let attitude = [state[ATTITUDE], state[ATTITUDE + 1], state[ATTITUDE + 2], state[ATTITUDE + 3]];
+        let rate = [state[OMEGA], state[OMEGA + 1], state[OMEGA + 2]];
+        Motion { time, attitude, rate, place }
+    }
+}
+
 /// What the Taylor series of an effect may depend on: coefficients up to the order that is being computed, in the lanes' units of time.
 #[derive(Clone, Debug)]
 pub struct MotionSeries<R> {
@@ -130,6 +140,18 @@ pub trait WithinArcs<R: Real>: Copy {
     /// What they do at `time` (s) to a body whose integrated components are `state`, SI.
     fn act<const N: usize>(&self, time: R, state: &[R; N]) -> Beside<R>;
 
+    /// Whether they have branches.
+    fn has_switches(&self) -> bool;
+
+    /// The smallest of their switch functions, where they act as in [`WithinArcs::act`].
+    fn margin<const N: usize>(&self, time: R, state: &[R; N]) -> R;
+
+    /// The fraction of a step at which one of them may be below zero that is above at both ends ([`crate::ode::switches::dip`]), from the times and states at four fractions.
+    fn dip<const N: usize>(&self, times: [R; 4], states: [&[R; N]; 4]) -> R;
+
+    /// Chooses the branches in the lanes `lanes`.
+    fn choose_branches<const N: usize>(&mut self, lanes: R::Mask, time: R, state: &[R; N]);
+
     /// Where a spacecraft may leave its orbit: one over the time in which its offset changes, 1/s, and its mass, kg.
     fn scales_of_offset(&self) -> Option<[R; 2]>;
 
@@ -156,6 +178,24 @@ impl<R: Real> WithinArcs<R> for NoEffects {
     fn act<const N: usize>(&self, time: R, _state: &[R; N]) -> Beside<R> {
         Beside { torque: [time.zero(); 3], carrier: None }
     }
+
+    #[inline(always)]
+    fn has_switches(&self) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn margin<const N: usize>(&self, time: R, _state: &[R; N]) -> R {
+        time.splat(f64::INFINITY)
+    }
+
+    #[inline(always)]
+    fn dip<const N: usize>(&self, [time, ..]: [R; 4], _states: [&[R; N]; 4]) -> R {
+        time.splat(f64::INFINITY)
+    }
+
+    #[inline(always)]
+    fn choose_branches<const N: usize>(&mut self, _lanes: R::Mask, _time: R, _state: &[R; N]) {}
 
     #[inline(always)]
     fn scales_of_offset(&self) -> Option<[R; 2]> {
@@ -191,6 +231,37 @@ struct Leaving<R> {
     rate: R,
 }
 
+impl<R: Real> Acting<R> {
+    /// Where the spacecraft is, and what the point on its orbit does where it may leave that.
+    #[inline(always)]
+    fn place<const N: usize>(&self, time: R, state: &[R; N]) -> (OrbitState<R>, Option<Carrier<R>>) {
+        let place = match &self.orbit {
+            Some(orbit) => orbit.state(time),
+            None => OrbitState::unknown(time),
+        };
+        match (&self.orbit, &self.leaving) {
+            (Some(orbit), Some(leaving)) if N >= WITH_THRUST => {
+                beside_orbit(orbit.mu(), &place, leaving.inverse_mass, state)
+            }
+            _ => (place, None),
+        }
+    }
+}
+
+/// Where a spacecraft is whose integrated components are `state`, beside the point `place` on its orbit, and what that point does.
+#[inline(always)]
+pub fn beside_orbit<R: Real, const N: usize>(
+    mu: R,
+    place: &OrbitState<R>,
+    inverse_mass: R,
+    state: &[R; N],
+) -> (OrbitState<R>, Option<Carrier<R>>) {
+    let three = |first: usize| scaled(inverse_mass, [state[first], state[first + 1], state[first + 2]]);
+    let offset = [three(IMPULSE_INTEGRAL), three(IMPULSE)];
+    let carrier = Carrier { velocity: place.velocity, tide: tide(mu, place, offset[0]) };
+    (place.displaced(offset), Some(carrier))
+}
+
 impl<R: Real> WithinArcs<R> for Acting<R> {
     const ACT: bool = true;
 
@@ -215,23 +286,36 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
 
     #[inline(always)]
     fn act<const N: usize>(&self, time: R, state: &[R; N]) -> Beside<R> {
-        let mut place = match &self.orbit {
-            Some(orbit) => orbit.state(time),
-            None => OrbitState::unknown(time),
-        };
-        let mut carrier = None;
-        if let (Some(orbit), Some(leaving), true) = (&self.orbit, &self.leaving, N >= WITH_THRUST) {
-            let three = |first: usize| scaled(leaving.inverse_mass, [state[first], state[first + 1], state[first + 2]]);
-            let offset = [three(IMPULSE_INTEGRAL), three(IMPULSE)];
-            carrier = Some(Carrier { velocity: place.velocity, tide: tide(orbit.mu(), &place, offset[0]) });
-            place = place.displaced(offset);
-        }
+        let (place, carrier) = self.place(time, state);
         if self.effects.is_empty() {
             return Beside { torque: [self.zero; 3], carrier };
         }
-        let attitude = [state[ATTITUDE], state[ATTITUDE + 1], state[ATTITUDE + 2], state[ATTITUDE + 3]];
-        let rate = [state[OMEGA], state[OMEGA + 1], state[OMEGA + 2]];
-        Beside { torque: self.effects.torque(&Motion { time, attitude, rate, place }), carrier }
+        Beside { torque: self.effects.torque(&Motion::of(time, state, place)), carrier }
+    }
+
+    #[inline(always)]
+    fn has_switches(&self) -> bool {
+        self.effects.has_switches()
+    }
+
+    #[inline(always)]
+    fn margin<const N: usize>(&self, time: R, state: &[R; N]) -> R {
+        self.effects.margin(&Motion::of(time, state, self.place(time, state).0))
+    }
+
+    #[inline(always)]
+    fn dip<const N: usize>(&self, times: [R; 4], states: [&[R; N]; 4]) -> R {
+        let mut motions = [Motion::of(times[0], states[0], OrbitState::unknown(self.zero)); 4];
+        for m in 0..4 {
+            motions[m] = Motion::of(times[m], states[m], self.place(times[m], states[m]).0);
+        }
+        self.effects.dip(&motions)
+    }
+
+    #[inline(always)]
+    fn choose_branches<const N: usize>(&mut self, lanes: R::Mask, time: R, state: &[R; N]) {
+        let place = self.place(time, state).0;
+        self.effects.choose_branches(lanes, &Motion::of(time, state, place));
     }
 
     #[inline(always)]
@@ -259,12 +343,65 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
 /// evaluated { file: Constants; }
 /// ```
 ///
-/// `Constants<R>` has `NEEDS_ORBIT`, `none(zero)`, `set_lane(lane, &Constants<f64>)` and `torque(&Motion<R>)`, in B, N m. `Series<R>` has `new(zero,
+/// `Constants<R>` has `NEEDS_ORBIT`, `none(zero)`, `set_lane(lane, &Constants<f64>)` and `torque(&Motion<R>)`, in B, N m; those of the form `Evaluated` have
+/// branches too ([`crate::ode::switches`]): `switches(&[Motion<R>; M], visit)` and `choose_branches(lanes, &Motion<R>)`. `Series<R>` has `new(zero,
 /// order)`, `begin(&Constants<R>, time, unit)` and `extend(n, &MotionSeries<R>)`, coefficient n of the torque in the unit of time. The file has `of(zero, scene, c_sb)`, the constants in the frame B that `c_sb` maps to F_s, `None` where the
 /// effect does not act; `largest_torque(scene)`, an upper bound, N m; and `largest_rate(scene)`, the fastest motion that it makes, rad/s.
 macro_rules! changing_effects {
     (series { $($series:ident: $Of:ident, $Series:ident;)* } evaluated { $($evaluated:ident: $Evaluated:ident;)* }) => {
         within_arcs::changing_effects! { all { $($series: $Of;)* $($evaluated: $Evaluated;)* } }
+
+        impl<R: $crate::math::Real> ChangingEffects<R> {
+            /// Whether one acts that has branches.
+            #[inline(always)]
+            pub fn has_switches(&self) -> bool {
+                false $(|| self.$evaluated.is_some())*
+            }
+
+            /// Chooses the branches in the lanes `lanes`.
+            #[inline(always)]
+            pub fn choose_branches(&mut self, lanes: R::Mask, motion: &within_arcs::Motion<R>) {
+                $(
+                    if let Some(effect) = &mut self.$evaluated {
+                        effect.choose_branches(lanes, motion);
+                    }
+                )*
+            }
+
+            /// The smallest of the switch functions in their branches.
+            #[inline(always)]
+            pub fn margin(&self, motion: &within_arcs::Motion<R>) -> R {
+                let mut least = motion.time.splat(f64::INFINITY);
+                self.switches(
+                    &[*motion],
+                    #[inline(always)]
+                    |[margin]: [R; 1]| least = margin.smaller(least),
+                );
+                least
+            }
+
+            /// The fraction of a step at which one of them may be below zero that is above at both ends ([`crate::ode::switches::dip`]).
+            #[inline(always)]
+            pub fn dip(&self, motions: &[within_arcs::Motion<R>; 4]) -> R {
+                let mut first = motions[0].time.splat(f64::INFINITY);
+                self.switches(
+                    motions,
+                    #[inline(always)]
+                    |margins: [R; 4]| first = $crate::ode::switches::dip(margins).smaller(first),
+                );
+                first
+            }
+
+            /// Gives `visit` each switch function in its branch, in `M` states.
+            #[inline(always)]
+            fn switches<const M: usize>(&self, motions: &[within_arcs::Motion<R>; M], mut visit: impl FnMut([R; M])) {
+                $(
+                    if let Some(effect) = &self.$evaluated {
+                        effect.switches(motions, &mut visit);
+                    }
+                )*
+            }
+        }
 
         /// The Taylor series of the effects along a step.
         #[derive(Clone, Debug)]

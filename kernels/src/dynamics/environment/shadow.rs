@@ -2,7 +2,7 @@
 //!
 //! Cone: both discs as seen from the spacecraft, of angular radii a = asin(R_sun/d) and b = asin(R/|r|) at the angle c; where they overlap in part, the area of
 //! the overlap of two plane circles (O. Montenbruck & E. Gill, *Satellite Orbits*, 2000, section 3.4.2). Cylinder: in shadow on the night side
-//! within one radius of the line from the Sun through the centre.
+//! within one radius of the line from the Sun through the centre. Where steps end at switches, these are the edges of both shadows ([`Zone`]).
 
 use super::each_lane;
 use super::sun::{ASTRONOMICAL_UNIT, Sun};
@@ -33,9 +33,82 @@ pub fn lit<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -
     if !edge.any() {
         return plain;
     }
-    let to_sun = difference(scaled(sun.distance * along.splat(ASTRONOMICAL_UNIT), sun.direction), position);
+    R::select(edge, visible_share(position, sun, radius), plain)
+}
+
+/// The visible share of the Sun's disc behind that of the Earth.
+#[inline(always)]
+fn visible_share<R: Real>(position: [R; 3], sun: &Sun<R>, radius: R) -> R {
+    let to_sun = difference(scaled(sun.distance * radius.splat(ASTRONOMICAL_UNIT), sun.direction), position);
     let numbers = [norm(to_sun), norm(position), norm(cross(position, to_sun)), -dot(position, to_sun), radius];
-    R::select(edge, each_lane(numbers, visible_disc), plain)
+    each_lane(numbers, visible_disc)
+}
+
+/// Which of light, part shadow and full shadow was chosen: on which side of the surfaces of part and of full shadow, 1 outside and -1 inside.
+#[derive(Clone, Copy, Debug)]
+pub struct Zone<R>([R; 2]);
+
+impl<R: Real> Zone<R> {
+    /// None yet.
+    pub fn none(zero: R) -> Self {
+        Zone([zero; 2])
+    }
+
+    /// Puts `own` into lane `lane`.
+    pub fn set_lane(&mut self, lane: usize, own: &Zone<f64>) {
+        for (side, own) in self.0.iter_mut().zip(own.0) {
+            side.set_lane(lane, own);
+        }
+    }
+
+    /// Chooses the zone in the lanes `lanes`.
+    #[inline(always)]
+    pub fn choose_branches(&mut self, lanes: R::Mask, shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) {
+        for (side, edge) in self.0.iter_mut().zip(edges(shadow, position, sun, radius)) {
+            let one = edge.splat(1.0);
+            *side = R::select(lanes, R::select(edge.lt(one.zero()), -one, one), *side);
+        }
+    }
+
+    /// The switch functions in this zone.
+    #[inline(always)]
+    pub fn switches(&self, shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> [R; 2] {
+        let [part, full] = edges(shadow, position, sun, radius);
+        [self.0[0] * part, self.0[1] * full]
+    }
+
+    /// [`lit`] in this zone, and beyond it what is in it.
+    #[inline(always)]
+    pub fn lit(&self, shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> R {
+        let [part, full] = self.0;
+        let (zero, one) = (radius.zero(), radius.splat(1.0));
+        let plain = R::select(part.lt(zero), zero, one);
+        let in_part = part.lt(zero) & zero.lt(full);
+        let plain = if in_part.any() { R::select(in_part, visible_share(position, sun, radius), plain) } else { plain };
+        let open = !(part.lt(zero) | zero.lt(part));
+        if open.any() { R::select(open, lit(shadow, position, sun, radius), plain) } else { plain }
+    }
+}
+
+/// How far `position` is outside of part and full shadow, in radii of the Earth; on the day side the distance from a sphere that touches both.
+///
+/// The surfaces are the cones that touch Sun and Earth, of half angles with the sines (R_sun + R)/d and (R_sun - R)/d, or a cylinder.
+#[inline(always)]
+fn edges<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> [R; 2] {
+    let zero = radius.zero();
+    let behind = -dot(position, sun.direction);
+    let beside = R::select(zero.lt(behind), norm(cross(position, sun.direction)), norm(position));
+    let depth = behind.larger(zero);
+    let one = radius.splat(1.0);
+    let edge = |sine: R| (beside * sine.neg_mul_add(sine, one).sqrt() - sine.mul_add(depth, radius)) / radius;
+    match shadow {
+        Shadow::Cylinder => [edge(zero); 2],
+        Shadow::Cone => {
+            let per = one / (sun.distance * radius.splat(ASTRONOMICAL_UNIT));
+            let size = radius.splat(SUN_RADIUS);
+            [edge((size + radius) * per), edge((radius - size) * per)]
+        }
+    }
 }
 
 /// The visible share of a disc, from the distances of Sun and Earth, the cross and dot product of the vectors to them, and the Earth's radius.
@@ -69,6 +142,42 @@ mod tests {
     fn share(shadow: Shadow, position: [f64; 3]) -> f64 {
         let sun = Sun { direction: [1.0, 0.0, 0.0], distance: 1.0 };
         lit(shadow, position, &sun, RADIUS)
+    }
+
+    /// Law: the edges are where the share leaves 1 and reaches 0, to the rounding of angles; within a zone the share is that of the sky, and beyond it what
+    /// is in it.
+    #[test]
+    fn the_zones_meet_at_their_edges() {
+        let sun = Sun { direction: [1.0, 0.0, 0.0], distance: 0.99 };
+        let place = |beside: f64| [-7e6, 0.6 * beside, 0.8 * beside];
+        for (shadow, index) in [(Shadow::Cone, 0), (Shadow::Cone, 1), (Shadow::Cylinder, 0)] {
+            let edge = |beside: f64| edges(shadow, place(beside), &sun, RADIUS)[index];
+            let (mut low, mut high) = (0.9 * RADIUS, 1.1 * RADIUS);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if edge(middle) < 0.0 { low = middle } else { high = middle }
+            }
+            // the share near an edge grows with the power 3/2 of the distance: 1 m is 1e-7 of the disc
+            let [inside, outside] = [low - 1.0, high + 1.0].map(|beside| lit(shadow, place(beside), &sun, RADIUS));
+            let expected = if index == 0 && matches!(shadow, Shadow::Cone) { [0, 1] } else { [1, 0] };
+            if matches!(shadow, Shadow::Cone) {
+                assert!([inside, outside][expected[1]] == [1.0, 0.0][index], "{inside} {outside}");
+                let off = ([inside, outside][expected[0]] - [1.0, 0.0][index]).abs();
+                assert!(off > 0.0 && off < 1e-6, "{off:e}");
+            } else {
+                assert_eq!([inside, outside], [0.0, 1.0]);
+            }
+            let mut zone = Zone::none(0.0);
+            for (from, value) in [(low - 10.0, inside), (high + 10.0, outside)] {
+                zone.choose_branches(true, shadow, place(from), &sun, RADIUS);
+                assert!(zone.switches(shadow, place(from), &sun, RADIUS).iter().all(|margin| *margin > 0.0));
+                let own = zone.lit(shadow, place(if value == inside { low - 1.0 } else { high + 1.0 }), &sun, RADIUS);
+                assert_eq!(own, value);
+            }
+            zone.choose_branches(true, shadow, place(high + 10.0), &sun, RADIUS);
+            assert!(zone.switches(shadow, place(low - 10.0), &sun, RADIUS)[index] < 0.0);
+        }
+        assert_eq!(edges(Shadow::Cone, [7e6, 0.0, 0.0], &sun, RADIUS).map(|edge| edge > 0.0), [true; 2]);
     }
 
     /// Law: the cylinder is as wide as the Earth; the cone of full shadow is narrower, that of part shadow wider, both by |r| tan(0.2666 deg); half of

@@ -48,6 +48,10 @@ impl Embedded for Dop853 {
         &mut stages.k[0]
     }
     #[inline(always)]
+    fn at_start<R: Real, const N: usize>(stages: &Dop853Stages<R, N>) -> &[R; N] {
+        &stages.k[0]
+    }
+    #[inline(always)]
     fn last<R: Real, const N: usize>(stages: &Dop853Stages<R, N>) -> &[R; N] {
         &stages.k[12]
     }

@@ -70,6 +70,10 @@ impl<P: PointsInside> Embedded for P {
         &mut stages[0]
     }
     #[inline(always)]
+    fn at_start<R: Real, const N: usize>(stages: &[[R; N]; 7]) -> &[R; N] {
+        &stages[0]
+    }
+    #[inline(always)]
     fn last<R: Real, const N: usize>(stages: &[[R; N]; 7]) -> &[R; N] {
         &stages[6]
     }

@@ -6,7 +6,7 @@
 //!   where each is in its run; `points`, `point_rows`: observation points during a step; [`workspace`], `series_ring`: memory.
 //! - [`period`], `period_search`: the period of omega and time folded by it; [`return_detector`]: its search in all lanes at once;
 //!   `period_folding`, `fold_buffer`: the points of runs whose period is known.
-//! - [`reference_solution`]: reference solutions of any scene by the same recurrences in double-double.
+//! - [`reference_solution`]: reference solutions of any scene by the same recurrences in double-double; `switched_reference`: where torques have no series.
 //!
 //! The motion of omega without torque is periodic: it stays on the curve in which the energy ellipsoid meets the momentum
 //! sphere. One period turns the attitude by a fixed rotation about the constant angular momentum L, so a run of any
@@ -31,6 +31,7 @@ pub mod reference_solution;
 pub mod return_detector;
 pub mod series_ring;
 pub mod step;
+mod switched_reference;
 pub mod thrust;
 mod truncation;
 pub mod workspace;

@@ -8,7 +8,7 @@
 //! method. The reference solution is the exact motion for *those* numbers; the rounding in the computation of mass properties
 //! from dimensions and densities is not an error of integration and is not counted here.
 //!
-//! A scene with an effect that has no Taylor series has no reference solution ([`ReferenceSolution::integrates`]).
+//! A scene with an effect that has no Taylor series is integrated by extrapolation in the same arithmetic ([`super::switched_reference`]).
 //!
 //! Not here: periodic folding (a solution that shared it could not judge it), lanes, failures as rows.
 
@@ -17,6 +17,7 @@ use fearless_simd::Simd;
 use super::jet::{Reciprocals, Scratch, expand};
 use super::lane_vectors::si_factors;
 use super::step::StepRule;
+use super::switched_reference;
 use crate::dynamics::actuation::ActuationLaw;
 use crate::dynamics::applied::next_arc;
 use crate::dynamics::debris;
@@ -47,7 +48,7 @@ pub const TOLERANCE: f64 = 1e-31;
 pub const MOST_STEPS: u64 = 1_000_000;
 
 /// Every component that a gyrostat has: one kernel for all scenes.
-const N: usize = WITH_THRUST;
+pub(super) const N: usize = WITH_THRUST;
 
 /// The states of a run at its observation points, as unevaluated sums of two tables.
 #[derive(Clone, Debug)]
@@ -75,7 +76,7 @@ impl ReferenceSolution {
     /// As [`ReferenceSolution::new`].
     ///
     /// # Panics
-    /// Where an answer of the law ends before it starts, and where the scene has an effect that it does not integrate.
+    /// Where an answer of the law ends before it starts.
     pub fn under(
         law: &mut dyn ActuationLaw,
         isa: Isa,
@@ -87,9 +88,14 @@ impl ReferenceSolution {
         Self::solve(isa, scene, Some(law), grid, fields, tolerance)
     }
 
-    /// Whether it has every effect of `model`: those that have a Taylor series.
+    /// Whether it has every effect of `model`.
     pub fn integrates(model: ForceModel) -> bool {
-        model.is_integrated(integrated_effects::by_taylor)
+        model.is_integrated(integrated_effects::by_reference)
+    }
+
+    /// Its tolerance under `model`, where [`TOLERANCE`] is asked for: that, or what torques without a Taylor series allow.
+    pub fn tolerance(model: ForceModel) -> f64 {
+        if model.is_integrated(integrated_effects::by_taylor) { TOLERANCE } else { switched_reference::TOLERANCE }
     }
 
     fn solve(
@@ -244,15 +250,15 @@ fn rotation(
 }
 
 /// One run from its start to the end of its grid.
-struct Integration<'a, 'l> {
-    run: &'a mut Gyrostat<DoubleDouble>,
+pub(super) struct Integration<'a, 'l> {
+    pub(super) run: &'a mut Gyrostat<DoubleDouble>,
     /// The same run in `f64`, for its unit of time: a power of two near the time scale of the motion.
-    coarse: &'a mut Gyrostat<f64>,
+    pub(super) coarse: &'a mut Gyrostat<f64>,
     /// `None` where nothing acts on the body.
     scene: Option<&'a Scene>,
     /// `None` where the scene's schedule is flown.
     law: Option<&'a mut (dyn ActuationLaw + 'l)>,
-    grid: &'a Grid,
+    pub(super) grid: &'a Grid,
     rule: StepRule,
 }
 
@@ -262,7 +268,7 @@ impl NarrowWork for Integration<'_, '_> {
     fn in_lanes<S: Simd>(self, simd: S) -> Self::Output {
         simd.vectorize(
             #[inline(always)]
-            || self.states(),
+            || if self.run.effects.has_switches() { self.switched_states() } else { self.states() },
         )
     }
 
@@ -273,7 +279,7 @@ impl NarrowWork for Integration<'_, '_> {
 
 impl Integration<'_, '_> {
     /// Starts the arc at `time`, where the components are `state` in units of `unit` seconds.
-    fn begin_arc(&mut self, time: f64, unit: f64, state: &[DoubleDouble; N]) {
+    pub(super) fn begin_arc(&mut self, time: f64, unit: f64, state: &[DoubleDouble; N]) {
         let duration = self.grid.duration();
         let Some(scene) = self.scene else {
             self.run.begin_free_arc(duration);
@@ -401,10 +407,10 @@ impl Integration<'_, '_> {
 }
 
 /// The orbit of a run, integrated beside it: no closed form, so that it can judge one.
-struct ReferenceOrbit {
+pub(super) struct ReferenceOrbit {
     mass: DoubleDouble,
-    mu: DoubleDouble,
-    start: OrbitState<DoubleDouble>,
+    pub(super) mu: DoubleDouble,
+    pub(super) start: OrbitState<DoubleDouble>,
     /// Where the spacecraft may leave the orbit: its position and velocity relative to it at time zero, m and m/s.
     offset: Option<[[DoubleDouble; 3]; 2]>,
     /// At the start of the step.
@@ -415,7 +421,7 @@ struct ReferenceOrbit {
 
 impl ReferenceOrbit {
     /// `orbit`, on which `run` starts or beside it.
-    fn new(run: &Gyrostat<DoubleDouble>, orbit: &KeplerOrbit<f64>) -> Self {
+    pub(super) fn new(run: &Gyrostat<DoubleDouble>, orbit: &KeplerOrbit<f64>) -> Self {
         let [position, velocity] = orbit.start().map(|vector| vector.map(DoubleDouble::exact));
         let start = OrbitState { position, velocity, distance: norm(position) };
         ReferenceOrbit {
@@ -441,7 +447,7 @@ impl ReferenceOrbit {
     }
 
     /// Adds what gravity does to the components at `time`, s, where c is at `place`: its impulse, the integral of that, and its work.
-    fn complete(&self, time: f64, place: &OrbitState<DoubleDouble>, values: &mut [DoubleDouble; N]) {
+    pub(super) fn complete(&self, time: f64, place: &OrbitState<DoubleDouble>, values: &mut [DoubleDouble; N]) {
         let (mut start, mut place) = (self.start, *place);
         if let Some(offset) = self.offset {
             let inverse_mass = DoubleDouble::exact(1.0) / self.mass;

@@ -1,0 +1,415 @@
+//! [`Switches`]: steps that end where the right-hand side changes its branch.
+//!
+//! A right-hand side with branches has switch functions, smooth functions of time and state whose signs say which branch is right. Within a step the
+//! branches are frozen: what is integrated is the smooth continuation of each, so that a method keeps its order and its error estimate means
+//! something (E. Hairer, S. Norsett & G. Wanner, *Solving Ordinary Differential Equations I*, 1993, section II.6; L. Shampine & S. Thompson, *Event
+//! location for ordinary differential equations*, Comput. Math. Appl. 39, 2000). A step at whose end a branch is wrong is not taken: the switch is located on
+//! its dense output, and a step that ends there takes its place. Then the branches are chosen again, by the signs a little later, so that it does not matter on
+//! which side of the switch the step has ended. A pair of switches within a step, after which all signs are as they were, is found by the derivatives
+//! at both ends ([`dip`]): the step ends first where the function is smallest.
+//!
+//! Nothing here can hang: a switch function that is zero but for rounding does not count, a step is replaced at most [`MOST_CUTS`] times and then taken as
+//! it is, with the switch at its end, and every step that is taken counts against `max_steps`.
+
+use super::explicit::{Step, each};
+use super::lane_driver::{Attempt, Stepper, StepperLane};
+use super::runs::Runs;
+use super::step_control::Control;
+use super::system::System;
+use crate::math::{Mask, Real};
+
+/// A switch function below minus this has changed its sign; functions are of the order of one, and their rounding is some 1e-15.
+const NOISE: f64 = 1e-12;
+
+/// The switch function at the end of a step to a switch may be below zero by this times the square root of the tolerance. What is missed is of the second
+/// order, 1e-4/2 of the tolerance; dense output is as accurate as the tolerance.
+const LANDED: f64 = 1e-2;
+
+/// Branches are chosen by the signs after this fraction of a step: more than the error of its location, and of no effect in the second order.
+const AHEAD: f64 = 1e-4;
+
+/// A switch is looked for after this fraction of the step. Before it are those that have just been passed.
+const LEAST: f64 = 1e-3;
+
+/// Replacements of a step at most. Measured in campaigns of tumbling boxes: 3.
+const MOST_CUTS: f64 = 8.0;
+
+/// Evaluations of the dense output for a switch at most.
+const MOST_EVALUATIONS: usize = 40;
+
+/// A switch is located where its function is below this, or its time is known to this fraction of the step.
+const LOCATED: [f64; 2] = [1e-14, 1e-15];
+
+/// A function with a minimum within a step is looked at closer if the cubic through its ends leaves less than this share of the depth of the minimum. For a
+/// cosine the cubic is wrong by a tenth of it where the step is 2 rad long.
+const DOUBT: f64 = 0.1;
+
+/// The part of a step between both times from which [`dip`] knows a derivative.
+const BESIDE: f64 = 1e-3;
+
+/// What is known of the switches, one run per lane.
+pub(super) struct Switches<R: Real> {
+    /// Where branches are to be chosen, and after which time, s.
+    pending: R::Mask,
+    ahead: R,
+    /// Where the next step is to replace one, how often it was replaced, the length of the first, and of the next, s.
+    cut: R::Mask,
+    cuts: R,
+    whole: R,
+    next: R,
+    /// Where the step in hand replaces one.
+    landing: R::Mask,
+}
+
+impl<R: Real> Switches<R> {
+    /// At the start of all runs.
+    #[inline(always)]
+    pub(super) fn new(zero: R) -> Self {
+        let never = zero.never();
+        Switches { pending: !never, ahead: zero, cut: never, cuts: zero, whole: zero, next: zero, landing: never }
+    }
+
+    /// An arc starts in lane `lane`.
+    #[inline(always)]
+    pub(super) fn start_arc(&mut self, lane: usize) {
+        self.pending.set(lane, true);
+        self.ahead.set_lane(lane, 0.0);
+        self.landing.set(lane, false);
+        self.cuts.set_lane(lane, 0.0);
+    }
+
+    /// Chooses the branches of the lanes in which an arc starts or a step has ended at a switch.
+    #[inline(always)]
+    pub(super) fn choose<Q, P, const N: usize>(&mut self, runs: &mut Q, stepper: &mut P, lanes: &mut StepperLane<R, N>)
+    where
+        Q: Runs<R, N>,
+        P: Stepper<R, N>,
+    {
+        if !self.pending.any() {
+            return;
+        }
+        let (ahead, zero) = (self.ahead, self.ahead.zero());
+        let passed = self.pending & zero.lt(ahead);
+        let state = &lanes.now.state;
+        let [slope, _] = stepper.slopes();
+        let later = each(
+            zero,
+            #[inline(always)]
+            |n| R::select(passed, ahead.mul_add(slope[n], state[n]), state[n]),
+        );
+        runs.choose_branches(self.pending, lanes.time + ahead, &later);
+        if passed.any() {
+            stepper.renew(&*runs, passed, lanes);
+        }
+        self.pending = zero.never();
+    }
+
+    /// Looks for switches in the step `step`, which ends in `end`; where there are any it is not accepted.
+    #[inline(always)]
+    pub(super) fn find<Q, P, const N: usize>(
+        &mut self,
+        runs: &Q,
+        stepper: &mut P,
+        lanes: &mut StepperLane<R, N>,
+        (step, control): (Step<R>, &Control),
+        attempt: &mut Attempt<R>,
+        end: &[R; N],
+    ) where
+        Q: System<R, N>,
+        P: Stepper<R, N>,
+    {
+        let (zero, one) = (self.cuts.zero(), self.cuts.splat(1.0));
+        let open = attempt.accepted & self.cuts.lt(one.splat(MOST_CUTS));
+        let margin = runs.margin(step.end, end);
+        let landed = one.splat(-(LANDED * control.tolerance.relative.sqrt()).max(NOISE));
+        let over = open & margin.lt(R::select(self.landing, landed, one.splat(-NOISE)));
+        let [first, last] = stepper.slopes();
+        let mut fraction = runs.dip(step, [[&lanes.now.state, first], [end, last]]);
+        let cut = over | (open & fraction.lt(one));
+        self.cut = cut;
+        if over.any() {
+            stepper.prepare_inside(runs, step, end, over, lanes);
+            let located = locate(runs, stepper, lanes, step, over, margin);
+            fraction = R::select(over, located, fraction);
+        }
+        attempt.accepted = attempt.accepted & !cut;
+        self.next = fraction * step.length;
+        self.whole = R::select(cut & !self.landing, step.length, self.whole);
+        self.cuts = R::select(attempt.accepted, zero, self.cuts + zero.indicator(cut));
+    }
+
+    /// Has the next step end at the switch in the lanes where there is one, and says which they are; after [`Stepper::advance`].
+    #[inline(always)]
+    pub(super) fn cut<P: Stepper<R, N>, const N: usize>(&mut self, stepper: &mut P, attempt: &Attempt<R>) -> R::Mask {
+        let ended = self.landing & attempt.accepted;
+        self.pending = ended;
+        self.ahead = R::select(ended, self.whole * self.whole.splat(AHEAD), self.ahead.zero());
+        self.landing = (self.landing & !attempt.accepted) | self.cut;
+        if self.cut.any() {
+            stepper.cut(self.cut, self.next);
+        }
+        self.cut
+    }
+}
+
+/// The fraction of `step` at which its dense output reaches a switch in the lanes `over`, at whose end the margin is `last`: by false position, where the end
+/// that stays has its margin halved (M. Dowell & P. Jarratt, *A modified regula falsi method*, BIT 11, 1971).
+#[inline(always)]
+fn locate<R, Q, P, const N: usize>(
+    system: &Q,
+    stepper: &mut P,
+    lanes: &mut StepperLane<R, N>,
+    step: Step<R>,
+    over: R::Mask,
+    last: R,
+) -> R
+where
+    R: Real,
+    Q: System<R, N>,
+    P: Stepper<R, N>,
+{
+    let number = |value: f64| last.splat(value);
+    let mut margin_at = |s: R| {
+        let length = R::select(over, s * step.length, s.zero());
+        let part = Step { time: step.time, end: step.time + length, length };
+        let state = stepper.inside(system, step, part, over, lanes);
+        system.margin(part.end, &state)
+    };
+    let (mut low, mut high, mut found) = (number(LEAST), number(1.0), number(LEAST));
+    let (mut above, mut below) = (last, last);
+    let mut open = over;
+    let mut stays = [last.never(); 2];
+    for k in 0..MOST_EVALUATIONS {
+        let secant = (high - low).mul_add(above / (above - below), low);
+        let middle = number(0.5) * (low + high);
+        let inner = R::select(low.lt(secant) & secant.lt(high), secant, middle);
+        let s = if k == 0 { low } else { inner };
+        let margin = margin_at(s);
+        found = R::select(open, s, found);
+        let is_above = open & low.zero().lt(margin);
+        if k == 0 {
+            // a switch before that: there the step ends
+            (open, above) = (is_above, margin);
+            continue;
+        }
+        let is_below = open & !is_above;
+        let half = number(0.5);
+        below = R::select(is_above & stays[0], half * below, below);
+        above = R::select(is_below & stays[1], half * above, above);
+        (low, above) = (R::select(is_above, s, low), R::select(is_above, margin, above));
+        (high, below) = (R::select(is_below, s, high), R::select(is_below, margin, below));
+        stays = [is_above, is_below];
+        open = open & number(LOCATED[0]).lt(margin.abs()) & number(LOCATED[1]).lt(high - low);
+        if !open.any() {
+            break;
+        }
+    }
+    found
+}
+
+/// The times at which [`dip`] needs a switch function, and the states at the inner two, from the states and derivatives at both ends of `step`.
+#[inline(always)]
+pub fn beside<R: Real, const N: usize>(step: Step<R>, ends: [[&[R; N]; 2]; 2]) -> ([R; 4], [[R; N]; 2]) {
+    let short = step.length * step.length.splat(BESIDE);
+    let state = |[state, slope]: [&[R; N]; 2], time: R| {
+        each(
+            time,
+            #[inline(always)]
+            |n| time.mul_add(slope[n], state[n]),
+        )
+    };
+    let times = [step.time, step.time + short, step.end - short, step.end];
+    (times, [state(ends[0], short), state(ends[1], -short)])
+}
+
+/// The fraction of a step at which a switch function may be below zero that is above at both ends, by the cubic through both; infinite where it
+/// is not. The function is known at the fractions 0, [`BESIDE`], 1 - [`BESIDE`] and 1.
+#[inline(always)]
+pub fn dip<R: Real>([start, after, before, end]: [R; 4]) -> R {
+    let number = |value: f64| start.splat(value);
+    let (zero, per) = (start.zero(), number(1.0 / BESIDE));
+    let (falls, rises) = ((after - start) * per, (end - before) * per);
+    // start + falls s + square s^2 + cube s^3
+    let rise = end - start;
+    let square = number(3.0) * rise - (falls + falls + rises);
+    let cube = (falls + rises) - (rise + rise);
+    let root = square.mul_add(square, number(-3.0) * (cube * falls)).larger(zero).sqrt();
+    let s = -falls / (square + root);
+    let least = cube.mul_add(s, square).mul_add(s, falls).mul_add(s, start);
+    let depth = start.smaller(end) - least;
+    let doubtful = falls.lt(zero)
+        & zero.lt(rises)
+        & zero.lt(start)
+        & zero.lt(end)
+        & least.lt(number(DOUBT) * depth)
+        & number(LEAST).lt(s)
+        & s.lt(number(1.0));
+    R::select(doubtful, s, number(f64::INFINITY))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ode::{
+        Adaptive, Dop853, DormandPrince, EndedRun, LaneMethod, Recorder, Termination, Tolerance, integrate,
+    };
+
+    /// y' = f(t, y) with one switch function g, the branch being g > 0.
+    struct Case {
+        slope: fn(f64, &[f64; 2], bool) -> [f64; 2],
+        switch: fn(f64, &[f64; 2]) -> f64,
+        start: [f64; 2],
+        end: f64,
+        branch: bool,
+        chosen: usize,
+    }
+
+    impl System<f64, 2> for Case {
+        fn derivative(&self, time: f64, state: &[f64; 2]) -> [f64; 2] {
+            (self.slope)(time, state, self.branch)
+        }
+        fn error_ratio(&self, error: &[f64; 2], _old: &[f64; 2], _new: &[f64; 2], tolerance: Tolerance) -> f64 {
+            (error[0].abs() + error[1].abs()) / tolerance.absolute
+        }
+        fn has_switches(&self) -> bool {
+            true
+        }
+        fn margin(&self, time: f64, state: &[f64; 2]) -> f64 {
+            (self.switch)(time, state) * if self.branch { 1.0 } else { -1.0 }
+        }
+        fn dip(&self, step: Step<f64>, ends: [[&[f64; 2]; 2]; 2]) -> f64 {
+            let (times, [after, before]) = beside(step, ends);
+            let states = [ends[0][0], &after, &before, ends[1][0]];
+            dip(core::array::from_fn(|k| self.margin(times[k], states[k])))
+        }
+    }
+
+    impl Runs<f64, 2> for Case {
+        fn count(&self) -> usize {
+            1
+        }
+        fn load(&mut self, _lane: usize, _run: usize) -> [f64; 2] {
+            self.start
+        }
+        fn next_arc(&mut self, _lane: usize, time: f64, _state: &[f64; 2]) -> Option<f64> {
+            (time == 0.0).then_some(self.end)
+        }
+        fn choose_branches(&mut self, _lanes: bool, time: f64, state: &[f64; 2]) {
+            self.branch = (self.switch)(time, state) > 0.0;
+            self.chosen += 1;
+        }
+    }
+
+    /// The state at the end.
+    struct Last([f64; 2], f64, Option<EndedRun>);
+
+    impl Recorder<Case, 2> for Last {
+        fn begin(&mut self, _lane: usize, _run: usize) {}
+        fn next_time(&self, _lane: usize) -> f64 {
+            self.1
+        }
+        fn record(&mut self, _lane: usize, state: &[f64; 2]) {
+            (self.0, self.1) = (*state, f64::INFINITY);
+        }
+        fn finish(&mut self, _runs: &Case, _lane: usize, _run: usize, ended: &EndedRun) {
+            self.2 = Some(*ended);
+        }
+    }
+
+    fn solved(method: impl LaneMethod, tolerance: f64, case: &mut Case) -> ([f64; 2], EndedRun) {
+        let tolerance = Tolerance { relative: tolerance, absolute: tolerance };
+        let mut last = Last([f64::NAN; 2], case.end, None);
+        integrate(method, 0.0, case, &mut last, &Control { tolerance, step: None, max_steps: 100_000 });
+        let ended = last.2.expect("it has ended");
+        assert_eq!(ended.termination, Termination::Completed);
+        (last.0, ended)
+    }
+
+    /// A spring on each side of zero, of the frequencies 1 and 2: half a turn of each alternates.
+    fn springs(end: f64) -> Case {
+        let slope = |_: f64, [y, v]: &[f64; 2], above: bool| [*v, if above { -y } else { -4.0 * y }];
+        Case { slope, switch: |_, [y, _]| *y, start: [0.0, 1.0], end, branch: true, chosen: 0 }
+    }
+
+    /// Truth: in closed form. Law: across switches the error falls with the tolerance as it does without, to rounding, and is within it; each switch
+    /// costs less than two steps that are not taken.
+    #[test]
+    fn a_method_keeps_its_order_across_switches() {
+        const PI: f64 = core::f64::consts::PI;
+        // ten periods of pi + pi/2, and an eighth of a turn above
+        let end = 15.0 * PI + 0.25 * PI;
+        let exact = [libm::sin(0.25 * PI), libm::cos(0.25 * PI)];
+        let error = |method: &dyn Fn(f64, &mut Case) -> ([f64; 2], EndedRun), tolerance: f64| {
+            let mut case = springs(end);
+            let (found, ended) = method(tolerance, &mut case);
+            println!("{tolerance:e}: {} steps, {} rejected, {} choices", ended.accepted, ended.rejected, case.chosen);
+            assert!((20..=22).contains(&case.chosen), "{} choices", case.chosen);
+            assert!(ended.rejected <= 42, "{ended:?}");
+            (found[0] - exact[0]).abs() + (found[1] - exact[1]).abs()
+        };
+        let dop853 = |tolerance: f64, case: &mut Case| solved(Adaptive(Dop853), tolerance, case);
+        let dormand_prince = |tolerance: f64, case: &mut Case| solved(Adaptive(DormandPrince), tolerance, case);
+        for tolerance in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
+            for (of, bound) in [(error(&dop853, tolerance), 10.0), (error(&dormand_prince, tolerance), 100.0)] {
+                println!("{tolerance:e}: {of:e}");
+                assert!(of < bound * tolerance + 1e-14, "{tolerance:e}: {of:e}");
+            }
+        }
+    }
+
+    /// Truth: the integral of max(0, cos t - c) over ten turns. Law: pulses much shorter than a step, before and after which the branch is the same, are
+    /// all found.
+    #[test]
+    fn short_pulses_within_a_step_are_found() {
+        for depth in [0.3, 1e-2, 1e-4, 1e-6] {
+            let half = libm::acos(1.0 - depth);
+            let pulse = 2.0 * (libm::sin(half) - (1.0 - depth) * half);
+            macro_rules! case {
+                ($($depth:literal)*) => {
+                    match depth {
+                        $(depth if depth == $depth => Case {
+                            // an oscillator beside it gives the steps a length
+                            slope: |t, _, on| [if on { libm::cos(t) - (1.0 - $depth) } else { 0.0 }, libm::cos(t)],
+                            switch: |t, _| libm::cos(t) - (1.0 - $depth),
+                            start: [0.0, 0.0],
+                            end: 20.0 * core::f64::consts::PI + 3.0,
+                            branch: true,
+                            chosen: 0,
+                        },)*
+                        _ => unreachable!(),
+                    }
+                };
+            }
+            let mut own = case!(0.3 1e-2 1e-4 1e-6);
+            let (found, ended) = solved(Adaptive(Dop853), 1e-9, &mut own);
+            let expected = 10.5 * pulse;
+            println!("{depth:e}: {:e} for {expected:e}, {} steps", found[0], ended.accepted);
+            assert!((found[0] - expected).abs() < 1e-8 * expected + 1e-10, "{depth:e}: {} for {expected}", found[0]);
+        }
+    }
+
+    /// Law: nothing hangs: a switch function that is zero but for rounding, one that only touches zero, one with a kink that no branch has, and one that is
+    /// wrong whatever is chosen, cost no more than some steps.
+    #[test]
+    fn nothing_hangs() {
+        let noisy = |t: f64, _: &[f64; 2]| 1e-15 * libm::sin(1e5 * t);
+        let touching = |t: f64, _: &[f64; 2]| 1.0 - libm::cos(t);
+        let kinked = |t: f64, _: &[f64; 2]| (t - 3.0).abs() - 1e-9;
+        let steep = |t: f64, _: &[f64; 2]| 1e6 * libm::sin(t);
+        let wrong = |t: f64, _: &[f64; 2]| if t == 0.0 { 1.0 } else { libm::sin(1e3 * t) };
+        let switches: [(&str, fn(f64, &[f64; 2]) -> f64, u64); 5] = [
+            ("noisy", noisy, 100),
+            ("touching", touching, 200),
+            ("kinked", kinked, 200),
+            ("steep", steep, 500),
+            ("wrong", wrong, 40_000),
+        ];
+        for (name, switch, most) in switches {
+            let slope = |t: f64, _: &[f64; 2], above: bool| [libm::cos(t), f64::from(u8::from(above))];
+            let mut case = Case { slope, switch, start: [0.0, 1.0], end: 20.0, branch: true, chosen: 0 };
+            let (_, ended) = solved(Adaptive(Dop853), 1e-10, &mut case);
+            println!("{name}: {} steps, {} rejected, {} choices", ended.accepted, ended.rejected, case.chosen);
+            assert!(ended.accepted + ended.rejected < most, "{name}: {ended:?}");
+        }
+    }
+}
