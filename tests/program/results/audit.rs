@@ -185,6 +185,25 @@ fn a_long_run_is_audited_in_plain_doubles() {
     assert!(long.state() > short.state() && long.estimate >= long.state(), "{:e} {:e}", long.state(), long.estimate);
 }
 
+/// Law: runs in air and sunlight are audited too, in double-double at the tolerance that their torques allow; where one is too long for that there is no
+/// audit, and it says so.
+#[test]
+fn air_and_sunlight_are_audited() {
+    let plan = plan("drag_tumble", 6, 1.0);
+    let audits = audits(&plan);
+    assert_eq!(audits.len(), 6);
+    let covered = audits.iter().filter(|audit| audit.estimate >= audit.state()).count();
+    assert!(covered >= 5, "{covered} of 6");
+    for audit in &audits {
+        assert_eq!(audit.reference_tolerance, 1e-17);
+        assert!(audit.state() > 0.0 && audit.state() < 1e-6, "{:e}", audit.state());
+    }
+    let scene = Scene::resolve(&plan.nominal).expect("physical");
+    let grid = Grid::uniform(1e8, 2);
+    let refused = Auditor::new(&plan, Isa::best(), &grid).audit(&scene).expect_err("it is too long");
+    assert!(refused.to_string().starts_with("the spacecraft turns for"), "{refused}");
+}
+
 /// Law: the program writes the audit's columns, null for rows without audit, summarises them with every statistic, and reports the cost;
 /// all of this does not depend on the number of threads.
 #[test]

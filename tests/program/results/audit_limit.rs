@@ -31,7 +31,7 @@ fn an_audit_has_a_limit() {
         let scene = Scene::resolve(&plan.nominal).unwrap();
         let found = Auditor::new(&plan, Isa::best(), &plan.grid).audit(&scene);
         assert_eq!(found.is_ok(), is_within, "{rate}: {found:?}");
-        assert!(is_within || matches!(found, Err(NoAudit::Limit { units, .. }) if units > 16_384.0));
+        assert!(is_within || matches!(found, Err(NoAudit::Limit { units, body: "debris", .. }) if units > 16_384.0));
     }
     for (rate, is_audited) in [(100.0, true), (1e7, false)] {
         scratch.file("fast.toml", &with_debris_rate(rate));
