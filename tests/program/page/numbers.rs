@@ -231,7 +231,7 @@ fn screen_and_junit_say_what_the_summary_has() {
     for absent in ["q_es_w_final", "time_reached_s", "steps"] {
         assert!(!said.contains(absent), "{absent}: {said}");
     }
-    let line = said.lines().position(|line| line.trim_start().starts_with("angular_rate_final_rad_s ")).expect(said);
+    let line = said.lines().position(|line| line.trim_start().starts_with("angular_rate_final_rad_s, ")).expect(said);
     let numbers = |text: &str| -> Vec<f64> {
         let cleaned = text.replace(['[', ']', ','], " ");
         cleaned.split_whitespace().filter_map(|word| word.parse().ok()).collect()
