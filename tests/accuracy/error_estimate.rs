@@ -44,6 +44,9 @@ const COVERAGE: f64 = 0.95;
 /// `taylor` at 1e-10 in Table I: the estimate adds what 120 steps leave out as if all had one direction; measured 130 times. Under a gravity gradient the
 /// same at tolerances above 1e-8, where steps are parts of a libration and what they leave out changes its sign with it: measured 240 times; and 390 times
 /// with `gauss_legendre_6`, which is symmetric in time.
+///
+/// In air at 1e-4: the estimate takes errors to grow as fast as the torque allows at each moment; measured 320 times for bodies that turn with 0.01 deg/s, and 68
+/// for those of 0.2 deg/s.
 fn too_large(method: Method, family: &str) -> f64 {
     match (method, family) {
         (Method::NullSpace, "mixed, forced") => 200.0,
@@ -56,6 +59,7 @@ fn too_large(method: Method, family: &str) -> f64 {
         (Method::Gyrostat(Integrator::GaussLegendre), "slew by thrusters") => 200.0,
         (Method::Taylor, "spin_sweep" | "no_debris") => 200.0,
         (Method::Auto | Method::Taylor, "gravity gradient") => 400.0,
+        (_, "drag_tumble") => 400.0,
         (Method::Gyrostat(Integrator::GaussLegendre), "gravity gradient") => 600.0,
         _ => 100.0,
     }

@@ -28,13 +28,17 @@ fn cases() -> Vec<Case<4, 1>> {
 }
 
 fn equal_in_all_lanes<M: LaneMethod>(method: M, control: &Control) {
-    let (cases, grid) = (cases(), Grid::uniform(HORIZON, 45));
-    let truth = scalar(method, ThreeBody, &cases, &grid, control);
-    let bits = |journeys: &[Journey<4>]| journeys.iter().map(Journey::bits).collect::<Vec<_>>();
-    let found = |isa: Isa, cases: &[Case<4, 1>]| bits(&lanes(isa, method, ThreeBody, cases, &grid, control));
+    equal(method, ThreeBody, &cases(), control);
+}
+
+fn equal<M: LaneMethod, L: Law<N, 1>, const N: usize>(method: M, law: L, cases: &[Case<N, 1>], control: &Control) {
+    let grid = Grid::uniform(HORIZON, 45);
+    let truth = scalar(method, law, cases, &grid, control);
+    let bits = |journeys: &[Journey<N>]| journeys.iter().map(Journey::bits).collect::<Vec<_>>();
+    let found = |isa: Isa, cases: &[Case<N, 1>]| bits(&lanes(isa, method, law, cases, &grid, control));
     let truth = bits(&truth);
     for isa in Isa::available() {
-        assert!(found(isa, &cases) == truth, "{}", isa.name());
+        assert!(found(isa, cases) == truth, "{}", isa.name());
     }
     // other neighbours, other lanes; fewer runs than lanes
     let backwards: Vec<_> = cases.iter().rev().cloned().collect();
@@ -52,6 +56,23 @@ fn lanes_are_scalar_runs() {
     equal_in_all_lanes(Adaptive(Dop853), &control);
     equal_in_all_lanes(Fixed(RungeKutta4), &control);
     equal_in_all_lanes(Fixed(GaussLegendre), &control);
+}
+
+/// Law: the same where steps end at switches, in each lane at its own, and some lanes have none.
+#[test]
+fn lanes_switch_apart_from_each_other() {
+    let case = |run: u32| {
+        let share = f64::from(run) / 29.0;
+        let frequency = if run % 5 == 4 { 0.1 } else { 1.0 + 7.0 * share };
+        Case { state: [1e-3 + share, 1.0 - share], parameters: [frequency], ends: vec![0.4 + share, HORIZON] }
+    };
+    let cases: Vec<Case<2, 1>> = (0..29).map(case).collect();
+    let control = bounded(100_000);
+    equal(Adaptive(DormandPrince), TwoSprings, &cases, &control);
+    equal(Adaptive(Dop853), TwoSprings, &cases, &control);
+    let ended = scalar(Adaptive(Dop853), TwoSprings, &cases, &Grid::uniform(HORIZON, 45), &control);
+    let replaced: HashSet<u64> = ended.iter().map(|journey| journey.outcome.effort.rejected).collect();
+    assert!(replaced.len() > 8 && ended.iter().all(|journey| journey.outcome.status == Status::Done), "{replaced:?}");
 }
 
 #[test]

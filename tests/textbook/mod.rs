@@ -5,14 +5,25 @@
 use fearless_simd::Simd;
 use spindrift::math::isa::Work;
 use spindrift::math::{Isa, Lanes, Real};
+use spindrift::ode::explicit::Step;
+use spindrift::ode::switches::{beside, dip};
 pub use spindrift::ode::{Adaptive, Fixed, LaneMethod};
 use spindrift::ode::{Control, Runs, System, Tolerance, integrate};
 use spindrift::propagation::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use spindrift::run::{Grid, Outcome, Trajectory};
 
-/// A right-hand side with `P` parameters; `arc` counts the arcs.
+/// A right-hand side with `P` parameters; `arc` counts the arcs, and of a law with a switch it is its side, 1 or -1.
 pub trait Law<const N: usize, const P: usize>: Copy {
+    /// Whether it has a switch.
+    const SWITCHES: bool = false;
+
     fn derivative<R: Real>(time: R, state: &[R; N], parameters: &[R; P], arc: R) -> [R; N];
+
+    /// The switch function.
+    #[inline(always)]
+    fn switch<R: Real>(_state: &[R; N], zero: R) -> R {
+        zero
+    }
 }
 
 /// One run: initial state, parameters, ends of its arcs.
@@ -30,12 +41,30 @@ pub struct Bank<R, L, const N: usize, const P: usize> {
     loaded: [usize; 8],
     parameters: [R; P],
     arc: R,
+    side: R,
 }
 
 impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> System<R, N> for Bank<R, L, N, P> {
     #[inline(always)]
     fn derivative(&self, time: R, state: &[R; N]) -> [R; N] {
-        L::derivative(time, state, &self.parameters, self.arc)
+        L::derivative(time, state, &self.parameters, if L::SWITCHES { self.side } else { self.arc })
+    }
+
+    #[inline(always)]
+    fn has_switches(&self) -> bool {
+        L::SWITCHES
+    }
+
+    #[inline(always)]
+    fn margin(&self, time: R, state: &[R; N]) -> R {
+        self.side * L::switch(state, time.zero())
+    }
+
+    #[inline(always)]
+    fn dip(&self, step: Step<R>, ends: [[&[R; N]; 2]; 2]) -> R {
+        let (times, [after, before]) = beside(step, ends);
+        let of = |state: &[R; N]| self.margin(times[0], state);
+        dip([of(ends[0][0]), of(&after), of(&before), of(ends[1][0])])
     }
 
     /// ode45: max |e_i| / max(|y_i|, |y'_i|, atol/rtol) / rtol.
@@ -68,6 +97,12 @@ impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> Runs<R, N> for Bank<
         self.arc.set_lane(lane, arc as f64);
         Some(ends[arc])
     }
+
+    #[inline(always)]
+    fn choose_branches(&mut self, lanes: R::Mask, time: R, state: &[R; N]) {
+        let (zero, one) = (time.zero(), time.splat(1.0));
+        self.side = R::select(lanes, R::select(zero.lt(L::switch(state, zero)), one, -one), self.side);
+    }
 }
 
 /// What became of a run.
@@ -96,7 +131,7 @@ where
     R: Real,
     L: Law<N, P>,
 {
-    let mut bank = Bank { law, cases: cases.to_vec(), loaded: [0; 8], parameters: [zero; P], arc: zero };
+    let mut bank = Bank { law, cases: cases.to_vec(), loaded: [0; 8], parameters: [zero; P], arc: zero, side: zero };
     let mut lanes = LaneTrajectory::for_lanes(R::LANES, N, grid.points());
     let mut journeys: Vec<Option<Journey<N>>> = vec![None; cases.len()];
     let finish = |bank: &Bank<R, L, N, P>, lane: usize, run: usize, trajectory: &Trajectory, outcome: &Outcome| {
@@ -157,6 +192,24 @@ impl Law<2, 1> for Oscillator {
     #[inline(always)]
     fn derivative<R: Real>(_time: R, y: &[R; 2], p: &[R; 1], _arc: R) -> [R; 2] {
         [p[0] * y[1], -(p[0] * y[0])]
+    }
+}
+
+/// A spring on each side of zero: y'' = -w^2 y above, and -4 w^2 y below, with w the parameter.
+#[derive(Clone, Copy)]
+pub struct TwoSprings;
+impl Law<2, 1> for TwoSprings {
+    const SWITCHES: bool = true;
+
+    #[inline(always)]
+    fn derivative<R: Real>(time: R, y: &[R; 2], p: &[R; 1], side: R) -> [R; 2] {
+        let rate = R::select(time.zero().lt(side), p[0], p[0] + p[0]);
+        [y[1], -(rate * rate * y[0])]
+    }
+
+    #[inline(always)]
+    fn switch<R: Real>(y: &[R; 2], _zero: R) -> R {
+        y[0]
     }
 }
 

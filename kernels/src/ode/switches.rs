@@ -1,4 +1,4 @@
-//! [`Switches`]: steps that end where the right-hand side changes its branch.
+//! Steps that end where the right-hand side changes its branch.
 //!
 //! A right-hand side with branches has switch functions, smooth functions of time and state whose signs say which branch is right. Within a step the
 //! branches are frozen: what is integrated is the smooth continuation of each, so that a method keeps its order and its error estimate means
@@ -8,7 +8,7 @@
 //! which side of the switch the step has ended. A pair of switches within a step, after which all signs are as they were, is found by the derivatives
 //! at both ends ([`dip`]): the step ends first where the function is smallest.
 //!
-//! Nothing here can hang: a switch function that is zero but for rounding does not count, a step is replaced at most [`MOST_CUTS`] times and then taken as
+//! Nothing here can hang: a switch function that is zero but for rounding does not count, a step is replaced eight times at most and then taken as
 //! it is, with the switch at its end, and every step that is taken counts against `max_steps`.
 
 use super::explicit::{Step, each};
@@ -223,7 +223,7 @@ pub fn beside<R: Real, const N: usize>(step: Step<R>, ends: [[&[R; N]; 2]; 2]) -
 }
 
 /// The fraction of a step at which a switch function may be below zero that is above at both ends, by the cubic through both; infinite where it
-/// is not. The function is known at the fractions 0, [`BESIDE`], 1 - [`BESIDE`] and 1.
+/// is not. The function is known at the times of [`beside`].
 #[inline(always)]
 pub fn dip<R: Real>([start, after, before, end]: [R; 4]) -> R {
     let number = |value: f64| start.splat(value);

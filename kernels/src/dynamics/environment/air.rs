@@ -84,7 +84,7 @@ pub struct Air<R> {
     /// Density of an exponential atmosphere at its base, kg/m^3, the height of the base, m, and the scale height, m; a scale height of zero where the
     /// table is used.
     pub exponential: [R; 3],
-    /// The band of the table that was chosen ([`band_at`]); a thickness of zero until then.
+    /// The band of the table that was chosen (`band_at`); a thickness of zero until then.
     band: [R; 4],
 }
 

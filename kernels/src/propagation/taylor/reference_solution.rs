@@ -8,7 +8,7 @@
 //! method. The reference solution is the exact motion for *those* numbers; the rounding in the computation of mass properties
 //! from dimensions and densities is not an error of integration and is not counted here.
 //!
-//! A scene with an effect that has no Taylor series is integrated by extrapolation in the same arithmetic ([`super::switched_reference`]).
+//! A scene with an effect that has no Taylor series is integrated by extrapolation in the same arithmetic (`switched_reference`).
 //!
 //! Not here: periodic folding (a solution that shared it could not judge it), lanes, failures as rows.
 
