@@ -80,9 +80,7 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
         debris.check(problems);
     }
     input.initial.check(has_debris, problems, |key| format!("initial.{key}").into());
-    if has_debris {
-        initial_state(&input.initial, input.orbit.is_some(), problems);
-    }
+    initial_state(&input.initial, input.orbit.is_some(), problems);
     if let Some(orbit) = &input.orbit {
         let before = problems.0.len();
         orbit.check(has_debris, problems, |key| format!("orbit.{key}").into());
