@@ -4,7 +4,8 @@ use crate::control::net_launch::geometry::LaunchGeometry;
 use crate::control::rotation::quaternion_of;
 use crate::control::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilton, norm, scaled, transposed_product};
 use crate::dynamics::environment::sun::sun;
-use crate::scene::{Epoch, Orbit, local_frame};
+use crate::math::vector::quaternion_from_dcm;
+use crate::scene::{Epoch, Orbit};
 
 /// The attitude that a phase wants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,10 +84,16 @@ impl OrbitMotion {
         }
     }
 
-    /// The attitude q_eo of the local orbital frame ([`local_frame`]), and its angular velocity r x v/(r . r) in F_e, rad/s.
+    /// The attitude q_eo of the local orbital frame F_o, F_o -> F_e, scalar first, and its angular velocity r x v/(r . r) in F_e, rad/s: o3 points at the
+    /// central body, o2 against the normal of the orbit, and o1 completes them, ahead on a circular orbit (J. R. Wertz, *Spacecraft Attitude Determination and
+    /// Control*, 1978, section 2.2: roll, pitch and yaw axes).
     fn local_frame(&self) -> ([f64; 4], [f64; 3]) {
-        let rate = scaled(1.0 / dot(self.r_e, self.r_e), cross(self.r_e, self.v_e));
-        (local_frame(self.r_e, self.v_e), rate)
+        let normal = cross(self.r_e, self.v_e);
+        let o3 = scaled(-1.0 / norm(self.r_e), self.r_e);
+        let o2 = scaled(-1.0 / norm(normal), normal);
+        let o1 = cross(o2, o3);
+        let c_eo = std::array::from_fn(|i| [o1[i], o2[i], o3[i]]);
+        (quaternion_from_dcm(c_eo), scaled(1.0 / dot(self.r_e, self.r_e), normal))
     }
 }
 
