@@ -177,7 +177,7 @@ fn torque_rods_need_what_drives_them() {
         (
             "magnetic_field = \"igrf\"",
             "gravity_gradient = true",
-            "environment.magnetic_field is missing",
+            "environment.magnetic_field = missing",
             "given where there are [[torque_rods]]",
         ),
         (

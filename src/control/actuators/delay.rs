@@ -21,6 +21,11 @@ impl<C: Copy> DelayQueue<C> {
         DelayQueue { acting: initial, waiting: VecDeque::with_capacity(room) }
     }
 
+    /// `initial` acts for ever: no room is reserved for others.
+    pub fn constant(initial: C) -> Self {
+        DelayQueue { acting: initial, waiting: VecDeque::new() }
+    }
+
     /// Adds `command`, which acts from `time` on, s: not before those that were added earlier.
     pub fn push(&mut self, time: f64, command: C) {
         debug_assert!(self.waiting.back().is_none_or(|(before, _)| *before <= time), "commands in order");

@@ -56,12 +56,12 @@ pub struct CommandsUnderWay {
 }
 
 impl CommandsUnderWay {
-    /// None, with room for those of a loop with this delay and period, s.
-    pub fn new(delay: f64, period: f64) -> Self {
+    /// None, with room for those of a loop with this delay and period, s, and with torque rods or without.
+    pub fn new(delay: f64, period: f64, has_rods: bool) -> Self {
         CommandsUnderWay {
             motors: DelayQueue::new([0.0; MAX_WHEELS], delay, period),
             thrust: DelayQueue::new(NO_PULSES, delay, period),
-            rods: DelayQueue::new(NO_DIPOLES, delay, period),
+            rods: if has_rods { DelayQueue::new(NO_DIPOLES, delay, period) } else { DelayQueue::constant(NO_DIPOLES) },
         }
     }
 }

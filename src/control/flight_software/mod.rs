@@ -160,7 +160,7 @@ impl FlightSoftware {
             lost_target_timeout: parts.lost_target_timeout,
             is_recorded: parts.is_recorded,
             delay: parts.delay,
-            under_way: CommandsUnderWay::new(parts.delay, spec.period),
+            under_way: CommandsUnderWay::new(parts.delay, spec.period, !spec.rods.is_empty()),
             latest: Commanded::NOTHING,
             commanded: NO_IMPULSE,
             debris_seen: 0.0,

@@ -4,7 +4,8 @@ use crate::control::net_launch::geometry::LaunchGeometry;
 use crate::control::rotation::quaternion_of;
 use crate::control::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilton, norm, scaled, transposed_product};
 use crate::dynamics::environment::sun::sun;
-use crate::scene::{Epoch, LocalFrame, Orbit};
+use crate::math::vector::quaternion_from_dcm;
+use crate::scene::{Epoch, Orbit};
 
 /// The attitude that a phase wants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +83,18 @@ impl OrbitMotion {
             sun_e: orbit.epoch.map_or([0.0; 3], |epoch| sun(days(epoch)).direction),
         }
     }
+
+    /// The attitude q_eo of the local orbital frame F_o, F_o -> F_e, scalar first, and its angular velocity r x v/(r . r) in F_e, rad/s: o3 points at the
+    /// central body, o2 against the normal of the orbit, and o1 completes them, ahead on a circular orbit (J. R. Wertz, *Spacecraft Attitude Determination and
+    /// Control*, 1978, section 2.2: roll, pitch and yaw axes).
+    fn local_frame(&self) -> ([f64; 4], [f64; 3]) {
+        let normal = cross(self.r_e, self.v_e);
+        let o3 = scaled(-1.0 / norm(self.r_e), self.r_e);
+        let o2 = scaled(-1.0 / norm(normal), normal);
+        let o1 = cross(o2, o3);
+        let c_eo = std::array::from_fn(|i| [o1[i], o2[i], o3[i]]);
+        (quaternion_from_dcm(c_eo), scaled(1.0 / dot(self.r_e, self.r_e), normal))
+    }
 }
 
 /// What a target is defined by, beside the attitude.
@@ -136,7 +149,7 @@ impl Target {
                 AttitudeError { q_ts: hamilton(conjugate(q_et), q_es), ..AttitudeError::NONE }
             }
             (Target::Orbital(q_os), _) => orbit.map_or(AttitudeError::NONE, |orbit| {
-                let LocalFrame { q_eo, omega_oe_e } = LocalFrame::at(orbit.r_e, orbit.v_e);
+                let (q_eo, omega_oe_e) = orbit.local_frame();
                 AttitudeError {
                     q_ts: hamilton(conjugate(hamilton(q_eo, q_os)), q_es),
                     omega_te_s: transposed_product(dcm_from_quaternion(q_es), omega_oe_e),
@@ -261,7 +274,7 @@ mod tests {
         // within a day of the solstice: 1 deg along the ecliptic
         assert!(norm(difference(at(0.0).orbit.expect("an orbit").sun_e, solstice)) < 0.02);
         let orbit = at(0.0).orbit.expect("an orbit");
-        let LocalFrame { q_eo, .. } = LocalFrame::at(orbit.r_e, orbit.v_e);
+        let (q_eo, _) = orbit.local_frame();
         let [ahead, across] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|axis| product(dcm_from_quaternion(q_eo), axis));
         assert!(dot(ahead, v_e) > 0.9 * norm(v_e) && dot(across, cross(r_e, v_e)) < 0.0);
         assert!(dot(across, r_e).abs() < 1e-8 && dot(across, v_e).abs() < 1e-11);

@@ -121,6 +121,13 @@ fn b_dot_is_its_formula() {
         // the columns of the run
         let column = |name: &str| value(&flown.run, name);
         assert!((column("rod_dipole_max_a_m2") / largest - 1.0).abs() < 1e-12);
+        // at a tick it is the dipole of the arc that ends there; the end of the run is a point too
+        let torques = flown
+            .ticks
+            .windows(2)
+            .map(|pair| norm(cross(pair[1].to_e(dipole(&flown, &pair[0])), field_e(&flown, &pair[1]))));
+        let excess = column("magnetic_torque_max_n_m") / torques.fold(0.0, f64::max) - 1.0;
+        assert!(excess > -1e-12 && excess < 0.1, "{excess:e}");
         assert!((column("rod_saturated_time_s") - PERIOD * f64::from(limited)).abs() < 1e-6);
     }
 }
@@ -213,7 +220,7 @@ fn wheels_are_unloaded_as_theory_says() {
         turned = turned.max(2.0 * norm([x, y, z]));
     }
     println!("{start:e} to {:e}, off by {worst:e}; turned {turned:e} rad", norm(h));
-    assert!(norm(h) < 0.5 * start && worst < 0.01 * start, "{start:e} to {:e}: {worst:e}", norm(h));
+    assert!(norm(h) < 0.6 * start && worst < 0.005 * start, "{start:e} to {:e}: {worst:e}", norm(h));
     // wheels take up what rods give: the attitude is kept but for the dipole that is missing
     assert!(turned < 0.01, "{turned}");
     let idle = craft("\"b_dot\"\nb_dot_gain_a_m2_s_t = 1e-9").flown(0);
