@@ -1,5 +1,7 @@
 //! [`Statuses`]: how the runs of a campaign ended, counted once: summary, page, statistics and verdicts read it.
 
+use std::collections::BTreeMap;
+
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::{Loss, Population};
@@ -117,10 +119,10 @@ impl Accumulator for StatusCounter {
     }
 
     fn merge(&self, whole: &mut Statuses, (samples, statuses, reasons): StatusPart) {
-        let mut reasons = reasons.iter().peekable();
+        // lanes end in any order
+        let mut reasons: BTreeMap<usize, String> = reasons.into_iter().collect();
         for (row, (sample, status)) in samples.into_iter().zip(statuses).enumerate() {
-            let reason = reasons.next_if(|(at, _)| *at == row).map_or("", |(_, text)| text);
-            whole.add(sample, status, reason);
+            whole.add(sample, status, &reasons.remove(&row).unwrap_or_default());
         }
     }
 }
@@ -144,5 +146,19 @@ mod tests {
         assert_eq!((first, &*failed[0].first[2].1), (vec![0, 1, 3, 5, 9, 20, 21, 22, 23, 24], "at 3 s"));
         assert_eq!((statuses.runs(), statuses.ok(), statuses.loss()), (13, 1, Loss { missing: 11, runs: 12 }));
         assert_eq!(statuses.reasons().groups()[0].count, 12);
+    }
+
+    /// Law: each run has its own reason, whatever the order in which the reasons of a part are listed.
+    #[test]
+    fn reasons_may_come_in_any_order() {
+        let counter = StatusCounter(Population::Independent);
+        let mut whole = counter.nothing();
+        let reasons = [3, 0, 1].map(|row| (row, format!("of row {row}"))).to_vec();
+        let statuses = vec![Status::StepLimit, Status::StepLimit, Status::Done, Status::StepLimit];
+        counter.merge(&mut whole, ((5..9).map(SampleId).collect(), statuses, reasons));
+        let ended = whole.failed().next().expect("failed runs");
+        let said: Vec<(u64, &str)> = ended.first.iter().map(|(sample, reason)| (sample.0, reason.as_str())).collect();
+        assert_eq!(said, [(5, "of row 0"), (6, "of row 1"), (8, "of row 3")]);
+        assert_eq!(whole.reasons().groups().iter().map(|one| one.count).sum::<u64>(), 3);
     }
 }
