@@ -16,7 +16,7 @@ pub struct Actuation {
     pub motor_torque: [f64; MAX_WHEELS],
     /// External torque on the spacecraft beside that of the thrusters, in F_s, N m.
     pub body_torque: [f64; 3],
-    /// Magnetic dipole of the torque rods, in F_s, A m^2.
+    /// Magnetic dipole of the torque rods, in F_s, A m^2; it acts in a scene that has torque rods or a residual dipole.
     pub dipole: [f64; 3],
     /// Whether the run is over where these values begin to act: nothing after is observed.
     pub ends_run: bool,
