@@ -79,7 +79,7 @@ impl AnglesInView {
     pub fn measure(&mut self, count: u64, u_e: [f64; 3], q_es: [f64; 4]) -> Option<Values> {
         let [x, y, z] = self.angles.in_sensor(u_e, q_es);
         // not a number is out of view too
-        if !(z > self.least_cosine) {
+        if z.is_nan() || z <= self.least_cosine {
             return None;
         }
         let errors = self.noise.scaled(count, [self.angles.deviation; 2]);

@@ -91,7 +91,7 @@ fn event_times(plan: &Plan, statistics: &[StatisticsRow]) -> Vec<Mark> {
         let row = statistics.iter().find(|row| row.name == name)?;
         let at = row.quantiles.iter().find(|[p, ..]| *p == 0.5).map(|[_, time, ..]| *time)?;
         let label = format!("{}, median", event.name);
-        at.is_finite().then(|| Mark::Limit { label, at, vertical: true })
+        at.is_finite().then_some(Mark::Limit { label, at, vertical: true })
     };
     plan.events.iter().filter_map(of).collect()
 }

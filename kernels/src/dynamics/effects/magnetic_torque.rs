@@ -104,7 +104,9 @@ impl<R: Real> MagneticSeries<R> {
         for m in 0..=n {
             let [x, y, z] = field.field()[m];
             let product = hamilton([zero, x, y, z], attitude[n - m]);
-            sums = [0, 1, 2, 3].map(|i| sums[i] + product[i]);
+            for i in 0..4 {
+                sums[i] += product[i];
+            }
         }
         turned[n] = sums;
         let mut field_b = [zero; 3];

@@ -107,9 +107,10 @@ impl<R: Real> MagneticField<R> {
             let (mut before, mut now) = ([zero; 2], diagonal);
             for k in j..=top {
                 if k > j {
-                    let [along, across] = factors(k, j).map(|factor| zero.splat(factor));
-                    let (along, across) = (along * z, across * near);
-                    let next = [0, 1].map(|i| along * now[i] - across * before[i]);
+                    // sums and not closures, which may be compiled without vector instructions
+                    let [along, across] = factors(k, j);
+                    let (along, across) = (zero.splat(along) * z, zero.splat(across) * near);
+                    let next = [along * now[0] - across * before[0], along * now[1] - across * before[1]];
                     (before, now) = (now, next);
                 }
                 if k > 1 {
@@ -118,8 +119,11 @@ impl<R: Real> MagneticField<R> {
                 }
             }
         }
-        let [dipole, others] = fields;
-        turned(cos, sin, [0, 1, 2].map(|i| dipole[i] + self.higher * others[i]))
+        let [mut dipole, others] = fields;
+        for i in 0..3 {
+            dipole[i] += self.higher * others[i];
+        }
+        turned(cos, sin, dipole)
     }
 
     /// Sine and cosine of the angle by which the Earth is turned at `time`, s.
@@ -133,11 +137,13 @@ impl<R: Real> MagneticField<R> {
     #[inline(always)]
     fn weights(&self, index: usize) -> [R; 6] {
         let Tables { middle, after, before } = self.tables;
-        core::array::from_fn(|i| {
-            let constant = |value: f64| self.after.splat(value);
-            let middle = self.after.mul_add(constant(after[index][i]), constant(middle[index][i]));
-            self.before.mul_add(constant(before[index][i]), middle)
-        })
+        let mut weights = [self.after.zero(); 6];
+        for (i, weight) in weights.iter_mut().enumerate() {
+            let of_middle = self.after.splat(middle[index][i]);
+            let with_after = self.after.mul_add(self.after.splat(after[index][i]), of_middle);
+            *weight = self.before.mul_add(self.before.splat(before[index][i]), with_after);
+        }
+        weights
     }
 }
 

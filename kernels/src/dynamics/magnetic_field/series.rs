@@ -68,7 +68,9 @@ impl<R: Real> FieldSeries<R> {
             for j in 0..=k {
                 let mut weights = field.weights(index(k, j));
                 if k > 2 {
-                    weights = weights.map(|weight| weight * field.higher);
+                    for weight in &mut weights {
+                        *weight = *weight * field.higher;
+                    }
                 }
                 self.weights[index(k, j)] = weights;
             }
@@ -96,7 +98,7 @@ impl<R: Real> FieldSeries<R> {
                 sums[i] = fixed[m][i].mul_add(inverse[n - m], sums[i]);
             }
         }
-        let [x, y, z] = sums.map(|sum| radius * sum);
+        let [x, y, z] = [radius * sums[0], radius * sums[1], radius * sums[2]];
         over[n] = [x, y, z, radius * (radius * inverse[n])];
         // V_00 = (a^2/r^2)^(1/2)
         harmonics[n] = if n == 0 {
@@ -123,21 +125,28 @@ impl<R: Real> FieldSeries<R> {
                 harmonics[place(j, j) * length + n] = [factor * v, factor * w];
             }
             for k in j + 1..=top {
-                let [along, across] = factors(k, j).map(|factor| zero.splat(factor));
+                // loops and not closures, which may be compiled without vector instructions
+                let [along, across] = factors(k, j);
+                let (along, across) = (zero.splat(along), zero.splat(across));
                 let (mut near, mut far) = ([zero; 2], [zero; 2]);
                 let of = &harmonics[place(k - 1, j) * length..][..=n];
                 for (m, of) in of.iter().enumerate() {
                     let z = over[n - m][2];
-                    near = [0, 1].map(|i| z.mul_add(of[i], near[i]));
+                    for i in 0..2 {
+                        near[i] = z.mul_add(of[i], near[i]);
+                    }
                 }
                 if k > j + 1 {
                     let of = &harmonics[place(k - 2, j) * length..][..=n];
                     for (m, of) in of.iter().enumerate() {
                         let square = over[n - m][3];
-                        far = [0, 1].map(|i| square.mul_add(of[i], far[i]));
+                        for i in 0..2 {
+                            far[i] = square.mul_add(of[i], far[i]);
+                        }
                     }
                 }
-                harmonics[place(k, j) * length + n] = [0, 1].map(|i| along * near[i] - across * far[i]);
+                harmonics[place(k, j) * length + n] =
+                    [along * near[0] - across * far[0], along * near[1] - across * far[1]];
             }
         }
         let mut sums = [zero; 3];
