@@ -39,7 +39,7 @@ mod tests {
     /// Law: the worst are listed, the worst first, equal ones by number, whatever the order in which they come; NaN is none.
     #[test]
     fn the_worst_are_listed() {
-        let mut values = vec![(4, 7.0), (0, -99.0), (1, 2.0), (3, 7.0), (5, 1.0), (6, f64::NAN), (7, -8.0)];
+        let mut values = [(4, 7.0), (0, -99.0), (1, 2.0), (3, 7.0), (5, 1.0), (6, f64::NAN), (7, -8.0)];
         for turn in 0..values.len() {
             values.rotate_left(turn);
             let found = |is_low: bool| {

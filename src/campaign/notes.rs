@@ -1,8 +1,9 @@
 //! [`Plan::notes`]: what is allowed in a campaign file, and is probably not what was meant, as far as the file alone says.
 
-use super::plan::Plan;
+use super::plan::{Plan, ROUNDING_OF_PLATES};
 use super::requirement::{Requirement, Subject};
 use crate::control::{ControlLaw, review};
+use crate::dynamics::effects::{Effect, ForceModel, Form};
 use crate::observables::accuracy::Accuracy;
 use crate::sampling::design::{MAX_SAMPLES, Size};
 use crate::scene::Scene;
@@ -32,6 +33,15 @@ impl Plan {
         if runs > last && self.analysis.requirements.iter().any(is_of_bands) {
             notes.push(format!(
                 "quantiles over time are of the first {last} runs, and a requirement at each time may stay undecided; bands.runs = {runs} counts all"
+            ));
+        }
+        let is_of_plates = |effect: &Effect| effect.form() == Form::Evaluated;
+        let of_plates: Vec<&str> =
+            ForceModel::of_input(&self.nominal).effects().filter(is_of_plates).map(Effect::key).collect();
+        if !of_plates.is_empty() && self.tolerance.relative < ROUNDING_OF_PLATES {
+            notes.push(format!(
+                "at tolerances below {ROUNDING_OF_PLATES:e} the rounding of {} counts, which state_error_estimate does not know: errors can be thirty times as large",
+                of_plates.join(" and ")
             ));
         }
         if let (Some(spec), Ok(scene)) = (self.law.as_ref().and_then(ControlLaw::spec), Scene::resolve(&self.nominal)) {

@@ -123,10 +123,15 @@ pub struct Overrides {
 
 /// Observation points where the file does not say.
 const POINTS: u64 = 101;
+/// The tolerance down to which the error estimate of runs with plates covers their errors (`tests/accuracy/error_estimate.rs`): beyond it the rounding of drag
+/// and light counts.
+pub(super) const ROUNDING_OF_PLATES: f64 = 1e-12;
 /// Tolerance where the file does not say. A Taylor series of higher order costs little: a run at 1e-14 takes about a tenth longer than one
 /// at 1e-10, and its errors are near rounding. Runge-Kutta methods pay with many more steps.
-const fn default_tolerance(method: Method) -> f64 {
+fn default_tolerance(method: Method, scene: &SceneInput) -> f64 {
     match method {
+        // a Runge-Kutta method is what integrates them
+        Method::Auto if scene.environment.acts_on_plates() => ROUNDING_OF_PLATES,
         Method::Auto | Method::Taylor => 1e-14,
         Method::Gyrostat(_) | Method::NullSpace => 1e-10,
     }
@@ -293,7 +298,7 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
         let value = both.map(|x| format!("{x:?}"));
         document.add("integrator.tolerance", value, allowed, "delete it: it has no effect");
     }
-    let default = both.unwrap_or(default_tolerance(method));
+    let default = both.unwrap_or(default_tolerance(method, &spec.scene));
     let tolerance = Tolerance { relative: relative.unwrap_or(default), absolute: absolute.unwrap_or(default) };
 
     match Scene::resolve(&spec.scene) {

@@ -57,7 +57,7 @@ pub const HEAD: [(&str, &[Row]); 3] = [
     ]),
     ("integrator", &[
         Row::new("method", Kind::Word(&METHODS), "Equations and integrator"),
-        Row::new("tolerance", Kind::Number, "Both of the following; default: 1e-14 of auto and taylor, 1e-10 of other methods")
+        Row::new("tolerance", Kind::Number, "Both of the following; default: 1e-14 of auto and taylor (1e-12 of auto with drag or sunlight), 1e-10 of other methods")
             .limited(TOLERANCE),
         Row::new("relative_tolerance", Kind::Number, "Relative tolerance of local errors").limited(TOLERANCE),
         Row::new("absolute_tolerance", Kind::Number, "Absolute tolerance of local errors").limited(TOLERANCE),

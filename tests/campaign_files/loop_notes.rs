@@ -75,6 +75,12 @@ const CASES: &[(&str, &str, &[&str], &str)] = &[
         &["filters and laws of the loop do not know environment.drag"],
         "[orbit]\nsemi_major_axis_m = 7e6\n[initial]",
     ),
+    (
+        "[initial]",
+        "[orbit]\nsemi_major_axis_m = 7e6\n[environment]\ndrag = true\n[[plates]]\nname = \"a\"\narea_m2 = 1\nnormal = [1, 0, 0]\ncenter_m = [0, 1, 0]\n[integrator]\ntolerance = 1e-13\n[initial]",
+        &["at tolerances below 1e-12 the rounding of environment.drag counts"],
+        "[orbit]\nsemi_major_axis_m = 7e6\n[environment]\ndrag = true\n[[plates]]\nname = \"a\"\narea_m2 = 1\nnormal = [1, 0, 0]\ncenter_m = [0, 1, 0]\n[integrator]\ntolerance = 1e-12\n[initial]",
+    ),
     // conditions
     (
         "body_rate_rad_s < 0.01",

@@ -202,7 +202,7 @@ fn torque_rods_need_what_drives_them() {
         ("max_dipole_a_m2 = 5", "max_dipole_a_m2 = 0", "torque_rods.m1.max_dipole_a_m2 = 0", "above zero"),
         ("axis = [0, 0, 1]\nmax", "axis = [0, 0, 0]\nmax", "torque_rods.m1.axis", "not all zero"),
         ("rods = \"b_dot\"\n", "rods = \"bdot\"\n", "guidance.brake.rods = \"bdot\"", "none, b_dot, unloading"),
-        ("b_dot_gain_a_m2_s_t = 1e5", "", "guidance.brake.b_dot_gain_a_m2_s_t", "above zero"),
+        ("b_dot_gain_a_m2_s_t = 1e5", "", "guidance.brake.b_dot_gain_a_m2_s_t is missing", "add b_dot_gain_a_m2_s_t"),
         (
             "kind = \"magnetometer\"",
             "kind = \"magnetometer\"\n[[sensors]]\nname = \"other\"\nkind = \"magnetometer\"",

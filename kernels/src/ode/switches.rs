@@ -325,6 +325,11 @@ mod tests {
         (last.0, ended)
     }
 
+    /// Solves a case at a tolerance: the last state, and how it ended.
+    type Solve = dyn Fn(f64, &mut Case) -> ([f64; 2], EndedRun);
+    /// A switch function of a case.
+    type Switch = fn(f64, &[f64; 2]) -> f64;
+
     /// A spring on each side of zero, of the frequencies 1 and 2: half a turn of each alternates.
     fn springs(end: f64) -> Case {
         let slope = |_: f64, [y, v]: &[f64; 2], above: bool| [*v, if above { -y } else { -4.0 * y }];
@@ -339,7 +344,7 @@ mod tests {
         // ten periods of pi + pi/2, and an eighth of a turn above
         let end = 15.0 * PI + 0.25 * PI;
         let exact = [libm::sin(0.25 * PI), libm::cos(0.25 * PI)];
-        let error = |method: &dyn Fn(f64, &mut Case) -> ([f64; 2], EndedRun), tolerance: f64| {
+        let error = |method: &Solve, tolerance: f64| {
             let mut case = springs(end);
             let (found, ended) = method(tolerance, &mut case);
             println!("{tolerance:e}: {} steps, {} rejected, {} choices", ended.accepted, ended.rejected, case.chosen);
@@ -397,7 +402,7 @@ mod tests {
         let kinked = |t: f64, _: &[f64; 2]| (t - 3.0).abs() - 1e-9;
         let steep = |t: f64, _: &[f64; 2]| 1e6 * libm::sin(t);
         let wrong = |t: f64, _: &[f64; 2]| if t == 0.0 { 1.0 } else { libm::sin(1e3 * t) };
-        let switches: [(&str, fn(f64, &[f64; 2]) -> f64, u64); 5] = [
+        let switches: [(&str, Switch, u64); 5] = [
             ("noisy", noisy, 100),
             ("touching", touching, 200),
             ("kinked", kinked, 200),
