@@ -5,8 +5,8 @@
 use super::embedded::Embedded;
 use super::error_model::ErrorModel;
 use super::explicit::{Carried, Step, chosen};
-use super::lane_driver::{Attempt, LaneMethod, Proposal, Stepper, StepperLane};
 use super::step_control::{Control, shortest_step};
+use super::stepper::{Attempt, LaneMethod, Proposal, Stepper, StepperLane};
 use super::system::{System, Tolerance};
 use crate::math::{Mask, Real};
 

@@ -6,6 +6,7 @@
 
 use core::marker::PhantomData;
 
+pub use super::step::Step;
 use super::system::System;
 use super::tableau::Tableau;
 use crate::math::Real;
@@ -76,25 +77,6 @@ where
         };
     }
     arms!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
-}
-
-/// Start, end and length of a step.
-#[derive(Clone, Copy)]
-pub struct Step<R> {
-    /// Time at the start, s.
-    pub time: R,
-    /// Time at the end, s: the node one, to the last bit.
-    pub end: R,
-    /// Length, s.
-    pub length: R,
-}
-
-impl<R: Real> Step<R> {
-    /// The time at the fraction `node` of the step.
-    #[inline(always)]
-    pub(super) fn at(&self, node: f64) -> R {
-        if node == 1.0 { self.end } else { self.length.mul_add(self.length.splat(node), self.time) }
-    }
 }
 
 /// A state with its rounding error.

@@ -6,8 +6,8 @@
 
 use super::error_model::{ErrorModel, Remainder};
 use super::explicit::{Carried, Step};
-use super::lane_driver::{Attempt, LaneMethod, Proposal, Stepper, StepperLane};
 use super::step_control::Control;
+use super::stepper::{Attempt, LaneMethod, Proposal, Stepper, StepperLane};
 use super::system::{System, Tolerance};
 use crate::math::Real;
 

@@ -12,9 +12,9 @@
 //! it is, with the switch at its end, and every step that is taken counts against `max_steps`.
 
 use super::explicit::{Step, each};
-use super::lane_driver::{Attempt, Stepper, StepperLane};
 use super::runs::Runs;
 use super::step_control::Control;
+use super::stepper::{Attempt, Stepper, StepperLane};
 use super::system::System;
 use crate::math::{Mask, Real};
 

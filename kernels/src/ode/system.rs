@@ -1,6 +1,6 @@
 //! What an integrator needs of a problem: the right-hand side, in lanes, and a norm of errors.
 
-use super::explicit::Step;
+use super::step::Step;
 use crate::math::Real;
 
 /// A first-order system y' = f(t, y) of `N` components, in lanes.

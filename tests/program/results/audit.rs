@@ -189,17 +189,17 @@ fn a_long_run_is_audited_in_plain_doubles() {
 /// audit, and it says so.
 #[test]
 fn air_and_sunlight_are_audited() {
-    let plan = plan("drag_tumble", 6, 1.0);
+    let plan = plan("drag_tumble", 3, 1.0);
     let audits = audits(&plan);
-    assert_eq!(audits.len(), 6);
+    assert_eq!(audits.len(), 3);
     let covered = audits.iter().filter(|audit| audit.estimate >= audit.state()).count();
-    assert!(covered >= 5, "{covered} of 6");
+    assert!(covered >= 2, "{covered} of 3");
     for audit in &audits {
         assert_eq!(audit.reference_tolerance, 1e-17);
         assert!(audit.state() > 0.0 && audit.state() < 1e-6, "{:e}", audit.state());
     }
     let scene = Scene::resolve(&plan.nominal).expect("physical");
-    let grid = Grid::uniform(1e8, 2);
+    let grid = Grid::uniform(4e6, 2);
     let refused = Auditor::new(&plan, Isa::best(), &grid).audit(&scene).expect_err("it is too long");
     assert!(refused.to_string().starts_with("the spacecraft turns for"), "{refused}");
 }

@@ -11,7 +11,7 @@
 
 use super::adaptive::Adaptive;
 use super::fixed::Fixed;
-use super::lane_driver::LaneMethod;
+use super::stepper::LaneMethod;
 
 /// Does something with the method of an integrator, whichever it is.
 pub trait Visitor {

@@ -6,7 +6,8 @@
 //!   where each is in its run; `points`, `point_rows`: observation points during a step; [`workspace`], `series_ring`: memory.
 //! - [`period`], `period_search`: the period of omega and time folded by it; [`return_detector`]: its search in all lanes at once;
 //!   `period_folding`, `fold_buffer`: the points of runs whose period is known.
-//! - [`reference_solution`]: reference solutions of any scene by the same recurrences in double-double; `switched_reference`: where torques have no series.
+//! - [`reference_solution`]: reference solutions of any scene by the same recurrences in double-double; `switched_reference`: where torques have no series;
+//!   `reference_run`: what both have of a run.
 //!
 //! The motion of omega without torque is periodic: it stays on the curve in which the energy ellipsoid meets the momentum
 //! sphere. One period turns the attitude by a fixed rotation about the constant angular momentum L, so a run of any
@@ -27,6 +28,7 @@ mod period_folding;
 mod period_search;
 mod point_rows;
 mod points;
+mod reference_run;
 pub mod reference_solution;
 pub mod return_detector;
 pub mod series_ring;

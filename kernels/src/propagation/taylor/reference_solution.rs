@@ -16,6 +16,8 @@ use fearless_simd::Simd;
 
 use super::jet::{Reciprocals, Scratch, expand};
 use super::lane_vectors::si_factors;
+pub use super::reference_run::MOST_STEPS;
+use super::reference_run::{Integration, N, ReferenceOrbit, three};
 use super::step::StepRule;
 use super::switched_reference;
 use crate::dynamics::actuation::ActuationLaw;
@@ -25,9 +27,9 @@ use crate::dynamics::effects::{ChangingSeries, ForceModel};
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::observed::observed_state;
 use crate::dynamics::gyrostat::{
-    ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_THRUST,
+    ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK,
 };
-use crate::dynamics::orbit::{KeplerOrbit, OrbitState};
+use crate::dynamics::orbit::OrbitState;
 use crate::dynamics::orbit_series::OrbitSeries;
 use crate::math::double_double::DoubleDouble;
 use crate::math::isa::NarrowWork;
@@ -43,12 +45,6 @@ use crate::scene::{Offsets, Scene};
 /// Relative tolerance of a reference solution: five times the rounding of double-double (2^-105 = 2.5e-32), below which
 /// smaller steps only add rounding errors.
 pub const TOLERANCE: f64 = 1e-31;
-
-/// A run that takes more steps than this is given up: at some 20 steps a turn, fifty thousand turns.
-pub const MOST_STEPS: u64 = 1_000_000;
-
-/// Every component that a gyrostat has: one kernel for all scenes.
-pub(super) const N: usize = WITH_THRUST;
 
 /// The states of a run at its observation points, as unevaluated sums of two tables.
 #[derive(Clone, Debug)]
@@ -231,11 +227,6 @@ impl ReferenceSolution {
     }
 }
 
-/// Three components from `first` on.
-fn three(y: &[DoubleDouble; N], first: usize) -> [DoubleDouble; 3] {
-    [y[first], y[first + 1], y[first + 2]]
-}
-
 /// Angular velocity in B and in the body's own frame, and the attitude of that frame.
 fn rotation(
     run: &Gyrostat<DoubleDouble>,
@@ -247,19 +238,6 @@ fn rotation(
         Some(c_sb) => (omega_b, product(c_sb, omega_b), hamilton(q_eb, conjugate(run.q_sb))),
         None => (omega_b, omega_b, q_eb),
     }
-}
-
-/// One run from its start to the end of its grid.
-pub(super) struct Integration<'a, 'l> {
-    pub(super) run: &'a mut Gyrostat<DoubleDouble>,
-    /// The same run in `f64`, for its unit of time: a power of two near the time scale of the motion.
-    pub(super) coarse: &'a mut Gyrostat<f64>,
-    /// `None` where nothing acts on the body.
-    scene: Option<&'a Scene>,
-    /// `None` where the scene's schedule is flown.
-    law: Option<&'a mut (dyn ActuationLaw + 'l)>,
-    pub(super) grid: &'a Grid,
-    rule: StepRule,
 }
 
 impl NarrowWork for Integration<'_, '_> {
@@ -403,68 +381,6 @@ impl Integration<'_, '_> {
             }
         }
         Ok(states)
-    }
-}
-
-/// The orbit of a run, integrated beside it: no closed form, so that it can judge one.
-pub(super) struct ReferenceOrbit {
-    mass: DoubleDouble,
-    pub(super) mu: DoubleDouble,
-    pub(super) start: OrbitState<DoubleDouble>,
-    /// Where the spacecraft may leave the orbit: its position and velocity relative to it at time zero, m and m/s.
-    offset: Option<[[DoubleDouble; 3]; 2]>,
-    /// At the start of the step.
-    place: OrbitState<DoubleDouble>,
-    /// The unit of time, s.
-    unit: DoubleDouble,
-}
-
-impl ReferenceOrbit {
-    /// `orbit`, on which `run` starts or beside it.
-    pub(super) fn new(run: &Gyrostat<DoubleDouble>, orbit: &KeplerOrbit<f64>) -> Self {
-        let [position, velocity] = orbit.start().map(|vector| vector.map(DoubleDouble::exact));
-        let start = OrbitState { position, velocity, distance: norm(position) };
-        ReferenceOrbit {
-            mass: run.mass,
-            mu: DoubleDouble::exact(orbit.mu()),
-            start,
-            offset: run.offset,
-            place: start,
-            unit: DoubleDouble::exact(1.0),
-        }
-    }
-
-    /// Starts a step in a unit of time of `unit` seconds: the gravitational parameter, and where the spacecraft is.
-    fn begin(&mut self, unit: f64) -> (DoubleDouble, OrbitState<DoubleDouble>) {
-        self.unit = DoubleDouble::exact(unit);
-        (self.mu, self.place)
-    }
-
-    /// The state `within` units of time after the start of the step, whose series is `along`, SI.
-    fn at(&self, along: &OrbitSeries<DoubleDouble>, within: DoubleDouble) -> OrbitState<DoubleDouble> {
-        let place = along.at(within);
-        OrbitState { velocity: scaled(DoubleDouble::exact(1.0) / self.unit, place.velocity), ..place }
-    }
-
-    /// Adds what gravity does to the components at `time`, s, where c is at `place`: its impulse, the integral of that, and its work.
-    pub(super) fn complete(&self, time: f64, place: &OrbitState<DoubleDouble>, values: &mut [DoubleDouble; N]) {
-        let (mut start, mut place) = (self.start, *place);
-        if let Some(offset) = self.offset {
-            let inverse_mass = DoubleDouble::exact(1.0) / self.mass;
-            let now = [IMPULSE_INTEGRAL, IMPULSE].map(|first| scaled(inverse_mass, three(values, first)));
-            (start, place) = (start.displaced(offset), place.displaced(now));
-            // those components are the relative motion, which is in both places now
-            values[IMPULSE..IMPULSE_INTEGRAL + 3].fill(DoubleDouble::exact(0.0));
-        }
-        let line = sum(start.position, scaled(DoubleDouble::exact(time), start.velocity));
-        let gained = scaled(self.mass, difference(place.velocity, start.velocity));
-        let moved = scaled(self.mass, difference(place.position, line));
-        for i in 0..3 {
-            values[IMPULSE + i] += gained[i];
-            values[IMPULSE_INTEGRAL + i] += moved[i];
-        }
-        let fallen = (start.distance - place.distance) / (start.distance * place.distance);
-        values[THRUST_WORK] += self.mass * self.mu * fallen;
     }
 }
 

@@ -6,7 +6,7 @@
 //!
 //! The orbit is integrated with the attitude: no closed form, so that it can judge one.
 
-use super::reference_solution::{Integration, MOST_STEPS, N, ReferenceOrbit};
+use super::reference_run::{Integration, MOST_STEPS, N, ReferenceOrbit};
 use crate::dynamics::effects::ChangingEffects;
 use crate::dynamics::effects::within_arcs::{Beside, Motion, beside_orbit};
 use crate::dynamics::gyrostat::equations::Constants;

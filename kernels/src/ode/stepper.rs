@@ -1,0 +1,245 @@
+//! [`Stepper`]: how a method chooses and takes steps in lanes; [`StepperLane`]: the state of every lane, as far as it is common to all methods.
+
+use super::error_model::ErrorModel;
+use super::explicit::{Carried, each};
+use super::lane_slot::LoadedRun;
+use super::runs::{EndedRun, Termination};
+use super::step::Step;
+use super::step_control::{Control, PACE_STEPS, is_out_of_reach};
+use super::system::System;
+use crate::math::Real;
+
+/// A method together with its step control.
+pub trait LaneMethod: Copy {
+    /// What it knows about its errors.
+    const ERRORS: ErrorModel;
+    /// Whether its steps have a given length instead of following the tolerance.
+    const HAS_FIXED_STEP: bool;
+
+    /// Its steps in lanes.
+    type Stepper<R: Real, const N: usize>: Stepper<R, N>;
+
+    /// A stepper for all lanes; `zero` determines the kind of number.
+    fn stepper<R: Real, const N: usize>(self, zero: R, control: &Control) -> Self::Stepper<R, N>;
+}
+
+/// The state of every lane, as far as it is common to all methods.
+pub struct StepperLane<R, const N: usize> {
+    /// State at the current time.
+    pub now: Carried<R, N>,
+    /// Current time, s.
+    pub time: R,
+    /// End of the current arc, s.
+    pub arc_end: R,
+    /// Its start, s.
+    pub(super) arc_start: R,
+    /// Attempted steps of the run before it.
+    pub(super) before: R,
+    /// Attempted steps of the run at which it is judged ([`StepperLane::gives_up`]).
+    pub(super) judged: R,
+    /// Next observation time, s.
+    pub next: R,
+    /// Accepted steps of the run.
+    pub accepted: R,
+    /// Rejected steps of the run.
+    pub rejected: R,
+    /// Evaluations of the right-hand side in the run.
+    pub evaluations: R,
+    /// Sum of the error estimates of the accepted steps, in units of the tolerance.
+    pub error_sum: R,
+}
+
+/// A step to be attempted.
+#[derive(Clone, Copy)]
+pub struct Proposal<R: Real> {
+    /// The step.
+    pub step: Step<R>,
+    /// Whether it ends at the end of the arc.
+    pub lands: R::Mask,
+}
+
+/// The result of an attempted step, apart from the state at its end.
+pub struct Attempt<R: Real> {
+    /// Whether it was accepted.
+    pub accepted: R::Mask,
+    /// Whether everything in it is finite.
+    pub sound: R::Mask,
+    /// Its error in units of the tolerance, zero if the method has no estimate.
+    pub error: R,
+}
+
+/// How a method chooses and takes steps: the memory of all lanes.
+pub trait Stepper<R: Real, const N: usize> {
+    /// A run starts in lane `lane`.
+    fn start_run(&mut self, lane: usize);
+
+    /// An arc from `start` to `end`, s, starts in lane `lane`.
+    fn start_arc(&mut self, lane: usize, start: f64, end: f64);
+
+    /// Lane `lane` has no run: it takes steps of zero length that never reach the end of an arc.
+    fn idle(&mut self, lane: usize);
+
+    /// The step that every lane takes next.
+    fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) -> Proposal<R>;
+
+    /// Attempts the step and puts the state at its end into `end`, which is not returned because every move of a state of many
+    /// components is a copy.
+    fn attempt<Q: System<R, N>>(
+        &mut self,
+        system: &Q,
+        step: Step<R>,
+        lanes: &mut StepperLane<R, N>,
+        end: &mut Carried<R, N>,
+    ) -> Attempt<R>;
+
+    /// Prepares [`Stepper::inside`] for the lanes `inside` of the step that was attempted.
+    fn prepare_inside<Q: System<R, N>>(
+        &mut self,
+        system: &Q,
+        step: Step<R>,
+        end: &[R; N],
+        inside: R::Mask,
+        lanes: &mut StepperLane<R, N>,
+    );
+
+    /// The state at the end of `part`, the first part of the attempted step `step`; of use in the lanes `inside`.
+    fn inside<Q: System<R, N>>(
+        &mut self,
+        system: &Q,
+        step: Step<R>,
+        part: Step<R>,
+        inside: R::Mask,
+        lanes: &mut StepperLane<R, N>,
+    ) -> [R; N];
+
+    /// Chooses the length of the next step; true in the lanes that cannot continue.
+    fn advance(&mut self, proposal: &Proposal<R>, attempt: &Attempt<R>) -> R::Mask;
+
+    /// The derivatives at both ends of the step that was attempted last.
+    fn slopes(&self) -> [&[R; N]; 2];
+
+    /// After [`Stepper::advance`]: the next step of the lanes `lanes` has the length `length`, s, and those after it the length of the step
+    /// that this one is to replace.
+    fn cut(&mut self, lanes: R::Mask, length: R);
+
+    /// Evaluates the derivative at the current time again in the lanes `lanes`, where its branches have changed.
+    fn renew<Q: System<R, N>>(&mut self, system: &Q, renewed: R::Mask, lanes: &mut StepperLane<R, N>);
+}
+
+impl<R: Real, const N: usize> StepperLane<R, N> {
+    #[inline(always)]
+    pub(super) fn new(zero: R) -> Self {
+        let state = [zero; N];
+        StepperLane {
+            now: Carried { state, carry: state },
+            time: zero,
+            arc_end: zero.splat(f64::INFINITY),
+            arc_start: zero,
+            before: zero,
+            judged: zero,
+            next: zero.splat(f64::INFINITY),
+            accepted: zero,
+            rejected: zero,
+            evaluations: zero,
+            error_sum: zero,
+        }
+    }
+
+    /// The state in lane `lane`.
+    #[inline(always)]
+    pub(super) fn state(&self, lane: usize) -> [f64; N] {
+        of_lane(&self.now.state, lane)
+    }
+
+    /// Starts `loaded`, observed next at `next`, in lane `lane`; without a run the lane becomes idle.
+    #[inline(always)]
+    pub(super) fn start<P: Stepper<R, N>>(
+        &mut self,
+        lane: usize,
+        loaded: Option<LoadedRun<N>>,
+        next: f64,
+        (stepper, control): (&mut P, &Control),
+    ) {
+        self.time.set_lane(lane, 0.0);
+        self.accepted.set_lane(lane, 0.0);
+        self.evaluations.set_lane(lane, 0.0);
+        self.error_sum.set_lane(lane, 0.0);
+        let Some(run) = loaded else {
+            // an idle lane never reaches the maximum number of steps, an observation point or the end of an arc
+            self.rejected.set_lane(lane, f64::NEG_INFINITY);
+            self.arc_end.set_lane(lane, f64::INFINITY);
+            self.next.set_lane(lane, f64::INFINITY);
+            stepper.idle(lane);
+            return;
+        };
+        for n in 0..N {
+            self.now.state[n].set_lane(lane, run.state[n]);
+            self.now.carry[n].set_lane(lane, 0.0);
+        }
+        self.rejected.set_lane(lane, 0.0);
+        self.next.set_lane(lane, next);
+        stepper.start_run(lane);
+        self.start_arc(lane, 0.0, run.end, (stepper, control));
+    }
+
+    /// Starts the arc from `start` to `end`, s, in lane `lane`.
+    #[inline(always)]
+    pub(super) fn start_arc<P: Stepper<R, N>>(
+        &mut self,
+        lane: usize,
+        start: f64,
+        end: f64,
+        (stepper, control): (&mut P, &Control),
+    ) {
+        let before = self.attempts(lane);
+        self.arc_start.set_lane(lane, start);
+        self.arc_end.set_lane(lane, end);
+        self.before.set_lane(lane, before);
+        self.judged.set_lane(lane, (before + PACE_STEPS as f64).min(control.max_steps as f64));
+        stepper.start_arc(lane, start, end);
+    }
+
+    /// Attempted steps of the run in lane `lane`.
+    #[inline(always)]
+    pub(super) fn attempts(&self, lane: usize) -> f64 {
+        self.accepted.lane(lane) + self.rejected.lane(lane)
+    }
+
+    /// Whether the run in lane `lane` has taken all steps that it may take, or cannot get to the end of its arc with them.
+    #[cold]
+    pub(super) fn gives_up(&mut self, lane: usize, max_steps: u64) -> bool {
+        let (attempts, before) = (self.attempts(lane), self.before.lane(lane));
+        if attempts >= max_steps as f64 {
+            return true;
+        }
+        if attempts < before + PACE_STEPS as f64 {
+            return false; // the next arc has just begun
+        }
+        self.judged.set_lane(lane, max_steps as f64);
+        let start = self.arc_start.lane(lane);
+        is_out_of_reach(max_steps - before as u64, self.time.lane(lane) - start, self.arc_end.lane(lane) - start)
+    }
+
+    /// How the run in lane `lane` ended.
+    #[inline(always)]
+    pub(super) fn completion(&self, lane: usize, termination: Termination) -> EndedRun {
+        EndedRun {
+            termination,
+            time: self.time.lane(lane),
+            accepted: self.accepted.lane(lane) as u64,
+            rejected: self.rejected.lane(lane) as u64,
+            evaluations: self.evaluations.lane(lane) as u64,
+            error_sum: self.error_sum.lane(lane),
+        }
+    }
+}
+
+/// The numbers in lane `lane`.
+#[inline(always)]
+pub(super) fn of_lane<R: Real, const N: usize>(state: &[R; N], lane: usize) -> [f64; N] {
+    each::<f64, N>(
+        0.0,
+        #[inline(always)]
+        |n| state[n].lane(lane),
+    )
+}
