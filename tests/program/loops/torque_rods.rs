@@ -60,6 +60,7 @@ impl Craft {
         }
         let text = format!(
             "[campaign]\nname = \"rods\"\nsamples = 4\nseed = 1\nduration_s = {duration:?}\n[observe]\npoints = 11\n\
+             groups = [\"final_state\", \"motion\", \"numerics\", \"energy_conservation\", \"momentum_conservation\", \"orbit\"]\n\
              [body]\nmass_kg = 12.0\nincludes_wheels = true\nprincipal_moments_kg_m2 = {MOMENTS:?}\n{parts}\
              [initial]\n{initial}\n[orbit]\nepoch = \"2026-11-24T00:00:00Z\"\nsemi_major_axis_m = 6.928e6\ninclination_rad = 1.7\n\
              [environment]\nmagnetic_field = \"dipole\"\n\
