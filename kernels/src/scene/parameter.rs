@@ -230,6 +230,7 @@ mod tests {
         let mut inertial = full();
         inertial.initial.debris_attitude_inertial = Some(IDENTITY);
         inertial.initial.attitude_orbital = Some(IDENTITY);
+        inertial.initial.angular_velocity_orbital_rad_s = Some([0.0; 3]);
         inertial.initial.debris_angular_velocity_rad_s = Some([0.0; 3]);
         list.push(inertial);
         let mut driven = full();

@@ -397,8 +397,11 @@ const REFUSALS: &[(&str, &str, Change, Change)] = &[
     (
         "initial.angular_velocity_orbital_rad_s",
         "without an [orbit]",
-        |input| input.initial.angular_velocity_orbital_rad_s = Some([0.0; 3]),
-        |input| input.initial.angular_velocity_orbital_rad_s = None,
+        |input| {
+            input.initial.angular_velocity_rad_s = [0.0; 3];
+            input.initial.angular_velocity_orbital_rad_s = Some([0.0; 3]);
+        },
+        |input| input.initial.angular_velocity_rad_s = [0.0; 3],
     ),
     (
         "initial.debris_attitude",
