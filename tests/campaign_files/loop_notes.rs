@@ -78,8 +78,11 @@ const CASES: &[(&str, &str, &[&str], &str)] = &[
     (
         "[initial]",
         "[orbit]\nsemi_major_axis_m = 7e6\n[environment]\ndrag = true\n[[plates]]\nname = \"a\"\narea_m2 = 1\nnormal = [1, 0, 0]\ncenter_m = [0, 1, 0]\n[integrator]\ntolerance = 1e-13\n[initial]",
-        &["at tolerances below 1e-12 the rounding of environment.drag counts"],
-        "[orbit]\nsemi_major_axis_m = 7e6\n[environment]\ndrag = true\n[[plates]]\nname = \"a\"\narea_m2 = 1\nnormal = [1, 0, 0]\ncenter_m = [0, 1, 0]\n[integrator]\ntolerance = 1e-12\n[initial]",
+        &[
+            "at tolerances below 1e-12 the rounding of environment.drag counts",
+            "filters and laws of the loop do not know environment.drag",
+        ],
+        "[orbit]\nsemi_major_axis_m = 7e6\n[initial]",
     ),
     // conditions
     (
@@ -196,6 +199,17 @@ fn each_note_has_a_file_that_gets_it_and_a_neighbour_that_does_not() {
         assert!(says.iter().all(is_said) && found.len() == notes, "{wrong}: {found:#?}");
         let neighbour = plan(&LOOP.replacen(from, right, 1)).notes();
         assert!(neighbour.is_empty(), "{right}: {neighbour:#?}");
+    }
+}
+
+/// Law: down to 1e-12, where runs with plates are unless the file says otherwise, nothing is noted of rounding.
+#[test]
+fn the_tolerance_of_plates_is_the_one_down_to_which_estimates_cover() {
+    let drag = CASES.iter().find(|(_, wrong, ..)| wrong.contains("tolerance = 1e-13")).expect("a case").1;
+    for tolerance in ["tolerance = 1e-12", ""] {
+        let found = plan(&LOOP.replacen("[initial]", &drag.replace("tolerance = 1e-13", tolerance), 1));
+        assert_eq!(found.tolerance.relative, 1e-12);
+        assert!(found.notes().iter().all(|note| !note.contains("rounding")), "{:?}", found.notes());
     }
 }
 
