@@ -82,21 +82,7 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     input.initial.check(has_debris, problems, |key| format!("initial.{key}").into());
     states_written_twice(&input.initial, has_debris, problems);
     if input.orbit.is_none() {
-        let InitialInput { attitude_orbital, angular_velocity_orbital_rad_s, .. } = &input.initial;
-        let of_orbit = [
-            ("attitude_orbital", attitude_orbital.as_ref().map(|numbers| &numbers[..])),
-            ("angular_velocity_orbital_rad_s", angular_velocity_orbital_rad_s.as_ref().map(|numbers| &numbers[..])),
-        ];
-        for (key, numbers) in of_orbit {
-            let Some(numbers) = numbers else { continue };
-            let allowed = "left out without an [orbit]";
-            problems.add(
-                format!("initial.{key}"),
-                shown(numbers),
-                allowed,
-                "add an [orbit] table, or delete this line",
-            );
-        }
+        states_of_an_orbit(&input.initial, problems);
     }
     if let Some(orbit) = &input.orbit {
         let before = problems.0.len();
@@ -127,6 +113,20 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     input.actuators.check(has_debris, problems, |key| format!("actuators.{key}").into());
     if problems.0.len() == before {
         switches(input, problems);
+    }
+}
+
+/// Collects what the initial state has relative to the local orbital frame, without an orbit.
+fn states_of_an_orbit(initial: &InitialInput, problems: &mut Problems) {
+    let mut refuse = |key: &str, numbers: &[f64]| {
+        let remedy = "add an [orbit] table, or delete this line";
+        problems.add(format!("initial.{key}"), shown(numbers), "left out without an [orbit]", remedy);
+    };
+    if let Some(attitude) = &initial.attitude_orbital {
+        refuse("attitude_orbital", attitude);
+    }
+    if let Some(rate) = &initial.angular_velocity_orbital_rad_s {
+        refuse("angular_velocity_orbital_rad_s", rate);
     }
 }
 

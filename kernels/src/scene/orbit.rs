@@ -127,11 +127,6 @@ impl Orbit {
         Orbit { position, velocity, ..*self }
     }
 
-    /// The local orbital frame at its position.
-    pub fn local_frame(&self) -> LocalFrame {
-        LocalFrame::at(self.position, self.velocity)
-    }
-
     /// Its shape.
     pub fn shape(&self) -> OrbitShape {
         let distance = norm(self.position);

@@ -7,7 +7,8 @@ use super::mass::MassProperties;
 use super::schema::{Device, InitialInput, MAX_WHEELS, WheelMode};
 use super::unit_quaternion::unit_quaternion;
 use super::{
-    ActuatorModels, InitialState, Offsets, Orbit, Scene, SceneError, TorqueRod, check, failures, plate, schedule,
+    ActuatorModels, InitialState, LocalFrame, Offsets, Orbit, Scene, SceneError, TorqueRod, check, failures, plate,
+    schedule,
 };
 use crate::math::vector::{
     conjugate, cross, dcm_from_quaternion, difference, hamilton, product, sum, transposed_product,
@@ -110,7 +111,7 @@ fn checked(input: &SceneInput, mass: &MassProperties) -> Result<(), Vec<SceneErr
 
 /// The state at time zero (59): debris q_ed = q_es (x) q_sd, omega^de = omega^ds + C_ds omega^se, where they are not written themselves.
 ///
-/// From the local orbital frame of the spacecraft on `orbit`: q_es = q_eo (x) q_os, omega^se = omega^so + C_es^T omega^oe.
+/// What is written relative to the local orbital frame of the spacecraft on `orbit`: q_es = q_eo (x) q_os, omega^se = omega^so + C_es^T omega^oe.
 ///
 /// What belongs to debris that the scene does not have is zero (attitude: identity).
 fn initial_state(input: &SceneInput, orbit: Option<&Orbit>) -> InitialState {
@@ -133,16 +134,16 @@ fn initial_state(input: &SceneInput, orbit: Option<&Orbit>) -> InitialState {
     for (i, wheel) in turning.enumerate() {
         (wheel_angles[i], wheel_rates[i]) = (wheel.angle_rad, wheel.rate_rad_s);
     }
-    let frame = orbit.map(Orbit::local_frame);
-    let q_es = match (attitude_orbital, &frame) {
-        (Some(q_os), Some(frame)) => hamilton(frame.q_eo, unit_quaternion(q_os)),
-        _ => unit_quaternion(attitude),
+    let frame = || orbit.map(|orbit| LocalFrame::at(orbit.position, orbit.velocity));
+    let q_es = match attitude_orbital.and_then(|q_os| Some((q_os, frame()?))) {
+        Some((q_os, frame)) => hamilton(frame.q_eo, unit_quaternion(q_os)),
+        None => unit_quaternion(attitude),
     };
-    let angular_velocity_rad_s = match (angular_velocity_orbital_rad_s, &frame) {
-        (Some(omega_so_s), Some(frame)) => {
-            sum(omega_so_s, transposed_product(dcm_from_quaternion(q_es), frame.omega_oe_e))
-        }
-        _ => angular_velocity_rad_s,
+    let angular_velocity_rad_s = match angular_velocity_orbital_rad_s
+        .and_then(|omega_so_s| Some((omega_so_s, frame()?)))
+    {
+        Some((omega_so_s, frame)) => sum(omega_so_s, transposed_product(dcm_from_quaternion(q_es), frame.omega_oe_e)),
+        None => angular_velocity_rad_s,
     };
     let mut state = InitialState {
         r_po_e: position_m,
@@ -298,44 +299,6 @@ mod tests {
         input.debris = None;
         let state = Scene::resolve(&input).expect("a legal scene").initial;
         assert_eq!((state.q_ed, state.omega_de_d), ([1.0, 0.0, 0.0, 0.0], [0.0; 3]));
-    }
-
-    /// Law: relative to the local orbital frame without a rotation s3 points at the central body, s2 against the normal of the orbit and s1 ahead; a rotation
-    /// turns the body from there; an offset from the orbit turns the frame; written twice, or without an orbit, it is refused.
-    #[test]
-    fn the_attitude_can_be_given_in_the_orbital_frame() {
-        let mut input = SceneInput::report();
-        (input.debris, input.thrusters, input.actuation) = (None, Vec::new(), Vec::new());
-        let (position, velocity) = ([6e6, -3e6, 2e6], [2e3, 5e3, 4e3]);
-        input.orbit = Some(crate::scene::OrbitInput {
-            position_m: Some(position),
-            velocity_m_s: Some(velocity),
-            body_radius_m: 1e6,
-            ..crate::scene::OrbitInput::DEFAULT
-        });
-        input.initial.attitude_orbital = Some([1.0, 0.0, 0.0, 0.0]);
-        let axes = |input: &SceneInput| {
-            let q_es = Scene::resolve(input).expect("a legal scene").initial.q_es;
-            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| product(dcm_from_quaternion(q_es), axis))
-        };
-        let near = |found: [f64; 3], along: [f64; 3]| {
-            let unit = along.map(|x| x / along.iter().map(|x| x * x).sum::<f64>().sqrt());
-            assert!((0..3).all(|i| (found[i] - unit[i]).abs() < 1e-15), "{found:?} for {unit:?}");
-        };
-        let normal = cross(position, velocity);
-        let [s1, s2, s3] = axes(&input);
-        near(s3, position.map(|x| -x));
-        near(s2, normal.map(|x| -x));
-        near(s1, cross(normal, position));
-        // a quarter about o3: s1 is where o2 was
-        let half = core::f64::consts::FRAC_1_SQRT_2;
-        input.initial.attitude_orbital = Some([half, 0.0, 0.0, half]);
-        near(axes(&input)[0], normal.map(|x| -x));
-        let mut twice = input.clone();
-        twice.initial.attitude = [0.5, 0.5, -0.5, 0.5];
-        assert_eq!(Scene::resolve(&twice).expect_err("written twice")[0].key, "initial.attitude");
-        input.orbit = None;
-        assert_eq!(Scene::resolve(&input).expect_err("no orbit")[0].key, "initial.attitude_orbital");
     }
 
     /// Law: the motion of the debris in F_e is that which is written there, whatever that of the spacecraft is; written twice it is refused.

@@ -84,9 +84,8 @@ impl OrbitMotion {
         }
     }
 
-    /// The attitude q_eo of the local orbital frame F_o, F_o -> F_e, scalar first, and its angular velocity r x v/(r . r) in F_e, rad/s: o3 points at the
-    /// central body, o2 against the normal of the orbit, and o1 completes them, ahead on a circular orbit (J. R. Wertz, *Spacecraft Attitude Determination and
-    /// Control*, 1978, section 2.2: roll, pitch and yaw axes).
+    /// The attitude q_eo of the local orbital frame ([`crate::scene::LocalFrame`]), F_o -> F_e, and its angular velocity in F_e, rad/s. By plain sums, like
+    /// everything that flight software computes: those of `LocalFrame` are fused, and would be other bits.
     fn local_frame(&self) -> ([f64; 4], [f64; 3]) {
         let normal = cross(self.r_e, self.v_e);
         let o3 = scaled(-1.0 / norm(self.r_e), self.r_e);

@@ -42,7 +42,7 @@ use crate::analysis::survey::{self, Survey};
 use crate::campaign::Plan;
 use crate::campaign::event::Event;
 use crate::ensemble::Ensemble;
-use crate::report::figure::{Figure, FigureSection, Mark};
+use crate::report::figure::{Figure, FigureSection, Mark, Scale};
 use crate::report::names;
 use crate::report::over_time::curves::{Curves, TimeBands};
 use crate::sampling::{Design, SampleId};
@@ -84,13 +84,14 @@ pub fn is_independent(plan: &Plan) -> bool {
     matches!(plan.design, Design::Random(_))
 }
 
-/// Where the events of the file happen: the median of each in the runs in which it does.
+/// When the events of the file happen: the median of each over the runs in which it does, and how many these are.
 fn event_times(plan: &Plan, statistics: &[StatisticsRow]) -> Vec<Mark> {
     let of = |event: &Event| {
         let name = format!("{}_time_s", event.name);
         let row = statistics.iter().find(|row| row.name == name)?;
         let at = row.quantiles.iter().find(|[p, ..]| *p == 0.5).map(|[_, time, ..]| *time)?;
-        let label = format!("{}, median", event.name);
+        let runs = if row.count == 1 { "1 run".to_owned() } else { format!("{} runs", row.count) };
+        let label = format!("{}, median of {runs}", event.name.replace('_', " "));
         at.is_finite().then_some(Mark::Limit { label, at, vertical: true })
     };
     plan.events.iter().filter_map(of).collect()
@@ -107,11 +108,13 @@ impl Page {
         let curves = Curves::of_page(plan, nominal, &contents.bands, &wheels);
         let mut figures = outcomes::figures(plan, survey, &contents.statistics, has_intervals);
         let events = event_times(plan, &contents.statistics);
-        let over_time = curves.figures().into_iter().chain(curves.drift());
-        figures.extend(over_time.map(|mut figure| {
-            figure.marks.extend(events.iter().filter(|_| figure.is_over_time).cloned());
+        figures.extend(curves.figures().into_iter().map(|mut figure| {
+            // rows of names, as of phases, have no place for more words
+            let is_marked = figure.is_over_time && !matches!(figure.y.scale, Scale::Names(_));
+            figure.marks.extend(events.iter().filter(|_| is_marked).cloned());
             figure
         }));
+        figures.extend(curves.drift());
         figures.extend(errors::figures(survey, has_intervals));
         figures.extend(influence::figures(plan, survey, &contents.influences));
         figures.extend(inputs::figures(plan, survey));
