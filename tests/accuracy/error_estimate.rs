@@ -294,8 +294,8 @@ fn measured(count: u64) -> Vec<Measured> {
         Family::new("mixed, forced", Grid::uniform(10.0, 101), mixed(count, true, 10.0)),
         boxes(2 * count),
         Family::new("gravity gradient", Grid::uniform(12_000.0, 201), tumbling(count, 71, [0.0, 20.0])),
-        Family::new("air and light", Grid::uniform(6_000.0, 101), plated(count, 71, [0.0, 20.0])),
-        Family::new("drag_tumble", Grid::uniform(6_000.0, 101), in_thin_air(count, 5)),
+        Family::new(IN_AIR[0], Grid::uniform(6_000.0, 101), plated(count, 71, [0.0, 20.0])),
+        Family::new(IN_AIR[1], Grid::uniform(6_000.0, 101), in_thin_air(count, 5)),
     ];
     let mut all = Vec::new();
     for method in Method::ALL {
@@ -304,10 +304,6 @@ fn measured(count: u64) -> Vec<Measured> {
                 continue;
             }
             for (setting, control) in settings(method) {
-                // beyond it the rounding of drag and light counts, which the estimate does not know: a note of the program says so
-                if family.scenes[0].environment.acts_on_plates() && setting < 1e-12 {
-                    continue;
-                }
                 // an orbit has a thousand times the time of a second's turn
                 let is_slow = family.grid.duration() > 1000.0;
                 let control =
@@ -326,6 +322,10 @@ fn measured(count: u64) -> Vec<Measured> {
     }
     all
 }
+
+/// Families in which, at tolerances below 1e-12, the rounding of drag and light counts, which the estimate does not know: a note of the program says so,
+/// and they are shown, not judged.
+const IN_AIR: [&str; 2] = ["air and light", "drag_tumble"];
 
 /// Checks the law for all families, with a factor on the estimate for the counter-test; returns the violations.
 pub(super) fn breaches(all: &[Measured], factor: f64) -> Vec<String> {
@@ -347,6 +347,9 @@ pub(super) fn breaches(all: &[Measured], factor: f64) -> Vec<String> {
                 runs.iter().filter(|run| run.error > SMALL).count(),
             );
             println!("{line}");
+            if IN_AIR.contains(family) && *setting < 1e-12 {
+                continue;
+            }
             if at_most(covered as u64, n as u64, COVERAGE) < ALPHA || median > too_large(*method, family) {
                 breaches.push(line);
             }

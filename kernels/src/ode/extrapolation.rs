@@ -26,7 +26,7 @@ impl<R: Real, const N: usize> Extrapolation<R, N> {
     }
 
     /// Takes a step from `start`, where the derivative is `slope`: the state at its end, and how many columns it took until the last two differed by no more
-    /// than the tolerance; `None` where they always do.
+    /// than the tolerance; `None` where they never agree so well.
     #[inline(always)]
     pub fn step<Q: System<R, N>>(
         &mut self,
