@@ -8,6 +8,7 @@ use serde_json::Value;
 use crate::campaign::difference::text_differences;
 use crate::report::index_page::{IndexEntry, Unreadable};
 use crate::report::summary::SummaryEnd;
+use crate::scene::epoch::date_of;
 use crate::storage::folder::MOST_SUMMARY;
 use crate::storage::names::{MANIFEST, PLAN, REPORT, SUMMARY};
 use crate::workflow::error::WorkflowError;
@@ -17,6 +18,8 @@ use crate::workflow::session::Session;
 const DEEPEST: usize = 6;
 /// Keys of plans that are named as changed.
 const MOST_KEYS: usize = 4;
+/// A file says of itself that it is of this day since 1970 at most: of the year 9999.
+const LAST_DAY: u64 = 2_932_896;
 /// Most bytes of a plan that is read.
 const MOST_PLAN: u64 = 16 << 20;
 
@@ -139,14 +142,10 @@ fn changed(before: &Found, after: &Found) -> String {
     if said.is_empty() { "nothing".to_owned() } else { said.join("; ") }
 }
 
-/// The day of a time since 1970 in UTC, `2026-11-25` (E. G. Richards, Explanatory Supplement to the Astronomical Almanac, 2013, 15.11).
+/// The day of a time since 1970 in UTC, `2026-11-25`.
 fn day(seconds: u64) -> String {
-    let julian = seconds / 86_400 + 2_440_588;
-    let f = julian + 1401 + (4 * julian + 274_277) / 146_097 * 3 / 4 - 38;
-    let e = 4 * f + 3;
-    let h = 5 * (e % 1461 / 4) + 2;
-    let (day, month) = (h % 153 / 5 + 1, (h / 153 + 2) % 12 + 1);
-    let year = e / 1461 - 4716 + (12 + 2 - month) / 12;
+    let to_2000 = 10_957;
+    let (year, month, day) = date_of((seconds / 86_400).min(LAST_DAY) as i32 - to_2000);
     format!("{year}-{month:02}-{day:02}")
 }
 
@@ -165,6 +164,7 @@ mod tests {
             (1_795_651_200, "2026-11-26"),
             (4_107_542_399, "2100-02-28"),
             (4_107_542_400, "2100-03-01"),
+            (u64::MAX, "9999-12-31"),
         ] {
             assert_eq!(day(seconds), text);
         }

@@ -92,7 +92,7 @@ fn day_of(year: i32, month: i32, day: i32) -> Option<i32> {
 }
 
 /// Year, month and day of a number of days since 2000-01-01 (E. G. Richards, Explanatory Supplement to the Astronomical Almanac, 2013, 15.11).
-fn date_of(day: i32) -> (i32, i32, i32) {
+pub fn date_of(day: i32) -> (i32, i32, i32) {
     let julian = day + 2_451_545;
     let f = julian + 1401 + (4 * julian + 274_277) / 146_097 * 3 / 4 - 38;
     let e = 4 * f + 3;
