@@ -1,6 +1,7 @@
 //! Whatever happens to processes, disks and files: always the same bytes, or an error that says why.
 
 pub mod altered_results;
+pub mod cluster_recipes;
 pub mod derived_files;
 pub mod extremes;
 pub mod false_manifests;
