@@ -20,7 +20,8 @@ pub fn request(
     law: Option<&ControlLaw>,
     events: &[Event],
 ) -> Request {
-    let when_it_happened = [event_columns::of_failures(acting), event_columns::of_events(events)].concat();
+    let when_it_happened =
+        [event_columns::of_failures(acting), event_columns::of_events(events, law.is_some())].concat();
     let commanded = law.map_or(Actuated::NONE, ControlLaw::commands);
     Request {
         groups: groups.iter().copied().collect(),

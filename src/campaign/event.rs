@@ -52,7 +52,12 @@ pub struct Event {
     pub direction: Direction,
     /// Which crossing the time is of.
     pub which: Which,
+    /// Whether the run ends there.
+    pub ends_run: bool,
 }
+
+/// The column that says what has ended a run, where an event can.
+pub const ENDED_BY: &str = "ended_by";
 
 /// Most events of a file.
 pub(super) const MOST_EVENTS: usize = 16;
@@ -67,13 +72,14 @@ const WHICH: [&str; 3] = [Which::ALL[0].0, Which::ALL[1].0, Which::ALL[2].0];
 
 /// The keys of the table.
 #[rustfmt::skip]
-pub const ROWS: [Row; 5] = [
+pub const ROWS: [Row; 6] = [
     Row::new("name", Kind::Text(NAME), "Its name, from which those of its columns are made").required_as(NAME.allowed, "\"settled\""),
     Row::new("quantity", Kind::Expression, "A quantity over time that is observed, or an expression of several")
         .required_as("a quantity over time, or an expression of some", "\"angular_rate_rad_s\""),
     Row::new("value", Kind::Amount, "The value that it crosses").required_as(FINITE.allowed, "0.1"),
     Row::new("direction", Kind::Word(&DIRECTIONS), "In which direction"),
     Row::new("which", Kind::Word(&WHICH), "Which crossing its time is of; `stays`: the last one, where the quantity stays there to the end of the run"),
+    Row::new("ends_run", Kind::Flag, "Whether the run ends at its first crossing; default: false"),
 ];
 
 impl Event {
@@ -119,6 +125,15 @@ impl Event {
             table.refuse("which", allowed, "write direction = \"rising\" or \"falling\": the side on which it stays");
             return None;
         }
+        let ends_run = rest.flag("ends_run");
+        if ends_run && which != Which::First {
+            table.refuse(
+                "which",
+                "\"first\" where ends_run = true",
+                "leave it out: nothing crosses after the end of the run",
+            );
+            return None;
+        }
         let (head, _) = head.zip(variables)?;
         let name = head.text("name")?;
         if taken.iter().any(|other| other == name) {
@@ -126,7 +141,7 @@ impl Event {
             return None;
         }
         let (name, quantity) = (name.to_owned(), head.text("quantity")?.to_owned());
-        Some(Event { name, quantity, value: rest.number("value")?, direction, which })
+        Some(Event { name, quantity, value: rest.number("value")?, direction, which, ends_run })
     }
 
     /// The expression, and the quantities that are its variables, of runs of `request`; `None` only for what [`Event::read_all`] refuses.
@@ -151,6 +166,7 @@ impl Event {
     pub fn quantities(&self) -> [Quantity; 2] {
         let (name, says) = (&self.name, self.says());
         let time = match self.which {
+            Which::First if self.ends_run => format!("When {says}, at which the run ends; null where it never does."),
             Which::First => format!("When {says} for the first time; null where it never does."),
             Which::Last => format!("When {says} for the last time; null where it never does."),
             Which::Stays => {
@@ -166,12 +182,25 @@ impl Event {
         ]
     }
 
+    /// What ends runs that are watched for `events`, in the order of the codes of the column [`ENDED_BY`], where the law of a mission `ends` some, too;
+    /// nothing where no event does.
+    pub fn ends(events: &[Event], ends: bool) -> Vec<&str> {
+        let of_events = events.iter().filter(|event| event.ends_run).map(|event| event.name.as_str());
+        let others = ["duration", "mission"];
+        match of_events.clone().next() {
+            None => Vec::new(),
+            Some(_) => others[..1 + usize::from(ends)].iter().copied().chain(of_events).collect(),
+        }
+    }
+
     /// The value of a key in canonical text.
     pub(super) fn value(&self, key: &str) -> Option<Value> {
         Some(match key {
             "name" => self.name.as_str().into(),
             "quantity" => self.quantity.as_str().into(),
             "value" => self.value.into(),
+            "ends_run" if !self.ends_run => return None,
+            "ends_run" => true.into(),
             "direction" => Value::Word(Direction::ALL.iter().find(|(_, one)| *one == self.direction)?.0),
             _ => Value::Word(Which::ALL.iter().find(|(_, one)| *one == self.which)?.0),
         })

@@ -1,6 +1,6 @@
 //! The columns of rows that say when failures and events happened.
 
-use super::event::Event;
+use super::event::{ENDED_BY, Event};
 use super::failure_tables::failed_device;
 use crate::observables::{ColumnKind, LawColumn};
 use crate::run::Quantity;
@@ -36,11 +36,15 @@ fn column(name: String, unit: &str, meaning: String, kind: ColumnKind) -> LawCol
     LawColumn { quantity: Quantity::named(name, unit.to_owned(), meaning), kind, codes: &[] }
 }
 
-/// The columns of `events`, [`EACH`] of each.
-pub(super) fn of_events(events: &[Event]) -> Vec<LawColumn> {
+/// The columns of `events`, [`EACH`] of each, and where one ends runs what has ended them: also the law of a mission, where there is one.
+pub(super) fn of_events(events: &[Event], has_law: bool) -> Vec<LawColumn> {
     let kinds = [ColumnKind::Float, ColumnKind::Count];
     let of = |event: &Event| {
         event.quantities().into_iter().zip(kinds).map(|(quantity, kind)| LawColumn { quantity, kind, codes: &[] })
     };
-    events.iter().flat_map(of).collect()
+    let ends: Vec<String> =
+        Event::ends(events, has_law).iter().enumerate().map(|(code, end)| format!("{code} {end}")).collect();
+    let meaning = format!("What ended the run: {}.", ends.join(", "));
+    let ended_by = (!ends.is_empty()).then(|| column(ENDED_BY.to_owned(), "", meaning, ColumnKind::Count));
+    events.iter().flat_map(of).chain(ended_by).collect()
 }

@@ -136,7 +136,8 @@ fn happenings(text: &mut String, plan: &Plan) -> std::fmt::Result {
     }
     section(text, "Events")?;
     for event in &plan.events {
-        writeln!(text, "{}: {}", event.name, event.says())?;
+        let ends = if event.ends_run { "; the run ends there" } else { "" };
+        writeln!(text, "{}: {}{ends}", event.name, event.says())?;
     }
     let (points, spacing) = (plan.grid.points(), plan.grid.duration() / (plan.grid.points() - 1) as f64);
     let spacing = trimmed(spacing, 6);

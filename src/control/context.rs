@@ -22,8 +22,10 @@ pub struct LawContext<'a> {
     pub sample: SampleId,
     /// The seed of the campaign.
     pub seed: u64,
-    /// The end of the run, s.
+    /// The duration of the campaign, s.
     pub duration: f64,
+    /// When this run ends, s: after that, or at an event that ends it. The law must not decide by it: where an event ends a run is found in one that goes on.
+    pub end: f64,
     /// Where a control loop writes its quantities over time; `None` where nobody reads them.
     pub record: Option<&'a SharedRecord>,
     /// Whether the law is to record what it does ([`crate::dynamics::actuation::ActuationLaw::telemetry`]).

@@ -53,19 +53,20 @@ pub struct Plant {
     wheel_drives: Vec<WheelDrive>,
     /// Whether thrusters are on or off.
     is_on_off: bool,
-    /// The end of the run, s.
+    /// The duration of the campaign and the end of the run, s.
     duration: f64,
+    end: f64,
     delivered: Vec<Measurement>,
     perfect: Option<Estimate>,
 }
 
 impl Plant {
-    /// A run of the scene `drawn` for `duration` seconds, measured by `sensors`, with a motor for each wheel that turns.
+    /// A run of the scene `drawn` for `duration` seconds that ends at `end`, measured by `sensors`, with a motor for each wheel that turns.
     pub fn new(
         spec: &Arc<LoopSpec>,
         drawn: Scene,
         (sensors, wheel_drives): (Vec<SampledSensor>, Vec<WheelDrive>),
-        duration: f64,
+        [duration, end]: [f64; 2],
     ) -> Self {
         Plant {
             debris: DebrisMotion::of(&drawn),
@@ -76,6 +77,7 @@ impl Plant {
             sensors,
             wheel_drives,
             duration,
+            end,
             perfect: None,
         }
     }
@@ -150,8 +152,9 @@ impl Plant {
                 stuck[i] = failure.thrust_n.unwrap_or(0.0);
             }
         }
-        // the run ends an arc too
-        let length = until.min(self.duration) - time;
+        // the end of the campaign ends an arc too; where an event does, what has acted is what would act until then
+        let held = until.min(self.duration) - time;
+        let length = until.min(self.end) - time;
         let mut actuation = Actuation { thrust, ..Actuation::none(until) };
         let (mut saturated, mut torque_excess) = ([false; 2], 0.0_f64);
         // a wheel whose speed is held has a motor of its own
@@ -160,7 +163,7 @@ impl Plant {
                 continue;
             }
             let failed = self.failure(Device::Wheel(i), time + same).map(|failure| drive.failed(failure));
-            let driven = failed.unwrap_or(*drive).over(commands.motor_torque[i], wheels.rates[i], length);
+            let driven = failed.unwrap_or(*drive).over(commands.motor_torque[i], wheels.rates[i], held);
             actuation.motor_torque[i] = driven.torque;
             saturated[0] |= driven.is_torque_limited;
             saturated[1] |= driven.is_speed_limited;

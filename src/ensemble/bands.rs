@@ -123,17 +123,17 @@ impl PartBands {
         self.windows.iter_mut().for_each(DeviationWindow::clear);
     }
 
-    /// Adds the run of `sample` with the states `table` that `observer` observed last.
+    /// Adds the run of `sample` with the states `table` that `observer` observed last, up to the point before `end`.
     ///
     /// # Panics
     /// Where the part has more than 65,535 runs.
     #[inline]
-    pub fn add(&mut self, isa: Isa, sample: SampleId, observer: &Observer, table: &StateTable) {
+    pub fn add(&mut self, isa: Isa, sample: SampleId, (observer, table): (&Observer, &StateTable), end: usize) {
         assert!(self.runs < FULL as u64, "bands of a part of more than {FULL} runs");
         let (columns, is_counted) = (self.reader.columns(), sample <= self.last_counted);
         let codes = is_counted.then(|| &mut self.recent[self.recent_runs * columns..][..columns]);
         let (min, max, without) = (&mut self.min[..], &mut self.max[..], &mut self.without[..]);
-        self.reader.read(isa, observer, table, BandColumns { min, max, without, codes });
+        self.reader.read(isa, observer, table, end, BandColumns { min, max, without, codes });
         self.runs += 1;
         self.counted += u64::from(is_counted);
         self.recent_runs += usize::from(is_counted);

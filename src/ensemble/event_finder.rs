@@ -5,17 +5,20 @@
 //! engine, effect and control loop, and a run without a crossing costs nothing. Runs are flown again in lanes, a few at a time, since each brings its
 //! own observation points.
 
-use crate::campaign::event::{Direction, Event, Which};
+use crate::campaign::event::{Event, Which};
 use crate::campaign::{Plan, event_columns};
 use crate::ensemble::crossing::{Found, Wanted, nodes, of_curve, of_steps};
 use crate::ensemble::flights::{Flights, LawDraw, nominal_attitude, observe};
+use crate::ensemble::run_end::RunEnd;
 use crate::ensemble::settings::{EngineMaker, propagator};
+use crate::ensemble::sightings::{Place, Seen};
 use crate::math::Isa;
 use crate::observables::band_reader::BandReader;
 use crate::observables::band_series::{BandSeries, event_series};
 use crate::observables::window::NO_WINDOWS;
 use crate::observables::{Group, Groups, Observer, Request};
-use crate::run::{Grid, StateFields, StateTable};
+use crate::propagation::CompletedRun;
+use crate::run::{Grid, StateFields, Status};
 use crate::sampling::expression::Expression;
 use crate::scene::Scene;
 
@@ -27,6 +30,8 @@ const MOST_TICKS: f64 = 64.0;
 const MOST_FLIGHTS: usize = 24;
 /// Errors of the time of a crossing over the duration of a run: that of the integration, but within these limits.
 const ERRORS: [f64; 2] = [1e-13, 1e-9];
+/// The shortest run that an event ends, over the duration of the campaign: of the order of the errors of times.
+const SHORTEST: f64 = 1e-12;
 
 /// An event, ready to be looked for.
 struct Watched {
@@ -43,6 +48,15 @@ struct Watched {
 struct Occurrence {
     time: f64,
     count: u32,
+}
+
+/// What is known of the events that end runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Ends {
+    /// Nothing yet: they are looked for.
+    Sought,
+    /// Which one ends each run, where one does.
+    Known(Option<RunEnd>),
 }
 
 /// A crossing to be located: the event `event` of the run `run`.
@@ -68,9 +82,12 @@ pub struct EventFinder<'p> {
     request: Request,
     reader: BandReader,
     grid: Grid,
+    ends: Ends,
     /// Run by run, event by event.
     found: Vec<Occurrence>,
     pending: Vec<Pending>,
+    /// Run by run, whether its law has ended it.
+    ended_by_law: Vec<bool>,
 }
 
 impl<'p> EventFinder<'p> {
@@ -105,9 +122,16 @@ impl<'p> EventFinder<'p> {
             reader: BandReader::new(sources.clone(), (0..grid.points()).collect()),
             sources,
             grid: grid.clone(),
+            ends: Ends::Sought,
             found: Vec::new(),
             pending: Vec::new(),
+            ended_by_law: Vec::new(),
         })
+    }
+
+    /// The same of runs that `end` ends where their grid does, or no event.
+    pub fn ended_by(self, end: Option<RunEnd>) -> Self {
+        EventFinder { ends: Ends::Known(end), ..self }
     }
 
     /// Forgets all runs; `runs` come.
@@ -116,27 +140,53 @@ impl<'p> EventFinder<'p> {
         self.found.clear();
         self.found.resize(runs * self.watched.len(), none);
         self.pending.clear();
+        self.ended_by_law.clear();
+        self.ended_by_law.resize(runs, false);
     }
 
-    /// Looks at the run number `run` with the states `table`, which `observer` has observed last.
-    pub fn look(&mut self, run: usize, observer: &Observer, table: &StateTable) {
-        let (times, events) = (self.grid.times(), self.watched.len());
-        let kept = self.reader.kept(observer, table);
-        for (index, watched) in self.watched.iter().enumerate() {
-            let values = (0..times.len()).map(|point| watched.value(&self.sources, kept, times.len(), point));
-            let seen = Seen::of(values, watched.event.direction);
-            let found = &mut self.found[run * events + index];
+    /// Looks at `run`, which `observer` has observed last with `status`. Returns whether an event ends it: then nothing else is looked for in it, and
+    /// [`EventFinder::end`] knows when, after [`EventFinder::locate`]. A run that fails may do so after its end.
+    pub fn look(&mut self, run: &CompletedRun<'_>, observer: &Observer, status: Status) -> bool {
+        let (points, events) = (self.grid.points(), self.watched.len());
+        let kept = self.reader.kept(observer, run.table, points);
+        let seen = |watched: &Watched| {
+            let values = (0..points).map(|point| watched.value(&self.sources, kept, points, point));
+            Seen::of(values, watched.event.direction)
+        };
+        let of_run = run.index * events;
+        let mut ends = Vec::new();
+        match self.ends {
+            Ends::Sought => ends.extend((0..events).filter(|index| {
+                let watched = &self.watched[*index];
+                watched.event.ends_run && seen(watched).first.is_some()
+            })),
+            Ends::Known(None) => {}
+            Ends::Known(Some(end)) => self.found[of_run + end.event] = Occurrence { time: end.time, count: 1 },
+        }
+        let is_ended = !ends.is_empty();
+        let looked_at = if is_ended {
+            ends
+        } else if matches!(status, Status::Done | Status::Inaccurate) {
+            (0..events).filter(|index| !self.watched[*index].event.ends_run).collect()
+        } else {
+            Vec::new()
+        };
+        for index in looked_at {
+            let watched = &self.watched[index];
+            let seen = seen(watched);
+            let found = &mut self.found[of_run + index];
             found.count = seen.count;
             let (place, is_last) = match watched.event.which {
                 Which::First => (seen.first, false),
                 Which::Last => (seen.last, true),
                 Which::Stays => (seen.stays, true),
             };
+            let times = self.grid.times();
             match place {
                 None => {}
                 Some(Place::Point(point)) => found.time = times[point],
                 Some(Place::Crossing { before, is_rising }) => self.pending.push(Pending {
-                    run,
+                    run: run.index,
                     event: index,
                     wanted: Wanted { is_rising, is_last },
                     between: [times[before], times[before + 1]],
@@ -144,6 +194,20 @@ impl<'p> EventFinder<'p> {
                 }),
             }
         }
+        self.ended_by_law[run.index] = run.arcs.last().is_some_and(|arc| arc.applied.ends_run);
+        is_ended
+    }
+
+    /// What ends run `run`: the first of the events that do.
+    pub fn end(&self, run: usize) -> Option<RunEnd> {
+        if self.ends != Ends::Sought {
+            return None;
+        }
+        let events = self.watched.len();
+        let of_run = self.found[run * events..(run + 1) * events].iter().zip(&self.watched).enumerate();
+        let ends = of_run.filter(|(_, (found, watched))| watched.event.ends_run && !found.time.is_nan());
+        let earliest = ends.min_by(|(_, (a, _)), (_, (b, _))| a.time.total_cmp(&b.time));
+        earliest.map(|(event, (found, _))| RunEnd { event, time: found.time.max(SHORTEST * self.grid.duration()) })
     }
 
     /// Locates the crossings of the runs that were looked at: those of `scenes`, with the draws of their laws.
@@ -174,7 +238,14 @@ impl<'p> EventFinder<'p> {
     pub fn values(&self, run: usize) -> impl Iterator<Item = f64> + '_ {
         let events = self.watched.len();
         let of_run = &self.found[run * events..(run + 1) * events];
-        of_run.iter().flat_map(|found| [found.time, f64::from(found.count)])
+        let ends: Vec<usize> = (0..events).filter(|index| self.watched[*index].event.ends_run).collect();
+        let others = 1 + usize::from(self.plan.law.is_some());
+        let ended_by = match self.ends {
+            Ends::Known(Some(end)) => others + ends.iter().take_while(|index| **index < end.event).count(),
+            _ => usize::from(self.ended_by_law[run]),
+        };
+        let ended_by = (!ends.is_empty()).then_some(ended_by as f64);
+        of_run.iter().flat_map(|found| [found.time, f64::from(found.count)]).chain(ended_by)
     }
 
     /// Flies the runs `runs` again, with points where `pending` look.
@@ -206,7 +277,7 @@ impl<'p> EventFinder<'p> {
         let (again, duration) = (&mut self.pending, self.grid.duration());
         flights.fly(&scenes, &draws, &mut |run, of_law| {
             observe(plan, &mut observer, isa, &scenes[run.index], (&run, of_law), &mut ignored);
-            let kept = reader.kept(&observer, run.table);
+            let kept = reader.kept(&observer, run.table, points);
             for one in pending.iter().filter(|one| one.run == runs[run.index]) {
                 let watched_one = &watched[one.event];
                 let point = |time: &f64| grid.times().partition_point(|other| other < time);
@@ -294,56 +365,6 @@ impl Watched {
     }
 }
 
-/// Where something begins that an event is about.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Place {
-    /// Between this point and the next.
-    Crossing { before: usize, is_rising: bool },
-    /// At this point: the quantity is not known before.
-    Point(usize),
-}
-
-/// The crossings in the values of a run at its observation points.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Seen {
-    count: u32,
-    first: Option<Place>,
-    last: Option<Place>,
-    /// Where the quantity comes to the side on which it stays to the end.
-    stays: Option<Place>,
-}
-
-impl Seen {
-    /// Those in `direction`; NaN is a value that is not known, and no crossing.
-    fn of(values: impl Iterator<Item = f64>, direction: Direction) -> Self {
-        let mut seen = Seen { count: 0, first: None, last: None, stays: None };
-        let mut before: Option<bool> = None;
-        for (point, value) in values.enumerate() {
-            if value.is_nan() {
-                before = None;
-                continue;
-            }
-            let is_above = value > 0.0;
-            let is_there = is_above == (direction != Direction::Falling);
-            match before {
-                Some(was_above) if was_above != is_above => {
-                    let crossing = Place::Crossing { before: point - 1, is_rising: is_above };
-                    if direction == Direction::Either || is_there {
-                        seen.count += 1;
-                        seen.first = seen.first.or(Some(crossing));
-                        seen.last = Some(crossing);
-                    }
-                    seen.stays = is_there.then_some(crossing);
-                }
-                None => seen.stays = is_there.then_some(Place::Point(point)),
-                Some(_) => {}
-            }
-            before = Some(is_above);
-        }
-        seen
-    }
-}
-
 /// The places of the columns of events in a row of `request`: those of failures are before them.
 pub fn places(plan: &Plan, request: &Request) -> std::ops::Range<usize> {
     let all = request.places_of_events();
@@ -353,28 +374,6 @@ pub fn places(plan: &Plan, request: &Request) -> std::ops::Range<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Law: crossings are counted in their direction; a value on the limit is not beyond it; what is not known crosses nothing; a quantity stays on a side
-    /// from its last crossing on, or from where it is known.
-    #[test]
-    fn crossings_are_counted() {
-        let nan = f64::NAN;
-        let up = |before| Some(Place::Crossing { before, is_rising: true });
-        let down = |before| Some(Place::Crossing { before, is_rising: false });
-        let of = |values: &[f64], direction| Seen::of(values.iter().copied(), direction);
-        let wave = [-1.0, 1.0, 2.0, -1.0, -2.0, 0.0, 1.0];
-        let rising = of(&wave, Direction::Rising);
-        assert_eq!(rising, Seen { count: 2, first: up(0), last: up(5), stays: up(5) });
-        let falling = of(&wave, Direction::Falling);
-        assert_eq!(falling, Seen { count: 1, first: down(2), last: down(2), stays: None });
-        let either = of(&wave, Direction::Either);
-        assert_eq!((either.count, either.first, either.last), (3, up(0), up(5)));
-        let always = of(&[-1.0; 4], Direction::Falling);
-        assert_eq!(always, Seen { count: 0, first: None, last: None, stays: Some(Place::Point(0)) });
-        let gap = of(&[1.0, nan, -1.0, -2.0], Direction::Falling);
-        assert_eq!(gap, Seen { count: 0, first: None, last: None, stays: Some(Place::Point(2)) });
-        assert_eq!(of(&[nan; 3], Direction::Rising), Seen { count: 0, first: None, last: None, stays: None });
-    }
 
     /// Law: ticks are the whole multiples of the period between the ends, no more of them than are asked for.
     #[test]

@@ -23,6 +23,13 @@ pub struct LawDraw {
     pub parameters: ControlInput,
 }
 
+impl LawDraw {
+    /// Of the nominal run of `plan`; `None` where the plan has no law.
+    pub fn nominal(plan: &Plan) -> Option<Self> {
+        plan.law.as_ref().map(|_| LawDraw { sample: SampleId(0), parameters: plan.nominal.control.clone() })
+    }
+}
+
 /// An engine, and the laws of its runs.
 pub struct Flights<'p> {
     plan: &'p Plan,
@@ -32,6 +39,7 @@ pub struct Flights<'p> {
     /// What the loops of the runs record over time; empty where nothing is.
     over_time: Vec<SharedRecord>,
     times: Vec<f64>,
+    end: f64,
     records: bool,
 }
 
@@ -45,6 +53,7 @@ impl<'p> Flights<'p> {
             plan,
             engine,
             times: grid.times().to_vec(),
+            end: grid.duration(),
             laws: plan.law.as_ref().map(|law| (law.runs(), nominal(plan))),
             over_time: Vec::new(),
             records: false,
@@ -74,7 +83,7 @@ impl<'p> Flights<'p> {
         for (run, (drawn, LawDraw { sample, parameters })) in scenes.iter().zip(draws).enumerate() {
             let nominal_parameters = &self.plan.nominal.control;
             let (sample, seed, records) = (*sample, self.plan.seed, self.records);
-            let duration = self.plan.grid.duration();
+            let (duration, end) = (self.plan.grid.duration(), self.end);
             laws.begin(
                 run,
                 &LawContext {
@@ -85,6 +94,7 @@ impl<'p> Flights<'p> {
                     sample,
                     seed,
                     duration,
+                    end,
                     record: self.over_time.get(run),
                     records,
                 },
@@ -113,9 +123,8 @@ impl<'p> Flights<'p> {
     }
 
     pub fn fly_nominal(&mut self, finish: &mut FlightCallback<'_>) {
-        let draw = LawDraw { sample: SampleId(0), parameters: self.plan.nominal.control.clone() };
-        let draws = if self.plan.law.is_some() { std::slice::from_ref(&draw) } else { &[] };
-        self.fly(&[nominal(self.plan)], draws, finish);
+        let draw = LawDraw::nominal(self.plan);
+        self.fly(&[nominal(self.plan)], draw.as_slice(), finish);
     }
 }
 

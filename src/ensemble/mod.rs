@@ -1,12 +1,12 @@
 //! Layer 6: many runs on all cores. A row is a pure function of (plan, sample).
 //!
 //! - [`mod@parts`]: how samples are divided into parts; [`run_cost`]: their size. - [`rows`]: the rows of a part. - [`Sink`]: takes the rows.
-//! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread.
+//! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread; `batch`: scenes that it runs together.
 //! - [`runner`]: distributes parts to threads; [`supervision`]: what it is told. - [`drawn`]: sampled parameters without runs; [`percentiles`]: theirs.
 //! - [`bands`]: quantiles over time, counted run by run (in `deviation_window`).
 //! - [`influence`]: which of them change no requested column. [`plausibility`]: numbers that look like a mistake. [`magnitude`]: lengths and angles.
 //! - [`single`]: one run with its states. [`flights`]: runs under the control law of the plan.
-//! - [`event_finder`]: when quantities cross values, located in `crossing`.
+//! - [`event_finder`]: when quantities cross values: seen in `sightings`, located in `crossing`. - [`run_end`]: the event that ends a run, found in `end_finder`.
 //! - [`audit`]: runs compared with a reference solution. - [`precision`]: run time against error for every method.
 //! - [`settings`]: observables and engine of a plan. - [`probe`]: time of a run and of an audit.
 //!
@@ -14,9 +14,11 @@
 
 pub mod audit;
 pub mod bands;
+mod batch;
 mod crossing;
 mod deviation_window;
 pub mod drawn;
+mod end_finder;
 pub mod event_finder;
 pub mod failure_reasons;
 pub mod flights;
@@ -29,8 +31,10 @@ pub mod precision;
 pub mod probe;
 pub mod rows;
 pub mod run_cost;
+pub mod run_end;
 pub mod runner;
 pub mod settings;
+mod sightings;
 pub mod single;
 pub mod supervision;
 pub mod worker;

@@ -10,6 +10,7 @@ use rayon::ThreadPoolBuilder;
 
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Audit, Auditor, NoAudit};
+use crate::ensemble::end_finder::EndFinder;
 use crate::ensemble::event_finder::{self, EventFinder};
 use crate::ensemble::flights::{Flights, LawDraw, nominal_attitude, observe, replayed};
 use crate::ensemble::runner::RunError;
@@ -97,6 +98,10 @@ pub struct SingleRuns<'p> {
     grid: Grid,
     isa: Isa,
     request: Request,
+    /// What is observed for the series.
+    shown: Request,
+    /// Finds the ends of runs; `None` where no event ends one, or it is known.
+    ends: Option<EndFinder<'p>>,
     plan: &'p Plan,
     flights: Flights<'p>,
     observer: Observer,
@@ -116,6 +121,11 @@ impl<'p> SingleRuns<'p> {
     pub fn with_series(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
         let request = plan.request_over(grid.duration());
         let shown = Request { groups: groups.iter().copied().collect(), ..request };
+        SingleRuns { ends: EndFinder::new(plan, (isa, None)), ..Self::observing(plan, grid, isa, [request, shown]) }
+    }
+
+    /// Runs of which one request gives the rows and another the series; no event ends them.
+    fn observing(plan: &'p Plan, grid: Grid, isa: Isa, [request, shown]: [Request; 2]) -> Self {
         let fields = states(&request).union(shown.fields()).union(request.fields());
         let nominal = |request: &Request| nominal_attitude(plan, request, &grid, isa);
         SingleRuns {
@@ -123,10 +133,12 @@ impl<'p> SingleRuns<'p> {
             plan,
             isa,
             request,
+            shown,
+            ends: None,
             flights: Flights::new(plan, propagator(plan, grid.clone(), fields).engine(isa), &grid).recording(),
             observer: Observer::new(request, &grid).with_nominal(nominal(&request)),
             series_observer: Observer::new(shown, &grid).with_nominal(nominal(&shown)),
-            events: EventFinder::new(plan, &grid, (isa, None)),
+            events: EventFinder::new(plan, &grid, (isa, None)).map(|events| events.ended_by(None)),
             ignored: vec![f64::NAN; shown.columns().len()],
             grid,
         }
@@ -146,19 +158,31 @@ impl<'p> SingleRuns<'p> {
     /// Why the drawn scene is not physical.
     pub fn run_with_noise_of(&mut self, sample: SampleId, noise: SampleId) -> Result<SingleRun, Vec<SceneError>> {
         let scene = self.draws.scene(sample)?;
+        let plan = self.plan;
+        let draw = plan.law.as_ref().map(|_| LawDraw { sample: noise, parameters: self.draws.drawn().control.clone() });
+        let end = self.ends.as_mut().and_then(|ends| ends.end(&scene, draw.as_slice()));
+        let Some(end) = end.filter(|end| end.time <= self.grid.duration()) else {
+            return Ok(self.fly(scene, draw));
+        };
+        let mut ended = Self::observing(plan, end.grid(&self.grid).0, self.isa, [self.request, self.shown]);
+        ended.events = ended.events.map(|events| events.ended_by(Some(end)));
+        Ok(ended.fly(scene, draw))
+    }
+
+    /// The run of `scene`, under a law with this draw.
+    fn fly(&mut self, scene: Scene, draw: Option<LawDraw>) -> SingleRun {
         let mut row = vec![f64::NAN; self.request.columns().len()];
         let (mut result, mut reason) = (None, String::new());
         let (isa, observer, series_observer) = (self.isa, &mut self.observer, &mut self.series_observer);
         let (plan, ignored) = (self.plan, &mut self.ignored);
-        let draw = plan.law.as_ref().map(|_| LawDraw { sample: noise, parameters: self.draws.drawn().control.clone() });
         let events = &mut self.events;
         if let Some(events) = events {
             events.restart(1);
         }
         self.flights.fly(std::slice::from_ref(&scene), draw.as_slice(), &mut |run, of_law| {
             let status = observe(plan, observer, isa, &scene, (&run, of_law), &mut row);
-            if let (Some(events), Status::Done | Status::Inaccurate) = (events.as_mut(), status) {
-                events.look(0, observer, run.table);
+            if let Some(events) = events {
+                events.look(&run, observer, status);
             }
             observe(plan, series_observer, isa, &scene, (&run, of_law), ignored);
             reason = observer.reason(status, run.outcome, &row);
@@ -178,7 +202,7 @@ impl<'p> SingleRuns<'p> {
         }
         let telemetry = self.flights.telemetry(0).unwrap_or_default();
         let series = self.series_observer.series().map(|(series, values)| (series, values.collect())).collect();
-        Ok(SingleRun {
+        SingleRun {
             scene,
             grid: self.grid.clone(),
             table,
@@ -189,7 +213,7 @@ impl<'p> SingleRuns<'p> {
             telemetry,
             row,
             request: self.request,
-        })
+        }
     }
 
     /// The values that were drawn for the last run, as [`crate::sampling::Dispersions::columns`] lists them.

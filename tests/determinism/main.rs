@@ -14,6 +14,7 @@ mod feedback;
 mod lanes;
 mod lanes_runge_kutta;
 mod panics;
+mod run_ends;
 mod skipping;
 mod threads_and_order;
 mod value_hashes;

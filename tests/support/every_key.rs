@@ -105,6 +105,12 @@ value = 62.0
 direction = "falling"
 which = "last"
 
+[[event]]
+name = "fast"
+quantity = "angular_rate_rad_s"
+value = 1000.0
+ends_run = true
+
 [design]
 kind = "random"
 

@@ -73,23 +73,24 @@ impl BandReader {
         }
     }
 
-    /// The numbers that are kept of the run with the states `table` that `observer` observed last; NaN at points that it did not reach.
-    pub fn kept(&mut self, observer: &Observer, table: &StateTable) -> &[f64] {
-        self.keep(observer, table);
+    /// The numbers that are kept of the run with the states `table` that `observer` observed last; NaN at points that it did not reach, and from
+    /// point `end` on.
+    pub fn kept(&mut self, observer: &Observer, table: &StateTable, end: usize) -> &[f64] {
+        self.keep(observer, table, end);
         &self.kept
     }
 
-    /// Reads the run with the states `table` that `observer` observed last, on `isa`.
+    /// Reads the run with the states `table` that `observer` observed last, on `isa`, as [`BandReader::kept`].
     ///
     /// # Panics
     /// Where a list has another length than [`BandReader::columns`].
-    pub fn read(&mut self, isa: Isa, observer: &Observer, table: &StateTable, out: BandColumns<'_>) {
-        isa.run(Reading { reader: self, observer, table, out });
+    pub fn read(&mut self, isa: Isa, observer: &Observer, table: &StateTable, end: usize, out: BandColumns<'_>) {
+        isa.run(Reading { reader: self, observer, table, end, out });
     }
 
     #[inline(always)]
-    fn keep(&mut self, observer: &Observer, table: &StateTable) {
-        let reached = self.points.partition_point(|point| *point < observer.reached());
+    fn keep(&mut self, observer: &Observer, table: &StateTable, end: usize) {
+        let reached = self.points.partition_point(|point| *point < observer.reached().min(end));
         for (source, kept) in self.sources.iter().zip(self.kept.chunks_exact_mut(self.points.len())) {
             let (points, of_reached) = (&self.points[..reached], &mut kept[..reached]);
             if source.is_own {
@@ -107,6 +108,7 @@ struct Reading<'a> {
     reader: &'a mut BandReader,
     observer: &'a Observer,
     table: &'a StateTable,
+    end: usize,
     out: BandColumns<'a>,
 }
 
@@ -115,8 +117,8 @@ impl Work for Reading<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, _: S) {
-        let Reading { reader, observer, table, out } = self;
-        reader.keep(observer, table);
+        let Reading { reader, observer, table, end, out } = self;
+        reader.keep(observer, table, end);
         let (count, points) = (reader.columns(), reader.points.len());
         let (kept, reference) = (&reader.kept[..count], &reader.reference[..count]);
         let deviations = &mut reader.deviations[..count];

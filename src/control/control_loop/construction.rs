@@ -161,17 +161,10 @@ impl ControlLoop {
         let tick_period = spec.period / ticks_per_period as f64;
         let parts = (sensors(spec, context, tick_period), wheel_drives(context.drawn));
         ControlLoop {
-            plant: Plant::new(spec, context.drawn.clone(), parts, context.duration),
+            plant: Plant::new(spec, context.drawn.clone(), parts, [context.duration, context.end]),
             flight_software: flight_software(spec, context, tick_period),
             mission: mission(spec, context),
-            clock: Clock {
-                tick: 0,
-                ticks_per_period,
-                tick_period,
-                next: 0.0,
-                period: spec.period,
-                duration: context.duration,
-            },
+            clock: Clock { tick: 0, ticks_per_period, tick_period, next: 0.0, period: spec.period, end: context.end },
             columns: columns.clone(),
             has_ended: false,
         }

@@ -38,7 +38,7 @@ struct Clock {
     next: f64,
     /// Control period and end of the run, s.
     period: f64,
-    duration: f64,
+    end: f64,
 }
 
 impl Clock {
@@ -54,7 +54,7 @@ impl Clock {
 
     /// Whether the control tick at `time` is the last one that a row hears of.
     fn is_final(&self, time: f64) -> bool {
-        time + (1.0 + SAME_TIME) * self.period >= self.duration
+        time + (1.0 + SAME_TIME) * self.period >= self.end
     }
 }
 

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::campaign::Plan;
+use crate::campaign::event::Event;
 use crate::ensemble::SingleRun;
 use crate::math::vector::{difference, norm};
 use crate::observables::Series;
@@ -145,13 +146,17 @@ fn approach(run: &SingleRun, points: usize) -> Vec<LiveNumber> {
     list.into_iter().filter(|_| run.request.debris).map(number).collect()
 }
 
-/// The times at which the phases of a loop first began, and at which the mission ended, with their names, by time.
+/// The times at which the phases of a loop first began, and at which the mission or an event ended the run, with their names, by time.
 pub fn marks(plan: &Plan, run: &SingleRun, row: &[(String, f64)]) -> Vec<Value> {
-    let Some(spec) = plan.law.as_ref().and_then(|law| law.spec()) else { return Vec::new() };
     let begins = |name: &str| Some((of_row(run, &format!("phase_{name}_begin_s"))?, name.to_owned()));
-    let mut marks: Vec<(f64, String)> = spec.phases.iter().filter_map(|phase| begins(phase.name.as_str())).collect();
+    let spec = plan.law.as_ref().and_then(|law| law.spec());
+    let phases = spec.iter().flat_map(|spec| &spec.phases);
+    let mut marks: Vec<(f64, String)> = phases.filter_map(|phase| begins(phase.name.as_str())).collect();
     let end = of_row(run, "end_time_s").zip(mission_text::of_row(row));
     marks.extend(end.map(|(time, text)| (time, text.trim_start_matches("mission ").to_owned())));
+    let ended_by =
+        |event: &Event| Some((of_row(run, &format!("{}_time_s", event.name))?, format!("ended by {}", event.name)));
+    marks.extend(plan.events.iter().filter(|event| event.ends_run).filter_map(ended_by));
     marks.sort_by(|a, b| a.0.total_cmp(&b.0));
     marks.into_iter().map(|(time, name)| json!({ "time": time, "name": name })).collect()
 }

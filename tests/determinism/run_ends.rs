@@ -1,0 +1,258 @@
+//! Events that end runs: an ended run is the run of a campaign of that duration, and its states at the end are those of closed forms.
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::ensemble::{Ensemble, Part, PartId, Rows, SingleRun, Supervision};
+use spindrift::math::Isa;
+use spindrift::propagation::Method;
+use spindrift::run::{Grid, Status};
+use spindrift::sampling::SampleId;
+
+/// A free body with an axis of symmetry: moments 30, 30 and 20 kg m^2, which turns at 0.3 rad/s across its axis and at 0.6 rad/s about it.
+const FREE: &str = r#"[campaign]
+name = "free"
+samples = 40
+seed = 3
+duration_s = 60.0
+[integrator]
+METHOD
+[observe]
+points = 121
+groups = ["energy_conservation", "momentum_conservation", "attitude", "energies", "final_state", "effort", "numerics", "motion"]
+[body]
+mass_kg = 10.0
+center_of_mass_m = [0, 0, 0]
+principal_moments_kg_m2 = [30, 30, 20]
+[initial]
+angular_velocity_rad_s = [0.3, 0.0, 0.6]
+"#;
+
+const SPREAD: &str =
+    "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 0.1\n";
+
+fn plan(text: &str) -> Plan {
+    Plan::from_text("ends.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+fn event(name: &str, quantity: &str, value: f64, more: &str) -> String {
+    format!("[[event]]\nname = \"{name}\"\nquantity = \"{quantity}\"\nvalue = {value:?}\n{more}\n")
+}
+
+const ENDS: &str = "ends_run = true\n";
+
+/// The rows of `count` samples of `plan` from `first` on.
+fn rows(plan: &Plan, isa: Isa, first: u64, count: usize) -> Rows {
+    let ensemble = Ensemble::new(plan, isa);
+    let mut rows = ensemble.rows(count);
+    let part = Part { id: PartId(0), first: SampleId(first), count };
+    ensemble.worker().run(part, &mut rows, Supervision::progress(&|_| {}));
+    rows
+}
+
+fn names(plan: &Plan) -> Vec<String> {
+    plan.request().columns().iter().map(|column| column.quantity.name().to_owned()).collect()
+}
+
+/// The column `name` of `rows`.
+fn column<'r>(plan: &Plan, rows: &'r Rows, name: &str) -> &'r [f64] {
+    rows.observable(names(plan).iter().position(|other| other == name).unwrap_or_else(|| panic!("no {name}")))
+}
+
+fn bits(plan: &Plan, rows: &Rows, row: usize) -> Vec<u64> {
+    (0..names(plan).len()).map(|index| rows.observable(index)[row].to_bits()).collect()
+}
+
+/// Law: a run ends where s3 has left its direction by alpha, sin(alpha/2) = sin(theta) sin(Omega t/2), by every method: that angle is the last and the largest
+/// one, and the rate across the axis has turned by (30 - 20)/30 of the rate about it. The earliest of several events ends the run.
+#[test]
+fn a_free_body_ends_in_the_state_of_its_closed_form() {
+    let (across, along): (f64, f64) = (30.0 * 0.3, 20.0 * 0.6);
+    let (rate, angle) = (across.hypot(along) / 30.0, across.atan2(along));
+    for value in [0.1_f64, 0.5, 1.0] {
+        let end = 2.0 / rate * ((0.5 * value).sin() / angle.sin()).asin();
+        let events = event("late", "spin_axis_angle_rad", value + 0.05, ENDS)
+            + &event("tipped", "spin_axis_angle_rad", value, ENDS)
+            + &event("before", "spin_axis_angle_rad", value - 0.05, "")
+            + &event("never", "spin_axis_angle_rad", value + 0.01, "");
+        for method in Method::ALL {
+            let written = match method.has_fixed_step() {
+                true => format!("method = \"{}\"\nstep_s = 0.002", method.name()),
+                false => format!("method = \"{}\"\ntolerance = 1e-13", method.name()),
+            };
+            let plan = plan(&(FREE.replace("METHOD", &written) + &events));
+            let rows = rows(&plan, Isa::best(), 0, 1);
+            let found = |name: &str| column(&plan, &rows, name)[0];
+            let bound = if method.name() == "runge_kutta_4" { 1e-9 } else { 1e-10 };
+            let phase = (30.0 - 20.0) / 30.0 * 0.6 * end;
+            for (name, expected) in [
+                ("tipped_time_s", end),
+                ("before_time_s", 2.0 / rate * ((0.5 * (value - 0.05)).sin() / angle.sin()).asin()),
+                ("spin_axis_angle_final_rad", value),
+                ("spin_axis_angle_max_rad", value),
+                ("omega_se_s_x_final_rad_s", 0.3 * phase.cos()),
+                ("omega_se_s_y_final_rad_s", -0.3 * phase.sin()),
+                ("omega_se_s_z_final_rad_s", 0.6),
+            ] {
+                let found = found(name);
+                assert!(
+                    (found - expected).abs() <= bound,
+                    "{} {name} at {value}: {found} for {expected}",
+                    method.name()
+                );
+            }
+            assert_eq!((rows.statuses()[0], found("ended_by")), (Status::Done, 2.0), "late is 1, tipped 2");
+            let counts = ["late", "tipped", "before", "never"].map(|event| found(&format!("{event}_count")));
+            assert_eq!(counts, [0.0, 1.0, 1.0, 0.0]);
+            assert!(found("late_time_s").is_nan() && found("never_time_s").is_nan());
+        }
+    }
+}
+
+/// Law: the row of a run that ends at 17.5 s, where its rate 0.6 - 0.02 t falls below 0.25 rad/s, is that of a campaign of 17.5 s with the same observation
+/// points, in every column; and not that of one of 17 s.
+#[test]
+fn an_ended_run_is_one_of_that_duration() {
+    let text = FREE.replace("METHOD", "").replace("[0.3, 0.0, 0.6]", "[0.0, 0.0, 0.6]")
+        + "[environment]\nbody_torque_n_m = [0, 0, -0.4]\n"
+        + &event("half", "angular_rate_rad_s", 0.45, "");
+    let ends =
+        plan(&(text.clone() + &event("slow", "angular_rate_rad_s", 0.25, "direction = \"falling\"\nends_run = true")));
+    let ended = rows(&ends, Isa::best(), 0, 1);
+    let off = |duration: &str, points: usize| {
+        let short = text.replace("60.0", duration).replace("points = 121", &format!("points = {points}"));
+        let short = plan(&short);
+        let rows = rows(&short, Isa::best(), 0, 1);
+        let of = |name: &String| {
+            let [a, b] = [column(&ends, &ended, name)[0], column(&short, &rows, name)[0]];
+            // what rounding makes of nothing has no digits in common
+            if a.to_bits() == b.to_bits() || a.abs().max(b.abs()) < 1e-13 {
+                0.0
+            } else {
+                (a - b).abs() / a.abs().max(b.abs())
+            }
+        };
+        let names = names(&short);
+        names.into_iter().filter(|name| !name.starts_with("steps") && of(name) > 1e-9).collect::<Vec<_>>()
+    };
+    assert_eq!(off("17.5", 36), Vec::<String>::new());
+    assert!(off("17.0", 35).len() > 5);
+    assert!((column(&ends, &ended, "slow_time_s")[0] - 17.5).abs() < 1e-11);
+    assert!((column(&ends, &ended, "half_time_s")[0] - 7.5).abs() < 1e-11);
+}
+
+/// Law: an ended run has the same bits alone, in any part, on every instruction set, and as a single run, also one that is shown at other points; a run that
+/// does not end has the bits of a campaign without the event.
+#[test]
+fn ended_runs_are_bits_of_their_row() {
+    let events = event("tipped", "spin_axis_angle_rad", 0.7, ENDS)
+        + &event("last", "nutation_angle_rad - 0.2 * spin_axis_angle_rad", 0.4, "which = \"last\"");
+    for method in ["method = \"auto\"", "method = \"dormand_prince\"\ntolerance = 1e-9"] {
+        let text = FREE.replace("METHOD", method) + SPREAD;
+        let plan_with = plan(&(text.clone() + &events));
+        let all = rows(&plan_with, Isa::best(), 0, 40);
+        let ended: Vec<usize> = (0..40).filter(|row| column(&plan_with, &all, "ended_by")[*row] == 1.0).collect();
+        assert!(ended.len() > 20 && ended.len() < 40, "{}", ended.len());
+        for isa in Isa::available() {
+            let found = rows(&plan_with, isa, 0, 40);
+            (0..40).for_each(|row| {
+                assert_eq!(bits(&plan_with, &found, row), bits(&plan_with, &all, row), "{}", isa.name())
+            });
+        }
+        for (first, count) in [(7, 1), (11, 9), (33, 7)] {
+            let part = rows(&plan_with, Isa::best(), first, count);
+            (0..count)
+                .for_each(|row| assert_eq!(bits(&plan_with, &part, row), bits(&plan_with, &all, row + first as usize)));
+        }
+        for sample in 0..12_usize {
+            let run =
+                |grid: Grid| SingleRun::new(&plan_with, SampleId(sample as u64), grid, Isa::best()).expect("physical");
+            let single = run(plan_with.grid.clone());
+            let of_single: Vec<u64> = single.row.iter().map(|value| value.to_bits()).collect();
+            assert_eq!(of_single, bits(&plan_with, &all, sample));
+            let time = column(&plan_with, &all, "tipped_time_s")[sample];
+            let end = if time.is_nan() { 60.0 } else { time };
+            for grid in [plan_with.grid.clone(), Grid::uniform(60.0, 777)] {
+                let run = run(grid);
+                assert_eq!((run.grid.duration(), run.outcome.time, run.outcome.points), (end, end, run.grid.points()));
+            }
+        }
+        let without =
+            plan(&(text + &event("last", "nutation_angle_rad - 0.2 * spin_axis_angle_rad", 0.4, "which = \"last\"")));
+        let others = rows(&without, Isa::best(), 0, 40);
+        for name in names(&without) {
+            let [with, without] = [column(&plan_with, &all, &name), column(&without, &others, &name)];
+            let same = |row: &usize| with[*row].to_bits() == without[*row].to_bits();
+            assert!((0..40).filter(|row| !ended.contains(row)).all(|row| same(&row)), "{name}");
+        }
+    }
+}
+
+/// Law: a control loop ends at the tick at which its quantity crosses, and reports what a campaign of that duration does, in every column; of a quantity of the
+/// motion it ends between ticks.
+#[test]
+fn loops_end_as_in_a_campaign_of_that_duration() {
+    let shipped = include_str!("../../campaigns/slew_closed.toml").replace("points = 181", "points = 721");
+    let ends = plan(
+        &(shipped.clone() + &event("turned", "pointing_error_rad", 0.3, "direction = \"falling\"\nends_run = true")),
+    );
+    let ended = rows(&ends, Isa::best(), 0, 8);
+    for row in 0..8 {
+        let end = column(&ends, &ended, "turned_time_s")[row];
+        assert!((end / 0.25 - (end / 0.25).round()).abs() < 1e-12 && end > 30.0 && end < 180.0, "{end} is a tick");
+        assert_eq!(column(&ends, &ended, "ended_by")[row], 2.0, "0 duration, 1 mission");
+        let points = (end / 0.25).round() as usize + 1;
+        let short = shipped.replace("duration_s = \"3 min\"", &format!("duration_s = {end:?}"));
+        let short = plan(&short.replace("points = 721", &format!("points = {points}")));
+        let rows = rows(&short, Isa::best(), row as u64, 1);
+        let off = |name: &String| {
+            let [a, b] = [column(&ends, &ended, name)[row], column(&short, &rows, name)[0]];
+            let is_same = a.to_bits() == b.to_bits() || (a - b).abs() <= 1e-9 * a.abs().max(b.abs()) + 1e-15;
+            (!is_same).then(|| format!("{name}: {a} and {b}"))
+        };
+        let wrong: Vec<String> = names(&short).iter().filter_map(off).collect();
+        assert!(wrong.is_empty(), "sample {row} at {end} s: {wrong:#?}");
+        let single = SingleRun::new(&ends, SampleId(row as u64), ends.grid.clone(), Isa::best()).expect("physical");
+        assert_eq!(single.row.iter().map(|value| value.to_bits()).collect::<Vec<_>>(), bits(&ends, &ended, row));
+        assert!(single.telemetry.times.last().is_some_and(|last| *last <= end));
+    }
+    let fast = plan(&(shipped + &event("fast", "angular_rate_rad_s", 0.005, ENDS)));
+    let fast_rows = rows(&fast, Isa::best(), 0, 8);
+    for row in 0..8 {
+        let [rate, end] = ["angular_rate_final_rad_s", "fast_time_s"].map(|name| column(&fast, &fast_rows, name)[row]);
+        assert!((rate - 0.005).abs() < 1e-12, "{rate} at {end} s");
+    }
+}
+
+/// Law: a run that would fail after its end is `ok`; what fails before is not.
+#[test]
+fn a_run_may_fail_after_its_end() {
+    let text = FREE.replace("METHOD", "method = \"dormand_prince\"\ntolerance = 1e-12\nmax_steps = 200");
+    let fails = plan(&text);
+    assert_eq!(rows(&fails, Isa::best(), 0, 1).statuses(), [Status::StepLimit]);
+    let ends = plan(&(text.clone() + &event("tipped", "spin_axis_angle_rad", 0.5, ENDS)));
+    let found = rows(&ends, Isa::best(), 0, 1);
+    assert_eq!((found.statuses(), found.reasons().len()), (&[Status::Done][..], 0));
+    let late = plan(&(text + &event("tipped", "spin_axis_angle_rad", 3.0, ENDS)));
+    assert_eq!(rows(&late, Isa::best(), 0, 1).statuses(), [Status::StepLimit]);
+}
+
+/// Law: at each time the bands are of the runs that have not ended before, with their values; the nominal run has none after its end.
+#[test]
+fn bands_lose_a_run_at_its_end() {
+    let text = FREE.replace("METHOD", "") + SPREAD + "[bands]\npoints = 121\n";
+    let ends = plan(&(text + &event("tipped", "spin_axis_angle_rad", 0.7, ENDS)));
+    let all = rows(&ends, Isa::best(), 0, 40);
+    let times = &column(&ends, &all, "tipped_time_s")[1..];
+    let bands = all.bands().expect("bands");
+    let layout = bands.layout();
+    let angle = layout.series.iter().position(|(quantity, _)| quantity.name() == "spin_axis_angle_rad").expect("bands");
+    let nominal_end = column(&ends, &all, "tipped_time_s")[0];
+    for (point, time) in layout.times.iter().enumerate() {
+        let (runs, buckets) = bands.column(angle * layout.times.len() + point);
+        let ended = times.iter().filter(|end| **end < *time).count() as u64;
+        assert_eq!((runs.without, buckets.map(|(_, count)| count).sum::<u64>()), (ended, 39 - ended), "{time} s");
+        let most = runs.extremes.map_or(0.0, |[_, most]| 2.0 * most.atan());
+        assert!(most <= 0.7 + 1e-9, "{most} at {time} s");
+        assert_eq!(layout.nominal[angle * layout.times.len() + point].is_nan(), nominal_end < *time);
+    }
+    assert!(times.iter().filter(|time| time.is_finite()).count() > 20);
+}
