@@ -9,7 +9,7 @@
 use super::draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
 use super::lines::Lines;
 use super::plan::Plan;
-use super::{bands, control, event, failure_tables, retention, settings};
+use super::{bands, control, event, extreme, failure_tables, retention, settings};
 use crate::observables::request::NutationAxis;
 use crate::sampling::keys::{Counts, Row, Value, Values};
 use crate::scene::table::Table;
@@ -72,6 +72,9 @@ impl Plan {
         self.write_settings(&settings::TAIL, whole, &mut lines);
         for event in &self.events {
             lines.rows("[[event]]", &event::ROWS, |key| event.value(key));
+        }
+        for extreme in &self.extremes {
+            lines.rows("[[extreme]]", &extreme::ROWS, |key| extreme.value(key));
         }
         if whole {
             self.analysis.write(&mut lines);

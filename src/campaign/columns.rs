@@ -2,6 +2,7 @@
 
 use super::event::Event;
 use super::event_columns;
+use super::extreme::Extreme;
 use crate::control::ControlLaw;
 use crate::dynamics::effects::ForceModel;
 use crate::observables::request::NutationAxis;
@@ -12,16 +13,17 @@ use crate::run::Quantity;
 use crate::scene::{Actuated, Parameter, SceneInput};
 
 /// The observables of campaigns with these groups and this method; `acting` is the nominal scene with the commands that act in a run, to which those of
-/// `law` add; the runs are watched for `events`.
+/// `law` add; the runs are watched for events, and for extremes.
 pub fn request(
     groups: &[Group],
     acting: &SceneInput,
     method: Method,
     law: Option<&ControlLaw>,
-    events: &[Event],
+    (events, extremes): (&[Event], &[Extreme]),
 ) -> Request {
-    let when_it_happened =
-        [event_columns::of_failures(acting), event_columns::of_events(events, law.is_some())].concat();
+    let of_extremes = extremes.iter().map(Extreme::column).collect();
+    let watched =
+        [event_columns::of_failures(acting), event_columns::of_events(events, law.is_some()), of_extremes].concat();
     let commanded = law.map_or(Actuated::NONE, ControlLaw::commands);
     Request {
         groups: groups.iter().copied().collect(),
@@ -31,7 +33,7 @@ pub fn request(
         constrained: method == Method::NullSpace,
         wheels: acting.turning_wheels(),
         nutation_axis: NutationAxis::SpinAxis,
-        of_law: law.map_or(LawColumns::NONE, ControlLaw::columns).with_events(when_it_happened),
+        of_law: law.map_or(LawColumns::NONE, ControlLaw::columns).with_events(watched),
         windows: NO_WINDOWS,
     }
 }

@@ -2,11 +2,11 @@
 
 use super::known_columns::unit_of;
 use super::numbers::FINITE;
-use super::problem::nearest;
 use super::section::Section;
 use super::units;
+use super::watched_quantity::{self, variables};
+use crate::observables::Request;
 use crate::observables::band_series::{BandSeries, event_series};
-use crate::observables::{Group, Groups, Request};
 use crate::run::Quantity;
 use crate::sampling::expression::Expression;
 use crate::sampling::keys::{Kind, Row, TextLimit, Value, Written, is_name};
@@ -146,10 +146,7 @@ impl Event {
 
     /// The expression, and the quantities that are its variables, of runs of `request`; `None` only for what [`Event::read_all`] refuses.
     pub fn parsed(&self, series: &[BandSeries]) -> Option<(Expression, Vec<BandSeries>)> {
-        let expression = Expression::parse(&self.quantity).ok()?;
-        let of = |name: &String| series.iter().find(|band| band.quantity.name() == name).cloned();
-        let variables = expression.variables().iter().map(of).collect::<Option<_>>()?;
-        Some((expression, variables))
+        watched_quantity::parsed(&self.quantity, series)
     }
 
     /// What happens, in words.
@@ -210,46 +207,4 @@ impl Event {
 /// What the word of `key` means.
 fn named<T: Copy>(all: &[(&'static str, T)], written: &Written, key: &str) -> Option<T> {
     all.iter().find(|(name, _)| written.text(key) == Some(name)).map(|(_, value)| *value)
-}
-
-/// The quantities in `text`; `None` where it is wrong, which is then noted.
-fn variables(
-    table: &mut Section<'_, '_>,
-    text: &str,
-    (series, observed): (&[BandSeries], &Request),
-) -> Option<Vec<BandSeries>> {
-    let parsed = Expression::parse(text).ok()?;
-    if parsed.variables().is_empty() {
-        table.refuse("quantity", "made of quantities over time", "name one, such as \"angular_rate_rad_s\"");
-        return None;
-    }
-    let mut found = Vec::new();
-    for name in parsed.variables() {
-        let Some(band) = series.iter().find(|band| band.quantity.name() == name) else {
-            let (allowed, remedy) = refusal(name, series, observed);
-            table.refuse_value("quantity", format!("{name:?}"), allowed, remedy);
-            return None;
-        };
-        found.push(band.clone());
-    }
-    Some(found)
-}
-
-/// What is allowed in place of `name`, which is no quantity over time of `series`, and what to do.
-fn refusal(name: &str, series: &[BandSeries], observed: &Request) -> (String, String) {
-    let names = || series.iter().map(|band| band.quantity.name());
-    let allowed = "made of quantities over time that are observed".to_owned();
-    let mut of = *observed;
-    let group = Group::ALL.into_iter().find(|group| {
-        of.groups = Groups::NONE.with(*group);
-        event_series(&of).iter().any(|band| band.quantity.name() == name)
-    });
-    let remedy = match (group, nearest(name, names())) {
-        (Some(group), _) => {
-            format!("it is in a group that is not observed: add {:?} to observe.groups", group.name())
-        }
-        (None, Some(meant)) => format!("did you mean {meant:?}?"),
-        (None, None) => format!("name some of {}", names().collect::<Vec<_>>().join(", ")),
-    };
-    (allowed, remedy)
 }

@@ -9,7 +9,7 @@
 //!   that say what is drawn; `keys`: rows of keys, read and written;
 //!   [`data`], `data_columns`, `data_keys`: files of numbers; `parameter`: names of parameters; [`bands`].
 //! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`known_columns`]: what they can name; [`columns`]: what runs are observed for;
-//!   [`event`]: quantities that cross a value; [`event_columns`]: when events and failures happened.
+//!   [`event`]: quantities that cross a value; [`extreme`]: their largest values; `watched_quantity`: which there are; [`event_columns`]: when events and failures happened.
 //!   [`retention`]: which runs keep their time series.
 //! - [`plan`]: defaults filled in, scene and dispersions checked against each other. - [`chosen`], `plan_rows`: which samples are its rows.
 //! - `units`: units in values.
@@ -40,6 +40,7 @@ pub mod draws;
 pub mod event;
 pub mod event_columns;
 pub mod excerpt;
+pub mod extreme;
 mod failure_tables;
 pub mod find;
 pub mod forces;
@@ -67,6 +68,7 @@ pub mod spec;
 pub mod stop;
 mod tables;
 mod units;
+mod watched_quantity;
 
 pub use analysis::Analysis;
 pub use derived_observable::DerivedObservable;

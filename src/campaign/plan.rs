@@ -9,6 +9,7 @@ use super::description;
 use super::document::Document;
 use super::draws::DrawTables;
 use super::event::Event;
+use super::extreme::Extreme;
 use super::forces;
 use super::known_columns::KnownColumns;
 use super::numbers::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
@@ -76,6 +77,8 @@ pub struct Plan {
     pub law: Option<ControlLaw>,
     /// The events that runs are watched for.
     pub events: Vec<Event>,
+    /// The extremes that are looked for in them.
+    pub extremes: Vec<Extreme>,
     /// What is made of the rows.
     pub analysis: Analysis,
     /// Which runs keep their full time series.
@@ -200,7 +203,8 @@ impl Plan {
     /// The observables that it requests of runs of `duration` seconds, which decides which commands of the schedule act.
     pub fn request_over(&self, duration: f64) -> Request {
         let acting = acting_scene(duration, &self.nominal, &self.dispersions);
-        let mut request = request(&self.groups, &acting, self.method, self.law.as_ref(), &self.events);
+        let mut request =
+            request(&self.groups, &acting, self.method, self.law.as_ref(), (&self.events, &self.extremes));
         request.nutation_axis = self.nutation_axis;
         self.analysis.windows().take(MAX_WINDOWS).for_each(|window| request.windows.push(window));
         request
@@ -336,7 +340,8 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
     let band_points = bands::resolve(spec.settings("bands").count("points"), points, document);
     let dispersions = dispersions?;
     let acting = acting_scene(duration_s?, &spec.scene, &dispersions);
-    let known = KnownColumns::new(request(&groups, &acting, method, document.law.as_ref(), &spec.events));
+    let known =
+        KnownColumns::new(request(&groups, &acting, method, document.law.as_ref(), (&spec.events, &spec.extremes)));
     let design = spec.design.as_ref().unwrap_or(&Design::DEFAULT);
     let grid = Grid::uniform(duration_s?, usize::try_from(points).ok()?);
     let band_times: Vec<f64> =
@@ -378,6 +383,7 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
         band_runs: spec.settings("bands").count("runs").unwrap_or(bands::RUNS),
         compression: spec.settings("output").text("compression").and_then(Compression::from_name)?,
         events: spec.events.clone(),
+        extremes: spec.extremes.clone(),
         analysis: spec.analysis.clone(),
         retention: spec.retention.clone().unwrap_or_default(),
         law: document.law.clone(),

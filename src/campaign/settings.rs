@@ -4,7 +4,7 @@
 use super::bands::{FEWEST_RUNS as FEWEST_BAND_RUNS, MOST_POINTS as MOST_BAND_POINTS};
 use super::chosen::MOST_CHOSEN;
 use super::numbers::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, POSITIVE, TOLERANCE};
-use super::{analysis, derived_observable, description, display, event, requirement, retention, stop};
+use super::{analysis, derived_observable, description, display, event, extreme, requirement, retention, stop};
 use crate::observables::Group;
 use crate::propagation::Method;
 use crate::sampling::keys::{Kind, Row, Rule, TextLimit};
@@ -90,9 +90,10 @@ pub const TAIL: [(&str, &[Row]); 3] = [
     ("output", &[Row::new("compression", Kind::Word(&COMPRESSIONS), "Compression of the files of rows")]),
 ];
 
-/// The tables of events, of what is made of the rows, and of what is kept of runs, with what their keys have to do with each other.
-pub const ANALYSIS: [(&str, &[Row], &[Rule]); 8] = [
+/// The tables of events and extremes, of what is made of the rows, and of what is kept of runs, with what their keys have to do with each other.
+pub const ANALYSIS: [(&str, &[Row], &[Rule]); 9] = [
     ("[[event]]", &event::ROWS, &[]),
+    ("[[extreme]]", &extreme::ROWS, &[]),
     ("[[observable]]", &derived_observable::ROWS, &[]),
     ("[statistics]", &analysis::STATISTICS, &[]),
     ("[summary]", &analysis::SUMMARY, &[]),

@@ -7,6 +7,7 @@ use super::analysis::Analysis;
 use super::columns::request;
 use super::document::Document;
 use super::event::Event;
+use super::extreme::Extreme;
 use super::retention::Retention;
 use super::section::Section;
 use super::settings;
@@ -37,6 +38,8 @@ pub struct Spec {
     pub derivations: Vec<Option<Derivation>>,
     /// `[[event]]`; without the tables that are wrong.
     pub events: Vec<Event>,
+    /// `[[extreme]]`; without the tables that are wrong.
+    pub extremes: Vec<Extreme>,
     /// What is made of the rows; without the tables that are wrong.
     pub analysis: Analysis,
     /// `retain.trajectories`.
@@ -82,6 +85,7 @@ impl Spec {
             correlations,
             derivations,
             events: Vec::new(),
+            extremes: Vec::new(),
             analysis: Analysis::default(),
             retention: None,
         };
@@ -89,10 +93,13 @@ impl Spec {
         let noted = root.document.noted();
         let method = spec.method().unwrap_or(Method::Auto);
         let law = root.document.law.clone();
-        let with = |events: &[Event]| request(&spec.groups(), &spec.scene, method, law.as_ref(), events);
-        let events = Event::read_all(&mut root, &with(&[]));
-        let observed = with(&events);
-        spec.events = events;
+        let with = |events: &[Event], extremes: &[Extreme]| {
+            request(&spec.groups(), &spec.scene, method, law.as_ref(), (events, extremes))
+        };
+        let events = Event::read_all(&mut root, &with(&[], &[]));
+        let extremes = Extreme::read_all(&mut root, &with(&events, &[]), &events);
+        let observed = with(&events, &extremes);
+        (spec.events, spec.extremes) = (events, extremes);
         spec.analysis = Analysis::read(&mut root, observed);
         spec.retention = Retention::read(&mut root.section("retain"));
         if root.document.is_loop_unknown {

@@ -131,13 +131,16 @@ fn happenings(text: &mut String, plan: &Plan) -> std::fmt::Result {
         let unseen = if at < end { "" } else { ": not before the end" };
         writeln!(text, "{name}: {device} at {at} s{unseen}")?;
     }
-    if plan.events.is_empty() {
+    if plan.events.is_empty() && plan.extremes.is_empty() {
         return Ok(());
     }
-    section(text, "Events")?;
+    section(text, if plan.extremes.is_empty() { "Events" } else { "Events and extremes" })?;
     for event in &plan.events {
         let ends = if event.ends_run { "; the run ends there" } else { "" };
         writeln!(text, "{}: {}{ends}", event.name, event.says())?;
+    }
+    for extreme in &plan.extremes {
+        writeln!(text, "{}: {}", extreme.name, extreme.says())?;
     }
     let (points, spacing) = (plan.grid.points(), plan.grid.duration() / (plan.grid.points() - 1) as f64);
     let spacing = trimmed(spacing, 6);

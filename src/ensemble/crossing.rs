@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 /// The degree of the polynomial through the nodes: exact to rounding for motions of up to about a turn between the times.
 const DEGREE: usize = 16;
 /// Rounding of a quantity, over its largest value.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Halvings of an interval until its ends are neighbours.
 const HALVINGS: usize = 60;
 
@@ -98,10 +98,10 @@ fn bisect(mut start: f64, mut end: f64, is_after: impl Fn(f64) -> bool) -> f64 {
 }
 
 /// The Chebyshev series of the polynomial through the values at the nodes.
-struct Series([f64; DEGREE + 1]);
+pub(super) struct Series([f64; DEGREE + 1]);
 
 impl Series {
-    fn of(values: &[f64]) -> Self {
+    pub fn of(values: &[f64]) -> Self {
         let half_at_ends = |k: usize| if k == 0 || k == DEGREE { 0.5 } else { 1.0 };
         Series(core::array::from_fn(|j| {
             // nodes ascend: node k is at -cos(pi k/n)
@@ -111,12 +111,12 @@ impl Series {
     }
 
     /// The size of the last coefficients.
-    fn tail(&self) -> f64 {
+    pub fn tail(&self) -> f64 {
         self.0[DEGREE - 2..].iter().map(|coefficient| coefficient.abs()).sum()
     }
 
     /// The value at x, from -1 to 1, by Clenshaw's recurrence.
-    fn value(&self, x: f64) -> f64 {
+    pub fn value(&self, x: f64) -> f64 {
         let (mut last, mut before) = (0.0, 0.0);
         for coefficient in self.0[1..].iter().rev() {
             (last, before) = (2.0 * x * last - before + coefficient, last);

@@ -6,7 +6,7 @@
 //! - [`bands`]: quantiles over time, counted run by run (in `deviation_window`).
 //! - [`influence`]: which of them change no requested column. [`plausibility`]: numbers that look like a mistake. [`magnitude`]: lengths and angles.
 //! - [`single`]: one run with its states. [`flights`]: runs under the control law of the plan.
-//! - [`event_finder`]: when quantities cross values: seen in `sightings`, located in `crossing`. - [`run_end`]: the event that ends a run, found in `end_finder`.
+//! - [`event_finder`]: when quantities cross values: seen in `sightings`, located in `crossing`, by values at other times (`lookup`); `extreme_finder`: their largest values, located in `peak`. - [`run_end`]: the event that ends a run, found in `end_finder`.
 //! - [`audit`]: runs compared with a reference solution. - [`precision`]: run time against error for every method.
 //! - [`settings`]: observables and engine of a plan. - [`probe`]: time of a run and of an audit.
 //!
@@ -20,11 +20,14 @@ mod deviation_window;
 pub mod drawn;
 mod end_finder;
 pub mod event_finder;
+mod extreme_finder;
 pub mod failure_reasons;
 pub mod flights;
 pub mod influence;
+mod lookup;
 pub mod magnitude;
 pub mod parts;
+mod peak;
 pub mod percentiles;
 pub mod plausibility;
 pub mod precision;

@@ -18,8 +18,10 @@ use crate::support::scratch_folder::ScratchFolder;
 const NOTHING: &str = "qqzzqqzz";
 
 /// Other texts than the one written, for any key that takes text: the first that is accepted is the change.
-const TEXTS: [&str; 33] = [
+const TEXTS: [&str; 35] = [
     "s3",
+    "fast",
+    "max",
     "taylor",
     "gauss_legendre_6",
     "numerics",

@@ -9,6 +9,7 @@ mod textbook;
 
 mod bands;
 mod events;
+mod extremes;
 mod failures;
 mod feedback;
 mod lanes;

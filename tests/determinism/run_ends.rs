@@ -208,7 +208,9 @@ fn loops_end_as_in_a_campaign_of_that_duration() {
             let is_same = a.to_bits() == b.to_bits() || (a - b).abs() <= 1e-9 * a.abs().max(b.abs()) + 1e-15;
             (!is_same).then(|| format!("{name}: {a} and {b}"))
         };
-        let wrong: Vec<String> = names(&short).iter().filter_map(off).collect();
+        // at rest, the direction of the angular momentum is one of rounding
+        let compared = names(&short).into_iter().filter(|name| !name.starts_with("nutation_angle"));
+        let wrong: Vec<String> = compared.filter_map(|name| off(&name)).collect();
         assert!(wrong.is_empty(), "sample {row} at {end} s: {wrong:#?}");
         let single = SingleRun::new(&ends, SampleId(row as u64), ends.grid.clone(), Isa::best()).expect("physical");
         assert_eq!(single.row.iter().map(|value| value.to_bits()).collect::<Vec<_>>(), bits(&ends, &ended, row));

@@ -111,6 +111,13 @@ quantity = "angular_rate_rad_s"
 value = 1000.0
 ends_run = true
 
+[[extreme]]
+name = "angular_rate_late_min_rad_s"
+quantity = "angular_rate_rad_s"
+which = "min"
+after = "slow"
+delay_s = 0.5
+
 [design]
 kind = "random"
 

@@ -65,7 +65,7 @@ pub struct BandSeries {
 const OWN: Series = Series::RateSquare;
 
 /// The quantities of runs of `request` that have bands, those of them that are observed: conservation errors, energy of each body, energy
-/// transfer, angles, |omega|, wheel speeds, and what a control loop records.
+/// transfer, angles, |omega|, wheel speeds, what a control loop records, and the orbit with what is around it.
 pub fn band_series(request: &Request) -> Vec<BandSeries> {
     let errors = [Series::EnergyError, Series::LinearMomentumError, Series::AngularMomentumError];
     let energies = [Series::EnergyBody, Series::EnergyWheel];
@@ -88,9 +88,12 @@ pub fn band_series(request: &Request) -> Vec<BandSeries> {
         Series::Impulse,
         Series::MotorTorque,
     ];
+    let around =
+        [Series::OrbitDistance, Series::NadirAngle, Series::FieldStrength, Series::AirDensity, Series::SunHidden];
     let of_values = errors.into_iter().chain(energies).map(|series| (series, false));
     let of_changes = CHANGES.iter().map(|(series, ..)| (*series, true));
-    let kinds = of_values.chain(of_changes).chain(motion.into_iter().chain(of_loops).map(|series| (series, false)));
+    let others = motion.into_iter().chain(of_loops).chain(around).map(|series| (series, false));
+    let kinds = of_values.chain(of_changes).chain(others);
     kinds.flat_map(|(series, is_change)| of_series(request, series, is_change)).collect()
 }
 

@@ -18,6 +18,7 @@ pub struct Traits {
     /// Debris that the loop goes to.
     pub approaches: bool,
     pub debris: bool,
+    pub orbit: bool,
     pub wheels: bool,
     /// Wheels that the loop drives.
     pub drives: bool,
@@ -39,6 +40,7 @@ impl Traits {
             estimates: is(|spec| !spec.knows_the_truth()),
             approaches: is(|spec| spec.approaches()),
             debris: plan.nominal.debris.is_some(),
+            orbit: plan.nominal.orbit.is_some(),
             wheels: !wheels.is_empty(),
             drives: is(|spec| !spec.wheels.is_empty()),
             fires: is(|spec| !spec.thrusters.is_empty()),
@@ -151,6 +153,8 @@ const FREE: fn(&Traits, Place) -> bool = |scene, _| !scene.has_loop;
 /// The same, on the page alone, or in plots alone.
 const FREE_ON_PAGE: fn(&Traits, Place) -> bool = |scene, place| !scene.has_loop && place == Place::Page;
 const FREE_IN_PLOT: fn(&Traits, Place) -> bool = |scene, place| !scene.has_loop && place == Place::Plot;
+/// On an orbit.
+const ON_ORBIT: fn(&Traits, Place) -> bool = |scene, _| scene.orbit;
 /// The loop estimates where the debris is.
 const ESTIMATED_DEBRIS: fn(&Traits, Place) -> bool = |scene, _| scene.estimates && scene.approaches;
 
@@ -199,6 +203,14 @@ pub const FIGURES: &[ListedFigure] = {
         figure(State(StateField::Attitude, WXYZ), ("Attitude quaternion of the body, F_s to F_e", "", Hue::Curve(0)), FREE_IN_PLOT, &[]),
         figure(State(StateField::DebrisRate, XYZ), ("Angular velocity of the debris, in F_d", "", Hue::Curve(0)), |scene, place| FREE_IN_PLOT(scene, place) && scene.debris, &[]),
         figure(State(StateField::DebrisAttitude, WXYZ), ("Attitude quaternion of the debris, F_d to F_e", "", Hue::Curve(0)), |scene, place| FREE_IN_PLOT(scene, place) && scene.debris, &[]),
+        // the orbit and what is around it
+        figure(One(Series::NadirAngle), ("Angle between s3 and nadir", "angle", Hue::Body), ON_ORBIT,
+            &["nadir_angle_rad", "nadir_angle_max_rad", "nadir_angle_mean_rad", "nadir_angle_final_rad"]),
+        figure(One(Series::OrbitDistance), ("Distance from the centre of the Earth", "distance", Hue::Total), ON_ORBIT,
+            &["orbit_distance_m", "orbit_distance_min_m", "orbit_distance_max_m"]),
+        figure(One(Series::FieldStrength), ("Magnetic field at the spacecraft", "field", Hue::Total), ON_ORBIT, &["magnetic_field_t", "magnetic_field_max_t", "magnetic_field_mean_t"]),
+        figure(One(Series::AirDensity), ("Density of the air at the spacecraft", "density", Hue::Total), ON_ORBIT, &["air_density_kg_m3", "air_density_max_kg_m3", "air_density_mean_kg_m3"]),
+        figure(One(Series::SunHidden), ("Share of the Sun that the Earth hides", "share", Hue::Total), ON_ORBIT, &["sun_hidden_fraction"]),
         // actuators
         figure(Wheels(Series::MotorTorque), ("Torque", "torque", Hue::Wheel(0)), |scene, _| scene.drives, &["torque_{wheel}_n_m"]),
         figure(Wheels(Series::WheelSpeed), ("Speed", "speed", Hue::Wheel(0)), |scene, place| scene.wheels && (scene.has_loop || place == Place::Page),

@@ -24,7 +24,7 @@ const MOST_OF_ROW: usize = 20_000;
 const TURN: f64 = 0.6;
 
 /// The groups whose series the page and plots show.
-pub const GROUPS: [Group; 7] = [
+pub const GROUPS: [Group; 8] = [
     Group::EnergyConservation,
     Group::MomentumConservation,
     Group::Attitude,
@@ -32,6 +32,7 @@ pub const GROUPS: [Group; 7] = [
     Group::EnergiesCom,
     Group::Constraints,
     Group::Motion,
+    Group::Orbit,
 ];
 
 /// A run that the page shows.

@@ -11,6 +11,7 @@ pub mod lost_runs;
 pub mod requirements;
 pub mod result_files;
 pub mod retained;
+pub mod run_ends;
 pub mod statistics;
 pub mod stopping;
 pub mod table_log;

@@ -1,0 +1,148 @@
+//! [`Extreme`]: an `[[extreme]]` table, the largest or smallest value of a quantity over time, between observation points too.
+
+use super::event::Event;
+use super::problem::nearest;
+use super::section::Section;
+use super::watched_quantity::{self, variables};
+use crate::observables::band_series::{BandSeries, event_series};
+use crate::observables::{ColumnKind, LawColumn, Request};
+use crate::run::Quantity;
+use crate::sampling::expression::Expression;
+use crate::sampling::keys::{ANY_TEXT, Kind, Row, TextLimit, Value, is_name};
+
+/// The largest or the smallest value of a quantity over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Extreme {
+    /// The name of its column.
+    pub name: String,
+    /// The quantity: the name of one over time, or an expression of several.
+    pub quantity: String,
+    /// Its unit; empty for a pure number, and for an expression.
+    pub unit: String,
+    /// Whether it is the largest value, or the smallest.
+    pub is_highest: bool,
+    /// The name of the event from whose time on it is taken; from the start where there is none.
+    pub after: Option<String>,
+    /// How much later it is taken, s.
+    pub delay_s: f64,
+}
+
+/// Most of them in a file.
+const MOST_EXTREMES: usize = 16;
+/// What a name must be.
+const NAME: TextLimit = TextLimit {
+    allowed: "1 to 60 small letters, digits and underscores, the first a letter",
+    remedy: "write it like pointing_error_max_rad",
+    test: |name| is_name(name, 60),
+};
+const WHICH: [&str; 2] = ["max", "min"];
+
+/// The keys of the table.
+#[rustfmt::skip]
+pub const ROWS: [Row; 5] = [
+    Row::new("name", Kind::Text(NAME), "The name of its column").required_as(NAME.allowed, "\"angular_rate_after_max_rad_s\""),
+    Row::new("quantity", Kind::Expression, "A quantity over time that is observed, or an expression of several")
+        .required_as("a quantity over time, or an expression of some", "\"angular_rate_rad_s\""),
+    Row::new("which", Kind::Word(&WHICH), "The largest value, or the smallest"),
+    Row::new("after", Kind::Text(ANY_TEXT), "The name of the `[[event]]` from whose time on it is taken; default: from the start of the run"),
+    Row::new("delay_s", Kind::Number, "How much later it is taken; default: 0").not_negative(),
+];
+
+impl Extreme {
+    /// Reads the tables; what is wrong is noted, and left out here. `observed` is what the rows have without them, `events` among it.
+    pub(super) fn read_all(root: &mut Section<'_, '_>, observed: &Request, events: &[Event]) -> Vec<Extreme> {
+        if !root.has("extreme") {
+            root.know("extreme");
+            return Vec::new();
+        }
+        let series = event_series(observed);
+        let mut names: Vec<String> =
+            observed.columns().iter().map(|column| column.quantity.name().to_owned()).collect();
+        let found = root.sections("extreme", MOST_EXTREMES, |table| {
+            let extreme = Extreme::read(table, (&series, observed), events)?;
+            if names.contains(&extreme.name) {
+                table.refuse("name", "a name that no other column has", "choose another name");
+                return None;
+            }
+            names.push(extreme.name.clone());
+            Some(extreme)
+        });
+        found.into_iter().flatten().collect()
+    }
+
+    fn read(table: &mut Section<'_, '_>, known: (&[BandSeries], &Request), events: &[Event]) -> Option<Self> {
+        let written = table.whole(&ROWS, &[])?;
+        let quantity = written.text("quantity")?.to_owned();
+        let unit = match &variables(table, &quantity, known)?[..] {
+            [only] if only.quantity.name() == quantity => only.quantity.unit().to_owned(),
+            _ => String::new(),
+        };
+        let after = written.text("after").map(str::to_owned);
+        if let Some(name) = &after
+            && !events.iter().any(|event| event.name == *name)
+        {
+            let names = || events.iter().map(|event| event.name.as_str());
+            let remedy = match (nearest(name, names()), events.is_empty()) {
+                (_, true) => "add an [[event]] of this name".to_owned(),
+                (Some(meant), _) => format!("did you mean {meant:?}?"),
+                (None, _) => format!("name one of {}", names().collect::<Vec<_>>().join(", ")),
+            };
+            table.refuse("after", "the name of an [[event]] of this file", remedy);
+            return None;
+        }
+        let is_highest = written.text("which") == Some(WHICH[0]);
+        let delay_s = written.number("delay_s").unwrap_or(0.0);
+        Some(Extreme { name: written.text("name")?.to_owned(), quantity, unit, is_highest, after, delay_s })
+    }
+
+    /// The expression, and the quantities that are its variables; `None` only for what [`Extreme::read_all`] refuses.
+    pub fn parsed(&self, series: &[BandSeries]) -> Option<(Expression, Vec<BandSeries>)> {
+        watched_quantity::parsed(&self.quantity, series)
+    }
+
+    /// From when on it is taken, in words.
+    fn since(&self) -> String {
+        match (&self.after, self.delay_s > 0.0) {
+            (None, false) => String::new(),
+            (None, true) => format!(" from {:?} s on", self.delay_s),
+            (Some(event), false) => format!(" after {event}"),
+            (Some(event), true) => format!(" from {:?} s after {event} on", self.delay_s),
+        }
+    }
+
+    /// What it is, in words.
+    pub fn says(&self) -> String {
+        format!(
+            "{} of {}{}",
+            if self.is_highest { "largest value" } else { "smallest value" },
+            self.quantity,
+            self.since()
+        )
+    }
+
+    /// Its column.
+    pub(super) fn column(&self) -> LawColumn {
+        let word = if self.is_highest { "Largest" } else { "Smallest" };
+        let meaning = format!(
+            "{word} value of {}{}, between observation points too; null where the run ends before.",
+            self.quantity,
+            self.since()
+        );
+        LawColumn {
+            quantity: Quantity::named(self.name.clone(), self.unit.clone(), meaning),
+            kind: ColumnKind::Float,
+            codes: &[],
+        }
+    }
+
+    /// The value of a key in canonical text.
+    pub(super) fn value(&self, key: &str) -> Option<Value> {
+        Some(match key {
+            "name" => self.name.as_str().into(),
+            "quantity" => self.quantity.as_str().into(),
+            "which" => Value::Word(WHICH[usize::from(!self.is_highest)]),
+            "after" => self.after.as_deref()?.into(),
+            _ => self.delay_s.into(),
+        })
+    }
+}

@@ -1,0 +1,57 @@
+//! What is watched in a run: a quantity over time, or an expression of several.
+
+use super::problem::nearest;
+use super::section::Section;
+use crate::observables::band_series::{BandSeries, event_series};
+use crate::observables::{Group, Groups, Request};
+use crate::sampling::expression::Expression;
+
+/// The expression that `text` is, and the quantities of `series` that are its variables; `None` where it is wrong.
+pub fn parsed(text: &str, series: &[BandSeries]) -> Option<(Expression, Vec<BandSeries>)> {
+    let expression = Expression::parse(text).ok()?;
+    let of = |name: &String| series.iter().find(|band| band.quantity.name() == name).cloned();
+    let variables = expression.variables().iter().map(of).collect::<Option<_>>()?;
+    Some((expression, variables))
+}
+
+/// The quantities in `text`; `None` where it is wrong, which is then noted.
+pub(super) fn variables(
+    table: &mut Section<'_, '_>,
+    text: &str,
+    (series, observed): (&[BandSeries], &Request),
+) -> Option<Vec<BandSeries>> {
+    let parsed = Expression::parse(text).ok()?;
+    if parsed.variables().is_empty() {
+        table.refuse("quantity", "made of quantities over time", "name one, such as \"angular_rate_rad_s\"");
+        return None;
+    }
+    let mut found = Vec::new();
+    for name in parsed.variables() {
+        let Some(band) = series.iter().find(|band| band.quantity.name() == name) else {
+            let (allowed, remedy) = refusal(name, series, observed);
+            table.refuse_value("quantity", format!("{name:?}"), allowed, remedy);
+            return None;
+        };
+        found.push(band.clone());
+    }
+    Some(found)
+}
+
+/// What is allowed in place of `name`, which is no quantity over time of `series`, and what to do.
+fn refusal(name: &str, series: &[BandSeries], observed: &Request) -> (String, String) {
+    let names = || series.iter().map(|band| band.quantity.name());
+    let allowed = "made of quantities over time that are observed".to_owned();
+    let mut of = *observed;
+    let group = Group::ALL.into_iter().find(|group| {
+        of.groups = Groups::NONE.with(*group);
+        event_series(&of).iter().any(|band| band.quantity.name() == name)
+    });
+    let remedy = match (group, nearest(name, names())) {
+        (Some(group), _) => {
+            format!("it is in a group that is not observed: add {:?} to observe.groups", group.name())
+        }
+        (None, Some(meant)) => format!("did you mean {meant:?}?"),
+        (None, None) => format!("name some of {}", names().collect::<Vec<_>>().join(", ")),
+    };
+    (allowed, remedy)
+}

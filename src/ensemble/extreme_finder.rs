@@ -1,0 +1,189 @@
+//! [`ExtremeFinder`]: the largest and smallest values of quantities of runs, between observation points too.
+//!
+//! A largest value lies beside a point at which the quantity is larger than at its neighbours, or at the ends of the interval of time. There the same sample is
+//! flown again, with observation points between (`peak`); a quantity of a control loop is looked at at every tick.
+
+use crate::campaign::Plan;
+use crate::campaign::extreme::Extreme;
+use crate::ensemble::crossing::nodes;
+use crate::ensemble::flights::{LawDraw, end_of};
+use crate::ensemble::lookup::{Asked, Lookup, ticks};
+use crate::ensemble::peak::{Peak, of_curve};
+use crate::ensemble::settings::EngineMaker;
+use crate::math::Isa;
+use crate::observables::Observer;
+use crate::observables::band_series::event_series;
+use crate::propagation::CompletedRun;
+use crate::run::Grid;
+use crate::scene::Scene;
+
+/// Ticks at which a run is looked at together.
+const TICKS: usize = 4096;
+/// How often a run is flown again at most: between two points an hour apart a corner is then located to rounding.
+const MOST_FLIGHTS: usize = 24;
+/// Errors of a largest value over its size: that of the integration, but within these limits.
+const ERRORS: [f64; 2] = [1e-13, 1e-9];
+/// A quantity is beyond its value at a point by an eighth of its second difference there, where it is a parabola; it is looked at where four times that
+/// could make it the largest.
+const BEYOND: f64 = 0.5;
+
+/// Where an extreme is looked for.
+#[derive(Clone, Copy, Debug)]
+struct Pending {
+    run: usize,
+    extreme: usize,
+    between: [f64; 2],
+}
+
+/// Finds the extremes of the runs of a plan.
+pub(super) struct ExtremeFinder<'p> {
+    plan: &'p Plan,
+    lookup: Lookup<'p>,
+    times: Vec<f64>,
+    /// When runs that were looked at end, s; NaN of the others.
+    ends: Vec<f64>,
+    /// Values at the points, run by run and extreme by extreme; of a smallest one the opposite.
+    values: Vec<f64>,
+    /// The largest ones that are known.
+    found: Vec<f64>,
+}
+
+/// One, or minus one where the smallest value is looked for.
+fn sign(extreme: &Extreme) -> f64 {
+    if extreme.is_highest { 1.0 } else { -1.0 }
+}
+
+impl<'p> ExtremeFinder<'p> {
+    /// Of those of `plan` in runs that are observed on `grid`.
+    pub fn new(plan: &'p Plan, grid: &Grid, engines: (Isa, Option<EngineMaker>)) -> Self {
+        let series = event_series(&plan.request());
+        let parsed = plan.extremes.iter().filter_map(|extreme| extreme.parsed(&series));
+        ExtremeFinder {
+            plan,
+            lookup: Lookup::new(plan, grid, engines, parsed),
+            times: grid.times().to_vec(),
+            ends: Vec::new(),
+            values: Vec::new(),
+            found: Vec::new(),
+        }
+    }
+
+    /// Forgets all runs; `runs` come.
+    pub fn restart(&mut self, runs: usize) {
+        let extremes = self.plan.extremes.len();
+        for (list, count) in [
+            (&mut self.ends, runs),
+            (&mut self.values, runs * extremes * self.times.len()),
+            (&mut self.found, runs * extremes),
+        ] {
+            list.clear();
+            list.resize(count, f64::NAN);
+        }
+    }
+
+    /// Keeps the values of `run`, which `observer` has observed last.
+    pub fn look(&mut self, run: &CompletedRun<'_>, observer: &Observer) {
+        let (extremes, points) = (&self.plan.extremes, self.times.len());
+        if extremes.is_empty() {
+            return;
+        }
+        self.ends[run.index] = end_of(run);
+        let known = self.lookup.read(observer, run.table);
+        let of_run = self.values[run.index * extremes.len() * points..].chunks_exact_mut(points);
+        for (quantity, (extreme, values)) in extremes.iter().zip(of_run).enumerate() {
+            values.iter_mut().zip(known.all(quantity)).for_each(|(value, known)| *value = sign(extreme) * known);
+        }
+    }
+
+    /// Locates the extremes of the runs that were looked at: those of `scenes`, with the draws of their laws; `time_of` is when an event of a run happened.
+    pub fn locate(&mut self, of_runs: (&[Scene], &[LawDraw]), time_of: &dyn Fn(usize, usize) -> f64) {
+        let mut pending = Vec::new();
+        for run in 0..self.ends.len() {
+            for (index, extreme) in self.plan.extremes.iter().enumerate() {
+                let event =
+                    extreme.after.as_ref().and_then(|name| self.plan.events.iter().position(|one| one.name == *name));
+                let start = event.map_or(0.0, |event| time_of(run, event)) + extreme.delay_s;
+                let end = self.ends[run];
+                // NaN is not before it
+                if start <= end {
+                    let places = self.places(run, index, [start, end]);
+                    pending.extend(places.into_iter().map(|between| Pending { run, extreme: index, between }));
+                }
+            }
+        }
+        for _ in 0..MOST_FLIGHTS {
+            if pending.is_empty() {
+                return;
+            }
+            pending = self.look_again(&pending, of_runs);
+        }
+    }
+
+    /// Where the largest value of an extreme of a run can be between `start` and `end`; what is known at points is taken.
+    fn places(&mut self, run: usize, extreme: usize, [start, end]: [f64; 2]) -> Vec<[f64; 2]> {
+        if let Some(period) = self.lookup.period(extreme) {
+            let ticks = ticks(period, start, end, f64::INFINITY);
+            return ticks.chunks(TICKS).map(|chunk| [chunk[0], chunk[chunk.len() - 1]]).collect();
+        }
+        let (times, extremes) = (&self.times, self.plan.extremes.len());
+        let values = &self.values[(run * extremes + extreme) * times.len()..][..times.len()];
+        // points between start and end
+        let [first, after] = [times.partition_point(|time| *time <= start), times.partition_point(|time| *time <= end)];
+        if first >= after {
+            return vec![[start, end]];
+        }
+        let known = values[first..after].iter().fold(f64::NAN, |most, value| most.max(*value));
+        let can_be = |point: &usize| {
+            let [before, here, next] = [values[point - 1], values[*point], values[point + 1]];
+            // what is not known is no larger
+            let is_largest = !here.is_nan() && !(before > here) && !(next > here) && (before != here || next != here);
+            is_largest && !(here + BEYOND * (before - 2.0 * here + next).abs() < known)
+        };
+        let inner = (first + 1..after.saturating_sub(1)).filter(can_be);
+        let mut places: Vec<[f64; 2]> = inner.map(|point| [times[point - 1], times[point + 1]]).collect();
+        places.push([start, times[(first + 1).min(after - 1)]]);
+        places.push([times[after.saturating_sub(2).max(first)], end]);
+        let found = &mut self.found[run * extremes + extreme];
+        *found = found.max(known);
+        places
+    }
+
+    /// Looks between the times of `pending`, and says where to look again.
+    fn look_again(&mut self, pending: &[Pending], of_runs: (&[Scene], &[LawDraw])) -> Vec<Pending> {
+        let ask = |Pending { run, extreme, between: [start, end] }: &Pending| {
+            let times = match self.lookup.period(*extreme) {
+                Some(period) => ticks(period, *start, *end, f64::INFINITY),
+                None => nodes(*start, *end).collect(),
+            };
+            Asked { run: *run, quantity: *extreme, times }
+        };
+        let asked: Vec<Asked> = pending.iter().map(ask).collect();
+        let (extremes, found, lookup) = (&self.plan.extremes, &mut self.found, &self.lookup);
+        let error = self.plan.tolerance.relative.clamp(ERRORS[0], ERRORS[1]);
+        let mut again = Vec::new();
+        lookup.answer(&asked, of_runs, &mut |index, values| {
+            let one = pending[index];
+            let values: Vec<f64> = values.iter().map(|value| sign(&extremes[one.extreme]) * value).collect();
+            let peak = match lookup.period(one.extreme) {
+                Some(_) => Peak::Value(values.iter().fold(f64::NAN, |most, value| most.max(*value))),
+                None => of_curve(&asked[index].times, &values, error),
+            };
+            let (value, between) = match peak {
+                Peak::Value(value) => (value, None),
+                Peak::Between(value, between) => (value, Some(between)),
+            };
+            let found = &mut found[one.run * extremes.len() + one.extreme];
+            *found = found.max(value);
+            again.extend(between.map(|between| Pending { between, ..one }));
+        });
+        again.sort_by_key(|one: &Pending| one.run);
+        again
+    }
+
+    /// The extremes of run `run`.
+    pub fn values(&self, run: usize) -> impl Iterator<Item = f64> + '_ {
+        let extremes = &self.plan.extremes;
+        let of_run = &self.found[run * extremes.len()..(run + 1) * extremes.len()];
+        of_run.iter().zip(extremes).map(|(found, extreme)| sign(extreme) * found)
+    }
+}

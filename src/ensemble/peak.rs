@@ -1,0 +1,93 @@
+//! The largest value of a quantity between two times, from its values at [`super::crossing::nodes`]: interpolated where that is exact, narrowed down where it is not.
+
+use super::crossing::{ROUNDING, Series};
+
+/// Samples of a polynomial between which its largest value is looked for: several between two of its extremes.
+const SAMPLES: usize = 128;
+/// Steps of a search that divides its interval by the golden ratio: to rounding.
+const DIVISIONS: usize = 80;
+/// The share of an interval that is kept.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// What is known of a largest value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Peak {
+    /// The value.
+    Value(f64),
+    /// The largest one so far, and the times between which to look again, s.
+    Between(f64, [f64; 2]),
+}
+
+/// The largest of a quantity with these `values` at the nodes `times`, to a share `error` of its size; NaN is a value that is not known.
+pub(super) fn of_curve(times: &[f64], values: &[f64], error: f64) -> Peak {
+    let known = values.iter().enumerate().filter(|(_, value)| !value.is_nan());
+    let Some((best, largest)) = known.max_by(|(_, a), (_, b)| a.total_cmp(b)) else { return Peak::Value(f64::NAN) };
+    let size = values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
+    let series = Series::of(values);
+    // NaN is not below it
+    if series.tail() <= error.max(ROUNDING) * size {
+        return Peak::Value(largest.max(peak(&series)));
+    }
+    let between = [best.saturating_sub(1), (best + 1).min(times.len() - 1)];
+    let neighbours = between.map(|place| values[place]);
+    let is_flat = neighbours.iter().all(|value| (largest - value).abs() <= error.max(ROUNDING) * size);
+    let [start, end] = between.map(|place| times[place]);
+    // a jump, or a point at the end of what is known: there is nothing between
+    let is_narrow = end - start <= 2.0 * ROUNDING * end.abs();
+    if is_flat || is_narrow { Peak::Value(*largest) } else { Peak::Between(*largest, [start, end]) }
+}
+
+/// The largest value of the polynomial on [-1, 1].
+fn peak(series: &Series) -> f64 {
+    let at = |sample: usize| -1.0 + 2.0 * sample as f64 / SAMPLES as f64;
+    let value = |x: f64| series.value(x);
+    let best = (0..=SAMPLES).max_by(|a, b| value(at(*a)).total_cmp(&value(at(*b)))).unwrap_or(0);
+    let [mut low, mut high] = [best.saturating_sub(1), (best + 1).min(SAMPLES)].map(at);
+    for _ in 0..DIVISIONS {
+        let part = GOLDEN * (high - low);
+        if value(high - part) < value(low + part) { low = high - part } else { high = low + part }
+    }
+    value(0.5 * (low + high)).max(value(at(best)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::crossing::nodes;
+    use super::*;
+
+    /// The largest value of `f` between `start` and `end`, and how often its values were asked for.
+    fn located(f: &dyn Fn(f64) -> f64, mut start: f64, mut end: f64) -> (f64, usize) {
+        let mut most = f64::NAN;
+        for passes in 1..100 {
+            let times: Vec<f64> = nodes(start, end).collect();
+            let values: Vec<f64> = times.iter().map(|time| f(*time)).collect();
+            match of_curve(&times, &values, 1e-13) {
+                Peak::Value(value) => return (most.max(value), passes),
+                Peak::Between(value, between) => (most, [start, end]) = (most.max(value), between),
+            }
+        }
+        panic!("no end")
+    }
+
+    /// Law: the largest value of a smooth quantity is found at once, to rounding, within the interval or at its ends; that at a corner and at a jump by narrowing.
+    #[test]
+    fn peaks_are_located() {
+        for (f, exact) in [
+            (&(|t: f64| 3.0 + libm::sin(t)) as &dyn Fn(f64) -> f64, 4.0),
+            (&|t: f64| libm::sin(t) + 0.4 * libm::cos(0.7 * t), 1.210_049_366_616_08),
+            (&|t: f64| libm::exp(-t), libm::exp(-0.3)),
+            (&|t: f64| t, 2.9),
+            (&|_: f64| -2.5, -2.5),
+        ] {
+            let (found, passes) = located(f, 0.3, 2.9);
+            assert!((found - exact).abs() < 1e-13 * exact.abs() && passes <= 2, "{found} for {exact}, {passes}");
+        }
+        let corner = |t: f64| 1.0 - (t - 1.2345).abs().max(3.0 * (1.2345 - t));
+        let (found, passes) = located(&corner, 0.3, 2.9);
+        assert!((found - 1.0).abs() < 1e-12 && passes < 20, "{found}, {passes}");
+        let jump = |t: f64| if t < 2.345 { t } else { -t };
+        let (found, passes) = located(&jump, 0.0, 6.0);
+        assert!((found - 2.345).abs() < 1e-11 && passes < 25, "{found}, {passes}");
+        assert!(of_curve(&[0.0; 17], &[f64::NAN; 17], 1e-13) != Peak::Value(0.0));
+    }
+}

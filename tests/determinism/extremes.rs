@@ -1,0 +1,211 @@
+//! Extremes of quantities between observation points: those of closed forms and of many points; bits are a row's own.
+
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::ensemble::{Ensemble, Part, PartId, Rows, SingleRun, Supervision};
+use spindrift::math::Isa;
+use spindrift::propagation::Method;
+use spindrift::sampling::SampleId;
+
+/// A free body which turns at 0.3 rad/s across s3 and at 0.6 rad/s about it.
+const FREE: &str = r#"[campaign]
+name = "free"
+samples = 40
+seed = 3
+duration_s = 60.0
+[integrator]
+METHOD
+[observe]
+points = POINTS
+groups = ["attitude", "motion"]
+[body]
+mass_kg = 10.0
+center_of_mass_m = [0, 0, 0]
+principal_moments_kg_m2 = [30, MIDDLE, 20]
+[initial]
+angular_velocity_rad_s = [0.3, 0.0, 0.6]
+"#;
+
+const SPREAD: &str =
+    "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 0.1\n";
+
+fn free(method: &str, points: usize, middle: f64, more: &str) -> Plan {
+    let text = FREE.replace("METHOD", method).replace("POINTS", &points.to_string());
+    plan(&(text.replace("MIDDLE", &middle.to_string()) + more))
+}
+
+fn plan(text: &str) -> Plan {
+    Plan::from_text("extreme.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+fn event(name: &str, quantity: &str, value: f64, more: &str) -> String {
+    format!("[[event]]\nname = \"{name}\"\nquantity = \"{quantity}\"\nvalue = {value:?}\n{more}\n")
+}
+
+fn extreme(name: &str, quantity: &str, more: &str) -> String {
+    format!("[[extreme]]\nname = \"{name}\"\nquantity = \"{quantity}\"\n{more}\n")
+}
+
+/// The rows of `count` samples of `plan` from `first` on.
+fn rows(plan: &Plan, isa: Isa, first: u64, count: usize) -> Rows {
+    let ensemble = Ensemble::new(plan, isa);
+    let mut rows = ensemble.rows(count);
+    let part = Part { id: PartId(0), first: SampleId(first), count };
+    ensemble.worker().run(part, &mut rows, Supervision::progress(&|_| {}));
+    rows
+}
+
+/// The column `name` of `rows`.
+fn column<'r>(plan: &Plan, rows: &'r Rows, name: &str) -> &'r [f64] {
+    let columns = plan.request().columns();
+    rows.observable(
+        columns.iter().position(|column| column.quantity.name() == name).unwrap_or_else(|| panic!("no {name}")),
+    )
+}
+
+/// Law: s3 of a free body leaves its direction by alpha with sin(alpha/2) = sin(theta) |sin(Omega t/2)|: its largest angle is 2 theta, its smallest one zero, and
+/// where it has neither of them after an event, that at the later end; by every method, with points that are half a radian of precession apart.
+#[test]
+fn extremes_of_a_free_body_are_those_of_its_precession() {
+    let (across, along): (f64, f64) = (30.0 * 0.3, 20.0 * 0.6);
+    let (rate, angle) = (across.hypot(along) / 30.0, across.atan2(along));
+    let alpha = |time: f64| 2.0 * (angle.sin() * (0.5 * rate * time).sin().abs()).asin();
+    let up = 2.0 / rate * ((0.5 * 0.5_f64).sin() / angle.sin()).asin();
+    let period = 2.0 * std::f64::consts::PI / rate;
+    // from this delay on it falls to the end
+    let late = 60.0 - 0.2 * period - up;
+    assert!(alpha(60.0) < alpha(60.0 - 0.2 * period) && (60.0 / period).fract() > 0.7, "{}", 60.0 / period);
+    let more = event("up", "spin_axis_angle_rad", 0.5, "direction = \"rising\"")
+        + &event("never", "spin_axis_angle_rad", 3.0, "")
+        + &extreme("most_rad", "spin_axis_angle_rad", "")
+        + &extreme("most_after_deg", "180 / pi * spin_axis_angle_rad", "after = \"up\"\ndelay_s = 1")
+        + &extreme("least_rad", "spin_axis_angle_rad", "which = \"min\"\nafter = \"up\"")
+        + &extreme("last_rad", "spin_axis_angle_rad", &format!("after = \"up\"\ndelay_s = {late:?}"))
+        + &extreme("none_rad", "spin_axis_angle_rad", "after = \"never\"")
+        + &extreme("beyond_rad", "spin_axis_angle_rad", "delay_s = 60.001");
+    for method in Method::ALL {
+        let written = match method.has_fixed_step() {
+            true => format!("method = \"{}\"\nstep_s = 0.002", method.name()),
+            false => format!("method = \"{}\"\ntolerance = 1e-13", method.name()),
+        };
+        let plan = free(&written, 62, 30.0, &more);
+        let rows = rows(&plan, Isa::best(), 0, 1);
+        let found = |name: &str| column(&plan, &rows, name)[0];
+        let bound = if method.name() == "runge_kutta_4" { 1e-9 } else { 1e-11 };
+        for (name, expected, bound) in [
+            ("most_rad", 2.0 * angle, bound),
+            ("most_after_deg", (2.0 * angle).to_degrees(), 60.0 * bound),
+            // the square root of what rounding leaves of nothing
+            ("least_rad", 0.0, 1e-6),
+            ("last_rad", alpha(up + late), 10.0 * bound),
+        ] {
+            let found = found(name);
+            assert!((found - expected).abs() <= bound, "{} {name}: {found} for {expected}", method.name());
+        }
+        assert!(found("none_rad").is_nan() && found("beyond_rad").is_nan());
+        // the points themselves do not see it
+        assert!(found("spin_axis_angle_max_rad") < 2.0 * angle - 1e-5);
+    }
+}
+
+/// Law: extremes of bodies without an axis of symmetry, from points a second apart, are those of points that are 500 times as near, and no smaller.
+#[test]
+fn extremes_are_those_of_many_points() {
+    let more = SPREAD.to_owned()
+        + &extreme("angle_rad", "spin_axis_angle_rad", "")
+        + &extreme("rate_rad_s", "angular_rate_rad_s", "")
+        + &extreme("least_rate_rad_s", "angular_rate_rad_s", "which = \"min\"");
+    let coarse = free("", 61, 26.0, &more);
+    let found = rows(&coarse, Isa::best(), 0, 40);
+    let fine = free("", 30_001, 26.0, SPREAD);
+    let truth = rows(&fine, Isa::best(), 0, 40);
+    let mut beyond = 0;
+    for row in 0..40 {
+        for (name, dense) in [("angle_rad", "spin_axis_angle_max_rad"), ("rate_rad_s", "angular_rate_max_rad_s")] {
+            let [found, dense] = [column(&coarse, &found, name)[row], column(&fine, &truth, dense)[row]];
+            // an eighth of the square of an interval, by the largest second derivative, which an angle near half a turn has
+            assert!(
+                found >= dense - 1e-12 && found - dense < 1e-6 / (std::f64::consts::PI - found).clamp(1e-3, 1.0),
+                "sample {row}, {name}: {found} and {dense}"
+            );
+        }
+        let sampled = column(&coarse, &found, "angular_rate_max_rad_s")[row];
+        beyond += usize::from(column(&coarse, &found, "rate_rad_s")[row] > sampled + 1e-6);
+        assert!(column(&coarse, &found, "least_rate_rad_s")[row] <= column(&coarse, &found, "rate_rad_s")[row]);
+    }
+    assert!(beyond > 20, "{beyond} beyond the points");
+}
+
+/// Law: a quantity of a control loop is known at its ticks, and its extremes are the same for all observation points; those of a shorter interval are no larger.
+#[test]
+fn extremes_of_loops_are_at_ticks() {
+    let shipped = include_str!("../../campaigns/slew_closed.toml");
+    let more = event("turned", "pointing_error_rad", 0.5, "direction = \"falling\"")
+        + &extreme("error_max_rad", "pointing_error_rad", "after = \"turned\"\ndelay_s = 30")
+        + &extreme("later_max_rad", "pointing_error_rad", "after = \"turned\"\ndelay_s = 60");
+    let of = |points: usize| {
+        let plan = plan(&(shipped.replace("points = 181", &format!("points = {points}")) + &more));
+        let rows = rows(&plan, Isa::best(), 0, 12);
+        let errors = ["error_max_rad", "later_max_rad"].map(|name| column(&plan, &rows, name).to_vec());
+        (errors, column(&plan, &rows, "turned_time_s").to_vec())
+    };
+    let (every, _) = of(721);
+    for points in [46, 100] {
+        assert_eq!(of(points).0, every, "{points}");
+    }
+    let [errors, later] = &every;
+    assert!(errors.iter().zip(later).all(|(error, later)| later <= error && *later > 0.0), "{every:?}");
+    // tick by tick, from single runs
+    let plan = plan(&(shipped.replace("points = 181", "points = 721") + &more));
+    let (_, turned) = of(721);
+    for sample in 0..12 {
+        let run = SingleRun::new(&plan, SampleId(sample as u64), plan.grid.clone(), Isa::best()).expect("physical");
+        let (_, values) = run
+            .series
+            .iter()
+            .find(|(series, _)| *series == spindrift::observables::Series::PointingError)
+            .expect("a series");
+        let from = turned[sample] + 30.0;
+        let ticks = plan.grid.times().iter().zip(values).filter(|(time, _)| **time >= from - 1e-9);
+        let most = ticks.fold(0.0, |most: f64, (_, value)| most.max(*value));
+        assert_eq!(most, errors[sample], "sample {sample}");
+    }
+}
+
+/// Law: extremes are a row's own: the same bits alone, in any part, on every instruction set, and in a single run; no other column changes.
+#[test]
+fn extremes_are_bits_of_their_row() {
+    let more = event("first", "spin_axis_angle_rad", 0.7, "")
+        + &extreme("angle_rad", "spin_axis_angle_rad - 0.1 * angular_rate_rad_s", "after = \"first\"\ndelay_s = 3")
+        + &extreme("least_rad_s", "angular_rate_rad_s", "which = \"min\"");
+    for method in ["method = \"auto\"", "method = \"dormand_prince\"\ntolerance = 1e-9"] {
+        let plan = free(method, 61, 26.0, &(SPREAD.to_owned() + &more));
+        let bits = |rows: &Rows, row: usize| -> Vec<u64> {
+            (0..plan.request().columns().len()).map(|index| rows.observable(index)[row].to_bits()).collect()
+        };
+        let all = rows(&plan, Isa::best(), 0, 40);
+        let angles = column(&plan, &all, "angle_rad");
+        assert!(angles.iter().filter(|angle| angle.is_finite()).count() > 20, "{angles:?}");
+        assert!(angles.iter().any(|angle| angle.is_nan()), "{angles:?}");
+        for isa in Isa::available() {
+            let found = rows(&plan, isa, 0, 40);
+            (0..40).for_each(|row| assert_eq!(bits(&found, row), bits(&all, row), "{}", isa.name()));
+        }
+        for (first, count) in [(7, 1), (11, 9), (33, 7)] {
+            let part = rows(&plan, Isa::best(), first, count);
+            (0..count).for_each(|row| assert_eq!(bits(&part, row), bits(&all, row + first as usize)));
+        }
+        for sample in [0_usize, 3, 12] {
+            let single =
+                SingleRun::new(&plan, SampleId(sample as u64), plan.grid.clone(), Isa::best()).expect("physical");
+            let single: Vec<u64> = single.row.iter().map(|value| value.to_bits()).collect();
+            assert_eq!(single, bits(&all, sample));
+        }
+        let without = free(method, 61, 26.0, &(SPREAD.to_owned() + &event("first", "spin_axis_angle_rad", 0.7, "")));
+        let others = rows(&without, Isa::best(), 0, 40);
+        for (index, column) in without.request().columns().iter().enumerate() {
+            let same =
+                others.observable(index).iter().zip(all.observable(index)).all(|(a, b)| a.to_bits() == b.to_bits());
+            assert!(same, "{}", column.quantity.name());
+        }
+    }
+}
