@@ -152,7 +152,8 @@ mod tests {
         let mut text = String::new();
         rows(&mut text, [[4.0, 8.7e-19, 1e-9], [8.7e-19, 4.5, 0.0], [1e-9, 0.0, 3.0]]);
         let words: Vec<&str> = text.split_whitespace().collect();
-        assert_eq!(words, ["4", "0", "1e-9", "0", "4.5", "0", "1e-9", "0", "3"]);
+        let small = "1.00000e-9";
+        assert_eq!(words, ["4", "0", small, "0", "4.5", "0", small, "0", "3"]);
     }
 
     /// Law: each column of the principal axes is an eigenvector of the inertia for its moment, to the six digits shown.
