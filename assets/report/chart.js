@@ -6,6 +6,7 @@ import { colors, isOnPaper } from "./theme.js";
 const LETTER = 6.6; // width of a letter of 12 pixels, about
 const DIGIT = 7.6; // that of a digit, of the widest fonts
 const LABEL = 15; // height of a row of names above the axes
+const NAMES = 0.55; // share of the width that the names of rows may take
 const FLIGHT = 14; // height of the strip of runs in flight
 const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', sans-serif";
 
@@ -39,11 +40,21 @@ function roundStep(span, count) {
   return (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10) * power;
 }
 
-// Quantity and unit of an axis that is `room` pixels long: the quantity is shortened, the unit is not.
+// Quantity and unit of an axis that is `room` pixels long, in two lines where one is too short; then the quantity is shortened, the unit is not.
 function titleOf(axis, unit, room) {
-  const most = Math.max(6, Math.floor(room / 7.2) - (unit ? unit.length + 3 : 0));
-  const quantity = axis.quantity.length > most ? `${axis.quantity.slice(0, most - 1)}…` : axis.quantity;
-  return [quantity, unit].filter(Boolean).join(" / ");
+  const most = Math.max(6, Math.floor(room / 7.2));
+  const end = unit ? ` / ${unit}` : "";
+  if (axis.quantity.length + end.length <= most) return axis.quantity + end;
+  // the break that leaves the shorter longest line
+  const breaks = Array.from(axis.quantity.matchAll(/ /g), (found) => found.index);
+  const longest = (at) => Math.max(at, axis.quantity.length - at - 1 + end.length);
+  const at = breaks.reduce((best, other) => (best === undefined || longest(other) < longest(best) ? other : best), undefined);
+  const lines = at === undefined ? [axis.quantity] : [axis.quantity.slice(0, at), axis.quantity.slice(at + 1)];
+  const short = lines.map((line, place) => {
+    const letters = most - (place === lines.length - 1 ? end.length : 0);
+    return line.length > letters ? `${line.slice(0, Math.max(2, letters - 1))}…` : line;
+  });
+  return short.join("\n") + end;
 }
 
 function linearAxis(axis, [low, high], isTime, count, room) {
@@ -94,10 +105,10 @@ function logAxis(axis, [low, high], room) {
 
 function axisOption(figure, which, palette, width) {
   const axis = figure[which];
-  const style = { axisLine: { onZero: false, lineStyle: { color: palette.quiet } }, axisTick: { lineStyle: { color: palette.quiet } }, splitLine: { lineStyle: { color: palette.grid } }, nameTextStyle: { color: palette.text, fontFamily: FONT, fontSize: 13 }, nameLocation: "middle" };
+  const style = { axisLine: { onZero: false, lineStyle: { color: palette.quiet } }, axisTick: { lineStyle: { color: palette.quiet } }, splitLine: { lineStyle: { color: palette.grid } }, nameTextStyle: { color: palette.text, fontFamily: FONT, fontSize: 13, lineHeight: 15 }, nameLocation: "middle" };
   const label = { color: palette.quiet, fontFamily: FONT, fontSize: 12 };
   if (axis.names) {
-    const longest = Math.max(14, Math.min(34, Math.floor((0.5 * width - 16) / LETTER)));
+    const longest = Math.max(14, Math.min(34, Math.floor((NAMES * width - 16) / LETTER)));
     const half = (longest - 1) / 2;
     const short = (name) => (name.length > longest ? `${name.slice(0, Math.floor(half))}…${name.slice(-Math.ceil(half))}` : name);
     const names = which === "x" ? axis.names.map((_, index) => String(index + 1)) : axis.names.map((name, index) => (figure.x.names ? `${short(name)}  ${index + 1}` : short(name)));
@@ -107,7 +118,7 @@ function axisOption(figure, which, palette, width) {
   let range = given ?? extent(figure, which);
   // what is never negative begins at 0, unless most of the axis would be empty
   if (!given && !axis.log && range[0] > 0 && range[0] < 0.5 * range[1]) range = [0, range[1]];
-  const room = which === "x" ? width - 84 : heightOf(figure, width) - 58;
+  const room = which === "x" ? width - (figure.y.names ? 0.5 * width : 84) : heightOf(figure, width) - 58;
   const found = axis.log ? logAxis(axis, range, room) : linearAxis(axis, range, which === "x" && figure.time, which === "x" ? Math.max(3, width / 90) : 5, room);
   // the title of a vertical axis is beside the longest of its numbers
   const widest = DIGIT * Math.max(0, ...found.texts.map((text) => text.length));
@@ -236,7 +247,8 @@ function limitSeries(mark, palette, [xs, ys], row) {
   return drawn(data, { x: 0, y: 1 }, (to, box) => {
     const [x, y] = to(...(mark.vertical ? [mark.at, data[0][1]] : [data[0][0], mark.at]));
     const dash = { stroke: palette.quiet, lineWidth: 1, lineDash: [5, 4] };
-    const text = { text: mark.label, fill: palette.quiet, font: `12px ${FONT}` };
+    // a halo, so that a curve behind it does not cross it out
+    const text = { text: mark.label, fill: palette.quiet, font: `12px ${FONT}`, stroke: palette.background, lineWidth: 3 };
     const above = box.y - LABEL * row - 4;
     const [isLow, isHigh] = mark.vertical ? [!(x >= box.x - 1), x > box.x + box.width + 1] : [y > box.y + box.height + 1, y < box.y - 1];
     if (isLow || isHigh) {
@@ -340,7 +352,8 @@ export function chartOption(figure, width, palette = colors()) {
   };
   const strip = flightOf(figure);
   const right = Math.max(18, Math.ceil(0.5 * DIGIT * (axes[0].texts?.at(-1) ?? "").length) + 2);
-  const names = figure.y.names ? Math.min(0.5 * width, 16 + LETTER * Math.max(...axes[1].data.map((name) => name.length))) : axes[1].nameGap + 20;
+  const extra = (axis) => 15 * ((axis.name ?? "").split("\n").length - 1); // of a title in two lines
+  const names = figure.y.names ? Math.min(NAMES * width, 16 + LETTER * Math.max(...axes[1].data.map((name) => name.length))) : axes[1].nameGap + 20 + extra(axes[1]);
   const box = { x: names, width: width - names - right };
   const rows = labelRows(figure, placeOn(axes[0], box), box);
   const top = 14 + LABEL * (rows.size > 0 ? Math.max(...rows.values()) + 1 : 0);
@@ -348,7 +361,7 @@ export function chartOption(figure, width, palette = colors()) {
   return {
     animation: false,
     backgroundColor: "transparent",
-    grid: { left: names, right, top, bottom: 46 + strip, outerBoundsMode: "none" },
+    grid: { left: names, right, top, bottom: 46 + strip + extra(axes[0]), outerBoundsMode: "none" },
     xAxis: strip ? { ...axes[0], nameGap: axes[0].nameGap + strip, axisLabel: { ...axes[0].axisLabel, margin: 8 + strip } } : axes[0],
     yAxis: axes[1],
     dataZoom: zoom,

@@ -7,7 +7,7 @@ import { saveButtons } from "./save.js";
 import { clicked, onSelection, runsAt, selectionMarks } from "./select.js";
 import { colors, isOnPaper, onTheme } from "./theme.js";
 
-const PAPER_WIDTH = 200;
+const PAPER_WIDTH = 240;
 const WHOLE_PAPER = 700;
 const views = [];
 
@@ -74,7 +74,7 @@ export class FigureView {
   }
 
   draw() {
-    // on paper four figures share the width: so wide that their text has the size of the text around
+    // on paper three figures share the width: so wide that their text has the size of the text around
     const paper = this.figure.columns === 12 ? WHOLE_PAPER : PAPER_WIDTH;
     const width = isOnPaper() ? paper : Math.max(240, Math.floor(this.plot.clientWidth));
     if (this.chart && width === this.width && this.palette === colors().background) return;
@@ -189,8 +189,13 @@ export function showFigures(figures, echarts) {
     },
     { rootMargin: "800px" },
   );
+  const said = new Set();
   for (const figure of figures) {
     const view = new FigureView(figure, echarts);
+    // what a section has said of bands need not be said at each of its figures
+    const caption = `${figure.section} ${figure.caption}`;
+    view.box.querySelector("figcaption").hidden = figure.time && said.has(caption);
+    said.add(caption);
     (document.querySelector(`[data-figure="${figure.name}"]`) ?? document.querySelector(`#${figure.section} .figures`)).append(view.box);
   }
   // so that nothing moves when they are drawn: links land where they point

@@ -229,13 +229,13 @@ export class Replay {
     }
     this.slowed = Math.max(1, Math.ceil(this.fastest / FASTEST_SEEN));
     const notes = [run.sample === 0 ? "Nominal run." : `Sample ${run.sample}: ${run.why}.`];
-    if (run.status !== "ok") notes.push(`It ended with ${run.status}: ${run.reason}; shown until ${readable(this.motion.last)} s.`);
-    if (this.slowed > 1) notes.push(`Wheels turn at their true ratio, but ${this.slowed} times slower than they are, so that they can be seen.`);
-    if (this.data.scene.is_equivalent) notes.push("The body is given by its inertia: it is shown as the box of the same mass and inertia.");
-    if (this.data.scene.thrusters.length > 0) notes.push(run.loop ? "Plumes show thrusters that the loop fires." : "Plumes show the nominal schedule.");
-    if (run.goal) notes.push("The grey line is the line of sight, the line at the debris the launch axis A_d.");
+    if (run.status !== "ok") notes.push(`It ended with ${run.status}: ${run.reason}; shown up to ${readable(this.motion.last)} s.`);
+    if (this.slowed > 1) notes.push(`Wheels are slowed ${this.slowed} times to be visible; the ratios of their speeds are true.`);
+    if (this.data.scene.is_equivalent) notes.push("The file gives the body by its inertia: the box shown has the same mass and inertia.");
+    if (this.data.scene.thrusters.length > 0) notes.push(run.loop ? "Plumes show thrusters fired by the loop." : "Plumes show the nominal schedule.");
+    if (run.goal) notes.push("Grey line: line of sight to the debris. Line at the debris: launch axis A_d.");
     notes.push("Arrows show directions only; the sphere shows where s3 points in F_e.");
-    if (this.approach) notes.push("The approach is at scale, in the frame of the debris's centre with the axes of F_e.");
+    if (this.approach) notes.push("The approach view is to scale, centred on the debris, with the axes of F_e.");
     if (run.sample !== 0 && this.nominal) notes.push("Grey edges: the nominal run at the same time.");
     this.wantsGhost = run.failed;
     this.ghostButton.hidden = run.sample === 0 || !this.nominal;

@@ -59,13 +59,19 @@ impl ShownUnit {
 
 /// The units in which people say angles and rates, where the file says nothing of them.
 const SAID: [&str; 2] = ["deg", "deg/s"];
+/// The unit in which people say the speed of a wheel, where the file says nothing of it.
+const OF_WHEELS: &str = "rpm";
 
 /// A list of units that texts know.
 const EXAMPLE: &str = "[\"deg\", \"deg/s\"]";
 
 /// The keys of the table.
 pub const ROWS: [Row; 2] = [
-    Row::new("units", Kind::Units, "Units of different quantities, in which numbers are shown; default: deg and deg/s"),
+    Row::new(
+        "units",
+        Kind::Units,
+        "Units of different quantities, in which numbers are shown; default: deg and deg/s, of wheel speeds rpm",
+    ),
     Row::new("columns", Kind::UnitsByName, "Units of single columns and parameters, by name"),
 ];
 
@@ -86,7 +92,10 @@ impl Display {
     pub fn of(&self, name: &str, unit: &str) -> ShownUnit {
         let own = units::named(unit);
         let wanted = self.columns.get(name).or_else(|| {
-            let all = self.units.iter().chain(&SAID);
+            // a file that wants rates as people say them wants wheel speeds so, too
+            let is_wheel = is_wheel_speed(name);
+            let said = self.units.iter().filter(|unit| !(is_wheel && SAID.contains(unit)));
+            let all = said.chain(is_wheel.then_some(&OF_WHEELS)).chain(&SAID);
             all.into_iter().find(|name| units::named(name).is_some_and(|wanted| wanted.of == unit))
         });
         match (own, wanted.and_then(|name| units::named(name))) {
@@ -106,6 +115,13 @@ impl Display {
             _ => None,
         }
     }
+}
+
+/// Whether a column, quantity over time or parameter in rad/s is the speed of a wheel: `rate_<wheel>_...`, `speed_<wheel>_...` or a key of the wheel. No other
+/// rate is called a speed; the rates of estimates are those of the body.
+fn is_wheel_speed(name: &str) -> bool {
+    let is_rate = name.starts_with("rate_") && !name.starts_with("rate_estimate") && !name.starts_with("rate_expected");
+    name.starts_with("wheels.") || is_rate || (name.contains("speed_") && name.ends_with("_rad_s"))
 }
 
 fn allowed() -> String {
@@ -194,5 +210,41 @@ mod tests {
         assert_eq!(written(vec![]), ("deg".to_owned(), 1.7189));
         assert_eq!(written(vec!["rad"]), ("rad".to_owned(), 0.03));
         assert_eq!(Display::default().of("x", "rad/s").unit, "deg/s");
+    }
+
+    /// Law: speeds of wheels are in rpm, and rates of bodies in deg/s, whether the file says so or nothing; one that asks for another unit of rates gets it.
+    #[test]
+    fn wheel_speeds_are_in_rpm() {
+        let said = Display { units: vec!["deg", "deg/s"], ..Display::default() };
+        let wheels =
+            ["rate_w1_final_rad_s", "speed_w1_max_rad_s", "speed_peak_w1_rad_s", "wheel_speed_margin_launch_rad_s"];
+        for name in wheels.into_iter().chain(["speed_w1_rad_s", "rate_w1_rad_s", "wheels.w1.speed_limit_rad_s"]) {
+            for display in [Display::default(), said.clone()] {
+                let shown = display.of(name, "rad/s");
+                // 100 pi rad/s are 3000 turns a minute
+                assert_eq!(
+                    (shown.unit.as_str(), shown.written(100.0 * core::f64::consts::PI)),
+                    ("rpm", 3000.0),
+                    "{name}"
+                );
+            }
+            for unit in ["rad/s", "rev/s"] {
+                let asked = Display { units: vec![unit], ..Display::default() };
+                assert_eq!(asked.of(name, "rad/s").unit, unit, "{name}");
+            }
+        }
+        for name in [
+            "angular_rate_max_rad_s",
+            "omega_se_s_x_final_rad_s",
+            "rate_estimate_error_rad_s",
+            "body_rate_launch_rad_s",
+        ] {
+            assert_eq!(Display::default().of(name, "rad/s").unit, "deg/s", "{name}");
+        }
+        // a speed that is no rate, and a torque of a wheel
+        assert_eq!(Display::default().of("relative_speed_launch_m_s", "m/s").unit, "m/s");
+        assert_eq!(Display::default().of("wheels.w1.torque_limit_n_m", "N m").unit, "N m");
+        let own = Display { columns: BTreeMap::from([("speed_w1_max_rad_s".to_owned(), "deg/s")]), ..said };
+        assert_eq!(own.of("speed_w1_max_rad_s", "rad/s").unit, "deg/s");
     }
 }

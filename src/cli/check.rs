@@ -66,7 +66,7 @@ pub fn text(plan: &Plan, isa: Isa) -> Result<(String, CommandOutcome), Failure> 
         section(&mut text, "Mass properties of the nominal scene")?;
         scene_text::masses(&mut text, &plan.nominal, &scene.mass)?;
         section(&mut text, "Momenta and torques of the nominal scene")?;
-        scene_text::momenta(&mut text, &plan.nominal, &scene)?;
+        scene_text::momenta(&mut text, &plan.nominal, &scene, &plan.analysis.display)?;
         if let Some(spec) = plan.law.as_ref().and_then(|law| law.spec()) {
             section(&mut text, "Torque of the control loop")?;
             Capacity::of(spec, &scene).lines(spec).iter().try_for_each(|line| writeln!(text, "{line}"))?;

@@ -96,7 +96,7 @@ impl Format {
             Some("json") => Ok(Format::Json),
             Some("parquet") => Ok(Format::Parquet),
             _ => Err(Failure::Input(format!(
-                "--out {}: a comparison is written as .json or .parquet; choose one of both",
+                "--out {}: a comparison is written as .json or .parquet; choose one of these",
                 path.display()
             ))),
         }

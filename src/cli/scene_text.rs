@@ -2,12 +2,16 @@
 
 use std::fmt::{Result, Write};
 
+use crate::campaign::Display;
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{cross, difference, norm, product, scaled, sum};
 use crate::report::number::trimmed;
 use crate::report::text_table::{Align, TextTable};
 use crate::scene::mass::{Body, Wheel};
 use crate::scene::{MassProperties, Scene, SceneInput};
+
+/// The share of the largest entry of a matrix below which another is rounding: some hundred roundings.
+const ROUNDING: f64 = 1e-14;
 
 /// A number with six significant digits.
 fn six(value: f64) -> String {
@@ -54,7 +58,7 @@ pub fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> R
 }
 
 /// Angular momenta at the start about the centre of mass, those of the wheels, and the torque of each thruster at one newton.
-pub fn momenta(text: &mut String, input: &SceneInput, scene: &Scene) -> Result {
+pub fn momenta(text: &mut String, input: &SceneInput, scene: &Scene, display: &Display) -> Result {
     let (mass, initial) = (&scene.mass, &scene.initial);
     let mut total = product(mass.inertia, initial.omega_se_s);
     let wheels: Vec<f64> =
@@ -69,7 +73,9 @@ pub fn momenta(text: &mut String, input: &SceneInput, scene: &Scene) -> Result {
         six(norm(total))
     )?;
     for ((name, momentum), rate) in input.turning_wheels().iter().zip(&wheels).zip(initial.wheel_rates) {
-        writeln!(text, "wheel {name}: {} N m s relative to the body, at {} rad/s", six(*momentum), six(rate))?;
+        let shown = display.of(&format!("rate_{name}_rad_s"), "rad/s");
+        let rate = format!("{} {}", six(shown.value(rate)), shown.unit);
+        writeln!(text, "wheel {name}: {} N m s relative to the body, at {rate}", six(*momentum))?;
     }
     for (written, thruster) in input.thrusters.iter().zip(&scene.thrusters) {
         let torque = cross(difference(thruster.position, mass.center), thruster.direction);
@@ -98,8 +104,11 @@ fn tensor(text: &mut String, name: &str, rows: [[f64; 3]; 3]) -> Result {
 }
 
 fn rows(text: &mut String, rows: [[f64; 3]; 3]) {
+    // what is left of a turn and back is not shown as a number
+    let largest = rows.iter().flatten().fold(0.0, |most: f64, entry| most.max(entry.abs()));
+    let shown = |entry: f64| if entry.abs() < ROUNDING * largest { "0".to_owned() } else { six(entry) };
     let mut table = TextTable::new([("", Align::Right); 3]);
-    rows.iter().for_each(|row| table.row(row.map(six)));
+    rows.iter().for_each(|row| table.row(row.map(shown)));
     text.push_str(&table.text(usize::MAX));
 }
 
@@ -113,16 +122,17 @@ mod tests {
     fn momenta_and_torques_are_those_of_the_scene() {
         let mut input = SceneInput::report();
         input.initial.angular_velocity_rad_s = [0.0, 0.0, 2.0];
-        input.wheels[0].rate_rad_s = 100.0;
+        input.wheels[0].rate_rad_s = 100.0 * core::f64::consts::PI;
         input.thrusters = vec![ThrusterInput::named("side", [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])];
         let scene = Scene::resolve(&input).expect("a legal scene");
         let mut text = String::new();
-        momenta(&mut text, &input, &scene).expect("text");
+        momenta(&mut text, &input, &scene, &Display::default()).expect("text");
         let axial = scene.mass.wheels[0].axial;
-        let spin = [0.0, 100.0 * axial, 2.0 * scene.mass.inertia[2][2]];
+        let momentum = 100.0 * core::f64::consts::PI * axial;
+        let spin = [0.0, momentum, 2.0 * scene.mass.inertia[2][2]];
         assert!(text.contains(&format!("in F_s: {} N m s, of magnitude {}", vector(spin), six(norm(spin)))), "{text}");
         assert!(
-            text.contains(&format!("wheel w1: {} N m s relative to the body, at 100 rad/s", six(100.0 * axial))),
+            text.contains(&format!("wheel w1: {} N m s relative to the body, at 3000 rpm", six(momentum))),
             "{text}"
         );
         // from the centre of mass at (0, 0, z) to (1, 0, 0), pushed along s2: the torque (z, 0, 1)
@@ -134,6 +144,16 @@ mod tests {
             )),
             "{text}"
         );
+    }
+
+    /// Law: an entry that is rounding is 0, and a small one that is not stays.
+    #[test]
+    fn rounding_is_not_shown() {
+        let mut text = String::new();
+        rows(&mut text, [[4.0, 8.7e-19, 1e-9], [8.7e-19, 4.5, 0.0], [1e-9, 0.0, 3.0]]);
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let small = "1.00000e-9";
+        assert_eq!(words, ["4", "0", small, "0", "4.5", "0", small, "0", "3"]);
     }
 
     /// Law: each column of the principal axes is an eigenvector of the inertia for its moment, to the six digits shown.

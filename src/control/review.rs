@@ -75,7 +75,11 @@ fn unknown_effects(scene: &Scene) -> Option<String> {
     };
     let unknown: Vec<&str> = ForceModel::of(scene).effects().filter(is_unknown).map(Effect::key).collect();
     (!unknown.is_empty()).then(|| {
-        format!("control: filters and laws of the loop do not know {}: it acts on the spacecraft, and is a disturbance to them", unknown.join(" and "))
+        let word = if unknown.len() == 1 { "it acts" } else { "they act" };
+        format!(
+            "control: the filters and laws of the loop do not model {}: {word} on the spacecraft as a disturbance",
+            unknown.join(" and ")
+        )
     })
 }
 

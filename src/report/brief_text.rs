@@ -11,7 +11,7 @@ use crate::report::share_text::with_interval;
 use crate::report::summary::Summary;
 use crate::report::text_table::{Align, TextTable};
 use crate::report::wrapped::wrapped;
-use crate::report::{drivers_text, mission_text, requirements, warnings};
+use crate::report::{drivers_text, mission_text, names, requirements, warnings};
 use crate::statistics::binomial::Decision;
 use crate::statistics::quantile::percent;
 
@@ -27,8 +27,8 @@ pub fn text(plan: &Plan, summary: &Summary, all: &[InputSensitivity], file: &str
     if let Some((_, stop)) = &summary.stopping {
         text += &wrapped(&format!("  stop: {stop}\n"), width);
     }
-    let failures = summary.failures();
-    text += &failures;
+    let failures = summary.why_failed();
+    text += &wrapped(&failures, width);
     let is_required = summary.verdicts.list.iter().any(|one| one.requirement.observable() == Some("launched"));
     text += &wrapped(&mission_text::brief(&summary.missions, is_required), width);
     let outcomes = outcomes(summary, width);
@@ -62,6 +62,9 @@ fn requirements_table(summary: &Summary, width: usize) -> String {
     } else {
         found.to_owned()
     };
+    let longest = list.iter().map(|one| one.word().len()).max().unwrap_or(0);
+    // where a table is too wide, what was found is below what is required
+    let mut lines = format!("  {:longest$}  {head}: {of}\n", "");
     let heads =
         [(String::new(), Align::Left), (head, Align::Left), (of, Align::Left), (String::new(), Align::Sentence)];
     let mut table = TextTable::new(heads);
@@ -72,21 +75,21 @@ fn requirements_table(summary: &Summary, width: usize) -> String {
         };
         let assumed = requirements::assumed(one);
         let notes: Vec<&str> = one.reason.iter().chain(&assumed).chain(&one.note).map(String::as_str).collect();
-        table.row([
-            one.word().to_owned(),
-            requirements::statement(one) + &confidence,
-            requirements::estimate(one),
-            notes.join("; "),
-        ]);
+        let [word, required, found] =
+            [one.word().to_owned(), requirements::statement(one) + &confidence, requirements::estimate(one)];
+        let said = [&[found.as_str()], &notes[..]].concat().join("; ");
+        lines += &wrapped(&format!("  {word:longest$}  {required}\n  {:longest$}    {said}\n", ""), width);
+        table.row([word, required, found, notes.join("; ")]);
     }
     let needed = list.iter().filter_map(|one| match one.gate.decision {
         Decision::Undecided(runs) => runs,
         _ => None,
     });
     let needed = needed.max().map_or(String::new(), |runs| {
-        format!("  {runs} runs would settle what is undecided in 9 of 10 campaigns like this one\n")
+        format!("  about {runs} runs should decide what is undecided (9 of 10 such campaigns would)\n")
     });
-    table.text(width) + &wrapped(&needed, width)
+    let text = if table.width_of(3) > width { lines } else { table.text(width) };
+    text + &wrapped(&needed, width)
 }
 
 fn in_brackets(summary: &Summary) -> String {
@@ -115,23 +118,29 @@ fn outcomes(summary: &Summary, width: usize) -> String {
     if ps.is_empty() {
         ps.extend(known.iter().find(|p| **p == 0.95).or(known.last()));
     }
-    let mut table = outcome_table(summary, &shown, &ps);
+    let mut table = outcome_table(summary, &shown, &ps, true);
     while table.width() > width && ps.len() > 1 {
         ps.pop();
-        table = outcome_table(summary, &shown, &ps);
+        table = outcome_table(summary, &shown, &ps, true);
+    }
+    // names that are cut may be alike: rather no intervals
+    if table.width() > width {
+        table = outcome_table(summary, &shown, &ps, false);
     }
     let notes = shown.iter().flat_map(|line| &line.quantiles).filter(|one| ps.contains(&one.p));
     let note = notes.filter_map(|one| one.note.as_ref()).max_by_key(|note| note.len());
     let note = note.map_or(String::new(), |note| wrapped(&format!("  {note}\n"), width));
-    let treatment = match summary.treatment.starts_with(|letter: char| letter.is_ascii_digit()) {
+    // a warning says it already
+    let is_said = !summary.warnings.is_empty();
+    let treatment = match summary.treatment.starts_with(|letter: char| letter.is_ascii_digit()) && !is_said {
         true => format!("  {}\n", summary.treatment),
         false => String::new(),
     };
     table.text(width) + &note + &treatment
 }
 
-/// A row for each of `shown`, with the quantiles `ps` beside the median.
-fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64]) -> TextTable {
+/// A row for each of `shown`, with the quantiles `ps` beside the median, and their intervals where these are wanted.
+fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64], with_intervals: bool) -> TextTable {
     let has_counts = shown.iter().any(|line| line.without_value > 0);
     let title = if summary.without_nominal { "outcome" } else { "outcome of the nominal run" };
     let mut heads = vec![(title.to_owned(), Align::Left)];
@@ -139,16 +148,14 @@ fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64]) -> Te
         heads.push(("runs".to_owned(), Align::Right));
     }
     heads.push(("median".to_owned(), Align::Right));
-    let has_intervals = shown.iter().any(|line| line.has_interval());
+    let has_intervals = with_intervals && shown.iter().any(|line| line.has_interval());
     let interval = if has_intervals { format!(" {}", in_brackets(summary)) } else { String::new() };
     heads.extend(ps.iter().map(|p| (format!("p{}{interval}", percent(*p)), Align::Right)));
     heads.push(("max".to_owned(), Align::Right));
     let mut table = TextTable::new(heads);
     for line in shown.iter().filter(|line| !is_stated(summary, line)) {
-        // its own unit is the end of its name
-        let is_own = line.shown.unit.is_empty() || line.shown.unit == line.unit;
-        let unit = if is_own { String::new() } else { format!(", {}", line.shown.unit) };
-        let mut cells = vec![line.name.clone() + &unit];
+        let unit = if line.shown.unit.is_empty() { String::new() } else { format!(", {}", line.shown.unit) };
+        let mut cells = vec![names::of_column(&line.name, &line.unit) + &unit];
         if has_counts {
             cells.push(line.count.to_string());
         }
@@ -160,7 +167,10 @@ fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64]) -> Te
             }
             None => {
                 cells.push(number(quantile(0.5).and_then(|one| one.value)));
-                cells.extend(ps.iter().map(|p| quantile(*p).map_or("-".to_owned(), |one| ends(line, one))));
+                cells.extend(ps.iter().map(|p| {
+                    quantile(*p)
+                        .map_or("-".to_owned(), |one| if with_intervals { ends(line, one) } else { number(one.value) })
+                }));
                 cells.push(number(line.max));
             }
         }
@@ -200,11 +210,13 @@ fn drivers(plan: &Plan, summary: &Summary, all: &[InputSensitivity]) -> String {
     let mut outcomes = drivers_text::outcomes(plan, all);
     let most = if summary.verdicts.list.is_empty() { DRIVEN } else { 1 };
     outcomes.sort_by_key(is_met);
+    let unit = |outcome: &str| summary.lines.iter().find(|line| line.name == outcome).map_or("", |line| &line.unit);
     let said = outcomes.into_iter().filter_map(|outcome| {
         let mut rankings = ranked(plan, all, outcome);
         rankings.retain(|ranking| ranking.drivers().next().is_some());
         rankings.sort_by_key(|ranking| ranking.question == Question::Spread);
-        Some(format!("  drivers of {outcome}: {}\n", sentence(plan, outcome, rankings.first()?)))
+        let name = names::of_column(outcome, unit(outcome));
+        Some(format!("  what drives {name}: {}\n", sentence(plan, outcome, rankings.first()?)))
     });
     let said: String = said.take(most).collect();
     match (said.is_empty(), all.is_empty()) {

@@ -15,7 +15,8 @@ use crate::statistics::quantile::percent;
 const NAMED: usize = 2;
 
 /// How a campaign shows interactions.
-pub const SEE_INTERACTIONS: &str = "these shares do not contain interactions of inputs: the total indices of a campaign with design.kind = \"saltelli\" do";
+pub const SEE_INTERACTIONS: &str =
+    "interactions of inputs are not included, but are in total indices (design.kind = \"saltelli\")";
 
 /// The observables of `all` whose drivers are shown: the outcomes of the campaign.
 pub fn outcomes<'a>(plan: &Plan, all: &'a [InputSensitivity]) -> Vec<&'a str> {
@@ -47,14 +48,25 @@ pub fn verb(outcome: &str, event: &Event) -> String {
     }
 }
 
+/// The runs in which the event of `outcome` occurs: "the runs that fail", "the worst 5% of runs".
+fn such_runs(outcome: &str, event: &Event) -> String {
+    match event.occurs {
+        Occurs::Worst(share) => format!("the worst {}% of runs", short(libm::round(1e9 * share) / 1e7)),
+        _ => format!("the runs that {}", verb(outcome, event)),
+    }
+}
+
 pub fn sentence(plan: &Plan, outcome: &str, ranking: &Ranking<'_>) -> String {
     match &ranking.question {
-        Question::Event(event) => of_event(plan, &verb(outcome, event), event, ranking),
+        Question::Event(event) => of_event(plan, [&verb(outcome, event), &such_runs(outcome, event)], event, ranking),
         Question::Spread => of_spread(plan, ranking),
     }
 }
 
-fn of_event(plan: &Plan, verb: &str, event: &Event, ranking: &Ranking<'_>) -> String {
+fn of_event(plan: &Plan, [verb, runs]: [&str; 2], event: &Event, ranking: &Ranking<'_>) -> String {
+    if let Some(together) = at_a_distance(plan, runs, ranking) {
+        return together;
+    }
     let confidence = percent(plan.analysis.confidence);
     let phrase = |ranked: &Ranked<'_>| {
         let column = &ranked.input.input;
@@ -85,44 +97,65 @@ fn of_event(plan: &Plan, verb: &str, event: &Event, ranking: &Ranking<'_>) -> St
             Dependence::Shift { chance, medians } => {
                 let word = if *chance > 0.5 { "larger" } else { "smaller" };
                 let [with, without] = medians.map(amount);
-                format!("{name} is {word} in the runs that {verb} (median {with}, others {without})")
+                format!("{name} is {word} in {runs} (median {with}, others {without})")
             }
             Dependence::Distance { chance } => {
                 let word = if *chance > 0.5 { "farther from" } else { "nearer to" };
-                format!("{name} is {word} its median in the runs that {verb}")
+                format!("{name} is {word} its median in {runs}")
             }
         })
     };
     let named: Vec<String> = ranking.drivers().take(NAMED).filter_map(phrase).collect();
     if named.is_empty() {
         let of = event.of;
-        return format!("{} of {} runs {verb}; these runs do not show an input that decides it", of.events, of.runs);
+        return format!("{} of {} runs {verb}; no input is shown to decide which", of.events, of.runs);
     }
     named.join("; ")
+}
+
+/// The drivers where all that are named are farther from their medians, or all nearer to them, in one phrase; `None` where they are not, or are not several.
+fn at_a_distance(plan: &Plan, runs: &str, ranking: &Ranking<'_>) -> Option<String> {
+    let is_far = |ranked: &Ranked<'_>| match ranked.input.on_event.as_ref()?.dependence {
+        Dependence::Distance { chance } => Some(chance > 0.5),
+        _ => None,
+    };
+    let named: Vec<&Ranked<'_>> = ranking.drivers().take(NAMED).collect();
+    let first = is_far(named.first()?)?;
+    if named.len() < 2 || named.iter().any(|ranked| is_far(ranked) != Some(first)) {
+        return None;
+    }
+    let listed: Vec<String> = named.iter().map(|ranked| names::of_input_column(plan, &ranked.input.input)).collect();
+    let word = if first { "farther from" } else { "nearer to" };
+    Some(format!("{} are {word} their medians in {runs}", listed.join(" and ")))
 }
 
 fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     let Some(first) = ranking.inputs.first() else { return String::new() };
     let is_total = first.input.total.is_some();
-    let name = |ranked: &Ranked<'_>| {
+    let name = |(place, ranked): (usize, &Ranked<'_>)| {
         let direction = match ranked.input.direction {
-            Some(Direction::Rises) => ", rises with it",
-            Some(Direction::Falls) => ", falls with it",
-            Some(Direction::NotMonotonic) => ", not monotonic",
+            Some(Direction::Rises) => " (rises with it)",
+            Some(Direction::Falls) => " (falls with it)",
+            Some(Direction::NotMonotonic) => " (not monotonic)",
             None => "",
         };
-        format!("{} ({:.2}{direction})", names::of_input_column(plan, &ranked.input.input), ranked.share.value)
+        let name = names::of_input_column(plan, &ranked.input.input);
+        match (is_total, place) {
+            (true, _) => format!("{name} {:.2}{direction}", ranked.share.value),
+            (false, 0) => format!("{name} explains {:.0}% of the variance{direction}", 100.0 * ranked.share.value),
+            (false, _) => format!("{name} {:.0}%{direction}", 100.0 * ranked.share.value),
+        }
     };
-    let names: Vec<String> = ranking.drivers().take(NAMED).map(name).collect();
+    let names: Vec<String> = ranking.drivers().take(NAMED).enumerate().map(name).collect();
     let rest = rest(plan, ranking);
     if !names.is_empty() {
-        let measure = if is_total { "total Sobol index" } else { "share of the variance" };
+        let measure = if is_total { "total Sobol indices: " } else { "" };
         let rest = rest.map_or_else(String::new, |rest| format!("; {rest}"));
-        return format!("{}; {measure}{rest}", names.join(", "));
+        return format!("{measure}{}{rest}", names.join(", "));
     }
     let most = ranking.inputs.iter().map(|ranked| ranked.share.value).fold(0.0, f64::max);
     let rest = rest.map_or_else(String::new, |rest| format!("; {rest}"));
-    format!("no input is seen to explain more than {:.0}% of the variance{rest}", (100.0 * most).ceil())
+    format!("no single input explains more than {:.0}% of the variance{rest}", (100.0 * most).ceil())
 }
 
 /// What the rest of the variance is, where the drivers explain less than half of it.
@@ -136,7 +169,7 @@ fn rest(plan: &Plan, ranking: &Ranking<'_>) -> Option<String> {
     Some(match (together >= 0.5, plan.law.is_some()) {
         (true, _) => format!("a regression on all inputs together explains {:.0}%", (100.0 * together).floor()),
         (false, true) => "the rest is noise in the loop or interactions of inputs".to_owned(),
-        (false, false) => "the rest is interactions of inputs, or what these runs are too few to show".to_owned(),
+        (false, false) => "the rest is interactions of inputs, or effects too small for so few runs to show".to_owned(),
     })
 }
 
@@ -157,7 +190,7 @@ pub fn text(plan: &Plan, all: &[InputSensitivity], width: usize) -> String {
     }
     let mut text = table.text(width);
     if has_rest && !matches!(plan.design, Design::Saltelli(_)) {
-        text += &format!("  {SEE_INTERACTIONS}\n");
+        text += &format!("  shares of the variance: {SEE_INTERACTIONS}\n");
     }
     if text.is_empty() { text } else { format!("\n  driven by\n{text}") }
 }

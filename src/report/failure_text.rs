@@ -10,10 +10,10 @@ const MOST: usize = 8;
 pub fn remedy(status: Status) -> Option<&'static str> {
     match status {
         Status::StepLimit => {
-            Some("remedy: more integrator.max_steps, a shorter campaign.duration_s, or a larger integrator.tolerance")
+            Some("to fix: increase integrator.max_steps or integrator.tolerance, or shorten campaign.duration_s")
         }
-        Status::StepFloor => Some("remedy: a larger integrator.tolerance"),
-        Status::Inaccurate => Some("remedy: a smaller integrator.tolerance, or a smaller integrator.step_s"),
+        Status::StepFloor => Some("to fix: increase integrator.tolerance"),
+        Status::Inaccurate => Some("to fix: decrease integrator.tolerance or integrator.step_s"),
         _ => None,
     }
 }
@@ -52,11 +52,11 @@ mod tests {
             let text = text(&all.iter().collect::<Vec<_>>());
             let counts = text
                 .lines()
-                .filter(|line| !line.contains("remedy"))
+                .filter(|line| !line.contains("to fix"))
                 .map(|line| line.split_whitespace().next().and_then(|word| word.parse::<u64>().ok()));
             assert_eq!(counts.map(Option::unwrap_or_default).sum::<u64>(), groups * (groups + 1) / 2, "{text}");
             assert_eq!(text.contains(&format!("for {} other reasons", groups.saturating_sub(8))), groups > 8, "{text}");
-            assert_eq!(text.matches("remedy: more integrator.max_steps, ").count() as u64, groups.min(8), "{text}");
+            assert_eq!(text.matches("to fix: increase integrator.max_steps ").count() as u64, groups.min(8), "{text}");
             let first = text.lines().filter(|line| line.contains("(first sample ")).count() as u64;
             assert!(text.contains("(sample 101)") && first == groups.min(8) - 1, "{text}");
         }

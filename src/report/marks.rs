@@ -113,6 +113,12 @@ impl Panel<'_> {
                     false if at > top + 18.0 => ([left + 6.0, at - 4.0], Anchor::Start),
                     false => ([left + 6.0, at + 14.0], Anchor::Start),
                 };
+                // curves behind the name do not cross it out
+                let start = if anchor == Anchor::End { place[0] - width } else { place[0] };
+                if !label.is_empty() {
+                    let corners = [[start - 2.0, place[1] - LABEL], [start + width + 2.0, place[1] + 3.0]];
+                    svg.rectangle(corners[0], corners[1], "#ffffff", 0.8);
+                }
                 svg.text(label, place, LABEL, anchor, grey.color, false);
             } else if !at.is_nan() && !label.is_empty() {
                 let is_before = at < low;

@@ -56,6 +56,9 @@ pub fn brief(missions: &Missions, is_stated: bool) -> String {
     };
     let others = missions.iter().filter(|one| !is_good(one)).map(of_others);
     let not_computed = (*missing > 0).then(|| format!("{missing} not computed"));
+    if let [MissionShare { end: "not_failed", runs, missing: 0, .. }] = missions[..] {
+        return format!("  missions: none of {runs} failed\n");
+    }
     let said: Vec<String> = good.into_iter().chain(others).chain(not_computed).collect();
     if said.is_empty() { String::new() } else { format!("  missions: {}\n", said.join("; ")) }
 }

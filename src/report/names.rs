@@ -5,18 +5,21 @@ use crate::campaign::Plan;
 use crate::run::Quantity;
 use crate::scene::Parameter;
 
-/// Ends of names that say which value of a series a column is, with the words that come before it.
-const STATISTICS: [(&str, &str); 9] = [
-    ("_peak_to_peak", "peak-to-peak "),
-    ("_max", "maximum "),
-    ("_min", "minimum "),
-    ("_mean", "mean "),
-    ("_final", "final "),
-    ("_initial", "initial "),
-    ("_rms", "rms "),
-    ("_net", "net "),
-    ("_gross", "gross "),
+/// Ends of names that say which value of a series a column is, with the words that come before it and after it.
+const STATISTICS: [(&str, [&str; 2]); 9] = [
+    ("_peak_to_peak", ["peak-to-peak ", ""]),
+    ("_max", ["maximum ", ""]),
+    ("_min", ["minimum ", ""]),
+    ("_mean", ["mean ", ""]),
+    ("_final", ["", " at the end"]),
+    ("_initial", ["initial ", ""]),
+    ("_rms", ["rms ", ""]),
+    ("_net", ["net ", ""]),
+    ("_gross", ["gross ", ""]),
 ];
+
+/// Columns of a control loop that are durations; the others that end like them are the times of the events of a file.
+const DURATIONS: [&str; 5] = ["settling_time", "mission_settling_time", "plume_time", "rod_saturated_time", "end_time"];
 
 /// Parts of names that nobody would say so.
 const SAID: [(&str, &str); 5] = [
@@ -51,6 +54,12 @@ pub fn of_column(name: &str, unit: &str) -> String {
 
 fn of_stem(name: &str) -> String {
     let spoken = |stem: &str| stem.replace('_', " ");
+    // the largest or smallest value within a part of the run
+    for end in ["highest", "lowest"] {
+        if let Some((window, stem)) = name.strip_prefix(end).and_then(window_of) {
+            return format!("{end} {}{window}", of_stem(stem));
+        }
+    }
     // what a mission has at its launch, and when its phases began
     if let Some(stem) = name.strip_suffix("_launch") {
         return format!("{} at launch", spoken(stem));
@@ -58,23 +67,47 @@ fn of_stem(name: &str) -> String {
     if let Some(phase) = name.strip_prefix("phase_").and_then(|rest| rest.strip_suffix("_begin")) {
         return format!("time until phase {}", spoken(phase));
     }
+    if let Some(event) = name.strip_suffix("_time").filter(|_| !DURATIONS.contains(&name)) {
+        return format!("time until {}", spoken(event));
+    }
     if let Some(stem) = name.strip_suffix("_total") {
         return format!("total {}", spoken(stem));
     }
-    let (stem, statistic) =
-        STATISTICS.iter().find_map(|(suffix, words)| Some((name.strip_suffix(suffix)?, *words))).unwrap_or((name, ""));
-    let axis = [("_x", "s1"), ("_y", "s2"), ("_z", "s3")].into_iter();
-    let mut of_rate = axis.filter_map(|(end, axis)| (stem == format!("omega_se_s{end}")).then_some(axis));
-    if let Some(axis) = of_rate.next() {
-        return format!("{statistic}angular velocity about {axis}");
+    let found = STATISTICS.iter().find_map(|(suffix, words)| Some((name.strip_suffix(suffix)?, *words)));
+    let (stem, [before, after]) = found.unwrap_or((name, ["", ""]));
+    format!("{before}{}{after}", of_series(stem))
+}
+
+/// The part of a run in words, and the quantity: of `_from_120_s_to_600_s_pointing_error` " from 120 s to 600 s" and `pointing_error`; `None` without such a part.
+fn window_of(text: &str) -> Option<(String, &str)> {
+    let (mut window, mut rest) = (String::new(), text);
+    for word in ["from", "to"] {
+        let of = rest.strip_prefix(&format!("_{word}_")).and_then(|rest| rest.split_once("_s_"));
+        let is_time = |text: &str| text.starts_with(|letter: char| letter == 'm' || letter.is_ascii_digit());
+        if let Some((time, after)) = of.filter(|(time, _)| is_time(time)) {
+            window += &format!(" {word} {} s", time.replace('p', ".").replace('m', "-"));
+            rest = &text[text.len() - after.len() - 1..];
+        }
+    }
+    (!window.is_empty()).then(|| (window, &rest[1..]))
+}
+
+/// What a quantity over time is called.
+fn of_series(stem: &str) -> String {
+    let spoken = |stem: &str| stem.replace('_', " ");
+    // bodies are things, wheels have names
+    let owner = |of: &str| if ["body", "debris"].contains(&of) { format!("the {of}") } else { spoken(of) };
+    let mut axes = [("_x", "s1"), ("_y", "s2"), ("_z", "s3")].into_iter();
+    if let Some((_, axis)) = axes.find(|(end, _)| stem == format!("omega_se_s{end}")) {
+        return format!("angular velocity about {axis}");
     }
     if let Some(of) = stem.strip_prefix("exchange_") {
         let ends = [("_fraction", "fraction of "), ("_power", "power of "), ("_correlation", "correlation of ")];
         let end = ends.iter().find_map(|(end, words)| Some((of.strip_suffix(end)?, *words)));
         let (of, what) = end.unwrap_or((of, ""));
         return match of {
-            "frequency" => format!("{statistic}frequency of the energy transfer"),
-            of => format!("{statistic}{what}energy transfer of {}", spoken(of)),
+            "frequency" => "frequency of the energy transfer".to_owned(),
+            of => format!("{what}energy transfer of {}", owner(of)),
         };
     }
     let (stem, about) = match stem.strip_prefix("energy_com_") {
@@ -83,10 +116,10 @@ fn of_stem(name: &str) -> String {
     };
     let energy = match stem.strip_prefix("energy_") {
         Some("total") => "total energy".to_owned(),
-        Some(of) if !of.starts_with("error") => format!("energy of {}", spoken(of)),
+        Some(of) if !of.starts_with("error") => format!("energy of {}", owner(of)),
         _ => spoken(&stem),
     };
-    format!("{statistic}{energy}{about}")
+    format!("{energy}{about}")
 }
 
 /// What a component of a parameter is called: "initial angular velocity y", "wheel w1 rate", "thruster p2 thrust scale".
@@ -109,6 +142,7 @@ pub fn of_parameter(parameter: Parameter) -> String {
         ["sensors", owner, key] => [owner, key].join(" "),
         ["guidance", owner, key] => ["phase", owner, key].join(" "),
         ["actuation", owner, key] => ["arc", owner, key].join(" "),
+        ["failure", owner, "at"] => format!("time of failure {owner}"),
         ["control", key] => key.to_owned(),
         _ => words.join(" "),
     };
@@ -140,7 +174,7 @@ mod tests {
     fn names_become_words() {
         for (name, unit, words) in [
             ("energy_error_max", "", "maximum energy error"),
-            ("exchange_body_peak_to_peak_j", "J", "peak-to-peak energy transfer of body"),
+            ("exchange_body_peak_to_peak_j", "J", "peak-to-peak energy transfer of the body"),
             ("exchange_w1_net_j", "J", "net energy transfer of w1"),
             ("exchange_w1_power_max_w", "W", "maximum power of energy transfer of w1"),
             ("exchange_frequency_hz", "Hz", "frequency of the energy transfer"),
@@ -149,12 +183,18 @@ mod tests {
             ("energy_com_total_initial_j", "J", "initial total energy about the centre of mass"),
             ("energy_error_rate_per_s", "1/s", "energy error rate"),
             ("angular_rate_max_rad_s", "rad/s", "maximum angular rate"),
-            ("omega_se_s_y_final_rad_s", "rad/s", "final angular velocity about s2"),
-            ("q_es_w_final", "", "final attitude quaternion w"),
+            ("omega_se_s_y_final_rad_s", "rad/s", "angular velocity about s2 at the end"),
+            ("q_es_w_final", "", "attitude quaternion w at the end"),
             ("steps", "", "steps"),
             ("pointing_error_launch_rad", "rad", "pointing error at launch"),
             ("phase_coast_again_begin_s", "s", "time until phase coast again"),
             ("impulse_total_n_s", "N s", "total impulse"),
+            ("pointing_error_final_rad", "rad", "pointing error at the end"),
+            ("settling_time_s", "s", "settling time"),
+            ("detumbled_time_s", "s", "time until detumbled"),
+            ("highest_from_120_s_to_600_s_pointing_error_rad", "rad", "highest pointing error from 120 s to 600 s"),
+            ("highest_from_120_s_pointing_error_rad", "rad", "highest pointing error from 120 s"),
+            ("lowest_to_1p5_s_energy_body_j", "J", "lowest energy of the body to 1.5 s"),
         ] {
             assert_eq!(of_column(name, unit), words);
         }

@@ -10,6 +10,7 @@ use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::report::audit_summary::AuditSummary;
 use crate::report::escaped::escaped;
+use crate::report::names;
 use crate::report::number::{brief, outward, short};
 use crate::report::share_text::with_interval;
 use crate::statistics::binomial::{Decision, POWER};
@@ -84,23 +85,31 @@ pub fn assumed(one: &Assessment) -> Option<String> {
 
 /// What the intervals in brackets are, in words.
 pub fn intervals(confidence: f64) -> String {
-    format!("two-sided {}% intervals, of shares by Clopper and Pearson", percent(confidence))
+    format!("two-sided {}% intervals (Clopper-Pearson for shares)", percent(confidence))
 }
 
 /// How many runs would decide, in words.
 pub fn runs_needed(runs: &str) -> String {
     format!(
-        "with {runs} runs nine of ten campaigns would decide if the truth were exactly what was seen; as it is not, count on half"
+        "with {runs} runs, nine of ten campaigns would decide if the truth were exactly what was observed; since it never is, expect about half to"
     )
 }
 
-/// The requirement in a few words: `pointing_error_launch_rad <= 2 deg in 95%`.
+/// The requirement in a few words: "pointing error at launch <= 2 deg in 95%".
 pub fn statement(one: &Assessment) -> String {
     let requirement = &one.requirement;
+    let name = names::of_column(requirement.name(), &one.unit);
     let unit = if one.shown.unit.is_empty() { String::new() } else { format!(" {}", one.shown.unit) };
     let limit = format!("{:?}", one.shown.written(requirement.limit.value()));
     let side = if matches!(requirement.limit, GateLimit::AtMost(_)) { "<=" } else { ">=" };
-    let is = format!("{} {side} {}{unit}{}", requirement.name(), limit.trim_end_matches(".0"), requirement.times());
+    let is = match (requirement.name(), requirement.limit) {
+        // yes or no
+        ("launched", GateLimit::AtLeast(limit)) if limit > 0.0 => name,
+        _ => {
+            let times = requirement.times().replace(".0 s", " s");
+            format!("{name} {side} {}{unit}{times}", limit.trim_end_matches(".0"))
+        }
+    };
     match requirement.statement {
         Statement::Quantile(p) if requirement.window().is_some() => {
             format!("{is} in {}%", percent(requirement.limit.fraction(p)))
@@ -175,7 +184,9 @@ fn finding(one: &Assessment) -> String {
     let needed = match (&one.reason, one.gate.decision) {
         (Some(reason), _) => format!("; {reason}"),
         (None, Decision::Undecided(Some(runs))) => format!("; {}", runs_needed(&runs.to_string())),
-        (None, Decision::Undecided(None)) => "; no number of runs decides if the truth is what was seen".to_owned(),
+        (None, Decision::Undecided(None)) => {
+            "; no number of runs would decide this if the truth were exactly what was observed".to_owned()
+        }
         _ => String::new(),
     };
     let alone = match one.fails_alone() {

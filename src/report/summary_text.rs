@@ -50,9 +50,25 @@ impl Summary {
         self.statuses.ok() > 0
     }
 
-    /// How the runs ended, where not all were computed.
-    pub(super) fn failures(&self) -> String {
-        if self.statuses.failed().next().is_some() { self.ended() } else { String::new() }
+    /// Why runs were not computed, a line for each reason, or for each way in which they ended where no reason is known; nothing where all were.
+    pub(super) fn why_failed(&self) -> String {
+        let groups = self.statuses.reasons().groups();
+        if groups.is_empty() {
+            self.failures()
+        } else {
+            format!("\n  why runs failed:\n{}", failure_text::text(&groups))
+        }
+    }
+
+    /// How many runs ended in each way but well, and which were the first.
+    fn failures(&self) -> String {
+        let mut text = String::new();
+        for Ended { status, count, first, .. } in self.statuses.failed() {
+            let listed: Vec<String> = first.iter().take(LISTED).map(|(sample, _)| sample.to_string()).collect();
+            let more = if *count > listed.len() as u64 { ", ..." } else { "" };
+            text += &format!("  {:<16}{count:>12}   samples {}{more}\n", status.name(), listed.join(", "));
+        }
+        text
     }
 
     /// The observables that the file requires, names or derives; those of the motion where it does none of that.
@@ -72,12 +88,7 @@ impl Summary {
                 format!("\n  all {runs} runs were computed\n")
             };
         }
-        let mut text = format!("\n  {good} of {runs} runs were computed\n");
-        for Ended { status, count, first, .. } in self.statuses.failed() {
-            let listed: Vec<String> = first.iter().take(LISTED).map(|(sample, _)| sample.to_string()).collect();
-            let more = if *count > listed.len() as u64 { ", ..." } else { "" };
-            text += &format!("  {:<16}{count:>12}   samples {}{more}\n", status.name(), listed.join(", "));
-        }
+        let mut text = format!("\n  {good} of {runs} runs were computed\n{}", self.failures());
         let groups = self.statuses.reasons().groups();
         if !groups.is_empty() {
             text += &format!("  why runs failed:\n{}", failure_text::text(&groups));

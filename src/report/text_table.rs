@@ -80,6 +80,11 @@ impl TextTable {
         self.used(&(0..self.aligns.len()).map(|column| self.widest(column)).collect::<Vec<_>>())
     }
 
+    /// The same of its first `count` columns.
+    pub fn width_of(&self, count: usize) -> usize {
+        self.used(&(0..count).map(|column| self.widest(column)).collect::<Vec<_>>())
+    }
+
     /// The lines, none longer than `width` characters where that can be.
     pub fn text(&self, width: usize) -> String {
         self.lines(width).concat()

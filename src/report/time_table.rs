@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::campaign::Plan;
 use crate::observables::Series;
-use crate::report::number::{short, significant};
+use crate::report::number::{short, significant, trimmed};
 use crate::report::over_time::figure_list::{ListedFigure, Place, Shows, Traits, figures_of};
 use crate::report::text_table::{Align, TextTable};
 use crate::report::wrapped::fitted;
@@ -15,6 +15,8 @@ use crate::storage::timeseries::{TimeColumn, TimeSeries};
 /// At most this many points; the first and the last are among them.
 const MOST_LINES: usize = 21;
 
+/// Letters of the name of a phase.
+const LONGEST_PHASE: usize = 10;
 /// A header is shortened to this many letters, or to as many as tell it from the others.
 const SHORTEST_HEADER: usize = 10;
 
@@ -22,6 +24,8 @@ const SHORTEST_HEADER: usize = 10;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Digits {
     Short,
+    /// Six, without zeros at the end: times of a grid.
+    Time,
     /// Four decimals, of numbers from -1 to 1.
     Decimals,
     Magnitude,
@@ -29,7 +33,7 @@ enum Digits {
 
 /// Main columns: what they show, their headers (name, and what is in the line below), their numbers.
 const COLUMNS: [(TimeColumn, &str, &str, Digits); 10] = [
-    (TimeColumn::Time, "time", "s", Digits::Short),
+    (TimeColumn::Time, "time", "s", Digits::Time),
     (TimeColumn::State(StateField::Rate, 0), "omega_x", "rad/s", Digits::Short),
     (TimeColumn::State(StateField::Rate, 1), "omega_y", "rad/s", Digits::Short),
     (TimeColumn::State(StateField::Rate, 2), "omega_z", "rad/s", Digits::Short),
@@ -44,10 +48,10 @@ const COLUMNS: [(TimeColumn, &str, &str, Digits); 10] = [
 /// The same of what a control loop records.
 const OF_LOOPS: [(TimeColumn, &str, &str, Digits); 5] = [
     (TimeColumn::Series(Series::PointingError), "pointing", "rad", Digits::Short),
-    (TimeColumn::Series(Series::AttitudeEstimateError), "att.est.", "error", Digits::Magnitude),
-    (TimeColumn::Series(Series::RateEstimateError), "rate est.", "error", Digits::Magnitude),
-    (TimeColumn::Series(Series::PositionEstimateError), "pos.est.", "error", Digits::Magnitude),
-    (TimeColumn::Series(Series::VelocityEstimateError), "vel.est.", "error", Digits::Magnitude),
+    (TimeColumn::Series(Series::AttitudeEstimateError), "att.err.", "rad", Digits::Magnitude),
+    (TimeColumn::Series(Series::RateEstimateError), "rate err.", "rad/s", Digits::Magnitude),
+    (TimeColumn::Series(Series::PositionEstimateError), "pos.err.", "m", Digits::Magnitude),
+    (TimeColumn::Series(Series::VelocityEstimateError), "vel.err.", "m/s", Digits::Magnitude),
 ];
 
 /// The columns of scenes of `plan`: the time, those that requirements are about, then those of the figures that the scene calls for, in their order.
@@ -94,7 +98,14 @@ impl TimeTable {
             Some(points.iter().map(|point| digits.text(values[*point])).collect())
         };
         let phase = series.columns().find(|(quantity, _)| quantity.name() == "phase").map(|(_, values)| {
-            let text = |point: &usize| if values[*point].is_nan() { String::new() } else { short(values[*point]) };
+            let name = |phase: f64| {
+                let spec = plan.law.as_ref().and_then(|law| law.spec())?;
+                Some(fitted(spec.phases.get(phase as usize)?.name.as_str(), LONGEST_PHASE, |text| text.chars().count()))
+            };
+            let text = |point: &usize| match values[*point] {
+                none if none.is_nan() => String::new(),
+                phase => name(phase).unwrap_or_else(|| short(phase)),
+            };
             TimeTableColumn { name: "phase".to_owned(), below: "", cells: points.iter().map(text).collect() }
         });
         let main = columns_of(plan, series.wheels()).into_iter().filter_map(|(key, name, below, digits)| {
@@ -150,6 +161,7 @@ impl Digits {
     fn text(self, value: f64) -> String {
         match self {
             Digits::Short => short(value),
+            Digits::Time => trimmed(value, 6),
             Digits::Decimals => {
                 let text = format!("{value:.4}");
                 if text == "-0.0000" { "0.0000".to_owned() } else { text }

@@ -36,12 +36,14 @@ fn not_computed(plan: &Plan, statistics: &Statistics, failures: &[InputSensitivi
     let ended: Vec<String> = ended.map(|(status, count)| format!("{} {count}", status.name())).collect();
     let drivers = match driven_by(plan, failures, COMPUTED) {
         none if none.is_empty() => String::new(),
-        drivers => format!(". Whether a run is computed: {}", drivers.join("; ")),
+        drivers => format!(". What decides it: {}", drivers.join("; ")),
     };
     let others = match runs - missing {
         0 => "There are no numbers".to_owned(),
         left => {
-            format!("The numbers below are of the other {left}, which need not be like them, and have no intervals")
+            format!(
+                "The numbers below describe only the other {left}, which may differ systematically, so they have no intervals"
+            )
         }
     };
     let share = missing as f64 / runs as f64;

@@ -69,7 +69,7 @@ async function opened(browser, file, viewport, scheme, scripts = true) {
 async function checkWithoutScripts(browser, file, name) {
   const page = await opened(browser, file, { width: 1300, height: 900 }, "light", false);
   const text = await page.evaluate(() => document.body.innerText);
-  for (const part of ["Did it run?", "spindrift", "Statistics"]) if (!text.includes(part)) problems.push(`${name}: without scripts there is no "${part}"`);
+  for (const part of ["computed", "spindrift", "Statistics"]) if (!text.includes(part)) problems.push(`${name}: without scripts there is no "${part}"`);
   if (text.includes("The replay needs")) {
     const still = await page.$eval(".replay svg.still", (element) => element.getBoundingClientRect().height);
     if (still < 100) problems.push(`${name}: without scripts there is no still of the replay`);

@@ -99,7 +99,8 @@ impl Curves<'_> {
             let limits = models.map(|(wheel, model)| {
                 (wheel.to_string(), if is_torque { model.torque_limit } else { model.speed_limit })
             });
-            marks.extend(limits::of_actuators("limit", &limits.collect::<Vec<_>>(), is_torque));
+            let shown = self.plan.analysis.display.of(&self.shown_as(listed, &name), &unit);
+            marks.extend(limits::of_actuators(&limits.collect::<Vec<_>>(), &shown, is_torque));
         }
         let figure = self.judged(listed, (&name, &unit), (title, caption), marks);
         Figure { name: file.to_owned(), ..figure }
@@ -144,8 +145,9 @@ impl Curves<'_> {
         let thrusters = &self.plan.law.as_ref()?.spec()?.thrusters;
         let models = thrusters.iter().map(|place| run.scene.actuators.thrusters[*place].max_thrust);
         let limits: Vec<(String, f64)> = impulses.iter().map(|(name, _)| name.clone()).zip(models).collect();
-        marks.extend(limits::of_actuators("limit", &limits, false));
-        let caption = "Mean thrust from point to point in the nominal run: pulses are shorter.".to_owned();
+        marks.extend(limits::of_actuators(&limits, &self.plan.analysis.display.of("thrust", "N"), false));
+        let caption =
+            "Mean thrust between points in the nominal run; single pulses are shorter and stronger.".to_owned();
         Some(self.judged(listed, ("thrust", "N"), (listed.title, caption), marks))
     }
 

@@ -142,7 +142,7 @@ impl<'a> Curves<'a> {
         let is_seen = swings.is_some_and(|(turns, swing)| turns + 1 >= bands.times.len() && swing > SEEN_SWING * width);
         let aliased = if is_seen && points > bands.times.len() {
             format!(
-                " The nominal run turns back more often than there are times with bands ({}): what the bands do in between is not seen; more [bands] points show it.",
+                " The nominal run oscillates faster than the {} times of the bands resolve; more points in [bands] would show it.",
                 bands.times.len()
             )
         } else {
@@ -272,7 +272,7 @@ impl<'a> Curves<'a> {
     }
 
     /// The column whose unit the figure `name` is in: one that a requirement is about, else its own.
-    fn shown_as(&self, listed: &ListedFigure, name: &str) -> String {
+    pub(super) fn shown_as(&self, listed: &ListedFigure, name: &str) -> String {
         let mut judged = self.traits.judged(listed.judged_by);
         let asked = judged.find(|one| self.plan.analysis.requirements.iter().any(|asked| asked.name() == one));
         asked.unwrap_or_else(|| name.to_owned())

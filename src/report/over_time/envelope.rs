@@ -11,10 +11,32 @@ pub fn turns(values: &[f64]) -> usize {
     signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
+/// The same of swings that are seen: larger than this fraction of the range of the values. A step with noise on it is drawn as itself.
+const SEEN: f64 = 0.01;
+
+fn seen_turns(values: &[f64]) -> usize {
+    let [low, high] =
+        values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)]);
+    let least = SEEN * (high - low);
+    // the last value from which on it rises (1) or falls (-1), and how far it went
+    let (mut extreme, mut direction, mut count) = (values.first().copied().unwrap_or(0.0), 0.0, 0);
+    for value in values {
+        let step = value - extreme;
+        if direction * step > 0.0 {
+            extreme = *value;
+        } else if step.abs() > least {
+            count += usize::from(direction != 0.0);
+            (extreme, direction) = (*value, step.signum());
+        }
+    }
+    count
+}
+
 /// Times, smallest and largest values of a series that is too fast to be drawn, over short intervals; `None` of one that is not.
 pub fn envelope(times: &[f64], values: &[f64]) -> Option<[Vec<f64>; 3]> {
     let count = values.len().min(times.len());
-    if turns(values) <= MOST_TURNS && 3 * turns(values) <= count.max(60) {
+    let turns = seen_turns(&values[..count]);
+    if turns <= MOST_TURNS && 3 * turns <= count.max(60) {
         return None;
     }
     let width = count.div_ceil(ENVELOPE).max(4);
@@ -61,5 +83,11 @@ mod tests {
         // one that turns at every point
         let aliased: Vec<f64> = (0..101).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }).collect();
         assert!(envelope(&times[..101], &aliased).is_some());
+        // a step with noise of a thousandth of it is a curve, and with a tenth of it an area
+        let step = |noise: f64| {
+            aliased.iter().enumerate().map(|(k, sign)| f64::from(k > 50) + noise * sign).collect::<Vec<_>>()
+        };
+        assert!(envelope(&times[..101], &step(1e-3)).is_none() && envelope(&times[..101], &step(0.1)).is_some());
+        assert_eq!(seen_turns(&wave(1.0)), 12);
     }
 }

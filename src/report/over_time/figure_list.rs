@@ -11,6 +11,8 @@ use crate::scene::Name;
 #[derive(Clone, Debug)]
 pub struct Traits {
     pub has_loop: bool,
+    /// More phases of the loop than one.
+    pub changes_phase: bool,
     /// A phase of the loop that wants an attitude.
     pub points: bool,
     /// An estimator that does not know the truth.
@@ -36,6 +38,7 @@ impl Traits {
         let is = |what: fn(&crate::control::LoopSpec) -> bool| spec.is_some_and(what);
         Traits {
             has_loop: spec.is_some(),
+            changes_phase: is(|spec| spec.phases.len() > 1),
             points: is(|spec| spec.points()),
             estimates: is(|spec| !spec.knows_the_truth()),
             approaches: is(|spec| spec.approaches()),
@@ -177,7 +180,7 @@ pub const FIGURES: &[ListedFigure] = {
         // a control loop
         figure(One(Series::PointingError), ("Pointing error", "angle", Hue::Body), |scene, _| scene.points,
             &["pointing_error_rad", "pointing_error_final_rad"]),
-        figure(Phases, ("Phases", "", Hue::Body), |scene, _| scene.has_loop, &[]),
+        figure(Phases, ("Phases", "", Hue::Body), |scene, _| scene.changes_phase, &[]),
         figure(Estimated(Series::AttitudeEstimateError, "attitude_expected_error_rad"), ("Error of the estimated attitude", "angle", Hue::Body), |scene, _| scene.estimates,
             &["attitude_estimate_error_rad", "attitude_estimate_error_final_rad", "attitude_estimate_error_max_rad"]),
         figure(Estimated(Series::RateEstimateError, "rate_expected_error_rad_s"), ("Error of the estimated angular velocity", "rate", Hue::Body), |scene, _| scene.estimates,

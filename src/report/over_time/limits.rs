@@ -1,6 +1,6 @@
 //! The limits in figures over time: those of requirements, and those of actuators.
 
-use crate::campaign::Plan;
+use crate::campaign::{Plan, ShownUnit};
 use crate::report::figure::Mark;
 use crate::report::page::readable::with_unit;
 use crate::statistics::gate::GateLimit;
@@ -34,8 +34,8 @@ pub fn required(plan: &Plan, names: impl Iterator<Item = String>, unit: &str) ->
     marks
 }
 
-/// The limits of actuators, a line for each value: those of all alike have no name of an actuator. `signed`: also below zero.
-pub fn of_actuators(what: &str, limits: &[(String, f64)], signed: bool) -> Vec<Mark> {
+/// The limits of actuators, a line for each value, with it in the unit `shown`: those of all alike have no name of an actuator. `signed`: also below zero.
+pub fn of_actuators(limits: &[(String, f64)], shown: &ShownUnit, signed: bool) -> Vec<Mark> {
     let finite: Vec<&(String, f64)> = limits.iter().filter(|(_, at)| at.is_finite() && *at > 0.0).collect();
     let mut values: Vec<f64> = finite.iter().map(|(_, at)| *at).collect();
     values.sort_by(f64::total_cmp);
@@ -44,7 +44,9 @@ pub fn of_actuators(what: &str, limits: &[(String, f64)], signed: bool) -> Vec<M
         let names: Vec<&str> = finite.iter().filter(|(_, of)| *of == at).map(|(name, _)| name.as_str()).collect();
         let of = if names.len() == limits.len() { String::new() } else { format!(" of {}", names.join(", ")) };
         let below = signed.then(|| Mark::Limit { label: String::new(), at: -at, vertical: false });
-        [Mark::Limit { label: format!("{what}{of}"), at, vertical: false }].into_iter().chain(below)
+        let sign = if signed { "\u{b1}" } else { "" };
+        let label = format!("limit{of} {sign}{}", with_unit(shown.written(at), &shown.unit));
+        [Mark::Limit { label, at, vertical: false }].into_iter().chain(below)
     };
     values.into_iter().flat_map(mark).collect()
 }
@@ -104,8 +106,8 @@ pub fn range(marks: &[Mark], is_controlled: bool) -> Option<[f64; 2]> {
     // an axis may end with a limit: that is drawn at its edge
     let free = 0.04 * (top - bottom);
     Some([
-        if bottom < low && bottom < 0.0 || is_positive { bottom } else { bottom - free },
-        if top > high { top } else { top + free },
+        if is_positive || near.contains(&bottom) { bottom } else { bottom - free },
+        if near.contains(&top) { top } else { top + free },
     ])
 }
 
@@ -135,6 +137,7 @@ mod tests {
         assert_eq!(of(&[4.0, 5.0], &[10.0], false), Some([0.0, 10.0]));
         assert_eq!(of(&[4.0, 5.0], &[15.5], true), Some([0.0, 5.2]), "a limit that is far is named at the edge");
         assert_eq!(of(&[-3.0, 2.0], &[4.0, -4.0], true), Some([-4.0, 4.0]));
+        assert_eq!(of(&[-4.0, 2.0], &[4.0, -4.0], true), Some([-4.0, 4.0]), "values at a limit end the axis there");
         assert_eq!(of(&[0.0, 0.0], &[4.0], true), None);
         let [low, high] = of(&[-3.0, 2.0], &[], true).expect("a range");
         assert!((low + 3.2).abs() < 1e-12 && (high - 2.2).abs() < 1e-12);
@@ -154,15 +157,18 @@ mod tests {
     fn actuators_are_named_where_they_differ() {
         let named = |limits: &[(&str, f64)], signed| -> Vec<(String, f64)> {
             let limits: Vec<(String, f64)> = limits.iter().map(|(name, at)| ((*name).to_owned(), *at)).collect();
-            let places = of_actuators("limit", &limits, signed).into_iter().map(|mark| match mark {
+            let shown = ShownUnit::own("N");
+            let places = of_actuators(&limits, &shown, signed).into_iter().map(|mark| match mark {
                 Mark::Limit { label, at, .. } => (label, at),
                 _ => panic!("{mark:?}"),
             });
             places.collect()
         };
         let text = |name: &str, at| (name.to_owned(), at);
-        assert_eq!(named(&[("a", 4.0), ("b", 4.0)], true), [text("limit", 4.0), text("", -4.0)]);
-        assert_eq!(named(&[("a", 4.0), ("b", 2.0)], false), [text("limit of b", 2.0), text("limit of a", 4.0)]);
-        assert_eq!(named(&[("a", f64::INFINITY), ("b", 2.0)], false), [text("limit of b", 2.0)]);
+        let [two, four] = ["2\u{a0}N", "4\u{a0}N"];
+        assert_eq!(named(&[("a", 4.0), ("b", 4.0)], true), [text(&format!("limit \u{b1}{four}"), 4.0), text("", -4.0)]);
+        let differ = [text(&format!("limit of b {two}"), 2.0), text(&format!("limit of a {four}"), 4.0)];
+        assert_eq!(named(&[("a", 4.0), ("b", 2.0)], false), differ);
+        assert_eq!(named(&[("a", f64::INFINITY), ("b", 2.0)], false), differ[..1]);
     }
 }

@@ -24,6 +24,9 @@ impl Curves<'_> {
             StateField::Rate | StateField::DebrisRate | StateField::WheelRates => "rad/s",
             _ => "",
         };
-        over_time("", listed.title, String::new(), Axis::linear(listed.quantity, unit), marks)
+        let wheel = self.wheels.first().filter(|_| field == StateField::WheelRates);
+        let shows = wheel.map_or_else(String::new, |wheel| format!("rate_{wheel}_rad_s"));
+        let axis = Axis::linear(listed.quantity, unit).showing(shows);
+        over_time("", listed.title, String::new(), axis, marks)
     }
 }

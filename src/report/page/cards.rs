@@ -66,7 +66,7 @@ pub struct Card {
     pub quantity: String,
     /// The requirement, or the finding, as a sentence.
     pub sentence: String,
-    /// What the estimate is of: "99%-quantile".
+    /// What the estimate is of: "99% quantile".
     pub statistic: String,
     /// The estimate; NaN where there is none.
     pub estimate: f64,
@@ -112,20 +112,20 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &Shown
     let text = |value: f64| with_unit(shown.value(value), &shown.unit);
     let (min, max) = (outcome.sketch.min().unwrap_or(f64::NAN), outcome.sketch.max().unwrap_or(f64::NAN));
     let [lower, upper] = [0.05, 0.95].map(|p| quantiles.iter().find(|quantile| quantile[0] == p));
-    let statistic = if runs > 1 { format!("{percent}%-quantile") } else { "value".to_owned() };
+    let statistic = if runs > 1 { format!("{percent}% quantile") } else { "value".to_owned() };
     let (sentence, note) = if runs == 1 {
         (format!("The only run that was computed: {what} {}.", text(estimate)), String::new())
     } else {
         let sentence = match (lower, upper) {
             (Some(lower), Some(upper)) if min < 0.0 => format!(
-                "90% of the runs have a {what} between {} and {}; the extremes are {} and {}.",
+                "In 90% of the runs, the {what} is between {} and {}; the extremes are {} and {}.",
                 text(lower[1]),
                 text(upper[1]),
                 text(min),
                 text(max)
             ),
             _ => format!(
-                "{percent}% of the runs keep the {what} below {}; the largest is {}.",
+                "In {percent}% of the runs, the {what} is below {}; the largest is {}.",
                 text(estimate),
                 text(max)
             ),
@@ -287,7 +287,7 @@ mod tests {
             judged,
             quantity: "energy <error>".to_owned(),
             sentence: "99% of runs stay below 1e-9.".to_owned(),
-            statistic: "99%-quantile".to_owned(),
+            statistic: "99% quantile".to_owned(),
             estimate,
             interval,
             limit,

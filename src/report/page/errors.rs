@@ -5,6 +5,7 @@ use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointS
 use crate::report::histogram::{bins, counts};
 use crate::report::names;
 use crate::report::page::NO_INTERVAL;
+use crate::report::page::readable::grouped;
 use crate::run::Status;
 use crate::statistics::binomial::interval;
 use crate::statistics::quantile::percent;
@@ -45,9 +46,9 @@ pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
 /// How many of how many runs a figure is of.
 pub fn of_runs(shown: usize, all: u64) -> String {
     if shown as u64 == all {
-        format!("{all} runs that were computed")
+        format!("{} runs", grouped(all))
     } else {
-        format!("{shown} of {all} runs that were computed, chosen by sample number")
+        format!("{} of {} runs, chosen by sample number", grouped(shown as u64), grouped(all))
     }
 }
 
@@ -88,7 +89,11 @@ pub fn histogram(survey: &Survey, index: usize, outcome: &SurveyedOutcome, secti
         names::of_quantity(&outcome.quantity)
     };
     let all = outcome.sketch.count();
-    let caption = format!("{} Histogram of {}.", outcome.quantity.meaning(), of_runs(values.len(), all));
+    // the meaning of a column that the file defines is in its own names, which the glossary has
+    let meaning = outcome.quantity.meaning();
+    let is_name = |word: &str| word.contains('_') && word.len() > "(F_e).".len();
+    let meaning = if meaning.split_whitespace().any(is_name) { "" } else { meaning };
+    let caption = format!("{}. {meaning}", of_runs(values.len(), all)).trim_end().to_owned();
     Figure {
         name: format!("histogram_{}", outcome.quantity.name()),
         section,
@@ -142,7 +147,7 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         section: FigureSection::Numerics,
         title: format!("Tail of {}", names::of_quantity(&outcome.quantity)),
         caption: format!(
-            "Fraction of all {} runs that were computed whose value is at least this; shown at ranks spaced by decades.{interval}",
+            "Fraction of {} runs with at least this value, at ranks spaced by decades.{interval}",
             outcome.sketch.count()
         ),
         columns: 6,

@@ -18,7 +18,7 @@ const EXAMPLE: &str =
 /// Name with the verdict, question, and the facts of the campaign.
 ///
 /// `has_intervals`: whether the page has numbers in brackets, which are said here once for all of it.
-pub fn header(plan: &Plan, verdicts: &[Card], has_intervals: bool) -> String {
+pub fn header(plan: &Plan, verdicts: &[Card], survey: &Survey, has_intervals: bool) -> String {
     let dispersed = plan.dispersed_rows();
     let runs = if plan.chosen.is_some() {
         format!("{} chosen runs of {} samples", grouped(plan.rows()), grouped(plan.samples))
@@ -43,7 +43,7 @@ pub fn header(plan: &Plan, verdicts: &[Card], has_intervals: bool) -> String {
     format!(
         "<h1>{}{}</h1>{question}\n<p class=\"facts\">{runs} \u{b7} design {} \u{b7} seed {} \u{b7} {} s each \u{b7} method {}, {steps} \u{b7} spindrift {} \u{b7} plan <button type=\"button\" class=\"hash\" data-copy=\"{hash}\" title=\"Copy the whole hash\">{}</button>{intervals}</p>\n",
         escaped(&plan.name),
-        verdict(verdicts),
+        if verdicts.is_empty() { lost(survey) } else { verdict(verdicts) },
         escaped(plan.design.name()),
         plan.seed,
         number(plan.grid.duration()),
@@ -64,6 +64,27 @@ fn verdict(verdicts: &[Card]) -> String {
         overall.class(),
         overall.word(),
         counts.join(", ")
+    )
+}
+
+/// What is said in place of a verdict where most runs were not computed.
+pub const NOT_COMPUTED: &str = "NOT COMPUTED";
+
+/// Whether fewer than half of the runs were computed.
+pub fn is_mostly_lost(survey: &Survey) -> bool {
+    2 * survey.statuses.ok() < survey.statuses.runs()
+}
+
+/// How many runs were not computed, where these are most, in place of a verdict.
+fn lost(survey: &Survey) -> String {
+    if !is_mostly_lost(survey) {
+        return String::new();
+    }
+    let (ok, all) = (survey.statuses.ok(), survey.statuses.runs());
+    format!(
+        " <span class=\"overall fail\">{NOT_COMPUTED}</span> <span class=\"quiet counts\">{} of {} runs</span>",
+        grouped(all - ok),
+        grouped(all)
     )
 }
 
@@ -150,6 +171,10 @@ pub fn status(plan: &Plan, survey: &Survey) -> String {
             format!("{} of {} runs were computed; the statistics below are of these.", grouped(ok), grouped(all))
         }
     };
+    if ok == all {
+        // nothing to tell apart
+        return format!("<section id=\"status\"><p class=\"lead\">{verdict}{}</p></section>\n", numerics(plan, survey));
+    }
     format!(
         "<section id=\"status\"><h2>Did it run?</h2><p class=\"lead\">{verdict}{}</p><svg class=\"statusbar\" role=\"img\" aria-label=\"{verdict}\" preserveAspectRatio=\"none\" height=\"22\" width=\"100%\">{bars}</svg><ul class=\"legend\">{legend}</ul>{reasons}</section>\n",
         numerics(plan, survey)
@@ -159,6 +184,12 @@ pub fn status(plan: &Plan, survey: &Survey) -> String {
 /// How the missions of a control loop ended: a bar for each way, with its interval; nothing without a loop.
 pub fn missions(missions: &Missions) -> String {
     let mut lines = String::new();
+    if let [only] = &missions[..]
+        && only.end == "not_failed"
+        && only.missing == 0
+    {
+        return String::new();
+    }
     for one in missions {
         let at = |share: f64| format!("{:.3}%", 100.0 * share);
         let [share, _] = one.shares();
@@ -239,7 +270,7 @@ pub fn verdicts(cards: &[Card], has_requirements: bool, said: &[String]) -> Stri
     let said = if said.is_empty() {
         said
     } else {
-        format!("<details><summary>How the verdicts are to be read together</summary>{said}</details>")
+        format!("<details><summary>How to read these verdicts together</summary>{said}</details>")
     };
     let (title, example) = if has_requirements {
         ("Are the requirements met?", String::new())
@@ -303,10 +334,17 @@ mod tests {
     fn a_tolerance_is_that_of_a_method_that_follows_it() {
         let text = include_str!("../../../campaigns/spin_sweep.toml");
         let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        let adaptive = header(&plan, &[], true);
+        let statuses = Statuses::none(Population::Independent);
+        let survey =
+            Survey { statuses, outcomes: Vec::new(), thinned: Thinned::default(), audits: Vec::new(), audited: 0 };
+        let adaptive = header(&plan, &[], &survey, true);
         assert!(adaptive.contains("method auto, tolerance ") && !adaptive.contains("steps of"), "{adaptive}");
-        let fixed =
-            header(&Plan { method: Method::Gyrostat(Integrator::RungeKutta4), step_s: Some(0.25), ..plan }, &[], false);
+        let fixed = header(
+            &Plan { method: Method::Gyrostat(Integrator::RungeKutta4), step_s: Some(0.25), ..plan },
+            &[],
+            &survey,
+            false,
+        );
         assert!(fixed.contains("runge_kutta_4, steps of 0.25") && !fixed.contains("tolerance"), "{fixed}");
         let said = "in brackets: two-sided 95% intervals";
         assert!(adaptive.contains(said) && !fixed.contains("brackets"), "{adaptive}{fixed}");

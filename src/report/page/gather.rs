@@ -12,7 +12,7 @@ use crate::analysis::survey::Survey;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::ensemble::Bands;
-use crate::report::drivers_text::{self, SEE_INTERACTIONS, outcomes, ranked, verb};
+use crate::report::drivers_text::{self, outcomes, ranked, verb};
 use crate::report::names;
 use crate::report::over_time::curves::{FEWEST, TimeBands};
 use crate::report::page::Contents;
@@ -27,6 +27,8 @@ use crate::report::stopping_text;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::GateLimit;
 
+/// A regression that explains less of the variance is not worth a word.
+const LEAST_REGRESSION: f64 = 0.05;
 /// Quantiles of the bands of the page.
 const BANDS: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
 
@@ -126,9 +128,6 @@ fn row(column: &ColumnStatistics, statistics: &Statistics) -> StatisticsRow {
 fn influences(plan: &Plan, all: &[InputSensitivity], noise: &[NoiseShare], survey: &Survey) -> Vec<Influence> {
     let of_noise = |name: &str| match noise.iter().find(|one| one.observable == name) {
         Some(share) => format!(" {}.", sentence(&share_text::of_noise(share))),
-        None if plan.law.is_some() => {
-            " Noise within the loop is no input: `spindrift report DIR --noise 256` measures its share.".to_owned()
-        }
         None => String::new(),
     };
     let of_outcome = |name: &str| {
@@ -150,62 +149,41 @@ fn influence(
     let first = ranking.inputs.first()?.input;
     let is_total = first.total.is_some();
     let drivers = ranking.drivers().count();
-    let shown = match drivers {
-        0 => " These runs show no input that drives it.".to_owned(),
-        1 => " The first input is shown to drive it.".to_owned(),
-        count => format!(" The first {count} inputs are shown to drive it."),
+    let driven = match drivers {
+        0 => "no input is shown to drive it".to_owned(),
+        1 => "the first input is shown to drive it".to_owned(),
+        count => format!("the first {count} inputs are shown to drive it"),
     };
     let (event, measure, meaning) = match &ranking.question {
-        Question::Spread if is_total => (None, "total Sobol index", meaning(plan, first, all) + noise),
-        Question::Spread => (
-            None,
-            "share of the variance",
-            format!("{} {}.", meaning(plan, first, all), sentence(SEE_INTERACTIONS)) + noise,
-        ),
+        Question::Spread if is_total => (None, "total Sobol index", meaning(plan, first, all, &driven) + noise),
+        Question::Spread => (None, "share of the variance", meaning(plan, first, all, &driven) + noise),
         Question::Event(event) => {
             let of = event.of;
-            let meaning = format!(
-                "{} of {} runs {}. Share of the variance of whether a run does that belongs to each input, with its interval. Shown: by an exact test of the table, or by ranks, of all inputs together (Holm).",
-                grouped(of.events),
-                grouped(of.runs),
-                verb(name, event)
-            );
-            (Some(*event), "share of the variance of whether a run does", meaning)
+            let meaning =
+                format!("{} of {} runs {}; {driven}.", grouped(of.events), grouped(of.runs), verb(name, event));
+            (Some(*event), "share of the variance", meaning)
         }
     };
     Some(Influence {
         outcome: name.to_owned(),
         event: event.map(|event| (verb(name, &event), !event.has_few_values)),
         measure: measure.to_owned(),
-        meaning: meaning + &shown,
+        meaning,
         inputs: ranking
             .inputs
             .iter()
             .map(|one| (one.input.input.clone(), [one.share.value, one.share.lower, one.share.upper]))
             .collect(),
+        shown: drivers,
         drivers: drivers_text::sentence(plan, name, ranking),
     })
 }
 
-fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity]) -> String {
+fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity], driven: &str) -> String {
     let of_observable = || all.iter().filter(|one| one.observable == first.observable);
-    let mut text = if first.total.is_some() {
-        format!(
-            "Share of the variance that belongs to each input and its interactions, with its interval, of {} runs.",
-            grouped(first.rows)
-        )
-    } else {
-        format!(
-            "How strongly each input acts, as a share of the variance, with its interval, of {} runs: the larger one of the first-order index and of \
-             the squared rank correlation.",
-            grouped(first.rows)
-        )
-    };
-    if let Some(share) = first.r_squared {
-        text += &format!(
-            " A regression on all inputs explains {}% of the variance.",
-            number(libm::round(1000.0 * share.value) / 10.0)
-        );
+    let mut text = format!("Of {} runs; {driven}.", grouped(first.rows));
+    if let Some(share) = first.r_squared.filter(|share| share.value >= LEAST_REGRESSION) {
+        text += &format!(" A regression on all inputs explains {}%.", number(libm::round(1000.0 * share.value) / 10.0));
     }
     let correlated: Vec<String> = of_observable()
         .filter_map(|one| {
@@ -244,14 +222,14 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
             let share = percent(if is_quantile { requirement.limit.fraction(share) } else { share });
             let kept = match requirement.observable() {
                 Some("launched") if !is_upper => format!("{share}% of the runs launch the net"),
-                _ => format!("{share}% of the runs keep the {name} {word} {text}"),
+                _ => format!("in {share}% of the runs, the {name} is {word} {text}"),
             };
             match (requirement.band(), requirement.window()) {
                 (Some(_), None) => format!(
                     "{}, {kept}, with {confidence}% confidence; at another time these may be other runs.",
                     sentence(requirement.times().trim_start())
                 ),
-                _ => format!("{kept}{}, with {confidence}% confidence.", requirement.times()),
+                _ => format!("{}{}, with {confidence}% confidence.", sentence(&kept), requirement.times()),
             }
         }
     };
@@ -274,7 +252,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
             notes.push(format!("{}.", sentence(&runs_needed(&grouped(runs)))));
         }
         (None, Decision::Undecided(None)) => {
-            notes.push("No number of runs decides if the truth is what was seen.".to_owned());
+            notes.push("No number of runs would decide this if the truth were exactly what was observed.".to_owned());
         }
         _ => {}
     }
@@ -292,7 +270,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
                 .map_or([None; 2], |quantile| quantile.interval)
                 .map(|end| shown.value(end.unwrap_or(f64::NAN)));
             let value = shown.value(one.value.unwrap_or(f64::NAN));
-            (format!("{}%-quantile", percent(p)), value, ends, shown.written(limit), shown.unit.clone())
+            (format!("{}% quantile", percent(p)), value, ends, shown.written(limit), shown.unit.clone())
         }
         Statement::Fraction(fraction) => {
             let hundred = |value: f64| 100.0 * value;

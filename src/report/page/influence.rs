@@ -2,13 +2,20 @@
 
 use crate::analysis::survey::{SCATTER, Survey, SurveyedOutcome, chosen};
 use crate::campaign::Plan;
+use crate::report::drivers_text::SEE_INTERACTIONS;
+use crate::report::escaped::escaped;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::names;
 use crate::report::page::errors::{sentence, shown_rows};
 use crate::report::page::fates::{self, Fate};
 use crate::run::Quantity;
+use crate::sampling::Design;
 
+/// Inputs of a chart, at most; and at least, where there are so many: the strongest of those that are no drivers stand beside them.
 const MOST_INPUTS: usize = 12;
+const FEWEST_INPUTS: usize = 6;
+/// Drivers against which an outcome is plotted.
+const PLOTTED: usize = 2;
 
 /// How strongly inputs act on an outcome.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,24 +27,37 @@ pub struct Influence {
     pub measure: String,
     /// What they mean, in a sentence or two.
     pub meaning: String,
-    /// Input column, value, lower and upper end of its interval (NaN where there is none), in the order of the ranking.
+    /// Input column, value, lower and upper end of its interval (NaN where there is none), in the order of the ranking: its drivers come first.
     pub inputs: Vec<(String, [f64; 3])>,
+    /// How many of them are drivers.
+    pub shown: usize,
     /// The strongest inputs in words.
     pub drivers: String,
 }
 
-/// For each ranking, a tornado and two scatter plots, each once.
+/// For each ranking with a driver a tornado, and the outcome against its strongest drivers, each once. Runs that miss several requirements are ranked once.
 pub fn figures(plan: &Plan, survey: &Survey, influences: &[Influence]) -> Vec<Figure> {
     let mut figures: Vec<Figure> = Vec::new();
-    for influence in influences {
+    let is_same =
+        |one: &Influence, other: &Influence| one.event.is_some() && other.event.is_some() && one.inputs == other.inputs;
+    for (place, influence) in influences.iter().enumerate().filter(|(_, influence)| influence.shown > 0) {
         let Some((index, outcome)) = survey.outcome(&influence.outcome) else { continue };
+        if influences[..place].iter().any(|other| is_same(other, influence)) {
+            continue;
+        }
+        let same = influences[place + 1..].iter().filter(|other| is_same(other, influence));
+        let same: Vec<String> =
+            same.filter_map(|other| Some(names::of_quantity(&survey.outcome(&other.outcome)?.1.quantity))).collect();
+        let drivers = influence.inputs.iter().take(influence.shown.min(PLOTTED));
+        let strongest: Vec<usize> = drivers.filter_map(|(name, _)| names::place_of(plan, name)).collect();
         let mut inputs = influence.inputs.clone();
-        let strongest: Vec<usize> = inputs.iter().take(2).filter_map(|(name, _)| names::place_of(plan, name)).collect();
-        inputs.truncate(MOST_INPUTS);
-        figures.push(tornado(plan, influence, outcome, &inputs, survey.thinned.inputs.len()));
-        for input in strongest {
+        inputs.truncate((influence.shown + 2).clamp(FEWEST_INPUTS, MOST_INPUTS));
+        figures.push(tornado(plan, influence, (outcome, &same), &inputs, survey.thinned.inputs.len()));
+        // yes or no against a number says less than the counts in the sentence
+        let is_plotted = !outcome.is_yes_or_no(&survey.thinned.outcomes[index]);
+        for input in strongest.into_iter().filter(|_| is_plotted) {
             let figure = scatter(plan, survey, input, index, outcome);
-            if !figures.iter().any(|other| other.name == figure.name) {
+            if !figures.iter().any(|other| other.name == figure.name) && is_spread(&figure) {
                 figures.push(figure);
             }
         }
@@ -46,16 +66,66 @@ pub fn figures(plan: &Plan, survey: &Survey, influences: &[Influence]) -> Vec<Fi
     figures
 }
 
+/// What the section says: what the bars are, what a driver is, and which outcomes have none.
+pub fn lead(plan: &Plan, survey: &Survey, influences: &[Influence]) -> String {
+    let bars = match plan.design {
+        Design::Saltelli(_) => {
+            "Bars show how much of the variance each input explains together with its interactions.".to_owned()
+        }
+        _ => format!(
+            "Bars show how much of the variance each input explains: the larger of its first-order index and its squared rank correlation; {SEE_INTERACTIONS}."
+        ),
+    };
+    let noise = match plan.law {
+        Some(_) => {
+            " Noise in the loop is not an input; <code>spindrift report . --noise 256</code> measures its share."
+        }
+        None => "",
+    };
+    let without = without_driver(survey, influences);
+    format!(
+        "{} A driver is an input whose influence is significant among all inputs (Holm).{noise}{without}",
+        escaped(&bars)
+    )
+}
+
+/// The outcomes of `influences` without any driver, in a sentence; nothing where all have one.
+fn without_driver(survey: &Survey, influences: &[Influence]) -> String {
+    let mut names: Vec<String> = Vec::new();
+    for influence in influences {
+        let is_driven = influences.iter().any(|other| other.outcome == influence.outcome && other.shown > 0);
+        let Some((_, outcome)) = survey.outcome(&influence.outcome).filter(|_| !is_driven) else { continue };
+        let name = names::of_quantity(&outcome.quantity);
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    if names.is_empty() {
+        return String::new();
+    }
+    format!(" No significant driver was found for: {}.", names.join(", "))
+}
+
+/// Whether the points of a scatter plot differ in their abscissae.
+fn is_spread(figure: &Figure) -> bool {
+    let points = figure.marks.iter().filter_map(|mark| if let Mark::Points { x, .. } = mark { Some(x) } else { None });
+    let mut all = points.flatten();
+    all.next().is_some_and(|first| all.any(|other| other != first))
+}
+
 fn tornado(
     plan: &Plan,
     influence: &Influence,
-    outcome: &SurveyedOutcome,
+    (outcome, same): (&SurveyedOutcome, &[String]),
     inputs: &[(String, [f64; 3])],
     all: usize,
 ) -> Figure {
     let column = |place: usize| inputs.iter().map(|(_, value)| value[place]).collect::<Vec<f64>>();
-    let note =
+    let mut note =
         if inputs.len() < all { format!(" The strongest {} of {all} inputs.", inputs.len()) } else { String::new() };
+    if !same.is_empty() {
+        note += &format!(" The same runs miss: {}.", same.join(", "));
+    }
     let name = outcome.quantity.name();
     let (name, title) = match &influence.event {
         None => (format!("influence_{name}"), format!("What drives {}", names::of_quantity(&outcome.quantity))),
@@ -171,7 +241,7 @@ pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
             stacked: false,
         });
     }
-    marks.push(line("99%-quantile", Hue::Wheel(0), 2));
+    marks.push(line("99% quantile", Hue::Wheel(0), 2));
     marks.push(line("median", Hue::Body, 1));
     let (quantity, unit): (&Quantity, &str) = (&outcome.quantity, outcome.quantity.unit());
     Figure {

@@ -43,7 +43,7 @@ pub fn rows(plan: &Plan, figures: &[Figure]) -> String {
         return rows;
     }
     format!(
-        "<div class=\"inputs\"><p class=\"input head\"><span>input</span><span>drawn, and asked for</span><span>nominal</span><span>distribution</span><span>fit</span></p>\n{rows}</div><p class=\"caption\">Fit: chi-squared test of what was drawn against the distribution that the file asks for; small values of p tell against it, and of many inputs some are small by chance. Evenly spread designs fit better than chance. A line opens to its histogram.</p>\n"
+        "<div class=\"inputs\"><p class=\"input head\"><span>input</span><span>drawn and expected</span><span>nominal</span><span>distribution</span><span>fit</span></p>\n{rows}</div><p class=\"caption\">Fit: chi-squared test of the drawn values against the distribution in the file. A small p speaks against it, though among many inputs some are small by chance; evenly spread designs fit better than chance. Click a line for its histogram.</p>\n"
     )
 }
 

@@ -145,17 +145,18 @@ impl Page {
             contents.verdicts.clone()
         };
         let first = [
-            first_screen::header(plan, &contents.verdicts, has_brackets(contents, &cards)),
+            first_screen::header(plan, &contents.verdicts, survey, has_brackets(contents, &cards)),
             first_screen::warnings(&contents.warnings),
             first_screen::missions(&contents.missions),
             first_screen::verdicts(&cards, !contents.verdicts.is_empty(), &contents.said),
             first_screen::drivers(&cards),
             first_screen::status(plan, survey),
         ];
-        let title = match cards::overall(&contents.verdicts) {
-            Some(judged) => format!("{}: {}", judged.word(), plan.name),
-            None => plan.name.clone(),
+        let word = match cards::overall(&contents.verdicts) {
+            Some(judged) => Some(judged.word()),
+            None => first_screen::is_mostly_lost(survey).then_some(first_screen::NOT_COMPUTED),
         };
+        let title = word.map_or_else(|| plan.name.clone(), |word| format!("{word}: {}", plan.name));
         let sections = sections(plan, contents, &shown, has_replay, &figures);
         Page { html: document(&title, &first.concat(), &sections, &data, &payload.text()), figures }
     }
@@ -198,15 +199,23 @@ fn sections(
     let table = tables::statistics(&contents.statistics, &plan.analysis.display);
     let folded = |section: PageSection, is_open: bool| PageSection { fold: Some(is_open), ..section };
     let inputs = input_rows + "<div class=\"figures\"></div>";
+    let influence = PageSection {
+        anchor: FigureSection::Influence.anchor(),
+        title: "What drives it",
+        lead: influence::lead(plan, &contents.survey, &contents.influences),
+        html: pairs.to_owned(),
+        has_figures: false,
+        fold: None,
+    };
     let is_off = first_screen::is_above_tolerance(plan, &contents.survey);
     [
-        figures(FigureSection::Outcome, "Outcome", "How the outcomes are distributed, and which share of the runs stays within a value.", ""),
+        figures(FigureSection::Outcome, "Outcome", "How each outcome is distributed over the runs.", ""),
         plain("replay", "Replay", "The nominal run and the worst ones in three dimensions.", replay).filter(|_| has_replay),
-        figures(FigureSection::Time, "Over time", "How the spacecraft moves. Drag the time slider of the replay to move a cursor through these figures.", ""),
-        figures(FigureSection::Influence, "What drives it", "Which uncertain input makes the difference.", pairs),
-        plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the worst outcomes. Each is replayed bit for bit by its command.", tables::worst_runs(plan, &contents.survey, shown)),
-        figures(FigureSection::Numerics, "Numerics", "How large the numerical errors are. Small and without a trend is good.", "").map(|section| folded(section, is_off)),
-        figures(FigureSection::Inputs, "Inputs", "What was applied, against what the campaign file asks for.", &inputs).map(|section| PageSection { has_figures: false, ..folded(section, false) }),
+        figures(FigureSection::Time, "Over time", "The nominal run, and where the dispersed runs are at each time. The slider of the replay moves a cursor through these figures; a click in one moves the replay.", ""),
+        Some(PageSection { has_figures: has(FigureSection::Influence), ..influence }),
+        plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the worst outcomes. Run in the folder of this page, each command repeats its run bit for bit.", tables::worst_runs(plan, &contents.survey, shown)),
+        figures(FigureSection::Numerics, "Numerics", "How large the numerical errors are. They should be small and not grow over time.", "").map(|section| folded(section, is_off)),
+        figures(FigureSection::Inputs, "Inputs", "What was drawn, compared with the distributions of the campaign file.", &inputs).map(|section| PageSection { has_figures: false, ..folded(section, false) }),
         Some(PageSection { anchor: "statistics", title: "Statistics", lead: String::new(), html: table, has_figures: has(FigureSection::Statistics), fold: Some(false) }),
         plain("provenance", "Provenance", "", tables::provenance(plan, &contents.survey, &contents.files)),
     ]

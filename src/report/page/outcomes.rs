@@ -33,11 +33,21 @@ pub fn figures(plan: &Plan, survey: &Survey, statistics: &[StatisticsRow], has_i
         let mut distribution = histogram(survey, index, outcome, FigureSection::Outcome);
         distribution.marks.extend(missed(plan, survey, index, outcome, &distribution.marks));
         distribution.marks.extend(limits(plan, outcome));
-        distributions.push(near_limits(Figure { columns: 4, ..distribution }));
-        curves.push(near_limits(Figure { columns: 4, ..cumulative(plan, outcome, row, has_intervals) }));
+        distributions.push(near_limits(distribution));
+        curves.push(near_limits(cumulative(plan, outcome, row, has_intervals)));
     }
-    distributions.append(&mut curves);
-    distributions
+    laid_out(distributions, curves)
+}
+
+/// One or two outcomes in rows of two figures, each beside its cumulative curve; more in rows of three, the curves after the distributions.
+fn laid_out(distributions: Vec<Figure>, curves: Vec<Figure>) -> Vec<Figure> {
+    let is_pairs = curves.len() == distributions.len() && curves.len() <= 2;
+    let columns = if is_pairs { 6 } else { 4 };
+    let all: Vec<Figure> = match is_pairs {
+        true => distributions.into_iter().zip(curves).flat_map(|(one, other)| [one, other]).collect(),
+        false => distributions.into_iter().chain(curves).collect(),
+    };
+    all.into_iter().map(|figure| Figure { columns, ..figure }).collect()
 }
 
 /// The runs in the bars of a histogram that miss a requirement, as bars of their own in front of these; nothing where no run does.
@@ -157,9 +167,9 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
     marks.push(Mark::line("fraction of runs", Hue::Total, Dash::Solid, x, y));
     for (place, [p, value, from, to]) in marked(plan, outcome, row).into_iter().enumerate() {
         let hue = Hue::Curve(place + 2);
-        let label = if p == 0.5 { "median".to_owned() } else { format!("{}%-quantile", number(100.0 * p)) };
+        let label = if p == 0.5 { "median".to_owned() } else { format!("{}% quantile", number(100.0 * p)) };
         if has_intervals && from.is_finite() && to.is_finite() {
-            marks.push(Mark::line(format!("interval of the {label}"), hue, Dash::Solid, vec![from, to], vec![p, p]));
+            marks.push(Mark::line(label.clone(), hue, Dash::Solid, vec![from, to], vec![p, p]));
         }
         let (x, y, samples) = (vec![value], vec![p], Vec::new());
         marks.push(Mark::Points { label, hue, shape: PointShape::Disc, x, y, samples });
@@ -177,10 +187,7 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
         name: format!("cumulative_{}", outcome.quantity.name()),
         section: FigureSection::Outcome,
         title: format!("{}: cumulative distribution", sentence(&names::of_quantity(&outcome.quantity))),
-        caption: format!(
-            "Fraction of the {} runs that were computed whose value is at most this. {interval}",
-            outcome.sketch.count()
-        ),
+        caption: format!("Fraction of {} runs with at most this value. {interval}", outcome.sketch.count()),
         columns: 6,
         is_over_time: false,
         x: axis(what, outcome.quantity.unit()).showing(outcome.quantity.name()),

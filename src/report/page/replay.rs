@@ -213,13 +213,19 @@ fn numbers(plan: &Plan, shown: &ShownRun) -> Vec<[String; 2]> {
         "omega_se_s_z_final_rad_s",
     ];
     let outcomes = outcomes(plan);
-    let others = FINAL.into_iter().filter(|name| !outcomes.iter().any(|outcome| outcome == name));
+    // the rates of a loop are among its live numbers, and near zero at the end
+    let is_free = plan.law.is_none();
+    let others = FINAL.into_iter().filter(|name| is_free && !outcomes.iter().any(|outcome| outcome == name));
     let names: Vec<&str> = outcomes.iter().map(String::as_str).chain(others).collect();
     let observed = Observed::named(plan, names.iter().copied());
     let number = |column: &str| shown.row.iter().find(|(name, _)| name == column).map(|(_, value)| *value);
     let value = |name: &&str| {
         let one = observed.iter().find(|one| one.quantity.name() == *name)?;
         let unit = plan.analysis.display.of(name, one.quantity.unit());
+        if *name == "launched" {
+            let word = if one.value(number)? == 1.0 { "yes" } else { "no" };
+            return Some([sentence(&names::of_quantity(&one.quantity)), word.to_owned()]);
+        }
         Some([sentence(&names::of_quantity(&one.quantity)), with_unit(unit.value(one.value(number)?), &unit.unit)])
     };
     names.iter().filter_map(value).collect()

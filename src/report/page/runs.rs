@@ -151,7 +151,11 @@ fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
                 let rank = match (place, is_low) {
                     (0, false) => "largest".to_owned(),
                     (0, true) => "smallest".to_owned(),
-                    _ => format!("no. {} in", place + 1),
+                    (place, _) => {
+                        let which = ["second", "third", "fourth", "fifth"].get(place - 1);
+                        let which = which.map_or_else(|| format!("{}th", place + 1), |which| (*which).to_owned());
+                        format!("{which} {}", if is_low { "smallest" } else { "largest" })
+                    }
                 };
                 let quantity = &outcome.quantity;
                 let shown = plan.analysis.display.of(quantity.name(), quantity.unit());

@@ -108,10 +108,14 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
                 let shown = unit_of(plan, index);
                 let name = names::of_component(column.parameter, column.component);
                 let sigmas = (value - column.nominal).abs() / spreads[index];
+                // zero is what a reader expects of an error
+                let nominal = match column.nominal {
+                    0.0 => String::new(),
+                    nominal => format!("nominal {}, ", with_unit(shown.value(nominal), &shown.unit)),
+                };
                 let text = format!(
-                    "{name} = {}, nominal {} ({} \u{3c3})",
+                    "{name} {} ({nominal}{} \u{3c3})",
                     with_unit(shown.value(*value), &shown.unit),
-                    with_unit(shown.value(column.nominal), &shown.unit),
                     number(libm::round(10.0 * sigmas) / 10.0)
                 );
                 (sigmas, text)
@@ -121,26 +125,28 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
         let listed: Vec<String> = inputs.into_iter().take(MOST_INPUTS).map(|(_, text)| escaped(&text)).collect();
         let listed = if shown.sample.0 == 0 { "nominal values".to_owned() } else { listed.join("<br>") };
         let reached = shown.run.as_ref().is_some_and(|run| run.outcome.points.min(run.grid.points()) > 1);
-        let status = if shown.status == Status::Done {
-            let mission = mission_text::of_row(&shown.row).map_or_else(String::new, |end| format!("; {end}"));
-            format!("computed{}", escaped(&mission))
+        let why = if shown.sample.0 == 0 { "nominal run" } else { &shown.why };
+        // a run that was computed and whose mission did not end has nothing to tell
+        let ended = if shown.status == Status::Done {
+            mission_text::of_row(&shown.row).map(|end| escaped(&sentence(&end)))
         } else {
-            format!("<b>{}</b>: {}", shown.status.name(), escaped(&shown.reason))
+            Some(format!("<b>{}</b>: {}", shown.status.name(), escaped(&shown.reason)))
         };
+        let status = ended.map_or_else(String::new, |ended| format!("<p class=\"ended\">{ended}</p>"));
         let load = if reached {
             format!("<button type=\"button\" class=\"load\" data-sample=\"{}\">show</button>", shown.sample)
         } else {
             "not run".to_owned()
         };
         body += &format!(
-            "<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"text\">{status}</td><td class=\"text small\">{listed}</td><td><code>spindrift simulate plan.toml --sample {}</code></td><td>{load}</td></tr>\n",
+            "<tr><th scope=\"row\">{}</th><td class=\"text\">{}{status}</td><td class=\"text small\">{listed}</td><td><code>spindrift simulate plan.toml --sample {}</code></td><td>{load}</td></tr>\n",
             shown.sample,
-            escaped(&shown.why),
+            escaped(&sentence(why)),
             shown.sample,
         );
     }
     format!(
-        "<div class=\"table\" tabindex=\"0\"><table><thead><tr><th>sample</th><th>why it is here</th><th>outcome</th><th>inputs farthest from nominal</th><th>replay, in this folder</th><th>3D</th></tr></thead><tbody>\n{body}</tbody></table></div>\n"
+        "<div class=\"table\" tabindex=\"0\"><table><thead><tr><th>sample</th><th>why it is listed</th><th>inputs farthest from nominal</th><th>command</th><th>3D</th></tr></thead><tbody>\n{body}</tbody></table></div>\n"
     )
 }
 

@@ -68,8 +68,7 @@ fn noise_is_told_from_scenes() {
     let run = found("noise", &noisy());
     let parts = run.rows(&["attitude_estimate_error_final_rad", "body_inertia_scale"]);
     let [of_noise, of_scene] = [0, 1].map(|k| variance(&parts.iter().map(|(_, row)| row[k]).collect::<Vec<f64>>()));
-    let page_before = run.data.to_string();
-    assert!(page_before.contains("report DIR --noise 256"), "the page says how");
+    assert!(run.visible().contains("report . --noise 256"), "the page says how");
     let text = run.scratch.prints("report r --noise 400", 0);
     // the page says how it was made, and is made again
     run.scratch.prints("verify r --fraction 0", 0);

@@ -127,7 +127,7 @@ fn cards_of_requirements_are_the_summary() {
                 _ => Some(number("target")),
             };
             assert_eq!(
-                kept.split_once("% of the runs").map(|(share, _)| read_number(share) / 100.0),
+                kept.split_once("% of the runs").map(|(share, _)| read_number(share.trim_start_matches("In ")) / 100.0),
                 share,
                 "{sentence}"
             );
@@ -141,7 +141,7 @@ fn cards_of_requirements_are_the_summary() {
                 }
                 _ => {
                     quantile = found.quantile(one["observable"].as_str().expect("a name"), &one["target"]);
-                    let statistic = format!("{}%-quantile", 100.0 * number("target"));
+                    let statistic = format!("{}% quantile", 100.0 * number("target"));
                     (statistic, &one["value"], &quantile["interval"], (side, limit))
                 }
             };
@@ -164,9 +164,9 @@ fn cards_of_requirements_are_the_summary() {
 
 /// Outcomes of which one is negative in some runs, in another unit than that of their columns.
 const SHOWN: [(&str, &str, bool); 4] = [
-    ("final angular rate", "angular_rate_final_rad_s", false),
+    ("angular rate at the end", "angular_rate_final_rad_s", false),
     ("maximum nutation angle", "nutation_angle_max_rad", false),
-    ("final angular velocity about s1", "omega_se_s_x_final_rad_s", false),
+    ("angular velocity about s1 at the end", "omega_se_s_x_final_rad_s", false),
     ("maximum energy error", "energy_error_max", false),
 ];
 
@@ -196,14 +196,14 @@ fn cards_of_outcomes_are_the_summary() {
         let list = summary["observables"].as_array().expect("observables");
         let one = list.iter().find(|one| one["name"] == name).expect(name);
         let high = of(0.99);
-        let (statistic, estimate, ends) = ("99%-quantile".to_owned(), &high["value"], &high["interval"]);
+        let (statistic, estimate, ends) = ("99% quantile".to_owned(), &high["value"], &high["interval"]);
         card_shows(card, &Known { statistic, estimate, ends, limit: None });
         let sentence = between(card, "</h3><p>", ".</p>");
         assert!(sentence.contains(words), "{sentence}");
         let is_negative = one["min"].as_f64().expect("a number") < 0.0;
         let (before, numbers, known) = match is_negative {
-            true => ("90%", [" between ", " and ", "; the extremes are ", " and "].as_slice(), vec![0.05, 0.95]),
-            false => ("99%", [" below ", "; the largest is "].as_slice(), vec![0.99]),
+            true => ("In 90%", [" between ", " and ", "; the extremes are ", " and "].as_slice(), vec![0.05, 0.95]),
+            false => ("In 99%", [" below ", "; the largest is "].as_slice(), vec![0.99]),
         };
         seen[usize::from(is_negative)] += 1;
         let known: Vec<Value> = known.into_iter().map(|p| of(p)["value"].clone()).collect();
@@ -215,7 +215,7 @@ fn cards_of_outcomes_are_the_summary() {
             let end = numbers.get(place + 1).and_then(|next| rest.find(next)).unwrap_or(rest.len());
             same(&rest[..end], known, sentence);
         }
-        let unbounded = "299 runs do not bound the 99%-quantile from above with 95% confidence.";
+        let unbounded = "299 runs do not bound the 99% quantile from above with 95% confidence.";
         assert_eq!(card.contains(unbounded), high["interval"][1].is_null(), "{card}");
     }
     assert!(seen.iter().all(|count| *count > 0), "{seen:?}");
@@ -226,10 +226,10 @@ fn cards_of_outcomes_are_the_summary() {
 #[test]
 fn listed_runs_have_their_ranks() {
     let of_requirements = [
-        ("final angular rate", "angular_rate_final_rad_s", false),
+        ("angular rate at the end", "angular_rate_final_rad_s", false),
         ("minimum nutation angle", "nutation_angle_min_rad", true),
         ("spin ratio", "spin_ratio", false),
-        ("final rate w1", "rate_w1_final_rad_s", false),
+        ("rate w1 at the end", "rate_w1_final_rad_s", false),
     ];
     let inputs = ["x", "y", "z"]
         .map(|axis| (format!("initial angular velocity {axis}"), format!("initial_angular_velocity_{axis}_rad_s")));
@@ -255,24 +255,22 @@ fn listed_runs_have_their_ranks() {
         for row in between(&page, "id=\"worst\"", "</section>").split("<tr>").skip(2) {
             let sample = between(row, "<th scope=\"row\">", "</th>");
             assert!(row.contains(&format!("--sample {sample}</code>")), "{row}");
-            let why = between(row, "<td>", "</td>");
+            let why = between(row, "<td class=\"text\">", "</td>").split("<p").next().expect("why").to_lowercase();
+            let why = why.as_str();
             if let Some((what, value)) = why.split_once(" (") {
                 let of = |(words, ..): &&(&str, &str, bool)| what.ends_with(words);
                 let (words, column, is_low) = outcomes.iter().find(of).unwrap_or_else(|| panic!("{what}"));
                 let rank = what.strip_suffix(words).expect("a rank").trim_end();
-                let place = match rank.strip_prefix("no. ").and_then(|rank| rank.strip_suffix(" in")) {
-                    Some(place) => place.parse::<usize>().expect("a place") - 1,
-                    None => {
-                        assert_eq!(rank, if *is_low { "smallest" } else { "largest" });
-                        0
-                    }
-                };
+                let side = if *is_low { "smallest" } else { "largest" };
+                let place = rank.strip_suffix(side).expect(side).trim_end();
+                let place = ["", "second", "third", "fourth", "fifth"].iter().position(|word| *word == place);
+                let place = place.unwrap_or_else(|| panic!("{rank}"));
                 let ordered = ordered(column, *is_low);
                 assert_eq!(sample, ordered[place].0.to_string(), "{why}");
                 same(value.trim_end_matches(')'), &ordered[place].1[0].into(), why);
                 *if place == 0 { &mut first } else { &mut later } += 1;
             } else {
-                assert!(why.starts_with("computation failed: ") || (why, sample) == ("nominal", "0"), "{why}");
+                assert!(why.starts_with("computation failed: ") || (why, sample) == ("nominal run", "0"), "{why}");
             }
             if sample == "0" {
                 continue;
@@ -280,14 +278,16 @@ fn listed_runs_have_their_ranks() {
             let sample: usize = sample.parse().expect("a sample");
             let mut last = f64::INFINITY;
             for input in between(row, "<td class=\"text small\">", "</td>").split("<br>") {
-                let (name, value) = input.split_once(" = ").expect("a value");
-                let place = inputs.iter().position(|(one, _)| one == name).unwrap_or_else(|| panic!("{name}"));
+                let place = inputs.iter().position(|(one, _)| input.starts_with(&format!("{one} ")));
+                let place = place.unwrap_or_else(|| panic!("{input}"));
+                let name = &inputs[place].0;
                 let (values, nominal) = (&columns[place], columns[place][0]);
-                let (value, rest) = value.split_once(", nominal ").expect("the nominal value");
-                let (known, sigmas) =
-                    rest.strip_suffix(" \u{3c3})").and_then(|rest| rest.split_once(" (")).expect("sigmas");
+                let (value, rest) = input[name.len() + 1..].split_once(" (").expect("a value");
+                let rest = rest.strip_suffix(" \u{3c3})").expect("sigmas");
+                // a nominal value of zero goes without saying
+                let (known, sigmas) = rest.rsplit_once(", ").unwrap_or(("nominal 0", rest));
                 same(value, &values[sample].into(), name);
-                same(known, &nominal.into(), name);
+                same(known.strip_prefix("nominal ").expect("the nominal value"), &nominal.into(), name);
                 let squares: f64 = values.iter().map(|value| (value - nominal).powi(2)).sum();
                 let distance = (values[sample] - nominal).abs() / squares.sqrt();
                 // one decimal is shown, and the nominal row may be among those that the spread is of

@@ -103,9 +103,9 @@ fn limits_are_those_of_the_file() {
         let is_one = |(a, b): (&(String, f64), &(&str, f64))| a.0 == b.0 && (a.1 - b.1).abs() <= 1e-12 * b.1.abs();
         assert!(found.len() == expected.len() && found.iter().zip(expected).all(is_one), "{found:?} {expected:?}");
     };
-    near(&of("wheel_torque"), &[("limit", 4.0), ("", -4.0)]);
-    near(&of("wheel_speed"), &[("limit", 40.0 * core::f64::consts::PI)]);
-    near(&of("thrust"), &[("limit of p2, p3", 10.0), ("limit of p1", 20.0)]);
+    near(&of("wheel_torque"), &[("limit \u{b1}4\u{a0}N m", 4.0), ("", -4.0)]);
+    near(&of("wheel_speed"), &[("limit 125.7\u{a0}rad/s", 40.0 * core::f64::consts::PI)]);
+    near(&of("thrust"), &[("limit of p2, p3 10\u{a0}N", 10.0), ("limit of p1 20\u{a0}N", 20.0)]);
     near(&of("debris_distance_m"), &[("keep-out", 5.0), ("station", 10.0)]);
     near(&of("impulse_n_s"), &[("at most 4,000\u{a0}N s", 4000.0)]);
     near(&of("debris_relative_speed_m_s"), &[("at most 5\u{a0}cm/s at the launch", 5.0)]);

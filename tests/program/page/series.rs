@@ -31,7 +31,7 @@ fn share(values: &[f64], limit: f64) -> f64 {
 
 /// The probability that the label of a series names.
 fn probability(label: &str) -> Option<f64> {
-    if label == "median" { Some(0.5) } else { Some(label.strip_suffix("%-quantile")?.parse::<f64>().ok()? / 100.0) }
+    if label == "median" { Some(0.5) } else { Some(label.strip_suffix("% quantile")?.parse::<f64>().ok()? / 100.0) }
 }
 
 /// The bars are of the values: all of them, each within its edges.
@@ -118,7 +118,7 @@ fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f
             assert_eq!(of("y"), [p]);
         }
         ("cumulative_", "line", _) => {
-            let p = label.strip_prefix("interval of the ").and_then(probability).expect("a quantile");
+            let p = probability(label).expect("a quantile");
             let [from, to] = interval_of(p);
             assert_eq!((of("y"), from < to), (vec![p; 2], true), "{what}");
             near(of("x")[0], from, BUCKET, &what);
@@ -285,7 +285,7 @@ fn every_series_is_of_its_label() {
                 let shown = |value: &f64| factor * if is_error { value.abs() } else { *value };
                 let values: Vec<f64> = found.column(column).iter().map(shown).collect();
                 let nominal = shown(&found.all(&[column])[0][0]);
-                let count = format!("{} runs that were computed", values.len());
+                let count = format!("{} runs", values.len());
                 assert!(kind == "convergence_" || text(figure, "caption").contains(&count), "{figure}");
                 for mark in marks {
                     series_is(&found, kind, column, (mark, factor), &values, nominal);

@@ -13,10 +13,11 @@ fn a_dead_thruster_is_named() {
     let dead =
         "parameter = \"thrusters.p2.thrust_scale\"\ndistribution = \"bernoulli\"\nvalue = 0.0\nprobability = 0.04";
     assert!(DETUMBLE.contains(SCALE));
-    let found = found(
-        "dead",
-        &DETUMBLE.replace(SCALE, dead).replace("samples = 1024", "samples = 400").replace("\"5 min\"", "\"64 s\""),
-    );
+    // what the same runs miss is said of both, and drawn once; a number that is noise has no driver
+    let twice = "\n[[observable]]\nname = \"twice\"\nunit = \"s\"\nexpression = \"2 * phase_rest_begin_s\"\n\
+                 [[require]]\nobservable = \"twice\"\nfraction = 0.95\nat_most = 128\n";
+    let text = DETUMBLE.replace(SCALE, dead).replace("samples = 1024", "samples = 400");
+    let found = found("dead", &(text.replace("\"5 min\"", "\"64 s\"") + twice));
     let rows = found.scratch.rows("r");
     let [scale, began] = ["thrusters_p2_thrust_scale", "phase_rest_begin_s"].map(|name| column(&rows, name));
     let runs = |value: f64| (1..400).filter(|row| scale[*row] == value).collect::<Vec<_>>();
@@ -32,6 +33,14 @@ fn a_dead_thruster_is_named() {
     assert!(found.visible().contains(&words));
     let chart = found.figure("influence_phase_rest_begin_s_event");
     assert_eq!(chart["y"]["names"][0], "thruster p2 thrust scale", "{chart}");
+    assert!(chart["caption"].as_str().expect("a caption").ends_with(" The same runs miss: twice."), "{chart}");
+    let names: Vec<&str> = found.data["figures"]
+        .as_array()
+        .expect("figures")
+        .iter()
+        .filter_map(|figure| figure["name"].as_str())
+        .collect();
+    assert!(!names.contains(&"influence_twice_event") && names.contains(&"influence_propellant_kg"), "{names:?}");
     let is_said = |line: &str| {
         line.trim_start().starts_with("propellant_kg")
             && line.contains("initial angular velocity x")

@@ -76,7 +76,7 @@ fn garbage_is_inaccurate() {
         campaign().replace("method = \"auto\"\ntolerance = 1e-10", "method = \"runge_kutta_4\"\nstep_s = 0.25");
     scratch.file("long.toml", &too_long);
     let said = scratch.prints("campaign long.toml --samples 40 --out long", 1);
-    assert!(said.contains("inaccurate") && said.contains("samples 0, 1, 2, ..."), "{said}");
+    assert!(said.contains("inaccurate") && said.contains("(first sample 0)"), "{said}");
     let batch = &scratch.table("long/runs/part-000000.parquet");
     let estimates = floats(batch, "state_error_estimate");
     let balances = ["energy_error_max", "angular_momentum_error_max"].map(|name| (name, floats(batch, name)));

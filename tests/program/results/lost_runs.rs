@@ -50,7 +50,7 @@ fn a_loss_is_said_first_and_is_not_random() {
     let summary = scratch.summary("lost");
     let warnings = summary["warnings"].as_array().expect("warnings");
     let first = warnings[0].as_str().expect("a text");
-    assert!(first.contains("Whether a run is computed: initial"), "{first}");
+    assert!(first.contains("What decides it: initial"), "{first}");
     let page = scratch.text("lost/report.html");
     let place = |anchor: &str| page.find(&format!("<section id=\"{anchor}\"")).unwrap_or_else(|| panic!("{anchor}"));
     assert!(place("warnings") < place("status") && page.contains("<b>NOT COMPUTED:</b>"));

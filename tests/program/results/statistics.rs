@@ -193,7 +193,7 @@ quantile = 0.9
     let influence = number(&inputs, "influence", drivers[0]).expect("a share");
     // "initial_angular_velocity_y_rad_s", as people say it
     let said = |name: &str| name.strip_suffix("_rad_s").unwrap_or(name).replace('_', " ");
-    let words = format!("{} ({influence:.2}", said(&names[0]));
+    let words = format!("{} explains {:.0}% of the variance", said(&names[0]), 100.0 * influence);
     let page = scratch.text("r/report.html");
     let line = screen.lines().find(|line| line.contains(&words)).unwrap_or_else(|| panic!("{words}: {screen}"));
     let drivers = line.trim_start().trim_start_matches("cross_spin").trim();
