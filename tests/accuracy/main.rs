@@ -8,6 +8,7 @@ mod support;
 mod textbook;
 
 mod accuracy_claims;
+mod air_table;
 mod at_rest;
 mod bodies;
 mod closed_forms;
