@@ -18,6 +18,7 @@ mod environment;
 mod error_estimate;
 mod feedback;
 mod golden_truth;
+mod jeod;
 mod magnetic_torque;
 mod many_wheels;
 mod null_space;
