@@ -180,6 +180,13 @@ impl Plan {
                     lines.key(key, true);
                 }
             }
+            for (key, list) in
+                [("air_heights_m", environment.air_heights_m), ("air_densities_kg_m3", environment.air_densities_kg_m3)]
+            {
+                if let Some(list) = list {
+                    lines.key(key, list);
+                }
+            }
             if environment.shadow != Shadow::default() {
                 lines.key("shadow", environment.shadow.name());
             }

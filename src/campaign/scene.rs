@@ -9,6 +9,7 @@ use super::section::Section;
 use super::tables::{read_keys, read_name};
 use crate::scene::body::MAX_PARTS;
 use crate::scene::schema::Limit;
+use crate::scene::schema::numbers::kept;
 use crate::scene::table::Table;
 use crate::scene::{
     ActuationInput, ControlInput, DebrisInput, Epoch, FieldModel, MAX_THRUSTERS, MAX_TORQUE_RODS, MAX_WHEELS, Name,
@@ -59,6 +60,8 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
         section.name("magnetic_field", &FieldModel::ALL.map(FieldModel::name), FieldModel::from_name);
     scene.environment.drag = section.flag("drag").unwrap_or(false);
     scene.environment.solar_pressure = section.flag("solar_pressure").unwrap_or(false);
+    scene.environment.air_heights_m = read_list(&mut section, "air_heights_m");
+    scene.environment.air_densities_kg_m3 = read_list(&mut section, "air_densities_kg_m3");
     let shadow = section.name("shadow", &Shadow::ALL.map(Shadow::name), Shadow::from_name);
     scene.environment.shadow = shadow.unwrap_or_default();
     section.finish();
@@ -136,6 +139,12 @@ fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
             }
         }
     }
+}
+
+/// The numbers of `key`, of any count, if they were written.
+fn read_list(section: &mut Section<'_, '_>, key: &'static str) -> Option<&'static [f64]> {
+    let values = section.values(key, section.unit_of(key))?;
+    Some(kept(values.numbers()))
 }
 
 /// The date of an orbit, if it has one.

@@ -8,6 +8,7 @@ mod support;
 mod textbook;
 
 mod accuracy_claims;
+mod air_table;
 mod at_rest;
 mod bodies;
 mod closed_forms;
@@ -17,6 +18,7 @@ mod environment;
 mod error_estimate;
 mod feedback;
 mod golden_truth;
+mod jeod;
 mod magnetic_torque;
 mod many_wheels;
 mod null_space;

@@ -1,160 +1,26 @@
-//! The gravity gradient on two-body orbits, by every method that integrates it: NASA's numbers, librations, the constant of a circular
-//! orbit; and orbits themselves.
+//! The gravity gradient on two-body orbits, by every method that integrates it: librations, the constant of a circular orbit; and orbits themselves.
+//! NASA's numbers are in `jeod.rs`.
 
+use super::jeod::JEOD_RUNS;
 use crate::support::exact::solved;
-use crate::support::orbits::{MU, body, circle, leaving, plated, tumbling};
+use crate::support::orbits::{MU, body, circle, leaving, near_rounding, plated, tumbling};
 use crate::support::runs::{Run, adaptive, everything, fixed, propagate, propagate_on};
 use spindrift::dynamics::effects::within_arcs::Motion;
 use spindrift::dynamics::effects::{ChangingEffects, Effect, ForceModel};
 use spindrift::dynamics::orbit::{KeplerOrbit, OrbitState};
 use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, difference, dot, norm, product, scaled, transposed_product};
-use spindrift::ode::{Control, Integrator};
-use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
+use spindrift::ode::Control;
+use spindrift::propagation::taylor::reference_solution::ReferenceSolution;
 use spindrift::propagation::{Method, PropagationSettings, RotationError, rotation_errors};
-use spindrift::run::{Grid, StateField, StateTable};
+use spindrift::run::{Grid, StateField};
 use spindrift::scene::{
     Actuation, Arc, EnvironmentInput, Epoch, FieldModel, Name, OrbitInput, PlateInput, Scene, SceneInput, TorqueRod,
 };
 
 /// The methods that integrate the gravity gradient, with settings near rounding for motions of some mrad/s.
 fn methods() -> Vec<(Method, Control)> {
-    let model = ForceModel::NONE.with(Effect::GravityGradient).with(Effect::Gravity);
-    let control = |method: Method| match method {
-        Method::Auto | Method::Taylor => adaptive(1e-16),
-        Method::Gyrostat(Integrator::Dop853) => adaptive(1e-14),
-        Method::Gyrostat(Integrator::DormandPrince) => adaptive(1e-15),
-        Method::Gyrostat(Integrator::GaussLegendre) => fixed(10.0),
-        Method::Gyrostat(Integrator::RungeKutta4) => fixed(0.5),
-        Method::NullSpace => adaptive(1e-10),
-    };
-    let able = Method::ALL.into_iter().filter(|method| method.integrates(model));
-    able.map(|method| (method, control(method))).collect()
-}
-
-/// A case of NASA's JEOD under two bodies and gravity gradient: a cylinder of 1000 kg for eight hours. The first and the last line of
-/// `verif/SIM_dyncomp/SET_test_val/<name>/log_state_ASCII.csv` (16 digits); its set-up is that of `SET_test/<name>/input.py`.
-struct JeodRun {
-    name: &'static str,
-    /// Position (m) and velocity (m/s) at time zero.
-    start: [[f64; 3]; 2],
-    /// Angular velocity at time zero and after 28,800 s, F_s, rad/s.
-    rates: [[f64; 3]; 2],
-    /// Position after 28,800 s, m.
-    position: [f64; 3],
-    /// From F_e to F_s, by rows, after 28,800 s: `T_parent_this`.
-    dcm: [[f64; 3]; 3],
-}
-
-/// On a circle (10A) and on an ellipse (10C), there with an additional rate in pitch too (10D).
-const JEOD_RUNS: [JeodRun; 3] = [
-    JeodRun {
-        name: "RUN_10A",
-        start: [[-4292653.41, 955168.47, 5139356.57], [109.649663, -7527.72649, 1484.521489]],
-        rates: [
-            [-1.97989570839746e-05, -0.001134281491669957, 0.0],
-            [-1.97989570839746e-05, -0.001080027400090759, -0.0007098670173048437],
-        ],
-        position: [-1024262.411095882, -6151093.565368023, 2599975.06217899],
-        dcm: [
-            [-0.1303977224153033, -0.9235551691194414, 0.3606137595567613],
-            [-0.9835635249313684, 0.0746803593168579, -0.1643947576928366],
-            [0.1248968631050554, -0.3761232424685627, -0.9181133263717784],
-        ],
-    },
-    JeodRun {
-        name: "RUN_10C",
-        start: [[-4315967.74, 960356.2, 5167269.53], [129.091037, -7491.513855, 1452.515654]],
-        rates: [
-            [-1.958561461497211e-05, -0.001122059109806593, 0.0],
-            [-1.958561461497211e-05, -0.001102150420357001, -0.0007137081527530395],
-        ],
-        position: [-1051395.223245429, -6116653.272961161, 2626343.274205685],
-        dcm: [
-            [-0.1416223422259105, -0.9171375917053928, 0.372561068904521],
-            [-0.9814677649343182, 0.08101112610984618, -0.1736612329832083],
-            [0.1290896532541655, -0.3902509901681823, -0.9116139676943704],
-        ],
-    },
-    JeodRun {
-        name: "RUN_10D",
-        start: [[-4315967.74, 960356.2, 5167269.53], [129.091037, -7491.513855, 1452.515654]],
-        rates: [
-            [-1.958561461497211e-05, -0.00094752618460716, 0.0],
-            [-1.958561461497211e-05, -0.001062058853745821, -0.0006901638686869954],
-        ],
-        position: [-1051395.223245429, -6116653.272961161, 2626343.274205685],
-        dcm: [
-            [-0.09270989340746383, -0.9435593558564048, 0.3179632331578974],
-            [-0.9864361111063251, 0.04359502545335181, -0.1582506633829749],
-            [0.1354572787627401, -0.3283218173249661, -0.9348027117518567],
-        ],
-    },
-];
-
-impl JeodRun {
-    fn input(&self) -> SceneInput {
-        let [position, velocity] = self.start;
-        let orbit = OrbitInput {
-            mu_m3_s2: 3.986004415e14,
-            position_m: Some(position),
-            velocity_m_s: Some(velocity),
-            ..OrbitInput::DEFAULT
-        };
-        let mut input = body([500.0, 12250.0, 12250.0], orbit);
-        input.initial.angular_velocity_rad_s = self.rates[0];
-        // JEOD's left quaternion: scalar, and minus the vector of Hamilton's; it is the same in all of them but for its last digits
-        input.initial.attitude = if self.name == "RUN_10A" {
-            [0.2949554834573935, 0.3013397571377723, -0.5879739300516263, 0.6902769524808205]
-        } else {
-            [0.2949554836647295, 0.3013397570548775, -0.5879739299692612, 0.6902769524985716]
-        };
-        input
-    }
-}
-
-/// Truth: NASA JEOD after eight hours. On the ellipse the last digits are JEOD's own error: every method is nearer to the reference solution
-/// than JEOD.
-#[test]
-fn nasa_jeod_runs() {
-    let grid = Grid::uniform(28_800.0, 481);
-    for jeod in &JEOD_RUNS {
-        let scene = Scene::resolve(&jeod.input()).expect("a legal scene");
-        let fields = everything(Method::Auto);
-        let exact = ReferenceSolution::new(Isa::best(), &scene, &grid, fields, TOLERANCE).expect("a solution").high;
-        let from = |table: &StateTable, position: [f64; 3], rate: [f64; 3], dcm: [[f64; 3]; 3]| {
-            let c_es = dcm_from_quaternion(table.at(StateField::Attitude, 480));
-            let entries = (0..9).map(|k| (c_es[k % 3][k / 3] - dcm[k / 3][k % 3]).abs());
-            [
-                norm(difference(table.at(StateField::ComPosition, 480), position)),
-                norm(difference(table.at(StateField::Rate, 480), rate)),
-                entries.fold(0.0, f64::max),
-            ]
-        };
-        let shown = |[m, rate, angle]: [f64; 3]| format!("{m:.1e} m, {rate:.1e} rad/s, {angle:.1e} rad");
-        let theirs = from(&exact, jeod.position, jeod.rates[1], jeod.dcm);
-        println!("{} itself: {}", jeod.name, shown(theirs));
-        let c_es = dcm_from_quaternion(exact.at(StateField::Attitude, 480));
-        let transposed = core::array::from_fn(|i| core::array::from_fn(|j| c_es[j][i]));
-        for (method, control) in methods() {
-            let run = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0);
-            let off = from(&run.table, jeod.position, jeod.rates[1], jeod.dcm);
-            let ours =
-                from(&run.table, exact.at(StateField::ComPosition, 480), exact.at(StateField::Rate, 480), transposed);
-            println!("{} {}: {}, from the reference solution {}", jeod.name, method.name(), shown(off), shown(ours));
-            let bounds = if jeod.name == "RUN_10A" { [1e-5, 1e-15, 1e-12] } else { [2e-5, 1e-15, 4e-12] };
-            for (off, bound) in off.into_iter().zip(bounds) {
-                assert!(off < bound, "{} {}", jeod.name, method.name());
-            }
-            assert!(ours[0] < 1e-6 && ours[1] < 1e-15 && ours[2] < 2e-13, "{} {}", jeod.name, method.name());
-        }
-        // the counter-test: without the effect the body points elsewhere
-        let mut without = jeod.input();
-        without.environment.gravity_gradient = false;
-        let scene = Scene::resolve(&without).expect("a legal scene");
-        let run = propagate(Method::Auto, adaptive(1e-16), &grid, &[scene]).remove(0);
-        assert!(norm(difference(run.table.at(StateField::Rate, 480), jeod.rates[1])) > 1e-4);
-    }
+    near_rounding(ForceModel::NONE.with(Effect::GravityGradient).with(Effect::Gravity))
 }
 
 /// The attitude and the rate of a body whose axes are those of the orbit on a circle of rate `n` in the e1-e2 plane, at the node.
@@ -294,7 +160,7 @@ fn the_constant_over_a_thousand_orbits() {
 
 /// A scene on which one effect acts, and the same without it.
 fn with_and_without(effect: Effect) -> [Scene; 2] {
-    let mut input = JEOD_RUNS[0].input();
+    let mut input = JEOD_RUNS[0].input(true);
     input.orbit.as_mut().expect("an orbit").epoch = Epoch::parse("2026-06-01T00:00:00Z");
     let plate = |name, normal, center_m| PlateInput {
         name: Name::of(name),
@@ -422,7 +288,7 @@ fn every_method_has_every_effect_or_says_so() {
 fn an_orbit_without_gradient_costs_nothing() {
     for method in Method::ALL.into_iter().filter(|method| method.integrates(ForceModel::NONE.with(Effect::Gravity))) {
         let control = if method.has_fixed_step() { fixed(10.0) } else { adaptive(1e-12) };
-        let mut input = JEOD_RUNS[0].input();
+        let mut input = JEOD_RUNS[0].input(true);
         input.environment.gravity_gradient = false;
         let flat = SceneInput { orbit: None, ..input.clone() };
         let runs = [input, flat].map(|input| {

@@ -1,28 +1,14 @@
 //! Spacecraft and debris beside an orbit: against two Kepler orbits in 60 digits, against the equation of motion without an orbit's help, and the balances
 //! with thrust.
 
-use crate::support::orbits::{MU, body, leaving};
-use crate::support::runs::{adaptive, everything, fixed, propagate};
+use crate::support::orbits::{MU, body, leaving, near_rounding};
+use crate::support::runs::{everything, propagate};
 use spindrift::dynamics::effects::ForceModel;
 use spindrift::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
-use spindrift::ode::{Control, Integrator};
 use spindrift::propagation::Method;
 use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
 use spindrift::run::{Grid, StateField};
 use spindrift::scene::{ActuationInput, DebrisInput, EnvironmentInput, OrbitInput, Scene, SceneInput, ThrusterInput};
-
-/// The methods that follow the relative motion, with settings near rounding for slow motions.
-fn methods(model: ForceModel) -> Vec<(Method, Control)> {
-    let control = |method: Method| match method {
-        Method::Gyrostat(Integrator::Dop853) => adaptive(1e-14),
-        Method::Gyrostat(Integrator::DormandPrince) => adaptive(1e-15),
-        Method::Gyrostat(Integrator::GaussLegendre) => fixed(10.0),
-        Method::Gyrostat(Integrator::RungeKutta4) => fixed(0.5),
-        _ => adaptive(1e-16),
-    };
-    let able = Method::ALL.into_iter().filter(|method| method.integrates(model));
-    able.map(|method| (method, control(method))).collect()
-}
 
 fn ellipse() -> OrbitInput {
     let (position_m, velocity_m_s) = (Some([7e6, 1e6, -2e5]), Some([100.0, 7100.0, 2900.0]));
@@ -53,7 +39,7 @@ fn a_day_beside_an_orbit_without_thrust() {
     for has_gradient in [false, true] {
         input.environment.gravity_gradient = has_gradient;
         let scene = Scene::resolve(&input).expect("a legal scene");
-        for (method, control) in methods(ForceModel::of(&scene)) {
+        for (method, control) in near_rounding(ForceModel::of(&scene)) {
             let run = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0);
             for (point, position, velocity) in TRUTH {
                 let apart =
@@ -100,7 +86,7 @@ fn thrust_on_an_orbit() {
     }
     assert!(norm(difference(y[0], unmoved[0])) > 1e4);
     let grid = Grid::uniform(3_000.0, 31);
-    for (method, control) in methods(ForceModel::of(&scene)) {
+    for (method, control) in near_rounding(ForceModel::of(&scene)) {
         let run = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0);
         let off = norm(difference(run.table.at(StateField::ComPosition, 30), y[0]));
         let speed = norm(difference(run.table.at(StateField::ComVelocity, 30), y[1]));
@@ -121,7 +107,8 @@ fn the_balances_hold_beside_an_orbit() {
     input.initial.angular_velocity_rad_s = [0.01, -0.02, 0.03];
     let scene = Scene::resolve(&input).expect("a legal scene");
     let grid = Grid::uniform(6_000.0, 61);
-    for (method, control) in methods(ForceModel::of(&scene)).into_iter().filter(|(method, _)| !method.has_fixed_step())
+    for (method, control) in
+        near_rounding(ForceModel::of(&scene)).into_iter().filter(|(method, _)| !method.has_fixed_step())
     {
         let run = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0);
         let table = &run.table;

@@ -313,7 +313,15 @@ pub fn every_scene() -> Vec<String> {
             "attitude_orbital = [1, 0, 0, 0]\nangular_velocity_orbital_rad_s = [0, 0, 0.001]",
         ),
         on_plates(),
+        in_own_air(),
     ]
+}
+
+/// The same with a table of the air of its own.
+fn in_own_air() -> String {
+    let exponential = "base_density_kg_m3 = 1e-11\nbase_height_m = 5e5\nscale_height_m = 6e4\n";
+    on_plates()
+        .replace(exponential, "air_heights_m = [3e5, \"400 km\", 6e5]\nair_densities_kg_m3 = [2e-11, 3e-12, 1e-13]\n")
 }
 
 /// The same with plates, in air and light.

@@ -1,6 +1,10 @@
 //! Spacecraft on orbits under the gravity gradient.
 
+use super::runs::{adaptive, fixed};
 use super::scenes::Uniform;
+use spindrift::dynamics::effects::ForceModel;
+use spindrift::ode::{Control, Integrator};
+use spindrift::propagation::Method;
 use spindrift::scene::{
     ActuationInput, BodyInput, DebrisInput, EnvironmentInput, Epoch, Name, OrbitInput, PlateInput, Scene, SceneInput,
     ThrusterInput,
@@ -8,6 +12,19 @@ use spindrift::scene::{
 
 /// Gravitational parameter of the Earth, m^3/s^2.
 pub const MU: f64 = 3.986004418e14;
+
+/// The methods that integrate `model`, with settings near rounding for motions of some mrad/s.
+pub fn near_rounding(model: ForceModel) -> Vec<(Method, Control)> {
+    let control = |method: Method| match method {
+        Method::Auto | Method::Taylor | Method::NullSpace => adaptive(1e-16),
+        Method::Gyrostat(Integrator::Dop853) => adaptive(1e-14),
+        Method::Gyrostat(Integrator::DormandPrince) => adaptive(1e-15),
+        Method::Gyrostat(Integrator::GaussLegendre) => fixed(10.0),
+        Method::Gyrostat(Integrator::RungeKutta4) => fixed(0.5),
+    };
+    let able = Method::ALL.into_iter().filter(|method| method.integrates(model));
+    able.map(|method| (method, control(method))).collect()
+}
 
 /// A body of the principal moments `moments` (kg m^2) in the orbit `orbit` under the gravity gradient.
 pub fn body(moments: [f64; 3], orbit: OrbitInput) -> SceneInput {

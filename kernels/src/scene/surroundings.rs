@@ -5,11 +5,14 @@ use super::input::SceneInput;
 use super::orbit::Orbit;
 use super::plate;
 use super::schema::limit::shown;
-use super::schema::{MAX_PLATES, PlateInput};
+use super::schema::{EnvironmentInput, MAX_PLATES, PlateInput};
 use super::table::Table;
 
 /// Height above which the air is so thin that molecules hit a spacecraft and not one another, m: below it the drag is that of a flow around the body.
 const FREE_MOLECULAR: f64 = 100e3;
+
+/// The thinnest layer of a table of the air, m: steps end at its ends, and an orbit moves by kilometres in a second.
+const LEAST_LAYER: f64 = 1.0;
 
 /// Collects what is wrong where air or light acts on plates.
 pub(super) fn check(input: &SceneInput, problems: &mut Problems) {
@@ -62,6 +65,52 @@ pub(super) fn check(input: &SceneInput, problems: &mut Problems) {
             1e-3 * height
         );
         problems.add("environment.drag".to_owned(), "true".to_owned(), allowed, "raise the orbit");
+    }
+}
+
+/// Collects what is wrong with the table of the air's density.
+pub(super) fn check_air_table(environment: &EnvironmentInput, problems: &mut Problems) {
+    const KEYS: [&str; 2] = ["environment.air_heights_m", "environment.air_densities_kg_m3"];
+    let lists = [environment.air_heights_m, environment.air_densities_kg_m3];
+    let mut refuse = |index: usize, allowed: &str, remedy: &'static str| {
+        let value = lists[index].map_or("missing".to_owned(), |list| format!("{list:?}"));
+        problems.add(KEYS[index], value, allowed, remedy);
+    };
+    let [heights, densities] = match lists {
+        [None, None] => return,
+        [first, _] if !environment.drag => {
+            return refuse(
+                usize::from(first.is_none()),
+                "left out without drag",
+                "add drag = true, or delete the table",
+            );
+        }
+        [first, _] if environment.exponential().iter().any(Option::is_some) => {
+            let allowed = "left out where base_density_kg_m3, base_height_m and scale_height_m are given";
+            return refuse(usize::from(first.is_none()), allowed, "delete these three, or the table");
+        }
+        [None, _] => return refuse(0, "given together with air_densities_kg_m3", "write a height for each density"),
+        [_, None] => return refuse(1, "given together with air_heights_m", "write the density at each height"),
+        [Some(heights), Some(densities)] => [heights, densities],
+    };
+    if heights.len() < 2 {
+        return refuse(0, "two heights or more", "write at least two heights with their densities");
+    }
+    if heights.len() != densities.len() {
+        let allowed = format!("as many numbers as air_heights_m has, {}, not {}", heights.len(), densities.len());
+        return refuse(1, &allowed, "write the density at each height");
+    }
+    if let Some([low, high]) = heights.array_windows().find(|[low, high]| high - low < LEAST_LAYER) {
+        let allowed = format!("ascending by {LEAST_LAYER} m or more, where {high:?} follows {low:?}");
+        return refuse(0, &allowed, "put the heights in ascending order, each once");
+    }
+    if let Some(density) = densities.iter().find(|density| **density < f64::MIN_POSITIVE) {
+        let allowed = format!("above zero, each, not {density:?}: between two heights the density is exponential");
+        return refuse(1, &allowed, "write positive numbers");
+    }
+    if let Some([below, above]) = densities.array_windows().find(|[below, above]| above > below) {
+        let allowed = format!("never above the density before, where {above:?} follows {below:?}");
+        refuse(1, &allowed, "write the densities in the order of their heights");
     }
 }
 

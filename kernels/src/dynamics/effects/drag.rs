@@ -7,7 +7,7 @@
 use super::plates::{PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
 use crate::dynamics::environment::EARTH_RATE;
-use crate::dynamics::environment::air::Air;
+use crate::dynamics::environment::air::{Air, AirTable};
 
 use crate::math::Real;
 use crate::math::vector::{cross, dcm_from_quaternion, norm, scaled, sum, transposed_product};
@@ -42,7 +42,7 @@ impl<R: Real> Drag<R> {
         self.torque_at(self.air.density(motion.place.distance), flow(motion))
     }
 
-    /// Chooses the sides of the plates and the band of the air in the lanes `lanes`.
+    /// Chooses the sides of the plates and the layer of the air in the lanes `lanes`.
     #[inline(always)]
     pub fn choose_branches(&mut self, lanes: R::Mask, motion: &Motion<R>) {
         self.air.choose_branches(lanes, motion.place.distance);
@@ -91,7 +91,8 @@ fn flow<R: Real>(motion: &Motion<R>) -> [R; 3] {
 pub fn air_of(scene: &Scene) -> Option<Air<f64>> {
     let orbit = scene.orbit.as_ref().filter(|_| scene.environment.drag)?;
     let exponential = scene.environment.exponential().map(Option::unwrap_or_default);
-    Some(Air::new(scene.environment.density_scale, orbit.body_radius, exponential))
+    let table = AirTable::of(&scene.environment);
+    Some(Air::new(scene.environment.density_scale, orbit.body_radius, exponential, table))
 }
 
 /// The drag on `scene` in the frame B, which `c_sb` maps to F_s.

@@ -15,12 +15,12 @@ use crate::math::Real;
 /// Angular velocity of the Earth's rotation, rad/s (IERS Conventions 2010, table 1.2: nominal mean).
 pub const EARTH_RATE: f64 = 7.292115e-5;
 
-/// `f` of every lane.
+/// `f` of every lane and its numbers.
 #[inline(always)]
-fn each_lane<R: Real, const K: usize>(numbers: [R; K], f: impl Fn([f64; K]) -> f64) -> R {
+fn each_lane<R: Real, const K: usize>(numbers: [R; K], f: impl Fn(usize, [f64; K]) -> f64) -> R {
     let mut results = numbers[0];
     for lane in 0..R::LANES {
-        results.set_lane(lane, f(numbers.map(|number| number.lane(lane))));
+        results.set_lane(lane, f(lane, numbers.map(|number| number.lane(lane))));
     }
     results
 }

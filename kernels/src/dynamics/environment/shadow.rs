@@ -41,7 +41,7 @@ pub fn lit<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -
 fn visible_share<R: Real>(position: [R; 3], sun: &Sun<R>, radius: R) -> R {
     let to_sun = difference(scaled(sun.distance * radius.splat(ASTRONOMICAL_UNIT), sun.direction), position);
     let numbers = [norm(to_sun), norm(position), norm(cross(position, to_sun)), -dot(position, to_sun), radius];
-    each_lane(numbers, visible_disc)
+    each_lane(numbers, |_, numbers| visible_disc(numbers))
 }
 
 /// Which of light, part shadow and full shadow was chosen: on which side of the surfaces of part and of full shadow, 1 outside and -1 inside.

@@ -441,6 +441,13 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
+    /// Takes the orbit into account in the time scale, for what integrates it beside the run.
+    pub fn note_orbit(&mut self) {
+        if let Some(orbit) = &self.orbit {
+            self.rate = self.rate.max(orbit.rate());
+        }
+    }
+
     /// Takes the last arc into account in the time scale, for a run whose arcs are not known before it starts.
     #[inline(always)]
     pub fn note_rate(&mut self) {

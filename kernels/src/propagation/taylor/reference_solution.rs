@@ -107,6 +107,8 @@ impl ReferenceSolution {
         let (mut run, mut coarse) = (Gyrostat::blank(DoubleDouble::exact(0.0)), Gyrostat::blank(0.0));
         run.reset(DoubleDouble::exact(0.0), scene);
         coarse.reset(0.0, scene);
+        // a body at rest has no time scale of its own
+        coarse.note_orbit();
         if law.is_none() {
             coarse.expect_schedule(scene, grid.duration());
         }

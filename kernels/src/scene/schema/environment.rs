@@ -31,6 +31,10 @@ rows! {
         drag: bool = false,
         /// Whether the torque of sunlight on the plates acts; it needs an orbit with an epoch.
         solar_pressure: bool = false,
+        /// Heights above `body_radius_m` at which the density of the air is given, m, in place of Vallado's table; kept for good ([`super::numbers::kept`]).
+        air_heights_m: Option<&'static [f64]> = None,
+        /// The density at each of them, kg/m^3.
+        air_densities_kg_m3: Option<&'static [f64]> = None,
         /// The shape of the Earth's shadow.
         shadow: Shadow = Shadow::Cone,
     }

@@ -1,4 +1,6 @@
-//! `Numbers`: a field of an input structure seen as plain numbers.
+//! `Numbers`: a field of an input structure seen as plain numbers. [`kept`]: lists of them, of any length.
+
+use std::sync::{Mutex, PoisonError};
 
 /// A value made of numbers, present or not.
 pub(in crate::scene) trait Numbers {
@@ -10,6 +12,19 @@ pub(in crate::scene) trait Numbers {
     fn numbers_mut(&mut self) -> Option<&mut [f64]>;
     /// Makes a value that may be absent present.
     fn open(&mut self) {}
+}
+
+/// `numbers`, kept once and for good: for structures that are copied with every sample. A program has as many lists as its files have.
+pub fn kept(numbers: &[f64]) -> &'static [f64] {
+    static KEPT: Mutex<Vec<&'static [f64]>> = Mutex::new(Vec::new());
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    let bits = |list: &[f64]| list.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
+    if let Some(known) = kept.iter().find(|known| bits(known) == bits(numbers)) {
+        return known;
+    }
+    let list: &'static [f64] = Vec::leak(numbers.to_vec());
+    kept.push(list);
+    list
 }
 
 impl Numbers for f64 {
