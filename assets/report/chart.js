@@ -213,6 +213,11 @@ function whiskerSeries(mark, figure, color, palette) {
   );
 }
 
+// Whether the name of a vertical limit at `x`, so many pixels wide, is left of it: where it has no room on the right.
+function isNamedLeft(x, width, box) {
+  return x > box.x + 0.7 * box.width || (x + width > box.x + box.width && x - width >= box.x);
+}
+
 // The rows of the names of vertical limits, which stand above the axes, where they cover no bar and each other neither: for each mark its row from below.
 // `place` gives where a value is, pixels; `box` is what the axes enclose.
 function labelRows(figure, place, box) {
@@ -220,7 +225,7 @@ function labelRows(figure, place, box) {
   for (const mark of figure.marks) {
     if (mark.kind !== "limit" || !mark.vertical || !mark.label) continue;
     const [x, width] = [place(mark.at), LETTER * (mark.label.length + 3)];
-    const start = !(x >= box.x - 1) ? box.x : x > box.x + 0.7 * box.width ? Math.min(x, box.x + box.width) - width : x;
+    const start = !(x >= box.x - 1) ? box.x : isNamedLeft(x, width, box) ? Math.min(x, box.x + box.width) - width : x;
     let row = 0;
     while (rows[row]?.some(([from, to]) => start < to && start + width > from)) row += 1;
     (rows[row] ??= []).push([start, start + width]);
@@ -260,7 +265,7 @@ function limitSeries(mark, palette, [xs, ys], row) {
       return [{ type: "text", x: isRight ? box.x + box.width - 4 : box.x + 4, y: mark.vertical ? above : isBottom ? box.y + box.height - 4 : box.y + 4, style: { ...named, align: isRight ? "right" : "left", verticalAlign: mark.vertical || isBottom ? "bottom" : "top" } }];
     }
     if (mark.vertical) {
-      const isRight = x > box.x + 0.7 * box.width;
+      const isRight = isNamedLeft(x, LETTER * (mark.label.length + 3), box);
       return [
         { type: "line", shape: { x1: x, y1: above - (mark.label ? 10 : 0), x2: x, y2: box.y + box.height }, style: dash },
         { type: "text", x: x + (isRight ? -4 : 4), y: above, style: { ...text, align: isRight ? "right" : "left", verticalAlign: "bottom" } },
