@@ -1,7 +1,7 @@
 //! [`EventFinder`]: the times at which quantities of runs cross values, and how often.
 //!
 //! A crossing shows in the values of a run at two neighbouring observation points. Where its time is asked for, values at times between these two are
-//! ([`Lookup`]), and it is located among them (`crossing`): a run without a crossing costs nothing.
+//! (`lookup`), and it is located among them (`crossing`): a run without a crossing costs nothing.
 
 use crate::campaign::event::Which;
 use crate::campaign::{Plan, event_columns};

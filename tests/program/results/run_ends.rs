@@ -81,7 +81,7 @@ fn everything_ends_where_the_row_does() {
         assert_eq!(marks, if ended_by[sample] == 1.0 { vec!["ended by tipped"] } else { vec![] });
     }
     let summary = found.scratch.summary("r");
-    let verdicts: Vec<&str> = summary["requirements"]
+    let verdicts: Vec<&str> = summary["requirements"]["list"]
         .as_array()
         .expect("requirements")
         .iter()
