@@ -60,19 +60,19 @@ const CASES: &[(&str, &str, &[&str], &str)] = &[
     (
         "[initial]",
         "[environment]\nbody_torque_n_m = [1e-4, 0, 0]\n[initial]",
-        &["filters and laws of the loop do not know environment.body_torque_n_m"],
+        &["filters and laws of the loop do not model environment.body_torque_n_m"],
         "[environment]\n[initial]",
     ),
     (
         "[initial]",
         "[orbit]\nsemi_major_axis_m = 7e6\n[environment]\ngravity_gradient = true\n[initial]",
-        &["filters and laws of the loop do not know environment.gravity_gradient"],
+        &["filters and laws of the loop do not model environment.gravity_gradient"],
         "[orbit]\nsemi_major_axis_m = 7e6\n[initial]",
     ),
     (
         "[initial]",
         "[orbit]\nsemi_major_axis_m = 7e6\n[environment]\ndrag = true\n[[plates]]\nname = \"a\"\narea_m2 = 1\nnormal = [1, 0, 0]\ncenter_m = [0, 1, 0]\n[initial]",
-        &["filters and laws of the loop do not know environment.drag"],
+        &["filters and laws of the loop do not model environment.drag"],
         "[orbit]\nsemi_major_axis_m = 7e6\n[initial]",
     ),
     (
@@ -80,7 +80,7 @@ const CASES: &[(&str, &str, &[&str], &str)] = &[
         "[orbit]\nsemi_major_axis_m = 7e6\n[environment]\ndrag = true\n[[plates]]\nname = \"a\"\narea_m2 = 1\nnormal = [1, 0, 0]\ncenter_m = [0, 1, 0]\n[integrator]\ntolerance = 1e-13\n[initial]",
         &[
             "at tolerances below 1e-12 the rounding of environment.drag counts",
-            "filters and laws of the loop do not know environment.drag",
+            "filters and laws of the loop do not model environment.drag",
         ],
         "[orbit]\nsemi_major_axis_m = 7e6\n[initial]",
     ),
