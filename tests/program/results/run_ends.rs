@@ -44,8 +44,8 @@ fraction = 0.5
 at_most = "100 deg/s"
 "#;
 
-fn campaign(arguments: &str) -> ScratchFolder {
-    let scratch = ScratchFolder::new("run-ends");
+fn campaign(name: &str, arguments: &str) -> ScratchFolder {
+    let scratch = ScratchFolder::new(&format!("run-ends-{name}"));
     scratch.file("c.toml", ENDS);
     scratch.command(&format!("campaign c.toml --out r {arguments}")).output().expect("the program starts");
     scratch
@@ -54,7 +54,7 @@ fn campaign(arguments: &str) -> ScratchFolder {
 /// Law: `simulate --sample K` and the replay end where row K does; the verdicts are those of the rows; the strip of runs in flight counts those that have not ended.
 #[test]
 fn everything_ends_where_the_row_does() {
-    let found = Found::read(campaign(""), String::new());
+    let found = Found::read(campaign("everything", ""), String::new());
     let names =
         ["ended_by", "tipped_time_s", "time_reached_s", "spin_axis_angle_final_rad", "angular_rate_late_max_rad_s"];
     let [ended_by, tipped, reached, angle, rate] = names.map(|name| found.all(&[name]).remove(0));
@@ -102,7 +102,7 @@ fn everything_ends_where_the_row_does() {
 /// Law: shards, threads and a campaign that is made again have the same bytes.
 #[test]
 fn ends_do_not_depend_on_how_a_campaign_is_run() {
-    let whole = campaign("--threads 1");
+    let whole = campaign("alike", "--threads 1");
     let parts = whole.parts("r");
     whole.command("campaign c.toml --out two --threads 2").output().expect("the program starts");
     assert!(whole.parts("two") == parts);
