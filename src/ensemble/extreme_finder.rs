@@ -135,9 +135,10 @@ impl<'p> ExtremeFinder<'p> {
         let known = values[first..after].iter().fold(f64::NAN, |most, value| most.max(*value));
         let can_be = |point: &usize| {
             let [before, here, next] = [values[point - 1], values[*point], values[point + 1]];
-            // what is not known is no larger
-            let is_largest = !here.is_nan() && !(before > here) && !(next > here) && (before != here || next != here);
-            is_largest && !(here + BEYOND * (before - 2.0 * here + next).abs() < known)
+            // what is not known is no larger, and bounds nothing
+            let has_larger = [before, next].into_iter().any(|beside| beside > here);
+            let stays_below = here + BEYOND * (before - 2.0 * here + next).abs() < known;
+            !here.is_nan() && !has_larger && (before != here || next != here) && !stays_below
         };
         let inner = (first + 1..after.saturating_sub(1)).filter(can_be);
         let mut places: Vec<[f64; 2]> = inner.map(|point| [times[point - 1], times[point + 1]]).collect();
