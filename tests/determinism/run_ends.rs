@@ -154,7 +154,7 @@ fn ended_runs_are_bits_of_their_row() {
         for isa in Isa::available() {
             let found = rows(&plan_with, isa, 0, 40);
             (0..40).for_each(|row| {
-                assert_eq!(bits(&plan_with, &found, row), bits(&plan_with, &all, row), "{}", isa.name())
+                assert_eq!(bits(&plan_with, &found, row), bits(&plan_with, &all, row), "{}", isa.name());
             });
         }
         for (first, count) in [(7, 1), (11, 9), (33, 7)] {
