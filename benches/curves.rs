@@ -1,5 +1,4 @@
-//! What a campaign costs against what it has: CPU time and memory against rows, columns, points, dispersions, wheels, ticks of a loop and threads. Tables with slopes, and the figure of
-//! `docs/performance.md`.
+//! What a campaign costs against what it has: CPU time and memory against rows, columns, points, dispersions, wheels, ticks of a loop and threads. Tables with slopes, and a figure.
 //!
 //! `cargo bench -p spindrift-benches --bench curves -- ../docs/figures/curves.svg`; `-- rows=1000000` adds more rows. Each campaign is whole, without the page, and runs in a process of its own, with its
 //! start-up: CPU time and largest memory are those of the process. Medians of three rounds. The slope is d ln(time)/d ln(x) from the line before: 0 where x costs nothing, 1 where the

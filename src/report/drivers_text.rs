@@ -155,7 +155,7 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     }
     let most = ranking.inputs.iter().map(|ranked| ranked.share.value).fold(0.0, f64::max);
     let rest = rest.map_or_else(String::new, |rest| format!("; {rest}"));
-    format!("no single input explains more than {:.0}% of the variance{rest}", (100.0 * most).ceil())
+    format!("no single input is seen to explain more than {:.0}% of the variance{rest}", (100.0 * most).ceil())
 }
 
 /// What the rest of the variance is, where the drivers explain less than half of it.
