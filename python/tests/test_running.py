@@ -135,7 +135,6 @@ def test_processes_run_campaigns(method: str) -> None:
         assert pool.map_async(a_value, range(3)).get(timeout=120) == here
 
 
-
 def test_two_ctrl_c_end_at_once(tmp_path: Path) -> None:
     """Law: the second one gives up the parts under way; what is committed stays."""
     out = tmp_path / "x"
@@ -146,7 +145,8 @@ def test_two_ctrl_c_end_at_once(tmp_path: Path) -> None:
         process.send_signal(signal.SIGINT)
     asked = time.monotonic()
     said, _ = process.communicate(timeout=60)
-    assert process.returncode == 42 and "stopped" in said and time.monotonic() - asked < 20, said
+    # where the first one alone was enough, the second one meets a process that is about to leave: Python ends by the signal then
+    assert process.returncode in (42, -signal.SIGINT) and "stopped" in said and time.monotonic() - asked < 20, said
     assert len(list(out.glob("runs/part-*"))) >= 2
 
 
