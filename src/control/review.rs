@@ -50,6 +50,7 @@ pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f
     notes.extend(fast_wheels(spec, scene));
     notes.extend(window(&numbers.law, duration));
     notes.extend(unknown_effects(scene));
+    notes.extend(transfers_about_a_point_mass(&phases, scene));
     notes.extend(directions_alone(spec));
     notes
 }
@@ -81,6 +82,16 @@ fn unknown_effects(scene: &Scene) -> Option<String> {
             unknown.join(" and ")
         )
     })
+}
+
+/// Transfers on an orbit about a flattened body, which guidance takes for a point mass.
+fn transfers_about_a_point_mass(phases: &[(&PhaseSpec, &DeclaredTable)], scene: &Scene) -> Option<String> {
+    let j2 = scene.orbit.and_then(|orbit| orbit.j2).filter(|j2| *j2 > 0.0)?;
+    let (phase, _) = phases.iter().find(|(_, table)| number(table, "transfer_time_s") > 0.0)?;
+    Some(format!(
+        "guidance.{}: transfers are those of Clohessy & Wiltshire about a point mass; orbit.j2 = {j2:?} acts on both bodies, and is a disturbance to them",
+        phase.name
+    ))
 }
 
 /// A window of stability that the run does not complete.

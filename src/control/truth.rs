@@ -4,7 +4,7 @@ use crate::control::rotation::quaternion_of;
 use crate::control::vector::{cross, difference, hamilton, product, scaled, sum};
 use crate::dynamics::actuation::{BodyState, WheelState};
 use crate::dynamics::debris::is_isotropic;
-use crate::dynamics::orbit::KeplerOrbit;
+use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::relative_orbit::RelativeOrbit;
 use crate::scene::{Offsets, Scene};
 
@@ -72,7 +72,7 @@ impl DebrisMotion {
         let inverse = crate::control::small_matrix::inverse(body.inertia);
         let is_isotropic = is_isotropic(body);
         let orbit = scene.orbit.as_ref().zip(scene.offsets.as_ref());
-        let orbit = orbit.map(|(orbit, Offsets { debris, .. })| RelativeOrbit::new(KeplerOrbit::new(orbit), *debris));
+        let orbit = orbit.map(|(orbit, Offsets { debris, .. })| RelativeOrbit::new(&OrbitPath::new(orbit), *debris));
         let orbit = orbit.map(Box::new);
         Some(DebrisMotion { inertia: body.inertia, inverse, is_isotropic, start, orbit, time: 0.0, now: start })
     }

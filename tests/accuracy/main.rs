@@ -23,6 +23,7 @@ mod magnetic_torque;
 mod many_wheels;
 mod null_space;
 mod null_space_matrices;
+mod oblate;
 mod orbits;
 mod order_runge_kutta;
 mod outcomes_runge_kutta;

@@ -7,7 +7,9 @@ use crate::support::orbits::{MU, body, circle, leaving, near_rounding, plated, t
 use crate::support::runs::{Run, adaptive, everything, fixed, propagate, propagate_on};
 use spindrift::dynamics::effects::within_arcs::Motion;
 use spindrift::dynamics::effects::{ChangingEffects, Effect, ForceModel};
-use spindrift::dynamics::orbit::{KeplerOrbit, OrbitState};
+use spindrift::dynamics::gravity::Gravity;
+use spindrift::dynamics::orbit::KeplerOrbit;
+use spindrift::dynamics::orbit_state::OrbitState;
 use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, difference, dot, norm, product, scaled, transposed_product};
 use spindrift::ode::Control;
@@ -339,9 +341,16 @@ fn each_key_of_an_orbit_has_a_truth() {
         let orbit = OrbitInput { body_radius_m: radius, ..elements(axis, e, i, node, periapsis, anomaly) };
         Scene::resolve(&body([90.0, 100.0, 40.0], orbit)).is_ok()
     };
-    let truths: [(&str, f64, f64); 10] = [
+    // above the equator a flattened body pulls by 3/2 J2 of a point mass more
+    let pulled = |j2: f64| {
+        let scene = Scene::resolve(&body([90.0, 100.0, 40.0], OrbitInput { j2: Some(j2), ..circle(7e6, 0.3) }));
+        let gravity = Gravity::of(&scene.expect("a legal scene").orbit.expect("an orbit"));
+        norm(gravity.acceleration([6_378_137.0, 0.0, 0.0], 6_378_137.0)) * 6_378_137.0 * 6_378_137.0 / MU
+    };
+    let truths: [(&str, f64, f64); 11] = [
         ("mu_m3_s2", circular(2e14) / 2e14, 1.0),
         ("body_radius_m", f64::from(u8::from(above(0.999 * lowest) && !above(1.001 * lowest))), 1.0),
+        ("j2", pulled(2e-3), 1.003),
         ("position_m", norm(difference(vectors.0, given_r)), 0.0),
         ("velocity_m_s", norm(difference(vectors.1, given_v)), 0.0),
         ("semi_major_axis_m", 1.0 / (2.0 / norm(r) - dot(v, v) / MU) / axis, 1.0),

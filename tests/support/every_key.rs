@@ -303,7 +303,8 @@ pub fn every_scene() -> Vec<String> {
         with(&moments[0].replace(".0", "00.0"), "", &format!("mass_kg = 3.0\n{tensor}")),
         with(&moments[1].replace(".0", "00.0"), "", &format!("mass_kg = 3.0\n{}", moments[0])),
         with("", "", &format!("mass_kg = 3.0\n{}", moments[1])).replace(RELATIVE_DEBRIS, INERTIAL_DEBRIS),
-        on_orbit("position_m = [7e6, 1e5, 2e5]\nvelocity_m_s = [10, 7.4e3, -3e2]"),
+        on_orbit("j2 = 1e-3\nposition_m = [7e6, 1e5, 2e5]\nvelocity_m_s = [10, 7.4e3, -3e2]")
+            .replace("body_radius_m = 0", "body_radius_m = 5.9e6"),
         on_orbit(
             "semi_major_axis_m = 9e6\neccentricity = 0.0\ninclination_rad = 0.9\nascending_node_rad = 2.0\n\
              argument_of_periapsis_rad = -0.7\ntrue_anomaly_rad = 1.1",

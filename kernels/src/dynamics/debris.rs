@@ -68,17 +68,16 @@ pub fn complete_orbit(relative: &mut RelativeOrbit, mass: f64, grid: &Grid, tabl
     if !(has_position || has_velocity || has_work) {
         return;
     }
-    let mu = relative.mu();
+    let gravity = relative.gravity();
     let mut at = |time: f64| {
         let (place, Offset { position, velocity }) = relative.at(time);
         place.displaced([position, velocity])
     };
-    let start = at(0.0).distance;
+    let start = at(0.0);
     for (point, time) in grid.padded_times().iter().enumerate() {
         let place = at(*time);
         if has_work {
-            table.column_mut(StateField::Work, 0)[point] +=
-                mass * mu * ((start - place.distance) / (start * place.distance));
+            table.column_mut(StateField::Work, 0)[point] += gravity.work_on(mass, &start, &place);
         }
         for i in 0..3 {
             if has_position {

@@ -1,46 +1,9 @@
-//! The motion relative to a point on a two-body orbit, by Encke's method: [`tide`] in closed form and [`OffsetSeries`] as Taylor coefficients.
-//!
-//! With O the point on the orbit, d the offset from it and r = O + d, the difference of both pulls is (R. Battin, *An Introduction to the Mathematics
-//! and Methods of Astrodynamics*, 1999, section 8.4)
-//!
-//! ```text
-//! tide = -mu/|O|^3 (d + w r),   w = |O|^3/|r|^3 - 1 = (1 + q)^(-3/2) - 1,   q = d . (d + 2 O)/|O|^2
-//! ```
-//!
-//! Nothing cancels: of an offset of metres all digits count, although a distance of 7000 km has its last one at a nanometre.
+//! [`OffsetSeries`]: the motion relative to a point on an orbit by Encke's method, as Taylor coefficients of the tide ([`super::gravity`]).
 
-use super::orbit::OrbitState;
-use super::orbit_series::{OrbitSeries, next_of_power};
+use super::gravity::{Gravity, stronger, stronger_powers, twice_and};
+use super::orbit_series::{OrbitSeries, convolution, next_of_power};
 use crate::math::Real;
-use crate::math::vector::{dot, scaled, sum};
-
-/// What gravity accelerates at the offset `offset` (m) more than at `place` on the orbit, F_e, m/s^2; `mu` is the gravitational parameter, m^3/s^2.
-#[inline(always)]
-pub fn tide<R: Real>(mu: R, place: &OrbitState<R>, offset: [R; 3]) -> [R; 3] {
-    let one = mu.splat(1.0);
-    let inverse = one / place.distance;
-    let square = inverse * inverse;
-    let nearer = stronger(dot(offset, twice_and(place.position, offset)) * square);
-    let [x, y, z] = sum(offset, scaled(nearer, sum(place.position, offset)));
-    scaled(-(mu * (inverse * square)), [x, y, z])
-}
-
-/// w = (1 + q)^(-3/2) - 1 = -q (3 + 3 q + q^2)/((1 + u) u), u = (1 + q)^(3/2).
-#[inline(always)]
-fn stronger<R: Real>(q: R) -> R {
-    let number = |value: f64| q.splat(value);
-    let ratio = number(1.0) + q;
-    let cubed = ratio * ratio.sqrt();
-    let polynomial = q.mul_add(q + number(3.0), number(3.0));
-    -(q * polynomial) / ((number(1.0) + cubed) * cubed)
-}
-
-/// 2 `place` + `offset`.
-#[inline(always)]
-fn twice_and<R: Real>(place: [R; 3], offset: [R; 3]) -> [R; 3] {
-    let two = place[0].splat(2.0);
-    core::array::from_fn(|i| two.mul_add(place[i], offset[i]))
-}
+use crate::math::vector::{scaled, sum};
 
 /// The coefficients of the offset and of what it makes, of one step, in the lanes' units of time.
 #[derive(Clone, Debug)]
@@ -60,35 +23,67 @@ pub struct OffsetSeries<R> {
     nearer: R,
     /// Of d + w r.
     stretched: Vec<[R; 3]>,
+    /// Where the central body is flattened.
+    flattened: Flattened<R>,
+}
+
+/// The coefficients that a flattened body adds.
+#[derive(Clone, Debug)]
+struct Flattened<R> {
+    /// Of the powers -5/2 and -7/2 of 1 + q.
+    five: Vec<R>,
+    seven: Vec<R>,
+    /// w5 and w7 at the start of the step.
+    nearer: [R; 2],
+    /// Of s = d + w5 r.
+    stretched: Vec<[R; 3]>,
+    /// Of r_z^2 - O_z^2, and of r_z^2.
+    change: Vec<R>,
+    height: Vec<R>,
+    /// Of r_z^2 (1 + w7) - O_z^2.
+    bent: Vec<R>,
+    /// Of O_z^2 d + bent r.
+    lifted: Vec<[R; 3]>,
 }
 
 impl<R: Real> OffsetSeries<R> {
     /// Memory for series of order `order`.
     pub fn new(zero: R, order: usize) -> Self {
         let vectors = vec![[zero; 3]; order + 1];
+        let numbers = vec![zero; order + 1];
+        let flattened = Flattened {
+            five: numbers.clone(),
+            seven: numbers.clone(),
+            nearer: [zero; 2],
+            stretched: vectors.clone(),
+            change: numbers.clone(),
+            height: numbers.clone(),
+            bent: numbers.clone(),
+            lifted: vectors.clone(),
+        };
         OffsetSeries {
             orbit: OrbitSeries::new(zero, order),
             offset: vectors.clone(),
             lever: vectors.clone(),
             place: vectors.clone(),
-            ratio: vec![zero; order + 1],
-            power: vec![zero; order + 1],
+            ratio: numbers.clone(),
+            power: numbers,
             nearer: zero,
             stretched: vectors,
+            flattened,
         }
     }
 
-    /// Starts a step where the point on the orbit is at `position` with `velocity` (m per unit of time), at the gravitational parameter `mu` (m^3 per
-    /// unit squared).
+    /// Starts a step where the point on the orbit is at `position` with `velocity` (m per unit of time) in `gravity` (m^3 per unit squared).
     #[inline(always)]
-    pub fn begin(&mut self, mu: R, position: [R; 3], velocity: [R; 3]) {
-        self.orbit.begin(mu, position, velocity);
+    pub fn begin(&mut self, gravity: Gravity<R>, position: [R; 3], velocity: [R; 3]) {
+        self.orbit.begin(gravity, position, velocity);
     }
 
     /// Coefficient n of the tide, m per unit squared, given that of the offset; call in ascending order of `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize, of_offset: [R; 3]) -> [R; 3] {
-        let OffsetSeries { orbit, offset, lever, place, ratio, power, nearer, stretched } = self;
+        let OffsetSeries { orbit, offset, lever, place, ratio, power, nearer, stretched, flattened } = self;
         let zero = of_offset[0].zero();
         orbit.extend(n);
         offset[n] = of_offset;
@@ -106,30 +101,21 @@ impl<R: Real> OffsetSeries<R> {
             sum_q = known.neg_mul_add(square[n - j], sum_q);
         }
         ratio[n] = sum_q / square[0];
-        let of_nearer = if n == 0 {
+        if n == 0 {
             *nearer = stronger(ratio[0]);
             power[0] = zero.splat(1.0) + *nearer;
-            *nearer
         } else {
-            let first = ratio[0];
-            ratio[0] = zero.splat(1.0) + first;
-            power[n] = next_of_power(-1.5, n, ratio, power);
-            ratio[0] = first;
-            power[n]
-        };
-        let mut own = sum(of_offset, scaled(*nearer, place[n]));
-        if n > 0 {
-            own = sum(own, scaled(of_nearer, place[0]));
+            power[n] = power_of_ratio(-1.5, n, ratio, power);
         }
-        for m in 1..n {
-            own = sum(own, scaled(power[m], place[n - m]));
-        }
-        stretched[n] = own;
+        stretched[n] = stretched_offset(of_offset, *nearer, power, &place[..=n]);
         let mut tide = [zero; 3];
         for (pull, own) in orbit.pull()[..=n].iter().zip(stretched[..=n].iter().rev()) {
             for i in 0..3 {
                 tide[i] = pull.neg_mul_add(own[i], tide[i]);
             }
+        }
+        if orbit.gravity().oblateness.is_some() {
+            tide = sum(tide, flattened.extend(n, orbit, (offset, lever, place), ratio, *nearer));
         }
         tide
     }
@@ -147,62 +133,109 @@ impl<R: Real> OffsetSeries<R> {
     }
 }
 
+impl<R: Real> Flattened<R> {
+    /// Coefficient n of what a flattened body adds to the tide, from those of the orbit, of d, 2 O + d and r, of q, and w3 at the start of the step.
+    #[inline(always)]
+    fn extend(
+        &mut self,
+        n: usize,
+        orbit: &OrbitSeries<R>,
+        (offset, lever, place): (&[[R; 3]], &[[R; 3]], &[[R; 3]]),
+        ratio: &mut [R],
+        w3: R,
+    ) -> [R; 3] {
+        let zero = w3.zero();
+        let Flattened { five, seven, nearer, stretched, change, height, bent, lifted } = self;
+        if n == 0 {
+            *nearer = stronger_powers(ratio[0], w3);
+            [five[0], seven[0]] = nearer.map(|w| zero.splat(1.0) + w);
+        } else {
+            five[n] = power_of_ratio(-2.5, n, ratio, five);
+            seven[n] = power_of_ratio(-3.5, n, ratio, seven);
+        }
+        let of_orbit = orbit.flattened();
+        stretched[n] = stretched_offset(offset[n], nearer[0], five, &place[..=n]);
+        change[n] = zero;
+        for (d, l) in offset[..=n].iter().zip(lever[..=n].iter().rev()) {
+            change[n] = d[2].mul_add(l[2], change[n]);
+        }
+        height[n] = of_orbit.height[n] + change[n];
+        bent[n] = nearer[1].mul_add(height[n], change[n]);
+        if n > 0 {
+            // the power of order zero is w7, not one more
+            bent[n] += convolution(&seven[1..=n], &height[..n]);
+        }
+        lifted[n] = [zero; 3];
+        for m in 0..=n {
+            let own = sum(scaled(of_orbit.height[m], offset[n - m]), scaled(bent[m], place[n - m]));
+            lifted[n] = sum(lifted[n], own);
+        }
+        let mut all = [zero; 3];
+        for m in 0..=n {
+            let [x, y, z] = stretched[n - m];
+            let three = zero.splat(3.0);
+            let pulled = scaled(of_orbit.five[m], [x, y, three * z]);
+            all = sum(all, sum(scaled(of_orbit.seven[m], lifted[n - m]), scaled(-zero.splat(1.0), pulled)));
+        }
+        all
+    }
+}
+
+/// Coefficient n > 0 of the power `alpha` of 1 + q, from those of q and the ones before.
+#[inline(always)]
+fn power_of_ratio<R: Real>(alpha: f64, n: usize, ratio: &mut [R], power: &[R]) -> R {
+    let first = ratio[0];
+    ratio[0] = first.splat(1.0) + first;
+    let next = next_of_power(alpha, n, ratio, power);
+    ratio[0] = first;
+    next
+}
+
+/// The last coefficient of d + w r, from that of d, and those of r and of 1 + w, whose first is `nearer` without the one.
+#[inline(always)]
+fn stretched_offset<R: Real>(offset: [R; 3], nearer: R, power: &[R], place: &[[R; 3]]) -> [R; 3] {
+    let n = place.len() - 1;
+    let mut own = sum(offset, scaled(nearer, place[n]));
+    if n > 0 {
+        own = sum(own, scaled(power[n], place[0]));
+    }
+    for m in 1..n {
+        own = sum(own, scaled(power[m], place[n - m]));
+    }
+    own
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::double_double::DoubleDouble;
+    use crate::dynamics::orbit_state::OrbitState;
     use crate::math::vector::{difference, norm};
-
-    const MU: f64 = 3.986004418e14;
-
-    /// Law: the tide is the difference of two pulls, which double-double has with ten digits to spare, from millimetres to thousands of kilometres.
-    #[test]
-    fn the_tide_is_a_difference_of_pulls() {
-        let position = [4.1e6, -5.2e6, 1.7e6];
-        let exact = |v: [f64; 3]| v.map(DoubleDouble::exact);
-        let pull = |r: [DoubleDouble; 3]| {
-            let square = dot(r, r);
-            scaled(-(DoubleDouble::exact(MU) / (square * square.sqrt())), r)
-        };
-        for (size, direction) in
-            [(1e-3, [1.0, 2.0, -1.0]), (10.0, [5.2, 4.1, 0.0]), (1e4, [0.0, 1.0, 3.0]), (2e6, [-1.0, 0.5, 0.5])]
-        {
-            let offset = scaled(size, direction);
-            let place = OrbitState { position, velocity: [0.0; 3], distance: norm(position) };
-            let found = tide(MU, &place, offset);
-            let expected = difference(pull(sum(exact(position), exact(offset))), pull(exact(position)));
-            let off = norm(difference(found, expected.map(|x| x.high)));
-            assert!(off < 1e-15 * norm(found), "{size}: {off:e} of {:e}", norm(found));
-        }
-    }
 
     /// Law: the first coefficient of the series is the closed form, and the second is its slope along the motion.
     #[test]
     fn the_series_begins_with_the_closed_form() {
-        let (position, velocity) = ([4.1e6, -5.2e6, 1.7e6], [3e3, 4e3, 5e3]);
-        let (offset, moving) = ([20.0, -7.0, 4.0], [0.3, 0.2, -0.1]);
-        let mut series = OffsetSeries::new(0.0, 3);
-        series.begin(MU, position, velocity);
-        let first = series.extend(0, offset);
-        let at = |time: f64| {
-            let position = sum(position, scaled(time, velocity));
-            let place = OrbitState { position, velocity, distance: norm(position) };
-            tide(MU, &place, sum(offset, scaled(time, moving)))
-        };
-        let closed = at(0.0);
-        assert!(norm(difference(first, closed)) < 1e-15 * norm(closed), "{first:?} {closed:?}");
-        let second = series.extend(1, moving);
-        let slope = scaled(0.5 / 0.01, difference(at(0.01), at(-0.01)));
-        assert!(norm(difference(second, slope)) < 1e-9 * norm(slope), "{second:?} {slope:?}");
-        let third = series.extend(2, [0.0; 3]);
-        // the orbit itself bends, which `at` leaves out: r'' times the gradient
-        let bent = |time: f64| {
-            let pull = scaled(-MU / (norm(position) * norm(position) * norm(position)), position);
-            let position = sum(sum(position, scaled(time, velocity)), scaled(0.5 * time * time, pull));
-            let place = OrbitState { position, velocity, distance: norm(position) };
-            tide(MU, &place, sum(offset, scaled(time, moving)))
-        };
-        let second_order = scaled(0.5, difference(sum(bent(1.0), bent(-1.0)), scaled(2.0, bent(0.0))));
-        assert!(norm(difference(third, second_order)) < 1e-5 * norm(third), "{third:?} {second_order:?}");
+        // a point mass, the Earth, and one that is a hundred times flatter
+        for oblateness in [None, Some(6.606e10), Some(6.6e12)] {
+            let gravity = Gravity { mu: 3.986004418e14, oblateness };
+            let (position, velocity) = ([4.1e6, -5.2e6, 1.7e6], [3e3, 4e3, 5e3]);
+            let (offset, moving) = ([20.0, -7.0, 4.0], [0.3, 0.2, -0.1]);
+            let mut series = OffsetSeries::new(0.0, 3);
+            series.begin(gravity, position, velocity);
+            let first = series.extend(0, offset);
+            // the orbit bends, by r'' of the second order
+            let at = |time: f64| {
+                let pull = gravity.acceleration(position, norm(position));
+                let position = sum(sum(position, scaled(time, velocity)), scaled(0.5 * time * time, pull));
+                gravity.tide(&OrbitState::at_rest(position), sum(offset, scaled(time, moving)))
+            };
+            let closed = at(0.0);
+            assert!(norm(difference(first, closed)) < 1e-15 * norm(closed), "{first:?} {closed:?}");
+            let second = series.extend(1, moving);
+            let slope = scaled(0.5 / 0.01, difference(at(0.01), at(-0.01)));
+            assert!(norm(difference(second, slope)) < 1e-9 * norm(slope), "{second:?} {slope:?}");
+            let third = series.extend(2, [0.0; 3]);
+            let second_order = scaled(0.5, difference(sum(at(1.0), at(-1.0)), scaled(2.0, at(0.0))));
+            assert!(norm(difference(third, second_order)) < 1e-5 * norm(third), "{third:?} {second_order:?}");
+        }
     }
 }

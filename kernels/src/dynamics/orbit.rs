@@ -12,8 +12,12 @@
 //! Circles need no case of their own: no direction of a periapsis is used. E solves Kepler's equation E - e sin E = M, M = M0 + 2 pi t/P, in turns
 //! reduced to half a turn, so that a thousand orbits later only t/P is rounded.
 //!
+//! Of an orbit about a flattened body this is the two-body orbit that touches it at time zero; its own motion is in [`super::orbit_path`].
+//!
 //! Not here: the orbit at time zero from what is written (`scene::orbit`).
 
+use super::gravity::Gravity;
+use super::orbit_state::OrbitState;
 use crate::math::sine::sin_cos_turns;
 use crate::math::vector::{constant, dot, norm, scaled, sum};
 use crate::math::{Mask, Real};
@@ -52,8 +56,8 @@ pub struct KeplerOrbit<R> {
     /// a sigma/sqrt(mu) and |r0| sqrt(a/mu), s.
     level: R,
     rise: R,
-    /// Gravitational parameter, m^3/s^2.
-    mu: R,
+    /// The gravity of the central body.
+    gravity: Gravity<R>,
     /// sqrt(mu a)/|r0|, m/s.
     fall: R,
     /// |r0|, m, and mu/|r0|, m^2/s^2.
@@ -61,36 +65,11 @@ pub struct KeplerOrbit<R> {
     pull: R,
 }
 
-/// Where the spacecraft is on its orbit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OrbitState<R> {
-    /// Position from the central body, F_e, m.
-    pub position: [R; 3],
-    /// Velocity, F_e, m/s.
-    pub velocity: [R; 3],
-    /// |position|, m.
-    pub distance: R,
-}
-
-impl<R: Real> OrbitState<R> {
-    /// The state at `offset` from this one: position (m) and velocity (m/s), F_e.
-    #[inline(always)]
-    pub fn displaced(&self, [position, velocity]: [[R; 3]; 2]) -> Self {
-        let position = sum(self.position, position);
-        OrbitState { position, velocity: sum(self.velocity, velocity), distance: norm(position) }
-    }
-
-    /// One that is not a number, in the lanes of `like`: whoever reads an orbit that there is not has no result.
-    pub fn unknown(like: R) -> Self {
-        let nan = like.splat(f64::NAN);
-        OrbitState { position: [nan; 3], velocity: [nan; 3], distance: nan }
-    }
-}
-
 impl KeplerOrbit<f64> {
     /// The orbit of a scene.
     pub fn new(orbit: &Orbit) -> Self {
         let Orbit { mu, position, velocity, .. } = *orbit;
+        let gravity = Gravity::of(orbit);
         let distance = norm(position);
         let axis = 1.0 / (2.0 / distance - dot(velocity, velocity) / mu);
         let sigma = dot(position, velocity) / mu.sqrt();
@@ -112,7 +91,7 @@ impl KeplerOrbit<f64> {
             sine,
             level: axis * sigma / mu.sqrt(),
             rise: distance * (axis / mu).sqrt(),
-            mu,
+            gravity,
             fall: (mu * axis).sqrt() / distance,
             start: distance,
             pull: mu / distance,
@@ -122,7 +101,7 @@ impl KeplerOrbit<f64> {
     /// Upper bound of the angular rate along the orbit, with a margin: that of a circle at its periapsis, rad/s.
     pub fn rate(&self) -> f64 {
         let lowest = self.axis * (1.0 - self.eccentricity);
-        (self.mu / lowest).sqrt() / lowest
+        (self.gravity.mu / lowest).sqrt() / lowest
     }
 
     /// A circle that no run is on: what empty lanes have.
@@ -132,6 +111,7 @@ impl KeplerOrbit<f64> {
             position: [1.0, 0.0, 0.0],
             velocity: [0.0, 1.0, 0.0],
             body_radius: 0.0,
+            j2: None,
             epoch: None,
         })
     }
@@ -152,7 +132,7 @@ impl KeplerOrbit<f64> {
             sine: zero.splat(self.sine),
             level: zero.splat(self.level),
             rise: zero.splat(self.rise),
-            mu: zero.splat(self.mu),
+            gravity: self.gravity.in_lanes(zero),
             fall: zero.splat(self.fall),
             start: zero.splat(self.start),
             pull: zero.splat(self.pull),
@@ -177,16 +157,16 @@ impl<R: Real> KeplerOrbit<R> {
         self.sine.set_lane(lane, orbit.sine);
         self.level.set_lane(lane, orbit.level);
         self.rise.set_lane(lane, orbit.rise);
-        self.mu.set_lane(lane, orbit.mu);
+        self.gravity.set_lane(lane, &orbit.gravity);
         self.fall.set_lane(lane, orbit.fall);
         self.start.set_lane(lane, orbit.start);
         self.pull.set_lane(lane, orbit.pull);
     }
 
-    /// The gravitational parameter, m^3/s^2.
+    /// The gravity of the central body.
     #[inline(always)]
-    pub fn mu(&self) -> R {
-        self.mu
+    pub fn gravity(&self) -> Gravity<R> {
+        self.gravity
     }
 
     /// Position (F_e, m) and velocity (m/s) at time zero.
@@ -220,7 +200,7 @@ impl<R: Real> KeplerOrbit<R> {
         }
     }
 
-    /// The work of gravity since time zero on a kilogram that is now `distance` from the central body: mu/|r| - mu/|r0|, J.
+    /// The work of a point mass since time zero on a kilogram that is now `distance` from the central body: mu/|r| - mu/|r0|, J.
     #[inline(always)]
     pub fn work(&self, distance: R) -> R {
         self.pull * ((self.start - distance) / distance)
@@ -263,7 +243,7 @@ mod tests {
     fn orbit(radius: f64, speed: f64, radial: f64) -> Orbit {
         let circular = (MU / radius).sqrt();
         let velocity = [radial * circular, speed * circular * 0.6, speed * circular * 0.8];
-        Orbit { mu: MU, position: [radius, 0.0, 0.0], velocity, body_radius: 0.0, epoch: None }
+        Orbit { mu: MU, position: [radius, 0.0, 0.0], velocity, body_radius: 0.0, j2: None, epoch: None }
     }
 
     /// Law: energy and angular momentum of the orbit are constant, |r| is the distance, and one period later the state is the same; from

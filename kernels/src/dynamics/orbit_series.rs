@@ -1,43 +1,62 @@
-//! [`OrbitSeries`]: Taylor coefficients of a two-body orbit by recurrences, and of powers of the distance.
+//! [`OrbitSeries`]: Taylor coefficients of an orbit by recurrences, and of powers of the distance.
 //!
-//! With rho = r . r and s = mu rho^(-3/2): r'' = -s r, and for any power alpha the coefficients of rho^alpha follow from those of rho
+//! With rho = r . r and s = mu rho^(-3/2): r'' = -s r about a point mass, about a flattened body ([`super::gravity`]) r'' = -(s + f - g z^2) r - 2 f z e3 with
+//! f = mu k rho^(-5/2) and g = 5 mu k rho^(-7/2); and for any power alpha the coefficients of rho^alpha follow from those of rho
 //! (A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section 2.2):
 //!
 //! ```text
 //! (rho^alpha)_n = sum over j < n of (alpha (n - j) - j) (rho^alpha)_j rho_(n-j) / (n rho_0)
 //! ```
 
-use super::orbit::OrbitState;
+use super::gravity::Gravity;
+use super::orbit_state::OrbitState;
 use crate::math::Real;
 use crate::math::vector::{norm, scaled};
 
 /// The coefficients of one step, in the lanes' units of time.
 #[derive(Clone, Debug)]
 pub struct OrbitSeries<R> {
-    mu: R,
+    gravity: Gravity<R>,
     /// Of r, F_e, m.
     position: Vec<[R; 3]>,
     /// Of rho.
     square: Vec<R>,
     /// Of mu rho^(-3/2).
     pull: Vec<R>,
+    /// Of a flattened body.
+    flattened: Flattened<R>,
+}
+
+/// The coefficients that a flattened body adds.
+#[derive(Clone, Debug)]
+pub struct Flattened<R> {
+    /// Of f.
+    pub five: Vec<R>,
+    /// Of g.
+    pub seven: Vec<R>,
+    /// Of z^2.
+    pub height: Vec<R>,
+    /// Of s + f - g z^2.
+    all: Vec<R>,
 }
 
 impl<R: Real> OrbitSeries<R> {
     /// Memory for series of order `order`.
     pub fn new(zero: R, order: usize) -> Self {
+        let numbers = || vec![zero; order + 1];
         OrbitSeries {
-            mu: zero,
+            gravity: Gravity { mu: zero, oblateness: None },
             position: vec![[zero; 3]; order + 2],
-            square: vec![zero; order + 1],
-            pull: vec![zero; order + 1],
+            square: numbers(),
+            pull: numbers(),
+            flattened: Flattened { five: numbers(), seven: numbers(), height: numbers(), all: numbers() },
         }
     }
 
-    /// Starts at `position` with `velocity` (m per unit of time), at the gravitational parameter `mu` (m^3 per unit squared).
+    /// Starts at `position` with `velocity` (m per unit of time) in `gravity` (m^3 per unit squared).
     #[inline(always)]
-    pub fn begin(&mut self, mu: R, position: [R; 3], velocity: [R; 3]) {
-        self.mu = mu;
+    pub fn begin(&mut self, gravity: Gravity<R>, position: [R; 3], velocity: [R; 3]) {
+        self.gravity = gravity;
         self.position[0] = position;
         self.position[1] = velocity;
     }
@@ -45,24 +64,44 @@ impl<R: Real> OrbitSeries<R> {
     /// Computes the coefficients n of rho and its power and n + 2 of r; call in ascending order of `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize) {
-        let zero = self.mu.zero();
-        let OrbitSeries { mu, position, square, pull } = self;
+        let Gravity { mu, oblateness } = self.gravity;
+        let zero = mu.zero();
+        let OrbitSeries { position, square, pull, flattened, .. } = self;
         square[n] = product_with_itself(&position[..=n]);
         if n == 0 {
             let inverse = zero.splat(1.0) / square[0].sqrt();
-            pull[0] = *mu * (inverse * (inverse * inverse));
+            pull[0] = mu * (inverse * (inverse * inverse));
         } else {
             pull[n] = next_of_power(-1.5, n, square, pull);
         }
+        if let Some(k) = oblateness {
+            flattened.extend(n, k, (position, square, pull));
+        }
+        let strength: &[R] = if oblateness.is_some() { &flattened.all } else { pull };
         if n + 2 < position.len() {
             let mut sums = [zero; 3];
-            for (s, r) in pull[..=n].iter().zip(position[..=n].iter().rev()) {
+            for (s, r) in strength[..=n].iter().zip(position[..=n].iter().rev()) {
                 for i in 0..3 {
                     sums[i] = s.neg_mul_add(r[i], sums[i]);
                 }
             }
+            if oblateness.is_some() {
+                sums[2] = sums[2] - zero.splat(2.0) * flattened.along(&position[..=n]);
+            }
             position[n + 2] = scaled(zero.splat(1.0) / zero.splat(((n + 1) * (n + 2)) as f64), sums);
         }
+    }
+
+    /// The gravity of the central body, per unit squared.
+    #[inline(always)]
+    pub fn gravity(&self) -> Gravity<R> {
+        self.gravity
+    }
+
+    /// What a flattened body adds; not known of a point mass.
+    #[inline(always)]
+    pub fn flattened(&self) -> &Flattened<R> {
+        &self.flattened
     }
 
     /// The coefficients of r, m.
@@ -110,6 +149,49 @@ impl<R: Real> OrbitSeries<R> {
     }
 }
 
+impl<R: Real> Flattened<R> {
+    /// Computes the coefficients n of a body of the oblateness `k` (m^2) from those of r, rho and s.
+    #[inline(always)]
+    fn extend(&mut self, n: usize, k: R, (position, square, pull): (&[[R; 3]], &[R], &[R])) {
+        let zero = k.zero();
+        if n == 0 {
+            let inverse = zero.splat(1.0) / square[0];
+            self.five[0] = pull[0] * (k * inverse);
+            self.seven[0] = zero.splat(5.0) * self.five[0] * inverse;
+        } else {
+            self.five[n] = next_of_power(-2.5, n, square, &self.five);
+            self.seven[n] = next_of_power(-3.5, n, square, &self.seven);
+        }
+        let mut height = zero;
+        for (a, b) in position[..=n].iter().zip(position[..=n].iter().rev()) {
+            height = a[2].mul_add(b[2], height);
+        }
+        self.height[n] = height;
+        let bent = convolution(&self.seven[..=n], &self.height[..=n]);
+        self.all[n] = pull[n] + (self.five[n] - bent);
+    }
+
+    /// The last coefficient of f z, from those of r.
+    #[inline(always)]
+    fn along(&self, position: &[[R; 3]]) -> R {
+        let mut sum = self.five[0].zero();
+        for (f, r) in self.five.iter().zip(position.iter().rev()) {
+            sum = f.mul_add(r[2], sum);
+        }
+        sum
+    }
+}
+
+/// The last coefficient of the product of two series.
+#[inline(always)]
+pub fn convolution<R: Real>(a: &[R], b: &[R]) -> R {
+    let mut sum = a[0].zero();
+    for (a, b) in a.iter().zip(b.iter().rev()) {
+        sum = a.mul_add(*b, sum);
+    }
+    sum
+}
+
 /// The last coefficient of r . r, from those of r.
 #[inline(always)]
 fn product_with_itself<R: Real>(position: &[[R; 3]]) -> R {
@@ -151,13 +233,14 @@ mod tests {
                 position: [7e6, 1e6, -2e5],
                 velocity: [100.0, speed * 7400.0, 900.0],
                 body_radius: 0.0,
+                j2: None,
                 epoch: None,
             };
             let closed = KeplerOrbit::new(&scene);
             // a unit of time of 512 s
             let unit = 512.0;
             let mut series = OrbitSeries::new(0.0, 30);
-            series.begin(MU * unit * unit, scene.position, scaled(unit, scene.velocity));
+            series.begin(closed.gravity().in_unit(unit), scene.position, scaled(unit, scene.velocity));
             (0..30).for_each(|n| series.extend(n));
             for time in [0.0, 100.0, 400.0, 500.0] {
                 let (found, expected) = (series.at(time / unit), closed.state(time));

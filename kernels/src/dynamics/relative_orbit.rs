@@ -1,10 +1,12 @@
-//! [`RelativeOrbit`]: a free body near a point on a two-body orbit, at any time.
+//! [`RelativeOrbit`]: a free body near a point on an orbit, at any time.
 //!
 //! The offset is integrated as such, by its Taylor series ([`super::offset_series`]) in steps that depend on the run alone: the same bits at the
 //! same time, whatever was asked before.
 
+use super::gravity::Gravity;
 use super::offset_series::OffsetSeries;
-use super::orbit::{KeplerOrbit, OrbitState};
+use super::orbit_path::{OrbitPath, change, step_length};
+use super::orbit_state::OrbitState;
 use crate::math::sums::two_sum;
 use crate::math::vector::{dot, norm, scaled, sum};
 use crate::scene::orbit::Offset;
@@ -15,7 +17,7 @@ const ORDER: usize = 22;
 /// The motion of a free body beside an orbit.
 #[derive(Clone, Debug)]
 pub struct RelativeOrbit {
-    orbit: KeplerOrbit<f64>,
+    orbit: OrbitPath,
     start: Offset,
     series: OffsetSeries<f64>,
     /// Coefficients of the offset along the step: F_e, m, in s.
@@ -29,9 +31,9 @@ pub struct RelativeOrbit {
 
 impl RelativeOrbit {
     /// A body at `start` from the point on `orbit` at time zero.
-    pub fn new(orbit: KeplerOrbit<f64>, start: Offset) -> Self {
+    pub fn new(orbit: &OrbitPath, start: Offset) -> Self {
         let mut relative = RelativeOrbit {
-            orbit,
+            orbit: orbit.clone(),
             start,
             series: OffsetSeries::new(0.0, ORDER),
             offset: vec![[0.0; 3]; ORDER + 3],
@@ -44,14 +46,14 @@ impl RelativeOrbit {
     }
 
     /// Another body, in the same memory.
-    pub fn reset(&mut self, orbit: KeplerOrbit<f64>, start: Offset) {
-        (self.orbit, self.start) = (orbit, start);
+    pub fn reset(&mut self, orbit: &OrbitPath, start: Offset) {
+        (self.orbit, self.start) = (orbit.clone(), start);
         self.rewind();
     }
 
-    /// The gravitational parameter, m^3/s^2.
-    pub fn mu(&self) -> f64 {
-        self.orbit.mu()
+    /// The gravity of the central body.
+    pub fn gravity(&self) -> Gravity<f64> {
+        self.orbit.gravity()
     }
 
     /// Goes back to time zero.
@@ -80,15 +82,7 @@ impl RelativeOrbit {
 
     /// What position and velocity change by until `within` seconds after the start of the step.
     fn value(&self, within: f64) -> [[f64; 3]; 2] {
-        let (mut position, mut velocity) = ([0.0_f64; 3], [0.0_f64; 3]);
-        for (n, coefficients) in self.offset.iter().enumerate().skip(2).rev() {
-            for i in 0..3 {
-                position[i] = position[i].mul_add(within, coefficients[i]);
-                velocity[i] = velocity[i].mul_add(within, n as f64 * coefficients[i]);
-            }
-        }
-        let position = scaled(within, sum(self.offset[1], sum(self.low[1], scaled(within, position))));
-        [position, scaled(within, velocity)]
+        change(&self.offset, self.low[1], within)
     }
 
     /// Takes the step.
@@ -108,7 +102,7 @@ impl RelativeOrbit {
     /// The series from position and velocity of the offset on.
     fn step_from(&mut self, [position, velocity]: [[f64; 3]; 2]) {
         let place = self.orbit.state_at(self.time);
-        self.series.begin(self.orbit.mu(), place.position, place.velocity);
+        self.series.begin(self.orbit.gravity(), place.position, place.velocity);
         (self.offset[0], self.offset[1]) = (position, velocity);
         for n in 0..=ORDER {
             let tide = self.series.extend(n, self.offset[n]);
@@ -119,17 +113,12 @@ impl RelativeOrbit {
 
     /// The step that the series of place and offset allow, s.
     fn step_length(&self, distance: f64) -> f64 {
-        let radius = |n: usize, size: f64, term: [f64; 3]| {
-            let term = norm(term);
-            if term > 0.0 { libm::pow(size / term, 1.0 / n as f64) } else { f64::INFINITY }
-        };
         let along = self.series.orbit().position();
         // the offset may pass through zero: its size is what it is after some minutes
         let size = norm(self.offset[0]) + dot(self.offset[1], self.offset[1]).sqrt() * (distance / norm(along[1]));
-        let shortest = [ORDER - 1, ORDER].into_iter().fold(f64::INFINITY, |shortest: f64, n| {
-            shortest.min(radius(n, distance, along[n])).min(radius(n, size, self.offset[n]))
-        });
-        libm::exp(-2.0) * shortest
+        [ORDER - 1, ORDER].into_iter().fold(f64::INFINITY, |shortest: f64, n| {
+            shortest.min(step_length(n, distance, along[n])).min(step_length(n, size, self.offset[n]))
+        })
     }
 }
 
@@ -141,12 +130,13 @@ mod tests {
 
     const MU: f64 = 3.986004418e14;
 
-    fn ellipse() -> KeplerOrbit<f64> {
-        KeplerOrbit::new(&Orbit {
+    fn ellipse() -> OrbitPath {
+        OrbitPath::new(&Orbit {
             mu: MU,
             position: [7e6, 1e6, -2e5],
             velocity: [100.0, 7100.0, 2900.0],
             body_radius: 0.0,
+            j2: None,
             epoch: None,
         })
     }
@@ -159,12 +149,12 @@ mod tests {
     /// Law: the answer is a function of the time alone.
     #[test]
     fn the_order_of_the_questions_does_not_matter() {
-        let mut relative = RelativeOrbit::new(ellipse(), OFFSET);
+        let mut relative = RelativeOrbit::new(&ellipse(), OFFSET);
         let late = relative.at(40_000.0);
         let early = relative.at(100.0);
-        assert_eq!(RelativeOrbit::new(ellipse(), OFFSET).at(100.0), early);
+        assert_eq!(RelativeOrbit::new(&ellipse(), OFFSET).at(100.0), early);
         assert_eq!(relative.at(40_000.0), late);
-        relative.reset(ellipse(), Offset { position: [0.0; 3], velocity: [0.0; 3] });
+        relative.reset(&ellipse(), Offset { position: [0.0; 3], velocity: [0.0; 3] });
         assert_eq!(relative.at(40_000.0).1.position, [0.0; 3]);
     }
 
@@ -211,7 +201,7 @@ mod tests {
                 [-0.1427548583800691, -0.09505743751154175, 0.016919563050400543]),
         ];
         for (start, time, position, velocity) in TRUTH {
-            let (_, found) = RelativeOrbit::new(ellipse(), start).at(time);
+            let (_, found) = RelativeOrbit::new(&ellipse(), start).at(time);
             let off = norm(difference(found.position, position));
             let speed = norm(difference(found.velocity, velocity));
             println!("{time}: {off:e} m, {speed:e} m/s");

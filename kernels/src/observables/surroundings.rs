@@ -8,7 +8,7 @@ use super::table::Series;
 use crate::dynamics::effects::drag::{self, Drag};
 use crate::dynamics::effects::solar_pressure::{self, Light, SolarPressure};
 use crate::dynamics::environment::air::Air;
-use crate::dynamics::orbit::OrbitState;
+use crate::dynamics::orbit_state::OrbitState;
 use crate::math::Lanes;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{dot, norm, transposed_product};

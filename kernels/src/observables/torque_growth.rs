@@ -11,7 +11,8 @@
 
 use crate::dynamics::effects::within_arcs::Motion;
 use crate::dynamics::effects::{ChangingEffects, ForceModel};
-use crate::dynamics::orbit::{KeplerOrbit, OrbitState};
+use crate::dynamics::orbit_path::OrbitPath;
+use crate::dynamics::orbit_state::OrbitState;
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{cross, difference, dot, hamilton, quaternion_from_dcm, scaled, sum, transposed_product};
 use crate::run::{StateField, StateTable};
@@ -35,7 +36,7 @@ pub(super) fn exponent(scene: &Scene, table: &StateTable, times: &[f64], filled:
     if effects.is_empty() {
         return 0.0;
     }
-    let orbit = scene.orbit.as_ref().map(KeplerOrbit::new);
+    let orbit = scene.orbit.as_ref().map(OrbitPath::new);
     let size = (moments[0] + moments[1] + moments[2]) / 3.0;
     let stride = last.div_ceil(POINTS).max(1);
     let (mut all, mut count) = (0.0, 0.0);

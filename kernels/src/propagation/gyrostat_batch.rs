@@ -157,8 +157,8 @@ impl StateCompletion {
             grid, debris_runs, debris_trajectories, debris_is_integrated, debris_orbit, table, ..
         } = self;
         if let (Some(orbit), Some(Offsets { debris, .. })) = (&run.orbit, &scene.offsets) {
-            let relative = debris_orbit.get_or_insert_with(|| Box::new(RelativeOrbit::new(*orbit, *debris)));
-            relative.reset(*orbit, *debris);
+            let relative = debris_orbit.get_or_insert_with(|| Box::new(RelativeOrbit::new(orbit, *debris)));
+            relative.reset(orbit, *debris);
         }
         // called through closures, which are compiled apart: it enters the instruction set again
         simd.vectorize(

@@ -71,14 +71,14 @@ impl Remainders {
         let order = self.method.order + 1;
         let effects = (!run.effects.is_empty()).then(|| {
             let series = self.effects.get_or_insert_with(|| Box::new(ChangingSeries::new(0.0, order)));
-            let place = run.orbit.map(|orbit| {
+            let place = run.orbit.as_ref().map(|orbit| {
                 let mut place = orbit.state(time);
                 if run.offset.is_some() {
                     let all = states.at::<WITH_THRUST>(point);
                     let three = |first: usize| scaled(1.0 / run.mass, [all[first], all[first + 1], all[first + 2]]);
                     place = place.displaced([three(IMPULSE_INTEGRAL), three(IMPULSE)]);
                 }
-                (orbit.mu(), place)
+                (orbit.gravity(), place)
             });
             let mut acting = run.effects;
             if let Some(torque) = &mut acting.magnetic_torque {

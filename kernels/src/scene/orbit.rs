@@ -1,4 +1,4 @@
-//! [`Orbit`]: the two-body orbit of a scene at time zero, from position and velocity or from Keplerian elements.
+//! [`Orbit`]: the orbit of a scene at time zero, from position and velocity or from Keplerian elements.
 //!
 //! Formulas: D. Vallado, *Fundamentals of Astrodynamics and Applications*, 4th ed., 2013, sections 2.4 to 2.6. Not here: the motion along
 //! the orbit (`dynamics::orbit`).
@@ -10,7 +10,10 @@ use super::schema::limit::shown;
 use super::schema::{InitialInput, OrbitInput};
 use crate::math::vector::{cross, difference, dot, norm, quaternion_from_dcm, scaled, sum};
 
-/// A two-body orbit.
+/// The largest J2 that is accepted.
+const LARGEST_J2: f64 = 0.1;
+
+/// An orbit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
     /// Gravitational parameter, m^3/s^2.
@@ -21,6 +24,8 @@ pub struct Orbit {
     pub velocity: [f64; 3],
     /// Radius of the central body, m.
     pub body_radius: f64,
+    /// Second zonal harmonic of the central body, with that radius; `None` of a point mass.
+    pub j2: Option<f64>,
     /// The date at time zero; `None` where nothing depends on it.
     pub epoch: Option<Epoch>,
 }
@@ -92,10 +97,10 @@ pub struct OrbitShape {
 impl Orbit {
     /// The orbit that `input` describes; what is missing counts as zero.
     pub fn of(input: &OrbitInput) -> Self {
-        let (mu, body_radius, epoch) = (input.mu_m3_s2, input.body_radius_m, input.epoch);
+        let (mu, body_radius, j2, epoch) = (input.mu_m3_s2, input.body_radius_m, input.j2, input.epoch);
         let Some(semi_major_axis) = input.semi_major_axis_m else {
             let (position, velocity) = (input.position_m.unwrap_or_default(), input.velocity_m_s.unwrap_or_default());
-            return Orbit { mu, position, velocity, body_radius, epoch };
+            return Orbit { mu, position, velocity, body_radius, j2, epoch };
         };
         let angle = |value: Option<f64>| libm::sincos(value.unwrap_or(0.0));
         let eccentricity = input.eccentricity.unwrap_or(0.0);
@@ -116,6 +121,7 @@ impl Orbit {
             position: scaled(distance, sum(scaled(cos_f, periapsis), scaled(sin_f, ahead))),
             velocity: scaled(speed, sum(scaled(-sin_f, periapsis), scaled(eccentricity + cos_f, ahead))),
             body_radius,
+            j2,
             epoch,
         }
     }
@@ -127,7 +133,19 @@ impl Orbit {
         Orbit { position, velocity, ..*self }
     }
 
-    /// Its shape.
+    /// What the central body's flattening adds to its gravity: (3/2) J2 R^2, m^2; `None` of a point mass.
+    pub fn oblateness(&self) -> Option<f64> {
+        self.j2.map(|j2| 1.5 * j2 * self.body_radius * self.body_radius)
+    }
+
+    /// Lower bound of the distance from the centre, m: the periapsis, from which the flattening takes some kilometres within a revolution; at most
+    /// 2 k/p, twice the largest term of the first order (D. Brouwer, Astronomical Journal 64, 1959).
+    pub fn lowest(&self) -> f64 {
+        let periapsis = self.shape().periapsis;
+        self.oblateness().map_or(periapsis, |k| periapsis - 2.0 * k / periapsis)
+    }
+
+    /// Its shape; about a flattened body that at time zero.
     pub fn shape(&self) -> OrbitShape {
         let distance = norm(self.position);
         let speed2 = dot(self.velocity, self.velocity);
@@ -184,6 +202,15 @@ pub(super) fn check(scene: &SceneInput, input: &OrbitInput, problems: &mut Probl
 /// Collects what is wrong with the keys of `[orbit]` themselves.
 fn of_keys(input: &OrbitInput, problems: &mut Problems) {
     let key = |name: &str| format!("orbit.{name}");
+    if let Some(j2) = input.j2 {
+        if j2 > LARGEST_J2 {
+            let allowed = format!("at most {LARGEST_J2}: Saturn has 0.0163, the Earth 1.08262668e-3");
+            problems.add(key("j2"), shown(&[j2]), allowed, "write the harmonic without a factor");
+        } else if j2 > 0.0 && input.body_radius_m == 0.0 {
+            let allowed = "zero, or left out, where body_radius_m is zero: it belongs to that radius";
+            problems.add(key("j2"), shown(&[j2]), allowed, "write the equatorial radius as body_radius_m");
+        }
+    }
     let of_elements = [
         input.eccentricity,
         input.inclination_rad,

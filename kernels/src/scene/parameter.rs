@@ -266,6 +266,7 @@ mod tests {
         scene.torque_rods =
             vec![TorqueRodInput { name: Name::of("m1"), max_dipole_a_m2: 1.0, ..TorqueRodInput::DEFAULT }];
         scene.orbit = Some(OrbitInput {
+            j2: Some(0.0),
             position_m: Some([0.0; 3]),
             velocity_m_s: Some([0.0; 3]),
             semi_major_axis_m: Some(0.0),

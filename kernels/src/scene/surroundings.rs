@@ -57,7 +57,7 @@ pub(super) fn check(input: &SceneInput, problems: &mut Problems) {
             "add a date such as epoch = \"2026-11-24T00:00:00Z\"",
         );
     }
-    let height = Orbit::of(orbit).shape().periapsis - orbit.body_radius_m;
+    let height = Orbit::of(orbit).lowest() - orbit.body_radius_m;
     // an orbit below the surface has its own message
     if environment.drag && height > 0.0 && height < FREE_MOLECULAR {
         let allowed = format!(

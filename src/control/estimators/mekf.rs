@@ -24,6 +24,7 @@ use crate::control::sensors::rate_gyro::GyroNoise;
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
 use crate::control::truth::{DebrisState, Truth};
 use crate::control::vector::{conjugate, dcm_from_quaternion, difference, dot, hamilton, product, scaled, sum};
+use crate::dynamics::gravity::Gravity;
 use crate::scene::schema::Limit;
 use crate::scene::{LawParameter, MAX_WHEELS, MassProperties, Scene, WheelMode};
 
@@ -189,9 +190,9 @@ impl Mekf {
                 Attitude::WithoutGyro(Delayed::new(filter, oldest))
             }
         };
-        let mu = context.nominal.orbit.map(|orbit| orbit.mu);
+        let gravity = context.nominal.orbit.as_ref().map(Gravity::of);
         let translation = |r_e, v_e, sigmas: [f64; 2], walk| {
-            Delayed::new(TranslationFilter::new(PointMotion { r_e, v_e }, sigmas, walk, mu), oldest)
+            Delayed::new(TranslationFilter::new(PointMotion { r_e, v_e }, sigmas, walk, gravity), oldest)
         };
         let debris_motion = start.debris.map(|debris| {
             let sigmas = [believed.debris_position_sigma, believed.debris_velocity_sigma];

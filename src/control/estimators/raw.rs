@@ -8,6 +8,7 @@ use crate::control::estimate::Estimate;
 use crate::control::measurement::{Observes, PointMotion, part};
 use crate::control::rotation::vector_of;
 use crate::control::vector::{conjugate, dcm_from_quaternion, hamilton, product, scaled, sum};
+use crate::dynamics::gravity::Gravity;
 
 pub(super) const KIND: EstimatorKind = EstimatorKind {
     name: "raw",
@@ -26,8 +27,8 @@ struct Raw {
     sensors: Vec<(Observes, f64)>,
     has_gyro: bool,
     time: f64,
-    /// Gravitational parameter of the central body, m^3/s^2; `None` without an orbit.
-    mu: Option<f64>,
+    /// The gravity of the central body; `None` without an orbit.
+    gravity: Option<Gravity<f64>>,
     /// When the last attitude was taken, and which it was.
     last: Option<(f64, [f64; 4])>,
 }
@@ -39,7 +40,7 @@ impl Raw {
             sensors: context.sensors.iter().map(|sensor| (sensor.observes, sensor.period)).collect(),
             has_gyro: context.sensors.iter().any(|sensor| matches!(sensor.observes, Observes::Rotation(_))),
             time: 0.0,
-            mu: context.nominal.orbit.map(|orbit| orbit.mu),
+            gravity: context.nominal.orbit.as_ref().map(Gravity::of),
             last: None,
         }
     }
@@ -48,9 +49,10 @@ impl Raw {
 impl Estimator for Raw {
     fn update(&mut self, update: &Update<'_>, estimate: &mut Estimate) {
         self.time += update.interval;
-        let mu = self.mu;
-        let later = |motion: PointMotion, time: f64| mu.map_or(motion, |mu| motion.falling(mu, [0.0; 3], time));
-        if mu.is_some() {
+        let gravity = self.gravity;
+        let later =
+            |motion: PointMotion, time: f64| gravity.map_or(motion, |gravity| motion.falling(&gravity, [0.0; 3], time));
+        if gravity.is_some() {
             let own = later(PointMotion { r_e: estimate.r_co_e, v_e: estimate.v_co_e }, update.interval);
             (estimate.r_co_e, estimate.v_co_e) = (own.r_e, own.v_e);
             if let Some(debris) = &mut estimate.debris {

@@ -13,6 +13,7 @@ use super::kalman::{Gain, NormalizedSquare, normalized_square, symmetric, transp
 use crate::control::measurement::PointMotion;
 use crate::control::small_matrix::{added, diagonal};
 use crate::control::vector::{difference, norm, scaled, sum};
+use crate::dynamics::gravity::Gravity;
 
 /// A step with known acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,19 +42,15 @@ pub struct TranslationFilter {
     pub covariance: [[f64; 2]; 2],
     /// Random walk of the velocity, m/s/sqrt(s).
     pub velocity_random_walk: f64,
-    /// Gravitational parameter of the central body at the origin, m^3/s^2; `None` without an orbit.
-    pub mu: Option<f64>,
+    /// The gravity of the central body at the origin; `None` without an orbit.
+    pub gravity: Option<Gravity<f64>>,
 }
 
 impl PointMotion {
-    /// This motion `t` seconds later, under the constant acceleration `acceleration_e` (F_e, m/s^2) and the pull of a central body at the origin, of the
-    /// gravitational parameter `mu`, m^3/s^2.
-    pub fn falling(&self, mu: f64, acceleration_e: [f64; 3], t: f64) -> PointMotion {
+    /// This motion `t` seconds later, under the constant acceleration `acceleration_e` (F_e, m/s^2) and the pull `gravity` of a central body at the origin.
+    pub fn falling(&self, gravity: &Gravity<f64>, acceleration_e: [f64; 3], t: f64) -> PointMotion {
         let PointMotion { r_e, v_e } = *self;
-        let pull = |r: [f64; 3]| {
-            let distance = norm(r);
-            sum(acceleration_e, scaled(-mu / (distance * distance * distance), r))
-        };
+        let pull = |r: [f64; 3]| sum(acceleration_e, gravity.acceleration(r, norm(r)));
         let first = pull(r_e);
         let middle = pull(sum(r_e, sum(scaled(0.5 * t, v_e), scaled(0.125 * t * t, first))));
         let last = pull(sum(r_e, sum(scaled(t, v_e), scaled(0.5 * t * t, middle))));
@@ -64,8 +61,14 @@ impl PointMotion {
 
 impl TranslationFilter {
     /// `motion` with errors of the standard deviations `sigmas`, m and m/s, along each axis.
-    pub fn new(motion: PointMotion, sigmas: [f64; 2], velocity_random_walk: f64, mu: Option<f64>) -> Self {
-        TranslationFilter { motion, covariance: diagonal(sigmas.map(|sigma| sigma * sigma)), velocity_random_walk, mu }
+    pub fn new(
+        motion: PointMotion,
+        sigmas: [f64; 2],
+        velocity_random_walk: f64,
+        gravity: Option<Gravity<f64>>,
+    ) -> Self {
+        let covariance = diagonal(sigmas.map(|sigma| sigma * sigma));
+        TranslationFilter { motion, covariance, velocity_random_walk, gravity }
     }
 
     /// The normalised square of the error (NEES).
@@ -94,8 +97,8 @@ impl Filter for TranslationFilter {
 
     fn propagate(&mut self, step: &TranslationStep) {
         let (t, PointMotion { r_e, v_e }) = (step.interval, self.motion);
-        self.motion = match self.mu {
-            Some(mu) => self.motion.falling(mu, step.acceleration_e, t),
+        self.motion = match &self.gravity {
+            Some(gravity) => self.motion.falling(gravity, step.acceleration_e, t),
             None => {
                 let moved = sum(scaled(t, v_e), scaled(0.5 * t * t, step.acceleration_e));
                 PointMotion { r_e: sum(r_e, moved), v_e: sum(v_e, scaled(t, step.acceleration_e)) }
@@ -131,25 +134,27 @@ mod tests {
             position: [7e6, 1e6, -2e5],
             velocity: [100.0, 7100.0, 2900.0],
             body_radius: 0.0,
+            j2: None,
             epoch: None,
         };
         let start = PointMotion { r_e: orbit.position, v_e: orbit.velocity };
         let truth = KeplerOrbit::new(&orbit).state(600.0);
+        let gravity = Gravity::of(&orbit);
         let off = |step: f64, steps: u32| {
-            let end = (0..steps).fold(start, |at, _| at.falling(orbit.mu, [0.0; 3], step));
+            let end = (0..steps).fold(start, |at, _| at.falling(&gravity, [0.0; 3], step));
             [norm(difference(end.r_e, truth.position)), norm(difference(end.v_e, truth.velocity))]
         };
         let [near, far] = [off(10.0, 60), off(20.0, 30)];
         assert!(near[0] < 1e-3 && near[1] < 1e-5, "{near:?}");
         assert!((12.0..20.0).contains(&(far[0] / near[0])), "{near:?} {far:?}");
-        let [pushed, free] = [[1e-3, 0.0, 0.0], [0.0; 3]].map(|push| start.falling(orbit.mu, push, 2.0));
+        let [pushed, free] = [[1e-3, 0.0, 0.0], [0.0; 3]].map(|push| start.falling(&gravity, push, 2.0));
         assert!(norm(difference(difference(pushed.r_e, free.r_e), [2e-3, 0.0, 0.0])) < 1e-8);
         // gravity at the place that the push adds, 2e-3 m times 2e-6/s^2, over two seconds
         assert!(norm(difference(difference(pushed.v_e, free.v_e), [2e-3, 0.0, 0.0])) < 8e-9);
         // as the filter has it, and without an orbit the straight line of before
-        let mut filter = TranslationFilter::new(start, [1.0, 0.1], 0.0, Some(orbit.mu));
+        let mut filter = TranslationFilter::new(start, [1.0, 0.1], 0.0, Some(gravity));
         filter.propagate(&TranslationStep { acceleration_e: [0.0; 3], interval: 10.0 });
-        assert_eq!(filter.motion, start.falling(orbit.mu, [0.0; 3], 10.0));
+        assert_eq!(filter.motion, start.falling(&gravity, [0.0; 3], 10.0));
         let mut flat = TranslationFilter::new(start, [1.0, 0.1], 0.0, None);
         flat.propagate(&TranslationStep { acceleration_e: [0.0; 3], interval: 10.0 });
         assert_eq!(flat.motion.v_e, start.v_e);

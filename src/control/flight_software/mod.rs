@@ -29,7 +29,8 @@ use super::plant::Measurements;
 use super::spec::LoopSpec;
 use super::truth::Truth;
 use crate::control::vector::{dcm_from_quaternion, norm, product, scaled, sum};
-use crate::dynamics::orbit::{KeplerOrbit, OrbitState};
+use crate::dynamics::orbit_path::OrbitPath;
+use crate::dynamics::orbit_state::OrbitState;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 
 /// The momentum of the wheels of `scene` relative to the body at the estimated rates, in F_s, N m s.
@@ -88,7 +89,7 @@ pub struct FlightSoftware {
     pulses: [PulseState; MAX_THRUSTERS],
     launch: LaunchState,
     /// The nominal orbit.
-    orbit: Option<KeplerOrbit<f64>>,
+    orbit: Option<OrbitPath>,
     /// The geometry of the launch as estimated at the control tick; `None` without debris.
     geometry: Option<LaunchGeometry>,
     /// Time without the target after which it is lost, s; infinite where there is no limit.
@@ -155,7 +156,7 @@ impl FlightSoftware {
             thruster_drives: parts.thruster_drives,
             pulses: [PulseState::default(); MAX_THRUSTERS],
             launch,
-            orbit: believed.orbit.as_ref().map(KeplerOrbit::new),
+            orbit: believed.orbit.as_ref().map(OrbitPath::new),
             geometry: None,
             lost_target_timeout: parts.lost_target_timeout,
             is_recorded: parts.is_recorded,

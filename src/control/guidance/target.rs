@@ -4,6 +4,7 @@ use crate::control::net_launch::geometry::LaunchGeometry;
 use crate::control::rotation::quaternion_of;
 use crate::control::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilton, norm, scaled, transposed_product};
 use crate::dynamics::environment::sun::sun;
+use crate::dynamics::gravity::Gravity;
 use crate::math::vector::quaternion_from_dcm;
 use crate::scene::{Epoch, Orbit};
 
@@ -74,12 +75,11 @@ pub struct OrbitMotion {
 impl OrbitMotion {
     /// That at the position `r_e` and the velocity `v_e` on `orbit` at `time`, s.
     pub fn of(orbit: &Orbit, time: f64, r_e: [f64; 3], v_e: [f64; 3]) -> Self {
-        let distance = norm(r_e);
         let days = |epoch: Epoch| epoch.days_since_j2000() + time / 86_400.0;
         OrbitMotion {
             r_e,
             v_e,
-            a_e: scaled(-orbit.mu / (distance * distance * distance), r_e),
+            a_e: Gravity::of(orbit).acceleration(r_e, norm(r_e)),
             sun_e: orbit.epoch.map_or([0.0; 3], |epoch| sun(days(epoch)).direction),
         }
     }
@@ -233,7 +233,7 @@ mod tests {
         let at = |time: f64| {
             let r_e = sum(sum(r_e, scaled(time, v_e)), scaled(0.5 * time * time, pull));
             let epoch = Epoch::parse("2026-06-21T09:00:00Z");
-            let scene = Orbit { mu, position: r_e, velocity: v_e, body_radius: 0.0, epoch };
+            let scene = Orbit { mu, position: r_e, velocity: v_e, body_radius: 0.0, j2: None, epoch };
             TargetInput { orbit: Some(OrbitMotion::of(&scene, time, r_e, sum(v_e, scaled(time, pull)))), ..NOTHING }
         };
         // at the solstice the Sun is over the tropic, where the ecliptic is highest

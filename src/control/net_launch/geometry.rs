@@ -241,7 +241,7 @@ mod tests {
     /// The centres after `time` seconds on their own two-body orbits.
     fn later(centers: &Centers, time: f64) -> Centers {
         let fall = |position, velocity| {
-            let orbit = crate::scene::Orbit { mu: MU, position, velocity, body_radius: 0.0, epoch: None };
+            let orbit = crate::scene::Orbit { mu: MU, position, velocity, body_radius: 0.0, j2: None, epoch: None };
             let state = crate::dynamics::orbit::KeplerOrbit::new(&orbit).state(time);
             (state.position, state.velocity)
         };

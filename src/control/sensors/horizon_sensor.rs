@@ -12,7 +12,7 @@ use crate::control::estimators::attitude_innovation::AttitudeInnovation;
 use crate::control::measurement::{AttitudeSensor, Observes, Values};
 use crate::control::truth::Truth;
 use crate::control::vector::{norm, scaled};
-use crate::dynamics::orbit::KeplerOrbit;
+use crate::dynamics::orbit_path::OrbitPath;
 use crate::scene::schema::Limit;
 use crate::scene::{DeclaredTable, Scene};
 
@@ -53,21 +53,21 @@ fn nadir(r_e: [f64; 3]) -> [f64; 3] {
 #[derive(Debug)]
 struct Geometry {
     angles: TwoAngles,
-    orbit: Option<KeplerOrbit<f64>>,
+    orbit: Option<OrbitPath>,
 }
 
 impl Geometry {
     fn of(table: &DeclaredTable, nominal: &Scene) -> Self {
         let numbers = HorizonSensorNumbers::of(table);
         let angles = TwoAngles::new(numbers.boresight, numbers.noise);
-        Geometry { angles, orbit: nominal.orbit.as_ref().map(KeplerOrbit::new) }
+        Geometry { angles, orbit: nominal.orbit.as_ref().map(OrbitPath::new) }
     }
 }
 
 impl AttitudeSensor for Geometry {
     fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation {
         // without an orbit there is no direction, and nothing is learned
-        let nadir_e = self.orbit.map_or([0.0; 3], |orbit| nadir(orbit.state(time).position));
+        let nadir_e = self.orbit.as_ref().map_or([0.0; 3], |orbit| nadir(orbit.state(time).position));
         self.angles.innovation(values, self.angles.in_sensor(nadir_e, q_es))
     }
 }
@@ -128,7 +128,7 @@ mod tests {
     fn the_sensitivity_is_the_derivative() {
         let nominal = on_orbit();
         let geometry = Geometry::of(&table("unit", &PARAMETERS, &[("boresight", &BORESIGHT)]), &nominal);
-        let orbit = KeplerOrbit::new(nominal.orbit.as_ref().expect("an orbit"));
+        let orbit = OrbitPath::new(nominal.orbit.as_ref().expect("an orbit"));
         let (time, size) = (700.0, 1e-6);
         // the boresight is a fifth of a radian from nadir
         let down = nadir(orbit.state(time).position);

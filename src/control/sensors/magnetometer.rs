@@ -14,7 +14,7 @@ use crate::control::small_matrix::{diagonal, multiplied, transposed};
 use crate::control::truth::Truth;
 use crate::control::vector::{cross, dcm_from_quaternion, dot, sum, transposed_product};
 use crate::dynamics::magnetic_field::MagneticField;
-use crate::dynamics::orbit::KeplerOrbit;
+use crate::dynamics::orbit_path::OrbitPath;
 use crate::scene::schema::Limit;
 use crate::scene::{DeclaredTable, Scene};
 
@@ -46,13 +46,13 @@ declared! {
 #[derive(Debug)]
 struct Believed {
     /// `None` without a field: nothing is learned.
-    field: Option<(KeplerOrbit<f64>, MagneticField<f64>)>,
+    field: Option<(OrbitPath, MagneticField<f64>)>,
     noise: [f64; 3],
 }
 
 impl Believed {
     fn of(table: &DeclaredTable, nominal: &Scene) -> Self {
-        let orbit = nominal.orbit.as_ref().map(KeplerOrbit::new);
+        let orbit = nominal.orbit.as_ref().map(OrbitPath::new);
         Believed { field: orbit.zip(MagneticField::of(nominal)), noise: MagnetometerNumbers::of(table).noise }
     }
 }
@@ -157,7 +157,7 @@ mod tests {
     fn the_sensitivity_is_the_derivative() {
         let nominal = on_orbit();
         let believed = Believed::of(&table("unit", &PARAMETERS, &[]), &nominal);
-        let place = KeplerOrbit::new(nominal.orbit.as_ref().expect("an orbit")).state(TIME).position;
+        let place = OrbitPath::new(nominal.orbit.as_ref().expect("an orbit")).state(TIME).position;
         let (q, size) = (quaternion_of([0.3, -0.2, 0.5]), 1e-6);
         for axis in 0..3 {
             let mut d = [0.0; 3];

@@ -106,7 +106,7 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
 /// Upper bound of the torque on `scene`, N m: at the periapsis, against the Earth's rotation, all plates across the flow.
 pub fn largest_torque(scene: &Scene) -> f64 {
     let Some((orbit, air)) = scene.orbit.as_ref().zip(air_of(scene)) else { return 0.0 };
-    let lowest = orbit.shape().periapsis;
+    let lowest = orbit.lowest();
     let speed = (orbit.mu * (2.0 / lowest - 1.0 / orbit.shape().semi_major_axis)).sqrt() + EARTH_RATE * lowest;
     0.5 * air.density(lowest) * speed * speed * largest_lever(scene, |plate| plate.drag_coefficient)
 }

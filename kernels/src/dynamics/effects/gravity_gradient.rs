@@ -4,8 +4,8 @@
 //! *Spacecraft Attitude Dynamics*, 1986, section 8.1: of first order in size over |r|).
 
 use super::within_arcs::{Motion, MotionSeries};
-use crate::dynamics::orbit::OrbitState;
 use crate::dynamics::orbit_series::next_of_power;
+use crate::dynamics::orbit_state::OrbitState;
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{
@@ -162,7 +162,7 @@ fn added<R: Real>(a: [R; 4], b: [R; 4]) -> [R; 4] {
 /// Upper bound of the torque on `scene`, N m: at the periapsis, the axes of the largest and the smallest moment at 45 degrees to the vertical.
 pub fn largest_torque(scene: &Scene) -> f64 {
     let Some(orbit) = scene.orbit.as_ref().filter(|_| scene.environment.gravity_gradient) else { return 0.0 };
-    let lowest = orbit.shape().periapsis;
+    let lowest = orbit.lowest();
     let (moments, _) = principal_axes(scene.mass.inertia);
     let [least, most] = [moments[0].min(moments[1]).min(moments[2]), moments[0].max(moments[1]).max(moments[2])];
     1.5 * orbit.mu / (lowest * lowest * lowest) * (most - least)
@@ -171,7 +171,7 @@ pub fn largest_torque(scene: &Scene) -> f64 {
 /// Largest rate of librations of `scene`, rad/s: sqrt(3 mu/r^3) at the periapsis, that of a dumbbell.
 pub fn largest_rate(scene: &Scene) -> f64 {
     let Some(orbit) = scene.orbit.as_ref().filter(|_| scene.environment.gravity_gradient) else { return 0.0 };
-    let lowest = orbit.shape().periapsis;
+    let lowest = orbit.lowest();
     (3.0 * orbit.mu / lowest).sqrt() / lowest
 }
 

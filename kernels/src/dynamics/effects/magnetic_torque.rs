@@ -122,7 +122,7 @@ impl<R: Real> MagneticSeries<R> {
 pub fn largest_torque(scene: &Scene) -> f64 {
     let (Some(orbit), Some(dipole)) = (&scene.orbit, residual_dipole(scene)) else { return 0.0 };
     let all = scene.torque_rods.iter().fold(norm(dipole), |sum, rod| sum + (rod.scale * rod.limit).abs());
-    all * largest(orbit.shape().periapsis)
+    all * largest(orbit.lowest())
 }
 
 /// Largest rate of librations of `scene` about the field, rad/s: sqrt(|m| |B|/J) of the smallest moment.
@@ -138,7 +138,7 @@ pub fn largest_rate(scene: &Scene) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::orbit::OrbitState;
+    use crate::dynamics::orbit_state::OrbitState;
     use crate::math::vector::{difference, dot};
     use crate::scene::{Epoch, FieldModel};
 

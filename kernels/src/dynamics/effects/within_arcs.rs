@@ -6,10 +6,12 @@
 
 use super::ChangingEffects;
 use super::ChangingSeries;
+use crate::dynamics::gravity::Gravity;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_THRUST};
-use crate::dynamics::offset_series::{OffsetSeries, tide};
-use crate::dynamics::orbit::{KeplerOrbit, OrbitState};
+use crate::dynamics::offset_series::OffsetSeries;
+use crate::dynamics::orbit_path::PathsInLanes;
 use crate::dynamics::orbit_series::OrbitSeries;
+use crate::dynamics::orbit_state::OrbitState;
 use crate::math::Real;
 use crate::math::vector::scaled;
 
@@ -84,15 +86,14 @@ impl<R: Real> MotionSeries<R> {
         }
     }
 
-    /// Starts a step where the point on the orbit is at `position` with `velocity` (m per unit of time), at the gravitational parameter `mu` (m^3 per
-    /// unit squared).
+    /// Starts a step where the point on the orbit is at `position` with `velocity` (m per unit of time) in `gravity` (m^3 per unit squared).
     #[inline(always)]
-    pub fn begin_orbit(&mut self, mu: R, position: [R; 3], velocity: [R; 3], may_leave: bool) {
+    pub fn begin_orbit(&mut self, gravity: Gravity<R>, position: [R; 3], velocity: [R; 3], may_leave: bool) {
         self.may_leave = may_leave;
         if may_leave {
-            self.offset.begin(mu, position, velocity);
+            self.offset.begin(gravity, position, velocity);
         } else {
-            self.orbit.begin(mu, position, velocity);
+            self.orbit.begin(gravity, position, velocity);
         }
     }
 
@@ -127,7 +128,7 @@ impl<R: Real> MotionSeries<R> {
 }
 
 /// The effects that change within an arc, of one run per lane.
-pub trait WithinArcs<R: Real>: Copy {
+pub trait WithinArcs<R: Real> {
     /// Whether there are any.
     const ACT: bool;
 
@@ -219,10 +220,10 @@ impl<R: Real> WithinArcs<R> for NoEffects {
 }
 
 /// The effects of the list, with the orbit where one of them needs it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Acting<R> {
     zero: R,
-    orbit: Option<KeplerOrbit<R>>,
+    orbit: Option<PathsInLanes<R>>,
     effects: ChangingEffects<R>,
     /// Where runs may leave their orbits: their masses, kg, and rates of their orbits, rad/s.
     leaving: Option<Leaving<R>>,
@@ -241,12 +242,12 @@ impl<R: Real> Acting<R> {
     #[inline(always)]
     fn place<const N: usize>(&self, time: R, state: &[R; N]) -> (OrbitState<R>, Option<Carrier<R>>) {
         let place = match &self.orbit {
-            Some(orbit) => orbit.state(time),
+            Some(orbit) => orbit.state_at([time, time.zero()]),
             None => OrbitState::unknown(time),
         };
         match (&self.orbit, &self.leaving) {
             (Some(orbit), Some(leaving)) if N >= WITH_THRUST => {
-                beside_orbit(orbit.mu(), &place, leaving.inverse_mass, state)
+                beside_orbit(&orbit.gravity(), &place, leaving.inverse_mass, state)
             }
             _ => (place, None),
         }
@@ -256,14 +257,14 @@ impl<R: Real> Acting<R> {
 /// Where a spacecraft is whose integrated components are `state`, beside the point `place` on its orbit, and what that point does.
 #[inline(always)]
 pub fn beside_orbit<R: Real, const N: usize>(
-    mu: R,
+    gravity: &Gravity<R>,
     place: &OrbitState<R>,
     inverse_mass: R,
     state: &[R; N],
 ) -> (OrbitState<R>, Option<Carrier<R>>) {
     let three = |first: usize| scaled(inverse_mass, [state[first], state[first + 1], state[first + 2]]);
     let offset = [three(IMPULSE_INTEGRAL), three(IMPULSE)];
-    let carrier = Carrier { velocity: place.velocity, tide: tide(mu, place, offset[0]) };
+    let carrier = Carrier { velocity: place.velocity, tide: gravity.tide(place, offset[0]) };
     (place.displaced(offset), Some(carrier))
 }
 
@@ -277,15 +278,15 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
     fn set_lane(&mut self, lane: usize, run: &Gyrostat<f64>) {
         let zero = self.zero;
         self.effects.set_lane(zero, lane, &run.effects);
-        if let Some(orbit) = run.orbit.filter(|_| run.effects.needs_orbit() || run.offset.is_some()) {
-            self.orbit.get_or_insert_with(|| KeplerOrbit::blank().in_lanes(zero)).set_lane(lane, &orbit);
+        if let Some(orbit) = run.orbit.as_ref().filter(|_| run.effects.needs_orbit() || run.offset.is_some()) {
+            self.orbit.get_or_insert_with(|| PathsInLanes::blank(zero)).set_lane(lane, orbit);
         }
         if let (Some(orbit), Some(_)) = (&run.orbit, &run.offset) {
             let one = zero.splat(1.0);
             let leaving = self.leaving.get_or_insert(Leaving { mass: one, inverse_mass: one, rate: one });
             leaving.mass.set_lane(lane, run.mass);
             leaving.inverse_mass.set_lane(lane, 1.0 / run.mass);
-            leaving.rate.set_lane(lane, orbit.rate());
+            leaving.rate.set_lane(lane, orbit.at_start().rate());
         }
     }
 
@@ -342,7 +343,7 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
         unit: R,
         memory: &'m mut ChangingSeries<R>,
     ) -> Option<&'m mut ChangingSeries<R>> {
-        let place = self.orbit.as_ref().map(|orbit| (orbit.mu(), orbit.state_at(time)));
+        let place = self.orbit.as_ref().map(|orbit| (orbit.gravity(), orbit.state_at(time)));
         memory.begin(&self.effects, place.as_ref(), self.leaving.is_some(), time[0], unit);
         Some(memory)
     }
@@ -437,21 +438,21 @@ macro_rules! changing_effects {
                 }
             }
 
-            /// Starts a step of `acting` at `time` (s) in a unit of time of `unit` seconds. `place` is the gravitational parameter (m^3/s^2) and
+            /// Starts a step of `acting` at `time` (s) in a unit of time of `unit` seconds. `place` is the gravity of the central body and
             /// where the orbit is then (m, m/s), where it is needed; the spacecraft may leave it where `may_leave`.
             #[inline(always)]
             pub fn begin(
                 &mut self,
                 acting: &ChangingEffects<R>,
-                place: Option<&(R, $crate::dynamics::orbit::OrbitState<R>)>,
+                place: Option<&($crate::dynamics::gravity::Gravity<R>, $crate::dynamics::orbit_state::OrbitState<R>)>,
                 may_leave: bool,
                 time: R,
                 unit: R,
             ) {
                 self.has_orbit = place.is_some();
-                if let Some((mu, place)) = place {
+                if let Some((gravity, place)) = place {
                     let velocity = $crate::math::vector::scaled(unit, place.velocity);
-                    self.motion.begin_orbit(*mu * (unit * unit), place.position, velocity, may_leave);
+                    self.motion.begin_orbit(gravity.in_unit(unit), place.position, velocity, may_leave);
                 }
                 $(
                     self.$series.0 = acting.$series.is_some();

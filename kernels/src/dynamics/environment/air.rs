@@ -6,7 +6,7 @@
 //! jumps would be found by every step control, and are not in nature.
 
 use super::{EARTH_RATE, each_lane};
-use crate::dynamics::orbit::OrbitState;
+use crate::dynamics::orbit_state::OrbitState;
 use crate::math::lanes::WIDEST;
 use crate::math::{Mask, Real};
 use crate::scene::EnvironmentInput;

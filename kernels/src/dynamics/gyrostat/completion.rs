@@ -6,10 +6,11 @@ use super::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_ANGLES,
     WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST,
 };
-use crate::dynamics::orbit::KeplerOrbit;
+use crate::dynamics::orbit_path::OrbitPath;
+use crate::dynamics::orbit_state::OrbitState;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{
-    conjugate, constant, constant_matrix, constant_quaternion, difference, dot, hamilton, norm, product, scaled, sum,
+    conjugate, constant, constant_matrix, constant_quaternion, difference, dot, hamilton, product, scaled, sum,
 };
 use crate::math::{Lanes, Real};
 use crate::run::{Grid, StateField, StateTable, Trajectory};
@@ -190,15 +191,16 @@ fn complete_work<S: Simd, const THRUST: bool>(
     }
     let mut thrusters = chunk.read_if(THRUST, trajectory, THRUST_WORK);
     if let Some(orbit) = &run.orbit {
-        let orbit = orbit.in_lanes(chunk.zero());
-        let mut place = orbit.state(Lanes::from_slice(chunk.simd, times));
-        let work = match &run.offset {
-            None => orbit.work(place.distance),
-            Some(_) => {
+        let mut place = orbit.states(Lanes::from_slice(chunk.simd, times));
+        let gravity = orbit.gravity();
+        let work = if run.offset.is_none() && gravity.oblateness.is_none() {
+            orbit.at_start().in_lanes(chunk.zero()).work(place.distance)
+        } else {
+            if run.offset.is_some() {
                 place = place.displaced(chunk.offset(run, trajectory));
-                let start = norm(constant(chunk.zero(), run.r_co_e));
-                orbit.mu() * ((start - place.distance) / (start * place.distance))
             }
+            let start = OrbitState::at_rest(constant(chunk.zero(), run.r_co_e));
+            gravity.in_lanes(chunk.zero()).work(&start, &place)
         };
         thrusters += chunk.splat(run.mass) * work;
     }
@@ -235,7 +237,7 @@ fn complete_translation<S: Simd, const THRUST: bool>(
 fn complete_orbit<S: Simd>(
     chunk: Chunk<S>,
     run: &Gyrostat<f64>,
-    orbit: &KeplerOrbit<f64>,
+    orbit: &OrbitPath,
     trajectory: &Trajectory,
     times: &[f64],
     table: &mut StateTable,
@@ -244,11 +246,11 @@ fn complete_orbit<S: Simd>(
     if !fields.into_iter().any(|field| table.has(field)) {
         return;
     }
-    let mut place = orbit.in_lanes(chunk.zero()).state(Lanes::from_slice(chunk.simd, times));
+    let mut place = orbit.states(Lanes::from_slice(chunk.simd, times));
     let mut gained = difference(place.velocity, constant(chunk.zero(), run.v_co_e));
     if let Some([_, velocity]) = &run.offset {
         let offset = chunk.offset(run, trajectory);
-        let of_orbit = difference(place.velocity, constant(chunk.zero(), orbit.start()[1]));
+        let of_orbit = difference(place.velocity, constant(chunk.zero(), orbit.at_start().start()[1]));
         gained = sum(of_orbit, difference(offset[1], constant(chunk.zero(), *velocity)));
         place = place.displaced(offset);
     }

@@ -37,7 +37,7 @@ pub mod wheel;
 use crate::dynamics::applied::scheduled_arc;
 use crate::dynamics::arc_record::ArcRecord;
 use crate::dynamics::effects::{ChangingEffects, ForceModel, largest_changing_rate};
-use crate::dynamics::orbit::KeplerOrbit;
+use crate::dynamics::orbit_path::OrbitPath;
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{
@@ -113,7 +113,7 @@ pub struct Gyrostat<R> {
     /// Velocity of c at time zero, m/s.
     pub v_co_e: [R; 3],
     /// The orbit of c, where it is on one: then it is not in the straight line of position and velocity at time zero.
-    pub orbit: Option<KeplerOrbit<f64>>,
+    pub orbit: Option<OrbitPath>,
     /// Where c may leave its orbit: its position (m) and velocity (m/s) relative to the point on the orbit at time zero, F_e. The components of the
     /// impulse and its integral are then those of the relative motion, m d' and m d.
     pub offset: Option<[[R; 3]; 2]>,
@@ -180,7 +180,10 @@ impl<R: Real> Gyrostat<R> {
         let center = exact3(mass.center);
         self.r_co_e = sum(exact3(initial.r_po_e), product(c_es, center));
         self.v_co_e = sum(exact3(initial.v_po_e), product(c_es, cross(omega_s, center)));
-        self.orbit = scene.orbit.as_ref().map(KeplerOrbit::new);
+        match (&mut self.orbit, &scene.orbit) {
+            (Some(path), Some(orbit)) => path.reset(orbit),
+            (path, orbit) => *path = orbit.as_ref().map(OrbitPath::new),
+        }
         let changes = ForceModel::of(scene).changes_within_arcs();
         if changes || !self.effects.is_empty() {
             // some kilobytes, which runs without them do not copy
@@ -198,7 +201,7 @@ impl<R: Real> Gyrostat<R> {
             .map(|Offsets { spacecraft, .. }| [exact3(spacecraft.position), exact3(spacecraft.velocity)]);
         if let (Some(offset), Some(orbit)) = (&self.offset, &self.orbit) {
             (self.r_co_e, self.v_co_e) = (sum(self.r_co_e, offset[0]), sum(self.v_co_e, offset[1]));
-            self.rate = self.rate.max(orbit.rate());
+            self.rate = self.rate.max(orbit.at_start().rate());
         }
         self.set_wheels(zero, scene);
     }
@@ -444,7 +447,7 @@ impl<R: Real> Gyrostat<R> {
     /// Takes the orbit into account in the time scale, for what integrates it beside the run.
     pub fn note_orbit(&mut self) {
         if let Some(orbit) = &self.orbit {
-            self.rate = self.rate.max(orbit.rate());
+            self.rate = self.rate.max(orbit.at_start().rate());
         }
     }
 

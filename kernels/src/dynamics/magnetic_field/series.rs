@@ -198,11 +198,11 @@ mod tests {
                 let field = MagneticField::new(model, epoch(date));
                 let speed = (3.986e14 / norm(position)).sqrt();
                 let velocity = [-0.6 * speed, 0.3 * speed, 0.5 * speed];
-                let place = Orbit { mu: 3.986e14, position, velocity, body_radius: 0.0, epoch: None };
+                let place = Orbit { mu: 3.986e14, position, velocity, body_radius: 0.0, j2: None, epoch: None };
                 let kepler = KeplerOrbit::new(&place);
                 let (mut orbit, mut series) = (OrbitSeries::new(0.0, ORDER), FieldSeries::new(0.0, ORDER));
                 let unit = 32.0;
-                orbit.begin(3.986e14 * unit * unit, position, velocity.map(|v| v * unit));
+                orbit.begin(kepler.gravity().in_unit(unit), position, velocity.map(|v| v * unit));
                 series.begin(&field, time, unit);
                 for n in 0..=ORDER {
                     orbit.extend(n);

@@ -2,9 +2,11 @@
 
 use super::step::StepRule;
 use crate::dynamics::actuation::ActuationLaw;
+use crate::dynamics::gravity::Gravity;
 use crate::dynamics::gyrostat::{Gyrostat, IMPULSE, IMPULSE_INTEGRAL, THRUST_WORK, WITH_THRUST};
-use crate::dynamics::orbit::{KeplerOrbit, OrbitState};
+use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::orbit_series::OrbitSeries;
+use crate::dynamics::orbit_state::OrbitState;
 use crate::math::double_double::DoubleDouble;
 use crate::math::vector::{difference, norm, scaled, sum};
 use crate::run::Grid;
@@ -32,7 +34,7 @@ pub(super) struct Integration<'a, 'l> {
 /// The orbit of a run, integrated beside it: no closed form, so that it can judge one.
 pub(super) struct ReferenceOrbit {
     pub(super) mass: DoubleDouble,
-    pub(super) mu: DoubleDouble,
+    pub(super) gravity: Gravity<DoubleDouble>,
     pub(super) start: OrbitState<DoubleDouble>,
     /// Where the spacecraft may leave the orbit: its position and velocity relative to it at time zero, m and m/s.
     pub(super) offset: Option<[[DoubleDouble; 3]; 2]>,
@@ -44,12 +46,12 @@ pub(super) struct ReferenceOrbit {
 
 impl ReferenceOrbit {
     /// `orbit`, on which `run` starts or beside it.
-    pub(super) fn new(run: &Gyrostat<DoubleDouble>, orbit: &KeplerOrbit<f64>) -> Self {
-        let [position, velocity] = orbit.start().map(|vector| vector.map(DoubleDouble::exact));
+    pub(super) fn new(run: &Gyrostat<DoubleDouble>, orbit: &OrbitPath) -> Self {
+        let [position, velocity] = orbit.at_start().start().map(|vector| vector.map(DoubleDouble::exact));
         let start = OrbitState { position, velocity, distance: norm(position) };
         ReferenceOrbit {
             mass: run.mass,
-            mu: DoubleDouble::exact(orbit.mu()),
+            gravity: orbit.gravity().in_lanes(run.mass),
             start,
             offset: run.offset,
             place: start,
@@ -57,10 +59,10 @@ impl ReferenceOrbit {
         }
     }
 
-    /// Starts a step in a unit of time of `unit` seconds: the gravitational parameter, and where the spacecraft is.
-    pub(super) fn begin(&mut self, unit: f64) -> (DoubleDouble, OrbitState<DoubleDouble>) {
+    /// Starts a step in a unit of time of `unit` seconds: the gravity, and where the spacecraft is.
+    pub(super) fn begin(&mut self, unit: f64) -> (Gravity<DoubleDouble>, OrbitState<DoubleDouble>) {
         self.unit = DoubleDouble::exact(unit);
-        (self.mu, self.place)
+        (self.gravity, self.place)
     }
 
     /// The state `within` units of time after the start of the step, whose series is `along`, SI.
@@ -86,8 +88,7 @@ impl ReferenceOrbit {
             values[IMPULSE + i] += gained[i];
             values[IMPULSE_INTEGRAL + i] += moved[i];
         }
-        let fallen = (start.distance - place.distance) / (start.distance * place.distance);
-        values[THRUST_WORK] += self.mass * self.mu * fallen;
+        values[THRUST_WORK] += self.gravity.work_on(self.mass, &start, &place);
     }
 }
 

@@ -24,16 +24,17 @@ use crate::dynamics::actuation::ActuationLaw;
 use crate::dynamics::applied::next_arc;
 use crate::dynamics::debris;
 use crate::dynamics::effects::{ChangingSeries, ForceModel};
+use crate::dynamics::gravity::Gravity;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::observed::observed_state;
 use crate::dynamics::gyrostat::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK,
 };
-use crate::dynamics::orbit::OrbitState;
 use crate::dynamics::orbit_series::OrbitSeries;
+use crate::dynamics::orbit_state::OrbitState;
 use crate::math::double_double::DoubleDouble;
 use crate::math::isa::NarrowWork;
-use crate::math::vector::{conjugate, difference, dot, hamilton, norm, product, scaled, sum};
+use crate::math::vector::{conjugate, difference, dot, hamilton, product, scaled, sum};
 use crate::math::{Isa, Real};
 use crate::propagation::integrated_effects;
 use crate::propagation::settings::observes_debris_rotation;
@@ -190,16 +191,16 @@ impl ReferenceSolution {
                 sum(exact(orbit.position), exact(debris.position)),
                 sum(exact(orbit.velocity), exact(debris.velocity)),
             ];
-            let mut free = FreeOrbit::new(orbit.mu, start, rule);
-            let distance = norm(start[0]);
+            let gravity = Gravity::of(orbit).in_lanes(DoubleDouble::exact(0.0));
+            let mut free = FreeOrbit::new(gravity, start, rule);
+            let start = OrbitState::at_rest(start[0]);
             for (point, time) in grid.times().iter().enumerate() {
                 let place = free.at(DoubleDouble::exact(*time));
                 self.put(StateField::DebrisPosition, point, &place.position);
                 self.put(StateField::DebrisVelocity, point, &place.velocity);
                 if let (Some(body), true) = (&scene.mass.debris, self.high.has(StateField::Work)) {
-                    let fallen = (distance - place.distance) / (distance * place.distance);
                     let [thrusters, motors] = self.at::<2>(StateField::Work, point);
-                    let own = DoubleDouble::exact(body.mass) * DoubleDouble::exact(orbit.mu) * fallen;
+                    let own = gravity.work_on(DoubleDouble::exact(body.mass), &start, &place);
                     self.put(StateField::Work, point, &[thrusters + own, motors]);
                 }
             }
@@ -304,7 +305,7 @@ impl Integration<'_, '_> {
         let mut steps = 0;
         let (mut reached, mut is_last) = (0.0, false);
         let turns = !self.run.effects.is_empty();
-        let mut orbit = self.run.orbit.map(|orbit| ReferenceOrbit::new(self.run, &orbit));
+        let mut orbit = self.run.orbit.as_ref().map(|orbit| ReferenceOrbit::new(self.run, orbit));
         let mut series = (turns || orbit.is_some()).then(|| ChangingSeries::new(zero, order));
         while !is_last {
             self.begin_arc(reached, unit, &state);
@@ -388,7 +389,7 @@ impl Integration<'_, '_> {
 
 /// The orbit of the debris by itself: no offset from another, so that it can judge one. Times in s.
 struct FreeOrbit {
-    mu: DoubleDouble,
+    gravity: Gravity<DoubleDouble>,
     rule: StepRule,
     series: OrbitSeries<DoubleDouble>,
     /// The step: its start and its length.
@@ -398,16 +399,16 @@ struct FreeOrbit {
 
 impl FreeOrbit {
     /// From position (m) and velocity (m/s) at time zero.
-    fn new(mu: f64, [position, velocity]: [[DoubleDouble; 3]; 2], rule: StepRule) -> Self {
+    fn new(gravity: Gravity<DoubleDouble>, [position, velocity]: [[DoubleDouble; 3]; 2], rule: StepRule) -> Self {
         let zero = DoubleDouble::exact(0.0);
         let series = OrbitSeries::new(zero, rule.order);
-        let mut orbit = FreeOrbit { mu: DoubleDouble::exact(mu), rule, series, start: zero, length: zero };
+        let mut orbit = FreeOrbit { gravity, rule, series, start: zero, length: zero };
         orbit.step_from(position, velocity);
         orbit
     }
 
     fn step_from(&mut self, position: [DoubleDouble; 3], velocity: [DoubleDouble; 3]) {
-        self.series.begin(self.mu, position, velocity);
+        self.series.begin(self.gravity, position, velocity);
         (0..=self.rule.order).for_each(|n| self.series.extend(n));
         self.length = step_of_orbit(&self.series, &self.rule);
     }

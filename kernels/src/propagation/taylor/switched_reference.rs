@@ -9,12 +9,13 @@
 use super::reference_run::{Integration, MOST_STEPS, N, ReferenceOrbit};
 use crate::dynamics::effects::ChangingEffects;
 use crate::dynamics::effects::within_arcs::{Beside, Motion, beside_orbit};
+use crate::dynamics::gravity::Gravity;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ATTITUDE, IMPULSE, IMPULSE_INTEGRAL, OMEGA};
-use crate::dynamics::orbit::OrbitState;
+use crate::dynamics::orbit_state::OrbitState;
 use crate::math::Real;
 use crate::math::double_double::DoubleDouble;
-use crate::math::vector::{norm, scaled, sum};
+use crate::math::vector::{norm, sum};
 use crate::ode::explicit::Step;
 use crate::ode::extrapolation::{COLUMNS, Extrapolation};
 use crate::ode::switches::beside;
@@ -56,7 +57,7 @@ type State = [DoubleDouble; ALL];
 struct Motions {
     constants: Constants<DoubleDouble>,
     effects: ChangingEffects<DoubleDouble>,
-    mu: DoubleDouble,
+    gravity: Gravity<DoubleDouble>,
     may_leave: bool,
     /// A rate that smaller ones are compared with, rad/s.
     rate: DoubleDouble,
@@ -89,7 +90,7 @@ impl Motions {
     fn motion(&self, time: DoubleDouble, state: &State) -> (Motion<DoubleDouble>, Beside<DoubleDouble>) {
         let (mut place, mut point) = (carrier(state), None);
         if self.may_leave {
-            (place, point) = beside_orbit(self.mu, &place, self.constants.inverse_mass, state);
+            (place, point) = beside_orbit(&self.gravity, &place, self.constants.inverse_mass, state);
         }
         (Motion::of(time, state, place), Beside { torque: [time.zero(); 3], carrier: point })
     }
@@ -115,9 +116,9 @@ impl System<DoubleDouble, ALL> for Motions {
         let mut rate = [DoubleDouble::exact(0.0); ALL];
         rate[..N].copy_from_slice(&self.constants.derivative(time, &gyrostat(state), &all));
         let place = carrier(state);
-        let pull = -(self.mu / (place.distance * place.distance * place.distance));
+        let pull = self.gravity.acceleration(place.position, place.distance);
         rate[POSITION..VELOCITY].copy_from_slice(&place.velocity);
-        rate[VELOCITY..].copy_from_slice(&scaled(pull, place.position));
+        rate[VELOCITY..].copy_from_slice(&pull);
         rate
     }
 
@@ -276,7 +277,7 @@ impl Integration<'_, '_> {
     pub(super) fn switched_states(mut self) -> Result<Vec<[DoubleDouble; N]>, Status> {
         let zero = DoubleDouble::exact(0.0);
         let (grid, scale) = (self.grid, self.coarse.time_unit());
-        let Some(orbit) = self.run.orbit.map(|orbit| ReferenceOrbit::new(self.run, &orbit)) else {
+        let Some(orbit) = self.run.orbit.as_ref().map(|orbit| ReferenceOrbit::new(self.run, orbit)) else {
             unreachable!("air and light act on an orbit")
         };
         let mut state = [zero; ALL];
@@ -311,7 +312,7 @@ impl Integration<'_, '_> {
             let mut motions = Motions {
                 constants: Constants::of(self.run, number, 1.0),
                 effects: self.run.effects,
-                mu: orbit.mu,
+                gravity: orbit.gravity,
                 may_leave: self.run.offset.is_some(),
                 rate: DoubleDouble::exact(1.0 / scale),
             };

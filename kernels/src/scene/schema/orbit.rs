@@ -7,12 +7,14 @@ use super::rows::rows;
 use crate::scene::epoch::Epoch;
 
 rows! {
-    /// A two-body orbit, given by position and velocity or by Keplerian elements at time zero.
+    /// An orbit, given by position and velocity or by Keplerian elements at time zero.
     pub struct OrbitInput in OrbitInput [table => table] {
     mu_m3_s2: f64 = 3.986004418e14, "m^3/s^2", "Gravitational parameter of the central body", SCALAR, Plain, Limit::Positive,
         (optional);
     body_radius_m: f64 = 6_378_137.0, "m", "Radius of the central body, which the orbit stays above", SCALAR, Plain,
         Limit::NotNegative, (optional);
+    j2: Option<f64> = None, "1", "Second zonal harmonic of the central body, with body_radius_m; a point mass where it is left out", SCALAR,
+        Plain, Limit::NotNegative, (optional);
     position_m: Option<[f64; 3]> = None, "m", "Position of the centre of mass from the central body, in F_e", XYZ, Plain,
         Limit::Finite, (optional);
     velocity_m_s: Option<[f64; 3]> = None, "m/s", "Velocity of the centre of mass relative to F_e, in F_e", XYZ, Plain,

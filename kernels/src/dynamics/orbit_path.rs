@@ -1,0 +1,319 @@
+//! [`OrbitPath`]: where the point on an orbit is at any time: in closed form about a point mass, by Taylor series step by step about a flattened body.
+//!
+//! The steps depend on the orbit alone, and are kept: the same bits at the same time, whatever was asked before. Each is the series of
+//! [`super::orbit_series`] to order 22 over e^-2 of its radius of convergence (A. Jorba & M. Zou, Experimental Mathematics 14, 2005): the first term left out is e^-44.
+
+use std::sync::{Arc, OnceLock};
+
+use super::gravity::Gravity;
+use super::orbit::KeplerOrbit;
+use super::orbit_series::OrbitSeries;
+use super::orbit_state::OrbitState;
+use crate::math::Real;
+use crate::math::lanes::WIDEST;
+use crate::math::sums::two_sum;
+use crate::math::vector::{norm, scaled, sum};
+use crate::scene::Orbit;
+
+/// Order of the series.
+const ORDER: usize = 22;
+
+/// Steps of the first block of a path; each block has twice as many as the one before.
+const FIRST_BLOCK: usize = 8;
+
+/// Blocks at most: more steps than any run has.
+const MOST_BLOCKS: usize = 28;
+
+/// The path of a point on an orbit.
+#[derive(Clone, Debug)]
+pub struct OrbitPath {
+    /// The two-body orbit that touches it at time zero.
+    start: KeplerOrbit<f64>,
+    /// About a flattened body its steps.
+    steps: Option<Arc<Steps>>,
+}
+
+/// The steps of a path about a flattened body, block by block; a block is computed when it is first asked for.
+type Steps = [OnceLock<Box<[Step]>>; MOST_BLOCKS];
+
+/// A step of a path about a flattened body.
+#[derive(Clone, Debug)]
+struct Step {
+    /// Its start as a sum of two numbers, and its length, s.
+    time: [f64; 2],
+    length: f64,
+    /// Of the position, F_e, m, in s.
+    coefficients: [[f64; 3]; ORDER + 2],
+    /// What position and velocity at its start are rounded by.
+    low: [[f64; 3]; 2],
+}
+
+impl OrbitPath {
+    /// That of `orbit`.
+    pub fn new(orbit: &Orbit) -> Self {
+        let start = KeplerOrbit::new(orbit);
+        OrbitPath { start, steps: no_steps(&start) }
+    }
+
+    /// Another orbit. The same one keeps its steps.
+    pub fn reset(&mut self, orbit: &Orbit) {
+        let start = KeplerOrbit::new(orbit);
+        let is_same = start.start() == self.start.start() && start.gravity() == self.start.gravity();
+        if !is_same {
+            self.steps = no_steps(&start);
+        }
+        self.start = start;
+    }
+
+    /// The gravity of the central body.
+    pub fn gravity(&self) -> Gravity<f64> {
+        self.start.gravity()
+    }
+
+    /// The two-body orbit that touches it at time zero.
+    pub fn at_start(&self) -> &KeplerOrbit<f64> {
+        &self.start
+    }
+
+    /// The state at `time`, s, which is not before zero.
+    pub fn state(&self, time: f64) -> OrbitState<f64> {
+        self.state_at([time, 0.0])
+    }
+
+    /// The state at a time that is the sum of two numbers, s.
+    pub fn state_at(&self, time: [f64; 2]) -> OrbitState<f64> {
+        let Some(steps) = &self.steps else { return self.start.state_at(time) };
+        if !time[0].is_finite() {
+            return OrbitState::unknown(0.0);
+        }
+        for index in 0..MOST_BLOCKS {
+            let block = self.block(steps, index);
+            let next = block.partition_point(|step| step.time[0] <= time[0]);
+            let own = next.checked_sub(1).and_then(|index| block.get(index)).unwrap_or(&block[0]);
+            if next < block.len() || own.within(time) <= own.length {
+                return own.state_at(time);
+            }
+        }
+        OrbitState::unknown(0.0)
+    }
+
+    /// Block `index`, after those before.
+    fn block<'s>(&self, steps: &'s Steps, index: usize) -> &'s [Step] {
+        steps[index].get_or_init(|| {
+            let mut series = OrbitSeries::new(0.0, ORDER);
+            let before = index.checked_sub(1).and_then(|before| steps[before].get()?.last());
+            let mut next = before.map_or(([0.0; 2], self.start.start(), [[0.0; 3]; 2]), Step::end);
+            let mut step = || {
+                let (time, state, low) = next;
+                let step = Step::from(&mut series, self.start.gravity(), time, state, low);
+                next = step.end();
+                step
+            };
+            (0..FIRST_BLOCK << index).map(|_| step()).collect()
+        })
+    }
+
+    /// The states at the time `time` of each lane, s.
+    #[inline(always)]
+    pub fn states<R: Real>(&self, time: R) -> OrbitState<R> {
+        match self.steps {
+            None => self.start.in_lanes(time.zero()).state(time),
+            Some(_) => {
+                let mut states = OrbitState::unknown(time);
+                for lane in 0..R::LANES {
+                    states.set_lane(lane, &self.state(time.lane(lane)));
+                }
+                states
+            }
+        }
+    }
+}
+
+/// The steps of a path that starts on `start`, none of which is computed; `None` where there is a closed form.
+fn no_steps(start: &KeplerOrbit<f64>) -> Option<Arc<Steps>> {
+    start.gravity().oblateness.map(|_| Arc::new([const { OnceLock::new() }; MOST_BLOCKS]))
+}
+
+impl Step {
+    /// The step from `state`, position and velocity (F_e, m and m/s), which are rounded by `low`, at `time`.
+    fn from(
+        series: &mut OrbitSeries<f64>,
+        gravity: Gravity<f64>,
+        time: [f64; 2],
+        [position, velocity]: [[f64; 3]; 2],
+        low: [[f64; 3]; 2],
+    ) -> Self {
+        series.begin(gravity, position, velocity);
+        (0..ORDER).for_each(|n| series.extend(n));
+        let mut coefficients = [[0.0; 3]; ORDER + 2];
+        coefficients.copy_from_slice(series.position());
+        let distance = norm(position);
+        let length = [ORDER, ORDER + 1]
+            .into_iter()
+            .fold(f64::INFINITY, |shortest: f64, n| shortest.min(step_length(n, distance, coefficients[n])));
+        Step { time, length, coefficients, low }
+    }
+
+    /// Where its end is: time, state, and what that is rounded by.
+    fn end(&self) -> ([f64; 2], [[f64; 3]; 2], [[f64; 3]; 2]) {
+        let changes = change(&self.coefficients, self.low[1], self.length);
+        let (mut state, mut low) = ([self.coefficients[0], self.coefficients[1]], self.low);
+        for ((state, change), low) in state.iter_mut().zip(changes).zip(&mut low) {
+            for i in 0..3 {
+                (state[i], low[i]) = two_sum(state[i], change[i] + low[i]);
+            }
+        }
+        let (time, rest) = two_sum(self.time[0], self.length + self.time[1]);
+        ([time, rest], state, low)
+    }
+
+    /// The time since its start, s.
+    fn within(&self, [time, low]: [f64; 2]) -> f64 {
+        (time - self.time[0]) + (low - self.time[1])
+    }
+
+    fn state_at(&self, time: [f64; 2]) -> OrbitState<f64> {
+        let [position, velocity] = change(&self.coefficients, self.low[1], self.within(time));
+        let position = sum(self.coefficients[0], sum(position, self.low[0]));
+        let velocity = sum(self.coefficients[1], sum(velocity, self.low[1]));
+        OrbitState { position, velocity, distance: norm(position) }
+    }
+}
+
+/// What position and velocity change by until `within` seconds after the start of a step with these coefficients of the position, the second of which is
+/// rounded by `low`.
+pub(super) fn change(coefficients: &[[f64; 3]], low: [f64; 3], within: f64) -> [[f64; 3]; 2] {
+    let (mut position, mut velocity) = ([0.0_f64; 3], [0.0_f64; 3]);
+    for (n, coefficients) in coefficients.iter().enumerate().skip(2).rev() {
+        for i in 0..3 {
+            position[i] = position[i].mul_add(within, coefficients[i]);
+            velocity[i] = velocity[i].mul_add(within, n as f64 * coefficients[i]);
+        }
+    }
+    let position = scaled(within, sum(coefficients[1], sum(low, scaled(within, position))));
+    [position, scaled(within, velocity)]
+}
+
+/// The step that the coefficient `term` of order `n` allows, where what is integrated has the size `size`: e^-2 of the radius of convergence.
+pub(super) fn step_length(n: usize, size: f64, term: [f64; 3]) -> f64 {
+    let term = norm(term);
+    let radius = if term > 0.0 { libm::pow(size / term, 1.0 / n as f64) } else { f64::INFINITY };
+    libm::exp(-2.0) * radius
+}
+
+/// Paths, one per lane.
+#[derive(Clone, Debug)]
+pub struct PathsInLanes<R> {
+    start: KeplerOrbit<R>,
+    /// Those about flattened bodies; none where there is none in any lane.
+    oblate: [Option<OrbitPath>; WIDEST],
+    has_oblate: bool,
+}
+
+impl<R: Real> PathsInLanes<R> {
+    /// Circles that no run is on.
+    pub fn blank(zero: R) -> Self {
+        PathsInLanes { start: KeplerOrbit::blank().in_lanes(zero), oblate: [const { None }; WIDEST], has_oblate: false }
+    }
+
+    /// Puts `path` into lane `lane`.
+    pub fn set_lane(&mut self, lane: usize, path: &OrbitPath) {
+        self.start.set_lane(lane, &path.start);
+        self.oblate[lane] = path.steps.is_some().then(|| path.clone());
+        self.has_oblate = self.oblate.iter().any(Option::is_some);
+    }
+
+    /// The gravity of the central bodies.
+    #[inline(always)]
+    pub fn gravity(&self) -> Gravity<R> {
+        self.start.gravity()
+    }
+
+    /// The states at `time`, the sum of two numbers, s.
+    #[inline(always)]
+    pub fn state_at(&self, time: [R; 2]) -> OrbitState<R> {
+        let mut states = self.start.state_at(time);
+        if self.has_oblate {
+            for lane in 0..R::LANES {
+                if let Some(path) = &self.oblate[lane] {
+                    states.set_lane(lane, &path.state_at(time.map(|part| part.lane(lane))));
+                }
+            }
+        }
+        states
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vector::{cross, difference};
+
+    fn oblate(velocity: [f64; 3]) -> Orbit {
+        Orbit {
+            mu: 3.986004418e14,
+            position: [7e6, 1e6, -2e5],
+            velocity,
+            body_radius: 6_378_137.0,
+            j2: Some(1.08262668e-3),
+            epoch: None,
+        }
+    }
+
+    /// Law: a path is a function of the time alone, whatever was asked before; the same orbit keeps its steps, another one has its own.
+    #[test]
+    fn the_path_is_a_function_of_the_time() {
+        let orbit = oblate([100.0, 7100.0, 2900.0]);
+        let (late_first, early_first) = (OrbitPath::new(&orbit), OrbitPath::new(&orbit));
+        let times = [0.0, 17.0, 2_999.0, 39_999.0, 400_000.0];
+        let late: Vec<_> = times.iter().rev().map(|time| late_first.state(*time)).collect();
+        let early: Vec<_> = times.iter().map(|time| early_first.state(*time)).collect();
+        assert!(late.iter().rev().eq(early.iter()) && early.iter().all(|state| state.distance.is_finite()));
+        assert!(late_first.state(f64::NAN).distance.is_nan());
+        let mut path = late_first.clone();
+        path.reset(&orbit);
+        let shared = |a: &OrbitPath, b: &OrbitPath| {
+            a.steps.as_ref().zip(b.steps.as_ref()).is_some_and(|(a, b)| Arc::ptr_eq(a, b))
+        };
+        assert!(shared(&path, &late_first));
+        path.reset(&oblate([100.0, 7100.5, 2900.0]));
+        assert!(!shared(&path, &late_first) && path.state(17.0) != late_first.state(17.0));
+    }
+
+    /// Law: energy and the momentum about the body's axis are constant over a hundred orbits, and velocity and acceleration are slopes; the momentum across
+    /// the axis is not constant.
+    #[test]
+    fn energy_and_momentum_about_the_axis_are_constant() {
+        for velocity in [[100.0, 7100.0, 2900.0], [-500.0, 3000.0, 7900.0], [0.0, -7300.0, 0.0]] {
+            let orbit = oblate(velocity);
+            let path = OrbitPath::new(&orbit);
+            let gravity = path.gravity();
+            let first = path.state_at([0.0; 2]);
+            let kinetic = |state: &OrbitState<f64>| 0.5 * state.velocity.iter().map(|v| v * v).sum::<f64>();
+            let momentum = |state: &OrbitState<f64>| cross(state.position, state.velocity);
+            let (mut energy, mut axial, mut across) = (0.0_f64, 0.0_f64, 0.0_f64);
+            for k in 0..3000 {
+                let state = path.state_at([199.0 * f64::from(k), 0.0]);
+                let gained = kinetic(&state) - kinetic(&first) - gravity.work(&first, &state);
+                energy = energy.max((gained / kinetic(&first)).abs());
+                let turned = difference(momentum(&state), momentum(&first));
+                axial = axial.max((turned[2] / norm(momentum(&first))).abs());
+                across = across.max(norm(turned) / norm(momentum(&first)));
+            }
+            println!("{energy:e} {axial:e} {across:e}");
+            assert!(energy < 3e-14 && axial < 3e-14, "{energy:e} {axial:e}");
+            assert!(velocity[2] == 0.0 || across > 1e-2, "{across:e}");
+            let (time, step) = (12_345.0, 2.0);
+            let at = |n: f64| path.state_at([time + n * step, 0.0]);
+            let slope = |of: fn(&OrbitState<f64>) -> [f64; 3]| {
+                let near = difference(of(&at(1.0)), of(&at(-1.0)));
+                let far = difference(of(&at(2.0)), of(&at(-2.0)));
+                scaled(1.0 / (12.0 * step), difference(scaled(8.0, near), far))
+            };
+            let now = at(0.0);
+            assert!(norm(difference(slope(|state| state.position), now.velocity)) < 1e-9 * norm(now.velocity));
+            let pull = gravity.acceleration(now.position, now.distance);
+            assert!(norm(difference(slope(|state| state.velocity), pull)) < 1e-9 * norm(pull));
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! [`OrbitState`]: where a body is relative to the central body, and how it moves.
+
+use crate::math::Real;
+use crate::math::vector::{norm, sum};
+
+/// Position and velocity relative to the central body, one per lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrbitState<R> {
+    /// Position from the central body, F_e, m.
+    pub position: [R; 3],
+    /// Velocity, F_e, m/s.
+    pub velocity: [R; 3],
+    /// |position|, m.
+    pub distance: R,
+}
+
+impl<R: Real> OrbitState<R> {
+    /// The state at `offset` from this one: position (m) and velocity (m/s), F_e.
+    #[inline(always)]
+    pub fn displaced(&self, [position, velocity]: [[R; 3]; 2]) -> Self {
+        let position = sum(self.position, position);
+        OrbitState { position, velocity: sum(self.velocity, velocity), distance: norm(position) }
+    }
+
+    /// Puts `own` into lane `lane`.
+    #[inline(always)]
+    pub fn set_lane(&mut self, lane: usize, own: &OrbitState<f64>) {
+        for i in 0..3 {
+            self.position[i].set_lane(lane, own.position[i]);
+            self.velocity[i].set_lane(lane, own.velocity[i]);
+        }
+        self.distance.set_lane(lane, own.distance);
+    }
+
+    /// One without velocity at `position`, F_e, m.
+    #[inline(always)]
+    pub fn at_rest(position: [R; 3]) -> Self {
+        OrbitState { position, velocity: [position[0].zero(); 3], distance: norm(position) }
+    }
+
+    /// One that is not a number, in the lanes of `like`: whoever reads an orbit that there is not has no result.
+    pub fn unknown(like: R) -> Self {
+        let nan = like.splat(f64::NAN);
+        OrbitState { position: [nan; 3], velocity: [nan; 3], distance: nan }
+    }
+}
