@@ -175,6 +175,7 @@ impl Plan {
                 ("gravity_gradient", environment.gravity_gradient),
                 ("drag", environment.drag),
                 ("solar_pressure", environment.solar_pressure),
+                ("coupled", environment.coupled),
             ] {
                 if acts {
                     lines.key(key, true);

@@ -60,6 +60,7 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
         section.name("magnetic_field", &FieldModel::ALL.map(FieldModel::name), FieldModel::from_name);
     scene.environment.drag = section.flag("drag").unwrap_or(false);
     scene.environment.solar_pressure = section.flag("solar_pressure").unwrap_or(false);
+    scene.environment.coupled = section.flag("coupled").unwrap_or(false);
     scene.environment.air_heights_m = read_list(&mut section, "air_heights_m");
     scene.environment.air_densities_kg_m3 = read_list(&mut section, "air_densities_kg_m3");
     let shadow = section.name("shadow", &Shadow::ALL.map(Shadow::name), Shadow::from_name);

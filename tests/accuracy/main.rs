@@ -12,6 +12,7 @@ mod air_table;
 mod at_rest;
 mod bodies;
 mod closed_forms;
+mod coupled;
 mod drift_bounds;
 mod dual_spin;
 mod environment;

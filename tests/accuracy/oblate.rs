@@ -150,7 +150,7 @@ fn every_method_finds_the_reference_solution() {
             let bound = match method {
                 _ if has_plates => 1e-10,
                 Method::Auto | Method::Taylor => 1e-13,
-                Method::RungeKutta4 => 1e-9,
+                _ if method.has_fixed_step() => 1e-9,
                 _ => 1e-11,
             };
             assert!(place < 1e-12, "{}: {place:e}", method.name());

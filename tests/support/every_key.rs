@@ -331,7 +331,7 @@ fn on_plates() -> String {
         [[plates]]\nname = \"panel\"\narea_m2 = 2.5\nnormal = [0, 0.5, 1]\ntilt_rad = [0.01, 0.0]\ncenter_m = [0.1, 0.8, 0]\n\
         drag_coefficient = 2.5\nspecular = 0.4\ndiffuse = 0.3\n";
     let effects = "gravity_gradient = true\ndrag = true\nsolar_pressure = true\nshadow = \"cylinder\"\ndensity_scale = 1.5\n\
-        base_density_kg_m3 = 1e-11\nbase_height_m = 5e5\nscale_height_m = 6e4\nsolar_pressure_n_m2 = 4.6e-6\narea_scale = 1.1\n";
+        base_density_kg_m3 = 1e-11\nbase_height_m = 5e5\nscale_height_m = 6e4\nsolar_pressure_n_m2 = 4.6e-6\narea_scale = 1.1\ncoupled = true\n";
     on_orbit(plates).replace("gravity_gradient = true\n", effects)
 }
 

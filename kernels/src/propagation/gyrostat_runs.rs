@@ -48,7 +48,7 @@ impl<'a, R: Real, E: WithinArcs<R>> GyrostatRuns<'a, R, E> {
 impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_, R, E> {
     #[inline(always)]
     fn derivative(&self, time: R, state: &[R; N]) -> [R; N] {
-        let mut beside = Beside { torque: self.constants.torque, carrier: None };
+        let mut beside = Beside { torque: self.constants.torque, force: None, carrier: None };
         if E::ACT {
             let own = self.effects.act(time, state);
             beside = Beside { torque: sum(beside.torque, own.torque), ..own };

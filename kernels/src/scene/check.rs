@@ -97,7 +97,7 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
         problems.add("environment.gravity_gradient".to_owned(), "true".to_owned(), allowed, remedy);
     }
     magnetic_field(input, problems);
-    surroundings::check_air_table(&input.environment, problems);
+    surroundings::check_keys(&input.environment, problems);
     if input.environment.acts_on_plates() {
         surroundings::check(input, problems);
     }

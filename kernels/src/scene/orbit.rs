@@ -49,10 +49,11 @@ pub struct Offsets {
 }
 
 impl Offsets {
-    /// Those of `input`, where its bodies may leave the orbit: where it has thrusters, or debris.
+    /// Those of `input`, where its bodies may leave the orbit: where it has thrusters or debris, or air and light move it.
     pub fn of(input: &SceneInput) -> Option<Self> {
         let InitialInput { position_m, velocity_m_s, debris_position_m, debris_velocity_m_s, .. } = input.initial;
-        let leaves = input.orbit.is_some() && (!input.thrusters.is_empty() || input.debris.is_some());
+        let moves = !input.thrusters.is_empty() || input.debris.is_some() || input.environment.moves();
+        let leaves = input.orbit.is_some() && moves;
         let debris = match input.debris {
             Some(_) => Offset { position: debris_position_m, velocity: debris_velocity_m_s },
             None => Offset::default(),
@@ -171,7 +172,8 @@ pub(super) fn check(scene: &SceneInput, input: &OrbitInput, problems: &mut Probl
             ("velocity_m_s", &initial.velocity_m_s, &default.velocity_m_s),
         ] {
             if written != none {
-                let allowed = "left out on an [orbit] without thrusters and debris: the spacecraft is on it";
+                let allowed =
+                    "left out on an [orbit] without thrusters, debris and environment.coupled: the spacecraft is on it";
                 problems.add(format!("initial.{name}"), shown(written), allowed, "delete it, or delete [orbit]");
             }
         }

@@ -34,19 +34,6 @@ pub(super) fn check(input: &SceneInput, problems: &mut Problems) {
         let remedy = "write [[plates]] with those that count";
         problems.add("body.parts".to_owned(), format!("{} parts", input.parts.len()), allowed, remedy);
     }
-    let exponential = environment.exponential();
-    if exponential.iter().any(Option::is_some) {
-        let keys = ["base_density_kg_m3", "base_height_m", "scale_height_m"];
-        for (key, _) in keys.into_iter().zip(exponential).filter(|(_, number)| number.is_none()) {
-            let allowed = "given, with the two others of base_density_kg_m3, base_height_m and scale_height_m";
-            problems.add(
-                format!("environment.{key}"),
-                "missing".to_owned(),
-                allowed,
-                "write all three, or none for the table",
-            );
-        }
-    }
     let Some(orbit) = &input.orbit else { return };
     if environment.solar_pressure && orbit.epoch.is_none() {
         let allowed = "given where environment.solar_pressure acts: the date says where the Sun is";
@@ -68,8 +55,43 @@ pub(super) fn check(input: &SceneInput, problems: &mut Problems) {
     }
 }
 
+/// Collects what is wrong with the keys of air and light by themselves.
+pub(super) fn check_keys(environment: &EnvironmentInput, problems: &mut Problems) {
+    if environment.coupled && !environment.acts_on_plates() {
+        let allowed =
+            "false, or left out, without drag and without solar_pressure: they are the forces that it couples";
+        problems.add(
+            "environment.coupled".to_owned(),
+            "true".to_owned(),
+            allowed,
+            "add drag = true, or delete this line",
+        );
+    }
+    let exponential = environment.exponential();
+    let keys = ["base_density_kg_m3", "base_height_m", "scale_height_m"];
+    if !environment.drag {
+        for (key, number) in keys.into_iter().zip(exponential) {
+            if let Some(number) = number {
+                let (key, remedy) = (format!("environment.{key}"), "add drag = true, or delete this line");
+                problems.add(key, shown(&[number]), "left out without drag", remedy);
+            }
+        }
+    } else if exponential.iter().any(Option::is_some) {
+        for (key, _) in keys.into_iter().zip(exponential).filter(|(_, number)| number.is_none()) {
+            let allowed = "given, with the two others of base_density_kg_m3, base_height_m and scale_height_m";
+            problems.add(
+                format!("environment.{key}"),
+                "missing".to_owned(),
+                allowed,
+                "write all three, or none for the table",
+            );
+        }
+    }
+    check_air_table(environment, problems);
+}
+
 /// Collects what is wrong with the table of the air's density.
-pub(super) fn check_air_table(environment: &EnvironmentInput, problems: &mut Problems) {
+fn check_air_table(environment: &EnvironmentInput, problems: &mut Problems) {
     const KEYS: [&str; 2] = ["environment.air_heights_m", "environment.air_densities_kg_m3"];
     let lists = [environment.air_heights_m, environment.air_densities_kg_m3];
     let mut refuse = |index: usize, allowed: &str, remedy: &'static str| {

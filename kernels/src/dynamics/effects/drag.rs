@@ -2,7 +2,8 @@
 //!
 //! f = -rho/2 C_d A max(0, n . v) v with v the velocity relative to the air, which turns with the Earth, and n the outward normal; at the plate's centre
 //! (J. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 17.2.3; the velocity of the plate relative to the centre of mass, of the order
-//! of 1e-5 of v, is neglected). A plate that faces away feels nothing, and none shades another. The force does not change the orbit.
+//! of 1e-5 of v, is neglected). A plate that faces away feels nothing, and none shades another. The force changes the orbit where the file asks for it
+//! (`environment.coupled`).
 
 use super::plates::{PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
@@ -40,6 +41,19 @@ impl<R: Real> Drag<R> {
     #[inline(always)]
     pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
         self.torque_at(self.air.density(motion.place.distance), flow(motion))
+    }
+
+    /// The force on a body, B, N.
+    #[inline(always)]
+    pub fn force(&self, motion: &Motion<R>) -> [R; 3] {
+        let velocity = flow(motion);
+        let density = self.air.density(motion.place.distance);
+        let mut all = density.zero();
+        for plate in self.plates.iter() {
+            let [drag] = plate.numbers;
+            all = drag.mul_add(plate.facing(velocity), all);
+        }
+        scaled(density * density.splat(-0.5) * all, velocity)
     }
 
     /// Chooses the sides of the plates and the layer of the air in the lanes `lanes`.

@@ -3,9 +3,10 @@
 //! f = -P A cos(theta) ((1 - c_s) s + 2 (c_s cos(theta) + c_d/3) n) where cos(theta) = n . s > 0, with s the unit vector to the Sun and the shares c_s
 //! and c_d of the light that are reflected as by a mirror and in all directions (J. Wertz, *Spacecraft Attitude Determination and Control*, 1978,
 //! (17-27)..(17-30)); at the plate's centre. P falls with the square of the distance to the Sun and with the visible share of its disc
-//! ([`crate::dynamics::environment::shadow`]). No plate shades another; the light that the Earth reflects is neglected. The force does not change the orbit.
+//! ([`crate::dynamics::environment::shadow`]). No plate shades another; the light that the Earth reflects is neglected. The force
+//! changes the orbit where the file asks for it (`environment.coupled`).
 
-use super::plates::{PlatesInLanes, largest_lever};
+use super::plates::{PlateInLanes, PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
 use crate::dynamics::environment::shadow::{Zone, lit};
 use crate::dynamics::environment::sun::{Sun, sun};
@@ -92,6 +93,20 @@ impl<R: Real> SolarPressure<R> {
         self.torque_at(lit / (sun.distance * sun.distance), seen(&sun, motion))
     }
 
+    /// The force on a body, B, N.
+    #[inline(always)]
+    pub fn force(&self, motion: &Motion<R>) -> [R; 3] {
+        let sun = self.light.sun(motion.time);
+        let lit = self.zone.lit(self.light.shadow, motion.place.position, &sun, self.light.radius);
+        let direction = seen(&sun, motion);
+        let mut all = [lit.zero(); 3];
+        for plate in self.plates.iter() {
+            let (facing, push) = push(plate, direction);
+            all = sum(all, scaled(facing, push));
+        }
+        scaled(-(lit / (sun.distance * sun.distance)), all)
+    }
+
     /// Chooses the sides of the plates, and light or shadow, in the lanes `lanes`.
     #[inline(always)]
     pub fn choose_branches(&mut self, lanes: R::Mask, motion: &Motion<R>) {
@@ -121,13 +136,20 @@ impl<R: Real> SolarPressure<R> {
     pub fn torque_at(&self, share: R, sun: [R; 3]) -> [R; 3] {
         let mut torque = [share.zero(); 3];
         for plate in self.plates.iter() {
-            let [along, mirrored, scattered] = plate.numbers;
-            let facing = plate.facing(sun);
-            let push = sum(scaled(along, sun), scaled(mirrored.mul_add(facing, scattered), plate.normal));
+            let (facing, push) = push(plate, sun);
             torque = sum(torque, scaled(facing, cross(push, plate.arm)));
         }
         scaled(share, torque)
     }
+}
+
+/// The cosine that `plate` shows to the Sun in the direction `sun`, B, and what light of one newton a square metre pushes it by against that direction, over the
+/// cosine, N.
+#[inline(always)]
+fn push<R: Real>(plate: &PlateInLanes<R, 3>, sun: [R; 3]) -> (R, [R; 3]) {
+    let [along, mirrored, scattered] = plate.numbers;
+    let facing = plate.facing(sun);
+    (facing, sum(scaled(along, sun), scaled(mirrored.mul_add(facing, scattered), plate.normal)))
 }
 
 /// The unit vector to the Sun, B.

@@ -20,6 +20,8 @@ use crate::math::vector::scaled;
 pub struct Beside<R> {
     /// Torque on the body, B, N m.
     pub torque: [R; 3],
+    /// Force on it, B, N, where there is one.
+    pub force: Option<[R; 3]>,
     /// Where the motion of the centre of mass is relative to a point on an orbit: what that point does.
     pub carrier: Option<Carrier<R>>,
 }
@@ -182,7 +184,7 @@ impl<R: Real> WithinArcs<R> for NoEffects {
 
     #[inline(always)]
     fn act<const N: usize>(&self, time: R, _state: &[R; N]) -> Beside<R> {
-        Beside { torque: [time.zero(); 3], carrier: None }
+        Beside { torque: [time.zero(); 3], force: None, carrier: None }
     }
 
     #[inline(always)]
@@ -301,9 +303,10 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
     fn act<const N: usize>(&self, time: R, state: &[R; N]) -> Beside<R> {
         let (place, carrier) = self.place(time, state);
         if self.effects.is_empty() {
-            return Beside { torque: [self.zero; 3], carrier };
+            return Beside { torque: [self.zero; 3], force: None, carrier };
         }
-        Beside { torque: self.effects.torque(&Motion::of(time, state, place)), carrier }
+        let motion = Motion::of(time, state, place);
+        Beside { torque: self.effects.torque(&motion), force: self.effects.force(&motion), carrier }
     }
 
     #[inline(always)]
@@ -357,7 +360,7 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
 /// ```
 ///
 /// `Constants<R>` has `NEEDS_ORBIT`, `none(zero)`, `set_lane(lane, &Constants<f64>)` and `torque(&Motion<R>)`, in B, N m; those of the form `Evaluated` have
-/// branches too ([`crate::ode::switches`]): `switches(&[Motion<R>; M], visit)` and `choose_branches(lanes, &Motion<R>)`. `Series<R>` has `new(zero,
+/// a force too, `force(&Motion<R>)`, in B, N, and branches ([`crate::ode::switches`]): `switches(&[Motion<R>; M], visit)` and `choose_branches(lanes, &Motion<R>)`. `Series<R>` has `new(zero,
 /// order)`, `begin(&Constants<R>, time, unit)` and `extend(n, &MotionSeries<R>)`, coefficient n of the torque in the unit of time. The file has `of(zero, scene, c_sb)`, the constants in the frame B that `c_sb` maps to F_s, `None` where the
 /// effect does not act; `largest_torque(scene)`, an upper bound, N m; and `largest_rate(scene)`, the fastest motion that it makes, rad/s.
 macro_rules! changing_effects {
@@ -369,6 +372,21 @@ macro_rules! changing_effects {
             #[inline(always)]
             pub fn has_switches(&self) -> bool {
                 false $(|| self.$evaluated.is_some())*
+            }
+
+            /// The sum of their forces, B, N, where they move the centre of mass.
+            #[inline(always)]
+            pub fn force(&self, motion: &within_arcs::Motion<R>) -> Option<[R; 3]> {
+                if !self.is_coupled {
+                    return None;
+                }
+                let mut total = [motion.time.zero(); 3];
+                $(
+                    if let Some(effect) = &self.$evaluated {
+                        total = $crate::math::vector::sum(total, effect.force(motion));
+                    }
+                )*
+                Some(total)
             }
 
             /// Chooses the branches in the lanes `lanes`.
@@ -501,17 +519,19 @@ macro_rules! changing_effects {
                 #[doc = concat!("That of `", stringify!($file), "`.")]
                 pub $file: Option<$file::$Constants<R>>,
             )*
+            /// Whether their forces move the centre of mass.
+            pub is_coupled: bool,
         }
 
         impl<R: $crate::math::Real> ChangingEffects<R> {
             /// None.
             pub const fn none() -> Self {
-                ChangingEffects { $($file: None,)* }
+                ChangingEffects { $($file: None,)* is_coupled: false }
             }
 
             /// Those on `scene` in the frame B, which `c_sb` maps to F_s; `zero` says in which arithmetic.
             pub fn of(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Self {
-                ChangingEffects { $($file: $file::of(zero, scene, c_sb),)* }
+                ChangingEffects { $($file: $file::of(zero, scene, c_sb),)* is_coupled: scene.environment.moves() }
             }
 
             /// Whether none acts.
@@ -531,6 +551,8 @@ macro_rules! changing_effects {
                         self.$file.get_or_insert_with(|| $file::$Constants::none(zero)).set_lane(lane, own);
                     }
                 )*
+                // the same in all runs of a plan
+                self.is_coupled |= own.is_coupled;
             }
 
             /// The sum of their torques, B, N m.

@@ -165,7 +165,7 @@ impl<R: Real> Constants<R> {
             }
             if N >= super::WITH_THRUST {
                 let c_eb = dcm_from_quaternion(q);
-                let force = product(c_eb, self.force);
+                let force = product(c_eb, beside.force.map_or(self.force, |own| sum(self.force, own)));
                 let impulse = [y[IMPULSE], y[IMPULSE + 1], y[IMPULSE + 2]];
                 let own = scaled(self.inverse_mass, impulse);
                 let (velocity, all) = match &beside.carrier {

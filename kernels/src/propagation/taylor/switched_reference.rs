@@ -92,7 +92,7 @@ impl Motions {
         if self.may_leave {
             (place, point) = beside_orbit(&self.gravity, &place, self.constants.inverse_mass, state);
         }
-        (Motion::of(time, state, place), Beside { torque: [time.zero(); 3], carrier: point })
+        (Motion::of(time, state, place), Beside { torque: [time.zero(); 3], force: None, carrier: point })
     }
 
     /// Chooses the branches `ahead` seconds after `time`.
@@ -113,6 +113,7 @@ impl System<DoubleDouble, ALL> for Motions {
     fn derivative(&self, time: DoubleDouble, state: &State) -> State {
         let (motion, mut all) = self.motion(time, state);
         all.torque = sum(self.constants.torque, self.effects.torque(&motion));
+        all.force = self.effects.force(&motion);
         let mut rate = [DoubleDouble::exact(0.0); ALL];
         rate[..N].copy_from_slice(&self.constants.derivative(time, &gyrostat(state), &all));
         let place = carrier(state);

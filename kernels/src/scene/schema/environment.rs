@@ -31,6 +31,8 @@ rows! {
         drag: bool = false,
         /// Whether the torque of sunlight on the plates acts; it needs an orbit with an epoch.
         solar_pressure: bool = false,
+        /// Whether the forces of air and light move the spacecraft, which leaves its orbit by them.
+        coupled: bool = false,
         /// Heights above `body_radius_m` at which the density of the air is given, m, in place of Vallado's table; kept for good ([`super::numbers::kept`]).
         air_heights_m: Option<&'static [f64]> = None,
         /// The density at each of them, kg/m^3.
@@ -72,6 +74,11 @@ impl EnvironmentInput {
     /// Whether an effect acts that plates feel.
     pub fn acts_on_plates(&self) -> bool {
         self.drag || self.solar_pressure
+    }
+
+    /// Whether its forces move the centre of mass.
+    pub fn moves(&self) -> bool {
+        self.coupled && self.acts_on_plates()
     }
 
     /// Density, height and scale height of an exponential atmosphere, where one of them is written.

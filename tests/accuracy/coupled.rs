@@ -1,0 +1,207 @@
+//! Air and light that move the spacecraft (`environment.coupled`): an independent integration of the orbit, the reference solution by every method, the work of the forces, and lanes.
+
+use crate::support::orbits::{MU, body, circle, near_rounding, plated};
+use crate::support::runs::{adaptive, everything, propagate};
+use spindrift::dynamics::effects::ForceModel;
+use spindrift::dynamics::environment::EARTH_RATE;
+use spindrift::dynamics::environment::sun::sun;
+use spindrift::math::Isa;
+use spindrift::math::vector::{cross, difference, dot, norm, product, scaled, sum};
+use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
+use spindrift::propagation::{Method, RotationError, rotation_errors};
+use spindrift::run::{Grid, StateField};
+use spindrift::scene::{
+    EnvironmentInput, Epoch, Name, Offset, Offsets, Orbit, OrbitInput, PlateInput, Scene, SceneInput,
+};
+
+const DURATION: f64 = 6_000.0;
+/// A plate through the centre of mass, so that nothing turns the body.
+const AREA: f64 = 2.0;
+const MASS: f64 = 50.0;
+const DRAG: f64 = 2.4;
+const SPECULAR: f64 = 0.3;
+const DIFFUSE: f64 = 0.2;
+const PRESSURE: f64 = 4.56e-6;
+const DENSITY: f64 = 1e-10;
+const HEIGHT: f64 = 6e5;
+const SCALE: f64 = 6e4;
+
+fn epoch() -> Epoch {
+    Epoch::parse("2026-06-01T00:00:00Z").expect("a date")
+}
+
+/// A body that does not turn, with one plate of the normal `normal`.
+fn one_plate(orbit: OrbitInput, normal: [f64; 3]) -> SceneInput {
+    let mut input = body([6.0, 5.0, 4.0], OrbitInput { epoch: Some(epoch()), ..orbit });
+    (input.body.mass_kg, input.body.center_of_mass_m) = (Some(MASS), Some([0.0, 0.0, 0.02]));
+    input.plates = vec![PlateInput {
+        name: Name::of("sail"),
+        area_m2: AREA,
+        normal,
+        center_m: [0.0, 0.0, 0.02],
+        drag_coefficient: DRAG,
+        specular: SPECULAR,
+        diffuse: DIFFUSE,
+        ..PlateInput::DEFAULT
+    }];
+    input
+}
+
+fn in_air() -> SceneInput {
+    let mut input = one_plate(OrbitInput { eccentricity: Some(0.01), ..circle(7e6, 0.9) }, [0.6, -0.64, 0.48]);
+    input.environment = EnvironmentInput {
+        drag: true,
+        coupled: true,
+        base_density_kg_m3: Some(DENSITY),
+        base_height_m: Some(HEIGHT),
+        scale_height_m: Some(SCALE),
+        ..EnvironmentInput::DEFAULT
+    };
+    input
+}
+
+/// On an orbit that sees the Sun all the time: across the direction to it.
+fn in_light() -> SceneInput {
+    let [x, y, z] = sun(epoch().days_since_j2000()).direction;
+    let orbit = OrbitInput { ascending_node_rad: Some(x.atan2(-y)), ..circle(1e7, z.acos()) };
+    let mut input = one_plate(orbit, scaled(1.0 / 1.25_f64.sqrt(), sum([x, y, z], [0.5 * -y, 0.5 * x, 0.0])));
+    let environment = EnvironmentInput { solar_pressure: true, coupled: true, ..EnvironmentInput::DEFAULT };
+    input.environment = EnvironmentInput { solar_pressure_n_m2: PRESSURE, ..environment };
+    input
+}
+
+fn resolved(input: &SceneInput) -> Scene {
+    Scene::resolve(input).unwrap_or_else(|errors| panic!("{}", errors[0]))
+}
+
+/// The force on the plate of `input` at `time`, F_e, N: the formulas of docs/environment.md, written here again.
+fn force(input: &SceneInput, time: f64, [r, v]: [[f64; 3]; 2]) -> [f64; 3] {
+    let n = input.plates[0].normal;
+    if input.environment.drag {
+        let flow = difference(v, cross([0.0, 0.0, EARTH_RATE], r));
+        let density = DENSITY * (-(norm(r) - 6_378_137.0 - HEIGHT) / SCALE).exp();
+        return scaled(-0.5 * density * DRAG * AREA * dot(n, flow).max(0.0), flow);
+    }
+    let sun = sun(epoch().days_since_j2000() + time / 86_400.0);
+    let cosine = dot(n, sun.direction).max(0.0);
+    let push = sum(scaled(1.0 - SPECULAR, sun.direction), scaled(2.0 * (SPECULAR * cosine + DIFFUSE / 3.0), n));
+    scaled(-PRESSURE / (sun.distance * sun.distance) * AREA * cosine, push)
+}
+
+/// Position and velocity after [`DURATION`], by the classical Runge-Kutta method with steps of 0.05 s,
+/// so short because they do not end where the plate turns on and off.
+fn integrated(input: &SceneInput, pushed: bool) -> [[f64; 3]; 2] {
+    let orbit = Orbit::of(input.orbit.as_ref().expect("an orbit"));
+    let rate = |time: f64, state: [[f64; 3]; 2]| {
+        let [r, v] = state;
+        let own = if pushed { scaled(1.0 / MASS, force(input, time, state)) } else { [0.0; 3] };
+        [v, sum(own, scaled(-MU / norm(r).powi(3), r))]
+    };
+    let moved = |state: [[f64; 3]; 2], h: f64, slope: [[f64; 3]; 2]| {
+        [sum(state[0], scaled(h, slope[0])), sum(state[1], scaled(h, slope[1]))]
+    };
+    let h = 0.05;
+    let mut state = [orbit.position, orbit.velocity];
+    for step in 0..(DURATION / h) as usize {
+        let t = step as f64 * h;
+        let a = rate(t, state);
+        let b = rate(t + 0.5 * h, moved(state, 0.5 * h, a));
+        let c = rate(t + 0.5 * h, moved(state, 0.5 * h, b));
+        let d = rate(t + h, moved(state, h, c));
+        for (factor, slope) in [(1.0, a), (2.0, b), (2.0, c), (1.0, d)] {
+            state = moved(state, factor * h / 6.0, slope);
+        }
+    }
+    state
+}
+
+/// Law: the centre of mass moves as the forces of air and of light say, by an integration that has nothing of the program; without `coupled` it stays on its orbit.
+/// What is left is that of the other integration.
+#[test]
+fn the_centre_of_mass_moves_as_the_forces_say() {
+    for (name, mut input, least) in [("air", in_air(), 100.0), ("light", in_light(), 3.0)] {
+        let [r, v] = integrated(&input, true);
+        let [unmoved, _] = integrated(&input, false);
+        assert!(norm(difference(r, unmoved)) > least, "{name}: moves by {}", norm(difference(r, unmoved)));
+        let grid = Grid::uniform(DURATION, 11);
+        let scene = resolved(&input);
+        for (method, control) in near_rounding(ForceModel::of(&scene)) {
+            let table = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0).table;
+            let off = norm(difference(table.at(StateField::ComPosition, 10), r));
+            let speed = norm(difference(table.at(StateField::ComVelocity, 10), v));
+            println!("{name}, {}: {off:.1e} m, {speed:.1e} m/s", method.name());
+            assert!(off < 1e-5 && speed < 1e-8, "{name}, {}: {off:e} m, {speed:e} m/s", method.name());
+            assert!(norm(table.at::<3>(StateField::Rate, 10)) < 1e-15, "nothing turns it");
+        }
+        input.environment.coupled = false;
+        let scene = resolved(&input);
+        for (method, control) in near_rounding(ForceModel::of(&scene)) {
+            let table = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0).table;
+            let off = norm(difference(table.at(StateField::ComPosition, 10), unmoved));
+            assert!(off < 1e-5, "{name}, {}: {off:e} m", method.name());
+        }
+    }
+}
+
+/// Random bodies with plates and without wheels, that air and light turn and move.
+fn scenes(count: u64, seed: u64) -> Vec<Scene> {
+    let mut scenes: Vec<Scene> =
+        plated(2 * count, seed, [0.5, 20.0]).into_iter().filter(|scene| scene.mass.wheels.is_empty()).collect();
+    for scene in &mut scenes {
+        scene.environment.coupled = true;
+        scene.offsets = Some(Offsets { spacecraft: Offset::default(), debris: Offset::default() });
+    }
+    scenes
+}
+
+/// Law: every method finds the reference solution, which integrates orbit, offset and attitude together.
+#[test]
+fn every_method_finds_the_reference_solution() {
+    let grid = Grid::uniform(DURATION, 31);
+    for scene in scenes(3, 91) {
+        let reference = ReferenceSolution::new(Isa::best(), &scene, &grid, everything(Method::Auto), TOLERANCE)
+            .expect("a reference solution");
+        for (method, control) in near_rounding(ForceModel::of(&scene)) {
+            let run = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0);
+            let place = reference.distance::<3>(&run.table, StateField::ComPosition, 30, 1.0);
+            let error = RotationError::largest(rotation_errors(&reference, &grid, &run.table));
+            println!("{}: {place:.1e} m, rate {:.1e}, attitude {:.1e}", method.name(), error.omega, error.attitude);
+            assert!(place < 1e-6, "{}: {place:e} m", method.name());
+            assert!(error.omega < 1e-10 && error.attitude < 1e-10, "{}: {error:?}", method.name());
+        }
+    }
+}
+
+/// Law: the work of gravity, air and light is what the kinetic energy of translation and rotation changes by.
+#[test]
+fn the_work_is_the_change_of_the_kinetic_energy() {
+    let grid = Grid::uniform(20_000.0, 101);
+    for scene in &scenes(3, 17) {
+        for (method, control) in near_rounding(ForceModel::of(scene)) {
+            let table = propagate(method, control, &grid, std::slice::from_ref(scene)).remove(0).table;
+            let energy = |point: usize| {
+                let (v, rate) = (table.at::<3>(StateField::ComVelocity, point), table.at(StateField::Rate, point));
+                0.5 * scene.mass.total * dot(v, v) + 0.5 * dot(rate, product(scene.mass.inertia, rate))
+            };
+            let worst = (1..grid.points()).fold(0.0_f64, |worst, point| {
+                let [work, _] = table.at::<2>(StateField::Work, point);
+                worst.max((energy(point) - energy(0) - work).abs() / energy(0))
+            });
+            println!("{}: {worst:.1e}", method.name());
+            assert!(worst < 1e-14, "{}: {worst:e}", method.name());
+        }
+    }
+}
+
+/// Law: a run in lanes has the bits that it has alone.
+#[test]
+fn lanes_are_runs_alone() {
+    let scenes = scenes(11, 5);
+    let grid = Grid::uniform(DURATION, 31);
+    for (method, _) in near_rounding(ForceModel::of(&scenes[0])) {
+        for (scene, run) in scenes.iter().zip(propagate(method, adaptive(1e-9), &grid, &scenes)) {
+            let alone = propagate(method, adaptive(1e-9), &grid, std::slice::from_ref(scene)).remove(0);
+            assert!(alone.bits() == run.bits(), "{}", method.name());
+        }
+    }
+}
