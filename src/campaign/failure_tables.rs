@@ -10,10 +10,13 @@ use crate::scene::{Device, FailureInput, Name, SceneInput, SensorOutput, WheelMo
 /// Most failures of a file.
 const MOST_FAILURES: usize = 16;
 /// The keys that name the device: a failure has exactly one.
-const DEVICES: [&str; 3] = ["wheel", "thruster", "sensor"];
+const DEVICES: [&str; 4] = ["wheel", "thruster", "torque_rod", "sensor"];
 
 /// The keys that the failure of a device has, by the place of its kind in [`DEVICES`].
-const KEYS: [&[&str]; 3] = [&FailureInput::OF_WHEELS, &FailureInput::OF_THRUSTERS, &FailureInput::OF_SENSORS];
+const KEYS: [&[&str]; 4] =
+    [&FailureInput::OF_WHEELS, &FailureInput::OF_THRUSTERS, &FailureInput::OF_RODS, &FailureInput::OF_SENSORS];
+/// The place of sensors in these lists.
+const SENSOR: usize = 3;
 
 /// Reads the tables into `scene`, whose devices have been read.
 pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
@@ -46,7 +49,11 @@ fn read_device(section: &mut Section<'_, '_>, scene: &SceneInput, has_loop: bool
     let kind = match written[..] {
         [kind] => kind,
         [] => {
-            section.require("wheel", "the name of the wheel that fails (or thruster or sensor instead)", "\"w1\"");
+            section.require(
+                "wheel",
+                "the name of the wheel that fails (or thruster, torque_rod or sensor instead)",
+                "\"w1\"",
+            );
             return None;
         }
         [_, second, ..] => {
@@ -61,34 +68,37 @@ fn read_device(section: &mut Section<'_, '_>, scene: &SceneInput, has_loop: bool
     let known: Vec<Option<Name>> = match kind {
         0 => turning(scene),
         1 => scene.thrusters.iter().map(|thruster| Some(thruster.name)).collect(),
+        2 => scene.torque_rods.iter().map(|rod| Some(rod.name)).collect(),
         _ => scene.control.sensors.iter().map(|sensor| Some(sensor.name)).collect(),
     };
     let names: Vec<&str> = known.iter().flatten().map(Name::as_str).collect();
     if names.is_empty() {
-        let what = ["free wheels", "thrusters", "sensors"][kind];
+        let what = ["free wheels", "thrusters", "torque rods", "sensors"][kind];
         let remedy =
-            if kind == 2 && !has_loop { "add a [control] loop with [[sensors]]" } else { "name another device" };
+            if kind == SENSOR && !has_loop { "add a [control] loop with [[sensors]]" } else { "name another device" };
         section.refuse(DEVICES[kind], format!("left out where the scene has no {what}"), remedy);
         return None;
     }
     let place = |text: &str| known.iter().position(|name| name.is_some_and(|name| name.as_str() == text));
     let place = section.name(DEVICES[kind], &names, place)?;
-    Some((kind, [Device::Wheel(place), Device::Thruster(place), Device::Sensor(place)][kind]))
+    Some((kind, [Device::Wheel, Device::Thruster, Device::Rod, Device::Sensor][kind](place)))
 }
 
 /// Notes keys of other devices, and where no key says what becomes of this one.
 fn check_keys(section: &mut Section<'_, '_>, kind: usize) {
     for other in (0..KEYS.len()).filter(|other| *other != kind) {
         for key in KEYS[other].iter().filter(|key| section.has(key)).collect::<Vec<_>>() {
-            let allowed = format!("left out: a failure of a {} has {}", DEVICES[kind], KEYS[kind].join(", "));
+            let allowed =
+                format!("left out: a failure of a {} has {}", DEVICES[kind].replace('_', " "), KEYS[kind].join(", "));
             section.refuse(key, allowed, "delete this line");
         }
     }
     let own: Vec<&str> = KEYS[kind].iter().copied().filter(|key| section.has(key)).collect();
     if own.is_empty() {
-        let allowed = format!("what becomes of the {}: one of {}", DEVICES[kind], KEYS[kind].join(", "));
-        section.require(KEYS[kind][0], &allowed, ["0.0", "0.0", "\"silent\""][kind]);
-    } else if let (2, [_, second, ..]) = (kind, &own[..]) {
+        let allowed =
+            format!("what becomes of the {}: one of {}", DEVICES[kind].replace('_', " "), KEYS[kind].join(", "));
+        section.require(KEYS[kind][0], &allowed, ["0.0", "0.0", "0.0", "\"silent\""][kind]);
+    } else if let (SENSOR, [_, second, ..]) = (kind, &own[..]) {
         section.refuse(
             second,
             format!("the only one of {}", KEYS[kind].join(", ")),
@@ -103,7 +113,8 @@ fn check_device(section: &mut Section<'_, '_>, scene: &SceneInput, device: Devic
         let key = match device {
             Device::Wheel(_) => DEVICES[0],
             Device::Thruster(_) => DEVICES[1],
-            _ => DEVICES[2],
+            Device::Rod(_) => DEVICES[2],
+            _ => DEVICES[SENSOR],
         };
         let allowed = format!("a device that does not fail in another table: it does in {}", first.name);
         section.refuse(key, allowed, "delete one of the two tables");
@@ -144,14 +155,15 @@ fn named(scene: &SceneInput, device: Device) -> Option<(&'static str, Name)> {
     Some(match device {
         Device::Wheel(place) => (DEVICES[0], turning.nth(place)?.name),
         Device::Thruster(place) => (DEVICES[1], scene.thrusters.get(place)?.name),
-        Device::Sensor(place) => (DEVICES[2], scene.control.sensors.get(place)?.name),
+        Device::Rod(place) => (DEVICES[2], scene.torque_rods.get(place)?.name),
+        Device::Sensor(place) => (DEVICES[SENSOR], scene.control.sensors.get(place)?.name),
         Device::Unknown => return None,
     })
 }
 
 /// The device of `scene` in words: `wheel w1`.
 pub fn failed_device(scene: &SceneInput, device: Device) -> String {
-    named(scene, device).map_or_else(String::new, |(kind, name)| format!("{kind} {name}"))
+    named(scene, device).map_or_else(String::new, |(kind, name)| format!("{} {name}", kind.replace('_', " ")))
 }
 
 /// The failures of `scene` as canonical text.

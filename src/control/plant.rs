@@ -171,7 +171,9 @@ impl Plant {
         }
         for &i in &self.spec.rods {
             let rod = &self.drawn.torque_rods[i];
-            actuation.dipole = sum(actuation.dipole, scaled(rod.scale * commands.rods.dipoles[i], rod.axis));
+            let failed = self.failure(Device::Rod(i), time + same).map(|failure| failure.dipole_a_m2.unwrap_or(0.0));
+            let dipole = failed.unwrap_or(rod.scale * commands.rods.dipoles[i]);
+            actuation.dipole = sum(actuation.dipole, scaled(dipole, rod.axis));
         }
         let is_rod_saturated = commands.rods.is_limited;
         Applied { actuation, stuck, length, saturated, torque_excess, is_rod_saturated }

@@ -293,3 +293,34 @@ fn loops_fly_on_without_a_sensor() {
     let frozen = of("sensor = \"tracker\"\noutput = \"frozen\"");
     assert!(frozen.is_finite());
 }
+
+/// Law: a torque rod that is dead from the start is one of the scale zero, and one that is stuck is a part of the residual dipole; until its failure a run is the one
+/// without it, bit for bit, and then it is another; the run knows nothing of it.
+#[test]
+fn a_torque_rod_fails() {
+    let shipped = include_str!("../../campaigns/detumble_magnetic.toml").replace("110 min", "30 min");
+    let healthy = run(&shipped, 0);
+    let failed = |at: f64, dipole: f64| {
+        let keys = format!("name = \"rod\"\ntorque_rod = \"mx\"\nat_s = {at:?}\ndipole_a_m2 = {dipole:?}\n");
+        run(&format!("{shipped}\n[[failure]]\n{keys}"), 0)
+    };
+    let without =
+        shipped.replace("name = \"mx\"\naxis = [1, 0, 0]\n", "name = \"mx\"\naxis = [1, 0, 0]\ndipole_scale = 0\n");
+    let points = healthy.table.points();
+    assert_eq!(same_points(&failed(0.0, 0.0), &run(&without, 0)), points);
+    let residual = without.replace("[0.01, -0.01, 0.02]", "[0.21, -0.01, 0.02]");
+    let (stuck, residual) = (failed(0.0, 0.2), run(&residual, 0));
+    let rate = |run: &SingleRun| run.table.at::<3>(StateField::Rate, points - 1);
+    let apart = |a: [f64; 3], b: [f64; 3]| (0..3).fold(0.0_f64, |most, i| most.max((a[i] - b[i]).abs()));
+    // ticks of b-dot multiply what the sum of two dipoles is rounded by
+    assert!(apart(rate(&stuck), rate(&residual)) < 1e-9, "{:?} {:?}", rate(&stuck), rate(&residual));
+    assert!(apart(rate(&stuck), rate(&healthy)) > 1e-3);
+    // a point every 16.4 s, a tick every 5 s
+    let spacing = 1800.0 / (points - 1) as f64;
+    for at in [601.0, 900.0] {
+        let same = same_points(&healthy, &failed(at, 0.2));
+        let until = (at / spacing) as usize;
+        assert!((until..=until + 2).contains(&same), "{at}: {same} of {until}");
+    }
+    assert_eq!(same_points(&healthy, &failed(1800.0, 0.2)), points);
+}

@@ -410,7 +410,8 @@ pub fn every_loop() -> Vec<String> {
         let own = numbers(of.parameters());
         files.push(format!(
             "{orbit}[[torque_rods]]\nname = \"m1\"\naxis = [0, 0, 1]\nmax_dipole_a_m2 = 5.0\n[control]\nperiod_s = 0.25\n\
-             estimator = \"mekf\"\nwheels = [\"w1\"]\ntorque_rods = [\"m1\"]\n{sensors}[[guidance]]\nphase = \"turn\"\nrods = \"{name}\"\n{own}"
+             estimator = \"mekf\"\nwheels = [\"w1\"]\ntorque_rods = [\"m1\"]\n{sensors}[[guidance]]\nphase = \"turn\"\nrods = \"{name}\"\n{own}\
+             [[failure]]\nname = \"rod\"\ntorque_rod = \"m1\"\nat_s = 3\ndipole_a_m2 = 0.5\n"
         ));
     }
     files

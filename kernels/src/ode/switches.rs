@@ -169,12 +169,6 @@ where
     P: Stepper<R, N>,
 {
     let number = |value: f64| last.splat(value);
-    let mut margin_at = |s: R| {
-        let length = R::select(over, s * step.length, s.zero());
-        let part = Step { time: step.time, end: step.time + length, length };
-        let state = stepper.inside(system, step, part, over, lanes);
-        system.margin(part.end, &state)
-    };
     let (mut low, mut high, mut found) = (number(LEAST), number(1.0), number(LEAST));
     let (mut above, mut below) = (last, last);
     let mut open = over;
@@ -184,7 +178,11 @@ where
         let middle = number(0.5) * (low + high);
         let inner = R::select(low.lt(secant) & secant.lt(high), secant, middle);
         let s = if k == 0 { low } else { inner };
-        let margin = margin_at(s);
+        // no closure: it would be compiled without vector instructions
+        let length = R::select(over, s * step.length, s.zero());
+        let part = Step { time: step.time, end: step.time + length, length };
+        let state = stepper.inside(system, step, part, over, lanes);
+        let margin = system.margin(part.end, &state);
         found = R::select(open, s, found);
         let is_above = open & low.zero().lt(margin);
         if k == 0 {

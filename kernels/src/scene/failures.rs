@@ -14,13 +14,13 @@ pub(super) fn apply(failures: &[FailureInput], schedule: &mut Vec<Arc>) {
                     fill(schedule, failure.at_s);
                 }
             }
-            Device::Sensor(_) | Device::Unknown => continue,
+            Device::Rod(_) | Device::Sensor(_) | Device::Unknown => continue,
         }
         for arc in schedule.iter_mut().filter(|arc| arc.start >= failure.at_s) {
             match failure.device {
                 Device::Wheel(place) => arc.applied.motor_torque[place] *= failure.torque_scale.unwrap_or(1.0),
                 Device::Thruster(place) => arc.applied.thrust[place] = failure.thrust_n.unwrap_or(0.0),
-                Device::Sensor(_) | Device::Unknown => {}
+                Device::Rod(_) | Device::Sensor(_) | Device::Unknown => {}
             }
         }
     }

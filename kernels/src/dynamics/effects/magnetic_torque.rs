@@ -121,7 +121,9 @@ impl<R: Real> MagneticSeries<R> {
 /// Upper bound of the torque on `scene`, N m: the dipole with all rods at their limits across the largest field at the periapsis.
 pub fn largest_torque(scene: &Scene) -> f64 {
     let (Some(orbit), Some(dipole)) = (&scene.orbit, residual_dipole(scene)) else { return 0.0 };
-    let all = scene.torque_rods.iter().fold(norm(dipole), |sum, rod| sum + (rod.scale * rod.limit).abs());
+    let stuck = scene.failures.iter().filter_map(|failure| failure.dipole_a_m2);
+    let driven = scene.torque_rods.iter().map(|rod| rod.scale * rod.limit);
+    let all = driven.chain(stuck).fold(norm(dipole), |sum, dipole| sum + dipole.abs());
     all * largest(orbit.lowest())
 }
 

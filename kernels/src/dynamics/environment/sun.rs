@@ -28,22 +28,24 @@ pub struct Sun<R> {
 #[inline(always)]
 pub fn sun<R: Real>(days: R) -> Sun<R> {
     let number = |value: f64| days.splat(value);
-    // in turns, whole ones taken away before they cost digits
-    let turns = |start: f64, rate: f64| {
-        let all = days.mul_add(number(rate / 360.0), number(start / 360.0));
-        all - all.nearest_integer()
-    };
-    let (sin_g, cos_g) = sin_cos_turns(turns(357.528, 0.985_600_3));
+    let (sin_g, cos_g) = sin_cos_turns(turns(days, 357.528, 0.985_600_3));
     let two = number(2.0);
     let (sin_2g, cos_2g) = (two * sin_g * cos_g, number(1.0) - two * sin_g * sin_g);
     let longitude =
-        sin_2g.mul_add(number(0.020 / 360.0), sin_g.mul_add(number(1.915 / 360.0), turns(280.460, 0.985_647_4)));
+        sin_2g.mul_add(number(0.020 / 360.0), sin_g.mul_add(number(1.915 / 360.0), turns(days, 280.460, 0.985_647_4)));
     let (sin_l, cos_l) = sin_cos_turns(longitude - longitude.nearest_integer());
     let (sin_e, cos_e) = sin_cos_turns(days.mul_add(number(-0.000_000_4 / 360.0), number(23.439 / 360.0)));
     Sun {
         direction: [cos_l, cos_e * sin_l, sin_e * sin_l],
         distance: cos_2g.mul_add(number(-0.000_14), cos_g.mul_add(number(-0.016_71), number(1.000_14))),
     }
+}
+
+/// An angle of `start` degrees that grows by `rate` degrees a day, in turns: whole ones are taken away before they cost digits.
+#[inline(always)]
+fn turns<R: Real>(days: R, start: f64, rate: f64) -> R {
+    let all = days.mul_add(days.splat(rate / 360.0), days.splat(start / 360.0));
+    all - all.nearest_integer()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! `[[failure]]`: a wheel, a thruster or a sensor that fails during a run.
+//! `[[failure]]`: a wheel, a thruster, a torque rod or a sensor that fails during a run.
 
 use super::components::{SCALAR, XYZ};
 use super::limit::Limit;
@@ -20,6 +20,8 @@ rows! {
         (optional);
     thrust_n: Option<f64> = None, "N", "Of a thruster: its thrust from then on, whatever is commanded; 0 for one that is stuck off", SCALAR, Plain,
         Limit::NotNegative, (optional);
+    dipole_a_m2: Option<f64> = None, "A m^2", "Of a torque rod: its dipole from then on, whatever is commanded; 0 for one that is dead", SCALAR, Plain,
+        Limit::Finite, (optional);
     bias_rad_s: Option<[f64; 3]> = None, "rad/s", "Of a rate gyro: what its bias changes by", XYZ, Plain, Limit::Finite, (optional);
     bias_rad: Option<[f64; 3]> = None, "rad", "Of a star tracker: what its bias changes by", XYZ, Plain, Limit::Finite, (optional);
     } others {
@@ -39,6 +41,8 @@ pub enum Device {
     Wheel(usize),
     /// A thruster, by its place.
     Thruster(usize),
+    /// A torque rod, by its place.
+    Rod(usize),
     /// A sensor of the control loop, by its place.
     Sensor(usize),
     /// Not read yet.
@@ -77,6 +81,8 @@ impl FailureInput {
     pub const OF_WHEELS: [&'static str; 3] = ["torque_scale", "coulomb_friction_n_m", "viscous_friction_n_m_s"];
     /// The keys of a thruster's failure.
     pub const OF_THRUSTERS: [&'static str; 1] = ["thrust_n"];
+    /// The keys of a torque rod's failure.
+    pub const OF_RODS: [&'static str; 1] = ["dipole_a_m2"];
     /// The keys of a sensor's failure.
     pub const OF_SENSORS: [&'static str; 3] = ["output", "bias_rad_s", "bias_rad"];
 }
