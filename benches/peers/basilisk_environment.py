@@ -289,7 +289,8 @@ def compare(options, name):
     limit, coarse = extrapolated(runs), runs[0] if steps[0] == 1.0 else basilisk_run(case, 1.0)[0]
     apart = difference(limit, ours)
     free = basilisk_run(Case(text_of(texts[0], "", "")), 1.0)[0]
-    lines = [("without these torques", difference(free, ours)), ("Basilisk at 1 s", difference(coarse, ours)), (f"at {steps[-1]} s", difference(runs[-1], ours)), ("extrapolated", apart),
+    lines = [("without these torques", difference(free, ours)), ("Basilisk at 1 s", difference(coarse, ours)),
+             (f"at {steps[-1]} s", difference(runs[-1], ours)), ("extrapolated", apart),
              ("own error at most", difference(limit, extrapolated(runs[:-1])))]
     lines += [(f"with Basilisk's {own}", difference(basilisk_run(case, 1.0, own={own})[0], coarse)) for own, where in OWN if where == name]
     for what, errors in lines:
