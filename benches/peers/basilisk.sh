@@ -1,9 +1,11 @@
 #!/bin/sh
 # Runs spindrift and Basilisk on the same spacecraft with four wheels, one after the other on one core. Fails if they do not agree.
-# With `attitude` as the first word: the same spacecraft with three wheels under a control loop. See benches/README.md.
+# With `attitude` as the first word: the same spacecraft with three wheels under a control loop; with `environment`: gravity gradient, plates in air
+# and sunlight, torque rods and eclipses. See benches/README.md.
 #
 #   benches/peers/basilisk.sh [options of basilisk.py, for example --samples 32 --repeats 3 --limit 1e-9]
 #   benches/peers/basilisk.sh attitude [options of basilisk_attitude.py, for example --steps history,speed]
+#   benches/peers/basilisk.sh environment [options of basilisk_environment.py, for example --cases drag]
 #
 # The scratch environment is PEERS (default: a folder in the system's temporary folder) and is reused. It is apart from that of run.sh,
 # so that neither decides the other's versions. SPINDRIFT=program takes this program instead of building one.
@@ -13,10 +15,12 @@ root=$(cd "$here/../.." && pwd)
 scratch=${PEERS:-${TMPDIR:-/tmp}/spindrift-peers}
 python=${PYTHON:-python3}
 script=basilisk.py
-if [ "${1:-}" = attitude ]; then
-    script=basilisk_attitude.py
+case "${1:-}" in
+attitude | environment)
+    script=basilisk_$1.py
     shift
-fi
+    ;;
+esac
 
 mkdir -p "$scratch/basilisk"
 [ -x "$scratch/venv-basilisk/bin/python" ] || "$python" -m venv "$scratch/venv-basilisk"

@@ -18,7 +18,6 @@ import tomllib
 
 import numpy as np
 import pyarrow.parquet as pq
-from scipy.integrate import solve_ivp
 
 MU, RADIUS, SUN_RADIUS, AU, EARTH_RATE = 3.986004418e14, 6378137.0, 6.957e8, 149597870700.0, 7.292115e-5
 # D. Vallado, Fundamentals of Astrodynamics and Applications, table 8-4: km, kg/m^3
@@ -35,6 +34,12 @@ def number(value):
         amount, unit = re.fullmatch(r"(\S+) (\S+)", value).groups()
         return float(amount) * {"km": 1e3, "deg": math.pi / 180.0}[unit]
     return value
+
+
+def days(date):
+    """Days from J2000.0 to a date in UTC."""
+    moment = datetime.datetime.fromisoformat(date.replace("Z", "+00:00"))
+    return (moment - datetime.datetime(2000, 1, 1, 12, tzinfo=datetime.timezone.utc)).total_seconds() / 86400
 
 
 def turn(angle, axis):
@@ -97,12 +102,10 @@ class Scene:
         self.mass, self.coupled = file["body"]["mass_kg"], coupled
         center = np.array(file["body"]["center_of_mass_m"])
         orbit = {key: number(value) if key != "epoch" else value for key, value in file["orbit"].items()}
-        epoch = datetime.datetime.fromisoformat(orbit["epoch"].replace("Z", "+00:00"))
-        j2000 = datetime.datetime(2000, 1, 1, 12, tzinfo=datetime.timezone.utc)
-        self.epoch = (epoch - j2000).total_seconds() / 86400
-        self.scale = file["environment"]["density_scale"]
+        self.epoch = days(orbit["epoch"])
+        self.scale = file["environment"].get("density_scale", 1.0)
         self.plates = []
-        for plate in file["plates"]:
+        for plate in file.get("plates", []):
             normal = np.array(plate["normal"], dtype=float)
             self.plates.append((plate["area_m2"], normal / np.linalg.norm(normal), np.array(plate["center_m"]) - center,
                                 plate.get("drag_coefficient", 2.2), plate.get("specular", 0.0), plate.get("diffuse", 0.0)))
@@ -136,6 +139,8 @@ class Scene:
 
 
 def main():
+    from scipy.integrate import solve_ivp  # basilisk_environment.py imports the equations alone
+
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--file", default=pathlib.Path(__file__).with_name("plates.toml"), type=pathlib.Path)
     parser.add_argument("--states", required=True, type=pathlib.Path, help="Parquet file of `spindrift simulate`")
