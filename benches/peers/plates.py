@@ -100,7 +100,7 @@ class Scene:
         self.inertia = np.array(file["body"]["inertia_kg_m2"])
         self.inverse = np.linalg.inv(self.inertia)
         self.mass, self.coupled = file["body"]["mass_kg"], coupled
-        center = np.array(file["body"]["center_of_mass_m"])
+        center = self.center = np.array(file["body"]["center_of_mass_m"])
         orbit = {key: number(value) if key != "epoch" else value for key, value in file["orbit"].items()}
         self.epoch = days(orbit["epoch"])
         self.scale = file["environment"].get("density_scale", 1.0)
@@ -159,7 +159,8 @@ def main():
     omega = np.transpose([table[f"omega_se_s_{c}_rad_s"] for c in "xyz"])
     rate = np.linalg.norm(omega - found[:, 10:], axis=1).max()
     size = np.linalg.norm(omega, axis=1).max()
-    place = np.transpose([table[f"r_co_e_{c}_m"] for c in "xyz"])
+    # from the point p of the file to the centre of mass
+    place = np.transpose([table[f"r_po_e_{c}_m"] for c in "xyz"]) + np.array([dcm(own) @ scene.center for own in q])
     off = np.linalg.norm(place - found[:, :3], axis=1).max()
     print(f"attitude {attitude:.1e} rad, rate {rate:.1e} rad/s ({rate / size:.1e} of the largest), position {off:.1e} m")
     if attitude > options.limit or rate / size > options.limit or off > 1e-3:
