@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Ensemble, Part, PartId, Rows, SingleRun, Supervision};
+use super::whole_rows::{SPREAD, column, event, near_rounding, plan, rows};
+use spindrift::campaign::Plan;
+use spindrift::ensemble::{Rows, SingleRun};
 use spindrift::math::Isa;
 use spindrift::propagation::Method;
 use spindrift::sampling::SampleId;
@@ -31,31 +32,6 @@ fn free(method: &str, points: usize, more: &str) -> Plan {
     plan(&(FREE.replace("METHOD", method).replace("POINTS", &points.to_string()) + more))
 }
 
-fn plan(text: &str) -> Plan {
-    Plan::from_text("event.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
-}
-
-fn event(name: &str, quantity: &str, value: f64, more: &str) -> String {
-    format!("[[event]]\nname = \"{name}\"\nquantity = \"{quantity}\"\nvalue = {value:?}\n{more}\n")
-}
-
-/// The rows of `count` samples of `plan` from `first` on.
-fn rows(plan: &Plan, isa: Isa, first: u64, count: usize) -> Rows {
-    let ensemble = Ensemble::new(plan, isa);
-    let mut rows = ensemble.rows(count);
-    let part = Part { id: PartId(0), first: SampleId(first), count };
-    ensemble.worker().run(part, &mut rows, Supervision::progress(&|_| {}));
-    rows
-}
-
-/// The column `name` of `rows`.
-fn column<'r>(plan: &Plan, rows: &'r Rows, name: &str) -> &'r [f64] {
-    let columns = plan.request().columns();
-    rows.observable(
-        columns.iter().position(|column| column.quantity.name() == name).unwrap_or_else(|| panic!("no {name}")),
-    )
-}
-
 /// The precession of that body about its momentum, rad/s, and the angle between both, rad.
 fn precession() -> (f64, f64) {
     let (across, along): (f64, f64) = (30.0 * 0.3, 20.0 * 0.6);
@@ -78,10 +54,7 @@ fn crossings_of_a_free_body_are_at_the_times_of_its_precession() {
             + &event("any", "180 / pi * spin_axis_angle_rad", value * 180.0 / PI, "")
             + &event("never", "spin_axis_angle_rad", 3.0, "");
         for method in Method::ALL {
-            let written = match method.has_fixed_step() {
-                true => format!("method = \"{}\"\nstep_s = 0.002", method.name()),
-                false => format!("method = \"{}\"\ntolerance = 1e-13", method.name()),
-            };
+            let written = near_rounding(method);
             let plan = free(&written, 121, &events);
             let rows = rows(&plan, Isa::best(), 0, 1);
             let found = |name: &str| column(&plan, &rows, name)[0];
@@ -135,9 +108,6 @@ fn a_rate_under_torque_crosses_where_it_must() {
     // nearer to the turn than two observation points: not seen, as the documents say
     assert_eq!(of(0.001, "").1, 0.0);
 }
-
-const SPREAD: &str =
-    "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 0.1\n";
 
 /// Law: events are a row's own: the same bits alone, in any part, on every instruction set, and in a single run; and no other column changes.
 #[test]

@@ -1,7 +1,8 @@
 //! Extremes of quantities between observation points: those of closed forms and of many points; bits are a row's own.
 
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Ensemble, Part, PartId, Rows, SingleRun, Supervision};
+use super::whole_rows::{SPREAD, column, event, near_rounding, plan, rows};
+use spindrift::campaign::Plan;
+use spindrift::ensemble::{Rows, SingleRun};
 use spindrift::math::Isa;
 use spindrift::propagation::Method;
 use spindrift::sampling::SampleId;
@@ -25,41 +26,13 @@ principal_moments_kg_m2 = [30, MIDDLE, 20]
 angular_velocity_rad_s = [0.3, 0.0, 0.6]
 "#;
 
-const SPREAD: &str =
-    "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 0.1\n";
-
 fn free(method: &str, points: usize, middle: f64, more: &str) -> Plan {
     let text = FREE.replace("METHOD", method).replace("POINTS", &points.to_string());
     plan(&(text.replace("MIDDLE", &middle.to_string()) + more))
 }
 
-fn plan(text: &str) -> Plan {
-    Plan::from_text("extreme.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
-}
-
-fn event(name: &str, quantity: &str, value: f64, more: &str) -> String {
-    format!("[[event]]\nname = \"{name}\"\nquantity = \"{quantity}\"\nvalue = {value:?}\n{more}\n")
-}
-
 fn extreme(name: &str, quantity: &str, more: &str) -> String {
     format!("[[extreme]]\nname = \"{name}\"\nquantity = \"{quantity}\"\n{more}\n")
-}
-
-/// The rows of `count` samples of `plan` from `first` on.
-fn rows(plan: &Plan, isa: Isa, first: u64, count: usize) -> Rows {
-    let ensemble = Ensemble::new(plan, isa);
-    let mut rows = ensemble.rows(count);
-    let part = Part { id: PartId(0), first: SampleId(first), count };
-    ensemble.worker().run(part, &mut rows, Supervision::progress(&|_| {}));
-    rows
-}
-
-/// The column `name` of `rows`.
-fn column<'r>(plan: &Plan, rows: &'r Rows, name: &str) -> &'r [f64] {
-    let columns = plan.request().columns();
-    rows.observable(
-        columns.iter().position(|column| column.quantity.name() == name).unwrap_or_else(|| panic!("no {name}")),
-    )
 }
 
 /// Law: s3 of a free body leaves its direction by alpha with sin(alpha/2) = sin(theta) |sin(Omega t/2)|: its largest angle is 2 theta, its smallest one zero, and
@@ -83,10 +56,7 @@ fn extremes_of_a_free_body_are_those_of_its_precession() {
         + &extreme("none_rad", "spin_axis_angle_rad", "after = \"never\"")
         + &extreme("beyond_rad", "spin_axis_angle_rad", "delay_s = 60.001");
     for method in Method::ALL {
-        let written = match method.has_fixed_step() {
-            true => format!("method = \"{}\"\nstep_s = 0.002", method.name()),
-            false => format!("method = \"{}\"\ntolerance = 1e-13", method.name()),
-        };
+        let written = near_rounding(method);
         let plan = free(&written, 62, 30.0, &more);
         let rows = rows(&plan, Isa::best(), 0, 1);
         let found = |name: &str| column(&plan, &rows, name)[0];

@@ -19,3 +19,4 @@ mod run_ends;
 mod skipping;
 mod threads_and_order;
 mod value_hashes;
+mod whole_rows;

@@ -1,7 +1,7 @@
 //! Events that end runs: an ended run is the run of a campaign of that duration, and its states at the end are those of closed forms.
 
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Ensemble, Part, PartId, Rows, SingleRun, Supervision};
+use super::whole_rows::{SPREAD, bits, column, event, names, near_rounding, plan, rows};
+use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
 use spindrift::propagation::Method;
 use spindrift::run::{Grid, Status};
@@ -26,40 +26,7 @@ principal_moments_kg_m2 = [30, 30, 20]
 angular_velocity_rad_s = [0.3, 0.0, 0.6]
 "#;
 
-const SPREAD: &str =
-    "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 0.1\n";
-
-fn plan(text: &str) -> Plan {
-    Plan::from_text("ends.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
-}
-
-fn event(name: &str, quantity: &str, value: f64, more: &str) -> String {
-    format!("[[event]]\nname = \"{name}\"\nquantity = \"{quantity}\"\nvalue = {value:?}\n{more}\n")
-}
-
 const ENDS: &str = "ends_run = true\n";
-
-/// The rows of `count` samples of `plan` from `first` on.
-fn rows(plan: &Plan, isa: Isa, first: u64, count: usize) -> Rows {
-    let ensemble = Ensemble::new(plan, isa);
-    let mut rows = ensemble.rows(count);
-    let part = Part { id: PartId(0), first: SampleId(first), count };
-    ensemble.worker().run(part, &mut rows, Supervision::progress(&|_| {}));
-    rows
-}
-
-fn names(plan: &Plan) -> Vec<String> {
-    plan.request().columns().iter().map(|column| column.quantity.name().to_owned()).collect()
-}
-
-/// The column `name` of `rows`.
-fn column<'r>(plan: &Plan, rows: &'r Rows, name: &str) -> &'r [f64] {
-    rows.observable(names(plan).iter().position(|other| other == name).unwrap_or_else(|| panic!("no {name}")))
-}
-
-fn bits(plan: &Plan, rows: &Rows, row: usize) -> Vec<u64> {
-    (0..names(plan).len()).map(|index| rows.observable(index)[row].to_bits()).collect()
-}
 
 /// Law: a run ends where s3 has left its direction by alpha, sin(alpha/2) = sin(theta) sin(Omega t/2), by every method: that angle is the last and the largest
 /// one, and the rate across the axis has turned by (30 - 20)/30 of the rate about it. The earliest of several events ends the run.
@@ -74,10 +41,7 @@ fn a_free_body_ends_in_the_state_of_its_closed_form() {
             + &event("before", "spin_axis_angle_rad", value - 0.05, "")
             + &event("never", "spin_axis_angle_rad", value + 0.01, "");
         for method in Method::ALL {
-            let written = match method.has_fixed_step() {
-                true => format!("method = \"{}\"\nstep_s = 0.002", method.name()),
-                false => format!("method = \"{}\"\ntolerance = 1e-13", method.name()),
-            };
+            let written = near_rounding(method);
             let plan = plan(&(FREE.replace("METHOD", &written) + &events));
             let rows = rows(&plan, Isa::best(), 0, 1);
             let found = |name: &str| column(&plan, &rows, name)[0];

@@ -162,7 +162,7 @@ pub(super) fn twice_and<R: Real>(place: [R; 3], offset: [R; 3]) -> [R; 3] {
 mod tests {
     use super::*;
     use crate::math::double_double::DoubleDouble;
-    use crate::math::vector::difference;
+    use crate::math::vector::{difference, norm};
 
     /// The Earth with 1.5 J2 R^2, and with a hundred times of it.
     fn gravities() -> [Gravity<f64>; 3] {
