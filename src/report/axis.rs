@@ -108,7 +108,11 @@ impl DrawnAxis {
         let ticks: Vec<(f64, String)> = match &self.axis.scale {
             Scale::Names(names) => names.iter().enumerate().map(|(row, name)| (row as f64, name.clone())).collect(),
             Scale::Linear => {
-                let step = round_step((self.high - self.low) / most as f64);
+                let least = (self.high - self.low) / most as f64;
+                let step = match self.axis.step.map(|step| step / libm::pow(10.0, f64::from(self.power))) {
+                    Some(step) => step * libm::ceil(least / step - 1e-9),
+                    None => round_step(least),
+                };
                 let decimals = (-libm::floor(libm::log10(step) + 1e-9)).clamp(0.0, 12.0) as usize;
                 multiples(self.low, self.high, step).map(|at| (at, decimal(at, decimals))).collect()
             }
