@@ -19,6 +19,8 @@ export class Sky {
     this.group = new three.Group();
     this.arrows = skyEntries(runs).map(([name, [, hue]]) => {
       const made = arrow(three, palette.hues[hue], 0.007);
+      // a ball at the tip of the arrow to the Sun
+      if (name === "sun") made.add(new three.Mesh(new three.SphereGeometry(0.045, 20, 12).translate(0, 0, 1), made.children[0].material.clone()));
       for (const { material } of made.children) material.transparent = true;
       this.group.add(made);
       return [name, made];

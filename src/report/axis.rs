@@ -249,6 +249,21 @@ mod tests {
         assert_eq!(texts, ["2\u{d7}10⁻¹³", "3\u{d7}10⁻¹³", "4\u{d7}10⁻¹³"]);
     }
 
+    /// Law: an axis whose step is given has its ticks at multiples, at both ends too; of twice or three times the step where there is room for fewer.
+    #[test]
+    fn a_given_step_is_kept() {
+        let axis = DrawnAxis::new(&Axis::of_globe("longitude", 180.0), &[]);
+        for (most, step) in [(13, 30), (12, 30), (11, 60), (6, 60), (4, 90)] {
+            let expected: Vec<(f64, String)> =
+                (-180..=180).step_by(step).map(|at| ((f64::from(at) + 180.0) / 360.0, at.to_string())).collect();
+            let found = axis.ticks(most);
+            let same = |((place, text), (known, name)): (&(f64, String), &(f64, String))| {
+                text == name && (place - known).abs() < 1e-12
+            };
+            assert!(found.len() == expected.len() && found.iter().zip(&expected).all(same), "{most}: {found:?}");
+        }
+    }
+
     /// Law: without a fixed range all values are inside; a descending axis has the largest first.
     #[test]
     fn values_are_inside() {

@@ -64,7 +64,7 @@ impl Curves<'_> {
             let of = |is_dark| track.places.iter().copied().filter(|place| place.is_dark == is_dark).collect();
             [false, true].map(|is_dark| points(name(is_dark), look(is_dark).0, PointShape::Disc, of(is_dark))).into()
         };
-        marks.push(points("start", Hue::Failed, PointShape::Disc, vec![first]));
+        marks.push(points("start", Hue::Nominal, PointShape::Disc, vec![first]));
         let mut caption =
             "Nominal run: the place below it, by geocentric latitude; in shadow, the Earth hides a part of the Sun."
                 .to_owned();
