@@ -27,7 +27,7 @@ fn shipped(name: &str) -> String {
 
 /// Two revolutions of an ellipse in thin air, sunlight and the field of a dipole.
 fn text() -> String {
-    let text = shipped("drag_tumble").replace("samples = 1000 ", "samples = 40 ");
+    let text = shipped("drag_tumble").replace("samples = 1000 ", "samples = 400 ");
     text.replace("duration_s = 5600.0", &format!("duration_s = {DURATION:?}"))
         .replace("[environment]", "eccentricity = 0.01\n[environment]\ndensity_scale = 0.01\nmagnetic_field = \"dipole\"\nmagnetic_dipole_a_m2 = [0.02, 0.0, 0.01]")
 }
