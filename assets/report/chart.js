@@ -63,7 +63,8 @@ function linearAxis(axis, [low, high], isTime, count, room) {
     const half = low === 0 ? 1 : 0.05 * Math.abs(low);
     [low, high] = [low >= 0 ? Math.max(0, low - half) : low - half, high + half];
   }
-  const step = roundStep(high - low, count);
+  // of a given step a multiple, where it has no room
+  const step = axis.step ? axis.step * Math.ceil((high - low) / (2 * axis.step * count) - 1e-9) : roundStep(high - low, count);
   const scale = tickScale(low, high, axis.unit);
   const name = titleOf(axis, scale.unit, room);
   const text = (value) => tickText(value, step, scale.factor);

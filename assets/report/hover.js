@@ -35,7 +35,8 @@ export function described(figure, at, value, toPixel) {
   const lines = [];
   const { x, y } = figure;
   const marks = figure.marks;
-  const series = marks.filter((mark) => (mark.kind === "line" || mark.kind === "band") && mark.x.length > 1 && isAscending(mark.x));
+  // on a map no abscissa is that of one point alone
+  const series = marks.filter((mark) => !x.step && (mark.kind === "line" || mark.kind === "band") && mark.x.length > 1 && isAscending(mark.x));
   const points = marks.filter((mark) => mark.kind === "points");
   for (const mark of points) {
     const found = nearestPoint(mark, toPixel, at, 14);

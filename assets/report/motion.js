@@ -47,9 +47,8 @@ export class Motion {
     this.last = run.times[run.times.length - 1];
   }
 
-  // The index before `time` and the part of the interval after it.
-  place(time) {
-    const { times } = this.run;
+  // The index of `times` before `time` and the part of the interval after it.
+  place(time, times = this.run.times) {
     let low = 0;
     let high = times.length - 1;
     while (high - low > 1) {
@@ -96,7 +95,16 @@ export class Motion {
       const [a, b] = [0, 1].map((next) => Array.from(this.run.debris.attitude.subarray(4 * (place[0] + next), 4 * (place[0] + next) + 4)));
       state.debrisAttitude = product(a, ofVector(turnBetween(a, b, [0, 0, 0]).map((value) => value * place[1])));
     }
+    if (this.run.orbit) state.sky = this.sky(time);
     return state;
+  }
+
+  // The directions about the orbit, and the hidden share of the Sun, at `time`.
+  sky(time) {
+    const { times, hidden, ...directions } = this.run.orbit;
+    const place = this.place(time, times);
+    const of = Object.entries(directions).map(([name, values]) => [name, this.mixed(values, 3, place)]);
+    return { ...Object.fromEntries(of), hidden: hidden ? this.mixed(hidden, 1, this.place(time))[0] : 0 };
   }
 
   // The spacecraft relative to the debris at the known times; empty without debris.

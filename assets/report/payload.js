@@ -16,7 +16,7 @@ export async function embeddedData() {
   const [text, bytes] = await Promise.all([embeddedText("data"), inflated("numbers")]);
   const isPlace = (value) => Array.isArray(value) && value.length === 3 && value.every(Number.isInteger) && (value[2] === 8 || value[2] === 4);
   const kinds = { 8: Float64Array, 4: Float32Array };
-  const arrays = ["x", "y", "low", "high", "edges", "heights", "counts", "values", "samples", "fates", "times", "attitude", "omega", "momentum", "angles", "phase", "firing", "relative"];
+  const arrays = ["x", "y", "low", "high", "edges", "heights", "counts", "values", "samples", "fates", "times", "attitude", "omega", "momentum", "angles", "phase", "firing", "relative", "nadir", "velocity", "sun", "field", "hidden"];
   const places = new Set(arrays);
   return JSON.parse(text, (key, value) => {
     if (!places.has(key) || !isPlace(value)) return value;

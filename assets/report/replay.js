@@ -6,6 +6,7 @@ import { HUE_PLACES, colors, onTheme } from "./theme.js";
 import { Motion, rotated } from "./motion.js";
 import { Approach } from "./approach.js";
 import { LiveNumbers, PhaseMarks } from "./live.js";
+import { Sky, skyEntries } from "./sky.js";
 import { arrow, axes, bodyGroup, curve, debrisGroup, pointTo, quaternionOf, sphere, thrusterGroup, wheelGroup } from "./bodies.js";
 
 // the speed at first: all of the run in this time, s
@@ -95,6 +96,8 @@ export class Replay {
     this.sight = this.debris ? arrow(three, palette.quiet, 0.006) : null;
     this.launchAxis = this.debris && data.runs.some((run) => run.goal) ? arrow(three, palette.hues[HUE_PLACES.debris], 0.008) : null;
     for (const line of [this.sight, this.launchAxis]) if (line) this.local.add(line);
+    this.sky = new Sky(three, data.runs, size, palette);
+    this.local.add(this.sky.group);
     this.trailGroup = new three.Group();
     this.local.add(this.trailGroup);
     this.renderer.setClearColor(palette.background);
@@ -142,6 +145,8 @@ export class Replay {
     const cameras = this.data.scene.debris ? ["inertial", "body", "chase", "approach"] : ["inertial", "body", "chase"];
     for (const name of cameras) button(name, `Camera: ${name}`, () => this.view(name)).dataset.camera = name;
     this.ghostButton = button("nominal too", "Show the nominal run beside this one", () => this.toggleGhost());
+    this.skyButton = skyEntries(this.data.runs).length > 0 ? button("orbit", "Show the directions of the orbit", () => this.toggleSky()) : null;
+    this.skyButton?.setAttribute("aria-pressed", "true");
     if (this.place.requestFullscreen) button("full screen", "Full screen (f)", () => this.fullScreen());
     this.slider = control("input", { type: "range", min: 0, step: "any", value: 0, className: "time" });
     this.slider.setAttribute("aria-label", "Time");
@@ -152,7 +157,7 @@ export class Replay {
     const entries = [
       ["s3, spin axis, with its trail on the sphere", 6], ["H, angular momentum", 7], ["omega, angular velocity", HUE_PLACES.omega], ["body, axes of F_s", HUE_PLACES.body],
       ...this.data.scene.wheels.map((wheel, index) => [`wheel ${wheel.name}`, HUE_PLACES.wheels[index % HUE_PLACES.wheels.length]]),
-      ...(this.data.scene.debris ? [["debris", HUE_PLACES.debris]] : []), ["axes of F_e", 8],
+      ...(this.data.scene.debris ? [["debris", HUE_PLACES.debris]] : []), ...skyEntries(this.data.runs).map(([, entry]) => entry), ["axes of F_e", 8],
     ];
     const paint = () => legend.replaceChildren(...entries.map(([text, hue]) => {
       const item = control("li", {}, text);
@@ -212,6 +217,11 @@ export class Replay {
     this.wantsGhost = !this.wantsGhost;
     this.ghostButton.setAttribute("aria-pressed", String(this.wantsGhost));
     this.drawPaths();
+    this.show();
+  }
+
+  toggleSky() {
+    this.skyButton.setAttribute("aria-pressed", String(!this.sky.group.visible));
     this.show();
   }
 
@@ -330,6 +340,7 @@ export class Replay {
     pointTo(three, this.arrows.s3, state.s3, 1.6 * size);
     pointTo(three, this.arrows.momentum, state.momentum, 1.45 * size);
     pointTo(three, this.arrows.omega, state.omega, 1.3 * size);
+    this.sky.show(state, this.skyButton?.getAttribute("aria-pressed") === "true");
     if (this.debris) this.placeDebris(state);
     if (this.cameraName === "chase") this.chase(state);
     this.render();

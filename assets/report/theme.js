@@ -2,9 +2,9 @@
 
 const HUES = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#b8a800"];
 const HUES_ON_DARK = ["#4aa8e0", "#f07f2e", "#2fc79a", "#e39cc4", "#7cc8f5", "#f2b233", "#f0e442"];
-// For wheels beyond the fourth, and the angular velocity, behind the colours of text.
-const MORE = ["#882255", "#117733", "#999933", "#6a3d9a", "#c0001a"];
-const MORE_ON_DARK = ["#d46a9f", "#5fc27e", "#c9c95a", "#b48be0", "#ff6070"];
+// For wheels beyond the fourth, the angular velocity, and what is about an orbit, behind the colours of text.
+const MORE = ["#882255", "#117733", "#999933", "#6a3d9a", "#c0001a", "#7a4a21", "#00808c", "#f59a00", "#b5179e"];
+const MORE_ON_DARK = ["#d46a9f", "#5fc27e", "#c9c95a", "#b48be0", "#ff6070", "#c9986a", "#3fd0dc", "#ffc247", "#ff6ad5"];
 // Places in the palette of the bodies, which keep their colours everywhere.
 export const HUE_PLACES = { body: 0, wheels: [1, 2, 3, 4, 9, 10, 11, 12], debris: 5, omega: 13 };
 const listeners = [];

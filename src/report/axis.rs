@@ -108,7 +108,11 @@ impl DrawnAxis {
         let ticks: Vec<(f64, String)> = match &self.axis.scale {
             Scale::Names(names) => names.iter().enumerate().map(|(row, name)| (row as f64, name.clone())).collect(),
             Scale::Linear => {
-                let step = round_step((self.high - self.low) / most as f64);
+                let least = (self.high - self.low) / most as f64;
+                let step = match self.axis.step.map(|step| step / libm::pow(10.0, f64::from(self.power))) {
+                    Some(step) => step * libm::ceil(least / step - 1e-9),
+                    None => round_step(least),
+                };
                 let decimals = (-libm::floor(libm::log10(step) + 1e-9)).clamp(0.0, 12.0) as usize;
                 multiples(self.low, self.high, step).map(|at| (at, decimal(at, decimals))).collect()
             }
@@ -243,6 +247,21 @@ mod tests {
         let axis = DrawnAxis::new(&Axis::log("x", ""), &[1.3e-13, 4.4e-13]);
         let texts: Vec<String> = axis.ticks(9).into_iter().map(|(_, text)| text).collect();
         assert_eq!(texts, ["2\u{d7}10⁻¹³", "3\u{d7}10⁻¹³", "4\u{d7}10⁻¹³"]);
+    }
+
+    /// Law: an axis whose step is given has its ticks at multiples, at both ends too; of twice or three times the step where there is room for fewer.
+    #[test]
+    fn a_given_step_is_kept() {
+        let axis = DrawnAxis::new(&Axis::of_globe("longitude", 180.0), &[]);
+        for (most, step) in [(13, 30), (12, 30), (11, 60), (6, 60), (4, 90)] {
+            let expected: Vec<(f64, String)> =
+                (-180..=180).step_by(step).map(|at| ((f64::from(at) + 180.0) / 360.0, at.to_string())).collect();
+            let found = axis.ticks(most);
+            let same = |((place, text), (known, name)): (&(f64, String), &(f64, String))| {
+                text == name && (place - known).abs() < 1e-12
+            };
+            assert!(found.len() == expected.len() && found.iter().zip(&expected).all(same), "{most}: {found:?}");
+        }
     }
 
     /// Law: without a fixed range all values are inside; a descending axis has the largest first.

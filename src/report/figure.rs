@@ -97,6 +97,8 @@ pub struct Axis {
     pub scale: Scale,
     /// The range, where it does not follow from the marks.
     pub range: Option<[f64; 2]>,
+    /// The step between its ticks, where it does not follow from the range; a multiple where there is no room.
+    pub step: Option<f64>,
     /// Whether values decrease along it.
     pub is_descending: bool,
     /// The column or parameter that it shows; empty where it shows none, or several.
@@ -110,6 +112,7 @@ impl Axis {
             unit: unit.to_owned(),
             scale: Scale::Linear,
             range: None,
+            step: None,
             is_descending: false,
             column: String::new(),
         }
@@ -121,6 +124,11 @@ impl Axis {
 
     pub fn names(names: Vec<String>) -> Self {
         Axis { scale: Scale::Names(names), ..Axis::linear("", "") }
+    }
+
+    /// The axis of an angle on the Earth from -`most` to `most` degrees, with ticks every 30.
+    pub fn of_globe(quantity: &str, most: f64) -> Self {
+        Axis { step: Some(30.0), ..Axis::linear(quantity, "deg").within(-most, most) }
     }
 
     /// The same of the column or parameter `column`.

@@ -18,8 +18,9 @@ const TICK_HEIGHT: f64 = 30.0;
 const TICK_GAP: f64 = 14.0;
 /// Height of the strip of runs in flight under the axis, with what is free around it, pixels.
 pub(super) const FLIGHT: f64 = 14.0;
-/// Most ticks of an axis.
+/// Most ticks of an axis; of a horizontal one whose step is given.
 const MOST_TICKS: usize = 9;
+const MOST_STEPS: usize = 13;
 /// Most of the width that names beside the axes take.
 const NAMES: f64 = 0.4;
 /// Height of a row of names; largest side of a cell of a matrix, pixels.
@@ -227,7 +228,8 @@ impl<'f> Panel<'f> {
                 half + TICK_GAP <= (pair[1].0 - pair[0].0).abs() * width
             })
         };
-        let mut choices = (2..=MOST_TICKS).rev().map(|most| self.x.ticks(most));
+        let most = if self.figure.x.step.is_some() { MOST_STEPS } else { MOST_TICKS };
+        let mut choices = (2..=most).rev().map(|most| self.x.ticks(most));
         choices.find(has_space).unwrap_or_else(|| self.x.ticks(2).into_iter().take(1).collect())
     }
 }

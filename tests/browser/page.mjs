@@ -161,6 +161,11 @@ async function checkMission(page, name) {
       const shown = Array.from(document.querySelectorAll(".live dd"), (element) => element.textContent);
       expect(shown.length === run.live.length && shown.length > 0, `${shown.length} live numbers`);
       run.live.forEach((number, k) => {
+        if (number.words) {
+          const share = number.values[place];
+          expect(shown[k] === number.words[share === 0 ? 0 : share === 1 ? 2 : 1], `${number.name} is ${shown[k]} for ${share}`);
+          return;
+        }
         const width = Math.max(1, number.components.length);
         const known = Array.from(number.values.subarray(width * place, width * (place + 1)), (value) => value * number.factor);
         const texts = width === 1 ? [shown[k]] : shown[k].slice(0, shown[k].length - number.unit.length).split(", ");
@@ -179,6 +184,27 @@ async function checkMission(page, name) {
         expect(craft.every((value, axis) => near(value, -run.debris.relative[3 * place + axis])), `the spacecraft is at ${craft}`);
         if (run.goal) expect(near(Math.hypot(...replay.approach.station), run.goal.distance), "the station is not at its distance");
         replay.view("inertial");
+      }
+      if (run.orbit) {
+        const at = Math.floor(run.orbit.times.length / 2);
+        replay.goTo(run.orbit.times[at]);
+        expect(replay.sky.arrows.length === Object.keys(run.orbit).filter((key) => key !== "times" && key !== "hidden").length, `${replay.sky.arrows.length} arrows of the orbit`);
+        for (const [key, drawn] of replay.sky.arrows) {
+          const { x, y, z, w } = drawn.quaternion;
+          const tip = [2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z];
+          expect(drawn.visible && tip.every((value, axis) => Math.abs(value - run.orbit[key][3 * at + axis]) < 1e-3), `${key} points to ${tip}`);
+        }
+        const [, sun] = replay.sky.arrows.find(([key]) => key === "sun") ?? [];
+        for (const share of sun ? [0, 1] : []) {
+          const moment = run.orbit.hidden.indexOf(share);
+          if (moment < 0) continue;
+          replay.goTo(run.times[moment]);
+          expect(share === 0 ? sun.children[0].material.opacity === 1 : sun.children[0].material.opacity < 0.5, `the Sun has the opacity ${sun.children[0].material.opacity} with ${share} of it hidden`);
+        }
+        replay.toggleSky();
+        expect(!replay.sky.group.visible, "the directions of the orbit are not hidden");
+        replay.toggleSky();
+        expect(replay.sky.group.visible, "the directions of the orbit are not shown again");
       }
       expect(replay.ghost.visible === (run.failed && run.sample !== 0 && replay.data.runs[0].sample === 0), `${run.name}: the nominal run is ${replay.ghost.visible ? "" : "not "}beside it`);
     }

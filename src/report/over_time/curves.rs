@@ -215,6 +215,7 @@ impl<'a> Curves<'a> {
             Shows::Wheels(series) if self.traits.has_loop => vec![self.all_wheels(listed, series)],
             Shows::Wheels(series) => self.each_wheel(listed, series),
             Shows::State(field, components) => vec![self.state(listed, field, components)],
+            Shows::GroundTrack => self.ground_track(listed).into_iter().collect(),
             Shows::Phases => self.phases(listed).into_iter().collect(),
             Shows::Thrust => self.thrust(listed).into_iter().collect(),
             Shows::Impulse => self.impulse(listed).into_iter().collect(),

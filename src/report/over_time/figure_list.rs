@@ -21,6 +21,8 @@ pub struct Traits {
     pub approaches: bool,
     pub debris: bool,
     pub orbit: bool,
+    /// An orbit with a date.
+    pub dated_orbit: bool,
     pub wheels: bool,
     /// Wheels that the loop drives.
     pub drives: bool,
@@ -44,6 +46,7 @@ impl Traits {
             approaches: is(|spec| spec.approaches()),
             debris: plan.nominal.debris.is_some(),
             orbit: plan.nominal.orbit.is_some(),
+            dated_orbit: plan.nominal.orbit.as_ref().is_some_and(|orbit| orbit.epoch.is_some()),
             wheels: !wheels.is_empty(),
             drives: is(|spec| !spec.wheels.is_empty()),
             fires: is(|spec| !spec.thrusters.is_empty()),
@@ -85,6 +88,8 @@ pub enum Shows {
     Wheels(Series),
     /// Components of a state; of wheels all of them.
     State(StateField, &'static [&'static str]),
+    /// The place on the Earth below the spacecraft.
+    GroundTrack,
     /// The phases of the loop.
     Phases,
     Thrust,
@@ -214,6 +219,7 @@ pub const FIGURES: &[ListedFigure] = {
         figure(One(Series::FieldStrength), ("Magnetic field at the spacecraft", "field", Hue::Total), ON_ORBIT, &["magnetic_field_t", "magnetic_field_max_t", "magnetic_field_mean_t"]),
         figure(One(Series::AirDensity), ("Density of the air at the spacecraft", "density", Hue::Total), ON_ORBIT, &["air_density_kg_m3", "air_density_max_kg_m3", "air_density_mean_kg_m3"]),
         figure(One(Series::SunHidden), ("Share of the Sun that the Earth hides", "share", Hue::Total), ON_ORBIT, &["sun_hidden_fraction"]),
+        figure(GroundTrack, ("Ground track", "latitude", Hue::Total), |scene, _| scene.dated_orbit, &[]),
         // actuators
         figure(Wheels(Series::MotorTorque), ("Torque", "torque", Hue::Wheel(0)), |scene, _| scene.drives, &["torque_{wheel}_n_m"]),
         figure(Wheels(Series::WheelSpeed), ("Speed", "speed", Hue::Wheel(0)), |scene, place| scene.wheels && (scene.has_loop || place == Place::Page),

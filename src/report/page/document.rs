@@ -12,7 +12,7 @@ static ECHARTS: &[u8] = include_bytes!("../../../assets/report/vendor/echarts.js
 static THREE: &[u8] = include_bytes!("../../../assets/report/vendor/three.js.gz");
 
 /// The modules of the page, each after those that it imports: they are put into one script, without their imports and exports.
-const MODULES: [(&str, &str); 16] = [
+const MODULES: [(&str, &str); 17] = [
     ("numbers.js", include_str!("../../../assets/report/numbers.js")),
     ("theme.js", include_str!("../../../assets/report/theme.js")),
     ("payload.js", include_str!("../../../assets/report/payload.js")),
@@ -26,6 +26,7 @@ const MODULES: [(&str, &str); 16] = [
     ("motion.js", include_str!("../../../assets/report/motion.js")),
     ("bodies.js", include_str!("../../../assets/report/bodies.js")),
     ("approach.js", include_str!("../../../assets/report/approach.js")),
+    ("sky.js", include_str!("../../../assets/report/sky.js")),
     ("live.js", include_str!("../../../assets/report/live.js")),
     ("replay.js", include_str!("../../../assets/report/replay.js")),
     ("main.js", include_str!("../../../assets/report/main.js")),

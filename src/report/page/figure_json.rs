@@ -17,7 +17,12 @@ pub(super) fn json_of(figure: &Figure, payload: &mut Payload) -> Value {
 fn axis(axis: &Axis) -> Value {
     let names = if let Scale::Names(names) = &axis.scale { Some(names) } else { None };
     let log = axis.scale == Scale::Log;
-    json!({ "quantity": axis.quantity, "unit": axis.unit, "log": log, "names": names, "range": axis.range })
+    let mut drawn =
+        json!({ "quantity": axis.quantity, "unit": axis.unit, "log": log, "names": names, "range": axis.range });
+    if let Some(step) = axis.step {
+        drawn["step"] = json!(step);
+    }
+    drawn
 }
 
 fn mark(mark: &Mark, payload: &mut Payload) -> Value {

@@ -11,6 +11,7 @@ use crate::report::mission_text;
 use crate::report::names;
 use crate::report::page::errors::sentence;
 use crate::report::page::payload::Payload;
+use crate::report::page::sky;
 use crate::run::StateField;
 
 /// A quantity of one or several components over time, as the replay shows it.
@@ -23,6 +24,8 @@ struct LiveNumber {
     components: Vec<String>,
     /// Whether it keeps its value until the next point: it is known at the ticks of a loop.
     is_held: bool,
+    /// What is said in place of zero, of values between, and of one; `None` of one that is shown as a number.
+    words: Option<[&'static str; 3]>,
     /// In SI, component by component at each point.
     values: Vec<f64>,
 }
@@ -37,14 +40,18 @@ fn of_row(run: &SingleRun, name: &str) -> Option<f64> {
 pub fn numbers(plan: &Plan, run: &SingleRun, points: usize, payload: &mut Payload) -> Vec<Value> {
     let shown = |number: LiveNumber| {
         let unit = plan.analysis.display.of(&number.column, number.unit);
-        json!({
+        let mut shown = json!({
             "name": number.name, "unit": unit.unit, "factor": unit.value(1.0), "components": number.components,
             "held": number.is_held, "values": payload.singles(&number.values)
-        })
+        });
+        if let Some(words) = number.words {
+            shown["words"] = json!(words);
+        }
+        shown
     };
     let list =
         [pointing_error(run, points), Some(rate(run, points)), wheel_speeds(run, points), propellant(run, points)];
-    list.into_iter().flatten().chain(approach(run, points)).map(shown).collect()
+    list.into_iter().flatten().chain(approach(run, points)).chain(sunlight(run, points)).map(shown).collect()
 }
 
 fn pointing_error(run: &SingleRun, points: usize) -> Option<LiveNumber> {
@@ -57,6 +64,7 @@ fn pointing_error(run: &SingleRun, points: usize) -> Option<LiveNumber> {
         unit: "rad",
         components: Vec::new(),
         is_held: true,
+        words: None,
         values,
     })
 }
@@ -68,6 +76,7 @@ fn rate(run: &SingleRun, points: usize) -> LiveNumber {
         unit: "rad/s",
         components: ["s1", "s2", "s3"].map(str::to_owned).to_vec(),
         is_held: false,
+        words: None,
         values: (0..points).flat_map(|point| run.table.at::<3>(StateField::Rate, point)).collect(),
     }
 }
@@ -82,6 +91,7 @@ fn wheel_speeds(run: &SingleRun, points: usize) -> Option<LiveNumber> {
         unit: "rad/s",
         components: wheels.iter().map(ToString::to_string).collect(),
         is_held: false,
+        words: None,
         values: (0..points).flat_map(at).collect(),
     })
 }
@@ -122,6 +132,7 @@ fn propellant(run: &SingleRun, points: usize) -> Option<LiveNumber> {
         unit,
         components: Vec::new(),
         is_held: false,
+        words: None,
         values: used,
     })
 }
@@ -137,6 +148,7 @@ fn approach(run: &SingleRun, points: usize) -> Vec<LiveNumber> {
         unit,
         components: Vec::new(),
         is_held: false,
+        words: None,
         values: apart(fields),
     };
     let list = [
@@ -144,6 +156,19 @@ fn approach(run: &SingleRun, points: usize) -> Vec<LiveNumber> {
         ("Relative speed", "relative_speed_m_s", "m/s", [StateField::DebrisVelocity, StateField::ComVelocity]),
     ];
     list.into_iter().filter(|_| run.request.debris).map(number).collect()
+}
+
+/// Whether the spacecraft is in the shadow of the Earth.
+fn sunlight(run: &SingleRun, points: usize) -> Option<LiveNumber> {
+    Some(LiveNumber {
+        name: "Sunlight".to_owned(),
+        column: "sun_hidden_fraction".to_owned(),
+        unit: "",
+        components: Vec::new(),
+        is_held: true,
+        words: Some(["full", "part shadow", "in shadow"]),
+        values: sky::hidden(run, points)?,
+    })
 }
 
 /// The times at which the phases of a loop first began, and at which the mission or an event ended the run, with their names, by time.

@@ -4,7 +4,7 @@
 //!
 //! - `runs`: the runs that are shown in full.
 //! - `errors`, [`influence`], `inputs`: the figures, with those of [`crate::report::over_time`]. - `figure_json`: what the scripts need to draw them.
-//! - [`gather`]: what statistics, verdicts, sensitivities and bands are on the page. - [`cards`], `first_screen`, [`tables`], `document`: the HTML. - `replay` (with `live`, `still`): the 3D replay. - `payload`: numbers in the page.
+//! - [`gather`]: what statistics, verdicts, sensitivities and bands are on the page. - [`cards`], `first_screen`, [`tables`], `document`: the HTML. - `replay` (with `live`, `sky`, `still`): the 3D replay. - `payload`: numbers in the page.
 //!
 //! The scripts and styles are in `assets/report/`.
 
@@ -24,6 +24,7 @@ mod payload;
 pub(in crate::report) mod readable;
 mod replay;
 pub mod runs;
+mod sky;
 mod still;
 pub mod tables;
 

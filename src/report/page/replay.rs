@@ -15,6 +15,7 @@ use crate::report::page::live;
 use crate::report::page::payload::Payload;
 use crate::report::page::readable::with_unit;
 use crate::report::page::runs::ShownRun;
+use crate::report::page::sky;
 use crate::run::StateField;
 use crate::scene::unit_quaternion::unit_quaternion;
 use crate::scene::{DebrisInput, PartInput, PartShape, Scene, SceneInput, WheelMode};
@@ -151,13 +152,17 @@ pub fn motion(plan: &Plan, shown: &ShownRun, payload: &mut Payload) -> Option<Va
     let goal = approach_goal(plan, run).map(|goal| json!({ "axis": goal.axis, "distance": goal.distance }));
     let is_nominal = shown.sample.0 == 0;
     let name = if is_nominal { "nominal run".to_owned() } else { format!("sample {}", shown.sample) };
-    Some(json!({
+    let mut motion = json!({
         "sample": shown.sample.0, "name": name, "why": shown.why, "status": shown.status.name(), "reason": shown.reason,
         "numbers": numbers(plan, shown), "duration": plan.grid.duration(), "times": payload.singles(&run.grid.times()[..points]),
         "attitude": payload.singles(&attitude), "omega": payload.singles(&omega), "momentum": payload.singles(&momentum),
         "angles": payload.singles(&angles), "debris": debris, "goal": goal, "loop": control(plan, run, points, payload),
         "failed": shown.has_failed(), "live": live::numbers(plan, run, points, payload), "marks": live::marks(plan, run, &shown.row)
-    }))
+    });
+    if let Some(directions) = sky::directions(run, points, payload) {
+        motion["orbit"] = directions;
+    }
+    Some(motion)
 }
 
 /// What a control loop did in `run`: the phase and the mean commanded thrusts at each point; `None` without a loop.

@@ -69,8 +69,8 @@ fn every_column_of_every_kind_of_scene_has_a_value() {
     let epoch = Epoch::parse("2026-11-24T00:00:00Z");
     scene.environment.magnetic_field = Some(FieldModel::Dipole);
     scene.environment.magnetic_dipole_a_m2 = Some([1.0, 2.0, 3.0]);
-    let (position, velocity) = ([1.0, 2.0, 3.0], [0.1, 0.0, 0.0]);
-    let orbit = Orbit { mu: 1.0, position, velocity, body_radius: 0.0, j2: None, epoch };
+    let orbit =
+        Orbit { mu: 1.0, position: [1.0, 2.0, 3.0], velocity: [0.1, 0.0, 0.0], body_radius: 0.0, j2: None, epoch };
     scene.orbit = Some(orbit);
     (scene.environment.drag, scene.environment.solar_pressure) = (true, true);
     let effects = Effect::ALL.into_iter().fold(ForceModel::NONE, ForceModel::with);

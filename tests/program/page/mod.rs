@@ -6,6 +6,7 @@ pub mod loops;
 pub mod marks;
 pub mod names;
 pub mod numbers;
+pub mod orbit;
 pub mod replay;
 pub mod runs;
 pub mod series;

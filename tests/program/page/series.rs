@@ -129,14 +129,15 @@ fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f
 }
 
 /// Quantities over time, and the columns that have their last values.
-const LAST: [(&str, &str); 3] = [
+const LAST: [(&str, &str); 4] = [
+    ("nadir_angle_rad", "nadir_angle_final_rad"),
     ("angular_rate_rad_s", "angular_rate_final_rad_s"),
     ("speed_w1_rad_s", "rate_w1_final_rad_s"),
     ("speed_w2_rad_s", "rate_w2_final_rad_s"),
 ];
 
 /// Bands and medians of quantities over time: each contains the narrower one at every time, and ends as the rows do.
-fn bands_are(found: &Found, figure: &Value) {
+pub(crate) fn bands_are(found: &Found, figure: &Value) {
     let name = text(figure, "name");
     let marks = figure["marks"].as_array().expect("marks");
     let named = |label: &str, key: &str| -> Vec<f64> {

@@ -1,0 +1,54 @@
+//! What the replay draws about a spacecraft on an orbit: nadir, velocity, Sun and magnetic field as directions in F_e, and the share of the Sun that is hidden.
+
+use serde_json::{Value, json};
+
+use crate::ensemble::SingleRun;
+use crate::math::vector::{norm, scaled};
+use crate::report::page::payload::Payload;
+use crate::report::surroundings::{Surroundings, turning_rate};
+use crate::run::StateField;
+
+/// Between two points that are drawn the orbit turns by this angle at most, rad, unless the run has fewer.
+const STEP: f64 = 0.07;
+/// Components of directions are rounded to multiples of this: they take less space.
+const UNIT: f64 = 1.0 / 8192.0;
+
+/// The directions at some of the first `points` points of `run`, and the hidden share of the Sun at each; `None` where there is no orbit.
+pub fn directions(run: &SingleRun, points: usize, payload: &mut Payload) -> Option<Value> {
+    let (around, times) = (Surroundings::of(&run.scene)?, run.grid.times());
+    let state =
+        |point: usize| [StateField::ComPosition, StateField::ComVelocity].map(|field| run.table.at::<3>(field, point));
+    let turned = |point: usize| {
+        let [position, velocity] = state(point);
+        turning_rate(position, velocity) * (times[point + 1] - times[point])
+    };
+    let most = (0..points.saturating_sub(1)).map(turned).fold(f64::MIN_POSITIVE, f64::max);
+    let every = ((STEP / most) as usize).clamp(1, points.max(1));
+    let last = points.checked_sub(1)?;
+    let shown: Vec<usize> = (0..last).step_by(every).chain([last]).collect();
+    let mut drawn = json!({ "times": payload.singles(&shown.iter().map(|point| times[*point]).collect::<Vec<_>>()) });
+    let mut add = |name: &str, of: &dyn Fn(f64, [[f64; 3]; 2]) -> Option<[f64; 3]>| {
+        let vectors: Option<Vec<[f64; 3]>> = shown.iter().map(|point| of(times[*point], state(*point))).collect();
+        let rounded = |vector: [f64; 3]| scaled(1.0 / norm(vector), vector).map(|x| UNIT * libm::round(x / UNIT));
+        if let Some(vectors) = vectors {
+            drawn[name] = payload.singles(&vectors.into_iter().flat_map(rounded).collect::<Vec<_>>());
+        }
+    };
+    add("nadir", &|_, [position, _]| Some(Surroundings::nadir(position)));
+    add("velocity", &|_, [_, velocity]| Some(velocity));
+    add("sun", &|time, [position, _]| Some(around.sun(time, position)?.0));
+    add("field", &|time, [position, _]| around.field(time, position));
+    if let Some(hidden) = hidden(run, points) {
+        drawn["hidden"] = payload.singles(&hidden);
+    }
+    Some(drawn)
+}
+
+/// The share of the Sun that the Earth hides at the first `points` points of `run`; `None` where that is not known.
+pub fn hidden(run: &SingleRun, points: usize) -> Option<Vec<f64>> {
+    let around = Surroundings::of(&run.scene)?;
+    let at = |point: usize| {
+        around.sun(run.grid.times()[point], run.table.at(StateField::ComPosition, point)).map(|(_, hidden)| hidden)
+    };
+    (0..points).map(at).collect()
+}

@@ -1,0 +1,304 @@
+//! What the page shows of an orbit: arrows of the replay, ground track, and quantities over time, against the states of the runs and closed forms.
+
+use std::f64::consts::{PI, TAU};
+use std::fs;
+use std::sync::LazyLock;
+
+use serde_json::Value;
+
+use crate::page::numbers::{Found, degrees, found, motion};
+use crate::support::scratch_folder::floats;
+use spindrift::ensemble::SingleRun;
+use spindrift::math::Isa;
+use spindrift::observables::{Group, Series};
+use spindrift::run::{Grid, StateField};
+use spindrift::sampling::SampleId;
+use spindrift::{Overrides, Plan};
+
+const AXIS: f64 = 6_828e3;
+const INCLINATION: f64 = 51.6;
+const DURATION: f64 = 12_000.0;
+/// Days from J2000.0 to the epoch, 2026-11-24T00:00:00Z: Julian dates 2461368.5 and 2451545.
+const DAYS: f64 = 9_823.5;
+
+fn shipped(name: &str) -> String {
+    fs::read_to_string(format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"))).expect("a campaign")
+}
+
+/// Two revolutions of an ellipse in thin air, sunlight and the field of a dipole.
+fn text() -> String {
+    let text = shipped("drag_tumble").replace("samples = 1000 ", "samples = 400 ");
+    text.replace("duration_s = 5600.0", &format!("duration_s = {DURATION:?}"))
+        .replace("[environment]", "eccentricity = 0.01\n[environment]\ndensity_scale = 0.01\nmagnetic_field = \"dipole\"\nmagnetic_dipole_a_m2 = [0.02, 0.0, 0.01]")
+}
+
+static ORBIT: LazyLock<Found> = LazyLock::new(|| found("orbit", &text()));
+
+fn unit(vector: [f64; 3]) -> [f64; 3] {
+    let size = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+    vector.map(|x| x / size)
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The direction of the Sun by the series of `docs/environment.md`.
+fn sun(time: f64) -> [f64; 3] {
+    let n = DAYS + time / 86_400.0;
+    let g = (357.528 + 0.985_600_3 * n).to_radians();
+    let lambda = (280.460 + 0.985_647_4 * n + 1.915 * g.sin() + 0.020 * (2.0 * g).sin()).to_radians();
+    let epsilon = (23.439 - 4e-7 * n).to_radians();
+    [lambda.cos(), epsilon.cos() * lambda.sin(), epsilon.sin() * lambda.sin()]
+}
+
+/// Greenwich mean sidereal time, deg (J. Meeus, *Astronomical Algorithms*, 1998, eq. 12.4).
+fn greenwich(time: f64) -> f64 {
+    let n = DAYS + time / 86_400.0;
+    280.460_618_37 + 360.985_647_366_29 * n
+}
+
+/// The direction of the field of IGRF-14's dipole, of 2025 with its change in 1.896 years, in F_e: 3 (m . u) u - m with m = (g11, h11, g10).
+fn field(time: f64, position: [f64; 3]) -> [f64; 3] {
+    let years = 1.0 + 327.0 / 365.0;
+    let m = [-1410.3 + 10.0 * years, 4545.5 - 21.5 * years, -29_350.0 + 12.6 * years];
+    let (s, c) = greenwich(time).to_radians().sin_cos();
+    let m = [c * m[0] - s * m[1], s * m[0] + c * m[1], m[2]];
+    let u = unit(position);
+    unit(std::array::from_fn(|i| 3.0 * dot(m, u) * u[i] - m[i]))
+}
+
+/// The difference of two angles, deg, by the shorter way.
+fn apart(a: f64, b: f64) -> f64 {
+    (a - b + 180.0).rem_euclid(360.0) - 180.0
+}
+
+fn runs(found: &Found) -> &Vec<Value> {
+    found.data["replay"]["runs"].as_array().expect("runs")
+}
+
+/// Law: the arrows of the replay are nadir -r/|r| and velocity v/|v| of the states that `simulate` writes, the Sun by the series of the documents, and the
+/// field of a tilted dipole, in every run; they are no farther apart than 5 deg of the orbit.
+#[test]
+fn arrows_point_where_the_run_has_them() {
+    let found = &*ORBIT;
+    for run in runs(found).iter().take(3) {
+        let orbit = &run["orbit"];
+        let times = found.array(&orbit["times"]);
+        assert!(times[0] == 0.0 && times.last() == Some(&DURATION) && times.len() < 200);
+        assert!(times.windows(2).all(|pair| pair[1] - pair[0] < 5.0 / 360.0 * 5_500.0 + 86.0), "{times:?}");
+        let list: Vec<String> = times.iter().map(ToString::to_string).collect();
+        let simulate = format!("simulate c.toml --sample {} --times {} --out s.parquet", run["sample"], list.join(","));
+        found.scratch.prints(&simulate, 0);
+        let table = found.scratch.table("s.parquet");
+        let vector = |name: &str| {
+            let columns = ["x", "y", "z"].map(|axis| floats(&table, &name.replace('?', axis)));
+            (0..times.len()).map(|row| columns.each_ref().map(|column| column[row])).collect::<Vec<[f64; 3]>>()
+        };
+        let (positions, velocities) = (vector("r_po_e_?_m"), vector("v_po_e_?_m_s"));
+        for (name, row_of) in [
+            ("nadir", &(|row: usize| unit(positions[row].map(|x| -x))) as &dyn Fn(usize) -> [f64; 3]),
+            ("velocity", &|row| unit(velocities[row])),
+            ("sun", &|row| sun(times[row])),
+            ("field", &|row| field(times[row], positions[row])),
+        ] {
+            let shown = found.array(&orbit[name]);
+            assert_eq!(shown.len(), 3 * times.len(), "{name}");
+            for row in 0..times.len() {
+                let expected = row_of(row);
+                for axis in 0..3 {
+                    let value = shown[3 * row + axis];
+                    assert!(
+                        (value - expected[axis]).abs() < 2e-4,
+                        "{name} at {}: {value} for {expected:?}",
+                        times[row]
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Sample `sample` again at `times`, with the series of the group `orbit`.
+fn observed(sample: u64, times: &[f64]) -> SingleRun {
+    let plan = Plan::from_text("c", &text(), Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let grid = Grid::at(times.to_vec());
+    SingleRun::with_series(&plan, SampleId(sample), grid, Isa::best(), &[Group::Orbit, Group::Attitude]).expect("a run")
+}
+
+fn series(run: &SingleRun, wanted: Series) -> &[f64] {
+    &run.series.iter().find(|(series, _)| *series == wanted).unwrap_or_else(|| panic!("no {wanted:?}")).1
+}
+
+/// Law: the hidden share of the Sun in the replay is the column at each time, what is said beside it is of that share, and all of it occurs.
+#[test]
+fn shadow_is_that_of_the_column() {
+    let found = &*ORBIT;
+    let mut seen = [0; 2];
+    for run in runs(found).iter().take(3) {
+        let times = found.array(&run["times"]);
+        let columns = observed(run["sample"].as_u64().expect("a sample"), &times);
+        let hidden = found.array(&run["orbit"]["hidden"]);
+        let live = run["live"].as_array().expect("numbers").iter().find(|number| number["name"] == "Sunlight");
+        let live = live.expect("sunlight");
+        assert_eq!(live["words"], serde_json::json!(["full", "part shadow", "in shadow"]));
+        assert!(live["held"] == true && found.array(&live["values"]) == hidden);
+        for (value, column) in hidden.iter().zip(series(&columns, Series::SunHidden)) {
+            // times have single precision, and a part of the Sun lasts some seconds
+            assert!((value - column).abs() < 1e-3, "{value} for {column}");
+            seen[usize::from(*column > 0.5)] += 1;
+        }
+    }
+    assert!(seen.iter().all(|count| *count > 20), "{seen:?}");
+}
+
+/// The lines of the ground track: label, longitudes and latitudes.
+fn track(found: &Found) -> Vec<(String, Vec<f64>, Vec<f64>)> {
+    let figure = found.figure("ground_track");
+    assert_eq!([&figure["x"]["range"], &figure["x"]["step"]], [&serde_json::json!([-180.0, 180.0]), &30.0.into()]);
+    let lines = figure["marks"].as_array().expect("marks").iter().filter(|mark| mark["kind"] == "line");
+    let line = |mark: &Value| {
+        let [x, y] = ["x", "y"].map(|key| found.array(&mark[key]));
+        (mark["label"].as_str().expect("a label").to_owned(), x, y)
+    };
+    lines.map(line).collect()
+}
+
+/// Law: the track starts at the node, which is the right ascension less sidereal time; it comes back to it after a revolution farther west by what the Earth turned
+/// meanwhile; the latitude reaches the inclination and never passes it; every state of the run is on it.
+#[test]
+fn the_track_is_where_the_orbit_passes() {
+    let found = &*ORBIT;
+    let lines = track(found);
+    let start = found.mark("ground_track", "start");
+    let [longitude, latitude] = ["x", "y"].map(|key| found.array(&start[key])[0]);
+    assert!(apart(longitude, -greenwich(0.0)).abs() < 0.01 && latitude.abs() < 1e-3, "{longitude}, {latitude}");
+    let latitudes: Vec<f64> = lines.iter().flat_map(|(_, _, y)| y.clone()).collect();
+    let [low, high] = latitudes.iter().fold([f64::MAX, f64::MIN], |[a, b], y| [a.min(*y), b.max(*y)]);
+    for most in [high, -low] {
+        assert!(most <= INCLINATION + 1e-3 && most > INCLINATION - 0.05, "{most}");
+    }
+    let period = TAU * (AXIS.powi(3) / 3.986004418e14).sqrt();
+    let mut crossings = Vec::new();
+    for (_, x, y) in &lines {
+        let pairs = x.windows(2).zip(y.windows(2));
+        crossings.extend(
+            pairs.filter(|(_, y)| y[0] < 0.0 && y[1] >= 0.0).map(|(x, y)| x[0] - y[0] * (x[1] - x[0]) / (y[1] - y[0])),
+        );
+    }
+    assert_eq!(crossings.len(), 2, "{crossings:?}");
+    for (revolution, crossing) in crossings.into_iter().enumerate() {
+        let moved = greenwich(0.0) - greenwich((revolution + 1) as f64 * period);
+        assert!(apart(crossing, longitude + moved).abs() < 0.02, "{crossing} for {longitude} and {moved}");
+    }
+    // at every point of the run, of which each is a point of the line
+    let times: Vec<f64> = (0..=140).map(|point| DURATION / 140.0 * f64::from(point)).collect();
+    let run = observed(0, &times);
+    for (point, time) in times.iter().enumerate() {
+        let [x, y, z]: [f64; 3] = run.table.at(StateField::ComPosition, point);
+        let (longitude, latitude) = (y.atan2(x).to_degrees() - greenwich(*time), z.atan2(x.hypot(y)).to_degrees());
+        let is_here = |(x, y): (&f64, &f64)| apart(*x, longitude).abs() < 5e-3 && (y - latitude).abs() < 2e-3;
+        assert!(lines.iter().any(|(_, x, y)| x.iter().zip(y).any(is_here)), "{longitude}, {latitude} at {time}");
+    }
+}
+
+/// Law: no line crosses the figure: one that meets 180 deg ends there, and the next begins on the other side at the same latitude.
+#[test]
+fn the_track_ends_at_the_date_line() {
+    let lines = track(&ORBIT);
+    let mut ends = 0;
+    for pair in lines.windows(2) {
+        let [(x, y), (after_x, after_y)] = [0, 1].map(|k| (&pair[k].1, &pair[k].2));
+        let (last, first) = (*x.last().expect("points"), after_x[0]);
+        assert_eq!(y.last(), after_y.first());
+        assert!(last == first || (last, first) == (180.0, -180.0), "{last} {first}");
+        ends += usize::from(last != first);
+    }
+    assert_eq!(ends, 2, "once a revolution");
+    for (label, x, _) in &lines {
+        assert!(x.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 10.0), "{label}: {x:?}");
+    }
+}
+
+/// Law: the part in shadow is that of a circle about the Sun's shadow: acos(sqrt(1 - R^2/r^2)/cos beta)/pi of a revolution, with the angle beta of the Sun to the
+/// plane of the orbit.
+#[test]
+fn the_track_in_shadow_has_its_share() {
+    let circle = text().replace("eccentricity = 0.01", "eccentricity = 0.0");
+    let period = TAU * (AXIS.powi(3) / 3.986004418e14).sqrt();
+    let found = found("orbit-circle", &circle.replace(&format!("{DURATION:?}"), &format!("{period:?}")));
+    let lines = track(&found);
+    let of = |wanted: &str| -> f64 {
+        lines.iter().filter(|(label, ..)| label == wanted).map(|(_, x, _)| (x.len() - 1) as f64).sum()
+    };
+    let (sin_i, cos_i) = INCLINATION.to_radians().sin_cos();
+    let sin_beta = dot(sun(0.5 * period), [0.0, -sin_i, cos_i]);
+    let share = (6_378_137.0_f64 / AXIS).powi(2);
+    let expected = ((1.0 - share).sqrt() / (1.0 - sin_beta * sin_beta).sqrt()).acos() / PI;
+    let shown = of("in shadow") / (of("in shadow") + of("in sunlight"));
+    assert!((shown - expected).abs() < 0.012, "{shown} for {expected}");
+}
+
+/// Law: what the page draws of the orbit over time is, in the nominal run, the column of that name at each time, and follows from the states: the angle of s3 from
+/// nadir, the distance; its bands end as the rows do.
+#[test]
+fn quantities_of_the_orbit_are_their_columns() {
+    let found = &*ORBIT;
+    let list = [
+        (Series::NadirAngle, "nadir_angle_rad"),
+        (Series::OrbitDistance, "orbit_distance_m"),
+        (Series::FieldStrength, "magnetic_field_t"),
+        (Series::AirDensity, "air_density_kg_m3"),
+        (Series::SunHidden, "sun_hidden_fraction"),
+    ];
+    for (wanted, name) in list {
+        let figure = found.figure(name);
+        crate::page::series::bands_are(found, figure);
+        let line = found.mark(name, "nominal run");
+        let [times, values] = ["x", "y"].map(|key| found.array(&line[key]));
+        let run = observed(0, &times);
+        let factor = if figure["y"]["unit"] == "deg" { degrees(1.0) } else { 1.0 };
+        let known = series(&run, wanted);
+        assert!(known.len() == times.len() && times.len() > 100, "{name}");
+        for (point, (value, known)) in values.iter().zip(known).enumerate() {
+            assert!((value - factor * known).abs() <= 1e-12 * value.abs(), "{name} at {}: {value}", times[point]);
+            let position: [f64; 3] = run.table.at(StateField::ComPosition, point);
+            let [w, x, y, z]: [f64; 4] = run.table.at(StateField::Attitude, point);
+            let s3 = [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), w * w - x * x - y * y + z * z];
+            let of_state = match wanted {
+                Series::NadirAngle => degrees(dot(s3, unit(position.map(|x| -x))).clamp(-1.0, 1.0).acos()),
+                Series::OrbitDistance => dot(position, position).sqrt(),
+                _ => continue,
+            };
+            assert!((value - of_state).abs() < 1e-5 * of_state.max(1.0), "{name}: {value} for {of_state}");
+        }
+    }
+}
+
+/// Law: without a date there is no Sun, no shadow and no ground track, and without an orbit nothing of it at all.
+#[test]
+fn a_page_shows_what_the_scene_has() {
+    let keys = |run: &Value| -> Vec<String> {
+        run["orbit"].as_object().map_or_else(Vec::new, |orbit| orbit.keys().cloned().collect())
+    };
+    let said = |found: &Found, word: &str| found.data.to_string().contains(word);
+    let undated = found("orbit-undated", &shipped("nadir_pointing").replace("samples = 256 ", "samples = 4 "));
+    for run in runs(&undated) {
+        assert_eq!(keys(run), ["nadir", "times", "velocity"]);
+    }
+    let free = found("orbit-none", &motion());
+    assert!(runs(&free).iter().all(|run| run.get("orbit").is_none()));
+    for (found, is_on_orbit) in [(&undated, true), (&free, false)] {
+        for word in ["ground_track", "\"words\"", "\"step\"", "Sunlight"] {
+            assert!(!said(found, word), "{word}");
+        }
+        assert_eq!(said(found, "orbit_distance_m"), is_on_orbit);
+    }
+    // counter-test: a date brings all of them
+    for word in ["ground_track", "\"words\"", "\"step\"", "Sunlight", "orbit_distance_m"] {
+        assert!(said(&ORBIT, word), "{word}");
+    }
+    assert_eq!(keys(&runs(&ORBIT)[0]), ["field", "hidden", "nadir", "sun", "times", "velocity"]);
+    let page = ORBIT.scratch.text("r/report.html").len();
+    assert!(page < 2_000_000, "{page} bytes");
+}
