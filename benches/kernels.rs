@@ -133,7 +133,7 @@ fn chain<R: Real>(zero: R, run: &Gyrostat<f64>) -> f64 {
     }
     let moment = zero.splat(MOMENT);
     for _ in 0..EVALUATIONS {
-        let rate = constants.derivative(zero, &y, &Beside { torque: [zero; 3], carrier: None });
+        let rate = constants.derivative(zero, &y, &Beside { torque: [zero; 3], force: None, carrier: None });
         for i in 0..WITH_ANGLES {
             y[i] = rate[i].mul_add(moment, y[i]);
         }

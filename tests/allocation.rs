@@ -197,7 +197,7 @@ fn right_hand_sides() {
     constants.set_run(0, &gyrostat, 1.0);
     constants.set_arc(0, &gyrostat, 0, 1.0);
     let reduced: [f64; 21] = std::array::from_fn(|i| 0.1 * i as f64);
-    let beside = Beside { torque: [0.0; 3], carrier: None };
+    let beside = Beside { torque: [0.0; 3], force: None, carrier: None };
     let counted = allocations(|| {
         let mut kernel = Kernel::<2>::new(scene);
         kernel.drive(&actuation);

@@ -50,7 +50,7 @@ impl<R: Real> Gravity<R> {
             let height = z / distance;
             let more = number(5.0).neg_mul_add(height * height, number(1.0));
             all = sum(all, scaled(-(pull * share * more), position));
-            all[2] = all[2] - number(2.0) * pull * share * z;
+            all[2] -= number(2.0) * pull * share * z;
         }
         all
     }
@@ -101,7 +101,7 @@ impl<R: Real> Gravity<R> {
             let seven = number(5.0) * five * square;
             let bent = sum(scaled(o * o, offset), scaled(change, position));
             all = sum(all, sum(scaled(-five, stretched), scaled(seven, bent)));
-            all[2] = all[2] - number(2.0) * five * stretched[2];
+            all[2] -= number(2.0) * five * stretched[2];
         }
         all
     }

@@ -115,7 +115,7 @@ impl<R: Real> OffsetSeries<R> {
             }
         }
         if orbit.gravity().oblateness.is_some() {
-            tide = sum(tide, flattened.extend(n, orbit, (offset, lever, place), ratio, *nearer));
+            tide = sum(tide, flattened.extend(n, orbit, [offset, lever, place], ratio, *nearer));
         }
         tide
     }
@@ -140,7 +140,7 @@ impl<R: Real> Flattened<R> {
         &mut self,
         n: usize,
         orbit: &OrbitSeries<R>,
-        (offset, lever, place): (&[[R; 3]], &[[R; 3]], &[[R; 3]]),
+        [offset, lever, place]: [&[[R; 3]]; 3],
         ratio: &mut [R],
         w3: R,
     ) -> [R; 3] {

@@ -86,7 +86,7 @@ impl<R: Real> OrbitSeries<R> {
                 }
             }
             if oblateness.is_some() {
-                sums[2] = sums[2] - zero.splat(2.0) * flattened.along(&position[..=n]);
+                sums[2] -= zero.splat(2.0) * flattened.along(&position[..=n]);
             }
             position[n + 2] = scaled(zero.splat(1.0) / zero.splat(((n + 1) * (n + 2)) as f64), sums);
         }
