@@ -3,7 +3,7 @@
 import { arrow, pointTo } from "./bodies.js";
 
 // What each arrow shows, and its place in the palette.
-const SKY = { nadir: ["nadir, to the Earth's centre", 14], velocity: ["velocity on the orbit", 15], sun: ["Sun, faint in shadow", 16], field: ["magnetic field", 17] };
+const SKY = { nadir: ["nadir, to the Earth's centre", 14], velocity: ["velocity on the orbit", 15], sun: ["Sun (ball), faint in shadow", 16], field: ["magnetic field", 17] };
 const FAINT = 0.2; // opacity of the Sun that is hidden
 
 // The arrows that `runs` have: their names with text and hue; none of a scene that is not on an orbit.
