@@ -299,3 +299,26 @@ fn audit_estimate(ensemble: &Ensemble<'_>) -> String {
 fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::Overrides;
+
+    /// Law: `check` says at how many points events are looked for, and the time between neighbouring ones, which is that of the grid.
+    #[test]
+    fn the_points_of_events_are_those_of_the_grid() {
+        let event =
+            "\n[[event]]\nname = \"tipped\"\nquantity = \"spin_axis_angle_rad\"\nvalue = 0.7\nends_run = true\n";
+        let text = include_str!("../../campaigns/spin_sweep.toml").to_owned() + event;
+        for points in [3, 6, 101] {
+            let text = text.replace("points = 101", &format!("points = {points}"));
+            let plan = Plan::from_text("spin_sweep", &text, Overrides::default()).expect("valid");
+            let times = plan.grid.times();
+            let mut said = String::new();
+            happenings(&mut said, &plan).expect("text");
+            let known = format!("seen at {points} points, {} s apart:", trimmed(times[1] - times[0], 6));
+            assert!(times.len() == points && said.contains(&known), "{known} {said}");
+        }
+    }
+}

@@ -194,3 +194,48 @@ pub fn text(plan: &Plan, all: &[InputSensitivity], width: usize) -> String {
     }
     if text.is_empty() { text } else { format!("\n  driven by\n{text}") }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::effects::OnEvent;
+    use crate::campaign::Overrides;
+    use crate::statistics::contingency::Occurrence;
+    use crate::statistics::correlation::Estimate;
+
+    /// Law: each kind of dependence is said as it is: on which side the runs with the event are, their median before that of the others, the level that differs most
+    /// first, each with its counts.
+    #[test]
+    fn dependences_are_said_as_they_are() {
+        let text = include_str!("../../campaigns/spin_sweep.toml");
+        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
+        let level = |value: f64, events, runs| Level { value: Some(value), of: Occurrence { events, runs } };
+        let levels = vec![level(0.0, 1, 95), level(1.0, 4, 5)];
+        let ratio = Estimate { value: 76.0, lower: 10.0, upper: 300.0 };
+        for (dependence, said) in [
+            (
+                Dependence::Shift { chance: 0.9, medians: [3.0, 1.0] },
+                "x is larger in the runs that miss the limit (median 3, others 1)",
+            ),
+            (
+                Dependence::Shift { chance: 0.1, medians: [-3.0, 1.5] },
+                "x is smaller in the runs that miss the limit (median -3, others 1.500)",
+            ),
+            (Dependence::Distance { chance: 0.9 }, "x is farther from its median in the runs that miss the limit"),
+            (Dependence::Distance { chance: 0.1 }, "x is nearer to its median in the runs that miss the limit"),
+            (
+                Dependence::Levels { levels, most: 1, ratio },
+                "x = 1: 4 of 5 miss the limit; = 0: 1 of 95 miss the limit (risk ratio 76 [10, 300])",
+            ),
+        ] {
+            let of = Occurrence { events: 5, runs: 100 };
+            let event = Event { occurs: Occurs::Missed, of, has_few_values: false };
+            let share = Estimate { value: 0.5, lower: 0.4, upper: 0.6 };
+            let on_event = Some(OnEvent { event, share, p_value: 1e-6, dependence });
+            let input = InputSensitivity { input: "x".to_owned(), on_event, ..InputSensitivity::default() };
+            let inputs = vec![Ranked { input: &input, share, is_driver: true }];
+            let ranking = Ranking { question: Question::Event(event), inputs };
+            assert_eq!(sentence(&plan, "y", &ranking), said);
+        }
+    }
+}

@@ -153,6 +153,22 @@ fn link(path: &str) -> String {
 mod tests {
     use super::*;
 
+    /// Law: the screen and the page say how many runs were computed, of all where some were not.
+    #[test]
+    fn computed_runs_are_counted() {
+        for (rows, failed, said) in [(20, 0, "20"), (20, 3, "17 of 20"), (20, 20, "0 of 20")] {
+            let (warnings, verdicts) = (Vec::new(), Vec::new());
+            let end = SummaryEnd { rows, failed, not_covered: 0, warnings, verdicts, is_reached: true };
+            let (folder, campaign) = (PathBuf::from("r"), "c".to_owned());
+            let (version, day) = ("v".to_owned(), "today".to_owned());
+            let entry = IndexEntry { folder, campaign, question: None, end, version, day, page: None, changed: None };
+            let page = html("all", std::slice::from_ref(&entry), &[]);
+            assert!(page.contains(&format!("<td>{said}</td>")), "{page}");
+            let words = text(&[entry], &[], 100).split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(words.contains(&format!("- {said} today")), "{words}");
+        }
+    }
+
     /// Law: whatever a folder is called, its link leads to it and to nothing else.
     #[test]
     fn links_lead_to_their_folders() {

@@ -286,6 +286,46 @@ async function checkHover(page, name) {
   if (plots.length > 0 && shown === 0) problems.push(`${name}: no figure answers the pointer`);
 }
 
+// What is said of a figure is what it is made of: the tip beside a point of a curve names that point and not its neighbour, each column of a saved table is
+// the mark's own, and runs that are selected are called what the figure of two columns calls them.
+async function checkSaid(page, name) {
+  const wrong = await page.evaluate(() => {
+    const found = [];
+    const columns = { line: (mark) => [mark.x, mark.y], points: (mark) => [...(mark.samples.length > 0 ? [mark.samples] : []), mark.x, mark.y], band: (mark) => [mark.x, mark.low, mark.high], bars: (mark) => [mark.edges, mark.heights], flight: (mark) => [mark.x, mark.counts], whiskers: (mark) => [mark.x, mark.low, mark.high] };
+    for (const { figure } of views) {
+      const isAscending = (x) => x.length > 2 && x.every((value, k) => k === 0 || value > x[k - 1]);
+      for (const mark of figure.marks.filter((one) => one.kind === "line" && isAscending(one.x) && !figure.y.names)) {
+        const k = Math.floor(mark.x.length / 2);
+        for (const [part, at] of [[0.2, k], [0.8, k + 1]]) {
+          if (at >= mark.x.length) continue;
+          const lines = described(figure, [-1e6, -1e6], [mark.x[k] + part * (mark.x[k + 1] - mark.x[k]), 0], () => [0, 0]);
+          const known = `${mark.label}: ${withUnit(mark.y[at], figure.y.unit)}`;
+          if (!lines.includes(known)) found.push(`the tip of ${figure.name} says ${lines.join("; ")} for ${known}`);
+        }
+      }
+      const blocks = figure.x.names ? [] : csvText(figure).split("\n\n");
+      figure.marks.forEach((mark, index) => {
+        const own = columns[mark.kind]?.(mark) ?? [];
+        const rows = own.length > 0 && blocks.length > 0 ? blocks[index].split("\n").slice(1) : [];
+        for (const k of rows.keys()) {
+          const cells = rows[k].split(",").slice(-own.length);
+          if (!cells.every((cell, column) => cell === String(own[column][k] ?? ""))) found.push(`row ${k} of ${mark.label} of ${figure.name} is saved as ${rows[k]}`);
+        }
+      });
+    }
+    const marks = runs ? pairFigure(runs, 0, runs.columns.length - 1).marks : [];
+    const isJudged = marks.some((mark) => mark.label === "misses a requirement");
+    for (const mark of marks.filter((one) => isJudged && one.samples.length > 1)) {
+      select(mark.samples);
+      const said = document.querySelector(".selection").innerText;
+      if (!said.includes(`${mark.samples.length} runs: ${mark.samples.length} ${mark.label}`)) found.push(`of runs of which each ${mark.label} it says ${said}`);
+    }
+    select([]);
+    return found;
+  });
+  problems.push(...wrong.slice(0, 8).map((text) => `${name}: ${text}`));
+}
+
 async function checkReplay(page, name) {
   const stage = await page.$(".replay");
   if (!stage) return;
@@ -410,6 +450,7 @@ async function checked(browser, file) {
   await page.evaluate(async () => globalThis.spindriftPage.replay());
   const figures = await checkFigures(page, name, shot("light"));
   await checkHover(page, name);
+  await checkSaid(page, name);
   await checkTexts(page, name);
   await checkInputs(page, name);
   await checkSelection(page, name);
