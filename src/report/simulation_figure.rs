@@ -42,7 +42,7 @@ mod tests {
         let text = "[campaign]\nname = \"o\"\nsamples = 1\nseed = 1\nduration_s = 9000.0\n[body]\nmass_kg = 10.0\nprincipal_moments_kg_m2 = [1.0, 2.0, 2.5]\n\
                     [initial]\nangular_velocity_rad_s = [0.001, 0.002, 0.0]\n[orbit]\nsemi_major_axis_m = 7e6\ninclination_rad = \"60 deg\"\nepoch = \"2026-11-24T00:00:00Z\"\n\
                     [environment]\nsolar_pressure = true\nmagnetic_field = \"igrf\"\nmagnetic_dipole_a_m2 = [0.1, 0.0, 0.2]\n\
-                    [[plates]]\nname = \"p\"\narea_m2 = 1.0\nnormal = [1, 0, 0]\n";
+                    [[plates]]\nname = \"p\"\narea_m2 = 1.0\nnormal = [1, 0, 0]\ncenter_m = [0.0, 0.2, 0.1]\n";
         let plan = Plan::from_text("o", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
         let run = SingleRun::with_series(&plan, SampleId(0), grid, Isa::best(), &GROUPS).expect("a run");
         (plan, run)
