@@ -294,7 +294,7 @@ async function checkSaid(page, name) {
     const columns = { line: (mark) => [mark.x, mark.y], points: (mark) => [...(mark.samples.length > 0 ? [mark.samples] : []), mark.x, mark.y], band: (mark) => [mark.x, mark.low, mark.high], bars: (mark) => [mark.edges, mark.heights], flight: (mark) => [mark.x, mark.counts], whiskers: (mark) => [mark.x, mark.low, mark.high] };
     for (const { figure } of views) {
       const isAscending = (x) => x.length > 2 && x.every((value, k) => k === 0 || value > x[k - 1]);
-      for (const mark of figure.marks.filter((one) => one.kind === "line" && isAscending(one.x) && !figure.y.names)) {
+      for (const mark of figure.marks.filter((one) => one.kind === "line" && !figure.x.step && isAscending(one.x) && !figure.y.names)) {
         const k = Math.floor(mark.x.length / 2);
         for (const [part, at] of [[0.2, k], [0.8, k + 1]]) {
           if (at >= mark.x.length) continue;
