@@ -121,7 +121,7 @@ pub fn is_ours(folder: &str, name: &str) -> bool {
         }),
         DATA => name.split_once('.').is_some_and(|(sha256, extension)| {
             let is_checksum = sha256.len() == 64 && sha256.bytes().all(|byte| byte.is_ascii_hexdigit());
-            is_checksum && ["csv", "parquet"].contains(&extension)
+            is_checksum && ["csv", "parquet", "wasm"].contains(&extension)
         }),
         SHARDS => shard_of(name).is_some(),
         _ => false,
