@@ -26,6 +26,9 @@ pub struct Assembled {
     pub imports: bool,
     /// Whether its step returns a number.
     pub is_mistyped: bool,
+    /// How many locals its step has, and how many functions do nothing.
+    pub locals: usize,
+    pub functions: usize,
 }
 
 /// A number as LEB128, signed.
@@ -43,7 +46,7 @@ pub fn leb(mut number: i64) -> Vec<u8> {
 }
 
 /// The same, without a sign.
-fn size(mut number: usize) -> Vec<u8> {
+pub fn size(mut number: usize) -> Vec<u8> {
     let mut bytes = Vec::new();
     while number >= 0x80 {
         bytes.push((number & 0x7f) as u8 | 0x80);
@@ -82,7 +85,9 @@ impl Assembled {
     pub fn with_step(step: &[u8]) -> Self {
         let places = [1, INPUT, OUTPUT];
         let (start, table, misnamed) = (None, None, "");
-        Assembled { places, pages: 1, step: step.to_vec(), start, table, misnamed, imports: false, is_mistyped: false }
+        let (imports, is_mistyped, locals, functions) = (false, false, 0, 0);
+        let step = step.to_vec();
+        Assembled { places, pages: 1, step, start, table, misnamed, imports, is_mistyped, locals, functions }
     }
 
     /// The module.
@@ -99,6 +104,8 @@ impl Assembled {
             functions.push(0);
             bodies.push(start.clone());
         }
+        functions.extend(vec![0; self.functions]);
+        bodies.extend(vec![NOTHING.to_vec(); self.functions]);
         let first = usize::from(self.imports);
         let names = [
             "spindrift_interface",
@@ -125,8 +132,13 @@ impl Assembled {
         if self.start.is_some() {
             module.extend(section(8, size(first + 6)));
         }
-        let code = |body: &Vec<u8>| sized(&[vec![0], body.clone()].concat());
-        module.extend(section(10, list(&bodies.iter().map(code).collect::<Vec<_>>())));
+        let code = |(place, body): (usize, &Vec<u8>)| {
+            // f64 locals
+            let locals =
+                if place == 3 && self.locals > 0 { vec![[size(self.locals), vec![0x7c]].concat()] } else { vec![] };
+            sized(&[list(&locals), body.clone()].concat())
+        };
+        module.extend(section(10, list(&bodies.iter().enumerate().map(code).collect::<Vec<_>>())));
         if let Some(table) = self.table {
             module
                 .extend(section(11, list(&[[vec![0], constant(8192), vec![0x0b], sized(table.as_bytes())].concat()])));

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use super::assembled_module::{Assembled, INPUT, NOTHING, OUTPUT, constant, copied};
+use super::assembled_module::{Assembled, INPUT, NOTHING, OUTPUT, constant, copied, size};
 use crate::support::scratch_folder::{ScratchFolder, contents};
 use sha2::{Digest, Sha256};
 use spindrift::campaign::{Overrides, Plan};
@@ -265,10 +265,12 @@ fn modules_that_cannot_fly_are_refused() {
     };
     let endless: Vec<u8> = vec![0x03, 0x40, 0x0c, 0, 0x0b, 0x0b];
     let huge = {
-        // a custom section that makes the file too large
         let filling = vec![0; MOST_BYTES as usize];
-        [sound.bytes(), vec![0], vec![0x81, 0x80, 0xc0, 0], filling].concat()
+        [sound.bytes(), vec![0], filling].concat()
     };
+    let nested = |depth| [[0x02, 0x40].repeat(depth), vec![0x0b; depth + 1]].concat();
+    // i32.const 0, br_table of so many targets and a default
+    let branches = |count: usize| [vec![0x41, 0, 0x0e], size(count), vec![0; count + 1], vec![0x0b]].concat();
     let component = b"\0asm\x0d\0\x01\0".to_vec();
     let truncated = sound.bytes()[..60].to_vec();
     let cases: Vec<(Vec<u8>, &str)> = vec![
@@ -276,7 +278,15 @@ fn modules_that_cannot_fly_are_refused() {
         (b"(module)".to_vec(), "does not begin as one does"),
         (component, "no core module"),
         (truncated, "unexpected end"),
-        (huge, "at most 1048576 bytes"),
+        (huge, "at most 4194304 bytes"),
+        (
+            changed(&|module| module.step = [vec![0x01; 600_000], vec![0x0b]].concat()),
+            "bytes of code are more than 524288",
+        ),
+        (changed(&|module| module.functions = 6000), "functions are more than 5000"),
+        (changed(&|module| module.locals = 1001), "a function of 1001 locals"),
+        (changed(&|module| module.step = nested(257)), "more than 256 blocks"),
+        (changed(&|module| module.step = branches(20_001)), "20001 targets"),
         (changed(&|module| module.imports = true), "imports print of env"),
         (changed(&|module| module.misnamed = "memory"), "does not export its memory"),
         (changed(&|module| module.misnamed = "spindrift_interface"), "does not export spindrift_interface"),

@@ -4,9 +4,11 @@
 //! the module, calls its step, and reads the wanted torque from its output. The interface has a number ([`INTERFACE`]). A later interface appends to input
 //! and output, so that modules of an earlier one go on to fly. `docs/flight-code.md` describes all of it for those who write modules.
 //!
-//! - `input`: what a module is given. `parameter_table`: the parameters that it declares. `runtime`: modules as compiled, and their instances; these are in
+//! - `complexity`: what is too much to compile. `input`: what a module is given. `parameter_table`: the parameters that it declares. `runtime`: modules as compiled, and their instances; these are in
 //!   builds with the feature `wasm` alone.
 
+#[cfg(feature = "wasm")]
+mod complexity;
 #[cfg(feature = "wasm")]
 mod input;
 #[cfg(feature = "wasm")]
@@ -23,7 +25,7 @@ pub const INTERFACE: i32 = 1;
 /// What phases call the law that a module is.
 pub const NAME: &str = "module";
 /// Largest file of a module, bytes.
-pub const MOST_BYTES: u64 = 1 << 20;
+pub const MOST_BYTES: u64 = 4 << 20;
 /// Most linear memory of an instance, bytes. Each run that a worker integrates has instances of its own.
 pub const MOST_MEMORY: usize = 16 << 20;
 /// Fuel of a step, which is about its number of instructions: a law needs some hundreds.

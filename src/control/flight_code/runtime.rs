@@ -12,7 +12,9 @@ use wasmtime::{
 };
 
 use super::input::{self, NUMBERS};
-use super::{FlightCode, INTERFACE, MOST_MEMORY, MOST_STACK, NAME, Refusal, START_FUEL, STEP_FUEL, parameter_table};
+use super::{
+    FlightCode, INTERFACE, MOST_MEMORY, MOST_STACK, NAME, Refusal, START_FUEL, STEP_FUEL, complexity, parameter_table,
+};
 use crate::control::guidance::Failure;
 use crate::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
 use crate::scene::LawParameter;
@@ -82,6 +84,8 @@ fn compiled(bytes: &[u8]) -> Result<(Compiled, &'static [LawParameter])> {
         [0, b'a', b's', b'm', ..] => bail!("it is no core module: a component?"),
         _ => bail!("it does not begin as one does"),
     }
+    Module::validate(engine()?, bytes)?;
+    complexity::check(bytes)?;
     let module = Module::new(engine()?, bytes)?;
     if let Some(import) = module.imports().next() {
         bail!("it imports {} of {}: a run has nothing to give to it", import.name(), import.module());
