@@ -29,7 +29,7 @@ pub const TRAJECTORIES: &str = "trajectories";
 pub const TABLE_LOG: &str = "_delta_log";
 /// Folder of the last, incomplete parts that versions of the table list: `runs/` has the same part with its further rows later.
 pub const VERSIONS: &str = "versions";
-/// Folder of copies of the files of numbers that the plan names, each by its SHA-256.
+/// Folder of copies of the files of numbers and the module that the plan names, each by its SHA-256.
 pub const DATA: &str = crate::campaign::data::COPIES;
 /// Suffix of a file that is not whole yet.
 pub const UNFINISHED: &str = ".tmp";

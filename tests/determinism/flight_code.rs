@@ -149,11 +149,22 @@ fn the_module_is_part_of_the_plan() {
     assert!(error.to_string().contains("control.module_sha256"), "{error}");
 }
 
-/// The law that `module` is, without parameters.
-fn code(module: &Assembled) -> &'static FlightCode {
-    let bytes = module.bytes();
-    let sha256: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-    FlightCode::kept(&bytes, &sha256).unwrap_or_else(|why| panic!("{why:?}"))
+/// The module with these bytes.
+fn kept(bytes: &[u8]) -> Result<&'static FlightCode, (String, String)> {
+    let sha256: String = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    FlightCode::kept(bytes, &sha256)
+}
+
+/// The torque that `code` wants of `body` at the first tick of a phase with its parameters `table`.
+fn first_torque(
+    code: &'static FlightCode,
+    table: &DeclaredTable,
+    times: [f64; 3],
+) -> impl Fn(&KnownBody, &LawInput<'_>) -> [f64; 3] + use<> {
+    let [period, delay, elapsed] = times;
+    let settings = LawSettings { table, gyroscopic: false, period, delay, code: Some(code) };
+    let law = (code.kind().make)(&settings);
+    move |body, input| law.clone().torque(body, input, elapsed)
 }
 
 /// Law: the input has its numbers where the interface says.
@@ -182,12 +193,9 @@ fn the_input_is_laid_out_as_documented() {
     let body = KnownBody { inertia: std::array::from_fn(|row| numbers(20 + 3 * row)) };
     for place in 0..48_usize {
         let step = [copied(INPUT + 8 * place as i32, OUTPUT, 3), vec![0x0b]].concat();
-        let code = code(&Assembled::with_step(&step));
-        let table = DeclaredTable::of(Name::NONE, code.kind().parameters);
-        let settings =
-            LawSettings { table: &table, gyroscopic: false, period: number(2), delay: number(3), code: Some(code) };
-        let mut law = (code.kind().make)(&settings);
-        assert_eq!(law.torque(&body, &input, number(1)), numbers(place), "from number {place} on");
+        let code = kept(&Assembled::with_step(&step).bytes()).unwrap();
+        let torque = first_torque(code, &DeclaredTable::NONE, [number(2), number(3), number(1)]);
+        assert_eq!(torque(&body, &input), numbers(place), "from number {place} on");
     }
 }
 
@@ -285,7 +293,13 @@ fn modules_that_cannot_fly_are_refused() {
         ),
         (changed(&|module| module.functions = 6000), "functions are more than 5000"),
         (changed(&|module| module.locals = 1001), "a function of 1001 locals"),
-        (changed(&|module| module.step = nested(257)), "more than 256 blocks"),
+        (changed(&|module| module.step = nested(1001)), "more than 1000 blocks"),
+        (
+            changed(&|module| {
+                (module.locals, module.step) = (1000, [nested(500)[..1500].repeat(6), vec![0x0b]].concat())
+            }),
+            "3003000 blocks times locals",
+        ),
         (changed(&|module| module.step = branches(20_001)), "20001 targets"),
         (changed(&|module| module.imports = true), "imports print of env"),
         (changed(&|module| module.misnamed = "memory"), "does not export its memory"),
@@ -338,7 +352,26 @@ fn declared_parameters_are_keys() {
     let one = |key: &str| table.named(key).unwrap()[0];
     let expected = [0.5, 1_f64.to_radians(), -1e-3];
     assert_eq!(["a_n_m", "b_rad_s", "c"].map(one), expected);
-    let settings = LawSettings { table, gyroscopic: false, period: 0.1, delay: 0.0, code: Some(code) };
     let body = KnownBody { inertia: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
-    assert_eq!((code.kind().make)(&settings).torque(&body, &LawInput::AT_TARGET, 0.0), expected);
+    assert_eq!(first_torque(code, table, [0.1, 0.0, 0.0])(&body, &LawInput::AT_TARGET), expected);
+}
+
+/// Law: a module of which any byte is changed is refused, or flies: nothing waits for ever, and nothing panics.
+#[test]
+fn damaged_modules_are_refused_or_fly() {
+    let whole = std::fs::read(example(BUILT[0])).unwrap();
+    let body = KnownBody { inertia: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+    let mut refused = 0;
+    for at in 0..whole.len() {
+        let mut changed = whole.clone();
+        changed[at] ^= [0x01, 0x80, 0xff, 0x10][at % 4];
+        match kept(&changed) {
+            Err(_) => refused += 1,
+            Ok(code) => {
+                let table = DeclaredTable::of(Name::NONE, code.kind().parameters);
+                first_torque(code, &table, [0.1, 0.0, 0.0])(&body, &LawInput::AT_TARGET);
+            }
+        }
+    }
+    assert!(refused > whole.len() / 4 && refused < whole.len(), "{refused} of {}", whole.len());
 }

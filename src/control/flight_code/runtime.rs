@@ -33,7 +33,7 @@ fn engine() -> Result<&'static Engine> {
     let make = || {
         let mut config = Config::new();
         config.cranelift_nan_canonicalization(true).consume_fuel(true).max_wasm_stack(MOST_STACK);
-        config.wasm_relaxed_simd(false).wasm_multi_memory(false).wasm_memory64(false);
+        config.wasm_relaxed_simd(false).wasm_multi_value(false).wasm_multi_memory(false).wasm_memory64(false);
         config.signals_based_traps(false).wasm_backtrace_max_frames(None).generate_address_map(false);
         // room for a memory at its largest, where it is: the default would reserve gigabytes for each run
         config.memory_reservation(MOST_MEMORY as u64).memory_may_move(false).memory_init_cow(false);
