@@ -101,15 +101,15 @@ fn results_hold_without_the_module_s_own_file() {
         let campaign = Campaign::from_file(folder.path("campaign.toml"), session(threads));
         campaign.samples(samples).store(folder.path(out))
     };
-    campaign("one", 600, 1).results().unwrap();
-    campaign("two", 600, 2).results().unwrap();
+    campaign("one", 300, 1).results().unwrap();
+    campaign("two", 300, 2).results().unwrap();
+    campaign("longer", 200, 2).results().unwrap();
     campaign("longer", 300, 2).results().unwrap();
-    campaign("longer", 600, 2).results().unwrap();
     for number in 1..=2 {
         let shard = Shard { number, of: 2 };
-        campaign("shards", 600, 1).shard(shard).prepare().unwrap().unwrap().run().unwrap();
+        campaign("shards", 300, 1).shard(shard).prepare().unwrap().unwrap().run().unwrap();
     }
-    campaign("shards", 600, 1).results().unwrap();
+    campaign("shards", 300, 1).results().unwrap();
     let one = folder.parts("one");
     for other in ["two", "longer", "shards"] {
         assert!(folder.parts(other) == one, "{other}");
@@ -296,7 +296,7 @@ fn modules_that_cannot_fly_are_refused() {
         (changed(&|module| module.step = nested(1001)), "more than 1000 blocks"),
         (
             changed(&|module| {
-                (module.locals, module.step) = (1000, [nested(500)[..1500].repeat(6), vec![0x0b]].concat())
+                (module.locals, module.step) = (1000, [nested(500)[..1500].repeat(6), vec![0x0b]].concat());
             }),
             "3003000 blocks times locals",
         ),
