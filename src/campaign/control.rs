@@ -2,6 +2,7 @@
 //! [`super::phase_tables`].
 
 use super::lines::Lines;
+use super::module_key::{self, ModuleKey};
 use super::numbers::POSITIVE;
 use super::phase_tables::{GYROSCOPIC, LAUNCH, connected, read_phase};
 use super::section::Section;
@@ -59,6 +60,7 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
             }
         }
     }
+    let module = module_key::read(&mut section);
     if let (Some(thrusters), Some(modulation)) = (&thrusters, modulation) {
         check_valves(&mut section, scene, (thrusters, modulation), period);
     }
@@ -98,8 +100,9 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
         check_sensors(root, &sensors, (estimator, period), [has_debris, has_wheels, has_rods]);
     }
     let mut taken = Vec::new();
-    let phases =
-        root.sections("guidance", MOST_PHASES, |section| read_phase(section, scene, [may_fire, has_rods], &mut taken));
+    let phases = root.sections("guidance", MOST_PHASES, |section| {
+        read_phase(section, scene, ([may_fire, has_rods], &module), &mut taken)
+    });
     if phases.is_empty() && !root.has("guidance") {
         let content = "the phases of the mission, at least one";
         let remedy =
@@ -110,6 +113,19 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
     if let (Some(rods), true, Some(phases)) = (&rods, sensors.iter().all(Option::is_some), &phases) {
         check_rods(root, scene, rods, (&sensors, phases));
     }
+    let module = match (module, &phases) {
+        (ModuleKey::Absent, _) => None,
+        (ModuleKey::Wrong, _) => return None,
+        (ModuleKey::Read(module), phases) => {
+            let kind = module.code.kind();
+            if phases.as_ref().is_some_and(|phases| phases.iter().all(|phase| phase.law != Some(kind))) {
+                let allowed = "left out where no phase has law = \"module\"";
+                let remedy = "write law = \"module\" in a [[guidance]] table, or delete this line";
+                root.document.add("control.module", Some(format!("{:?}", module.file)), allowed, remedy);
+            }
+            Some(module)
+        }
+    };
     let spec = LoopSpec {
         // a wrong period is told, and the columns do not depend on it
         period: period.unwrap_or(f64::NAN),
@@ -120,6 +136,7 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
         modulation: modulation?,
         holds_force,
         sensors: sensors.into_iter().collect::<Option<_>>()?,
+        module,
         phases: phases?,
         model,
         has_debris,
@@ -282,6 +299,10 @@ pub(super) fn write(spec: &LoopSpec, scene: &SceneInput, lines: &mut Lines) {
     }
     if !spec.rods.is_empty() {
         lines.key("torque_rods", named(&spec.rods, &spec.rod_names));
+    }
+    if let Some(module) = &spec.module {
+        lines.text_key("module", &module.file);
+        lines.key("module_sha256", module.code.sha256());
     }
     lines.keys(Table::Control, 0, scene);
     let ModelSpec { mass, center, inertia } = &spec.model;

@@ -12,7 +12,7 @@ use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-/// Folder beside a plan with copies of the files of numbers that it names.
+/// Folder beside a plan with copies of the files of numbers and the module that it names.
 pub const COPIES: &str = "data";
 
 /// The name of the copy of `file` in the folder [`COPIES`]: the SHA-256 of its bytes, and its extension.

@@ -79,7 +79,7 @@ fn file(table: &mut Section<'_, '_>, used: &dyn Fn(&str) -> bool) -> Option<(Str
 }
 
 /// The file `name`, whose path counts from `folder`; where it is not there, the copy of the file of this checksum that a result has.
-fn found(folder: &Path, name: &str, sha256: Option<&str>) -> PathBuf {
+pub(super) fn found(folder: &Path, name: &str, sha256: Option<&str>) -> PathBuf {
     let path = folder.join(name);
     let is_checksum = |sha256: &&str| sha256.len() == 64 && sha256.bytes().all(|byte| byte.is_ascii_hexdigit());
     let copy = sha256.filter(is_checksum).map(|sha256| folder.join(COPIES).join(copy_name(&path, sha256)));

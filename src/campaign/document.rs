@@ -50,7 +50,7 @@ pub struct Document<'a> {
     /// Where each line begins, bytes.
     starts: Vec<usize>,
     pub(super) spans: BTreeMap<String, Spans>,
-    /// The files of numbers that were read, each with the SHA-256 of its bytes.
+    /// The files of numbers and the module that were read, each with the SHA-256 of its bytes.
     pub(super) files: Vec<(PathBuf, String)>,
     /// Problems that are no more than that a file cannot be read now.
     pub(super) unreadable: usize,

@@ -49,6 +49,7 @@ mod keys;
 pub mod known_columns;
 mod lines;
 pub mod lists;
+mod module_key;
 pub mod notes;
 pub mod numbers;
 mod parameter;

@@ -1,7 +1,9 @@
 //! `[[guidance]]`: the phases of a control loop as a campaign file says them, and what follows each.
 
+use super::module_key::ModuleKey;
 use super::section::Section;
 use super::tables::{ignore_others, read_keys};
+use crate::control::flight_code;
 use crate::control::guidance::condition::Condition;
 use crate::control::guidance::phase::{MANEUVERS, Maneuver, Next};
 use crate::control::guidance::target::{TARGETS, Target};
@@ -11,13 +13,16 @@ use crate::control::parameters;
 use crate::control::spec::PhaseSpec;
 use crate::scene::schema::control::kept;
 use crate::scene::table::Table;
-use crate::scene::{DeclaredTable, Name, SceneInput, WheelMode};
+use crate::scene::{DeclaredTable, LawParameter, Name, SceneInput, WheelMode};
 
 /// The word that stands for the launch of the net where a phase stands else.
 pub(super) const LAUNCH: &str = "launch";
 
 /// The law that may have the term omega x H or not.
 pub(super) const GYROSCOPIC: &str = "mrp_feedback";
+
+/// The keys of a phase that are no numbers.
+const WORDS: [&str; 9] = ["phase", "law", "gyroscopic", "target", "thrust", "rods", "until", "next", "otherwise"];
 
 /// A phase as read: what follows it is a word until all phases are known.
 pub(super) struct ReadPhase {
@@ -26,11 +31,31 @@ pub(super) struct ReadPhase {
     otherwise: Option<String>,
 }
 
+/// The law that a phase names among `kinds`. A module that is wrong is told once: here it counts as no law.
+fn law(section: &mut Section<'_, '_>, kinds: &[&'static LawKind], module: &ModuleKey) -> Option<&'static LawKind> {
+    let is_module = section.value("law").and_then(|value| value.get_ref().as_str()) == Some(flight_code::NAME);
+    match module {
+        ModuleKey::Wrong if is_module => {
+            section.know("law");
+            None
+        }
+        ModuleKey::Absent if is_module => {
+            let allowed = "another law where [control] has no `module`";
+            section.refuse("law", allowed, "add module = \"law.wasm\" to [control], or name another law");
+            None
+        }
+        _ => {
+            let names: Vec<&str> = kinds.iter().map(|kind| kind.name).collect();
+            section.name("law", &names, |name| kinds.iter().find(|kind| kind.name == name).copied())
+        }
+    }
+}
+
 /// One table of `[[guidance]]`; its name joins `taken`. `None` where its name is wrong, or a word that other keys depend on, which are then not known.
 pub(super) fn read_phase(
     section: &mut Section<'_, '_>,
     scene: &mut SceneInput,
-    [has_thrusters, has_rods]: [bool; 2],
+    ([has_thrusters, has_rods], module): ([bool; 2], &ModuleKey),
     taken: &mut Vec<Name>,
 ) -> Option<ReadPhase> {
     section.require("phase", Name::ALLOWED, "\"hold\"");
@@ -58,9 +83,9 @@ pub(super) fn read_phase(
         section.rename("guidance", own.as_str());
     }
     let has_debris = scene.debris.is_some();
-    let kinds: Vec<&'static LawKind> = laws::KINDS.iter().chain(section.document.attitude_law).collect();
-    let law_names: Vec<&str> = kinds.iter().map(|kind| kind.name).collect();
-    let law = section.name("law", &law_names, |name| kinds.iter().find(|kind| kind.name == name).copied());
+    let brought = section.document.attitude_law.into_iter().chain(module.kind());
+    let kinds: Vec<&'static LawKind> = laws::KINDS.iter().chain(brought).collect();
+    let law = law(section, &kinds, module);
     let gyroscopic = section.flag("gyroscopic").unwrap_or(false);
     if section.has("gyroscopic") && law.is_some_and(|law| law.name != GYROSCOPIC) {
         section.refuse("gyroscopic", format!("left out where the law is not {GYROSCOPIC:?}"), "delete this line");
@@ -130,7 +155,18 @@ pub(super) fn read_phase(
     }
     let mut lists = parameters::of_phase(target, thrust, [section.has("until"), has_thrusters]);
     lists.push(rods.parameters());
-    lists.extend(law.map(|law| law.parameters));
+    if let Some(law) = law {
+        let is_taken = |parameter: &LawParameter| {
+            let key = parameter.facts.key;
+            WORDS.contains(&key) || lists.iter().any(|list| list.iter().any(|other| other.facts.key == key))
+        };
+        if let Some(taken) = law.parameters.iter().find(|parameter| is_taken(parameter)) {
+            let allowed = format!("a law whose parameters are no other keys of the phase ({:?} is)", taken.facts.key);
+            section.refuse("law", allowed, "rename the parameter");
+            return None;
+        }
+        lists.push(law.parameters);
+    }
     scene.control.guidance.push(DeclaredTable::of(own, kept(&lists)));
     let place = scene.control.guidance.len() - 1;
     read_keys(section, Table::Guidance, place, scene);

@@ -93,7 +93,7 @@ pub struct FilesRead {
     pub campaign: PathBuf,
     /// The files that it extends.
     pub extended: Vec<PathBuf>,
-    /// The files of numbers that it names, each with the SHA-256 of its bytes.
+    /// The files of numbers and the module that it names, each with the SHA-256 of its bytes.
     pub data: Vec<(PathBuf, String)>,
 }
 

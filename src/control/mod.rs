@@ -9,7 +9,7 @@
 //! - [`truth`]: the true state at a tick. [`sensors`]: what is measured of it ([`measurement`]).
 //! - [`estimators`]: from measurements to an [`estimate`].
 //! - [`guidance`]: which phase a run is in, and the attitude and the maneuver that it wants.
-//! - [`laws`]: from an estimate to a wanted torque.
+//! - [`laws`]: from an estimate to a wanted torque. [`flight_code`]: WebAssembly modules as such a law.
 //! - [`net_launch`]: what guidance and outcome have of the launch of a net at debris, and nothing else.
 //! - [`allocation`]: from a wanted torque and force to wheels and thrusters. [`actuators`]: what these make of it.
 //! - [`capacity`]: whether the momentum of a scene fits into the wheels of its loop.
@@ -26,6 +26,7 @@ pub mod control_loop;
 pub(crate) mod declared;
 pub mod estimate;
 pub mod estimators;
+pub mod flight_code;
 pub mod flight_software;
 pub mod guidance;
 pub mod law;

@@ -235,7 +235,7 @@ fn stability(
     let known = KnownBody::of(&believed.mass);
     let (period, delay) = (spec.period, LoopNumbers::of(&numbers.law).delay);
     let body = (scene.mass.inertia_rotating(), reach);
-    let settings = LawSettings { table, gyroscopic: phase.gyroscopic, period, delay };
+    let settings = LawSettings { table, gyroscopic: phase.gyroscopic, period, delay, code: spec.code() };
     let gains = axis_gains(&(law.make)(&settings), &known, phase.target != Target::None, body, period);
     let share = stable_share(&gains, period, delay)?;
     let most = if share > 0.0 {

@@ -1,5 +1,6 @@
 //! [`LoopSpec`]: what a control loop consists of, as a campaign file says it; its numbers, which can be dispersed, are parameters of the scene.
 
+use super::flight_code::FlightCode;
 use super::guidance::condition::Condition;
 use super::guidance::phase::{Maneuver, Next};
 use super::guidance::target::Target;
@@ -28,6 +29,8 @@ pub struct LoopSpec {
     pub holds_force: bool,
     /// The sensors.
     pub sensors: Vec<SensorSpec>,
+    /// The module that phases name as their law.
+    pub module: Option<ModuleSpec>,
     /// The phases; there is at least one.
     pub phases: Vec<PhaseSpec>,
     /// What flight software believes instead of the nominal scene.
@@ -40,6 +43,15 @@ pub struct LoopSpec {
     pub thruster_names: Vec<Name>,
     /// The names of the torque rods.
     pub rod_names: Vec<Name>,
+}
+
+/// A WebAssembly module as the file names it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModuleSpec {
+    /// The path of its file, as written.
+    pub file: String,
+    /// What it is.
+    pub code: &'static FlightCode,
 }
 
 /// A sensor.
@@ -121,6 +133,11 @@ pub struct ModelSpec {
 }
 
 impl LoopSpec {
+    /// The module that phases name as their law.
+    pub fn code(&self) -> Option<&'static FlightCode> {
+        self.module.as_ref().map(|module| module.code)
+    }
+
     /// The quantities over time that the loop records.
     pub fn over_time(&self) -> LawSeries {
         let mut series = LawSeries::NONE;

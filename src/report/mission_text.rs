@@ -15,6 +15,8 @@ pub fn words(end: &str) -> &str {
         "keep_out" => "failed: too close to the debris",
         "no_axis" => "failed: the debris has no axis",
         "diverged" => "failed: diverged",
+        "module_trap" => "failed: the module trapped",
+        "module_fuel" => "failed: the module used up its fuel",
         other => other,
     }
 }

@@ -29,7 +29,7 @@ pub const TRAJECTORIES: &str = "trajectories";
 pub const TABLE_LOG: &str = "_delta_log";
 /// Folder of the last, incomplete parts that versions of the table list: `runs/` has the same part with its further rows later.
 pub const VERSIONS: &str = "versions";
-/// Folder of copies of the files of numbers that the plan names, each by its SHA-256.
+/// Folder of copies of the files of numbers and the module that the plan names, each by its SHA-256.
 pub const DATA: &str = crate::campaign::data::COPIES;
 /// Suffix of a file that is not whole yet.
 pub const UNFINISHED: &str = ".tmp";
@@ -121,7 +121,7 @@ pub fn is_ours(folder: &str, name: &str) -> bool {
         }),
         DATA => name.split_once('.').is_some_and(|(sha256, extension)| {
             let is_checksum = sha256.len() == 64 && sha256.bytes().all(|byte| byte.is_ascii_hexdigit());
-            is_checksum && ["csv", "parquet"].contains(&extension)
+            is_checksum && ["csv", "parquet", "wasm"].contains(&extension)
         }),
         SHARDS => shard_of(name).is_some(),
         _ => false,

@@ -177,7 +177,7 @@ fn refuse_missing(missing: &[Part], root: &Path) -> Result<(), WorkflowError> {
     )))
 }
 
-/// Copies the files of numbers of the plan into the dataset, which is then complete in itself: whatever works on it reads its plan.
+/// Copies the files of numbers and the module of the plan into the dataset, which is then complete in itself: whatever works on it reads its plan.
 ///
 /// # Errors
 /// Where one has changed since the plan was made, or a file operation fails.

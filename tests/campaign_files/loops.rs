@@ -393,6 +393,39 @@ fn a_condition_compares() {
     }
 }
 
+/// Law: a module is refused in one problem: by a build without WebAssembly with the command that builds it in, where it cannot be read, where no phase flies it,
+/// and where a phase names it and there is none.
+#[test]
+fn a_module_that_cannot_be_flown_is_refused() {
+    let scratch = ScratchFolder::new("campaign-files-module");
+    std::fs::write(scratch.path("law.wasm"), b"\0asm\x01\0\0\0").unwrap();
+    scratch.file("law.txt", "");
+    let problem = |control: &str, law: &str| {
+        let text = LOOP.replacen("period_s = 0.25\n", &format!("period_s = 0.25\n{control}"), 1);
+        let (before, phases) = text.split_once("[[guidance]]").expect("phases");
+        let phases = phases.replacen("law = \"rate_damping\"\n", law, 1);
+        scratch.file("loop.toml", &format!("{before}[[guidance]]{phases}"));
+        let error = Plan::load(&scratch.path("loop.toml"), Overrides::default()).expect_err(control);
+        assert_eq!(error.problems.len(), 1, "{error}");
+        error.to_string()
+    };
+    let of_module = "law = \"module\"\n";
+    let unread = if cfg!(feature = "wasm") { "does not export" } else { "cargo build --release --features wasm" };
+    let checksum = format!("module = \"law.wasm\"\nmodule_sha256 = \"{}\"\n", "0".repeat(64));
+    for (control, law, says) in [
+        ("module = \"law.wasm\"\n", of_module, unread),
+        ("module = \"none.wasm\"\n", of_module, "a readable file"),
+        ("module = \"law.txt\"\n", of_module, "ends in .wasm"),
+        ("module = 3\n", of_module, "must be text"),
+        (&checksum, of_module, "the SHA-256 of the module, "),
+        ("module_sha256 = \"00\"\n", "law = \"rate_damping\"\n", "left out without `module`"),
+        ("", of_module, "add module = \"law.wasm\" to [control]"),
+    ] {
+        let found = problem(control, law);
+        assert!(found.contains(says), "{says}: {found}");
+    }
+}
+
 /// Law: sensors measure at whole multiples or whole fractions of the control period, whatever the others do, where a tick of a thousandth of it or more is
 /// common to all.
 #[test]

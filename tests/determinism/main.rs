@@ -7,11 +7,15 @@ mod support;
 #[path = "../textbook/mod.rs"]
 mod textbook;
 
+#[cfg(feature = "wasm")]
+mod assembled_module;
 mod bands;
 mod events;
 mod extremes;
 mod failures;
 mod feedback;
+#[cfg(feature = "wasm")]
+mod flight_code;
 mod lanes;
 mod lanes_runge_kutta;
 mod panics;

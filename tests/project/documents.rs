@@ -16,7 +16,7 @@ const README_LINES: usize = 200;
 const FRAGMENT: &str = "<!-- fragment -->";
 
 /// Commands of other programs that may stand in a shell block.
-const OTHER_PROGRAMS: [&str; 6] = ["sha256sum", "git", "cd", "rustup", "cp", "pip"];
+const OTHER_PROGRAMS: [&str; 8] = ["sha256sum", "git", "cd", "rustup", "cp", "pip", "clang", "rustc"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
@@ -289,6 +289,21 @@ fn every_name_is_documented() {
     let names = files.map(|file| file.expect("an entry").file_name().to_string_lossy().into_owned());
     let unknown: Vec<String> = names.filter(|name| !page.contains(name.as_str())).collect();
     assert!(unknown.is_empty(), "docs/campaign-files.md does not mention {unknown:?}");
+}
+
+/// Checked: the flight code that its document shows is that of the example, and so is its parameters' and its input's order.
+#[test]
+fn the_flight_code_is_that_of_the_example() {
+    let document = text(&root().join("docs/flight-code.md"));
+    let shown = blocks(&document).into_iter().find(|block| block.language == "c").expect("a block");
+    let example = root().join("examples/flight_code");
+    assert_eq!(shown.text, text(&example.join("mrp_feedback.c")));
+    let header = text(&example.join("spindrift.h"));
+    let rows = document.lines().filter_map(|line| line.strip_prefix("| ")?.split_once(" | `"));
+    let names: Vec<&str> =
+        rows.filter_map(|(_, rest)| rest.split('`').next()).filter(|name| header.contains(name)).collect();
+    let fields = header.lines().filter_map(|line| line.trim().strip_prefix("double ")?.split([';', '[']).next());
+    assert_eq!(names, fields.collect::<Vec<_>>());
 }
 
 /// Counter-test: each of the checks finds what it looks for.

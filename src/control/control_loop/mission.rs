@@ -117,9 +117,9 @@ impl Mission {
         self.outcome.ends(scene, truth, failure, &self.criteria.launch);
     }
 
-    /// A command is no finite number at `time`, s.
-    pub fn diverges(&mut self, time: f64) {
-        self.outcome.diverges(time);
+    /// Flight software gives no command at `time`, s.
+    pub fn cannot_go_on(&mut self, time: f64, failure: Failure) {
+        self.outcome.cannot_go_on(time, failure);
     }
 
     /// Records the tick, where this run is to be recorded.

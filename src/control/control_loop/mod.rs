@@ -94,7 +94,10 @@ impl ControlLoop {
         let is_judged = !is_last || guided.progress != Progress::Flies;
         self.mission.judge((&self.plant, truth), &self.flight_software, &guided, is_judged);
         let ends = match guided.progress {
-            Progress::Flies => self.flight_software.command(truth.time, &guided).err().map(|_| Failure::Diverged),
+            Progress::Flies => {
+                let failure = self.flight_software.command(truth.time, &guided).err();
+                failure.inspect(|failure| self.mission.cannot_go_on(truth.time, *failure))
+            }
             Progress::Launches => {
                 self.mission.ends(self.plant.scene(), truth, Failure::None);
                 Some(Failure::None)
@@ -104,9 +107,6 @@ impl ControlLoop {
                 Some(failure)
             }
         };
-        if guided.progress == Progress::Flies && ends.is_some() {
-            self.mission.diverges(truth.time);
-        }
         self.has_ended = ends.is_some();
         self.mission.record((&self.plant, truth), &self.flight_software, &guided);
         // rows have it of the last tick alone

@@ -5,6 +5,7 @@ use super::{CommandedImpulse, FlightSoftware, Guided};
 use crate::control::actuators::DelayQueue;
 use crate::control::allocation::rods::{NO_DIPOLES, RodCommand};
 use crate::control::control_loop::SAME_TIME;
+use crate::control::guidance::Failure;
 use crate::control::guidance::phase::Maneuver;
 use crate::control::guidance::target::Target;
 use crate::control::laws::LawInput;
@@ -79,16 +80,12 @@ pub struct ActingCommands<'a> {
     pub until: f64,
 }
 
-/// A command is no finite number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NotFinite;
-
 impl FlightSoftware {
     /// Commands what the law and the maneuver want.
     ///
     /// # Errors
-    /// Where a command is no finite number: none is given.
-    pub fn command(&mut self, time: f64, guided: &Guided) -> Result<(), NotFinite> {
+    /// Where the law cannot go on, or a command is no finite number: none is given.
+    pub fn command(&mut self, time: f64, guided: &Guided) -> Result<(), Failure> {
         let (estimate, error) = (&self.estimate, &guided.error);
         let mass = &self.believed.mass;
         let input = LawInput {
@@ -97,11 +94,16 @@ impl FlightSoftware {
             omega_te_s: error.omega_te_s,
             acceleration_te_s: [0.0; 3],
             momentum_s: self.body.momentum(mass, estimate.omega_se_s, &estimate.wheel_rates),
+            time,
+            estimate: Some(estimate),
         };
         let phase = &self.phases[self.guidance.phase];
         // zero at the first tick of a phase
         let since = if self.guidance.since == time { 0.0 } else { self.spec.period };
         let torque = self.law.torque(&self.body, &input, since);
+        if !torque.iter().all(|component| component.is_finite()) {
+            return Err(self.law.failure().unwrap_or(Failure::Diverged));
+        }
         let begin = time + self.delay;
         let (mut by_thrusters, mut mean) = ([0.0; 3], [0.0; MAX_THRUSTERS]);
         if let Some(allocation) = &self.thrusters {
@@ -149,7 +151,7 @@ impl FlightSoftware {
             + self.spec.thrusters.iter().map(|place| mean[*place]).sum::<f64>()
             + rods.dipoles.iter().sum::<f64>();
         if !total.is_finite() {
-            return Err(NotFinite);
+            return Err(Failure::Diverged);
         }
         self.under_way.motors.push(begin, motor_torque);
         if self.is_recorded {

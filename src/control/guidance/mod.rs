@@ -29,12 +29,25 @@ pub enum Failure {
     NoAxis,
     /// An estimate or a command is no finite number.
     Diverged,
+    /// The module that is the law of the phase has trapped: [`crate::control::flight_code`].
+    ModuleTrap,
+    /// It has used up the fuel of a step.
+    ModuleFuel,
 }
 
 impl Failure {
     /// The names, in the order of their codes.
-    pub const NAMES: [&'static str; 7] =
-        ["none", "timeout", "wheel_saturated", "lost_target", "keep_out", "no_axis", "diverged"];
+    pub const NAMES: [&'static str; 9] = [
+        "none",
+        "timeout",
+        "wheel_saturated",
+        "lost_target",
+        "keep_out",
+        "no_axis",
+        "diverged",
+        "module_trap",
+        "module_fuel",
+    ];
 
     /// Its code in a row.
     pub fn code(self) -> f64 {

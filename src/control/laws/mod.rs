@@ -21,6 +21,9 @@ pub use rate_damping::RateDamping;
 
 use std::fmt;
 
+use crate::control::estimate::Estimate;
+use crate::control::flight_code::FlightCode;
+use crate::control::guidance::Failure;
 use crate::control::vector::{cross, difference, dot, product, scaled, sum};
 use crate::scene::{DeclaredTable, LawParameter, MassProperties, WheelMode};
 
@@ -42,7 +45,7 @@ pub static KINDS: &[LawKind] = &[rate_damping::KIND, quaternion_feedback::KIND, 
 /// }
 ///
 /// impl PhaseLaw for Brake {
-///     fn torque(&mut self, _body: &KnownBody, input: &LawInput, _period: f64) -> [f64; 3] {
+///     fn torque(&mut self, _body: &KnownBody, input: &LawInput<'_>, _period: f64) -> [f64; 3] {
 ///         input.omega_se_s.map(|rate| -self.gain * rate)
 ///     }
 /// }
@@ -75,7 +78,12 @@ impl PartialEq for LawKind {
 /// A law of attitude that a program brings, in a run. It is made for each phase that names it, and begins anew with the phase.
 pub trait PhaseLaw {
     /// The wanted torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first of the phase).
-    fn torque(&mut self, body: &KnownBody, input: &LawInput, period: f64) -> [f64; 3];
+    fn torque(&mut self, body: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3];
+
+    /// Why it cannot go on, where its torque is no finite number; `None`: that itself is the reason.
+    fn failure(&self) -> Option<Failure> {
+        None
+    }
 }
 
 /// A [`PhaseLaw`] that can be copied without knowing its type.
@@ -110,6 +118,8 @@ pub struct LawSettings<'a> {
     pub period: f64,
     /// The time from a tick to the effect of its command, s.
     pub delay: f64,
+    /// The module of the loop, if it has one.
+    pub code: Option<&'static FlightCode>,
 }
 
 /// A law of attitude in a run, with what it remembers.
@@ -132,7 +142,7 @@ pub enum AttitudeLaw {
 
 impl AttitudeLaw {
     /// The wanted torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first).
-    pub fn torque(&mut self, body: &KnownBody, input: &LawInput, period: f64) -> [f64; 3] {
+    pub fn torque(&mut self, body: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3] {
         match self {
             AttitudeLaw::None => [0.0; 3],
             AttitudeLaw::RateDamping(law) => law.torque(input, period),
@@ -140,6 +150,14 @@ impl AttitudeLaw {
             AttitudeLaw::MrpFeedback(law) => law.torque(body, input, period),
             AttitudeLaw::Eigenaxis(law) => law.torque(body, input, period),
             AttitudeLaw::Own(law) => law.0.torque(body, input, period),
+        }
+    }
+
+    /// Why the law cannot go on, where its torque is no finite number and that is not the reason itself.
+    pub fn failure(&self) -> Option<Failure> {
+        match self {
+            AttitudeLaw::Own(law) => law.0.failure(),
+            _ => None,
         }
     }
 
@@ -151,7 +169,7 @@ impl AttitudeLaw {
 
 /// What a law of attitude knows at a tick. F_t is the target's frame: the attitude that F_s is to have.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LawInput {
+pub struct LawInput<'a> {
     /// Attitude quaternion F_s -> F_t, scalar first, of either sign.
     pub q_ts: [f64; 4],
     /// Rate of F_s relative to F_e, in F_s, rad/s.
@@ -162,16 +180,22 @@ pub struct LawInput {
     pub acceleration_te_s: [f64; 3],
     /// H, with the wheels, in F_s, N m s: [`KnownBody::momentum`].
     pub momentum_s: [f64; 3],
+    /// Time since the start of the run, s.
+    pub time: f64,
+    /// All that is estimated; `None` where a law is tried without a loop.
+    pub estimate: Option<&'a Estimate>,
 }
 
-impl LawInput {
+impl LawInput<'_> {
     /// At rest at a target at rest, without momentum.
-    pub const AT_TARGET: LawInput = LawInput {
+    pub const AT_TARGET: LawInput<'static> = LawInput {
         q_ts: [1.0, 0.0, 0.0, 0.0],
         omega_se_s: [0.0; 3],
         omega_te_s: [0.0; 3],
         acceleration_te_s: [0.0; 3],
         momentum_s: [0.0; 3],
+        time: 0.0,
+        estimate: None,
     };
 
     /// Rate of F_s relative to F_t, in F_s, rad/s.
@@ -247,7 +271,7 @@ pub(super) mod plant {
         }
 
         /// What a law knows of it, with F_e as target.
-        pub fn input(&self) -> LawInput {
+        pub fn input(&self) -> LawInput<'static> {
             let momentum_s = product(self.matrix(), self.omega);
             LawInput { q_ts: self.q_es, omega_se_s: self.omega, momentum_s, ..LawInput::AT_TARGET }
         }
@@ -298,7 +322,8 @@ mod tests {
             for (value, parameter) in table.values.iter_mut().zip(kind.parameters) {
                 *value = parameter.default.map_or(0.5, |default| default[0]);
             }
-            let mut law = (kind.make)(&LawSettings { table: &table, gyroscopic: false, period: 0.1, delay: 0.0 });
+            let mut law =
+                (kind.make)(&LawSettings { table: &table, gyroscopic: false, period: 0.1, delay: 0.0, code: None });
             let torque = law.torque(&craft, &body.input(), 0.1);
             assert!(crate::control::vector::dot(torque, body.omega) < -1e-6, "{}: {torque:?}", kind.name);
         }
@@ -358,7 +383,8 @@ mod tests {
                         (_, None) => 5.0,
                     };
                 }
-                let mut law = (kind.make)(&LawSettings { table: &table, gyroscopic: false, period: 0.2, delay: 0.0 });
+                let mut law =
+                    (kind.make)(&LawSettings { table: &table, gyroscopic: false, period: 0.2, delay: 0.0, code: None });
                 let mut body = Body { inertia: [30.0, 45.0, 20.0], q_es: [1.0, 0.0, 0.0, 0.0], omega: [0.0; 3] };
                 let craft = KnownBody { inertia: body.matrix() };
                 for tick in 0..6000 {

@@ -170,6 +170,7 @@ mod tests {
                 omega_te_s,
                 acceleration_te_s: [0.0002, 0.0003, 0.0001],
                 momentum_s: sum(product(craft.inertia, omega_se_s), momentum),
+                ..LawInput::AT_TARGET
             };
             for (period, expected) in [0.0, 0.0, 0.5].into_iter().zip(expected) {
                 let found = law.torque(&craft, &input, period);

@@ -192,9 +192,9 @@ impl MissionOutcome {
         self.impulse.iter().sum()
     }
 
-    /// A command is no finite number at `time`, s.
-    pub fn diverges(&mut self, time: f64) {
-        (self.end, self.failure) = (time, Failure::Diverged);
+    /// Flight software gives no command at `time`, s.
+    pub fn cannot_go_on(&mut self, time: f64, failure: Failure) {
+        (self.end, self.failure) = (time, failure);
     }
 
     /// The run ends at `truth`, launched or failed.

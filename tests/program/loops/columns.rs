@@ -21,7 +21,17 @@ const AGREED: f64 = 1e-11;
 const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// The reasons of docs/control.md, in the order of their codes.
-const FAILURES: [&str; 7] = ["none", "timeout", "wheel_saturated", "lost_target", "keep_out", "no_axis", "diverged"];
+const FAILURES: [&str; 9] = [
+    "none",
+    "timeout",
+    "wheel_saturated",
+    "lost_target",
+    "keep_out",
+    "no_axis",
+    "diverged",
+    "module_trap",
+    "module_fuel",
+];
 
 /// The launch axis at `state`: along the velocity of the debris, or as the file says where that is slow.
 fn axis(flown: &FlownLoop, state: &State) -> [f64; 3] {

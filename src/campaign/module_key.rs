@@ -1,0 +1,94 @@
+//! `control.module`: the file of a WebAssembly module, which phases may name as their law.
+
+use super::data_keys::found;
+use super::input_file::{self, InputError};
+use super::section::Section;
+use super::units;
+use crate::control::flight_code::{FlightCode, MOST_BYTES};
+use crate::control::laws::LawKind;
+use crate::control::spec::ModuleSpec;
+use sha2::{Digest, Sha256};
+
+/// What the file says of a module.
+pub(super) enum ModuleKey {
+    /// Nothing.
+    Absent,
+    /// Something that is wrong, and told.
+    Wrong,
+    Read(ModuleSpec),
+}
+
+impl ModuleKey {
+    /// The law that it is.
+    pub fn kind(&self) -> Option<&'static LawKind> {
+        match self {
+            ModuleKey::Read(module) => Some(module.code.kind()),
+            _ => None,
+        }
+    }
+}
+
+/// Reads `module` and `module_sha256` of `[control]`.
+pub(super) fn read(section: &mut Section<'_, '_>) -> ModuleKey {
+    let sha256 = section.text("module_sha256").map(str::to_owned);
+    if !section.has("module") {
+        section.know("module");
+        if section.has("module_sha256") {
+            section.refuse("module_sha256", "left out without `module`", "delete it, or add module = \"law.wasm\"");
+            return ModuleKey::Wrong;
+        }
+        return ModuleKey::Absent;
+    }
+    let Some(file) = section.text("module").map(str::to_owned) else { return ModuleKey::Wrong };
+    match module(section, &file, sha256.as_deref()) {
+        Ok(code) => ModuleKey::Read(ModuleSpec { file, code }),
+        Err((key, allowed, remedy)) => {
+            section.refuse(key, allowed, remedy);
+            ModuleKey::Wrong
+        }
+    }
+}
+
+/// The module in the file called `name`, of which `sha256` is the checksum that is written; or the key that is wrong, what is allowed, and the remedy.
+fn module(
+    section: &mut Section<'_, '_>,
+    name: &str,
+    sha256: Option<&str>,
+) -> Result<&'static FlightCode, (&'static str, String, String)> {
+    let of_file = |allowed: String, remedy: &str| ("module", allowed, remedy.to_owned());
+    if !name.ends_with(".wasm") {
+        return Err(of_file("a file whose name ends in .wasm".to_owned(), "name the module as it was built"));
+    }
+    let written_at = section.value("module").map_or(0, |value| value.span().start);
+    let path = found(section.document.folder_of(written_at), name, sha256);
+    let bytes = input_file::read(&path, MOST_BYTES).map_err(|error| match error {
+        InputError::Kind(kind) => of_file(format!("a readable file ({kind})"), "name a regular file"),
+        InputError::Size(bytes) => of_file(
+            format!("a file of at most {MOST_BYTES} bytes (this one has {bytes})"),
+            "build it without debug information and with -O2, or leave out what it does not use",
+        ),
+        InputError::Io(error) => {
+            section.document.unreadable += usize::from(input_file::is_unreadable(&error));
+            let remedy = "its path counts from the folder of the campaign file";
+            of_file(format!("a readable file ({error})"), remedy)
+        }
+    })?;
+    let found: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    if sha256.is_some_and(|sha256| sha256 != found) {
+        let remedy = "bring back the module that was meant, or delete this line";
+        return Err(("module_sha256", format!("the SHA-256 of the module, {found}"), remedy.to_owned()));
+    }
+    let code = FlightCode::kept(&bytes, &found).map_err(|(allowed, remedy)| ("module", allowed, remedy))?;
+    for facts in code.kind().parameters.iter().map(|parameter| &parameter.facts) {
+        let unit = units::in_name(facts.key);
+        if facts.unit != unit {
+            let allowed = format!(
+                "a module whose parameters have the unit that their key ends in ({:?} ends in {unit:?}, and says {:?})",
+                facts.key, facts.unit
+            );
+            return Err(of_file(allowed, "rename the parameter: stiffness_n_m in N m, ratio in 1"));
+        }
+    }
+    section.document.files.push((path, found));
+    Ok(code)
+}

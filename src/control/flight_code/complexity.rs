@@ -1,0 +1,77 @@
+//! [`check`]: whether a module is simple enough to be compiled in seconds.
+//!
+//! A compiler's time and memory grow faster than the code: with the product of a function's blocks and locals, each of which may have another value in each
+//! block. What compilers make of flight code is below these limits.
+
+use wasmparser::{FunctionBody, Operator, Parser, Payload};
+use wasmtime::{Result, bail};
+
+/// Most bytes of the bodies of all functions.
+const MOST_CODE: usize = 512 << 10;
+const MOST_FUNCTIONS: u32 = 5_000;
+/// Most locals of a function.
+const MOST_LOCALS: u64 = 1_000;
+/// Most blocks, loops and conditions within each other.
+const MOST_NESTED: u64 = 1_000;
+/// Most targets of all tables of branches.
+const MOST_TARGETS: u64 = 20_000;
+/// Largest sum, over the functions, of blocks times locals: some seconds.
+const MOST_VALUES: u64 = 3_000_000;
+
+/// Checks the code of a module that is valid.
+///
+/// # Errors
+/// Which limit it exceeds.
+pub fn check(bytes: &[u8]) -> Result<()> {
+    let (mut targets, mut values) = (0, 0);
+    for payload in Parser::new(0).parse_all(bytes) {
+        match payload? {
+            Payload::CodeSectionStart { count, .. } if count > MOST_FUNCTIONS => {
+                bail!("{count} functions are more than {MOST_FUNCTIONS}")
+            }
+            Payload::CodeSectionStart { size, .. } if size as usize > MOST_CODE => {
+                bail!("{size} bytes of code are more than {MOST_CODE}")
+            }
+            Payload::CodeSectionEntry(body) => {
+                let of_function = counts(&body)?;
+                targets += of_function[0];
+                values += of_function[1];
+            }
+            _ => {}
+        }
+    }
+    if values > MOST_VALUES {
+        bail!("its functions have {values} blocks times locals in all, which are more than {MOST_VALUES}");
+    }
+    if targets > MOST_TARGETS {
+        bail!("{targets} targets in tables of branches are more than {MOST_TARGETS}");
+    }
+    Ok(())
+}
+
+/// The number of targets in the tables of branches of a function, and of its blocks times locals; these are within their own limits.
+fn counts(body: &FunctionBody<'_>) -> Result<[u64; 2]> {
+    let mut locals = 0;
+    for declared in body.get_locals_reader()? {
+        locals += u64::from(declared?.0);
+    }
+    if locals > MOST_LOCALS {
+        bail!("a function of {locals} locals has more than {MOST_LOCALS}");
+    }
+    let (mut nested, mut blocks, mut targets) = (0_u64, 0, 0);
+    for operator in body.get_operators_reader()? {
+        match operator? {
+            Operator::Block { .. } | Operator::Loop { .. } | Operator::If { .. } => {
+                nested += 1;
+                blocks += 1;
+            }
+            Operator::End => nested = nested.saturating_sub(1),
+            Operator::BrTable { targets: table } => targets += u64::from(table.len()),
+            _ => {}
+        }
+        if nested > MOST_NESTED {
+            bail!("more than {MOST_NESTED} blocks are within each other");
+        }
+    }
+    Ok([targets, blocks * (1 + locals)])
+}

@@ -1,0 +1,288 @@
+//! Modules as compiled, and their instances.
+//!
+//! What a module does is a function of what it is given: NaN have one form, nothing is imported, and fuel is counted in instructions. Only the depth of calls at
+//! which it traps depends on the processor ([`MOST_STACK`]). Bounds are checked by instructions, not by signals: those are the process's own.
+
+use std::fmt;
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+use wasmtime::{
+    Config, Engine, Error, Instance, InstancePre, Linker, Memory, Module, Result, Store, StoreLimits,
+    StoreLimitsBuilder, Trap, TypedFunc, WasmResults, bail, format_err,
+};
+
+use super::input::{self, NUMBERS};
+use super::{
+    FlightCode, INTERFACE, MOST_MEMORY, MOST_STACK, NAME, Refusal, START_FUEL, STEP_FUEL, complexity, parameter_table,
+};
+use crate::control::guidance::Failure;
+use crate::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
+use crate::scene::LawParameter;
+
+/// Most tables of a module, and elements of each.
+const MOST_TABLES: usize = 4;
+const MOST_ELEMENTS: usize = 10_000;
+/// Longest text of parameters, bytes.
+const LONGEST_TEXT: usize = 1 << 14;
+/// The numbers of the output.
+const OUTPUT: usize = 3;
+
+/// The compiler of this process, and its settings.
+fn engine() -> Result<&'static Engine> {
+    static ENGINE: OnceLock<Result<Engine>> = OnceLock::new();
+    let make = || {
+        let mut config = Config::new();
+        config.cranelift_nan_canonicalization(true).consume_fuel(true).max_wasm_stack(MOST_STACK);
+        config.wasm_relaxed_simd(false).wasm_multi_value(false).wasm_multi_memory(false).wasm_memory64(false);
+        config.signals_based_traps(false).wasm_backtrace_max_frames(None).generate_address_map(false);
+        // room for a memory at its largest, where it is: the default would reserve gigabytes for each run
+        config.memory_reservation(MOST_MEMORY as u64).memory_may_move(false).memory_init_cow(false);
+        Engine::new(&config)
+    };
+    ENGINE.get_or_init(make).as_ref().map_err(|error| format_err!("{error:#}"))
+}
+
+/// The module with these bytes, as [`FlightCode::kept`].
+pub fn kept(bytes: &[u8], sha256: &str) -> std::result::Result<&'static FlightCode, Refusal> {
+    static KEPT: Mutex<Vec<&'static FlightCode>> = Mutex::new(Vec::new());
+    // locked while it compiles: who wants the same module waits for it
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = kept.iter().find(|known| known.sha256 == sha256) {
+        return Ok(known);
+    }
+    let (compiled, parameters) = compiled(bytes).map_err(|error| {
+        let allowed = format!("a WebAssembly module that can be flown ({error:#})");
+        (allowed, "build it as docs/flight-code.md shows".to_owned())
+    })?;
+    let kind = LawKind { name: NAME, parameters, make };
+    let code = Box::leak(Box::new(FlightCode { sha256: sha256.to_owned(), kind, compiled }));
+    kept.push(code);
+    Ok(code)
+}
+
+/// Makes the law of a phase.
+fn make(settings: &LawSettings<'_>) -> AttitudeLaw {
+    let Some(code) = settings.code else { return AttitudeLaw::None };
+    let number =
+        |parameter: &LawParameter| settings.table.named(parameter.facts.key).map_or(f64::NAN, |found| found[0]);
+    AttitudeLaw::own(ModuleLaw {
+        compiled: &code.compiled,
+        parameters: code.kind.parameters.iter().map(number).collect(),
+        times: [settings.period, settings.delay],
+        running: None,
+        failure: None,
+    })
+}
+
+/// A module that is ready to be instantiated.
+pub struct Compiled(InstancePre<StoreLimits>);
+
+/// The module with these bytes, and the parameters that it declares. An instance has been started, so that those of runs can be.
+fn compiled(bytes: &[u8]) -> Result<(Compiled, &'static [LawParameter])> {
+    match bytes {
+        [0, b'a', b's', b'm', 1, 0, 0, 0, ..] => {}
+        [0, b'a', b's', b'm', ..] => bail!("it is no core module: a component?"),
+        _ => bail!("it does not begin as one does"),
+    }
+    Module::validate(engine()?, bytes)?;
+    complexity::check(bytes)?;
+    let module = Module::new(engine()?, bytes)?;
+    if let Some(import) = module.imports().next() {
+        bail!("it imports {} of {}: a run has nothing to give to it", import.name(), import.module());
+    }
+    let compiled = Compiled(Linker::new(module.engine()).instantiate_pre(&module)?);
+    let mut running = Running::start(&compiled)?;
+    let interface: i32 = running.required("spindrift_interface")?.call(&mut running.store, ())?;
+    if interface != INTERFACE {
+        bail!("its interface is {interface}, and this version of spindrift has {INTERFACE}");
+    }
+    let parameters = match (running.optional("spindrift_parameter_table")?, running.parameters) {
+        (None, None) => &[],
+        (Some(table), Some(place)) => {
+            let table: i32 = table.call(&mut running.store, ())?;
+            let declared = running.text(table).and_then(parameter_table::parse);
+            let parameters = declared.map_err(|why| format_err!("spindrift_parameter_table: {why}"))?;
+            running.area(place, parameters.len(), "spindrift_parameters")?;
+            parameters
+        }
+        _ => bail!("it exports one of spindrift_parameters and spindrift_parameter_table; they belong together"),
+    };
+    Ok((compiled, parameters))
+}
+
+/// An instance, which has a memory of its own.
+struct Running {
+    store: Store<StoreLimits>,
+    instance: Instance,
+    memory: Memory,
+    step: TypedFunc<(), ()>,
+    /// Where in its memory its input and its output are, and its parameters if it has any.
+    input: usize,
+    output: usize,
+    parameters: Option<usize>,
+}
+
+impl Running {
+    /// An instance whose start function and constructors have run.
+    fn start(compiled: &Compiled) -> Result<Self> {
+        let limits = StoreLimitsBuilder::new().memory_size(MOST_MEMORY).tables(MOST_TABLES);
+        let limits = limits.table_elements(MOST_ELEMENTS).build();
+        let mut store = Store::new(compiled.0.module().engine(), limits);
+        store.limiter(|limits| limits);
+        store.set_fuel(START_FUEL)?;
+        let instance = compiled.0.instantiate(&mut store)?;
+        let memory = instance.get_memory(&mut store, "memory");
+        let memory = memory.ok_or_else(|| format_err!("it does not export its memory as \"memory\""))?;
+        if let Some(constructors) = function::<()>(&instance, &mut store, "_initialize")? {
+            constructors.call(&mut store, ())?;
+        }
+        let step = function(&instance, &mut store, "spindrift_step")?.ok_or_else(|| missing("spindrift_step"))?;
+        let mut running = Running { store, instance, memory, step, input: 0, output: 0, parameters: None };
+        running.input = running.place("spindrift_input")?.ok_or_else(|| missing("spindrift_input"))?;
+        running.output = running.place("spindrift_output")?.ok_or_else(|| missing("spindrift_output"))?;
+        running.parameters = running.place("spindrift_parameters")?;
+        running.area(running.input, NUMBERS, "spindrift_input")?;
+        running.area(running.output, OUTPUT, "spindrift_output")?;
+        Ok(running)
+    }
+
+    fn optional<R: WasmResults>(&mut self, name: &str) -> Result<Option<TypedFunc<(), R>>> {
+        function(&self.instance, &mut self.store, name)
+    }
+
+    fn required<R: WasmResults>(&mut self, name: &str) -> Result<TypedFunc<(), R>> {
+        self.optional(name)?.ok_or_else(|| missing(name))
+    }
+
+    /// The place in memory that the function `name` returns, if there is one.
+    fn place(&mut self, name: &str) -> Result<Option<usize>> {
+        let Some(function) = self.optional::<i32>(name)? else { return Ok(None) };
+        let place = function.call(&mut self.store, ())?;
+        Ok(Some(place.cast_unsigned() as usize))
+    }
+
+    /// Checks that `numbers` numbers fit into the memory at `place`, which `name` returns.
+    fn area(&self, place: usize, numbers: usize, name: &str) -> Result<()> {
+        let size = self.memory.data_size(&self.store);
+        if place + 8 * numbers > size {
+            bail!("{name} returns {place}, and {numbers} numbers from there on are beyond its memory of {size} bytes");
+        }
+        Ok(())
+    }
+
+    /// The text that begins at `place`, up to its zero.
+    fn text(&self, place: i32) -> std::result::Result<String, String> {
+        let memory = self.memory.data(&self.store).get(place.cast_unsigned() as usize..).unwrap_or_default();
+        let longest = &memory[..memory.len().min(LONGEST_TEXT)];
+        let end = longest.iter().position(|byte| *byte == 0);
+        let end = end.ok_or_else(|| format!("there is no text that ends with a zero within {LONGEST_TEXT} bytes"))?;
+        String::from_utf8(longest[..end].to_vec()).map_err(|_| "its text is not UTF-8".to_owned())
+    }
+
+    /// Writes `bytes` into the memory at `place`.
+    fn write(&mut self, place: usize, bytes: &[u8]) {
+        if let Some(area) = self.memory.data_mut(&mut self.store).get_mut(place..place + bytes.len()) {
+            area.copy_from_slice(bytes);
+        }
+    }
+
+    /// Gives it its parameters and its first input, and lets it prepare itself.
+    fn prepare(&mut self, parameters: &[f64], input: &[u8]) -> Result<()> {
+        if let Some(place) = self.parameters {
+            let bytes: Vec<u8> = parameters.iter().flat_map(|number| number.to_le_bytes()).collect();
+            self.write(place, &bytes);
+        }
+        self.write(self.input, input);
+        match self.optional::<()>("spindrift_init")? {
+            Some(init) => init.call(&mut self.store, ()),
+            None => Ok(()),
+        }
+    }
+
+    /// A step: the torque that it wants.
+    fn step(&mut self, input: &[u8]) -> Result<[f64; OUTPUT]> {
+        self.write(self.input, input);
+        self.store.set_fuel(STEP_FUEL)?;
+        self.step.call(&mut self.store, ())?;
+        let memory = self.memory.data(&self.store);
+        let number = |index: usize| {
+            let place = self.output + 8 * index;
+            memory.get(place..place + 8).and_then(|bytes| bytes.try_into().ok()).map_or(f64::NAN, f64::from_le_bytes)
+        };
+        Ok(std::array::from_fn(number))
+    }
+}
+
+/// The function `name` of an instance, without arguments and with these results; `None` where it exports nothing of that name.
+fn function<R: WasmResults>(
+    instance: &Instance,
+    store: &mut Store<StoreLimits>,
+    name: &str,
+) -> Result<Option<TypedFunc<(), R>>> {
+    if instance.get_export(&mut *store, name).is_none() {
+        return Ok(None);
+    }
+    let found = instance.get_typed_func(store, name);
+    found.map(Some).map_err(|_| format_err!("{name} is no function with the arguments and results that it must have"))
+}
+
+fn missing(name: &str) -> Error {
+    format_err!("it does not export {name}")
+}
+
+/// The law of a phase in a run. Its instance is made at the first tick of the phase.
+struct ModuleLaw {
+    compiled: &'static Compiled,
+    parameters: Vec<f64>,
+    /// Control period and delay, s.
+    times: [f64; 2],
+    running: Option<Running>,
+    failure: Option<Failure>,
+}
+
+impl ModuleLaw {
+    fn step(&mut self, input: &[u8]) -> Result<[f64; OUTPUT]> {
+        let running = match &mut self.running {
+            Some(running) => running,
+            none => {
+                let mut running = Running::start(self.compiled)?;
+                running.prepare(&self.parameters, input)?;
+                none.insert(running)
+            }
+        };
+        running.step(input)
+    }
+}
+
+impl PhaseLaw for ModuleLaw {
+    fn torque(&mut self, body: &KnownBody, input: &LawInput<'_>, elapsed: f64) -> [f64; 3] {
+        let stopped = match self.step(&input::bytes(body, input, elapsed, self.times)) {
+            Ok(torque) => return torque,
+            Err(error) => error,
+        };
+        self.failure = match stopped.downcast_ref() {
+            Some(Trap::OutOfFuel) => Some(Failure::ModuleFuel),
+            Some(_) => Some(Failure::ModuleTrap),
+            // an instance has been started before: what fails is this machine, and no row may say otherwise
+            None => panic!("no instance of the module can be made: {stopped:#}"),
+        };
+        [f64::NAN; 3]
+    }
+
+    fn failure(&self) -> Option<Failure> {
+        self.failure
+    }
+}
+
+/// The same law as it begins.
+impl Clone for ModuleLaw {
+    fn clone(&self) -> Self {
+        ModuleLaw { parameters: self.parameters.clone(), running: None, failure: None, ..*self }
+    }
+}
+
+impl fmt::Debug for ModuleLaw {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ModuleLaw").field("parameters", &self.parameters).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,148 @@
+//! [`Assembled`]: WebAssembly modules byte by byte (WebAssembly 1.0, section 5), for what no compiler would build.
+
+/// Where the input and the output of modules are here.
+pub const INPUT: i32 = 1024;
+pub const OUTPUT: i32 = 4096;
+
+/// The code of a module that wants no torque, and ends.
+pub const NOTHING: &[u8] = &[0x0b];
+
+/// A module: one that is flown without a torque, but for what a test changes.
+#[derive(Clone, Debug)]
+pub struct Assembled {
+    /// What `spindrift_interface`, `spindrift_input` and `spindrift_output` return.
+    pub places: [i32; 3],
+    /// Pages of 64 KiB of the memory.
+    pub pages: u32,
+    /// The body of `spindrift_step`, with its end.
+    pub step: Vec<u8>,
+    /// The body of a start function.
+    pub start: Option<Vec<u8>>,
+    /// The text of the parameters, at 8192; their numbers are at 16384.
+    pub table: Option<&'static str>,
+    /// A name that is exported as another one.
+    pub misnamed: &'static str,
+    /// Whether it imports a function.
+    pub imports: bool,
+    /// Whether its step returns a number.
+    pub is_mistyped: bool,
+    /// How many locals its step has, and how many functions do nothing.
+    pub locals: usize,
+    pub functions: usize,
+}
+
+/// A number as LEB128, signed.
+pub fn leb(mut number: i64) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    loop {
+        let low = (number & 0x7f) as u8;
+        number >>= 7;
+        if number == 0 && low & 0x40 == 0 || number == -1 && low & 0x40 != 0 {
+            bytes.push(low);
+            return bytes;
+        }
+        bytes.push(low | 0x80);
+    }
+}
+
+/// The same, without a sign.
+pub fn size(mut number: usize) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    while number >= 0x80 {
+        bytes.push((number & 0x7f) as u8 | 0x80);
+        number >>= 7;
+    }
+    bytes.push(number as u8);
+    bytes
+}
+
+/// Bytes behind their number.
+fn sized(bytes: &[u8]) -> Vec<u8> {
+    [size(bytes.len()), bytes.to_vec()].concat()
+}
+
+/// Things behind their number.
+fn list(things: &[Vec<u8>]) -> Vec<u8> {
+    [size(things.len()), things.concat()].concat()
+}
+
+/// `i32.const`.
+pub fn constant(number: i32) -> Vec<u8> {
+    [vec![0x41], leb(number.into())].concat()
+}
+
+/// Copies the `count` numbers at `from` to `to`.
+pub fn copied(from: i32, to: i32, count: i32) -> Vec<u8> {
+    let one = |index: i32| {
+        let load = [constant(from + 8 * index), vec![0x2b, 3, 0]].concat();
+        [constant(to + 8 * index), load, vec![0x39, 3, 0]].concat()
+    };
+    (0..count).flat_map(one).collect()
+}
+
+impl Assembled {
+    /// One whose step has this code.
+    pub fn with_step(step: &[u8]) -> Self {
+        let places = [1, INPUT, OUTPUT];
+        let (start, table, misnamed) = (None, None, "");
+        let (imports, is_mistyped, locals, functions) = (false, false, 0, 0);
+        let step = step.to_vec();
+        Assembled { places, pages: 1, step, start, table, misnamed, imports, is_mistyped, locals, functions }
+    }
+
+    /// The module.
+    pub fn bytes(&self) -> Vec<u8> {
+        let section = |id: u8, content: Vec<u8>| [vec![id], sized(&content)].concat();
+        // types: 0 without a result, 1 with an i32
+        let types = list(&[vec![0x60, 0, 0], vec![0x60, 0, 1, 0x7f]]);
+        let step_type = u8::from(self.is_mistyped);
+        let mut functions = vec![1, 1, 1, step_type, 1, 1];
+        let answers = [self.places[0], self.places[1], self.places[2], 0, 16_384, 8192];
+        let mut bodies: Vec<Vec<u8>> = answers.iter().map(|answer| [constant(*answer), vec![0x0b]].concat()).collect();
+        bodies[3] = self.step.clone();
+        if let Some(start) = &self.start {
+            functions.push(0);
+            bodies.push(start.clone());
+        }
+        functions.extend(vec![0; self.functions]);
+        bodies.extend(vec![NOTHING.to_vec(); self.functions]);
+        let first = usize::from(self.imports);
+        let names = [
+            "spindrift_interface",
+            "spindrift_input",
+            "spindrift_output",
+            "spindrift_step",
+            "spindrift_parameters",
+            "spindrift_parameter_table",
+        ];
+        let named = |name: &str| if name == self.misnamed { "other".to_owned() } else { name.to_owned() };
+        let exported = if self.table.is_some() { 6 } else { 4 };
+        let mut exports: Vec<Vec<u8>> = (0..exported)
+            .map(|place| [sized(named(names[place]).as_bytes()), vec![0], size(first + place)].concat())
+            .collect();
+        exports.push([sized(named("memory").as_bytes()), vec![2, 0]].concat());
+        let mut module = b"\0asm\x01\0\0\0".to_vec();
+        module.extend(section(1, types));
+        if self.imports {
+            module.extend(section(2, list(&[[sized(b"env"), sized(b"print"), vec![0, 0]].concat()])));
+        }
+        module.extend(section(3, list(&functions.iter().map(|kind| vec![*kind]).collect::<Vec<_>>())));
+        module.extend(section(5, list(&[[vec![0], size(self.pages as usize)].concat()])));
+        module.extend(section(7, list(&exports)));
+        if self.start.is_some() {
+            module.extend(section(8, size(first + 6)));
+        }
+        let code = |(place, body): (usize, &Vec<u8>)| {
+            // f64 locals
+            let locals =
+                if place == 3 && self.locals > 0 { vec![[size(self.locals), vec![0x7c]].concat()] } else { vec![] };
+            sized(&[list(&locals), body.clone()].concat())
+        };
+        module.extend(section(10, list(&bodies.iter().enumerate().map(code).collect::<Vec<_>>())));
+        if let Some(table) = self.table {
+            module
+                .extend(section(11, list(&[[vec![0], constant(8192), vec![0x0b], sized(table.as_bytes())].concat()])));
+        }
+        module
+    }
+}

@@ -1,0 +1,377 @@
+//! Flight code in WebAssembly modules: rows are those of the built-in law of the same operations, and functions of plan and sample as all others; a module that
+//! misbehaves is refused, or gives rows that say why.
+
+use std::path::PathBuf;
+
+use super::assembled_module::{Assembled, INPUT, NOTHING, OUTPUT, constant, copied, size};
+use crate::support::scratch_folder::{ScratchFolder, contents};
+use sha2::{Digest, Sha256};
+use spindrift::campaign::{Overrides, Plan};
+use spindrift::control::estimate::Estimate;
+use spindrift::control::flight_code::{FlightCode, MOST_BYTES};
+use spindrift::control::guidance::Failure;
+use spindrift::control::laws::{KnownBody, LawInput, LawSettings};
+use spindrift::ensemble::{Ensemble, Part, PartId, Supervision};
+use spindrift::math::Isa;
+use spindrift::run::Status;
+use spindrift::sampling::SampleId;
+use spindrift::scene::{DeclaredTable, Name};
+use spindrift::storage::claim::Shard;
+use spindrift::workflow::{Campaign, Quiet, Results, Session, Verification, verify};
+
+const CAMPAIGN: &str = include_str!("../../examples/flight_code/flight_code.toml");
+const BUILT: [&str; 2] = ["mrp_feedback_c.wasm", "mrp_feedback_rust.wasm"];
+
+fn example(file: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/flight_code").join(file)
+}
+
+/// The plan of the campaign `text`, whose module is in the folder of the examples or in `folder`.
+fn plan_in(folder: &ScratchFolder, text: &str) -> Plan {
+    folder.file("campaign.toml", text);
+    Plan::load(&folder.path("campaign.toml"), Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A folder with the modules of the examples.
+fn folder(name: &str) -> ScratchFolder {
+    let folder = ScratchFolder::new(name);
+    BUILT.iter().for_each(|file| assert!(std::fs::copy(example(file), folder.path(file)).is_ok()));
+    folder
+}
+
+/// The campaign with the built-in law in place of the module.
+fn built_in() -> String {
+    CAMPAIGN.replace("law = \"module\"", "law = \"mrp_feedback\"").replace("module = \"mrp_feedback_c.wasm\"\n", "")
+}
+
+/// Statuses and all columns of `count` rows of `plan`, as bits.
+fn rows(plan: &Plan, isa: Isa, first: u64, count: usize) -> Vec<Vec<u64>> {
+    let ensemble = Ensemble::new(plan, isa);
+    let mut rows = ensemble.rows(count);
+    let part = Part { id: PartId(0), first: SampleId(first), count };
+    ensemble.worker().run(part, &mut rows, Supervision::progress(&|_| {}));
+    let columns = plan.request().columns().len();
+    (0..columns).map(|column| rows.observable(column).iter().map(|value| value.to_bits()).collect()).collect()
+}
+
+/// Law: modules from C and from Rust that compute what the built-in law computes give its rows, bit for bit, with a memory, in two phases, and with a dispersed
+/// parameter; another default or another operation gives other rows.
+#[test]
+fn modules_have_the_bits_of_the_built_in_law() {
+    let folder = folder("flight-code-bits");
+    let expected = rows(&plan_in(&folder, &built_in()), Isa::best(), 0, 60);
+    for file in BUILT {
+        let plan = plan_in(&folder, &CAMPAIGN.replace(BUILT[0], file));
+        let found = rows(&plan, Isa::best(), 0, 60);
+        for ((column, found), expected) in plan.request().columns().iter().zip(&found).zip(&expected) {
+            assert!(found == expected, "{file}: {}", column.quantity.name());
+        }
+    }
+    // the counter-test: the integral does something, and so does a parameter
+    for (from, to) in [("integral_1_n_m_s = 0.05", "integral_1_n_m_s = 0.0"), ("max = 0.6", "max = 0.61")] {
+        assert!(rows(&plan_in(&folder, &CAMPAIGN.replace(from, to)), Isa::best(), 0, 60) != expected, "{to}");
+    }
+}
+
+/// Law: rows do not depend on the instruction set, on the first sample of a part, or on how many runs are integrated together.
+#[test]
+fn rows_are_a_run_s_own() {
+    let folder = folder("flight-code-own");
+    let plan = plan_in(&folder, CAMPAIGN);
+    let together = rows(&plan, Isa::best(), 0, 21);
+    for isa in Isa::available() {
+        assert!(rows(&plan, isa, 0, 21) == together, "{}", isa.name());
+    }
+    for sample in [0, 1, 13, 20] {
+        let alone = rows(&plan, Isa::best(), sample, 1);
+        let same = alone.iter().zip(&together).all(|(alone, all)| alone[0] == all[sample as usize]);
+        assert!(same, "sample {sample}");
+    }
+}
+
+/// Law: a result under a module is the same by one thread, by two, in shards, and continued; it is complete in itself, without the campaign's folder: replayed,
+/// verified and opened.
+#[test]
+fn results_hold_without_the_module_s_own_file() {
+    let folder = folder("flight-code-results");
+    folder.file("campaign.toml", CAMPAIGN);
+    let quiet = Quiet::default();
+    let session = |threads| Session::new(&quiet).unwrap().on_threads(std::num::NonZeroUsize::new(threads));
+    let campaign = |out: &str, samples: u64, threads: usize| {
+        let campaign = Campaign::from_file(folder.path("campaign.toml"), session(threads));
+        campaign.samples(samples).store(folder.path(out))
+    };
+    campaign("one", 300, 1).results().unwrap();
+    campaign("two", 300, 2).results().unwrap();
+    campaign("longer", 200, 2).results().unwrap();
+    campaign("longer", 300, 2).results().unwrap();
+    for number in 1..=2 {
+        let shard = Shard { number, of: 2 };
+        campaign("shards", 300, 1).shard(shard).prepare().unwrap().unwrap().run().unwrap();
+    }
+    campaign("shards", 300, 1).results().unwrap();
+    let one = folder.parts("one");
+    for other in ["two", "longer", "shards"] {
+        assert!(folder.parts(other) == one, "{other}");
+    }
+    let copies: Vec<String> =
+        contents(&folder.path("one")).into_keys().filter(|name| name.ends_with(".wasm")).collect();
+    let sha256 = Sha256::digest(std::fs::read(example(BUILT[0])).unwrap());
+    let sha256: String = sha256.iter().map(|byte| format!("{byte:02x}")).collect();
+    assert_eq!(copies, [format!("data/{sha256}.wasm")]);
+
+    BUILT.iter().for_each(|file| std::fs::remove_file(folder.path(file)).unwrap());
+    let root = folder.path("one");
+    let results = Results::open(&root, session(1)).unwrap();
+    assert!(results.plan().text().contains(&format!("module_sha256 = \"{sha256}\"")));
+    let replayed = results.replay(SampleId(7)).unwrap();
+    for (place, column) in replayed.request.columns().iter().enumerate() {
+        let stored = results.column(column.quantity.name()).unwrap()[7];
+        assert_eq!(replayed.row[place].to_bits(), stored.to_bits(), "{}", column.quantity.name());
+    }
+    let verified = verify(&session(1), &root, Verification { fraction: 0.02, repair: false }).unwrap().unwrap();
+    assert_eq!(verified.problems, 0);
+}
+
+/// Law: another module is another plan, by its bytes and not by its name; a checksum that is written must be its own.
+#[test]
+fn the_module_is_part_of_the_plan() {
+    let folder = folder("flight-code-plan");
+    let hash = |text: &str| plan_in(&folder, text).row_hash();
+    let first = hash(CAMPAIGN);
+    assert_ne!(hash(&CAMPAIGN.replace(BUILT[0], BUILT[1])), first);
+    let bytes = std::fs::read(example(BUILT[1])).unwrap();
+    std::fs::write(folder.path(BUILT[0]), bytes).unwrap();
+    assert_ne!(hash(CAMPAIGN), first);
+    let wrong = format!("\nmodule_sha256 = \"{}\"\nmodule = ", "ab".repeat(32));
+    folder.file("wrong.toml", &CAMPAIGN.replace("\nmodule = ", &wrong));
+    let error = Plan::load(&folder.path("wrong.toml"), Overrides::default()).expect_err("another checksum");
+    assert!(error.to_string().contains("control.module_sha256"), "{error}");
+}
+
+/// The module with these bytes.
+fn kept(bytes: &[u8]) -> Result<&'static FlightCode, (String, String)> {
+    let sha256: String = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    FlightCode::kept(bytes, &sha256)
+}
+
+/// The torque that `code` wants of `body` at the first tick of a phase with its parameters `table`.
+fn first_torque(
+    code: &'static FlightCode,
+    table: &DeclaredTable,
+    times: [f64; 3],
+) -> impl Fn(&KnownBody, &LawInput<'_>) -> [f64; 3] + use<> {
+    let [period, delay, elapsed] = times;
+    let settings = LawSettings { table, gyroscopic: false, period, delay, code: Some(code) };
+    let law = (code.kind().make)(&settings);
+    move |body, input| law.clone().torque(body, input, elapsed)
+}
+
+/// Law: the input has its numbers where the interface says.
+#[test]
+fn the_input_is_laid_out_as_documented() {
+    let number = |place: usize| 0.25 + place as f64;
+    let numbers = |first: usize| std::array::from_fn(|k| number(first + k));
+    let estimate = Estimate {
+        q_es: std::array::from_fn(|k| number(29 + k)),
+        gyro_bias_s: numbers(33),
+        r_co_e: numbers(36),
+        v_co_e: numbers(39),
+        wheel_rates: std::array::from_fn(|k| number(42 + k)),
+        omega_se_s: [0.0; 3],
+        debris: None,
+    };
+    let input = LawInput {
+        time: number(0),
+        q_ts: std::array::from_fn(|k| number(4 + k)),
+        omega_se_s: numbers(8),
+        omega_te_s: numbers(11),
+        acceleration_te_s: numbers(14),
+        momentum_s: numbers(17),
+        estimate: Some(&estimate),
+    };
+    let body = KnownBody { inertia: std::array::from_fn(|row| numbers(20 + 3 * row)) };
+    for place in 0..48_usize {
+        let step = [copied(INPUT + 8 * place as i32, OUTPUT, 3), vec![0x0b]].concat();
+        let code = kept(&Assembled::with_step(&step).bytes()).unwrap();
+        let torque = first_torque(code, &DeclaredTable::NONE, [number(2), number(3), number(1)]);
+        assert_eq!(torque(&body, &input), numbers(place), "from number {place} on");
+    }
+}
+
+/// The campaign with `module` and without what it declares.
+fn with(folder: &ScratchFolder, module: &[u8]) -> String {
+    std::fs::write(folder.path("hostile.wasm"), module).unwrap();
+    let is_of_module =
+        |line: &&str| ["stiffness_n_m", "damping_n_m_s", "integral_"].iter().any(|key| line.starts_with(key));
+    let text: String = CAMPAIGN.lines().filter(|line| !is_of_module(line)).map(|line| format!("{line}\n")).collect();
+    let own = text.find("[[disperse]]                # a parameter").unwrap();
+    let end = text.find("[[require]]").unwrap();
+    format!("{}{}", &text[..own], &text[end..]).replace(BUILT[0], "hostile.wasm")
+}
+
+/// Law: a step that traps, runs for ever or gives no finite torque ends the run with that reason, at that tick; every row is there.
+#[test]
+fn runs_end_with_the_reason_of_their_module() {
+    let folder = ScratchFolder::new("flight-code-hostile-steps");
+    let torque = |bits: u64| {
+        let number = [vec![0x44], bits.to_le_bytes().to_vec()].concat();
+        [constant(OUTPUT), number, vec![0x39, 3, 0, 0x0b]].concat()
+    };
+    let after = |seconds: f64, code: &[u8]| {
+        // if time >= seconds
+        let time = [constant(INPUT), vec![0x2b, 3, 0, 0x44], seconds.to_le_bytes().to_vec(), vec![0x66]].concat();
+        [time, vec![0x04, 0x40], code.to_vec(), vec![0x0b, 0x0b]].concat()
+    };
+    let endless: &[u8] = &[0x03, 0x40, 0x0c, 0, 0x0b, 0x0b];
+    // grows its memory page by page until it is refused, and goes on
+    let growing: &[u8] = &[0x03, 0x40, 0x41, 1, 0x40, 0, 0x1a, 0x0c, 0, 0x0b, 0x0b];
+    let [trap, fuel, diverged] = [Failure::ModuleTrap, Failure::ModuleFuel, Failure::Diverged];
+    let cases: [(&str, Vec<u8>, Failure, f64); 10] = [
+        ("endless", endless.to_vec(), fuel, 0.0),
+        ("growing", growing.to_vec(), fuel, 0.0),
+        ("recursion", vec![0x10, 3, 0x0b], trap, 0.0),
+        ("unreachable", vec![0x00, 0x0b], trap, 0.0),
+        ("unreachable later", after(1.5, &[0x00]), trap, 1.5),
+        ("division by zero", vec![0x41, 1, 0x41, 0, 0x6d, 0x1a, 0x0b], trap, 0.0),
+        ("beyond its memory", [constant(-8), vec![0x2b, 3, 0, 0x1a, 0x0b]].concat(), trap, 0.0),
+        ("NaN", torque(f64::NAN.to_bits()), diverged, 0.0),
+        ("NaN of another form", torque(0xfff0_0000_dead_beef), diverged, 0.0),
+        ("infinite", torque(f64::INFINITY.to_bits()), diverged, 0.0),
+    ];
+    for (name, step, failure, end) in cases {
+        let plan = plan_in(&folder, &with(&folder, &Assembled::with_step(&step).bytes()));
+        let place = |name: &str| {
+            let columns = plan.request().columns();
+            columns.iter().position(|column| column.quantity.name() == name).expect(name)
+        };
+        let ensemble = Ensemble::new(&plan, Isa::best());
+        let mut rows = ensemble.rows(9);
+        let part = Part { id: PartId(0), first: SampleId(0), count: 9 };
+        ensemble.worker().run(part, &mut rows, Supervision::progress(&|_| {}));
+        assert!(rows.statuses().iter().all(|status| *status == Status::Done), "{name}");
+        assert_eq!(rows.observable(place("failure")), [failure.code(); 9], "{name}");
+        assert_eq!(rows.observable(place("end_time_s")), [end; 9], "{name}");
+    }
+    // the counter-test: one that wants nothing flies to the end, and so does one that wants too much for the motors
+    for step in [NOTHING.to_vec(), torque(f64::MAX.to_bits())] {
+        let plan = plan_in(&folder, &with(&folder, &Assembled::with_step(&step).bytes()));
+        let place = plan.request().columns().iter().position(|column| column.quantity.name() == "failure").unwrap();
+        assert!(rows(&plan, Isa::best(), 0, 9)[place].iter().all(|bits| *bits == 0));
+    }
+}
+
+/// Law: a module that cannot be flown is refused with what is wrong with it.
+#[test]
+fn modules_that_cannot_fly_are_refused() {
+    let folder = ScratchFolder::new("flight-code-refused");
+    let sound = Assembled::with_step(NOTHING);
+    let changed = |change: &dyn Fn(&mut Assembled)| {
+        let mut module = sound.clone();
+        change(&mut module);
+        module.bytes()
+    };
+    let endless: Vec<u8> = vec![0x03, 0x40, 0x0c, 0, 0x0b, 0x0b];
+    let huge = {
+        let filling = vec![0; MOST_BYTES as usize];
+        [sound.bytes(), vec![0], filling].concat()
+    };
+    let nested = |depth| [[0x02, 0x40].repeat(depth), vec![0x0b; depth + 1]].concat();
+    // i32.const 0, br_table of so many targets and a default
+    let branches = |count: usize| [vec![0x41, 0, 0x0e], size(count), vec![0; count + 1], vec![0x0b]].concat();
+    let component = b"\0asm\x0d\0\x01\0".to_vec();
+    let truncated = sound.bytes()[..60].to_vec();
+    let cases: Vec<(Vec<u8>, &str)> = vec![
+        (Vec::new(), "does not begin as one does"),
+        (b"(module)".to_vec(), "does not begin as one does"),
+        (component, "no core module"),
+        (truncated, "unexpected end"),
+        (huge, "at most 4194304 bytes"),
+        (
+            changed(&|module| module.step = [vec![0x01; 600_000], vec![0x0b]].concat()),
+            "bytes of code are more than 524288",
+        ),
+        (changed(&|module| module.functions = 6000), "functions are more than 5000"),
+        (changed(&|module| module.locals = 1001), "a function of 1001 locals"),
+        (changed(&|module| module.step = nested(1001)), "more than 1000 blocks"),
+        (
+            changed(&|module| {
+                (module.locals, module.step) = (1000, [nested(500)[..1500].repeat(6), vec![0x0b]].concat());
+            }),
+            "3003000 blocks times locals",
+        ),
+        (changed(&|module| module.step = branches(20_001)), "20001 targets"),
+        (changed(&|module| module.imports = true), "imports print of env"),
+        (changed(&|module| module.misnamed = "memory"), "does not export its memory"),
+        (changed(&|module| module.misnamed = "spindrift_interface"), "does not export spindrift_interface"),
+        (changed(&|module| module.misnamed = "spindrift_input"), "does not export spindrift_input"),
+        (changed(&|module| module.misnamed = "spindrift_output"), "does not export spindrift_output"),
+        (changed(&|module| module.misnamed = "spindrift_step"), "does not export spindrift_step"),
+        (
+            changed(&|module| (module.is_mistyped, module.step) = (true, vec![0x41, 0, 0x0b])),
+            "spindrift_step is no function",
+        ),
+        (changed(&|module| module.places[0] = 2), "its interface is 2"),
+        (changed(&|module| module.places[1] = 65_536 - 8 * 50 + 1), "spindrift_input returns 65137"),
+        (changed(&|module| module.places[1] = -1), "spindrift_input returns 4294967295"),
+        (changed(&|module| module.places[2] = 65_520), "spindrift_output returns 65520"),
+        (changed(&|module| module.start = Some(vec![0x00, 0x0b])), "unreachable"),
+        (changed(&|module| module.start = Some(endless.clone())), "fuel"),
+        (changed(&|module| module.pages = 1000), "memory"),
+        (changed(&|module| (module.table, module.misnamed) = (Some(""), "spindrift_parameters")), "belong together"),
+        (changed(&|module| module.table = Some("gain_n_m | N m | 1\n")), "\"key | unit | default | meaning\""),
+        (changed(&|module| module.table = Some("Gain | 1 | 1 | Gain\n")), "\"Gain\" is no key"),
+        (changed(&|module| module.table = Some("gain | 1 | much | Gain\n")), "no finite number"),
+        (changed(&|module| module.table = Some("gain | 1 | 1 | Gain\ngain | 1 | 1 | Gain\n")), "stands in it twice"),
+        (changed(&|module| module.table = Some("gain_n_m | rad | 1 | Gain\n")), "ends in \"N m\", and says \"rad\""),
+        (changed(&|module| module.table = Some("timeout_s | s | 1 | Time\n")), "\"timeout_s\" is"),
+        (changed(&|module| module.table = Some("until | 1 | 1 | Time\n")), "\"until\" is"),
+    ];
+    for (module, says) in cases {
+        folder.file("campaign.toml", &with(&folder, &module));
+        let error = Plan::load(&folder.path("campaign.toml"), Overrides::default()).expect_err(says).to_string();
+        assert!(error.contains(says), "{says}: {error}");
+        assert_eq!(error.matches("must be").count(), if says.ends_with("\" is") { 2 } else { 1 }, "{error}");
+    }
+}
+
+/// Law: a text of parameters without an end is refused; one with parameters makes them keys with units, defaults and the meaning that it says.
+#[test]
+fn declared_parameters_are_keys() {
+    let folder = ScratchFolder::new("flight-code-parameters");
+    let mut module = Assembled::with_step(&[copied(16_384, OUTPUT, 3), vec![0x0b]].concat());
+    module.table = Some("a_n_m | N m | 0.5 | First\n\nb_rad_s | rad/s | | Second\nc | 1 | -1e-3 | Third\n");
+    let text = with(&folder, &module.bytes());
+    folder.file("campaign.toml", &text);
+    let missing = Plan::load(&folder.path("campaign.toml"), Overrides::default()).expect_err("b has no default");
+    assert!(missing.to_string().contains("guidance.detumble.b_rad_s"), "{missing}");
+    let given = text.replace("law = \"module\"\n", "law = \"module\"\nb_rad_s = \"1 deg/s\"\n");
+    let plan = plan_in(&folder, &given);
+    let code = plan.law.as_ref().unwrap().spec().unwrap().code().unwrap();
+    let table = &plan.nominal.control.guidance[0];
+    let one = |key: &str| table.named(key).unwrap()[0];
+    let expected = [0.5, 1_f64.to_radians(), -1e-3];
+    assert_eq!(["a_n_m", "b_rad_s", "c"].map(one), expected);
+    let body = KnownBody { inertia: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+    assert_eq!(first_torque(code, table, [0.1, 0.0, 0.0])(&body, &LawInput::AT_TARGET), expected);
+}
+
+/// Law: a module of which any byte is changed is refused, or flies: nothing waits for ever, and nothing panics.
+#[test]
+fn damaged_modules_are_refused_or_fly() {
+    let whole = std::fs::read(example(BUILT[0])).unwrap();
+    let body = KnownBody { inertia: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+    let mut refused = 0;
+    for at in 0..whole.len() {
+        let mut changed = whole.clone();
+        changed[at] ^= [0x01, 0x80, 0xff, 0x10][at % 4];
+        match kept(&changed) {
+            Err(_) => refused += 1,
+            Ok(code) => {
+                let table = DeclaredTable::of(Name::NONE, code.kind().parameters);
+                first_torque(code, &table, [0.1, 0.0, 0.0])(&body, &LawInput::AT_TARGET);
+            }
+        }
+    }
+    assert!(refused > whole.len() / 4 && refused < whole.len(), "{refused} of {}", whole.len());
+}
