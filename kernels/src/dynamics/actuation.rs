@@ -246,7 +246,8 @@ mod tests {
         let (mut time, mut list) = (0.0, Vec::new());
         while time < duration {
             assert!(list.len() < 100, "100 arcs, the last at {time} s");
-            let arc = Arc::new(time, law.arc(time, &BODY, &WheelState::AT_REST), duration);
+            let mut arc = Arc { start: time, applied: law.arc(time, &BODY, &WheelState::AT_REST) };
+            arc.applied.until = arc.applied.until.min(duration);
             time = arc.end();
             list.push((arc.start, arc.end(), arc.applied.thrust[0]));
         }

@@ -1,14 +1,16 @@
 //! The arc that a run flies next: by the schedule of its scene, or by a law, and the effects that are constant over an arc.
 
 use super::actuation::{ActuationLaw, BodyState, OpenLoop, WheelState};
-use super::effects::with_constant_effects;
+use super::effects::add_constant_effects;
 use crate::scene::{Arc, Scene, WheelMode};
 
 /// The arc of the schedule of `scene` at `time`.
 #[inline]
 pub fn scheduled_arc(scene: &Scene, time: f64, duration: f64) -> Arc {
-    let applied = OpenLoop { schedule: &scene.schedule }.at(time);
-    Arc::new(time, with_constant_effects(scene, applied), duration)
+    let mut arc = Arc { start: time, applied: OpenLoop { schedule: &scene.schedule }.at(time) };
+    arc.applied.until = arc.applied.until.min(duration);
+    add_constant_effects(scene, &mut arc.applied);
+    arc
 }
 
 /// The arc that a run of `scene` flies from `time` on: that of its schedule, or what its `law` answers to the `state` there.
@@ -40,7 +42,8 @@ pub fn law_arc(
     (body, wheels): (&BodyState, &WheelState),
     duration: f64,
 ) -> Arc {
-    let mut applied = law.arc(time, body, wheels);
+    let mut arc = Arc { start: time, applied: law.arc(time, body, wheels) };
+    let applied = &mut arc.applied;
     assert!(applied.until > time, "a law's arc from {time} s ends at {} s", applied.until);
     let wheels = scene.mass.wheels.len();
     applied.motor_torque[wheels..].fill(0.0);
@@ -49,7 +52,9 @@ pub fn law_arc(
             *torque = 0.0;
         }
     }
-    Arc::new(time, with_constant_effects(scene, applied), duration)
+    applied.until = applied.until.min(duration);
+    add_constant_effects(scene, applied);
+    arc
 }
 
 #[cfg(test)]

@@ -38,29 +38,32 @@ impl ArcRecord {
     /// Adds an arc, which starts where the last one ends.
     #[inline]
     pub fn push(&mut self, arc: &Arc) {
-        let (old, new) = (&self.last.applied, &arc.applied);
-        let thrusts = changes(&old.thrust, &new.thrust);
-        let motors = changes(&old.motor_torque, &new.motor_torque);
-        let body = changes(&old.body_torque, &new.body_torque);
-        let dipole = changes(&old.dipole, &new.dipole);
+        let (last, new) = (&mut self.last.applied, &arc.applied);
+        let thrusts = changes(&last.thrust, &new.thrust);
+        let motors = changes(&last.motor_torque, &new.motor_torque);
+        let body = changes(&last.body_torque, &new.body_torque);
+        let dipole = changes(&last.dipole, &new.dipole);
         let external = body | dipole << 3;
         let all = thrusts | motors << MAX_THRUSTERS | external << (MAX_THRUSTERS + MAX_WHEELS);
         let ends_run = if new.ends_run { ENDS_RUN } else { 0 };
         self.words.extend([all | ends_run, new.until.to_bits()]);
-        for (changed, numbers) in [
-            (thrusts, &new.thrust[..]),
-            (motors, &new.motor_torque[..]),
-            (body, &new.body_torque[..]),
-            (dipole, &new.dipole[..]),
+        for (changed, last, numbers) in [
+            (thrusts, &mut last.thrust[..], &new.thrust[..]),
+            (motors, &mut last.motor_torque[..], &new.motor_torque[..]),
+            (body, &mut last.body_torque[..], &new.body_torque[..]),
+            (dipole, &mut last.dipole[..], &new.dipole[..]),
         ] {
             let mut left = changed;
             while left != 0 {
-                self.words.push(numbers[left.trailing_zeros() as usize].to_bits());
+                let place = left.trailing_zeros() as usize;
+                last[place] = numbers[place];
+                self.words.push(numbers[place].to_bits());
                 left &= left - 1;
             }
         }
+        (last.until, last.ends_run) = (new.until, new.ends_run);
+        self.last.start = arc.start;
         self.count += 1;
-        self.last = *arc;
     }
 
     /// Number of arcs.
@@ -78,27 +81,46 @@ impl ArcRecord {
         (self.count > 0).then_some(&self.last)
     }
 
+    /// The arcs in order, each where the one before it was.
+    pub fn reader(&self) -> ArcReader<'_> {
+        ArcReader { words: self.words.iter(), arc: START }
+    }
+
     /// The arcs in order.
     pub fn iter(&self) -> impl Iterator<Item = Arc> + '_ {
-        let (mut words, mut arc) = (self.words.iter().copied(), START);
-        std::iter::from_fn(move || {
-            let mut changed = words.next()?;
-            arc.start = arc.end();
-            arc.applied.until = f64::from_bits(words.next()?);
-            arc.applied.ends_run = changed & ENDS_RUN != 0;
-            changed &= !ENDS_RUN;
-            while changed != 0 {
-                let number = changed.trailing_zeros() as usize;
-                *number_mut(&mut arc.applied, number) = f64::from_bits(words.next()?);
-                changed &= changed - 1;
-            }
-            Some(arc)
-        })
+        let mut reader = self.reader();
+        std::iter::from_fn(move || reader.next().copied())
     }
 
     /// The arcs in order, each as it is.
     pub fn to_vec(&self) -> Vec<Arc> {
         self.iter().collect()
+    }
+}
+
+/// Reads a record arc by arc, without a copy of what does not change.
+#[derive(Clone, Debug)]
+pub struct ArcReader<'a> {
+    words: std::slice::Iter<'a, u64>,
+    arc: Arc,
+}
+
+impl ArcReader<'_> {
+    /// The next arc; `None` after the last.
+    #[expect(clippy::should_implement_trait, reason = "an iterator could not lend what it has")]
+    pub fn next(&mut self) -> Option<&Arc> {
+        let arc = &mut self.arc;
+        let mut changed = *self.words.next()?;
+        arc.start = arc.end();
+        arc.applied.until = f64::from_bits(*self.words.next()?);
+        arc.applied.ends_run = changed & ENDS_RUN != 0;
+        changed &= !ENDS_RUN;
+        while changed != 0 {
+            let number = changed.trailing_zeros() as usize;
+            *number_mut(&mut arc.applied, number) = f64::from_bits(*self.words.next()?);
+            changed &= changed - 1;
+        }
+        Some(arc)
     }
 }
 
@@ -111,6 +133,10 @@ impl Extend<Arc> for ArcRecord {
 /// One bit for each number of `new` that differs from that of `old`, by its bits.
 #[inline]
 fn changes<const K: usize>(old: &[f64; K], new: &[f64; K]) -> u64 {
+    // most of them are as they were, and that is seen of several at once
+    if old.iter().zip(new).fold(0, |any, (old, new)| any | (old.to_bits() ^ new.to_bits())) == 0 {
+        return 0;
+    }
     let mut changed = 0;
     for (i, (old, new)) in old.iter().zip(new).enumerate() {
         changed |= u64::from(old.to_bits() != new.to_bits()) << i;

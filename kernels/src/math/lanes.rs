@@ -160,6 +160,10 @@ impl<S: Simd> Real for Lanes<S> {
         Lanes(self.0.mul_add_precise(a.0, b.0))
     }
     #[inline(always)]
+    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+        self.simd().vectorize(work)
+    }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         Lanes(self.0.sqrt())
     }

@@ -129,6 +129,13 @@ pub trait Real:
     /// Writes the numbers to the start of a slice, as [`Real::lane`] gives them.
     fn write(self, values: &mut [f64]);
 
+    /// What `work` returns. Of lanes it is a function of its own, compiled for their instruction set: for what is long and asked for in several places, each of which
+    /// would have a copy of it. `self` only determines the kind of number.
+    #[inline(always)]
+    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+        work()
+    }
+
     /// The constant zero.
     #[inline(always)]
     fn zero(self) -> Self {

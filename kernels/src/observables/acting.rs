@@ -102,7 +102,13 @@ impl<'a> Acting<'a> {
                 let effects = largest_constant_torque(self.scene) + changing;
                 arcs.iter().fold(effects, |largest, arc| largest.larger(self.torque(arc, effects)))
             }
-            Arcs::Flown(arcs) => arcs.iter().fold(changing, |largest, arc| largest.larger(self.torque(&arc, changing))),
+            Arcs::Flown(arcs) => {
+                let (mut arcs, mut largest) = (arcs.reader(), changing);
+                while let Some(arc) = arcs.next() {
+                    largest = largest.larger(self.torque(arc, changing));
+                }
+                largest
+            }
         }
     }
 

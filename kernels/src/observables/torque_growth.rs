@@ -60,21 +60,23 @@ pub(super) fn exponent(scene: &Scene, table: &StateTable, times: &[f64], filled:
             held = sum(held, scaled(spin.axial * table.column(StateField::WheelRates, wheel)[point], spin.axis));
         }
         let rate2 = dot(beside, beside) + dot(held, held) / (size * size);
-        let unstable = largest_slope(
-            moments,
-            #[inline(always)]
-            |axis, sign| effects.torque(&turned(&motion, axis, sign * ROTATION)),
-        ) / ROTATION;
+        let faster = dot(rate, rate).sqrt().max(1.0 / times[last].max(f64::MIN_POSITIVE)) * ROTATION;
+        // one loop over all changes: the effects are inlined once, and they are long
+        let mut torques = [[0.0; 3]; 12];
+        for (change, torque) in torques.iter_mut().enumerate() {
+            let (axis, sign) = (change / 2 % 3, if change % 2 == 0 { 1.0 } else { -1.0 });
+            *torque = effects.torque(&if change < 6 {
+                turned(&motion, axis, sign * ROTATION)
+            } else {
+                hastened(&motion, axis, sign * faster)
+            });
+        }
+        let (of_turns, of_rates) = torques.split_at(6);
+        let unstable = largest_slope(moments, of_turns) / ROTATION;
         if unstable > 0.0 {
             all += unstable * unstable.sqrt() / (unstable + rate2);
         }
-        let faster = dot(rate, rate).sqrt().max(1.0 / times[last].max(f64::MIN_POSITIVE)) * ROTATION;
-        let driven = largest_slope(
-            moments,
-            #[inline(always)]
-            |axis, sign| effects.torque(&hastened(&motion, axis, sign * faster)),
-        ) / faster;
-        all += driven.max(0.0);
+        all += (largest_slope(moments, of_rates) / faster).max(0.0);
         count += 1.0;
     }
     all / count * times[last]
@@ -98,16 +100,11 @@ fn hastened(motion: &Motion<f64>, axis: usize, rate: f64) -> Motion<f64> {
 }
 
 /// The largest eigenvalue of the symmetric part of J^(-1/2) S J^(-1/2), of a body of the principal moments `moments`; column j of S is half the
-/// difference of the torques at a change of `1` and of `-1` along axis j.
+/// difference of the torques at a change of `1` and of `-1` along axis j, which follow one another in `torques`.
 #[inline(always)]
-fn largest_slope(moments: [f64; 3], torque: impl Fn(usize, f64) -> [f64; 3]) -> f64 {
-    let mut columns = [[[0.0; 3]; 2]; 3];
-    for (axis, column) in columns.iter_mut().enumerate() {
-        for (side, sign) in column.iter_mut().zip([1.0, -1.0]) {
-            *side = torque(axis, sign);
-        }
-    }
-    let columns = columns.map(|[more, less]| scaled(0.5, difference(more, less)));
+fn largest_slope(moments: [f64; 3], torques: &[[f64; 3]]) -> f64 {
+    let columns: [[f64; 3]; 3] =
+        core::array::from_fn(|axis| scaled(0.5, difference(torques[2 * axis], torques[2 * axis + 1])));
     let symmetric: [[f64; 3]; 3] = core::array::from_fn(|i| {
         core::array::from_fn(|j| 0.5 * (columns[j][i] + columns[i][j]) / (moments[i] * moments[j]).sqrt())
     });
@@ -120,6 +117,9 @@ mod tests {
     use super::*;
     use crate::dynamics::effects::gravity_gradient::GravityGradient;
 
+    /// Axes and signs of the changes, in order.
+    const CHANGES: [(usize, f64); 6] = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0), (2, 1.0), (2, -1.0)];
+
     /// Law: along the vertical the axis of the smallest moment is stable in pitch and roll, and that of the largest is not: there the growth is sqrt(3) of
     /// the mean motion times the square root of a difference of moments over a moment.
     #[test]
@@ -131,7 +131,8 @@ mod tests {
         let slope = |position: [f64; 3]| {
             let place = OrbitState { position, velocity: [0.0; 3], distance: 1.0 };
             let motion = Motion { time: 0.0, attitude: [1.0, 0.0, 0.0, 0.0], rate: [0.0; 3], place };
-            largest_slope(moments, |axis, sign| gradient.torque(&turned(&motion, axis, sign * ROTATION))) / ROTATION
+            let torque = |(axis, sign)| gradient.torque(&turned(&motion, axis, sign * ROTATION));
+            largest_slope(moments, &CHANGES.map(torque)) / ROTATION
         };
         assert!(slope([0.0, 0.0, 1.0]) <= 1e-10);
         let (found, expected) = (slope([0.0, 1.0, 0.0]), (100.0 - 40.0) / 90.0);
@@ -142,9 +143,8 @@ mod tests {
     #[test]
     fn a_torque_along_omega_drives() {
         let slope = |coefficient: f64| {
-            largest_slope([2.0, 4.0, 5.0], |axis, sign| {
-                core::array::from_fn(|i| if i == axis { coefficient * sign } else { 0.0 })
-            })
+            let torque = |(axis, sign)| core::array::from_fn(|i| if i == axis { coefficient * sign } else { 0.0 });
+            largest_slope([2.0, 4.0, 5.0], &CHANGES.map(torque))
         };
         assert!((slope(3.0) - 1.5).abs() < 1e-14 && slope(-3.0) < 0.0);
     }

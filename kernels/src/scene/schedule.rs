@@ -156,12 +156,6 @@ impl Actuation {
 }
 
 impl Arc {
-    /// The arc of `applied` from `start` on, ended at `duration` at the latest.
-    #[inline]
-    pub fn new(start: f64, applied: Actuation, duration: f64) -> Self {
-        Arc { start, applied: Actuation { until: applied.until.min(duration), ..applied } }
-    }
-
     /// End, s.
     #[inline]
     pub const fn end(&self) -> f64 {

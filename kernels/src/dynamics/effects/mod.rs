@@ -173,13 +173,12 @@ impl ForceModel {
     }
 }
 
-/// `applied` by the actuators, and the effects on `scene` that are constant over an arc.
+/// Adds the effects on `scene` that are constant over an arc to what is `applied` by the actuators.
 #[inline]
-pub fn with_constant_effects(scene: &Scene, applied: Actuation) -> Actuation {
-    if scene.environment.body_torque_n_m.is_none() {
-        return applied;
+pub fn add_constant_effects(scene: &Scene, applied: &mut Actuation) {
+    if scene.environment.body_torque_n_m.is_some() {
+        *applied = sum(applied, &constant_torque::actuation(scene));
     }
-    sum(&applied, &constant_torque::actuation(scene))
 }
 
 /// The environment of a run whose arcs are known to contain the constant effects: that of the run without them.
@@ -189,6 +188,7 @@ pub fn beside_arcs(environment: EnvironmentInput) -> EnvironmentInput {
 
 /// Upper bound of the torque of the effects on `scene` that are constant over an arc, N m.
 pub fn largest_constant_torque(scene: &Scene) -> f64 {
-    let torque = with_constant_effects(scene, Actuation::none(f64::INFINITY)).body_torque;
-    dot(torque, torque).sqrt()
+    let mut applied = Actuation::none(f64::INFINITY);
+    add_constant_effects(scene, &mut applied);
+    dot(applied.body_torque, applied.body_torque).sqrt()
 }

@@ -301,12 +301,17 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
 
     #[inline(always)]
     fn act<const N: usize>(&self, time: R, state: &[R; N]) -> Beside<R> {
-        let (place, carrier) = self.place(time, state);
-        if self.effects.is_empty() {
-            return Beside { torque: [self.zero; 3], force: None, carrier };
-        }
-        let motion = Motion::of(time, state, place);
-        Beside { torque: self.effects.torque(&motion), force: self.effects.force(&motion), carrier }
+        time.apart(
+            #[inline(always)]
+            || {
+                let (place, carrier) = self.place(time, state);
+                if self.effects.is_empty() {
+                    return Beside { torque: [self.zero; 3], force: None, carrier };
+                }
+                let motion = Motion::of(time, state, place);
+                Beside { torque: self.effects.torque(&motion), force: self.effects.force(&motion), carrier }
+            },
+        )
     }
 
     #[inline(always)]
@@ -316,22 +321,35 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
 
     #[inline(always)]
     fn margin<const N: usize>(&self, time: R, state: &[R; N]) -> R {
-        self.effects.margin(&Motion::of(time, state, self.place(time, state).0))
+        time.apart(
+            #[inline(always)]
+            || self.effects.margin(&Motion::of(time, state, self.place(time, state).0)),
+        )
     }
 
     #[inline(always)]
     fn dip<const N: usize>(&self, times: [R; 4], states: [&[R; N]; 4]) -> R {
-        let mut motions = [Motion::of(times[0], states[0], OrbitState::unknown(self.zero)); 4];
-        for m in 0..4 {
-            motions[m] = Motion::of(times[m], states[m], self.place(times[m], states[m]).0);
-        }
-        self.effects.dip(&motions)
+        self.zero.apart(
+            #[inline(always)]
+            || {
+                let mut motions = [Motion::of(times[0], states[0], OrbitState::unknown(self.zero)); 4];
+                for m in 0..4 {
+                    motions[m] = Motion::of(times[m], states[m], self.place(times[m], states[m]).0);
+                }
+                self.effects.dip(&motions)
+            },
+        )
     }
 
     #[inline(always)]
     fn choose_branches<const N: usize>(&mut self, lanes: R::Mask, time: R, state: &[R; N]) {
-        let place = self.place(time, state).0;
-        self.effects.choose_branches(lanes, &Motion::of(time, state, place));
+        time.apart(
+            #[inline(always)]
+            || {
+                let place = self.place(time, state).0;
+                self.effects.choose_branches(lanes, &Motion::of(time, state, place));
+            },
+        );
     }
 
     #[inline(always)]

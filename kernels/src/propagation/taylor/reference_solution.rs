@@ -249,7 +249,7 @@ impl NarrowWork for Integration<'_, '_> {
     fn in_lanes<S: Simd>(self, simd: S) -> Self::Output {
         simd.vectorize(
             #[inline(always)]
-            || if self.run.effects.has_switches() { self.switched_states() } else { self.states() },
+            || if self.run.effects.has_switches() { self.switched_states(simd) } else { self.states() },
         )
     }
 

@@ -6,6 +6,8 @@
 //!
 //! The orbit is integrated with the attitude: no closed form, so that it can judge one.
 
+use fearless_simd::Simd;
+
 use super::reference_run::{Integration, MOST_STEPS, N, ReferenceOrbit};
 use crate::dynamics::effects::ChangingEffects;
 use crate::dynamics::effects::within_arcs::{Beside, Motion, beside_orbit};
@@ -53,8 +55,9 @@ const SMALLEST_OFFSET: f64 = 1e-3;
 
 type State = [DoubleDouble; ALL];
 
-/// The equations of motion of an arc.
-struct Motions {
+/// The equations of motion of an arc. In double-double they are long: each of their functions is one, compiled for the instruction set of `simd`, and not a copy in every place that calls it.
+struct Motions<S> {
+    simd: S,
     constants: Constants<DoubleDouble>,
     effects: ChangingEffects<DoubleDouble>,
     gravity: Gravity<DoubleDouble>,
@@ -84,7 +87,7 @@ fn gyrostat(state: &State) -> [DoubleDouble; N] {
     own
 }
 
-impl Motions {
+impl<S: Simd> Motions<S> {
     /// The motion that the effects depend on, with what the point on the orbit does where the spacecraft may leave it.
     #[inline(always)]
     fn motion(&self, time: DoubleDouble, state: &State) -> (Motion<DoubleDouble>, Beside<DoubleDouble>) {
@@ -98,29 +101,39 @@ impl Motions {
     /// Chooses the branches `ahead` seconds after `time`.
     #[inline(always)]
     fn choose(&mut self, time: DoubleDouble, state: &State, ahead: DoubleDouble) {
-        let slope = self.derivative(time, state);
-        let mut later = *state;
-        for n in 0..ALL {
-            later[n] = ahead.mul_add(slope[n], state[n]);
-        }
-        let (motion, _) = self.motion(time + ahead, &later);
-        self.effects.choose_branches(true, &motion);
+        self.simd.vectorize(
+            #[inline(always)]
+            || {
+                let slope = self.derivative(time, state);
+                let mut later = *state;
+                for n in 0..ALL {
+                    later[n] = ahead.mul_add(slope[n], state[n]);
+                }
+                let (motion, _) = self.motion(time + ahead, &later);
+                self.effects.choose_branches(true, &motion);
+            },
+        );
     }
 }
 
-impl System<DoubleDouble, ALL> for Motions {
+impl<S: Simd> System<DoubleDouble, ALL> for Motions<S> {
     #[inline(always)]
     fn derivative(&self, time: DoubleDouble, state: &State) -> State {
-        let (motion, mut all) = self.motion(time, state);
-        all.torque = sum(self.constants.torque, self.effects.torque(&motion));
-        all.force = self.effects.force(&motion);
-        let mut rate = [DoubleDouble::exact(0.0); ALL];
-        rate[..N].copy_from_slice(&self.constants.derivative(time, &gyrostat(state), &all));
-        let place = carrier(state);
-        let pull = self.gravity.acceleration(place.position, place.distance);
-        rate[POSITION..VELOCITY].copy_from_slice(&place.velocity);
-        rate[VELOCITY..].copy_from_slice(&pull);
-        rate
+        self.simd.vectorize(
+            #[inline(always)]
+            || {
+                let (motion, mut all) = self.motion(time, state);
+                all.torque = sum(self.constants.torque, self.effects.torque(&motion));
+                all.force = self.effects.force(&motion);
+                let mut rate = [DoubleDouble::exact(0.0); ALL];
+                rate[..N].copy_from_slice(&self.constants.derivative(time, &gyrostat(state), &all));
+                let place = carrier(state);
+                let pull = self.gravity.acceleration(place.position, place.distance);
+                rate[POSITION..VELOCITY].copy_from_slice(&place.velocity);
+                rate[VELOCITY..].copy_from_slice(&pull);
+                rate
+            },
+        )
     }
 
     /// The largest error of the rate, the attitude, the orbit and the offset from it, each relative to its size.
@@ -150,18 +163,26 @@ impl System<DoubleDouble, ALL> for Motions {
 
     #[inline(always)]
     fn margin(&self, time: DoubleDouble, state: &State) -> DoubleDouble {
-        self.effects.margin(&self.motion(time, state).0)
+        self.simd.vectorize(
+            #[inline(always)]
+            || self.effects.margin(&self.motion(time, state).0),
+        )
     }
 
     #[inline(always)]
     fn dip(&self, step: Step<DoubleDouble>, ends: [[&State; 2]; 2]) -> DoubleDouble {
-        let (times, [after, before]) = beside(step, ends);
-        let states = [ends[0][0], &after, &before, ends[1][0]];
-        let mut motions = [self.motion(times[0], states[0]).0; 4];
-        for m in 1..4 {
-            motions[m] = self.motion(times[m], states[m]).0;
-        }
-        self.effects.dip(&motions)
+        self.simd.vectorize(
+            #[inline(always)]
+            || {
+                let (times, [after, before]) = beside(step, ends);
+                let states = [ends[0][0], &after, &before, ends[1][0]];
+                let mut motions = [self.motion(times[0], states[0]).0; 4];
+                for m in 1..4 {
+                    motions[m] = self.motion(times[m], states[m]).0;
+                }
+                self.effects.dip(&motions)
+            },
+        )
     }
 }
 
@@ -187,9 +208,9 @@ struct Steps {
 impl Steps {
     /// The step of `length` seconds from `time`, or as much of it as converges.
     #[inline(always)]
-    fn attempt(
+    fn attempt<S: Simd>(
         &mut self,
-        motions: &Motions,
+        motions: &Motions<S>,
         time: DoubleDouble,
         mut length: DoubleDouble,
         start: [&State; 2],
@@ -216,9 +237,9 @@ impl Steps {
 
     /// The step from `time` of at most `left` seconds, and whether it ends at a switch, before which there is none.
     #[inline(always)]
-    fn next(
+    fn next<S: Simd>(
         &mut self,
-        motions: &Motions,
+        motions: &Motions<S>,
         time: DoubleDouble,
         left: DoubleDouble,
         start: [&State; 2],
@@ -275,7 +296,7 @@ impl Steps {
 impl Integration<'_, '_> {
     /// The integrated components at the observation points, SI.
     #[inline(always)]
-    pub(super) fn switched_states(mut self) -> Result<Vec<[DoubleDouble; N]>, Status> {
+    pub(super) fn switched_states(mut self, simd: impl Simd) -> Result<Vec<[DoubleDouble; N]>, Status> {
         let zero = DoubleDouble::exact(0.0);
         let (grid, scale) = (self.grid, self.coarse.time_unit());
         let Some(orbit) = self.run.orbit.as_ref().map(|orbit| ReferenceOrbit::new(self.run, orbit)) else {
@@ -311,6 +332,7 @@ impl Integration<'_, '_> {
             self.begin_arc(reached, 1.0, &gyrostat(&state));
             let number = self.run.arcs.len() - 1;
             let mut motions = Motions {
+                simd,
                 constants: Constants::of(self.run, number, 1.0),
                 effects: self.run.effects,
                 gravity: orbit.gravity,
