@@ -68,8 +68,21 @@ impl Estimate {
             gyro_bias_s: [0.0; 3],
             r_co_e: truth.body.r_co_e,
             v_co_e: truth.body.v_co_e,
-            wheel_rates: truth.wheels.rates,
+            wheel_rates: truth.wheel_rates,
             debris: truth.debris,
+        }
+    }
+
+    /// Becomes the true state itself.
+    pub fn know(&mut self, truth: &Truth) {
+        self.q_es = truth.body.q_es;
+        self.omega_se_s = truth.body.omega_se_s;
+        self.gyro_bias_s = [0.0; 3];
+        self.r_co_e = truth.body.r_co_e;
+        self.v_co_e = truth.body.v_co_e;
+        self.wheel_rates = truth.wheel_rates;
+        if self.debris.is_some() || truth.debris.is_some() {
+            self.debris = truth.debris;
         }
     }
 

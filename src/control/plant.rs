@@ -30,10 +30,8 @@ pub struct Measurements<'a> {
 /// What the actuators make of commands over an arc.
 #[derive(Clone, Copy, Debug)]
 pub struct Applied {
-    /// Torques and thrusts, and the end of the arc.
-    pub actuation: Actuation,
-    /// Thrusts of thrusters that are stuck on, which act beside it, N.
-    pub stuck: [f64; MAX_THRUSTERS],
+    /// Whether a thruster fires, or is stuck on.
+    pub fires: bool,
     /// The length of the arc, s: to its end or that of the run.
     pub length: f64,
     /// Whether a motor was limited by its torque, and by the speed of its wheel.
@@ -98,7 +96,9 @@ impl Plant {
         for (place, sensor) in self.sensors.iter_mut().enumerate() {
             self.delivered.extend(sensor.deliver(place, tick, truth));
         }
-        self.perfect = self.spec.knows_the_truth().then(|| Estimate::perfect(truth));
+        if self.spec.knows_the_truth() {
+            self.perfect.get_or_insert_with(|| Estimate::perfect(truth)).know(truth);
+        }
         self.measurements(truth.time)
     }
 
@@ -117,8 +117,31 @@ impl Plant {
         self.drawn.failures.iter().find(|failure| failure.device == device && failure.at_s <= time)
     }
 
-    /// What the actuators make of `commands` from `time` on. The schedule of the scene has the thrusts of thrusters that are stuck on.
-    pub fn apply(&self, time: f64, commands: &ActingCommands<'_>, wheels: &WheelState) -> Applied {
+    /// The thrusters that have failed by `time`, s, with the thrusts at which they are stuck, N.
+    fn stuck(&self, time: f64) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let same = SAME_TIME * self.spec.period;
+        self.drawn.failures.iter().filter_map(move |failure| match failure.device {
+            Device::Thruster(i) if failure.at_s <= time + same => Some((i, failure.thrust_n.unwrap_or(0.0))),
+            _ => None,
+        })
+    }
+
+    /// The thrusts of all thrusters from `time` on, N, those that are stuck on among them, where `actuation` acts.
+    pub fn thrust(&self, time: f64, actuation: &Actuation) -> [f64; MAX_THRUSTERS] {
+        let mut thrust = actuation.thrust;
+        self.stuck(time).for_each(|(i, stuck)| thrust[i] = stuck);
+        thrust
+    }
+
+    /// What the actuators make of `commands` from `time` on: their torques and thrusts, and the end of the arc, are written to `actuation`, in which nothing acts. The schedule of the
+    /// scene has the thrusts of thrusters that are stuck on.
+    pub fn apply(
+        &self,
+        time: f64,
+        commands: &ActingCommands<'_>,
+        wheels: &WheelState,
+        actuation: &mut Actuation,
+    ) -> Applied {
         let same = SAME_TIME * self.spec.period;
         let mut until = commands.until;
         // an actuator that fails ends the arc, unless it is one time with its end
@@ -128,7 +151,7 @@ impl Plant {
                 until = failure.at_s;
             }
         }
-        let (mut thrust, mut stuck) = ([0.0; MAX_THRUSTERS], [0.0; MAX_THRUSTERS]);
+        let mut fires = false;
         if let Some(pulses) = commands.pulses {
             for &i in &self.spec.thrusters {
                 if self.failure(Device::Thruster(i), time + same).is_some() {
@@ -142,28 +165,28 @@ impl Plant {
                 };
                 let end = pulses.begin + pulses.on_time[i].max(least);
                 if pulses.thrust[i] > 0.0 && end > time + same {
-                    thrust[i] = self.drawn.actuators.thrusters[i].thrust_scale * level;
+                    actuation.thrust[i] = self.drawn.actuators.thrusters[i].thrust_scale * level;
+                    fires |= actuation.thrust[i] != 0.0;
                     until = until.min(end);
                 }
             }
         }
-        for failure in &self.drawn.failures {
-            if let (Device::Thruster(i), true) = (failure.device, failure.at_s <= time + same) {
-                stuck[i] = failure.thrust_n.unwrap_or(0.0);
-            }
-        }
+        fires |= self.stuck(time).any(|(_, thrust)| thrust != 0.0);
         // the end of the campaign ends an arc too; where an event does, what has acted is what would act until then
         let held = until.min(self.duration) - time;
         let length = until.min(self.end) - time;
-        let mut actuation = Actuation { thrust, ..Actuation::none(until) };
+        actuation.until = until;
         let (mut saturated, mut torque_excess) = ([false; 2], 0.0_f64);
         // a wheel whose speed is held has a motor of its own
         for (i, drive) in self.wheel_drives.iter().enumerate() {
             if self.drawn.mass.wheels[i].mode != WheelMode::Free {
                 continue;
             }
-            let failed = self.failure(Device::Wheel(i), time + same).map(|failure| drive.failed(failure));
-            let driven = failed.unwrap_or(*drive).over(commands.motor_torque[i], wheels.rates[i], held);
+            let (commanded, rate) = (commands.motor_torque[i], wheels.rates[i]);
+            let driven = match self.failure(Device::Wheel(i), time + same) {
+                Some(failure) => drive.failed(failure).over(commanded, rate, held),
+                None => drive.over(commanded, rate, held),
+            };
             actuation.motor_torque[i] = driven.torque;
             saturated[0] |= driven.is_torque_limited;
             saturated[1] |= driven.is_speed_limited;
@@ -176,6 +199,6 @@ impl Plant {
             actuation.dipole = sum(actuation.dipole, scaled(dipole, rod.axis));
         }
         let is_rod_saturated = commands.rods.is_limited;
-        Applied { actuation, stuck, length, saturated, torque_excess, is_rod_saturated }
+        Applied { fires, length, saturated, torque_excess, is_rod_saturated }
     }
 }

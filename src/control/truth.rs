@@ -1,12 +1,13 @@
 //! [`Truth`]: the true state of a run at a tick, for models of sensors and actuators only.
 
+use crate::control::measurement::PointMotion;
 use crate::control::rotation::quaternion_of;
-use crate::control::vector::{cross, difference, hamilton, product, scaled, sum};
+use crate::control::vector::{cross, dcm_from_quaternion, difference, hamilton, product, scaled, sum};
 use crate::dynamics::actuation::{BodyState, WheelState};
 use crate::dynamics::debris::is_isotropic;
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::relative_orbit::RelativeOrbit;
-use crate::scene::{Offsets, Scene};
+use crate::scene::{MAX_WHEELS, Offsets, Scene};
 
 /// The true state of a run at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,12 +16,10 @@ pub struct Truth {
     pub time: f64,
     /// The motion of the body.
     pub body: BodyState,
-    /// Position of the base point p in F_e, m.
-    pub r_po_e: [f64; 3],
-    /// Velocity of p relative to F_e, in F_e, m/s.
-    pub v_po_e: [f64; 3],
-    /// The motion of the wheels.
-    pub wheels: WheelState,
+    /// Position of c relative to the base point p, in F_s, m.
+    pub r_cp_s: [f64; 3],
+    /// Rates of the wheels relative to the body, rad/s.
+    pub wheel_rates: [f64; MAX_WHEELS],
     /// The debris, where the scene has one.
     pub debris: Option<DebrisState>,
 }
@@ -144,15 +143,21 @@ impl Truth {
         wheels: &WheelState,
         debris: Option<&mut DebrisMotion>,
     ) -> Self {
-        let c_es = crate::control::vector::dcm_from_quaternion(body.q_es);
-        let arm = scene.mass.center;
         Truth {
             time,
             body: *body,
-            r_po_e: difference(body.r_co_e, product(c_es, arm)),
-            v_po_e: difference(body.v_co_e, product(c_es, cross(body.omega_se_s, arm))),
-            wheels: *wheels,
+            r_cp_s: scene.mass.center,
+            wheel_rates: wheels.rates,
             debris: debris.map(|motion| motion.at(time)),
+        }
+    }
+
+    /// The motion of the base point p.
+    pub fn base_point(&self) -> PointMotion {
+        let (body, c_es) = (&self.body, dcm_from_quaternion(self.body.q_es));
+        PointMotion {
+            r_e: difference(body.r_co_e, product(c_es, self.r_cp_s)),
+            v_e: difference(body.v_co_e, product(c_es, cross(body.omega_se_s, self.r_cp_s))),
         }
     }
 }

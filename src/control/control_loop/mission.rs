@@ -9,16 +9,16 @@ use crate::control::guidance::{Failure, Guidance};
 use crate::control::loop_record::{KnownOverTime, NOTHING_KNOWN, SharedRecord, place};
 use crate::control::net_launch::launch::centers_of;
 use crate::control::outcome::columns::OutcomeColumns;
-use crate::control::outcome::{ArcApplied, MissionCriteria, MissionOutcome};
+use crate::control::outcome::{MissionCriteria, MissionOutcome};
 use crate::control::plant::{Applied, Plant};
 use crate::control::recorder::{Recorder, Tick};
 use crate::control::spec::LoopSpec;
 use crate::control::truth::Truth;
 use crate::control::vector::{difference, norm};
-use crate::dynamics::actuation::{BodyState, WheelState};
+use crate::dynamics::actuation::{Actuation, BodyState, WheelState};
 use crate::observables::Series;
 use crate::run::Telemetry;
-use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene, WheelMode};
+use crate::scene::{MAX_WHEELS, Scene, WheelMode};
 
 /// What a run comes to.
 pub struct Mission {
@@ -143,12 +143,16 @@ impl Mission {
     }
 
     /// Takes what the actuators make of the commands over an arc from `time` on, at whose start the motion is this one.
-    pub fn arc(&mut self, time: f64, plant: &mut Plant, applied: &Applied, (body, wheels): (&BodyState, &WheelState)) {
-        for ((wheel, place), torque) in
-            plant.scene().mass.wheels.iter().zip(self.motor_places).zip(applied.actuation.motor_torque)
-        {
+    pub fn arc(
+        &mut self,
+        time: f64,
+        plant: &mut Plant,
+        (actuation, applied): (&Actuation, &Applied),
+        (body, wheels): (&BodyState, &WheelState),
+    ) {
+        for (i, wheel) in plant.scene().mass.wheels.iter().enumerate() {
             if wheel.mode == WheelMode::Free {
-                self.over_time.values[place] = torque;
+                self.over_time.values[self.motor_places[i]] = actuation.motor_torque[i];
             }
         }
         if !applied.saturated[1] {
@@ -156,15 +160,15 @@ impl Mission {
         } else if self.saturated_since.is_nan() {
             self.saturated_since = time;
         }
-        let thrust: [f64; MAX_THRUSTERS] = std::array::from_fn(|i| applied.actuation.thrust[i] + applied.stuck[i]);
-        let hits = thrust != [0.0; MAX_THRUSTERS] && self.spec.approaches() && {
-            let truth = plant.truth(time, body, wheels);
-            self.criteria.plume.hits(plant.scene(), &truth, &thrust)
-        };
-        let Applied { length, saturated, torque_excess, is_rod_saturated, .. } = *applied;
-        let rod_dipole = norm(applied.actuation.dipole);
-        let arc = ArcApplied { length, thrust, hits, saturated, torque_excess, rod_dipole, is_rod_saturated };
-        self.outcome.arc(plant.scene(), &arc);
+        self.outcome.arc(actuation, applied);
+        if applied.fires {
+            let thrust = plant.thrust(time, actuation);
+            let hits = self.spec.approaches() && {
+                let truth = plant.truth(time, body, wheels);
+                self.criteria.plume.hits(plant.scene(), &truth, &thrust)
+            };
+            self.outcome.fires(plant.scene(), applied.length, thrust, hits);
+        }
     }
 
     /// Records the quantities over time as they are known from `time` on, s.

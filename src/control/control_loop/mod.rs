@@ -119,10 +119,11 @@ impl ControlLoop {
     fn arc_from(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
         let mut commands = self.flight_software.acting(time);
         commands.until = commands.until.min(self.clock.next);
-        let applied = self.plant.apply(time, &commands, wheels);
+        let mut actuation = Actuation::none(commands.until);
+        let applied = self.plant.apply(time, &commands, wheels, &mut actuation);
         self.flight_software.count(time, applied.length);
-        self.mission.arc(time, &mut self.plant, &applied, (body, wheels));
-        applied.actuation
+        self.mission.arc(time, &mut self.plant, (&actuation, &applied), (body, wheels));
+        actuation
     }
 }
 

@@ -275,10 +275,7 @@ fn errors_without_noise(name: &str, gyro_period: u64) -> (crate::control::estima
     for tick in 0..=600 {
         let mut at = truth(0.1 * tick as f64, q, omega);
         (at.body.r_co_e, at.body.v_co_e) = (r, v);
-        let arm = nominal.mass.center;
-        let c_es = dcm_from_quaternion(q);
-        at.r_po_e = difference(r, product(c_es, arm));
-        at.v_po_e = difference(v, product(c_es, cross(omega, arm)));
+        at.r_cp_s = nominal.mass.center;
         let r_gdo_e = sum(r_gdo, scaled(at.time, v_gdo));
         at.debris = Some(DebrisState { r_gdo_e, v_gdo_e: v_gdo, q_ed: debris.q_es, omega_de_d: debris.omega });
         let mut measurements = Vec::new();
@@ -418,8 +415,8 @@ fn each_sensor_that_is_used_changes_the_estimate() {
             let delivered = quarters.iter().find_map(|turn| {
                 let mut model = sensor(kind.name, &[], 0.1, 0);
                 let mut at = truth(0.0, quaternion_of(*turn), [0.03, -0.02, 0.01]);
-                at.wheels.rates = [12.0; MAX_WHEELS];
-                (at.r_po_e, at.v_po_e) = ([4.0, 5.0, 6.0], [0.1, 0.2, 0.3]);
+                at.wheel_rates = [12.0; MAX_WHEELS];
+                at.r_cp_s = [4.0, 5.0, 6.0];
                 at.body.r_co_e = [6.8e6, 1e6, 2e6];
                 let debris = DebrisState {
                     r_gdo_e: [20.0, 3.0, 1.0],

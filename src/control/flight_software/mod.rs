@@ -223,19 +223,20 @@ impl FlightSoftware {
 
     /// Decides at a control tick how the mission goes on, and begins a phase where one follows; `failure`: what ends it whatever the phase.
     pub fn guide(&mut self, time: f64, failure: Option<Failure>) -> Guided {
-        let geometry = self.geometry;
-        let mut input = self.guidance_input(time, geometry);
-        let (mut error, mut velocity_to_go) = self.wanted(geometry.as_ref(), time);
-        (input.error, input.velocity_to_go) = (error, velocity_to_go);
+        let (mut error, mut velocity_to_go) = self.wanted(self.geometry.as_ref(), time);
         let progress = match failure {
             Some(failure) => Progress::Fails(failure),
-            None => self.guidance.decide(&self.phases, &input, SAME_TIME * self.spec.period),
+            None => {
+                let asks = self.phase().until.is_some();
+                let input = asks.then(|| self.guidance_input(time, error, velocity_to_go));
+                self.guidance.decide(&self.phases, time, input.as_ref(), SAME_TIME * self.spec.period)
+            }
         };
         // a phase begins with the run, or where guidance has changed it
         let begins = !std::mem::replace(&mut self.started, true) || std::mem::take(&mut self.guidance.has_changed);
         if begins {
             self.law = self.laws[self.guidance.phase].clone();
-            (error, velocity_to_go) = self.wanted(geometry.as_ref(), time);
+            (error, velocity_to_go) = self.wanted(self.geometry.as_ref(), time);
         }
         if self.is_recorded {
             // nothing is commanded where the mission ends
@@ -246,7 +247,9 @@ impl FlightSoftware {
 
     /// What flight software sees at a control tick that ends the mission; before [`FlightSoftware::guide`].
     pub fn failure(&mut self, time: f64) -> Option<Failure> {
-        self.geometry = geometry_of(&self.launch, &self.estimate);
+        if self.spec.has_debris {
+            self.geometry = geometry_of(&self.launch, &self.estimate);
+        }
         if !self.estimate.is_finite() {
             return Some(Failure::Diverged);
         }
@@ -256,19 +259,19 @@ impl FlightSoftware {
         (self.spec.has_debris && time - self.debris_seen > self.lost_target_timeout).then_some(Failure::LostTarget)
     }
 
-    /// What the conditions of phases can ask for, but for the error and the velocity to go.
-    fn guidance_input(&self, time: f64, geometry: Option<LaunchGeometry>) -> GuidanceInput {
+    /// What the conditions of phases can ask for, where the attitude relative to the target and the velocity to go are these.
+    fn guidance_input(&self, time: f64, error: AttitudeError, velocity_to_go: [f64; 3]) -> GuidanceInput {
         let estimate = &self.estimate;
         let rates = &estimate.wheel_rates[..self.believed.mass.wheels.len()];
         GuidanceInput {
             time,
             time_in_phase: time - self.guidance.since,
             body_rate: norm(estimate.omega_se_s),
-            error: AttitudeError::NONE,
+            error,
             wheel_speed: rates.iter().fold(0.0, |most, rate| most.max(rate.abs())),
             wheel_momentum: norm(stored_momentum(&self.believed, estimate)),
-            geometry,
-            velocity_to_go: [0.0; 3],
+            geometry: self.geometry,
+            velocity_to_go,
             s3_e: product(dcm_from_quaternion(estimate.q_es), [0.0, 0.0, 1.0]),
             time_to_station: self.guidance.arrival - time,
             debris_age: if self.spec.has_debris { time - self.debris_seen } else { f64::NAN },

@@ -112,13 +112,12 @@ impl Guidance {
         }
     }
 
-    /// Decides at a tick whether the phase goes on, from `input`, which is that of the phase; `same` is a time below which ticks are one, s. At most one change a tick, so that a phase lasts at
-    /// least one, and no list of phases makes a circle within a tick.
-    pub fn decide(&mut self, phases: &[Phase], input: &GuidanceInput, same: f64) -> Progress {
+    /// Decides at the tick at `time` (s) whether the phase goes on. `input` is what its condition asks, and may be `None` where it has none; `same` is a time below
+    /// which ticks are one, s. At most one change a tick, so that a phase lasts at least one, and no list of phases makes a circle within a tick.
+    pub fn decide(&mut self, phases: &[Phase], time: f64, input: Option<&GuidanceInput>, same: f64) -> Progress {
         self.has_changed = false;
         let phase = &phases[self.phase];
-        let time = input.time;
-        let is_met = phase.until.as_ref().is_some_and(|condition| condition.is_met(input));
+        let is_met = phase.until.as_ref().zip(input).is_some_and(|(condition, input)| condition.is_met(input));
         if is_met && self.met_since.is_nan() {
             self.met_since = time;
         } else if !is_met {
@@ -195,7 +194,7 @@ mod tests {
         let rates = [2.0, 0.5, 0.5, 2.0, 0.5, 0.5, 0.5, 0.5, 0.5];
         for (tick, rate) in rates.into_iter().enumerate() {
             let time = 0.1 * tick as f64;
-            assert_eq!(guidance.decide(&phases, &input(time, rate), 1e-9), Progress::Flies);
+            assert_eq!(guidance.decide(&phases, time, Some(&input(time, rate)), 1e-9), Progress::Flies);
             assert_eq!(guidance.phase, usize::from(tick >= 7), "tick {tick}");
             assert_eq!(guidance.has_changed, tick == 7);
         }
@@ -213,16 +212,16 @@ mod tests {
         (again.thrust, again.transfer_time) = (Maneuver::Transfer, 30.0);
         let phases = [check, again];
         let mut guidance = Guidance::new(&phases);
-        assert_eq!(guidance.decide(&phases, &input(0.0, 2.0), 1e-9), Progress::Flies);
+        assert_eq!(guidance.decide(&phases, 0.0, Some(&input(0.0, 2.0)), 1e-9), Progress::Flies);
         assert_eq!((guidance.phase, guidance.arrival), (1, 30.0));
-        assert_eq!(guidance.decide(&phases, &input(1.0, 2.0), 1e-9), Progress::Flies);
+        assert_eq!(guidance.decide(&phases, 1.0, Some(&input(1.0, 2.0)), 1e-9), Progress::Flies);
         assert_eq!(guidance.phase, 1);
-        assert_eq!(guidance.clone().decide(&phases, &input(6.0, 2.0), 1e-9), Progress::Flies);
+        assert_eq!(guidance.clone().decide(&phases, 6.0, Some(&input(6.0, 2.0)), 1e-9), Progress::Flies);
         let mut late = guidance.clone();
         late.since = -5.0;
-        assert_eq!(late.decide(&phases, &input(5.0, 2.0), 1e-9), Progress::Fails(Failure::Timeout));
-        guidance.decide(&phases, &input(6.0, 2.0), 1e-9);
-        assert_eq!(guidance.decide(&phases, &input(6.1, 0.5), 1e-9), Progress::Launches);
+        assert_eq!(late.decide(&phases, 5.0, Some(&input(5.0, 2.0)), 1e-9), Progress::Fails(Failure::Timeout));
+        guidance.decide(&phases, 6.0, Some(&input(6.0, 2.0)), 1e-9);
+        assert_eq!(guidance.decide(&phases, 6.1, Some(&input(6.1, 0.5)), 1e-9), Progress::Launches);
         assert_eq!(Failure::NAMES[Failure::KeepOut as usize], "keep_out");
     }
 

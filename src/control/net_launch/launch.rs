@@ -68,7 +68,7 @@ impl AtLaunch {
         let (body, debris) = (scene.mass.debris.as_ref()?, truth.debris.as_ref()?);
         let s3 = product(dcm_from_quaternion(truth.body.q_es), [0.0, 0.0, 1.0]);
         let momentum = product(dcm_from_quaternion(debris.q_ed), product(body.inertia, debris.omega_de_d));
-        let margin = |(i, model): (usize, &crate::scene::WheelModel)| model.speed_limit - truth.wheels.rates[i].abs();
+        let margin = |(i, model): (usize, &crate::scene::WheelModel)| model.speed_limit - truth.wheel_rates[i].abs();
         let wheels = scene.actuators.wheels[..scene.mass.wheels.len()].iter().enumerate();
         Some(AtLaunch {
             pointing_error: angle_between(s3, geometry.to_debris),

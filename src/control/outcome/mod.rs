@@ -10,9 +10,11 @@ use super::guidance::Failure;
 use super::guidance::target::AttitudeError;
 use super::net_launch::geometry::LaunchState;
 use super::net_launch::launch::{AtLaunch, PlumeCone};
+use super::plant::Applied;
 use super::truth::Truth;
 use crate::control::rotation::vector_of;
 use crate::control::vector::{dot, norm, scaled};
+use crate::dynamics::actuation::Actuation;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 
 /// The numbers of a run with which its outcome is judged.
@@ -70,25 +72,6 @@ pub struct MissionOutcome {
     pub consistency: Consistency,
 }
 
-/// What an arc has applied, for the sums of a run.
-#[derive(Clone, Copy, Debug)]
-pub struct ArcApplied {
-    /// Its length, s.
-    pub length: f64,
-    /// Thrusts, N.
-    pub thrust: [f64; MAX_THRUSTERS],
-    /// Whether the plume of one that fires hits the debris.
-    pub hits: bool,
-    /// Whether a motor was limited by its torque, and by the speed of its wheel.
-    pub saturated: [bool; 2],
-    /// Largest commanded torque beyond a limit, N m.
-    pub torque_excess: f64,
-    /// Magnitude of the dipole of all torque rods together, A m^2.
-    pub rod_dipole: f64,
-    /// Whether a limit of a rod cut what was wanted.
-    pub is_rod_saturated: bool,
-}
-
 impl MissionOutcome {
     /// At the start.
     pub fn new() -> Self {
@@ -134,7 +117,7 @@ impl MissionOutcome {
         }
         let mut momentum = [0.0; 3];
         for (i, wheel) in scene.mass.wheels.iter().enumerate() {
-            let rate = truth.wheels.rates[i];
+            let rate = truth.wheel_rates[i];
             self.speed_peak[i] = self.speed_peak[i].max(rate.abs());
             momentum = crate::control::vector::sum(momentum, scaled(wheel.axial * rate, wheel.axis));
         }
@@ -168,23 +151,24 @@ impl MissionOutcome {
         }
     }
 
-    /// Takes an arc of a run of `scene`.
-    pub fn arc(&mut self, scene: &Scene, applied: &ArcApplied) {
+    /// Takes an arc.
+    pub fn arc(&mut self, actuation: &Actuation, applied: &Applied) {
         for (which, is_saturated) in applied.saturated.into_iter().enumerate() {
             self.saturated[which] += if is_saturated { applied.length } else { 0.0 };
         }
         self.torque_excess = self.torque_excess.max(applied.torque_excess);
-        self.rod_dipole = self.rod_dipole.max(applied.rod_dipole);
+        self.rod_dipole = self.rod_dipole.max(norm(actuation.dipole));
         self.rod_saturated += if applied.is_rod_saturated { applied.length } else { 0.0 };
-        if applied.thrust == [0.0; MAX_THRUSTERS] {
-            return;
+    }
+
+    /// Takes the thrusts `thrust`, N, of `length` seconds of a run of `scene`; `hits`: a plume hits the debris.
+    pub fn fires(&mut self, scene: &Scene, length: f64, thrust: [f64; MAX_THRUSTERS], hits: bool) {
+        for (impulse, thrust) in self.impulse.iter_mut().zip(thrust) {
+            *impulse += thrust * length;
         }
-        for (impulse, thrust) in self.impulse.iter_mut().zip(applied.thrust) {
-            *impulse += thrust * applied.length;
-        }
-        let force = norm(scene.thruster_force_s(applied.thrust));
-        self.velocity_change += force * applied.length / scene.mass.total;
-        self.plume_time += if applied.hits { applied.length } else { 0.0 };
+        let force = norm(scene.thruster_force_s(thrust));
+        self.velocity_change += force * length / scene.mass.total;
+        self.plume_time += if hits { length } else { 0.0 };
     }
 
     /// The sum of the impulses of all thrusters so far, N s.

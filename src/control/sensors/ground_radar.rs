@@ -70,7 +70,8 @@ impl Sensor for GroundRadar {
         let measured = |noise: &mut PointNoise, r_e, v_e| {
             [sum(r_e, noise.position.scaled(count, position)), sum(v_e, noise.velocity.scaled(count, velocity))]
         };
-        let base = measured(&mut self.base, truth.r_po_e, truth.v_po_e);
+        let point = truth.base_point();
+        let base = measured(&mut self.base, point.r_e, point.v_e);
         let debris = truth.debris.map(|debris| measured(&mut self.debris, debris.r_gdo_e, debris.v_gdo_e));
         Some(values(&[base.as_flattened(), debris.as_ref().map_or(&[], |debris| debris.as_flattened())]))
     }
@@ -87,7 +88,7 @@ mod tests {
     #[test]
     fn the_noise_of_each_component_is_its_own() {
         let mut at = truth(0.0, [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
-        (at.r_po_e, at.v_po_e) = ([1.0, 2.0, 3.0], [0.1, 0.2, 0.3]);
+        (at.body.r_co_e, at.body.v_co_e) = ([1.0, 2.0, 3.0], [0.1, 0.2, 0.3]);
         let debris = DebrisState {
             r_gdo_e: [30.0, 0.0, 0.0],
             v_gdo_e: [0.0, 1.0, 0.0],
@@ -103,8 +104,8 @@ mod tests {
             let (base, seen) = (PointMotion::of(&all, 0), PointMotion::of(&all, 6));
             let (base, seen) = (base.expect("p is seen"), seen.expect("the debris is seen"));
             let parts = [
-                scaled_errors(base.r_e, at.r_po_e, 0.5),
-                scaled_errors(base.v_e, at.v_po_e, 0.01),
+                scaled_errors(base.r_e, at.body.r_co_e, 0.5),
+                scaled_errors(base.v_e, at.body.v_co_e, 0.01),
                 scaled_errors(seen.r_e, debris.r_gdo_e, 0.5),
                 scaled_errors(seen.v_e, debris.v_gdo_e, 0.01),
             ];

@@ -208,7 +208,7 @@ pub(super) mod bench {
     //! What tests of sensors and of estimators have in common.
 
     use super::*;
-    use crate::dynamics::actuation::{BodyState, WheelState};
+    use crate::dynamics::actuation::BodyState;
     use crate::math::normal;
     use crate::scene::{EnvironmentInput, Epoch, FieldModel, MAX_WHEELS, Name, OrbitInput};
 
@@ -245,13 +245,11 @@ pub(super) mod bench {
 
     /// A body at `time` with this motion about its centre of mass, which rests at the origin; no debris.
     pub fn truth(time: f64, q_es: [f64; 4], omega_se_s: [f64; 3]) -> Truth {
-        let zero = [0.0; MAX_WHEELS];
         Truth {
             time,
             body: BodyState { omega_se_s, q_es, r_co_e: [0.0; 3], v_co_e: [0.0; 3] },
-            r_po_e: [0.0; 3],
-            v_po_e: [0.0; 3],
-            wheels: WheelState { rates: zero, momenta: zero, angles: zero },
+            r_cp_s: [0.0; 3],
+            wheel_rates: [0.0; MAX_WHEELS],
             debris: None,
         }
     }

@@ -53,7 +53,7 @@ impl Sensor for Tachometers {
     fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
         let errors = self.noise.scaled(count, self.deviations);
         let rates: [f64; MAX_WHEELS] =
-            std::array::from_fn(|wheel| self.scale * truth.wheels.rates[wheel] + errors[wheel]);
+            std::array::from_fn(|wheel| self.scale * truth.wheel_rates[wheel] + errors[wheel]);
         Some(values(&[&rates]))
     }
 }
@@ -68,8 +68,8 @@ mod tests {
     #[test]
     fn rates_have_scale_and_noise() {
         let mut at = truth(0.0, [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
-        at.wheels.rates[0] = 100.0;
-        at.wheels.rates[1] = -50.0;
+        at.wheel_rates[0] = 100.0;
+        at.wheel_rates[1] = -50.0;
         let mut tachometers = sensor("tachometers", &[("noise_rad_s", &[0.2]), ("scale", &[1.01])], 0.1, 2);
         let mut errors = [Vec::new(), Vec::new()];
         for count in 0..4_000 {
