@@ -145,13 +145,21 @@ impl AskedQuantile {
     }
 }
 
+/// What `missing` runs without a value are to a requirement.
+pub fn without_value(missing: &str) -> String {
+    match missing {
+        "1" => "1 run without a value counts as a violation".to_owned(),
+        _ => format!("{missing} runs without a value count as violations"),
+    }
+}
+
 /// A quantile with the interval of independent samples, where they are.
 pub fn of_quantile(order: &Order, asked: &AskedQuantile) -> QuantileStatistic {
     let AskedQuantile { p, confidence, ranks, of_values, missing } = *asked;
     let value = of_values.and_then(|p| order.quantile(p));
     let mut found = QuantileStatistic { p, confidence, value, interval: [None; 2], note: None };
     if missing > 0 {
-        found.note = Some(format!("{missing} runs without a value count as violations"));
+        found.note = Some(without_value(&missing.to_string()));
     }
     let Some(ranks) = ranks else { return found };
     let end = |rank: Option<u64>, which: usize| rank.and_then(|rank| order.bounds(rank)).map(|bounds| bounds[which]);

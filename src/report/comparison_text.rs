@@ -54,6 +54,7 @@ pub fn text(compared: Compared<'_>, width: usize) -> String {
     let Compared { comparison, keys, verdicts, tolerance } = compared;
     let mut text = match keys.len() {
         0 => "  the plans are the same\n".to_owned(),
+        1 => "  plans: 1 key differs\n".to_owned(),
         count => format!("  plans: {count} keys differ\n"),
     };
     let value = |value: &Option<String>| value.clone().unwrap_or_else(|| "-".to_owned());

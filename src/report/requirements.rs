@@ -5,6 +5,7 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use crate::analysis::assessment::{Assessment, RARE};
+use crate::analysis::order_statistics::without_value;
 use crate::analysis::tally::Tally;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
@@ -172,7 +173,7 @@ fn finding(one: &Assessment) -> String {
             });
             let missing = match one.missing {
                 0 => String::new(),
-                missing => format!(" ({missing} runs without a value count as violations)"),
+                missing => format!(" ({})", without_value(&missing.to_string())),
             };
             let share = match one.gate.estimate {
                 share if share.is_finite() => format!(": {}", with_interval([share; 2], one.interval)),

@@ -12,3 +12,4 @@ mod page;
 mod reliability;
 mod results;
 mod small_campaign;
+mod views;

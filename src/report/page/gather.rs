@@ -6,6 +6,7 @@ use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::missions::Missions;
 use crate::analysis::noise_share::NoiseShare;
 use crate::analysis::order_statistics::QuantileStatistic;
+use crate::analysis::order_statistics::without_value;
 use crate::analysis::statistics::{ColumnStatistics, Statistics};
 use crate::analysis::stopping::Stopping;
 use crate::analysis::survey::Survey;
@@ -241,7 +242,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         notes.push(format!("Tested at {} points of time.", worst.points));
     }
     if one.missing > 0 {
-        notes.push(format!("{} runs without a value count as violations.", grouped(one.missing)));
+        notes.push(format!("{}.", without_value(&grouped(one.missing))));
     }
     if let Some(assumed) = assumed(one) {
         notes.push(format!("{}.", sentence(&assumed)));

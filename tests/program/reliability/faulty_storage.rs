@@ -360,14 +360,8 @@ pub fn on(
     work: impl FnOnce(&Session<'_>) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let watch = Quiet::default();
-    work(&Session {
-        storage,
-        isa: Isa::best(),
-        threads: NonZeroUsize::new(1),
-        law: None,
-        attitude_law: None,
-        watch: &watch,
-    })
+    let session = Session::new(&watch).expect("an instruction set").on_threads(NonZeroUsize::new(1));
+    work(&Session { storage, ..session })
 }
 
 /// The reason of a failure.

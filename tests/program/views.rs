@@ -1,0 +1,248 @@
+//! What a reader sees of some campaigns, line by line, beside what somebody has read and found right: `tests/golden/views`.
+//!
+//! Other tests state what must hold of numbers, names and words; here stands what only has to be there: a caption, an order, a bound, a point of a curve. A view that changes with
+//! purpose is written again (`SPINDRIFT_WRITE_VIEWS=1`), and its difference is read before it is committed.
+
+use std::fmt::Write;
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+
+use base64::Engine;
+use serde_json::Value;
+
+use crate::small_campaign::{campaign, folder, mixed_failures};
+use crate::support::scratch_folder::ScratchFolder;
+
+/// With this variable views that differ are written.
+const WRITE: &str = "SPINDRIFT_WRITE_VIEWS";
+
+/// Elements of a page that begin a line.
+const BLOCKS: [&str; 20] = [
+    "title",
+    "h1",
+    "h2",
+    "h3",
+    "p",
+    "div",
+    "section",
+    "li",
+    "tr",
+    "summary",
+    "figcaption",
+    "pre",
+    "nav",
+    "header",
+    "details",
+    "dl",
+    "dt",
+    "dd",
+    "text",
+    "svg",
+];
+
+/// The text of the static part of a page, an element with its class and what it says on a line; of a drawing its letters and how it is drawn.
+fn text_of_page(page: &str) -> String {
+    let markup = page.split_once("<script").expect("a page has scripts").0;
+    let body = markup.split_once("<body").expect("a body").1;
+    let (mut out, mut line) = (String::new(), String::new());
+    let mut rest = &body[body.find('>').expect("a tag ends") + 1..];
+    let mut is_plan = false;
+    while let Some((text, after)) = rest.split_once('<') {
+        line.push_str(if is_plan { "the plan" } else { text.trim_matches('\n') });
+        let (tag, after) = after.split_once('>').expect("a tag ends");
+        let name = tag.trim_start_matches('/').split([' ', '/', '\n']).next().unwrap_or_default();
+        is_plan = tag.starts_with("pre");
+        if BLOCKS.contains(&name) && !line.trim().is_empty() {
+            writeln!(out, "{}", line.trim()).expect("a string");
+            line.clear();
+        }
+        if !tag.starts_with('/') {
+            for attribute in ["class", "id", "title", "aria-label", "href", "open", "hidden", "width"] {
+                let Some((_, value)) = tag.split_once(&format!(" {attribute}=\"")) else { continue };
+                let value = value.split('"').next().unwrap_or_default();
+                write!(line, "{{{attribute} {}}}", shortened(value)).expect("a string");
+            }
+        }
+        if ["td", "th", "button", "a", "option"].contains(&name) {
+            line.push('|');
+        }
+        rest = after;
+    }
+    out + line.trim()
+}
+
+/// A long value by its beginning, its length and a sum over its bytes.
+fn shortened(value: &str) -> String {
+    if value.len() <= 60 {
+        return value.to_owned();
+    }
+    let sum = value.bytes().fold(0_u32, |sum, byte| sum.wrapping_mul(31).wrapping_add(byte.into()));
+    let head: String = value.chars().take(24).collect();
+    format!("{head}... {} bytes, {sum:08x}", value.len())
+}
+
+/// What the element `id` of a page has packed.
+fn unpacked(page: &str, id: &str) -> Vec<u8> {
+    let (_, packed) = page.split_once(&format!("id=\"{id}\">")).expect("data");
+    let packed = packed.split('<').next().expect("the element ends");
+    let bytes = base64::engine::general_purpose::STANDARD.decode(packed).expect("base64");
+    let mut text = Vec::new();
+    flate2::read::GzDecoder::new(&bytes[..]).read_to_end(&mut text).expect("gzip");
+    text
+}
+
+/// The numbers that `[offset, count, width]` stands for: how many, the first, the last, and their mean, to six digits.
+fn numbers(value: &Value, all: &[u8]) -> Option<String> {
+    let list = value.as_array().filter(|list| list.len() == 3)?;
+    let [offset, count, width] = [0, 1, 2].map(|place| list[place].as_u64());
+    let (offset, count, width) = (offset? as usize, count? as usize, width? as usize);
+    let bytes = all.get(offset..offset + count * width).filter(|_| count > 0 && [4, 8].contains(&width))?;
+    let values: Vec<f64> = match width {
+        8 => bytes.chunks(8).map(|bytes| f64::from_le_bytes(bytes.try_into().expect("eight"))).collect(),
+        _ => bytes.chunks(4).map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four")).into()).collect(),
+    };
+    let known: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
+    let (first, last) = (values[0], values[count - 1]);
+    Some(format!("{} of {count} known, from {first:.5e} to {last:.5e}, mean {mean:.5e}", known.len()))
+}
+
+/// What figures and replay of a page are made from, a leaf on a line.
+fn data_of_page(value: &Value, at: &str, all: &[u8], out: &mut String) {
+    match value {
+        // what a field has where nothing was said
+        Value::Null | Value::Bool(false) => Ok(()),
+        Value::String(text) if text.is_empty() => Ok(()),
+        Value::Array(list) if list.is_empty() => Ok(()),
+        _ if numbers(value, all).is_some() => writeln!(out, "{at}: {}", numbers(value, all).unwrap_or_default()),
+        Value::Object(fields) => {
+            fields.iter().for_each(|(name, field)| data_of_page(field, &format!("{at}.{name}"), all, out));
+            Ok(())
+        }
+        Value::Array(list) if list.iter().any(|item| item.is_object() || item.is_array()) => {
+            // the nominal run of a replay and one other
+            let most = if at == ".replay.runs" { 2 } else { usize::MAX };
+            list.iter()
+                .enumerate()
+                .take(most)
+                .for_each(|(i, item)| data_of_page(item, &format!("{at}[{i}]"), all, out));
+            Ok(())
+        }
+        _ => writeln!(out, "{at}: {}", shortened(&value.to_string())),
+    }
+    .expect("a string");
+}
+
+/// `text` without what another version of the program, or another machine, says otherwise: identities of plans, times, and folders.
+fn steady(text: &str, scratch: &ScratchFolder) -> String {
+    let folder = scratch.0.to_string_lossy().into_owned();
+    let is_identity =
+        |word: &str| [8, 12, 64].contains(&word.len()) && word.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let mut out = String::new();
+    // what is timed is another number every time
+    let is_timed = |line: &&str| {
+        line.starts_with("== Estimate, from") || line.contains(" on one core") || line.contains("memory: at most")
+    };
+    let text = text.replace(&folder, "FOLDER").replace(env!("CARGO_PKG_VERSION"), "VERSION");
+    for line in text.lines().filter(|line| !is_timed(line)) {
+        let mut word = String::new();
+        for letter in line.chars().chain(['\n']) {
+            if letter.is_ascii_alphanumeric() {
+                word.push(letter);
+                continue;
+            }
+            out.push_str(if is_identity(&word) && word.bytes().any(|byte| byte.is_ascii_digit()) {
+                "ID"
+            } else {
+                &word
+            });
+            word.clear();
+            out.push(letter);
+        }
+    }
+    let (mut steady, mut rest) = (String::new(), out.as_str());
+    // "computed in 8.64 s (23/s)"
+    while let Some((before, after)) = rest.split_once("computed in ") {
+        let end = after.find(')').map_or(0, |end| end + 1);
+        steady += &format!("{before}computed in TIME");
+        rest = &after[end..];
+    }
+    steady + rest
+}
+
+/// Compares a view with the one that was approved, or writes it.
+fn approved(name: &str, view: &str, different: &mut Vec<String>) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/views").join(format!("{name}.txt"));
+    let before = fs::read_to_string(&path).unwrap_or_default();
+    if before == view {
+        return;
+    }
+    if std::env::var_os(WRITE).is_some() {
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        return fs::write(&path, view).expect("a file");
+    }
+    let (mut old, mut new) = (before.lines(), view.lines());
+    let (at, was, is) = (1..)
+        .map(|line| (line, old.next(), new.next()))
+        .find(|(_, was, is)| was != is || was.is_none())
+        .expect("endless");
+    different.push(format!("{name}.txt:{at}\n  was {}\n  is  {}", was.unwrap_or("-"), is.unwrap_or("-")));
+}
+
+/// Law: screens and pages of a campaign of free bodies, of a loop with requirements, of one on an orbit with events, and of one with failures of every kind are those that were
+/// read and approved, to the last word and number.
+#[test]
+fn what_a_reader_sees_was_approved() {
+    let scratch = folder("views");
+    scratch.file("mixed.toml", &mixed_failures());
+    scratch.file("base.toml", &campaign());
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let of = |name: &str| shipped.join(name).to_string_lossy().into_owned();
+    let mut different = Vec::new();
+    for (name, file, options, code) in [
+        ("spin_sweep", of("spin_sweep.toml"), "--samples 150", 0),
+        ("net_launch", of("net_launch.toml"), "--samples 60", 5),
+        ("nadir_pointing", of("nadir_pointing.toml"), "--samples 40", 5),
+        ("mixed", "mixed.toml".to_owned(), "--samples 200", 1),
+    ] {
+        let run = |arguments: &str, code: i32| {
+            let (command, rest) = arguments.split_once(' ').unwrap_or((arguments, ""));
+            let mut program = scratch.command(command);
+            let program = program.arg(&file).args(rest.split_whitespace()).env("COLUMNS", "100");
+            steady(&scratch.outputs(program, code), &scratch)
+        };
+        let brief = run(&format!("campaign {options} --out {name}"), code);
+        let verbose = run(&format!("campaign {options} --verbose --out {name}-again"), code);
+        approved(&format!("{name}_screen"), &format!("{brief}\n---- verbose\n{verbose}"), &mut different);
+        if ["spin_sweep", "mixed"].contains(&name) {
+            // of the others a part depends on how fast the machine is
+            approved(&format!("{name}_check"), &run("check", 0), &mut different);
+        }
+        if name == "spin_sweep" {
+            continue;
+        }
+        let page = scratch.text(&format!("{name}/report.html"));
+        approved(&format!("{name}_page"), &steady(&text_of_page(&page), &scratch), &mut different);
+        let (mut data, all) = (String::new(), unpacked(&page, "numbers"));
+        let tree = serde_json::from_slice(&unpacked(&page, "data")).expect("JSON");
+        data_of_page(&tree, "", &all, &mut data);
+        approved(&format!("{name}_data"), &steady(&data, &scratch), &mut different);
+    }
+    let wide = |arguments: &str, code: i32| {
+        steady(&scratch.outputs(scratch.command(arguments).env("COLUMNS", "100"), code), &scratch)
+    };
+    scratch.prints("campaign base.toml --samples 300 --out before", 0);
+    scratch.prints("campaign base.toml --samples 300 --set campaign.seed=8 --out after", 0);
+    let rest = [
+        wide("compare before after", 0),
+        wide("sample base.toml --samples 5", 0),
+        wide("simulate before/plan.toml --sample 3", 0),
+    ];
+    approved("other_commands", &rest.join("\n----\n"), &mut different);
+    assert!(
+        different.is_empty(),
+        "{}\nread the differences, then write the views with {WRITE}=1",
+        different.join("\n")
+    );
+}
