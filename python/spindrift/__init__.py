@@ -10,6 +10,7 @@ Guide: docs/python.md. Errors are `SpindriftError`, with all lines that the comm
 """
 
 from ._command import main
+from ._law import Control, Tick
 from ._native import SpindriftError, Table, __version__
 from ._native import columns as _columns
 from ._plan import Check, Plan, load
@@ -18,11 +19,13 @@ from ._results import Comparison, Report, Results, compare, open
 __all__ = [
     "Check",
     "Comparison",
+    "Control",
     "Plan",
     "Report",
     "Results",
     "SpindriftError",
     "Table",
+    "Tick",
     "__version__",
     "columns",
     "compare",

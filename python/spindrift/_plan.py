@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from . import _native
+from ._law import Control
 from ._results import Results
 from ._running import finish, say
 from ._shown import Shown
@@ -65,17 +66,19 @@ class Plan:
         """The resolved plan as TOML, with all defaults: a campaign file of the same rows."""
         return self._plan.text()
 
-    def check(self, samples: int | None = None) -> Check:
+    def check(self, samples: int | None = None, control: Control | None = None) -> Check:
         """What would run, how long that takes, and what is implausible. Shown in notebooks."""
-        return Check(self._plan.check(samples))
+        return Check(self._plan.check(samples, control))
 
     def sample(self, samples: int | None = None) -> _native.Table:
         """The dispersed parameters and mass properties of the first `samples` samples, drawn as a campaign of so many draws them, without runs."""
         return self._plan.sample(samples)
 
-    def simulate(self, sample: int = 0, times: Iterable[float] | None = None) -> _native.Table:
+    def simulate(
+        self, sample: int = 0, times: Iterable[float] | None = None, control: Control | None = None
+    ) -> _native.Table:
         """One sample over time, exactly as the campaign runs it; at `times` (s), else at the points of the campaign."""
-        table, notes = self._plan.simulate(sample, None if times is None else [float(time) for time in times])
+        table, notes = self._plan.simulate(sample, None if times is None else [float(time) for time in times], control)
         say(notes)
         return table
 
@@ -88,6 +91,7 @@ class Plan:
         overwrite: bool = False,
         page: bool = True,
         yes: bool = False,
+        control: Control | None = None,
     ) -> Results:
         """Runs the samples that have no rows yet, and returns the finished result.
 
@@ -98,6 +102,8 @@ class Plan:
         overwrite: replaces an existing result, which stays as it is until the new one is complete.
         page: with report.html; `Results.report` makes it later where it is not there.
         yes: also where it takes more than a day of CPU time, or half of the free disk.
+        control: the law of attitude of the phases that have `law = "python"`: a function from a `Tick` to torques, asked once per control tick for all runs
+        that are at it. What it raises ends the campaign, and is raised here.
 
         Ctrl-C stops as on the command line: parts under way may end within 5 s, a second one gives them up. What is committed stays, and the
         same call with the same `out` continues.
@@ -107,9 +113,9 @@ class Plan:
             temporary = tempfile.TemporaryDirectory(prefix="spindrift-")
             out = os.path.join(temporary.name, "result")
         folder = os.fspath(out)
-        job = self._plan.run(samples, folder, threads, overwrite, page, yes)
+        job = self._plan.run(samples, folder, threads, overwrite, page, yes, control)
         finish(job, name, progress, kept=temporary is None)
-        return Results._open(folder, temporary)
+        return Results._open(folder, temporary, control)
 
     def __repr__(self) -> str:
         name, samples, duration = self._plan.facts()

@@ -11,6 +11,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from . import _native
+from ._law import Control
 from ._shown import Shown
 
 
@@ -54,12 +55,15 @@ class Results:
 
     _results: _native.Results
     _temporary: TemporaryDirectory[str] | None
+    _control: Control | None
 
     @classmethod
-    def _open(cls, folder: str | os.PathLike[str], temporary: TemporaryDirectory[str] | None = None) -> Results:
+    def _open(
+        cls, folder: str | os.PathLike[str], temporary: TemporaryDirectory[str] | None = None, control: Control | None = None
+    ) -> Results:
         made = cls.__new__(cls)
         made._results = _native.Results.open(os.fspath(folder))
-        made._temporary = temporary
+        made._temporary, made._control = temporary, control
         return made
 
     @property
@@ -106,11 +110,11 @@ class Results:
 
     def series(self, sample: int) -> _native.Table:
         """The run of a sample again over time: bit for bit that of its row."""
-        return self._results.series(sample)
+        return self._results.series(sample, self._control)
 
     def report(self) -> Report:
         """The report page."""
-        return Report(self._results.page())
+        return Report(self._results.page(self._control))
 
     def __repr__(self) -> str:
         return f"{self.summary['campaign']}: {self.summary['samples']} samples\n{self._results.verdicts()}".rstrip()
@@ -119,9 +123,9 @@ class Results:
         return f"<pre>{html.escape(repr(self))}</pre>"
 
 
-def open(folder: str | os.PathLike[str]) -> Results:
-    """The finished result in `folder`, after its checksums were compared."""
-    return Results._open(folder)
+def open(folder: str | os.PathLike[str], control: Control | None = None) -> Results:
+    """The finished result in `folder`, after its checksums were compared. `control`: the law that flew it, where that is a function of Python."""
+    return Results._open(folder, control=control)
 
 
 def compare(first: Results | str | os.PathLike[str], second: Results | str | os.PathLike[str]) -> Comparison:

@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use spindrift::cli::run_campaign::refuse_work;
 use spindrift::workflow::{CampaignOutcome, Outputs, Session, Watch, WorkflowError};
 
+use crate::law::{Law, refuse_unnamed};
 use crate::plan::{Plan, prepared};
 use crate::{SpindriftError, raised};
 
@@ -30,6 +31,8 @@ pub struct Run {
     pub page: bool,
     /// Also where it takes long or much of the disk.
     pub yes: bool,
+    /// The law of Python that it flies.
+    pub law: Option<Arc<Law>>,
 }
 
 /// What the thread tells, and is told.
@@ -89,6 +92,7 @@ type Ended = Result<Option<(u64, u64)>, WorkflowError>;
 #[pyclass(module = "spindrift._native", frozen)]
 pub struct Job {
     shared: Arc<Shared>,
+    law: Option<Arc<Law>>,
     thread: Mutex<Option<JoinHandle<Ended>>>,
 }
 
@@ -99,22 +103,31 @@ impl Job {
     /// Where there is no thread for it.
     pub fn start(run: Run) -> PyResult<Self> {
         let shared = Arc::new(Shared::default());
-        let ends = Ends(shared.clone());
+        let (ends, law) = (Ends(shared.clone()), run.law.clone());
         let thread = std::thread::Builder::new().name("spindrift".to_owned()).spawn(move || {
             let watch = &*ends.0;
-            ran(&run, watch)
+            match &run.law {
+                Some(law) => Law::during(law, || ran(&run, watch)),
+                None => ran(&run, watch),
+            }
         });
         let thread = thread.map_err(|error| SpindriftError::new_err(format!("cannot start a thread: {error}")))?;
-        Ok(Job { shared, thread: Mutex::new(Some(thread)) })
+        Ok(Job { shared, law, thread: Mutex::new(Some(thread)) })
     }
 }
 
 /// Runs what is not there yet.
 fn ran(run: &Run, watch: &Shared) -> Ended {
-    let session = Session::new(watch)?.on_threads(run.threads);
+    let mut session = Session::new(watch)?.on_threads(run.threads);
+    if let Some(law) = &run.law {
+        session = session.with_crew(&**law);
+    }
     let outputs = Outputs { without_page: !run.page, ..Outputs::default() };
     let campaign = run.plan.campaign(session, run.samples).store(&run.out).outputs(outputs);
     let campaign = prepared(if run.overwrite { campaign.overwrite() } else { campaign })?;
+    if run.law.is_some() {
+        refuse_unnamed(campaign.plan())?;
+    }
     refuse_work(&campaign, (None, run.threads), run.overwrite, run.yes)?;
     Ok(match campaign.run()? {
         CampaignOutcome::Stopped { samples, left } => Some((samples, left)),
@@ -126,6 +139,9 @@ fn ran(run: &Run, watch: &Shared) -> Ended {
 impl Job {
     /// Waits at most so many seconds for the end; whether it is there.
     fn wait(&self, py: Python<'_>, seconds: f64) -> bool {
+        if self.law.as_ref().is_some_and(|law| law.has_raised()) {
+            self.abandon();
+        }
         py.detach(|| {
             let has_ended = locked(&self.shared.has_ended);
             let limit = Duration::from_secs_f64(seconds.clamp(0.0, 60.0));
@@ -160,6 +176,10 @@ impl Job {
         let thread = locked(&self.thread).take();
         let Some(thread) = thread else { return Ok(None) };
         let ended = py.detach(|| thread.join());
+        // a law that has raised an exception is why runs ended, whatever else is told of them
+        if let Some(error) = self.law.as_ref().and_then(|law| law.raised()) {
+            return Err(error);
+        }
         let broken = || SpindriftError::new_err("a thread of the campaign has panicked; what is committed stays");
         ended.map_err(|_| broken())?.map_err(raised)
     }

@@ -12,7 +12,7 @@ use spindrift::workflow::simulated::simulated;
 use spindrift::workflow::{Campaign, PreparedCampaign, Quiet, Session, WorkflowError};
 
 use crate::job::{Job, Run};
-use crate::raised;
+use crate::law::Law;
 use crate::table::Table;
 use crate::toml_values::{table, value};
 
@@ -50,19 +50,19 @@ impl Plan {
         &self,
         py: Python<'_>,
         samples: Option<u64>,
+        control: Option<&Bound<'_, PyAny>>,
         work: impl FnOnce(&campaign::Plan, Isa) -> Result<T, WorkflowError> + Send,
     ) -> PyResult<T> {
-        let found = py.detach(|| {
+        Law::flown(py, control, || {
             let watch = Quiet::default();
             let session = Session::new(&watch)?;
             work(prepared(self.campaign(session, samples))?.plan(), session.isa)
-        });
-        found.map_err(raised)
+        })
     }
 
     /// The same, where nothing is wrong with it.
     fn checked(self, py: Python<'_>) -> PyResult<Self> {
-        self.with(py, None, |_, _| Ok(()))?;
+        self.with(py, None, None, |_, _| Ok(()))?;
         Ok(self)
     }
 }
@@ -104,27 +104,33 @@ impl Plan {
 
     /// The name of the campaign, its number of samples, and the end of its runs, s.
     fn facts(&self, py: Python<'_>) -> PyResult<(String, u64, f64)> {
-        self.with(py, None, |plan, _| Ok((plan.name.clone(), plan.samples, plan.grid.duration())))
+        self.with(py, None, None, |plan, _| Ok((plan.name.clone(), plan.samples, plan.grid.duration())))
     }
 
     /// The resolved plan as TOML.
     fn text(&self, py: Python<'_>) -> PyResult<String> {
-        self.with(py, None, |plan, _| Ok(plan.text()))
+        self.with(py, None, None, |plan, _| Ok(plan.text()))
     }
 
     /// What would run, in words.
-    fn check(&self, py: Python<'_>, samples: Option<u64>) -> PyResult<String> {
-        self.with(py, samples, |plan, isa| check::text(plan, isa).map(|(text, _)| text))
+    fn check(&self, py: Python<'_>, samples: Option<u64>, control: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
+        self.with(py, samples, control, |plan, isa| check::text(plan, isa).map(|(text, _)| text))
     }
 
     /// The dispersed parameters of so many samples.
     fn sample(&self, py: Python<'_>, samples: Option<u64>) -> PyResult<Table> {
-        self.with(py, samples, |plan, _| Table::of_draws(plan))
+        self.with(py, samples, None, |plan, _| Table::of_draws(plan))
     }
 
     /// A sample over time, and what to know of it.
-    fn simulate(&self, py: Python<'_>, sample: u64, times: Option<Vec<f64>>) -> PyResult<(Table, Vec<String>)> {
-        self.with(py, None, |plan, isa| {
+    fn simulate(
+        &self,
+        py: Python<'_>,
+        sample: u64,
+        times: Option<Vec<f64>>,
+        control: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(Table, Vec<String>)> {
+        self.with(py, None, control, |plan, isa| {
             let found = simulated(plan, sample, times.as_deref(), isa)?;
             let status = found.run.outcome.status;
             let early = (status != Status::Done)
@@ -133,18 +139,22 @@ impl Plan {
         })
     }
 
-    /// Starts to run what is not there yet; the result goes to the folder `out`.
-    #[pyo3(signature = (samples, out, threads, overwrite, page, yes))]
+    /// Starts to run what is not there yet; the result goes to the folder `out`. `control`: the function that is the law of attitude.
+    #[pyo3(signature = (samples, out, threads, overwrite, page, yes, control))]
+    #[expect(clippy::too_many_arguments, reason = "the keywords of Python's function")]
     fn run(
         &self,
+        py: Python<'_>,
         samples: Option<u64>,
         out: PathBuf,
         threads: usize,
         overwrite: bool,
         page: bool,
         yes: bool,
+        control: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Job> {
         let threads = crate::threads(threads)?;
-        Job::start(Run { plan: self.clone(), samples, out, threads, overwrite, page, yes })
+        let law = control.map(|control| Law::new(py, control)).transpose()?;
+        Job::start(Run { plan: self.clone(), samples, out, threads, overwrite, page, yes, law })
     }
 }

@@ -14,6 +14,7 @@ use spindrift::workflow::page::remade;
 use spindrift::workflow::simulated::simulated;
 use spindrift::workflow::{self, Quiet, Session, WorkflowError};
 
+use crate::law::Law;
 use crate::raised;
 use crate::table::Table;
 
@@ -36,9 +37,10 @@ impl Results {
     fn with<T: Send>(
         &self,
         py: Python<'_>,
+        control: Option<&Bound<'_, PyAny>>,
         work: impl FnOnce(&workflow::Results<'_>) -> Result<T, WorkflowError> + Send,
     ) -> PyResult<T> {
-        let found = py.detach(|| {
+        Law::flown(py, control, || {
             let watch = Quiet::default();
             let results = workflow::Results::open(&self.root, Session::new(&watch)?)?;
             if text(&self.root, SUMMARY)? != self.summary {
@@ -48,8 +50,7 @@ impl Results {
                 )));
             }
             work(&results)
-        });
-        found.map_err(raised)
+        })
     }
 }
 
@@ -84,51 +85,50 @@ impl Results {
 
     /// The plan that was run, as TOML.
     fn plan(&self, py: Python<'_>) -> PyResult<String> {
-        self.with(py, |results| Ok(results.plan().text()))
+        self.with(py, None, |results| Ok(results.plan().text()))
     }
 
     /// All rows.
     fn rows(&self, py: Python<'_>) -> PyResult<Table> {
-        self.with(py, Table::of_rows)
+        self.with(py, None, Table::of_rows)
     }
 
     /// The statistics of every observable.
     fn statistics(&self, py: Python<'_>) -> PyResult<Table> {
-        self.with(py, |results| derived(results, STATISTICS))
+        self.with(py, None, |results| derived(results, STATISTICS))
     }
 
     /// What drives the main observables.
     fn sensitivity(&self, py: Python<'_>) -> PyResult<Table> {
-        self.with(py, |results| derived(results, SENSITIVITY))
+        self.with(py, None, |results| derived(results, SENSITIVITY))
     }
 
     /// Quantiles over time; `None` where the campaign has no bands.
     fn bands(&self, py: Python<'_>) -> PyResult<Option<Table>> {
-        self.with(py, |results| {
+        self.with(py, None, |results| {
             let there = results.root().join(BANDS).is_file();
             there.then(|| derived(results, BANDS)).transpose()
         })
     }
 
     /// A sample over time.
-    fn series(&self, py: Python<'_>, sample: u64) -> PyResult<Table> {
-        self.with(py, |results| {
+    fn series(&self, py: Python<'_>, sample: u64, control: Option<&Bound<'_, PyAny>>) -> PyResult<Table> {
+        self.with(py, control, |results| {
             let found = simulated(results.plan(), sample, None, workflow::isa()?)?;
             Table::of_series(&found.series)
         })
     }
 
     /// The text of the report page, which is made where there is none.
-    fn page(&self, py: Python<'_>) -> PyResult<String> {
-        let is_there = self.with(py, |results| Ok(results.root().join(REPORT).is_file()))?;
-        let page = py.detach(|| {
+    fn page(&self, py: Python<'_>, control: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
+        let is_there = self.with(py, None, |results| Ok(results.root().join(REPORT).is_file()))?;
+        Law::flown(py, control, || {
             if !is_there {
                 let watch = Quiet::default();
                 remade(&Session::new(&watch)?, &self.root, None, None)?;
             }
             text(&self.root, REPORT)
-        });
-        page.map_err(raised)
+        })
     }
 }
 

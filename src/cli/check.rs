@@ -8,6 +8,7 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::workload::Workload;
 use crate::cli::{completed_text, dispersions, scene_text, screen};
 use crate::control::capacity::Capacity;
+use crate::control::laws::asked;
 use crate::ensemble::Ensemble;
 use crate::ensemble::influence;
 use crate::ensemble::plausibility::implausible;
@@ -46,6 +47,7 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
 /// # Errors
 /// Where its nominal scene is not physical.
 pub fn text(plan: &Plan, isa: Isa) -> Result<(String, CommandOutcome), Failure> {
+    asked::refuse_unanswered(plan.law.as_ref()).map_err(Failure::Input)?;
     let ensemble = Ensemble::new(plan, isa);
     let scene = Scene::resolve(&plan.nominal)
         .map_err(|errors| Failure::Input(errors.iter().map(|error| format!("{error}\n")).collect()))?;

@@ -12,7 +12,9 @@ use super::parameters::{ConditionNumbers, LoopNumbers, PhaseNumbers};
 use super::small_matrix::added;
 use super::spec::{LoopSpec, PhaseSpec};
 use super::stability::{axis_gains, stable_share};
+use crate::control::laws::asked;
 use crate::dynamics::effects::{Effect, ForceModel, Form};
+use crate::sampling::SampleId;
 use crate::scene::{ControlInput, DeclaredTable, Scene};
 
 /// Angles that look like degrees from here on, rad: what is an error or a band. Others from a turn on.
@@ -219,7 +221,7 @@ fn stability(
 ) -> Option<String> {
     let law = phase.law?;
     // a slew under a torque limit brakes on a curve that has no gain at its end
-    if number(table, "max_torque_n_m") > 0.0 {
+    if number(table, "max_torque_n_m") > 0.0 || law == &asked::KIND {
         return None;
     }
     let believed = spec.believed(scene);
@@ -235,7 +237,8 @@ fn stability(
     let known = KnownBody::of(&believed.mass);
     let (period, delay) = (spec.period, LoopNumbers::of(&numbers.law).delay);
     let body = (scene.mass.inertia_rotating(), reach);
-    let settings = LawSettings { table, gyroscopic: phase.gyroscopic, period, delay, code: spec.code() };
+    let settings =
+        LawSettings { table, gyroscopic: phase.gyroscopic, period, delay, sample: SampleId(0), code: spec.code() };
     let gains = axis_gains(&(law.make)(&settings), &known, phase.target != Target::None, body, period);
     let share = stable_share(&gains, period, delay)?;
     let most = if share > 0.0 {

@@ -15,6 +15,7 @@
 pub mod audit;
 pub mod bands;
 mod batch;
+pub mod crew;
 mod crossing;
 mod deviation_window;
 pub mod drawn;

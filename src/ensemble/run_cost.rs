@@ -4,6 +4,8 @@
 //! core. A clock would give other parts on another machine, or on the same one an hour later.
 
 use crate::campaign::Plan;
+use crate::control::ControlLaw;
+use crate::control::laws::asked::is_law_of;
 use crate::ensemble::flights::Flights;
 use crate::ensemble::parts::Parts;
 use crate::ensemble::settings::propagator;
@@ -30,14 +32,25 @@ const POINT_S: f64 = 5e-7;
 /// Work of an audit over the work of its run: a reference solution in double-double at a tolerance of 1e-28.
 const AUDIT: f64 = 300.0;
 
+/// Samples of a part under a law that is asked for many runs at once: parts are flown side by side, and the more there are the more runs it is asked about.
+const ASKED: u64 = 64;
+
+/// Whether the law of `plan` is asked for many runs at once. Its work is not that of the plan, and nothing is known of it where nobody answers.
+fn is_asked(plan: &Plan) -> bool {
+    plan.law.as_ref().and_then(ControlLaw::spec).is_some_and(is_law_of)
+}
+
 /// The parts of a campaign of `plan`.
 pub fn parts(plan: &Plan, isa: Isa) -> Parts {
+    if is_asked(plan) {
+        return Parts::up_to(plan.rows(), ASKED);
+    }
     parts_of_runs(plan, run_seconds(plan, isa))
 }
 
 /// The parts of a campaign of `plan` whose runs take `seconds` s each ([`run_seconds`]).
 pub fn parts_of_runs(plan: &Plan, seconds: f64) -> Parts {
-    Parts::up_to(plan.rows(), (LOST_S / seconds) as u64)
+    Parts::up_to(plan.rows(), if is_asked(plan) { ASKED } else { (LOST_S / seconds) as u64 })
 }
 
 /// What a run of `plan` takes at most on one core, s: a function of the plan, not of the machine.

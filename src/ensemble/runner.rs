@@ -57,17 +57,13 @@ pub fn run<S: Sink>(
     let (next, is_failed) = (AtomicUsize::new(0), AtomicBool::new(false));
     let failure: Mutex<Option<S::Error>> = Mutex::new(None);
     let is_on = || !supervision.stop.load(Ordering::Relaxed) && !is_failed.load(Ordering::Relaxed);
-    pool.broadcast(|_| {
+    let share = || {
         // Memory is allocated on the thread that uses it, and only where it gets a part.
         let mut memory = None;
         while is_on()
             && let Some(part) = parts.get(next.fetch_add(1, Ordering::Relaxed))
         {
-            let (worker, rows) = memory.get_or_insert_with(|| {
-                // the bands need the nominal run: before the worker's memory is there, and on its thread, which uses the memory again
-                ensemble.bands();
-                (ensemble.worker(), ensemble.rows(largest))
-            });
+            let (worker, rows) = memory.get_or_insert_with(|| (ensemble.worker(), ensemble.rows(largest)));
             if !worker.run(*part, rows, supervision) {
                 break;
             }
@@ -76,6 +72,13 @@ pub fn run<S: Sink>(
                 failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
             }
         }
+    };
+    pool.broadcast(|_| {
+        if !parts.is_empty() {
+            // the bands need the nominal run: before the worker's memory is there, on its thread, which uses the memory again, and where runs take no turns
+            ensemble.bands();
+        }
+        supervision.crew.work(&share);
     });
     match failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
         Some(error) => Err(RunError::Sink(error)),

@@ -2,6 +2,8 @@
 
 use std::sync::atomic::AtomicBool;
 
+use crate::ensemble::crew::{Alone, Crew};
+
 /// What a campaign is told while it runs, and what it tells.
 #[derive(Clone, Copy)]
 pub struct Supervision<'a> {
@@ -11,6 +13,8 @@ pub struct Supervision<'a> {
     pub stop: &'a AtomicBool,
     /// Parts under way are given up once this is set.
     pub abandon: &'a AtomicBool,
+    /// How each thread does its share.
+    pub crew: &'a dyn Crew,
 }
 
 /// Evaluations of equations of motion after which the runs that have ended are told: some 10 ms. Telling each run of a fast campaign would
@@ -63,7 +67,7 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 impl<'a> Supervision<'a> {
     /// A campaign that nobody stops.
     pub fn progress(progress: &'a (dyn Fn(u64) + Sync)) -> Self {
-        Supervision { progress, stop: &NEVER, abandon: &NEVER }
+        Supervision { progress, stop: &NEVER, abandon: &NEVER, crew: &Alone }
     }
 }
 

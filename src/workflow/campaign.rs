@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::campaign::{FilesRead, Overrides, Plan};
+use crate::control::laws::asked;
 use crate::ensemble::Ensemble;
 use crate::storage::claim::{Claim, ClaimOptions, Shard, claim};
 use crate::storage::rows_file::identity;
@@ -213,6 +214,7 @@ impl PreparedCampaign<'_> {
     /// # Errors
     /// Where the folder has something that must not be replaced, or files cannot be read or written.
     pub fn run(&self) -> Result<CampaignOutcome, WorkflowError> {
+        asked::refuse_unanswered(self.plan.law.as_ref()).map_err(WorkflowError::Input)?;
         let Campaign { session, shard, overwrite, fail_fast, outputs, .. } = &self.campaign;
         let (ensemble, root) = (self.ensemble(), &*self.root);
         let claimed = ClaimOptions { overwrite: *overwrite, shard: *shard, threads: session.readers() };

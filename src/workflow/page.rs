@@ -6,6 +6,7 @@ use crate::analysis::fold::Gathered;
 use crate::analysis::noise_share::{NoiseShare, noise_shares};
 use crate::analysis::outcomes::outcomes;
 use crate::campaign::Plan;
+use crate::control::laws::asked;
 use crate::ensemble::Ensemble;
 use crate::report::image::{self, PlotSize};
 use crate::report::page::gather::Analysis;
@@ -58,6 +59,7 @@ pub fn remade(
         )));
     };
     let plan = plan_of_sound(session, (root, &found), Some(REPORT))?;
+    asked::refuse_unanswered(plan.law.as_ref()).map_err(WorkflowError::Input)?;
     if noise.is_some() && plan.law.is_none() {
         return Err(WorkflowError::Input(format!(
             "campaign {} has no control loop, and without one a run has no noise: leave out --noise",

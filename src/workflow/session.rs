@@ -8,6 +8,7 @@ use crate::campaign::Overrides;
 use crate::control::ControlLaw;
 use crate::control::laws::LawKind;
 use crate::ensemble::Supervision;
+use crate::ensemble::crew::{Alone, Crew};
 use crate::ensemble::runner::threads;
 use crate::math::Isa;
 use crate::math::isa::VARIABLE;
@@ -62,6 +63,8 @@ pub struct Session<'a> {
     pub law: Option<&'a ControlLaw>,
     /// The law of attitude that the program brings, for phases that name it.
     pub attitude_law: Option<&'static LawKind>,
+    /// How each thread does its share of a campaign.
+    pub crew: &'a dyn Crew,
     pub watch: &'a dyn Watch,
 }
 
@@ -71,7 +74,7 @@ impl<'a> Session<'a> {
     /// # Errors
     /// Where the environment names an instruction set that is not available.
     pub fn new(watch: &'a dyn Watch) -> Result<Self, WorkflowError> {
-        Ok(Session { storage: &Disk, isa: isa()?, threads: None, law: None, attitude_law: None, watch })
+        Ok(Session { storage: &Disk, isa: isa()?, threads: None, law: None, attitude_law: None, crew: &Alone, watch })
     }
 
     /// The same on so many threads.
@@ -92,6 +95,12 @@ impl<'a> Session<'a> {
         Session { attitude_law: Some(law), ..self }
     }
 
+    /// The same where each thread does its share of a campaign as `crew` says.
+    #[must_use]
+    pub fn with_crew(self, crew: &'a dyn Crew) -> Self {
+        Session { crew, ..self }
+    }
+
     /// What plans are read with: the laws that the program brings.
     pub(super) fn overrides(&self) -> Overrides {
         Overrides { law: self.law.cloned(), attitude_law: self.attitude_law, ..Overrides::default() }
@@ -104,7 +113,7 @@ impl<'a> Session<'a> {
 
     /// What runs are told; `progress` is told how many have ended.
     pub(super) fn supervision<'s>(&'s self, progress: &'s (dyn Fn(u64) + Sync)) -> Supervision<'s> {
-        Supervision { progress, stop: self.watch.stop(), abandon: self.watch.abandon() }
+        Supervision { progress, stop: self.watch.stop(), abandon: self.watch.abandon(), crew: self.crew }
     }
 }
 

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Mutex;
 
+use crate::control::laws::asked;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts};
 use crate::sampling::SampleId;
@@ -56,6 +57,8 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     let (found, locks) = open(storage, root, !wanted.repair).map_err(WorkflowError::files)?;
     let (plan, read) = plan_in(session, root, &found)?;
     let plan = plan.at_look(found.rows());
+    // also without rows to compute again: the page has runs over time
+    asked::refuse_unanswered(plan.law.as_ref()).map_err(WorkflowError::Input)?;
     let ensemble = Ensemble::new(&plan, session.isa);
     let expected = identity(&ensemble);
     refuse_other_rows(root, &found, &expected)?;

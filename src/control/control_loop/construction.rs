@@ -113,8 +113,14 @@ fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: 
     };
     let delay = LoopNumbers::of(numbers).delay;
     let law = |(phase, table): (&PhaseSpec, &DeclaredTable)| {
-        let settings =
-            LawSettings { table, gyroscopic: phase.gyroscopic, period: spec.period, delay, code: spec.code() };
+        let settings = LawSettings {
+            table,
+            gyroscopic: phase.gyroscopic,
+            period: spec.period,
+            delay,
+            sample: context.sample,
+            code: spec.code(),
+        };
         phase.law.map_or(AttitudeLaw::None, |law| (law.make)(&settings))
     };
     let laws = spec.phases.iter().zip(&context.parameters.guidance).map(law);

@@ -3,6 +3,7 @@
 //! All of them know the nominal spacecraft only: [`KnownBody`] has its constants. The equation of motion is K omega' = H x omega + u, with K = J* where
 //! free wheels are driven by motors, H the angular momentum with the wheels, and u the torque on the body, F_s.
 
+pub mod asked;
 mod eigenaxis;
 mod integral;
 pub mod momentum_unloading;
@@ -25,6 +26,7 @@ use crate::control::estimate::Estimate;
 use crate::control::flight_code::FlightCode;
 use crate::control::guidance::Failure;
 use crate::control::vector::{cross, difference, dot, product, scaled, sum};
+use crate::sampling::SampleId;
 use crate::scene::{DeclaredTable, LawParameter, MassProperties, WheelMode};
 
 /// The laws of attitude that a campaign can name.
@@ -118,6 +120,8 @@ pub struct LawSettings<'a> {
     pub period: f64,
     /// The time from a tick to the effect of its command, s.
     pub delay: f64,
+    /// The run.
+    pub sample: SampleId,
     /// The module of the loop, if it has one.
     pub code: Option<&'static FlightCode>,
 }
@@ -322,8 +326,14 @@ mod tests {
             for (value, parameter) in table.values.iter_mut().zip(kind.parameters) {
                 *value = parameter.default.map_or(0.5, |default| default[0]);
             }
-            let mut law =
-                (kind.make)(&LawSettings { table: &table, gyroscopic: false, period: 0.1, delay: 0.0, code: None });
+            let mut law = (kind.make)(&LawSettings {
+                table: &table,
+                gyroscopic: false,
+                period: 0.1,
+                delay: 0.0,
+                sample: SampleId(0),
+                code: None,
+            });
             let torque = law.torque(&craft, &body.input(), 0.1);
             assert!(crate::control::vector::dot(torque, body.omega) < -1e-6, "{}: {torque:?}", kind.name);
         }
@@ -383,8 +393,14 @@ mod tests {
                         (_, None) => 5.0,
                     };
                 }
-                let mut law =
-                    (kind.make)(&LawSettings { table: &table, gyroscopic: false, period: 0.2, delay: 0.0, code: None });
+                let mut law = (kind.make)(&LawSettings {
+                    table: &table,
+                    gyroscopic: false,
+                    period: 0.2,
+                    delay: 0.0,
+                    sample: SampleId(0),
+                    code: None,
+                });
                 let mut body = Body { inertia: [30.0, 45.0, 20.0], q_es: [1.0, 0.0, 0.0, 0.0], omega: [0.0; 3] };
                 let craft = KnownBody { inertia: body.matrix() };
                 for tick in 0..6000 {

@@ -2,6 +2,8 @@
 
 use crate::analysis::survey::Survey;
 use crate::campaign::{Display, Plan};
+use crate::control::ControlLaw;
+use crate::control::laws::asked;
 use crate::report::escaped::escaped;
 use crate::report::mission_text;
 use crate::report::names;
@@ -182,8 +184,13 @@ pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> S
             )
         })
         .collect();
+    let kept = if plan.law.as_ref().and_then(ControlLaw::spec).is_some_and(asked::is_law_of) {
+        "The law of attitude is a function of Python, which is not part of the plan: the rows cannot be made again without it."
+    } else {
+        "Neither the number of threads nor the machine changes a bit of the rows, and the same rows give this page again, byte for byte."
+    };
     format!(
-        "<p>{} samples of plan <code>{}</code>, spindrift {}. Neither the number of threads nor the machine changes a bit of the rows, and the same rows give this page again, byte for byte.</p>
+        "<p>{} samples of plan <code>{}</code>, spindrift {}. {kept}</p>
 <p>To make it again, in this folder: <code>spindrift report .</code> from the rows, or <code>spindrift campaign plan.toml --out elsewhere</code> from scratch.</p>
 <details><summary>The whole plan</summary><pre class=\"plan\"><code>{}</code></pre></details>{files}
 <details><summary>What the columns on this page mean</summary><dl class=\"glossary\">{glossary}</dl></details>

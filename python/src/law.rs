@@ -1,0 +1,189 @@
+//! [`Law`]: a law of attitude in Python, asked once per control tick for all runs that are flown side by side.
+//!
+//! Runs take turns on the thread that flies them, each on a stack of its own (the crate `generator`): one that asks its law leaves the thread to the others, and
+//! when all of them wait, the function answers for all at once. A run that is flown alone (the nominal one of bands and pages, a replay) is asked about alone.
+
+use std::cell::RefCell;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use generator::{Generator, Gn, is_generator};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use spindrift::campaign::Plan;
+use spindrift::control::ControlLaw;
+use spindrift::control::laws::asked::{Answered, Answers, Question, is_law_of};
+use spindrift::ensemble::crew::Crew;
+use spindrift::scene::MAX_WHEELS;
+use spindrift::workflow::WorkflowError;
+
+/// Parts that are flown side by side on a thread. Eight runs of each are on their way: the function answers for up to 512.
+const SIDE_BY_SIDE: usize = 64;
+/// Bytes of the stack of each: what the kernels take, several times.
+const STACK: usize = 2 << 20;
+
+/// Numbers of a question, in the order of [`row`].
+const NUMBERS: usize = 29 + MAX_WHEELS;
+
+/// What the function is told of a run, in the order of `_law.py`.
+fn row(question: &Question<'_>) -> [f64; NUMBERS] {
+    let (input, estimate) = (question.input, question.estimate);
+    let mut numbers = [0.0; NUMBERS];
+    let parts: [&[f64]; 11] = [
+        &[question.sample.0 as f64, input.time, question.period],
+        &input.q_ts,
+        &input.omega_se_s,
+        &input.omega_te_s,
+        &input.momentum_s,
+        &estimate.q_es,
+        &estimate.r_co_e,
+        &estimate.v_co_e,
+        &estimate.gyro_bias_s,
+        &estimate.wheel_rates,
+        &[],
+    ];
+    let mut place = 0;
+    for part in parts {
+        numbers[place..place + part.len()].copy_from_slice(part);
+        place += part.len();
+    }
+    numbers
+}
+
+/// Refuses a law for a plan whose phases do not name it.
+///
+/// # Errors
+/// Where none does.
+pub fn refuse_unnamed(plan: &Plan) -> Result<(), WorkflowError> {
+    if plan.law.as_ref().and_then(ControlLaw::spec).is_some_and(is_law_of) {
+        return Ok(());
+    }
+    Err(WorkflowError::Input("control=: no phase has law = \"python\" in [[guidance]]".to_owned()))
+}
+
+/// Leaves the thread to the other runs until all of them wait.
+#[expect(deprecated, reason = "what replaces it is in the hands of who has begun the run, far from the law")]
+fn rest() {
+    generator::yield_with(());
+}
+
+/// Runs of this thread that wait: what they ask, and what they are answered, in the order in which they asked.
+#[derive(Default)]
+struct Waiting {
+    questions: Vec<[f64; NUMBERS]>,
+    answers: Vec<[f64; 3]>,
+}
+
+thread_local! {
+    static WAITING: RefCell<Waiting> = RefCell::default();
+}
+
+/// A function of Python, and what it has raised.
+pub struct Law {
+    /// `_law.answered(function)`: bytes of questions to bytes of torques.
+    ask: Py<PyAny>,
+    raised: Mutex<Option<PyErr>>,
+}
+
+impl Law {
+    /// The function `control` as a law.
+    ///
+    /// # Errors
+    /// Where NumPy is not there.
+    pub fn new(py: Python<'_>, control: &Bound<'_, PyAny>) -> PyResult<Arc<Self>> {
+        let ask = py.import("spindrift._law")?.getattr("answered")?.call1((control,))?;
+        Ok(Arc::new(Law { ask: ask.unbind(), raised: Mutex::new(None) }))
+    }
+
+    /// Whether the function has raised an exception: what is flown now has no law.
+    pub fn has_raised(&self) -> bool {
+        self.raised.lock().unwrap_or_else(PoisonError::into_inner).is_some()
+    }
+
+    /// What the function has raised, once.
+    pub fn raised(&self) -> Option<PyErr> {
+        self.raised.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    /// What `work` returns, in which laws are answered by `law`.
+    ///
+    /// # Errors
+    /// Where another law of Python is flown in this process.
+    pub fn during<T>(law: &Arc<Self>, work: impl FnOnce() -> Result<T, WorkflowError>) -> Result<T, WorkflowError> {
+        let another = || WorkflowError::Input("another run with control= is under way in this process".to_owned());
+        let _answered = Answered::by(law.clone()).ok_or_else(another)?;
+        work()
+    }
+
+    /// What `work` returns without Python's lock, in which laws are answered by `control`, where there is one.
+    ///
+    /// # Errors
+    /// That of `work`, or what `control` has raised.
+    pub fn flown<T: Send>(
+        py: Python<'_>,
+        control: Option<&Bound<'_, PyAny>>,
+        work: impl FnOnce() -> Result<T, WorkflowError> + Send,
+    ) -> PyResult<T> {
+        let Some(control) = control else { return py.detach(work).map_err(crate::raised) };
+        let law = Law::new(py, control)?;
+        let done = py.detach(|| Law::during(&law, work));
+        law.raised().map_or_else(|| done.map_err(crate::raised), Err)
+    }
+
+    /// Answers `questions`; with what is not a number where the function has raised an exception, now or before.
+    fn answers(&self, questions: &[[f64; NUMBERS]]) -> Vec<[f64; 3]> {
+        let nothing = vec![[f64::NAN; 3]; questions.len()];
+        if self.has_raised() {
+            return nothing;
+        }
+        let bytes: Vec<u8> = questions.iter().flatten().flat_map(|number| number.to_ne_bytes()).collect();
+        let answered = Python::attach(|py| -> PyResult<Vec<[f64; 3]>> {
+            let answer = self.ask.bind(py).call1((PyBytes::new(py, &bytes),))?;
+            let answer = answer.cast::<PyBytes>().map_err(PyErr::from)?;
+            let numbers = answer.as_bytes().as_chunks::<8>().0.iter().map(|bytes| f64::from_ne_bytes(*bytes));
+            let numbers: Vec<f64> = numbers.collect();
+            Ok(numbers.as_chunks::<3>().0.to_vec())
+        });
+        match answered {
+            Ok(torques) if torques.len() == questions.len() => torques,
+            Ok(_) => nothing,
+            Err(error) => {
+                // Python's lock is free again: who has it may ask for this one
+                self.raised.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                nothing
+            }
+        }
+    }
+}
+
+impl Answers for Law {
+    fn torque(&self, question: &Question<'_>) -> [f64; 3] {
+        let numbers = row(question);
+        if !is_generator() {
+            return self.answers(&[numbers])[0];
+        }
+        let place = WAITING.with_borrow_mut(|waiting| {
+            waiting.questions.push(numbers);
+            waiting.questions.len() - 1
+        });
+        rest();
+        WAITING.with_borrow(|waiting| waiting.answers[place])
+    }
+}
+
+impl Crew for Law {
+    fn work(&self, work: &(dyn Fn() + Sync)) {
+        let begin = |_| Gn::<()>::new_opt(STACK / size_of::<usize>(), work);
+        let mut runs: Vec<Generator<'_, (), ()>> = (0..SIDE_BY_SIDE).map(begin).collect();
+        while !runs.is_empty() {
+            runs.retain_mut(|run| {
+                run.resume();
+                !run.is_done()
+            });
+            let questions = WAITING.with_borrow_mut(|waiting| std::mem::take(&mut waiting.questions));
+            if !questions.is_empty() {
+                let answers = self.answers(&questions);
+                WAITING.with_borrow_mut(|waiting| waiting.answers = answers);
+            }
+        }
+    }
+}
