@@ -35,16 +35,19 @@ pub fn ranked<'a>(plan: &Plan, all: &'a [InputSensitivity], outcome: &str) -> Ve
 }
 
 /// What happens in a run in which the event of `outcome` occurs: "fail".
-pub fn verb(outcome: &str, event: &Event) -> String {
+pub fn verb(outcome: &str, event: &Event, runs: u64) -> String {
+    let of = |one: &'static str, several: &'static str| if runs == 1 { one } else { several };
     match event.occurs {
-        Occurs::Missed if ["launched", "failure"].contains(&outcome) => "fail".to_owned(),
-        Occurs::Missed => "miss the limit".to_owned(),
+        Occurs::Missed if ["launched", "failure"].contains(&outcome) => of("fails", "fail").to_owned(),
+        Occurs::Missed => format!("{} the limit", of("misses", "miss")),
         Occurs::Value(value) if outcome == COMPUTED => {
-            format!("were {}computed", if value == 1.0 { "" } else { "not " })
+            format!("{} {}computed", of("was", "were"), if value == 1.0 { "" } else { "not " })
         }
-        Occurs::Value(value) => format!("have {}", short(value)),
-        Occurs::OtherThan(value) => format!("have another value than {}", short(value)),
-        Occurs::Worst(share) => format!("are among the worst {}%", short(libm::round(1e9 * share) / 1e7)),
+        Occurs::Value(value) => format!("{} {}", of("has", "have"), short(value)),
+        Occurs::OtherThan(value) => format!("{} another value than {}", of("has", "have"), short(value)),
+        Occurs::Worst(share) => {
+            format!("{} among the worst {}%", of("is", "are"), short(libm::round(1e9 * share) / 1e7))
+        }
     }
 }
 
@@ -52,18 +55,18 @@ pub fn verb(outcome: &str, event: &Event) -> String {
 fn such_runs(outcome: &str, event: &Event) -> String {
     match event.occurs {
         Occurs::Worst(share) => format!("the worst {}% of runs", short(libm::round(1e9 * share) / 1e7)),
-        _ => format!("the runs that {}", verb(outcome, event)),
+        _ => format!("the runs that {}", verb(outcome, event, u64::MAX)),
     }
 }
 
 pub fn sentence(plan: &Plan, outcome: &str, ranking: &Ranking<'_>) -> String {
     match &ranking.question {
-        Question::Event(event) => of_event(plan, [&verb(outcome, event), &such_runs(outcome, event)], event, ranking),
+        Question::Event(event) => of_event(plan, [outcome, &such_runs(outcome, event)], event, ranking),
         Question::Spread => of_spread(plan, ranking),
     }
 }
 
-fn of_event(plan: &Plan, [verb, runs]: [&str; 2], event: &Event, ranking: &Ranking<'_>) -> String {
+fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ranking<'_>) -> String {
     if let Some(together) = at_a_distance(plan, runs, ranking) {
         return together;
     }
@@ -79,7 +82,12 @@ fn of_event(plan: &Plan, [verb, runs]: [&str; 2], event: &Event, ranking: &Ranki
                 let level = |level: &Level| {
                     let value =
                         level.value.map_or("at other values".to_owned(), |value| format!("= {}", amount(value)));
-                    format!("{value}: {} of {} {verb}", level.of.events, level.of.runs)
+                    format!(
+                        "{value}: {} of {} {}",
+                        level.of.events,
+                        level.of.runs,
+                        verb(outcome, event, level.of.events)
+                    )
                 };
                 let mut listed: Vec<&Level> = levels.iter().collect();
                 let first = listed.remove(*most);
@@ -108,6 +116,7 @@ fn of_event(plan: &Plan, [verb, runs]: [&str; 2], event: &Event, ranking: &Ranki
     let named: Vec<String> = ranking.drivers().take(NAMED).filter_map(phrase).collect();
     if named.is_empty() {
         let of = event.of;
+        let verb = verb(outcome, event, of.events);
         return format!("{} of {} runs {verb}; no input is shown to decide which", of.events, of.runs);
     }
     named.join("; ")
@@ -225,7 +234,7 @@ mod tests {
             (Dependence::Distance { chance: 0.1 }, "x is nearer to its median in the runs that miss the limit"),
             (
                 Dependence::Levels { levels, most: 1, ratio },
-                "x = 1: 4 of 5 miss the limit; = 0: 1 of 95 miss the limit (risk ratio 76 [10, 300])",
+                "x = 1: 4 of 5 miss the limit; = 0: 1 of 95 misses the limit (risk ratio 76 [10, 300])",
             ),
         ] {
             let of = Occurrence { events: 5, runs: 100 };

@@ -152,11 +152,16 @@ fn steady(text: &str, scratch: &ScratchFolder) -> String {
                 word.push(letter);
                 continue;
             }
-            out.push_str(if is_identity(&word) && word.bytes().any(|byte| byte.is_ascii_digit()) {
-                "ID"
-            } else {
-                &word
-            });
+            out.push_str(
+                if is_identity(&word)
+                    && word.bytes().any(|byte| byte.is_ascii_digit())
+                    && word.bytes().any(|byte| byte.is_ascii_lowercase())
+                {
+                    "ID"
+                } else {
+                    &word
+                },
+            );
             word.clear();
             out.push(letter);
         }

@@ -160,14 +160,18 @@ fn influence(
         Question::Spread => (None, "share of the variance", meaning(plan, first, all, &driven) + noise),
         Question::Event(event) => {
             let of = event.of;
-            let meaning =
-                format!("{} of {} runs {}; {driven}.", grouped(of.events), grouped(of.runs), verb(name, event));
+            let meaning = format!(
+                "{} of {} runs {}; {driven}.",
+                grouped(of.events),
+                grouped(of.runs),
+                verb(name, event, of.events)
+            );
             (Some(*event), "share of the variance", meaning)
         }
     };
     Some(Influence {
         outcome: name.to_owned(),
-        event: event.map(|event| (verb(name, &event), !event.has_few_values)),
+        event: event.map(|event| (verb(name, &event, u64::MAX), !event.has_few_values)),
         measure: measure.to_owned(),
         meaning,
         inputs: ranking

@@ -10,6 +10,9 @@ use crate::report::page::readable::with_unit;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
 
+/// Places of a list of worst runs after the first, in words.
+const PLACES: [&str; 9] = ["second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"];
+
 /// How many runs are in the table of the worst.
 pub const WORST: usize = 10;
 /// Failed runs among them, at most.
@@ -152,15 +155,22 @@ fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
                     (0, false) => "largest".to_owned(),
                     (0, true) => "smallest".to_owned(),
                     (place, _) => {
-                        let which = ["second", "third", "fourth", "fifth"].get(place - 1);
-                        let which = which.map_or_else(|| format!("{}th", place + 1), |which| (*which).to_owned());
+                        let which = PLACES
+                            .get(place - 1)
+                            .map_or_else(|| format!("{}th", place + 1), |which| (*which).to_owned());
                         format!("{which} {}", if is_low { "smallest" } else { "largest" })
                     }
                 };
                 let quantity = &outcome.quantity;
                 let shown = plan.analysis.display.of(quantity.name(), quantity.unit());
                 let value = with_unit(shown.value(*value), &shown.unit);
-                list.push((*sample, format!("{rank} {} ({value})", names::of_quantity(quantity))));
+                let name = names::of_quantity(quantity);
+                // "largest highest pointing error" is one word too many
+                let name = ["highest ", "maximum ", "largest "]
+                    .iter()
+                    .find_map(|word| name.strip_prefix(word))
+                    .unwrap_or(&name);
+                list.push((*sample, format!("{rank} {name} ({value})")));
             }
         }
     }

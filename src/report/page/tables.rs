@@ -89,10 +89,26 @@ pub fn statistics(rows: &[StatisticsRow], display: &Display) -> String {
     )
 }
 
+/// Values whose relative difference is below this are shown by the difference.
+const ALIKE: f64 = 1e-3;
+
 /// Root mean square of the distances of `values` from the nominal one: by what an input is judged to be far from it.
 fn spread(values: &[f64], nominal: f64) -> f64 {
     let squares: Vec<f64> = values.iter().map(|value| (value - nominal).powi(2)).filter(|x| x.is_finite()).collect();
     libm::sqrt(squares.iter().sum::<f64>() / squares.len().max(1) as f64).max(f64::MIN_POSITIVE)
+}
+
+/// A drawn value beside the nominal one, in `unit`: as a difference where both would be the same digits. A nominal value of zero is what a reader expects of an error.
+fn drawn([value, nominal]: [f64; 2], unit: &str) -> String {
+    let off = value - nominal;
+    if nominal == 0.0 {
+        return format!("{} (", with_unit(value, unit));
+    }
+    if off.abs() < ALIKE * nominal.abs() && off != 0.0 {
+        let sign = if off < 0.0 { "\u{2212}" } else { "+" };
+        return format!("{} {sign} {} (", with_unit(nominal, unit), with_unit(off.abs(), unit));
+    }
+    format!("{} (nominal {}, ", with_unit(value, unit), with_unit(nominal, unit))
 }
 
 /// The nominal run and the worst ones, with inputs, outcome, reason and the command that replays each.
@@ -110,17 +126,8 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
                 let shown = unit_of(plan, index);
                 let name = names::of_component(column.parameter, column.component);
                 let sigmas = (value - column.nominal).abs() / spreads[index];
-                // zero is what a reader expects of an error
-                let nominal = match column.nominal {
-                    0.0 => String::new(),
-                    nominal => format!("nominal {}, ", with_unit(shown.value(nominal), &shown.unit)),
-                };
-                let text = format!(
-                    "{name} {} ({nominal}{} \u{3c3})",
-                    with_unit(shown.value(*value), &shown.unit),
-                    number(libm::round(10.0 * sigmas) / 10.0)
-                );
-                (sigmas, text)
+                let values = drawn([*value, column.nominal].map(|value| shown.value(value)), &shown.unit);
+                (sigmas, format!("{name} {values}{} \u{3c3})", number(libm::round(10.0 * sigmas) / 10.0)))
             })
             .collect();
         inputs.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -200,4 +207,23 @@ pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> S
         env!("CARGO_PKG_VERSION"),
         escaped(&plan.text()),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::drawn;
+
+    /// Law: what is drawn is told from what is nominal, however near it is.
+    #[test]
+    fn a_drawn_value_is_not_the_nominal_one() {
+        for (values, text) in [
+            ([0.9, 1.0], "0.9\u{a0}m (nominal 1\u{a0}m, "),
+            ([1.0 + 2.5e-4, 1.0], "1\u{a0}m + 2.5\u{a0}\u{d7}\u{a0}10\u{207b}\u{2074}\u{a0}m ("),
+            ([6_976_000.0, 6_978_000.0], "6,978,000\u{a0}m \u{2212} 2,000\u{a0}m ("),
+            ([-0.3, 0.0], "-0.3\u{a0}m ("),
+            ([1.0, 1.0], "1\u{a0}m (nominal 1\u{a0}m, "),
+        ] {
+            assert_eq!(drawn(values, "m"), text);
+        }
+    }
 }
