@@ -58,7 +58,8 @@ fn text_of_page(page: &str) -> String {
             line.clear();
         }
         if !tag.starts_with('/') {
-            for attribute in ["class", "id", "title", "aria-label", "href", "open", "hidden", "width"] {
+            for attribute in ["class", "id", "title", "aria-label", "href", "open", "hidden", "width", "x1", "x2", "cx"]
+            {
                 let Some((_, value)) = tag.split_once(&format!(" {attribute}=\"")) else { continue };
                 let value = value.split('"').next().unwrap_or_default();
                 write!(line, "{{{attribute} {}}}", shortened(value)).expect("a string");
@@ -243,6 +244,8 @@ fn what_a_reader_sees_was_approved() {
         wide("compare before after", 0),
         wide("sample base.toml --samples 5", 0),
         wide("simulate before/plan.toml --sample 3", 0),
+        // more points than lines
+        wide("simulate spin_sweep/plan.toml --sample 3", 0),
     ];
     approved("other_commands", &rest.join("\n----\n"), &mut different);
     assert!(

@@ -166,10 +166,9 @@ fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
                 let value = with_unit(shown.value(*value), &shown.unit);
                 let name = names::of_quantity(quantity);
                 // "largest highest pointing error" is one word too many
-                let name = ["highest ", "maximum ", "largest "]
-                    .iter()
-                    .find_map(|word| name.strip_prefix(word))
-                    .unwrap_or(&name);
+                let said =
+                    if is_low { ["lowest ", "minimum ", "smallest "] } else { ["highest ", "maximum ", "largest "] };
+                let name = said.into_iter().find_map(|word| name.strip_prefix(word)).unwrap_or(&name);
                 list.push((*sample, format!("{rank} {name} ({value})")));
             }
         }

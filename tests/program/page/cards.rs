@@ -258,9 +258,14 @@ fn listed_runs_have_their_ranks() {
             let why = between(row, "<td class=\"text\">", "</td>").split("<p").next().expect("why").to_lowercase();
             let why = why.as_str();
             if let Some((what, value)) = why.split_once(" (") {
-                let of = |(words, ..): &&(&str, &str, bool)| what.ends_with(words);
+                // the rank says what a maximum or a minimum is
+                let short = |words: &'static str| {
+                    words.strip_prefix("maximum ").or(words.strip_prefix("minimum ")).unwrap_or(words)
+                };
+                let of = |(words, ..): &&(&'static str, &str, bool)| what.ends_with(short(words));
                 let (words, column, is_low) = outcomes.iter().find(of).unwrap_or_else(|| panic!("{what}"));
-                let rank = what.strip_suffix(words).expect("a rank").trim_end();
+                let rank = what.strip_suffix(short(words)).expect("a rank").trim_end();
+                assert!(!rank.ends_with("maximum") && !rank.ends_with("minimum"), "{what}");
                 let side = if *is_low { "smallest" } else { "largest" };
                 let place = rank.strip_suffix(side).expect(side).trim_end();
                 let place = ["", "second", "third", "fourth", "fifth"].iter().position(|word| *word == place);
