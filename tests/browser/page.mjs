@@ -286,13 +286,17 @@ async function checkHover(page, name) {
   if (plots.length > 0 && shown === 0) problems.push(`${name}: no figure answers the pointer`);
 }
 
-// What is said of a figure is what it is made of: the tip beside a point of a curve names that point and not its neighbour, each column of a saved table is
+// What is said of a figure is what it is made of: ticks of an axis have labels of their own, the tip beside a point of a curve names that point and not its neighbour, each column of a saved table is
 // the mark's own, and runs that are selected are called what the figure of two columns calls them.
 async function checkSaid(page, name) {
   const wrong = await page.evaluate(() => {
     const found = [];
     const columns = { line: (mark) => [mark.x, mark.y], points: (mark) => [...(mark.samples.length > 0 ? [mark.samples] : []), mark.x, mark.y], band: (mark) => [mark.x, mark.low, mark.high], bars: (mark) => [mark.edges, mark.heights], flight: (mark) => [mark.x, mark.counts], whiskers: (mark) => [mark.x, mark.low, mark.high] };
-    for (const { figure } of views) {
+    for (const { figure, chart } of views) {
+      for (const part of ["xAxis", "yAxis"]) {
+        const labels = chart?.getModel().getComponent(part)?.axis.getViewLabels().map((label) => label.formattedLabel).filter(Boolean).slice(0, -1) ?? []; // the last is the end of the axis, which may be next to a tick
+        if (new Set(labels).size < labels.length) found.push(`two ticks of ${figure.name} have the same label: ${labels.join(", ")}`);
+      }
       const isAscending = (x) => x.length > 2 && x.every((value, k) => k === 0 || value > x[k - 1]);
       for (const mark of figure.marks.filter((one) => one.kind === "line" && !figure.x.step && isAscending(one.x) && !figure.y.names)) {
         const k = Math.floor(mark.x.length / 2);
