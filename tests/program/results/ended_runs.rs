@@ -1,4 +1,4 @@
-//! Results of runs that events end: continued, extended, in shards, verified, and audited.
+//! Results of runs that events end: extended, verified, repaired and audited. Shards and threads are in `run_ends`.
 
 use crate::support::scratch_folder::{ScratchFolder, column};
 
@@ -27,8 +27,8 @@ value = 0.7
 ends_run = true
 "#;
 
-/// Law: files of rows are the same bytes however the campaign came to its end - at once, extended, in two shards - and every one of them is made again bit for bit; damage of one is
-/// repaired to the same bytes.
+/// Law: files of rows are the same bytes where the campaign is run at once and where it is extended, and every one of them is made again bit for bit; damage of one is repaired to
+/// the same bytes.
 #[test]
 fn results_of_ended_runs_are_those_of_one_campaign() {
     let scratch = ScratchFolder::new("ended-runs");
@@ -41,10 +41,6 @@ fn results_of_ended_runs_are_those_of_one_campaign() {
     scratch.prints("campaign c.toml --samples 100 --out grown --no-report", 0);
     scratch.prints("campaign c.toml --out grown --no-report", 0);
     assert!(scratch.parts("grown") == whole, "extended");
-    scratch.prints("campaign c.toml --shard 2/2 --out shards --no-report", 0);
-    scratch.prints("campaign c.toml --shard 1/2 --out shards --no-report", 0);
-    scratch.prints("finish shards --no-report", 0);
-    assert!(scratch.parts("shards") == whole, "in shards");
     scratch.prints("verify grown --fraction 1", 0);
     let damaged = scratch.part_files("grown").swap_remove(0);
     let mut bytes = std::fs::read(&damaged).expect("a part");
