@@ -1,4 +1,4 @@
-//! [`Asked`]: a law of attitude that is not in this program: whoever flies the campaign answers for it, tick by tick. The function of Python that
+//! A law of attitude that is not in this program: whoever flies the campaign answers for it, tick by tick. The function of Python that
 //! `plan.run(control=...)` is given is one.
 //!
 //! A loop asks its law at a tick and waits for the torque. Where runs are flown side by side on one thread ([`crate::ensemble::crew::Crew`]), the one who
