@@ -26,6 +26,18 @@ _PARTS = {
 }
 
 
+class Measurement:
+    """What a sensor has delivered last, of all runs that are at a tick."""
+
+    values: NDArray[np.float64]
+    """A row for each run, in the order of the sensor's columns of telemetry; NaN before the first measurement, and where it gives nothing."""
+    age_s: NDArray[np.float64]
+    """How long ago it was measured; NaN before the first."""
+
+    def __init__(self, numbers: NDArray[np.float64]) -> None:
+        self.age_s, self.values = numbers[:, 0], numbers[:, 1:]
+
+
 class Tick:
     """What flight software knows at a tick of control, of all runs that are at one: arrays with a row for each run. Never the truth.
 
@@ -57,13 +69,20 @@ class Tick:
     wheel_rates_rad_s: NDArray[np.float64]
     """The rates of the wheels, in their order; zero beyond."""
 
-    def __init__(self, numbers: NDArray[np.float64]) -> None:
+    measurements: dict[str, Measurement]
+    """By the names of the sensors; empty where the loop has none."""
+
+    def __init__(self, sensors: list[tuple[str, int]], numbers: NDArray[np.float64]) -> None:
         first = 0
         for name, width in _PARTS.items():
             part = numbers[:, first] if width == 1 else numbers[:, first : first + width]
             setattr(self, name, part)
             first += width
         self.sample = numbers[:, 0].astype("int64")
+        self.measurements = {}
+        for name, width in sensors:
+            self.measurements[name] = Measurement(numbers[:, first : first + 1 + width])
+            first += 1 + width
 
     def __len__(self) -> int:
         return len(self.sample)
@@ -73,8 +92,8 @@ Control = Callable[[Tick], Any]
 """A law of attitude: from a tick to the torque on the body that each run wants, in F_s, N m: an array of as many rows as the tick has, and three columns."""
 
 
-def answered(control: Control) -> Callable[[bytes], bytes]:
-    """`control` as the extension asks it: bytes of numbers, and bytes of torques."""
+def answered(control: Control) -> Callable[[list[tuple[str, int]], bytes], bytes]:
+    """`control` as the extension asks it: from sensors (names, and how many numbers each measures) and the bytes of numbers to the bytes of torques."""
     try:
         import numpy
     except ImportError as error:
@@ -82,8 +101,9 @@ def answered(control: Control) -> Callable[[bytes], bytes]:
 
     width = sum(_PARTS.values())
 
-    def ask(numbers: bytes) -> bytes:
-        tick = Tick(numpy.frombuffer(numbers).reshape(-1, width))
+    def ask(sensors: list[tuple[str, int]], numbers: bytes) -> bytes:
+        measured = sum(1 + count for _, count in sensors)
+        tick = Tick(sensors, numpy.frombuffer(numbers).reshape(-1, width + measured))
         torque = numpy.asarray(control(tick), dtype=numpy.float64)
         if torque.shape != (len(tick), 3):
             raise ValueError(f"control returned an array of shape {torque.shape}; it must be {(len(tick), 3)}: the torque on the body of each run, in N m")

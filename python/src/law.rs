@@ -4,7 +4,7 @@
 //! when all of them wait, the function answers for all at once. A run that is flown alone (the nominal one of bands and pages, a replay) is asked about alone.
 
 use std::cell::RefCell;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use generator::{Generator, Gn, is_generator};
 use pyo3::prelude::*;
@@ -13,7 +13,6 @@ use spindrift::campaign::Plan;
 use spindrift::control::ControlLaw;
 use spindrift::control::laws::asked::{Answered, Answers, Question, is_law_of};
 use spindrift::ensemble::crew::Crew;
-use spindrift::scene::MAX_WHEELS;
 use spindrift::workflow::WorkflowError;
 
 /// Parts that are flown side by side on a thread. Eight runs of each are on their way: the function answers for up to 512.
@@ -21,14 +20,10 @@ const SIDE_BY_SIDE: usize = 64;
 /// Bytes of the stack of each: what the kernels take, several times.
 const STACK: usize = 2 << 20;
 
-/// Numbers of a question, in the order of [`row`].
-const NUMBERS: usize = 29 + MAX_WHEELS;
-
-/// What the function is told of a run, in the order of `_law.py`.
-fn row(question: &Question<'_>) -> [f64; NUMBERS] {
+/// Writes what the function is told of a run, in the order of `_law.py`.
+fn tell(question: &Question<'_>, numbers: &mut Vec<f64>) {
     let (input, estimate) = (question.input, question.estimate);
-    let mut numbers = [0.0; NUMBERS];
-    let parts: [&[f64]; 11] = [
+    let parts: [&[f64]; 10] = [
         &[question.sample.0 as f64, input.time, question.period],
         &input.q_ts,
         &input.omega_se_s,
@@ -39,14 +34,12 @@ fn row(question: &Question<'_>) -> [f64; NUMBERS] {
         &estimate.v_co_e,
         &estimate.gyro_bias_s,
         &estimate.wheel_rates,
-        &[],
     ];
-    let mut place = 0;
-    for part in parts {
-        numbers[place..place + part.len()].copy_from_slice(part);
-        place += part.len();
+    parts.into_iter().for_each(|part| numbers.extend_from_slice(part));
+    for (sensor, reading) in input.readings.iter() {
+        numbers.push(input.time - reading.time);
+        numbers.extend_from_slice(&sensor.telemetry(reading.values)[..sensor.width()]);
     }
-    numbers
 }
 
 /// Refuses a law for a plan whose phases do not name it.
@@ -66,10 +59,24 @@ fn rest() {
     generator::yield_with(());
 }
 
+/// What is asked: the numbers of one run after those of another.
+#[derive(Default)]
+struct Questions {
+    numbers: Vec<f64>,
+    count: usize,
+}
+
+impl Questions {
+    fn push(&mut self, question: &Question<'_>) {
+        tell(question, &mut self.numbers);
+        self.count += 1;
+    }
+}
+
 /// Runs of this thread that wait: what they ask, and what they are answered, in the order in which they asked.
 #[derive(Default)]
 struct Waiting {
-    questions: Vec<[f64; NUMBERS]>,
+    questions: Questions,
     answers: Vec<[f64; 3]>,
 }
 
@@ -79,8 +86,10 @@ thread_local! {
 
 /// A function of Python, and what it has raised.
 pub struct Law {
-    /// `_law.answered(function)`: bytes of questions to bytes of torques.
+    /// `_law.answered(function)`: from sensors and bytes of questions to bytes of torques.
     ask: Py<PyAny>,
+    /// The sensors of the loop: names, and how many numbers each measures. Known from the first question on.
+    sensors: OnceLock<Vec<(String, usize)>>,
     raised: Mutex<Option<PyErr>>,
 }
 
@@ -91,7 +100,7 @@ impl Law {
     /// Where NumPy is not there.
     pub fn new(py: Python<'_>, control: &Bound<'_, PyAny>) -> PyResult<Arc<Self>> {
         let ask = py.import("spindrift._law")?.getattr("answered")?.call1((control,))?;
-        Ok(Arc::new(Law { ask: ask.unbind(), raised: Mutex::new(None) }))
+        Ok(Arc::new(Law { ask: ask.unbind(), sensors: OnceLock::new(), raised: Mutex::new(None) }))
     }
 
     /// Whether the function has raised an exception: what is flown now has no law.
@@ -130,21 +139,22 @@ impl Law {
     }
 
     /// Answers `questions`; with what is not a number where the function has raised an exception, now or before.
-    fn answers(&self, questions: &[[f64; NUMBERS]]) -> Vec<[f64; 3]> {
-        let nothing = vec![[f64::NAN; 3]; questions.len()];
+    fn answers(&self, questions: &Questions) -> Vec<[f64; 3]> {
+        let nothing = vec![[f64::NAN; 3]; questions.count];
         if self.has_raised() {
             return nothing;
         }
-        let bytes: Vec<u8> = questions.iter().flatten().flat_map(|number| number.to_ne_bytes()).collect();
+        let bytes: Vec<u8> = questions.numbers.iter().flat_map(|number| number.to_ne_bytes()).collect();
         let answered = Python::attach(|py| -> PyResult<Vec<[f64; 3]>> {
-            let answer = self.ask.bind(py).call1((PyBytes::new(py, &bytes),))?;
+            let sensors = self.sensors.get().map_or(&[][..], Vec::as_slice);
+            let answer = self.ask.bind(py).call1((sensors, PyBytes::new(py, &bytes)))?;
             let answer = answer.cast::<PyBytes>().map_err(PyErr::from)?;
             let numbers = answer.as_bytes().as_chunks::<8>().0.iter().map(|bytes| f64::from_ne_bytes(*bytes));
             let numbers: Vec<f64> = numbers.collect();
             Ok(numbers.as_chunks::<3>().0.to_vec())
         });
         match answered {
-            Ok(torques) if torques.len() == questions.len() => torques,
+            Ok(torques) if torques.len() == questions.count => torques,
             Ok(_) => nothing,
             Err(error) => {
                 // Python's lock is free again: who has it may ask for this one
@@ -157,13 +167,18 @@ impl Law {
 
 impl Answers for Law {
     fn torque(&self, question: &Question<'_>) -> [f64; 3] {
-        let numbers = row(question);
+        self.sensors.get_or_init(|| {
+            let sensors = question.input.readings.iter();
+            sensors.map(|(sensor, _)| (sensor.name.to_string(), sensor.width())).collect()
+        });
         if !is_generator() {
-            return self.answers(&[numbers])[0];
+            let mut alone = Questions::default();
+            alone.push(question);
+            return self.answers(&alone)[0];
         }
         let place = WAITING.with_borrow_mut(|waiting| {
-            waiting.questions.push(numbers);
-            waiting.questions.len() - 1
+            waiting.questions.push(question);
+            waiting.questions.count - 1
         });
         rest();
         WAITING.with_borrow(|waiting| waiting.answers[place])
@@ -180,7 +195,7 @@ impl Crew for Law {
                 !run.is_done()
             });
             let questions = WAITING.with_borrow_mut(|waiting| std::mem::take(&mut waiting.questions));
-            if !questions.is_empty() {
+            if questions.count > 0 {
                 let answers = self.answers(&questions);
                 WAITING.with_borrow_mut(|waiting| waiting.answers = answers);
             }

@@ -1,4 +1,4 @@
-"""The recipe of docs/cluster.md for Dask, with a local cluster: the bytes of one process."""
+"""The recipes of docs/cluster.md for Ray and Dask, with a local cluster: the bytes of one process."""
 
 from __future__ import annotations
 
@@ -24,14 +24,19 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
-def test_the_recipe_of_dask_makes_the_bytes_of_one_process(tmp_path: Path) -> None:
-    """Law: the recipe as it stands, but for scheduler and paths."""
-    pytest.importorskip("distributed")
-    text = recipe("from dask.distributed")
-    for written, here in [
-        ('Client("scheduler:8786")', "Client(processes=False, dashboard_address=None)"),
-        ("/data/spin_sweep", "shared"),
-    ]:
+RECIPES = {
+    "distributed": ("from dask.distributed", [('Client("scheduler:8786")', "Client(processes=False, dashboard_address=None)")]),
+    "ray": ("import ray", [("num_cpus=16", "num_cpus=1"), ('"--threads", "16"', '"--threads", "1"')]),
+}
+
+
+@pytest.mark.parametrize("package", RECIPES)
+def test_a_recipe_makes_the_bytes_of_one_process(package: str, tmp_path: Path) -> None:
+    """Law: the recipe as it stands, but for scheduler, cores and paths."""
+    pytest.importorskip(package)
+    first, changes = RECIPES[package]
+    text = recipe(first)
+    for written, here in [*changes, ("/data/spin_sweep", str(tmp_path / "shared"))]:
         assert written in text
         text = text.replace(written, here)
     (tmp_path / "spin_sweep.toml").write_text(START.read_text())

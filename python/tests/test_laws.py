@@ -72,6 +72,58 @@ def test_a_law_is_asked_for_all_runs_that_wait() -> None:
     assert np.median(sizes) >= 24
 
 
+def test_a_law_is_told_what_the_sensors_deliver() -> None:
+    """Law: the measurements of a tick are those of the telemetry, the last of each sensor, with their age; NaN before the first. A loop without sensors has none."""
+    tables = tomllib.loads((REPOSITORY / "benches" / "peers" / "basilisk_attitude.toml").read_text())
+    tables["campaign"] |= {"duration_s": 10.0, "samples": 20}
+    tables["control"]["estimator"] = "mekf"
+    tables["sensors"] = [
+        {"name": "gyro", "kind": "rate_gyro", "angular_random_walk_rad_sqrt_s": 1e-5},
+        {"name": "eye", "kind": "star_tracker", "period_s": 1.0, "latency_s": 0.2, "noise_rad": 1e-4},
+        {"name": "turns", "kind": "tachometers", "period_s": 0.5},
+    ]
+    (phase,) = tables["guidance"]
+    phase["law"] = "python"
+    del phase["stiffness_n_m"], phase["damping_n_m_s"]
+    told: dict[float, dict[str, tuple[Any, float]]] = {}
+
+    def control(tick: sd.Tick) -> Any:
+        assert list(tick.measurements) == ["gyro", "eye", "turns"] and len(tick) >= 1
+        for place in np.flatnonzero(tick.sample == 17):
+            told[round(float(tick.time_s[place]), 9)] = {name: (one.values[place].copy(), float(one.age_s[place])) for name, one in tick.measurements.items()}
+        return mrp_feedback(tick)
+
+    times = np.arange(100) * 0.1
+    series = pl.DataFrame(sd.Plan(tables).simulate(17, times=list(times), control=control))
+    columns = {
+        "gyro": [f"measured_rate_s_{axis}_rad_s" for axis in "xyz"],
+        "eye": [f"measured_q_es_{axis}" for axis in "wxyz"],
+        "turns": [f"measured_rate_{wheel}_rad_s" for wheel in ("w1", "w2", "w3")],
+    }
+    assert len(told) >= 100
+    for name, period, latency in (("gyro", 0.1, 0.0), ("eye", 1.0, 0.2), ("turns", 0.5, 0.0)):
+        last, at = None, np.nan
+        for time, row in zip(times, series.select(columns[name]).rows(), strict=True):
+            if row[0] is not None and not np.isnan(row[0]):
+                last, at = row, time - latency
+            values, age = told[round(float(time), 9)][name]
+            if last is None:
+                assert np.isnan(values).all() and np.isnan(age), (name, time)
+                continue
+            assert tuple(values[: len(last)]) == last, (name, time)
+            assert age == pytest.approx(time - at, abs=1e-9) and age < period + latency + 1e-9, (name, time)
+        assert last is not None
+
+    nothing: list[int] = []
+
+    def blind(tick: sd.Tick) -> Any:
+        nothing.append(len(tick.measurements))
+        return mrp_feedback(tick)
+
+    plan(samples=8, duration_s=1.0).run(control=blind, page=False)
+    assert set(nothing) == {0}
+
+
 def test_what_a_law_raises_is_raised_here() -> None:
     """Law: an exception of the law ends the campaign and is what the caller gets; so is an answer of another shape; one that is no number ends that run alone."""
 

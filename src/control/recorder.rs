@@ -169,16 +169,17 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
         let prefix = if is_alone { String::new() } else { format!("{}_", sensor.name) };
         let mut next = 0;
         for quantity in SENSORS[sensor.kind].quantities {
-            let (components, places, width): (_, Vec<usize>, _) = match quantity.components {
-                Components::Named(list) => (list, (next..next + list.len()).collect(), list.len()),
-                Components::Wheels => (&wheel_names[..], wheels.iter().map(|wheel| next + wheel).collect(), MAX_WHEELS),
+            let (components, places): (_, Vec<usize>) = match quantity.components {
+                Components::Named(list) => (list, (next..next + list.len()).collect()),
+                Components::Wheels => (&wheel_names[..], wheels.iter().map(|wheel| next + wheel).collect()),
             };
-            next += width;
-            let interval = if quantity.is_over_period { sensor.period } else { 1.0 };
+            next += quantity.components.width();
+            let sensor = sensor.clone();
             // the last measurement of the sensor
             let values: Values = Box::new(move |tick, row| {
                 let last = tick.measurements.iter().rev().find(|measurement| measurement.sensor == place);
-                row.extend(places.iter().map(|at| last.map_or(f64::NAN, |last| last.values[*at] / interval)));
+                let shown = last.map(|last| sensor.telemetry(last.values));
+                row.extend(places.iter().map(|at| shown.map_or(f64::NAN, |shown| shown[*at])));
             });
             let meaning = format!("{}; null where none was delivered.", quantity.meaning);
             add(&format!("{prefix}{}", quantity.name), components, quantity.unit, &meaning, values);

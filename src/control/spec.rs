@@ -6,7 +6,7 @@ use super::guidance::phase::{Maneuver, Next};
 use super::guidance::target::Target;
 use super::laws::LawKind;
 use super::laws::rod_law::RodUse;
-use super::measurement::Observes;
+use super::measurement::{Observes, Values};
 use crate::observables::{LawSeries, Series};
 use crate::scene::{Name, Scene};
 
@@ -71,6 +71,24 @@ impl SensorSpec {
     /// What it says of the state.
     pub fn observes(&self) -> Observes {
         super::sensors::KINDS[self.kind].observes
+    }
+
+    /// How many numbers it measures.
+    pub fn width(&self) -> usize {
+        super::sensors::KINDS[self.kind].quantities.iter().map(|quantity| quantity.components.width()).sum()
+    }
+
+    /// `values` as telemetry has them: rotations over the period of the sensor as their mean rate.
+    pub fn telemetry(&self, mut values: Values) -> Values {
+        let mut next = 0;
+        for quantity in super::sensors::KINDS[self.kind].quantities {
+            let end = next + quantity.components.width();
+            if quantity.is_over_period {
+                values[next..end].iter_mut().for_each(|value| *value /= self.period);
+            }
+            next = end;
+        }
+        values
     }
 }
 

@@ -25,6 +25,7 @@ pub mod magnetic_field;
 pub mod null_space;
 pub mod offset_series;
 pub mod orbit;
+pub mod orbit_in_body;
 pub mod orbit_path;
 pub mod orbit_series;
 pub mod orbit_state;

@@ -9,6 +9,7 @@ use crate::control::guidance::Failure;
 use crate::control::guidance::phase::Maneuver;
 use crate::control::guidance::target::Target;
 use crate::control::laws::LawInput;
+use crate::control::measurement::Readings;
 use crate::control::vector::{cross, dcm_from_quaternion, difference, dot, product, scaled, sum};
 use crate::scene::{MAX_THRUSTERS, MAX_TORQUE_RODS, MAX_WHEELS};
 
@@ -96,6 +97,7 @@ impl FlightSoftware {
             momentum_s: self.body.momentum(mass, estimate.omega_se_s, &estimate.wheel_rates),
             time,
             estimate: Some(estimate),
+            readings: Readings { sensors: &self.spec.sensors, last: &self.readings },
         };
         let phase = &self.phases[self.guidance.phase];
         // zero at the first tick of a phase

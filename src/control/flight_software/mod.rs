@@ -20,9 +20,10 @@ use super::guidance::condition::GuidanceInput;
 use super::guidance::phase::Phase;
 use super::guidance::target::{AttitudeError, OrbitMotion};
 use super::guidance::{Failure, Guidance, Progress};
+use super::laws::asked::is_law_of;
 use super::laws::rod_law::MeasuredField;
 use super::laws::{AttitudeLaw, KnownBody};
-use super::measurement::{Observes, PointMotion, part};
+use super::measurement::{Measurement, Observes, PointMotion, Reading, part};
 use super::net_launch::geometry::{LaunchGeometry, LaunchState};
 use super::net_launch::maneuver::geometry_of;
 use super::plant::Measurements;
@@ -83,6 +84,8 @@ pub struct FlightSoftware {
     rods: Option<RodAllocation>,
     /// The magnetic field as measured.
     field: MeasuredField,
+    /// What each sensor has delivered last; empty where no law asks for it.
+    readings: Vec<Reading>,
     /// The projection onto the torques that the thrusters give in both directions.
     two_sided: [[f64; 3]; 3],
     thruster_drives: [ThrusterDrive; MAX_THRUSTERS],
@@ -153,6 +156,7 @@ impl FlightSoftware {
             thrusters,
             rods: (!spec.rods.is_empty()).then(|| RodAllocation::of_loop(&believed, &spec.rods)),
             field: MeasuredField::NONE,
+            readings: if is_law_of(spec) { vec![Reading::NONE; spec.sensors.len()] } else { Vec::new() },
             thruster_drives: parts.thruster_drives,
             pulses: [PulseState::default(); MAX_THRUSTERS],
             launch,
@@ -177,6 +181,11 @@ impl FlightSoftware {
     pub fn tick(&mut self, measurements: &Measurements<'_>) {
         self.note_debris(measurements);
         self.note_field(measurements);
+        if !self.readings.is_empty() {
+            for Measurement { sensor, values, age } in measurements.delivered {
+                self.readings[*sensor] = Reading { values: *values, time: measurements.time - age };
+            }
+        }
         let interval = measurements.time - self.last_update;
         let mean = |impulse: [f64; 3]| if interval > 0.0 { scaled(1.0 / interval, impulse) } else { [0.0; 3] };
         let motor_torques = self.commanded.motors.map(|impulse| if interval > 0.0 { impulse / interval } else { 0.0 });

@@ -23,6 +23,7 @@ pub use rate_damping::RateDamping;
 use std::fmt;
 
 use crate::control::estimate::Estimate;
+use crate::control::measurement::Readings;
 use crate::control::flight_code::FlightCode;
 use crate::control::guidance::Failure;
 use crate::control::vector::{cross, difference, dot, product, scaled, sum};
@@ -188,6 +189,8 @@ pub struct LawInput<'a> {
     pub time: f64,
     /// All that is estimated; `None` where a law is tried without a loop.
     pub estimate: Option<&'a Estimate>,
+    /// What the sensors have delivered last; none where no law of the loop asks for it ([`asked`]).
+    pub readings: Readings<'a>,
 }
 
 impl LawInput<'_> {
@@ -200,6 +203,7 @@ impl LawInput<'_> {
         momentum_s: [0.0; 3],
         time: 0.0,
         estimate: None,
+        readings: Readings::NONE,
     };
 
     /// Rate of F_s relative to F_t, in F_s, rad/s.

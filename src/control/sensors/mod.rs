@@ -27,7 +27,7 @@ use super::measurement::{Observes, Values};
 use super::truth::Truth;
 use crate::sampling::{Noise, SampleId};
 use crate::scene::schema::Limit;
-use crate::scene::{DeclaredTable, LawParameter, Scene, SceneInput};
+use crate::scene::{DeclaredTable, LawParameter, MAX_WHEELS, Scene, SceneInput};
 
 /// A model of a sensor in one run.
 pub trait Sensor: Send {
@@ -157,6 +157,16 @@ pub enum Components {
     Wheels,
 }
 
+impl Components {
+    /// How many numbers of a measurement they take.
+    pub fn width(self) -> usize {
+        match self {
+            Components::Named(list) => list.len(),
+            Components::Wheels => MAX_WHEELS,
+        }
+    }
+}
+
 /// The components of vectors and of quaternions.
 const XYZ: Components = Components::Named(&AXES);
 const WXYZ: Components = Components::Named(&["w", "x", "y", "z"]);
@@ -210,7 +220,7 @@ pub(super) mod bench {
     use super::*;
     use crate::dynamics::actuation::BodyState;
     use crate::math::normal;
-    use crate::scene::{EnvironmentInput, Epoch, FieldModel, MAX_WHEELS, Name, OrbitInput};
+    use crate::scene::{EnvironmentInput, Epoch, FieldModel, Name, OrbitInput};
 
     /// The table of the sensor `name` with these numbers, and the defaults of the others.
     pub fn table(name: &str, declared: &'static [LawParameter], values: &[(&str, &[f64])]) -> DeclaredTable {

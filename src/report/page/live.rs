@@ -14,6 +14,9 @@ use crate::report::page::payload::Payload;
 use crate::report::page::sky;
 use crate::run::StateField;
 
+/// What is smaller than this share of the largest value of a number over the run is round-off.
+const ROUND_OFF: f64 = 1e-12;
+
 /// A quantity of one or several components over time, as the replay shows it.
 struct LiveNumber {
     name: String,
@@ -38,7 +41,10 @@ fn of_row(run: &SingleRun, name: &str) -> Option<f64> {
 
 /// What is shown of the first `points` points of `run`, with the place of its numbers.
 pub fn numbers(plan: &Plan, run: &SingleRun, points: usize, payload: &mut Payload) -> Vec<Value> {
-    let shown = |number: LiveNumber| {
+    let shown = |mut number: LiveNumber| {
+        // what is only round-off beside the rest of the run is shown as the zero that it stands for
+        let largest = number.values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        number.values.iter_mut().filter(|value| value.abs() < ROUND_OFF * largest).for_each(|value| *value = 0.0);
         let unit = plan.analysis.display.of(&number.column, number.unit);
         let mut shown = json!({
             "name": number.name, "unit": unit.unit, "factor": unit.value(1.0), "components": number.components,

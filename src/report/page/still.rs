@@ -8,6 +8,7 @@ use crate::ensemble::SingleRun;
 use crate::math::vector::{cross, dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
 use crate::report::page::readable::with_unit;
 use crate::report::page::replay::{ShownPart, approach_goal, keep_out, shown_parts};
+use crate::report::page::sky;
 use crate::run::StateField;
 use crate::scene::WheelMode;
 
@@ -96,6 +97,15 @@ impl Drawing {
         text
     }
 
+    /// An arrow from `from` to `tip`, whose head is across the line of sight.
+    fn arrow(&mut self, class: &'static str, from: [f64; 3], tip: [f64; 3]) {
+        let along = difference(tip, from);
+        let across = scaled(0.25 / norm(CAMERA), cross(along, CAMERA));
+        let back = difference(tip, scaled(0.4, along));
+        self.lines.push((class, vec![from, tip]));
+        self.lines.push((class, vec![sum(back, across), tip, difference(back, across)]));
+    }
+
     /// The edges of `parts` and of wheels, turned by `c_es` about the centre of mass, which is at `at`.
     fn craft(&mut self, plan: &Plan, parts: &[ShownPart], center: [f64; 3], (c_es, at): ([[f64; 3]; 3], [f64; 3])) {
         let to_e = |point: [f64; 3]| sum(at, product(c_es, difference(point, center)));
@@ -171,8 +181,18 @@ pub fn still(plan: &Plan, run: &SingleRun) -> String {
     let s3 = |point: &usize| scaled(1.4 * reach, product(turned(*point), [0.0, 0.0, 1.0]));
     attitude.lines.push(("path", shown.iter().map(s3).collect()));
     attitude.labels.push((s3(&0), "s3".to_owned(), false));
-    let mut panels = attitude.svg(0.0, false);
     let mut caption = "Still of the nominal run, seen from the replay's camera: the body at the start, the axes of F_e, and the path of s3 on a sphere.".to_owned();
+    let around: Vec<_> = sky::at_start(run).collect();
+    for (name, direction) in &around {
+        let tip = scaled(1.75 * reach, *direction);
+        attitude.arrow(name, scaled(1.4 * reach, *direction), tip);
+        attitude.labels.push((tip, (*name).to_owned(), false));
+    }
+    if let [others @ .., (last, _)] = around.as_slice() {
+        let names: Vec<&str> = others.iter().map(|(name, _)| *name).collect();
+        let _ = write!(caption, " Arrows at the start: {} and {last}.", names.join(", "));
+    }
+    let mut panels = attitude.svg(0.0, false);
     let mut width = SIDE;
     if run.request.debris {
         panels += &approach(plan, run, &shown, &parts).svg(SIDE, true);

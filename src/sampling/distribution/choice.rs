@@ -34,6 +34,26 @@ impl ChoiceQuantile {
     }
 }
 
+/// Different values of which all but one are listed in words, at most.
+const LISTED: usize = 4;
+
+impl ChoiceQuantile {
+    /// The different values, each with its probability.
+    fn shares(&self) -> Vec<(f64, f64)> {
+        let mut shares: Vec<(f64, f64)> = Vec::new();
+        let mut before = 0.0;
+        for (value, below) in self.values.iter().zip(self.cumulative.iter()) {
+            let share = below - before;
+            before = *below;
+            match shares.last_mut().filter(|(last, _)| last == value) {
+                Some((_, sum)) => *sum += share,
+                None => shares.push((*value, share)),
+            }
+        }
+        shares
+    }
+}
+
 impl Scalar for Choice {
     const NAME: &'static str = "choice";
     const KEYS: &'static [Row] = &[
@@ -82,8 +102,24 @@ impl Quantile for ChoiceQuantile {
     }
 
     fn text(&self, words: NumberWords<'_>) -> String {
-        let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| (words.amount)(self.quantile(u)));
-        format!("one of {} values, {low} to {high}", self.values.len())
+        let shares = self.shares();
+        let amount = |value: f64| (words.amount)(value);
+        let percent = |share: f64| format!("{}%", (words.number)(100.0 * share));
+        match shares[..] {
+            [(value, _)] => format!("always {}", amount(value)),
+            [low, high] => {
+                let (rare, other) = if high.1 < low.1 { (high, low) } else { (low, high) };
+                format!("{} with probability {}, else {}", amount(rare.0), percent(rare.1), amount(other.0))
+            }
+            [ref some @ .., (last, share)] if some.len() < LISTED => {
+                let each = some.iter().map(|(value, share)| format!("{} ({})", amount(*value), percent(*share)));
+                format!("{} or {} ({})", each.collect::<Vec<_>>().join(", "), amount(last), percent(share))
+            }
+            [(low, _), .., (high, _)] => {
+                format!("one of {} values, {} to {}", shares.len(), amount(low), amount(high))
+            }
+            [] => String::new(),
+        }
     }
 }
 
@@ -99,5 +135,19 @@ mod tests {
             [1., 1., 2., 2., 3., 3.]
         );
         assert_eq!(choice.values[..], [1.0, 2.0, 3.0], "what has no weight is never drawn");
+    }
+
+    #[test]
+    fn a_choice_says_its_values_and_their_probabilities() {
+        let text = |values: &[f64], weights: &[f64]| {
+            let number = |x: f64| x.to_string();
+            ChoiceQuantile::new(values, weights).text(NumberWords { number: &number, amount: &number })
+        };
+        assert_eq!(text(&[1.0, 0.0], &[3.0, 1.0]), "0 with probability 25%, else 1");
+        assert_eq!(text(&[1.0, 0.0], &[1.0, 3.0]), "1 with probability 25%, else 0");
+        assert_eq!(text(&[2.0, 1.0, 2.0], &[1.0, 3.0, 0.0]), "2 with probability 25%, else 1");
+        assert_eq!(text(&[2.0, 1.0, 2.0, 4.0], &[1.0, 4.0, 1.0, 2.0]), "1 (50%), 2 (25%) or 4 (25%)");
+        assert_eq!(text(&[7.0, 7.0], &[1.0, 1.0]), "always 7");
+        assert_eq!(text(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], &[1.0; 6]), "one of 6 values, 1 to 6");
     }
 }

@@ -4,13 +4,12 @@
 //! *Spacecraft Attitude Dynamics*, 1986, section 8.1: of first order in size over |r|).
 
 use super::within_arcs::{Motion, MotionSeries};
+use crate::dynamics::orbit_in_body::OrbitInBody;
 use crate::dynamics::orbit_series::next_of_power;
 use crate::dynamics::orbit_state::OrbitState;
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
-use crate::math::vector::{
-    conjugate, constant_matrix, cross, dcm_from_quaternion, hamilton, product, scaled, sum, transposed_product,
-};
+use crate::math::vector::{constant_matrix, cross, dcm_from_quaternion, product, scaled, transposed_product};
 use crate::scene::Scene;
 
 /// The gravity gradient of one run, one per lane.
@@ -77,18 +76,13 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
 
 /// Taylor coefficients of the gravity gradient along a step, by recurrences.
 ///
-/// With v = q* (x) r (x) q and g = 3 mu rho^(-5/2), rho = r . r, the torque is g v x (J v): products of series.
+/// With r in B and g = 3 mu rho^(-5/2), rho = r . r, the torque is g r x (J r): products of series ([`OrbitInBody`]).
 #[derive(Clone, Debug)]
 pub struct GradientSeries<R> {
     /// 3 mu, m^3 per unit of time squared, and J in B, kg m^2.
     gradient: GravityGradient<R>,
-    /// Of r (x) q.
-    turned: Vec<[R; 4]>,
-    /// Of v, B, m.
-    up: Vec<[R; 3]>,
-    /// Of J v.
-    weighed: Vec<[R; 3]>,
-    /// Of v x (J v).
+    orbit: OrbitInBody<R>,
+    /// Of r x (J r).
     lever: Vec<[R; 3]>,
     /// Of g.
     strength: Vec<R>,
@@ -97,16 +91,16 @@ pub struct GradientSeries<R> {
 impl<R: Real> GradientSeries<R> {
     /// Memory for series of order `order`.
     pub fn new(zero: R, order: usize) -> Self {
-        let vectors = vec![[zero; 3]; order + 1];
         GradientSeries {
             gradient: GravityGradient::none(zero),
-            turned: vec![[zero; 4]; order + 1],
-            up: vectors.clone(),
-            weighed: vectors.clone(),
-            lever: vectors,
+            orbit: OrbitInBody::new(zero, order),
+            lever: vec![[zero; 3]; order + 1],
             strength: vec![zero; order + 1],
         }
     }
+
+    /// Whether it needs the coefficients of the position in F_e about a point mass.
+    pub const NEEDS_POSITION: bool = false;
 
     /// Starts a step in a unit of time of `unit` seconds.
     #[inline(always)]
@@ -117,22 +111,9 @@ impl<R: Real> GradientSeries<R> {
     /// Coefficient n of the torque, B, N m in the unit of time. Call in ascending order of `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize, motion: &MotionSeries<R>) -> [R; 3] {
-        let GradientSeries { gradient, turned, up, weighed, lever, strength } = self;
-        let MotionSeries { attitude, orbit, .. } = motion;
-        let zero = gradient.strength.zero();
-        let mut of_turned = [zero; 4];
-        for m in 0..=n {
-            let [x, y, z] = orbit.position()[m];
-            of_turned = added(of_turned, hamilton([zero, x, y, z], attitude[n - m]));
-        }
-        turned[n] = of_turned;
-        let mut of_up = [zero; 4];
-        for m in 0..=n {
-            of_up = added(of_up, hamilton(conjugate(attitude[m]), turned[n - m]));
-        }
-        up[n] = [of_up[1], of_up[2], of_up[3]];
-        weighed[n] = product(gradient.inertia, up[n]);
-        let square = orbit.square();
+        let GradientSeries { gradient, orbit, lever, strength } = self;
+        orbit.extend(n, motion);
+        let (square, zero) = (orbit.square(), gradient.strength.zero());
         if n == 0 {
             let inverse = zero.splat(1.0) / square[0].sqrt();
             let cubed = inverse * (inverse * inverse);
@@ -140,23 +121,15 @@ impl<R: Real> GradientSeries<R> {
         } else {
             strength[n] = next_of_power(-2.5, n, square, strength);
         }
-        let mut sums = [zero; 3];
-        for m in 0..=n {
-            sums = sum(sums, cross(up[m], weighed[n - m]));
-        }
-        lever[n] = sums;
+        lever[n] = orbit.lever(n, &gradient.inertia);
         let mut own = [zero; 3];
-        for m in 0..=n {
-            own = sum(own, scaled(strength[m], lever[n - m]));
+        for (g, lever) in strength[..=n].iter().zip(lever[..=n].iter().rev()) {
+            for i in 0..3 {
+                own[i] = g.mul_add(lever[i], own[i]);
+            }
         }
         own
     }
-}
-
-/// a + b.
-#[inline(always)]
-fn added<R: Real>(a: [R; 4], b: [R; 4]) -> [R; 4] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]]
 }
 
 /// Upper bound of the torque on `scene`, N m: at the periapsis, the axes of the largest and the smallest moment at 45 degrees to the vertical.

@@ -86,6 +86,9 @@ impl<R: Real> MagneticSeries<R> {
         MagneticSeries { dipole: [zero; 3], field: FieldSeries::new(zero, order), turned: vec![[zero; 4]; order + 1] }
     }
 
+    /// The field depends on the position in F_e.
+    pub const NEEDS_POSITION: bool = true;
+
     /// Starts a step at `time` (s) in a unit of time of `unit` seconds.
     #[inline(always)]
     pub fn begin(&mut self, torque: &MagneticTorque<R>, time: R, unit: R) {

@@ -8,11 +8,12 @@
 //! - [`gravity_gradient`]: depends on attitude and position.
 //! - [`magnetic_torque`]: depends on attitude, position, date and the torque rods.
 //! - [`drag`], [`solar_pressure`]: act on plates ([`plates`]), which turn on and off.
-//! - [`within_arcs`]: the effects that change within an arc, as the equations of motion have them, and what they depend on.
+//! - [`within_arcs`]: the effects that change within an arc, as the equations of motion have them, and what they depend on; `changing_effects` makes them from the list.
 //!
 //! A scene without effects costs nothing: its kernel is compiled without them. A scene with effects evaluates only those that act, and its orbit
 //! only where one of them needs it.
 
+mod changing_effects;
 mod constant_torque;
 pub mod drag;
 pub mod gravity_gradient;
@@ -110,7 +111,7 @@ impl Effect {
     }
 }
 
-within_arcs::changing_effects! {
+changing_effects::changing_effects! {
     series {
         gravity_gradient: GravityGradient, GradientSeries;
         magnetic_torque: MagneticTorque, MagneticSeries;

@@ -14,8 +14,8 @@ use crate::dynamics::gyrostat::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_ANGLES,
     WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST,
 };
-use crate::math::Real;
 use crate::math::vector::{cross, dot, scaled};
+use crate::math::{Mask, Real};
 
 /// The largest order of a jet: a tolerance of 1e-16 needs 22; double-double needs twice that.
 pub const MAX_ORDER: usize = 40;
@@ -43,10 +43,10 @@ impl<R: Real> Reciprocals<R> {
 /// Intermediate series of the recurrences.
 #[derive(Clone, Debug)]
 pub struct Scratch<R> {
-    /// q (x) F and its negative.
-    turned_force: [[R; 8]; MAX_ORDER],
-    /// q (x) tau and its negative.
-    turned_torque: [[R; 8]; MAX_ORDER],
+    /// q (x) F.
+    turned_force: [[R; 4]; MAX_ORDER],
+    /// q (x) tau.
+    turned_torque: [[R; 4]; MAX_ORDER],
     /// The force in F_e.
     force_e: [[R; 3]; MAX_ORDER],
 }
@@ -55,8 +55,8 @@ impl<R: Real> Scratch<R> {
     /// Memory for any order.
     pub fn new(zero: R) -> Self {
         Scratch {
-            turned_force: [[zero; 8]; MAX_ORDER],
-            turned_torque: [[zero; 8]; MAX_ORDER],
+            turned_force: [[zero; 4]; MAX_ORDER],
+            turned_torque: [[zero; 4]; MAX_ORDER],
             force_e: [[zero; 3]; MAX_ORDER],
         }
     }
@@ -80,6 +80,9 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
     let zero = jet[0][0].zero();
     let half = zero.splat(0.5);
     let Scratch { turned_force, turned_torque, force_e } = scratch;
+    // without effects an arc has a force, a torque, or both: effects alone turn, and push nothing
+    let [x, y, z] = constants.force;
+    let is_pushed = effects.is_none() || zero.lt(x.abs() + (y.abs() + z.abs())).any();
     for n in 0..order {
         let [inverse, inverse_low] = reciprocal[n + 1];
         let omega = [jet[n][OMEGA], jet[n][OMEGA + 1], jet[n][OMEGA + 2]];
@@ -118,23 +121,28 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
         }
         if N >= WITH_THRUST && FORCED {
             let q = attitude_of(&jet[n]);
-            turned_force[n] = pure_product(q, constants.force);
-            turned_torque[n] = pure_product(q, constants.torque);
-            let mut spun = dot(constants.torque, omega);
-            if let Some(effects) = &effects {
-                (turned_torque[n], spun) = products_of_torque(jet, effects.torque(), n);
-            }
-            force_e[n] = turned(jet, turned_force, n);
+            let spun;
+            (turned_torque[n], spun) = match &effects {
+                Some(effects) => products_of_torque(jet, effects.torque(), n),
+                None => (quaternion_products(q, constants.torque, [zero; 4]), dot(constants.torque, omega)),
+            };
             let torque_e = turned(jet, turned_torque, n);
-            let mut force = force_e[n];
-            let mut push = thrust_power(constants, jet, force_e, n);
+            let (mut force, mut push) = ([zero; 3], zero);
+            if is_pushed {
+                turned_force[n] = quaternion_products(q, constants.force, [zero; 4]);
+                force_e[n] = turned(jet, turned_force, n);
+                force = force_e[n];
+                push = thrust_power(constants, jet, force_e, n);
+            }
             if let Some(motion) = effects.as_ref().map(|effects| &effects.motion)
                 && let Some(tide) = motion.tide(n)
             {
                 for i in 0..3 {
                     force[i] = constants.mass.mul_add(tide[i], force[i]);
                 }
-                push += carried_power(motion.reference().position(), force_e, n);
+                if is_pushed {
+                    push += carried_power(motion.reference().position(), force_e, n);
+                }
             }
             for i in 0..3 {
                 next[IMPULSE + i] = force[i] * inverse;
@@ -163,20 +171,18 @@ fn offset_of<R: Real, const N: usize>(constants: &Constants<R>, coefficients: &[
     scaled(constants.inverse_mass, [coefficients[first], coefficients[first + 1], coefficients[first + 2]])
 }
 
-/// Coefficients n of q (x) torque, with its negative, and of torque . omega.
+/// Coefficients n of q (x) torque and of torque . omega.
 #[inline(always)]
-fn products_of_torque<R: Real, const N: usize>(jet: &[[R; N]], torque: &[[R; 3]], n: usize) -> ([R; 8], R) {
-    let mut turned = pure_product(attitude_of(&jet[n]), torque[0]);
-    let mut spun = dot(torque[0], [jet[n][OMEGA], jet[n][OMEGA + 1], jet[n][OMEGA + 2]]);
-    for m in 1..=n {
-        let earlier = &jet[n - m];
-        let own = pure_product(attitude_of(earlier), torque[m]);
-        for i in 0..8 {
-            turned[i] += own[i];
+fn products_of_torque<R: Real, const N: usize>(jet: &[[R; N]], torque: &[[R; 3]], n: usize) -> ([R; 4], R) {
+    let zero = jet[0][0].zero();
+    let (mut turned, mut spun) = ([zero; 4], [zero; 3]);
+    for (torque, earlier) in torque[..=n].iter().zip(jet[..=n].iter().rev()) {
+        turned = quaternion_products(attitude_of(earlier), *torque, turned);
+        for i in 0..3 {
+            spun[i] = torque[i].mul_add(earlier[OMEGA + i], spun[i]);
         }
-        spun += dot(torque[m], [earlier[OMEGA], earlier[OMEGA + 1], earlier[OMEGA + 2]]);
     }
-    (turned, spun)
+    (turned, spun[0] + (spun[1] + spun[2]))
 }
 
 /// Coefficient n of omega' = ratio omega omega + (h x omega + torque - h')/J, given those of the products of two rates.
@@ -260,8 +266,12 @@ fn attitude_products<R: Real, const N: usize>(a: &[R; N], b: &[R; N], sum: [R; 4
     if N < WITH_ATTITUDE {
         return sum;
     }
-    let (q0, q1, q2, q3) = (a[ATTITUDE], a[ATTITUDE + 1], a[ATTITUDE + 2], a[ATTITUDE + 3]);
-    let (o1, o2, o3) = (b[OMEGA], b[OMEGA + 1], b[OMEGA + 2]);
+    quaternion_products(attitude_of(a), [b[OMEGA], b[OMEGA + 1], b[OMEGA + 2]], sum)
+}
+
+/// `sum` plus q (x) v.
+#[inline(always)]
+fn quaternion_products<R: Real>([q0, q1, q2, q3]: [R; 4], [o1, o2, o3]: [R; 3], sum: [R; 4]) -> [R; 4] {
     let [mut w, mut x, mut y, mut z] = sum;
     w = q1.neg_mul_add(o1, w);
     x = q0.mul_add(o1, x);
@@ -278,39 +288,25 @@ fn attitude_products<R: Real, const N: usize>(a: &[R; N], b: &[R; N], sum: [R; 4
     [w, x, y, z]
 }
 
-/// q (x) (0, v), and its negative.
+/// Coefficient n of the vector part of g (x) q*, with g = q (x) v: the vector v of B in F_e.
 #[inline(always)]
-fn pure_product<R: Real>(q: [R; 4], v: [R; 3]) -> [R; 8] {
-    let [x, y, z] = v;
-    let [w, x, y, z] = [
-        -q[1].mul_add(x, q[2].mul_add(y, q[3] * z)),
-        q[0].mul_add(x, q[2].mul_add(z, -(q[3] * y))),
-        q[0].mul_add(y, q[3].mul_add(x, -(q[1] * z))),
-        q[0].mul_add(z, q[1].mul_add(y, -(q[2] * x))),
-    ];
-    [w, x, y, z, -w, -x, -y, -z]
-}
-
-/// Coefficient n of the vector part of g (x) q*, with g = q (x) v: the vector v of B in F_e. `g` contains g and -g.
-#[inline(always)]
-fn turned<R: Real, const N: usize>(jet: &[[R; N]], g: &[[R; 8]; MAX_ORDER], n: usize) -> [R; 3] {
+fn turned<R: Real, const N: usize>(jet: &[[R; N]], g: &[[R; 4]; MAX_ORDER], n: usize) -> [R; 3] {
     let zero = jet[0][0].zero();
     let (mut a, mut b, mut c) = (zero, zero, zero);
     for (coefficient, g) in jet[..=n].iter().zip(g[..=n].iter().rev()) {
-        let (q0, q1) = (coefficient[ATTITUDE], coefficient[ATTITUDE + 1]);
-        let (q2, q3) = (coefficient[ATTITUDE + 2], coefficient[ATTITUDE + 3]);
+        let [q0, q1, q2, q3] = attitude_of(coefficient);
         a = q0.mul_add(g[1], a);
         b = q0.mul_add(g[2], b);
         c = q0.mul_add(g[3], c);
-        a = q1.mul_add(g[4], a);
-        b = q1.mul_add(g[7], b);
+        a = q1.neg_mul_add(g[0], a);
+        b = q1.neg_mul_add(g[3], b);
         c = q1.mul_add(g[2], c);
         a = q2.mul_add(g[3], a);
-        b = q2.mul_add(g[4], b);
-        c = q2.mul_add(g[5], c);
-        a = q3.mul_add(g[6], a);
+        b = q2.neg_mul_add(g[0], b);
+        c = q2.neg_mul_add(g[1], c);
+        a = q3.neg_mul_add(g[2], a);
         b = q3.mul_add(g[1], b);
-        c = q3.mul_add(g[4], c);
+        c = q3.neg_mul_add(g[0], c);
     }
     [a, b, c]
 }

@@ -306,7 +306,7 @@ impl Integration<'_, '_> {
         let (mut reached, mut is_last) = (0.0, false);
         let turns = !self.run.effects.is_empty();
         let mut orbit = self.run.orbit.as_ref().map(|orbit| ReferenceOrbit::new(self.run, orbit));
-        let mut series = (turns || orbit.is_some()).then(|| ChangingSeries::new(zero, order));
+        let mut series = (turns || orbit.is_some()).then(|| ChangingSeries::new(zero, order).with_orbit());
         while !is_last {
             self.begin_arc(reached, unit, &state);
             let new_unit = self.coarse.time_unit();

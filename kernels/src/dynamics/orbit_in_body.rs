@@ -1,0 +1,158 @@
+//! [`OrbitInBody`]: Taylor coefficients of where the central body is seen from a body that turns on its orbit, and of the products of its components.
+//!
+//! In the frame B of the body, with the rate omega, the position r and the velocity v on an orbit about a point mass follow
+//!
+//! ```text
+//! r' = v - omega x r        v' = -s r - omega x v        s = mu rho^(-3/2)        rho = r . r
+//! ```
+//!
+//! without the attitude: 15 products of series, where turning a position of F_e by the quaternion of the body, q* (x) r (x) q, takes 32. Elsewhere, about a
+//! flattened body or beside the orbit, it is turned.
+
+use super::effects::within_arcs::MotionSeries;
+use super::orbit_series::next_of_power;
+use crate::math::Real;
+use crate::math::vector::{conjugate, dcm_from_quaternion, hamilton, scaled, transposed_product};
+
+/// The coefficients of one step, in the lanes' units of time.
+#[derive(Clone, Debug)]
+pub struct OrbitInBody<R> {
+    /// Of r, B, m.
+    position: Vec<[R; 3]>,
+    /// Of v, B, m per unit, where r follows from it.
+    velocity: Vec<[R; 3]>,
+    /// Of s.
+    pull: Vec<R>,
+    /// Of r (x) q, with r in F_e, where r is turned.
+    turned: Vec<[R; 4]>,
+    /// Of r_x^2, r_y^2, r_z^2, r_y r_z, r_z r_x and r_x r_y.
+    products: Vec<[R; 6]>,
+    /// Of rho.
+    square: Vec<R>,
+}
+
+impl<R: Real> OrbitInBody<R> {
+    /// Memory for series of order `order`.
+    pub fn new(zero: R, order: usize) -> Self {
+        let (vectors, numbers) = (vec![[zero; 3]; order + 1], vec![zero; order + 1]);
+        OrbitInBody {
+            position: vectors.clone(),
+            velocity: vectors,
+            pull: numbers.clone(),
+            turned: vec![[zero; 4]; order + 1],
+            products: vec![[zero; 6]; order + 1],
+            square: numbers,
+        }
+    }
+
+    /// Computes the coefficients n, given those of the motion; call in ascending order of `n`.
+    #[inline(always)]
+    pub fn extend(&mut self, n: usize, motion: &MotionSeries<R>) {
+        if motion.is_on_two_body_orbit() {
+            self.follow(n, motion);
+        } else {
+            self.turn(n, motion);
+        }
+        self.products[n] = products(&self.position[..=n]);
+        let [xx, yy, zz, ..] = self.products[n];
+        self.square[n] = xx + (yy + zz);
+        if motion.is_on_two_body_orbit() {
+            let Self { square, pull, .. } = self;
+            if n == 0 {
+                let inverse = xx.splat(1.0) / square[0].sqrt();
+                pull[0] = motion.orbit.gravity().mu * (inverse * (inverse * inverse));
+            } else {
+                pull[n] = next_of_power(-1.5, n, square, pull);
+            }
+        }
+    }
+
+    /// r and v by their equations in B.
+    #[inline(always)]
+    fn follow(&mut self, n: usize, motion: &MotionSeries<R>) {
+        let Self { position, velocity, pull, .. } = self;
+        if n == 0 {
+            let [start, speed, ..] = motion.orbit.position() else { return };
+            let c_eb = dcm_from_quaternion(motion.attitude[0]);
+            position[0] = transposed_product(c_eb, *start);
+            velocity[0] = transposed_product(c_eb, *speed);
+            return;
+        }
+        let zero = pull[0].zero();
+        let (mut of_position, mut of_velocity) = (velocity[n - 1], [zero; 3]);
+        let later = position[..n].iter().rev().zip(velocity[..n].iter().rev());
+        for ((rate, pull), (r, v)) in motion.rate[..n].iter().zip(&pull[..n]).zip(later) {
+            of_position = minus_cross(*rate, *r, of_position);
+            of_velocity = minus_cross(*rate, *v, of_velocity);
+            for i in 0..3 {
+                of_velocity[i] = pull.neg_mul_add(r[i], of_velocity[i]);
+            }
+        }
+        let share = zero.splat(1.0) / zero.splat(n as f64);
+        position[n] = scaled(share, of_position);
+        velocity[n] = scaled(share, of_velocity);
+    }
+
+    /// r by the attitude: the vector part of q* (x) r (x) q.
+    #[inline(always)]
+    fn turn(&mut self, n: usize, motion: &MotionSeries<R>) {
+        let MotionSeries { attitude, orbit, .. } = motion;
+        let zero = attitude[0][0].zero();
+        let (mut of_turned, mut of_position) = ([zero; 4], [zero; 4]);
+        for m in 0..=n {
+            let [x, y, z] = orbit.position()[m];
+            of_turned = added(of_turned, hamilton([zero, x, y, z], attitude[n - m]));
+        }
+        self.turned[n] = of_turned;
+        for m in 0..=n {
+            of_position = added(of_position, hamilton(conjugate(attitude[m]), self.turned[n - m]));
+        }
+        self.position[n] = [of_position[1], of_position[2], of_position[3]];
+    }
+
+    /// The coefficients of rho, m^2.
+    #[inline(always)]
+    pub fn square(&self) -> &[R] {
+        &self.square
+    }
+
+    /// Coefficient n of r x (J r), of a symmetric `inertia` in B.
+    #[inline(always)]
+    pub fn lever(&self, n: usize, inertia: &[[R; 3]; 3]) -> [R; 3] {
+        let [xx, yy, zz, yz, zx, xy] = self.products[n];
+        let [[j_xx, j_xy, j_xz], [_, j_yy, j_yz], [.., j_zz]] = *inertia;
+        [
+            (j_zz - j_yy).mul_add(yz, j_yz.mul_add(yy - zz, j_xz.mul_add(xy, -(j_xy * zx)))),
+            (j_xx - j_zz).mul_add(zx, j_xz.mul_add(zz - xx, j_xy.mul_add(yz, -(j_yz * xy)))),
+            (j_yy - j_xx).mul_add(xy, j_xy.mul_add(xx - yy, j_yz.mul_add(zx, -(j_xz * yz)))),
+        ]
+    }
+}
+
+/// `sum` - a x b.
+#[inline(always)]
+fn minus_cross<R: Real>(a: [R; 3], b: [R; 3], sum: [R; 3]) -> [R; 3] {
+    let [x, y, z] = [a[2].mul_add(b[1], sum[0]), a[0].mul_add(b[2], sum[1]), a[1].mul_add(b[0], sum[2])];
+    [a[1].neg_mul_add(b[2], x), a[2].neg_mul_add(b[0], y), a[0].neg_mul_add(b[1], z)]
+}
+
+/// The last coefficients of the products of the components of a vector, from those of the vector.
+#[inline(always)]
+fn products<R: Real>(r: &[[R; 3]]) -> [R; 6] {
+    let zero = r[0][0].zero();
+    let (mut squares, mut others) = ([zero; 3], [zero; 3]);
+    for (a, b) in r.iter().zip(r.iter().rev()) {
+        for i in 0..3 {
+            squares[i] = a[i].mul_add(b[i], squares[i]);
+        }
+        others = [a[1].mul_add(b[2], others[0]), a[2].mul_add(b[0], others[1]), a[0].mul_add(b[1], others[2])];
+    }
+    let [[xx, yy, zz], [yz, zx, xy]] = [squares, others];
+    [xx, yy, zz, yz, zx, xy]
+}
+
+/// a + b.
+#[inline(always)]
+fn added<R: Real>(a: [R; 4], b: [R; 4]) -> [R; 4] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]]
+}
