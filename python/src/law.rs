@@ -15,7 +15,7 @@ use spindrift::control::laws::asked::{Answered, Answers, Question, is_law_of};
 use spindrift::ensemble::crew::Crew;
 use spindrift::workflow::WorkflowError;
 
-/// Parts that are flown side by side on a thread. Eight runs of each are on their way: the function answers for up to 512.
+/// Parts that are flown side by side on a thread, one run of each at a time: the function answers for up to as many.
 const SIDE_BY_SIDE: usize = 64;
 /// Bytes of the stack of each: what the kernels take, several times.
 const STACK: usize = 2 << 20;
@@ -187,6 +187,14 @@ impl Answers for Law {
 
 impl Crew for Law {
     fn work(&self, work: &(dyn Fn() + Sync)) {
+        // the thread is known to Python from its first question to its last, not anew at each
+        Python::attach(|py| py.detach(|| self.fly(work)));
+    }
+}
+
+impl Law {
+    /// Does `work` several times side by side, and answers all that wait at once.
+    fn fly(&self, work: &(dyn Fn() + Sync)) {
         let begin = |_| Gn::<()>::new_opt(STACK / size_of::<usize>(), work);
         let mut runs: Vec<Generator<'_, (), ()>> = (0..SIDE_BY_SIDE).map(begin).collect();
         while !runs.is_empty() {

@@ -12,7 +12,7 @@
 use super::effects::within_arcs::MotionSeries;
 use super::orbit_series::next_of_power;
 use crate::math::Real;
-use crate::math::vector::{conjugate, dcm_from_quaternion, hamilton, scaled, transposed_product};
+use crate::math::vector::{conjugate, dcm_from_quaternion, dot, hamilton, scaled, transposed_product};
 
 /// The coefficients of one step, in the lanes' units of time.
 #[derive(Clone, Debug)]
@@ -21,13 +21,13 @@ pub struct OrbitInBody<R> {
     position: Vec<[R; 3]>,
     /// Of v, B, m per unit, where r follows from it.
     velocity: Vec<[R; 3]>,
-    /// Of s.
+    /// Of s, 1 per unit squared.
     pull: Vec<R>,
     /// Of r (x) q, with r in F_e, where r is turned.
     turned: Vec<[R; 4]>,
     /// Of r_x^2, r_y^2, r_z^2, r_y r_z, r_z r_x and r_x r_y.
     products: Vec<[R; 6]>,
-    /// Of rho.
+    /// Of rho, m^2.
     square: Vec<R>,
 }
 
@@ -55,15 +55,16 @@ impl<R: Real> OrbitInBody<R> {
         }
         self.products[n] = products(&self.position[..=n]);
         let [xx, yy, zz, ..] = self.products[n];
-        self.square[n] = xx + (yy + zz);
-        if motion.is_on_two_body_orbit() {
-            let Self { square, pull, .. } = self;
-            if n == 0 {
-                let inverse = xx.splat(1.0) / square[0].sqrt();
-                pull[0] = motion.orbit.gravity().mu * (inverse * (inverse * inverse));
-            } else {
-                pull[n] = next_of_power(-1.5, n, square, pull);
-            }
+        let Self { square, pull, .. } = self;
+        square[n] = xx + (yy + zz);
+        if n == 0 {
+            // of F_e: a lane that waits for a run has no attitude, and its distance must be above zero all the same
+            let [start, ..] = motion.orbit.position() else { return };
+            square[0] = dot(*start, *start);
+            let inverse = xx.splat(1.0) / square[0].sqrt();
+            pull[0] = motion.reference().gravity().mu * (inverse * (inverse * inverse));
+        } else {
+            pull[n] = next_of_power(-1.5, n, square, pull);
         }
     }
 
@@ -110,10 +111,15 @@ impl<R: Real> OrbitInBody<R> {
         self.position[n] = [of_position[1], of_position[2], of_position[3]];
     }
 
-    /// The coefficients of rho, m^2.
+    /// Coefficient n of s/rho, given those before.
     #[inline(always)]
-    pub fn square(&self) -> &[R] {
-        &self.square
+    pub fn pull_over_square(&self, n: usize, before: &[R]) -> R {
+        let Self { pull, square, .. } = self;
+        let mut left = pull[n];
+        for (quotient, square) in before[..n].iter().zip(square[1..=n].iter().rev()) {
+            left = quotient.neg_mul_add(*square, left);
+        }
+        left / square[0]
     }
 
     /// Coefficient n of r x (J r), of a symmetric `inertia` in B.

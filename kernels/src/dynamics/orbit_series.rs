@@ -209,9 +209,11 @@ fn product_with_itself<R: Real>(position: &[[R; 3]]) -> R {
 pub fn next_of_power<R: Real>(alpha: f64, n: usize, square: &[R], power: &[R]) -> R {
     let zero = square[0].zero();
     let mut sum = zero;
-    for j in 0..n {
-        let weight = zero.splat(alpha * (n - j) as f64 - j as f64);
-        sum = (weight * power[j]).mul_add(square[n - j], sum);
+    // alpha (n - j) - j, a multiple of one half: exact
+    let (mut weight, step) = (zero.splat(alpha * n as f64), zero.splat(alpha + 1.0));
+    for (power, square) in power[..n].iter().zip(square[1..=n].iter().rev()) {
+        sum = (weight * *power).mul_add(*square, sum);
+        weight -= step;
     }
     sum / (square[0] * zero.splat(n as f64))
 }

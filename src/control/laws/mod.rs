@@ -23,9 +23,9 @@ pub use rate_damping::RateDamping;
 use std::fmt;
 
 use crate::control::estimate::Estimate;
-use crate::control::measurement::Readings;
 use crate::control::flight_code::FlightCode;
 use crate::control::guidance::Failure;
+use crate::control::measurement::Readings;
 use crate::control::vector::{cross, difference, dot, product, scaled, sum};
 use crate::sampling::SampleId;
 use crate::scene::{DeclaredTable, LawParameter, MassProperties, WheelMode};

@@ -5,7 +5,6 @@
 
 use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::orbit_in_body::OrbitInBody;
-use crate::dynamics::orbit_series::next_of_power;
 use crate::dynamics::orbit_state::OrbitState;
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
@@ -76,15 +75,15 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
 
 /// Taylor coefficients of the gravity gradient along a step, by recurrences.
 ///
-/// With r in B and g = 3 mu rho^(-5/2), rho = r . r, the torque is g r x (J r): products of series ([`OrbitInBody`]).
+/// With r in B and s = mu rho^(-3/2), rho = r . r, the torque is 3 s/rho r x (J r): products of series ([`OrbitInBody`]).
 #[derive(Clone, Debug)]
 pub struct GradientSeries<R> {
-    /// 3 mu, m^3 per unit of time squared, and J in B, kg m^2.
-    gradient: GravityGradient<R>,
+    /// J in B, kg m^2.
+    inertia: [[R; 3]; 3],
     orbit: OrbitInBody<R>,
-    /// Of r x (J r).
+    /// Of 3 r x (J r).
     lever: Vec<[R; 3]>,
-    /// Of g.
+    /// Of s/rho.
     strength: Vec<R>,
 }
 
@@ -92,7 +91,7 @@ impl<R: Real> GradientSeries<R> {
     /// Memory for series of order `order`.
     pub fn new(zero: R, order: usize) -> Self {
         GradientSeries {
-            gradient: GravityGradient::none(zero),
+            inertia: [[zero; 3]; 3],
             orbit: OrbitInBody::new(zero, order),
             lever: vec![[zero; 3]; order + 1],
             strength: vec![zero; order + 1],
@@ -102,27 +101,21 @@ impl<R: Real> GradientSeries<R> {
     /// Whether it needs the coefficients of the position in F_e about a point mass.
     pub const NEEDS_POSITION: bool = false;
 
-    /// Starts a step in a unit of time of `unit` seconds.
+    /// Starts a step.
     #[inline(always)]
-    pub fn begin(&mut self, gradient: &GravityGradient<R>, _time: R, unit: R) {
-        self.gradient = GravityGradient { strength: gradient.strength * (unit * unit), inertia: gradient.inertia };
+    pub fn begin(&mut self, gradient: &GravityGradient<R>, _time: R, _unit: R) {
+        self.inertia = gradient.inertia;
     }
 
     /// Coefficient n of the torque, B, N m in the unit of time. Call in ascending order of `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize, motion: &MotionSeries<R>) -> [R; 3] {
-        let GradientSeries { gradient, orbit, lever, strength } = self;
+        let GradientSeries { inertia, orbit, lever, strength } = self;
         orbit.extend(n, motion);
-        let (square, zero) = (orbit.square(), gradient.strength.zero());
-        if n == 0 {
-            let inverse = zero.splat(1.0) / square[0].sqrt();
-            let cubed = inverse * (inverse * inverse);
-            strength[0] = gradient.strength * (cubed * (inverse * inverse));
-        } else {
-            strength[n] = next_of_power(-2.5, n, square, strength);
-        }
-        lever[n] = orbit.lever(n, &gradient.inertia);
-        let mut own = [zero; 3];
+        strength[n] = orbit.pull_over_square(n, strength);
+        let three = strength[0].splat(3.0);
+        lever[n] = scaled(three, orbit.lever(n, inertia));
+        let mut own = [three.zero(); 3];
         for (g, lever) in strength[..=n].iter().zip(lever[..=n].iter().rev()) {
             for i in 0..3 {
                 own[i] = g.mul_add(lever[i], own[i]);

@@ -33,15 +33,15 @@ pub fn lit<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -
     if !edge.any() {
         return plain;
     }
-    R::select(edge, visible_share(position, sun, radius), plain)
+    R::select(edge, visible_share(edge, position, sun, radius), plain)
 }
 
-/// The visible share of the Sun's disc behind that of the Earth.
+/// The visible share of the Sun's disc behind that of the Earth, in the lanes `lanes`: three inverse functions and more for each.
 #[inline(always)]
-fn visible_share<R: Real>(position: [R; 3], sun: &Sun<R>, radius: R) -> R {
+fn visible_share<R: Real>(lanes: R::Mask, position: [R; 3], sun: &Sun<R>, radius: R) -> R {
     let to_sun = difference(scaled(sun.distance * radius.splat(ASTRONOMICAL_UNIT), sun.direction), position);
     let numbers = [norm(to_sun), norm(position), norm(cross(position, to_sun)), -dot(position, to_sun), radius];
-    each_lane(numbers, |_, numbers| visible_disc(numbers))
+    each_lane(numbers, |lane, numbers| if lanes.test(lane) { visible_disc(numbers) } else { 0.0 })
 }
 
 /// Which of light, part shadow and full shadow was chosen: on which side of the surfaces of part and of full shadow, 1 outside and -1 inside.
@@ -84,7 +84,10 @@ impl<R: Real> Zone<R> {
         let (zero, one) = (radius.zero(), radius.splat(1.0));
         let plain = R::select(part.lt(zero), zero, one);
         let in_part = part.lt(zero) & zero.lt(full);
-        let plain = if in_part.any() { R::select(in_part, visible_share(position, sun, radius), plain) } else { plain };
+        let plain = match in_part.any() {
+            true => R::select(in_part, visible_share(in_part, position, sun, radius), plain),
+            false => plain,
+        };
         let open = !(part.lt(zero) | zero.lt(part));
         if open.any() { R::select(open, lit(shadow, position, sun, radius), plain) } else { plain }
     }
