@@ -310,7 +310,7 @@ export class Replay {
     this.slider.value = String(time);
     const { loop } = this.motion.run;
     const phase = loop ? `, phase ${loop.phases[loop.phase[this.motion.place(time)[0]]]}` : "";
-    this.clock.textContent = `${time.toFixed(this.motion.last < 100 ? 3 : 1)} s of ${readable(this.motion.run.duration)} s${phase}`;
+    this.clock.textContent = `${time.toFixed(this.motion.last < 100 ? 3 : 1)} s of ${readable(this.motion.last)} s${phase}`;
     this.live.goTo(time);
     moveCursors(time);
     this.show();
@@ -397,7 +397,7 @@ export function startReplay(data, three) {
   try {
     return new Replay(data, three, place);
   } catch (error) {
-    place.querySelector(":scope > p:not(.still)").textContent = `This browser shows no 3D graphics (WebGL), so only a still of the replay is here. (${error.message})`;
+    place.querySelector(":scope > p:not(.still)").textContent = `This browser shows no 3D graphics (WebGL), so only a still of the replay is here.${/webgl/i.test(error.message) ? "" : ` (${error.message})`}`;
     return null;
   }
 }

@@ -110,7 +110,7 @@ class Case:
 
     def __init__(self, text):
         self.file = tomllib.loads(text)
-        self.scene = plates.Scene(text)
+        self.scene = plates.Scene(text, coupled=False)
         self.environment = self.file["environment"]
         self.duration, self.points = self.file["campaign"]["duration_s"], self.file["observe"]["points"]
         year = int(self.file["orbit"]["epoch"][:4])

@@ -6,6 +6,7 @@ use crate::analysis::population::Population;
 use crate::campaign::Plan;
 use crate::control::guidance::Failure;
 use crate::run::Status;
+use crate::scene::Name;
 use crate::statistics::binomial::interval;
 use crate::storage::rows_reader::RowsError;
 
@@ -14,6 +15,8 @@ use crate::storage::rows_reader::RowsError;
 pub struct MissionShare {
     /// `launched`, the name of a failure, or `flying` where the run ended before either; `not_failed` in a loop that launches nothing.
     pub end: &'static str,
+    /// Of `timeout`: the phases that took too long, with how many runs each, where that is known.
+    pub phases: Vec<(Name, u64)>,
     pub count: u64,
     pub runs: u64,
     /// Runs of those that were not computed, which may have ended in this way or not.
@@ -33,12 +36,20 @@ impl MissionShare {
 pub struct MissionCounter {
     has_loop: bool,
     launches: bool,
+    phases: Vec<Name>,
     population: Population,
     confidence: f64,
 }
 
-/// How many runs that are `ok` ended in each way: launched, flying, then by failure; and how many physical samples have no such run.
-pub type MissionCounts = ([u64; 2 + Failure::NAMES.len()], u64);
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MissionCounts {
+    /// How many runs that are `ok` ended in each way: launched, flying, then by failure.
+    ends: [u64; 2 + Failure::NAMES.len()],
+    /// How many of them in each phase that took too long.
+    timeouts: Vec<u64>,
+    /// How many physical samples have no such run.
+    missing: u64,
+}
 
 /// How the missions of a campaign ended, those that occur, in the order of the codes.
 pub type Missions = Vec<MissionShare>;
@@ -48,6 +59,7 @@ impl MissionCounter {
     pub fn new(plan: &Plan) -> Self {
         let spec = plan.law.as_ref().and_then(|law| law.spec());
         MissionCounter {
+            phases: spec.map_or_else(Vec::new, |spec| spec.phases.iter().map(|phase| phase.name).collect()),
             has_loop: spec.is_some(),
             launches: spec.is_some_and(|spec| spec.launches()),
             population: Population::of(plan),
@@ -56,13 +68,16 @@ impl MissionCounter {
     }
 
     pub fn finished(&self, counts: &MissionCounts) -> Missions {
-        let (counts, missing) = counts;
-        let runs = counts.iter().sum::<u64>() + missing;
+        let MissionCounts { ends, timeouts, missing } = counts;
+        let runs = ends.iter().sum::<u64>() + missing;
+        let timeouts = self.phases.iter().copied().zip(timeouts.iter().copied()).filter(|(_, count)| *count > 0);
+        let timeouts: Vec<(Name, u64)> = timeouts.collect();
         let neither = if self.launches { "flying" } else { "not_failed" };
         let names = ["launched", neither].into_iter().chain(Failure::NAMES);
         let has_intervals = self.population == Population::Independent;
         let share = |(end, count): (&'static str, &u64)| MissionShare {
             end,
+            phases: if end == Failure::NAMES[Failure::Timeout as usize] { timeouts.clone() } else { Vec::new() },
             count: *count,
             runs,
             missing: *missing,
@@ -73,7 +88,7 @@ impl MissionCounter {
                 false => [f64::NAN; 2],
             },
         };
-        names.zip(counts).filter(|(_, count)| **count > 0).map(share).collect()
+        names.zip(ends).filter(|(_, count)| **count > 0).map(share).collect()
     }
 }
 
@@ -82,7 +97,7 @@ impl Accumulator for MissionCounter {
     type OfPart = MissionCounts;
 
     fn nothing(&self) -> MissionCounts {
-        ([0; 2 + Failure::NAMES.len()], 0)
+        MissionCounts { ends: [0; 2 + Failure::NAMES.len()], timeouts: vec![0; self.phases.len()], missing: 0 }
     }
 
     fn count(&self, part: &impl PartColumns) -> Result<MissionCounts, RowsError> {
@@ -90,7 +105,7 @@ impl Accumulator for MissionCounter {
         if !self.has_loop {
             return Ok(found);
         }
-        let failures = part.numbers("failure")?;
+        let (failures, phases) = (part.numbers("failure")?, part.numbers("phase_final")?);
         let launched = if self.launches { Some(part.numbers("launched")?) } else { None };
         let (samples, statuses) = (part.samples()?, part.statuses()?);
         for row in (0..part.rows()).filter(|row| self.population.contains(samples[*row])) {
@@ -98,13 +113,18 @@ impl Accumulator for MissionCounter {
                 Status::Done => {}
                 Status::InvalidSample => continue,
                 _ => {
-                    found.1 += 1;
+                    found.missing += 1;
                     continue;
                 }
             }
             let has_launched = launched.as_ref().is_some_and(|launched| launched[row] == 1.0);
             let failure = failures[row] as usize;
-            found.0[if has_launched {
+            if failure == Failure::Timeout as usize
+                && let Some(count) = found.timeouts.get_mut(phases[row] as usize)
+            {
+                *count += 1;
+            }
+            found.ends[if has_launched {
                 0
             } else if failure == 0 {
                 1
@@ -116,7 +136,8 @@ impl Accumulator for MissionCounter {
     }
 
     fn merge(&self, whole: &mut MissionCounts, part: MissionCounts) {
-        whole.0.iter_mut().zip(part.0).for_each(|(mine, theirs)| *mine += theirs);
-        whole.1 += part.1;
+        whole.ends.iter_mut().zip(part.ends).for_each(|(mine, theirs)| *mine += theirs);
+        whole.timeouts.iter_mut().zip(part.timeouts).for_each(|(mine, theirs)| *mine += theirs);
+        whole.missing += part.missing;
     }
 }

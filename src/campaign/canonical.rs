@@ -44,8 +44,8 @@ impl Plan {
         "campaign.samples",
         "statistics.",
         "summary.",
-        "observable[",
-        "require[",
+        "observable",
+        "require",
         "stop.",
         "display.",
     ];

@@ -5,7 +5,7 @@ use super::plan::Plan;
 /// A key in which two plans differ.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeyDifference {
-    /// The dotted key, `integrator.method`, `disperse[2].std`.
+    /// The dotted key, `integrator.method`, `guidance.coast.timeout_s`.
     pub key: String,
     /// Its value in the first plan; `None` where it does not have the key.
     pub first: Option<String>,
@@ -37,24 +37,29 @@ pub fn text_differences(first: &str, second: &str) -> Vec<KeyDifference> {
     gone.chain(new).collect()
 }
 
-/// Every key of a canonical text with its value; tables of a list have their number.
+/// Every key of a canonical text with its value. A table of a list has its name, as `--set` writes it, or the parameter that it is about; one without
+/// either has its number.
 fn keys(text: &str) -> Vec<(String, String)> {
     let mut table = String::new();
-    let mut lists: Vec<(String, usize)> = Vec::new();
+    // lists, how many tables of each were read, and what the last one is called
+    let mut lists: Vec<(&str, usize, String)> = Vec::new();
     let mut found = Vec::new();
-    for line in text.lines() {
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
         if let Some(list) = line.strip_prefix("[[").and_then(|rest| rest.strip_suffix("]]")) {
-            let at = lists.iter().position(|(name, _)| name == list).unwrap_or_else(|| {
-                lists.push((list.to_owned(), 0));
+            let at = lists.iter().position(|(name, ..)| *name == list).unwrap_or_else(|| {
+                lists.push((list, 0, String::new()));
                 lists.len() - 1
             });
-            table = format!("{list}[{}]", lists[at].1);
-            lists[at].1 += 1;
+            let (_, count, last) = &mut lists[at];
+            *last = called(list, lines.clone()).unwrap_or_else(|| format!("{list}[{count}]"));
+            *count += 1;
+            table.clone_from(last);
         } else if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
             // a table within a table of a list, [disperse.angle_rad], belongs to the last of them
-            let of_list = lists.iter().find_map(|(list, count)| {
-                let rest = name.strip_prefix(list.as_str())?.strip_prefix('.')?;
-                Some(format!("{list}[{}].{rest}", count - 1))
+            let of_list = lists.iter().find_map(|(list, _, last)| {
+                let rest = name.strip_prefix(list)?.strip_prefix('.')?;
+                Some(format!("{last}.{rest}"))
             });
             table = of_list.unwrap_or_else(|| name.to_owned());
         } else if let Some((key, value)) = line.split_once(" = ").filter(|_| !line.starts_with('#')) {
@@ -62,6 +67,18 @@ fn keys(text: &str) -> Vec<(String, String)> {
         }
     }
     found
+}
+
+/// What a table of `list` that has the keys in the first of `lines` is called: `guidance.coast`, `disperse[wheels.w1.rate_rad_s]`; `None` without a name.
+fn called<'t>(list: &str, lines: impl Iterator<Item = &'t str>) -> Option<String> {
+    let pairs = lines.take_while(|line| !line.starts_with('[')).filter_map(|line| line.split_once(" = "));
+    let word = |value: &str| Some(value.strip_prefix('"')?.strip_suffix('"')?.to_owned());
+    let mut words = pairs.filter_map(|(key, value)| Some((key, word(value)?)));
+    words.find_map(|(key, word)| match key {
+        "name" | "phase" => Some(format!("{list}.{word}")),
+        "parameter" => Some(format!("{list}[{word}]")),
+        _ => None,
+    })
 }
 
 #[cfg(test)]
@@ -78,11 +95,23 @@ mod tests {
             found,
             [
                 ("a.y", Some("2"), Some("3")),
-                ("l[0].inner.z", Some("3"), Some("4")),
-                ("l[1].name", Some("\"q\""), None),
+                ("l.p.inner.z", Some("3"), Some("4")),
+                ("l.q.name", Some("\"q\""), None),
                 ("b.w", None, Some("5")),
             ]
         );
         assert!(text_differences(first, first).is_empty());
+        let names = |text: &str| keys(text).into_iter().map(|(key, _)| key).collect::<Vec<_>>();
+        let text = "[[guidance]]\nuntil = \"launch\"\nphase = \"coast\"\n[[disperse]]\nparameter = \"w.x\"\n[[require]]\nat_most = 1\n[[require]]\nat_most = 2\n";
+        assert_eq!(
+            names(text),
+            [
+                "guidance.coast.until",
+                "guidance.coast.phase",
+                "disperse[w.x].parameter",
+                "require[0].at_most",
+                "require[1].at_most"
+            ]
+        );
     }
 }

@@ -21,7 +21,9 @@ fn find_in(start: &Path, name: &Path) -> Result<PathBuf, Vec<PathBuf>> {
     let mut with_extension = name.as_os_str().to_owned();
     with_extension.push(".toml");
     let mut tried = Vec::new();
-    for file in [name.to_owned(), PathBuf::from(with_extension)] {
+    let has_extension = name.extension().is_some_and(|extension| extension == "toml");
+    let longer = (!has_extension).then(|| PathBuf::from(with_extension));
+    for file in [Some(name.to_owned()), longer].into_iter().flatten() {
         tried.push(start.join(&file));
         if is_bare {
             tried.push(start.join(FOLDER).join(&file));

@@ -23,12 +23,13 @@ const DIM: &str = "\x1b[2m";
 const RESET: &str = "\x1b[0m";
 
 /// Words that are a verdict, with their colour.
-const VERDICTS: [(&str, &str); 7] = [
+const VERDICTS: [(&str, &str); 8] = [
     ("PASS", GREEN),
     ("FAIL", RED),
     ("FAILED", RED),
     ("FAILS", RED),
     ("WORSE", RED),
+    ("BETTER", GREEN),
     ("UNDECIDED", YELLOW),
     ("DIFFERENT", YELLOW),
 ];

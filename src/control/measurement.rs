@@ -8,7 +8,6 @@ use std::sync::Arc;
 
 use super::estimators::attitude_innovation::AttitudeInnovation;
 use super::sensors::rate_gyro::GyroNoise;
-use super::spec::SensorSpec;
 use crate::scene::{DeclaredTable, Scene};
 
 /// Most numbers of a measurement.
@@ -62,25 +61,6 @@ pub struct Reading {
 impl Reading {
     /// Nothing was delivered yet.
     pub const NONE: Reading = Reading { values: [f64::NAN; MAX_VALUES], time: f64::NAN };
-}
-
-/// What the sensors of a loop have delivered last.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Readings<'a> {
-    /// The sensors, in the order of the loop.
-    pub sensors: &'a [SensorSpec],
-    /// Of each; empty where nobody asks.
-    pub last: &'a [Reading],
-}
-
-impl<'a> Readings<'a> {
-    /// None.
-    pub const NONE: Readings<'static> = Readings { sensors: &[], last: &[] };
-
-    /// Each with its sensor.
-    pub fn iter(&self) -> impl Iterator<Item = (&'a SensorSpec, &'a Reading)> + use<'a> {
-        self.sensors.iter().zip(self.last)
-    }
 }
 
 /// Position and velocity of a point.

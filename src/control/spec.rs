@@ -6,7 +6,7 @@ use super::guidance::phase::{Maneuver, Next};
 use super::guidance::target::Target;
 use super::laws::LawKind;
 use super::laws::rod_law::RodUse;
-use super::measurement::{Observes, Values};
+use super::measurement::{Observes, Reading, Values};
 use crate::observables::{LawSeries, Series};
 use crate::scene::{Name, Scene};
 
@@ -89,6 +89,25 @@ impl SensorSpec {
             next = end;
         }
         values
+    }
+}
+
+/// What the sensors of a loop have delivered last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Readings<'a> {
+    /// The sensors, in the order of the loop.
+    pub sensors: &'a [SensorSpec],
+    /// Of each; empty where nobody asks.
+    pub last: &'a [Reading],
+}
+
+impl<'a> Readings<'a> {
+    /// None.
+    pub const NONE: Readings<'static> = Readings { sensors: &[], last: &[] };
+
+    /// Each with its sensor.
+    pub fn iter(&self) -> impl Iterator<Item = (&'a SensorSpec, &'a Reading)> + use<'a> {
+        self.sensors.iter().zip(self.last)
     }
 }
 

@@ -1,5 +1,7 @@
 //! A comparison of two results as text, and as the text of a JSON file.
 
+use std::cmp::Ordering;
+
 use serde_json::{Value, json};
 
 use crate::analysis::comparison::{ColumnComparison, Comparison};
@@ -32,9 +34,14 @@ impl ComparedVerdict {
     /// Whether the second verdict is worse than the first: FAIL is worse than UNDECIDED, which is worse than PASS. A requirement that only one result
     /// has is not compared.
     pub fn is_worse(&self) -> bool {
+        self.change() == Some(Ordering::Less)
+    }
+
+    /// How the second verdict compares with the first; `None` where only one result has the requirement.
+    fn change(&self) -> Option<Ordering> {
         let rank = |word: &String| ["FAIL", "UNDECIDED", "PASS"].iter().position(|known| known == word);
         let [first, second] = self.verdicts.each_ref().map(|verdict| verdict.as_ref().and_then(rank));
-        first.zip(second).is_some_and(|(first, second)| second < first)
+        first.zip(second).map(|(first, second)| second.cmp(&first))
     }
 }
 
@@ -86,10 +93,11 @@ pub fn text(compared: Compared<'_>, width: usize) -> String {
     let mut requirements = TextTable::new(heads);
     for one in verdicts {
         let [first, second] = one.verdicts.each_ref().map(value);
-        let mark = match (one.is_worse(), first == second) {
-            (true, _) => "WORSE",
-            (false, true) => "",
-            (false, false) => "DIFFERENT",
+        let mark = match one.change() {
+            Some(Ordering::Less) => "WORSE",
+            Some(Ordering::Greater) => "BETTER",
+            Some(Ordering::Equal) => "",
+            None => "DIFFERENT",
         };
         requirements.row([first, second, mark.to_owned(), one.requirement.clone()]);
     }
@@ -211,6 +219,8 @@ mod tests {
             for (other, second) in words.iter().enumerate() {
                 let one = ComparedVerdict { requirement: String::new(), verdicts: [first.clone(), second.clone()] };
                 assert_eq!(one.is_worse(), place < other && other < 3, "{one:?}");
+                let is_better = one.change() == Some(Ordering::Greater);
+                assert_eq!(is_better, other < place && place < 3, "{one:?}");
             }
         }
     }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::report::escaped::escaped;
+use crate::report::names::sentence;
 use crate::report::summary::SummaryEnd;
 use crate::report::text_table::{Align, TextTable};
 
@@ -105,7 +106,7 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
         let question = one
             .question
             .as_deref()
-            .map_or(String::new(), |text| format!("<br><span class=\"quiet\">{}</span>", escaped(text)));
+            .map_or(String::new(), |text| format!("<br><span class=\"quiet\">{}</span>", escaped(&sentence(text))));
         format!(
             "<tr><td class=\"text\">{name}{question}</td><td class=\"text\">{}</td><td class=\"text verdict {}\">{}</td><td>{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>\n",
             escaped(&one.campaign),
@@ -137,7 +138,7 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
 }
 
 /// Of the table of results alone.
-const OWN_STYLE: &str = "td.verdict.pass { color: var(--pass); } td.verdict.fail { color: var(--fail); font-weight: 600; } td.verdict.undecided { color: var(--undecided); } td { vertical-align: top; }\n";
+const OWN_STYLE: &str = "td.verdict.pass { color: var(--pass); } td.verdict.fail { color: var(--fail); font-weight: 600; } td.verdict.undecided { color: var(--undecided); } td, th { vertical-align: top; text-align: left; } td.text, th { white-space: normal; overflow-wrap: anywhere; min-width: 5rem; }\n";
 
 /// A relative path as a link: what has a meaning in one is written by its number (RFC 3986, section 2.1).
 fn link(path: &str) -> String {

@@ -21,6 +21,19 @@ pub fn words(end: &str) -> &str {
     }
 }
 
+/// How missions ended, in words that follow "mission", with the phases that took too long.
+pub fn ended(one: &MissionShare) -> String {
+    let words = words(one.end);
+    match &one.phases[..] {
+        [] => words.to_owned(),
+        [(name, count)] if *count == one.count => format!("{words} ({name})"),
+        several => {
+            let each: Vec<String> = several.iter().map(|(name, count)| format!("{name} {count}")).collect();
+            format!("{words} ({})", each.join(", "))
+        }
+    }
+}
+
 /// How the mission of a run ended, by the columns of its row; `None` where the row has none, or the mission did neither fail nor launch.
 pub fn of_row(row: &[(String, f64)]) -> Option<String> {
     let value = |name: &str| row.iter().find(|(column, _)| column == name).map(|(_, value)| *value);
@@ -53,8 +66,8 @@ pub fn brief(missions: &Missions, is_stated: bool) -> String {
         format!("{} {word}", share(one))
     });
     let of_others = |one: &MissionShare| {
-        let words = words(one.end);
-        format!("{} {}", one.count, words.strip_suffix(" at the end of the run").unwrap_or(words))
+        let words = ended(one);
+        format!("{} {}", one.count, words.strip_suffix(" at the end of the run").unwrap_or(&words))
     };
     let others = missions.iter().filter(|one| !is_good(one)).map(of_others);
     let not_computed = (*missing > 0).then(|| format!("{missing} not computed"));
@@ -69,7 +82,7 @@ pub fn brief(missions: &Missions, is_stated: bool) -> String {
 pub fn text(missions: &Missions) -> String {
     let mut text = String::new();
     for one in missions {
-        text += &format!("  {:>8} of {} missions {}: {}\n", one.count, one.runs, words(one.end), share(one));
+        text += &format!("  {:>8} of {} missions {}: {}\n", one.count, one.runs, ended(one), share(one));
     }
     if let Some(note) = missing(missions) {
         text += &format!("  {note}\n");
@@ -84,7 +97,8 @@ mod tests {
     /// Law: each way is named with its count, its share and the ends of its interval in order.
     #[test]
     fn ends_are_counted() {
-        let share = |end, count, interval| MissionShare { end, count, runs: 200, missing: 0, interval };
+        let share =
+            |end, count, interval| MissionShare { end, phases: Vec::new(), count, runs: 200, missing: 0, interval };
         let found = text(&vec![share("launched", 190, [0.91, 0.975]), share("keep_out", 10, [f64::NAN; 2])]);
         assert!(found.contains("190 of 200 missions launched: 95% [91, 97.5]"), "{found}");
         assert!(found.contains("10 of 200 missions failed: too close to the debris: 5%\n"), "{found}");
@@ -93,6 +107,12 @@ mod tests {
         let bounds = MissionShare { runs: 300, missing: 214, ..share("launched", 82, [0.223, 0.997]) };
         let found = text(&vec![bounds]);
         assert!(found.contains("82 of 300 missions launched: 27.3% to 98.7% [22.3, 99.7]"), "{found}");
+        // which phase took too long
+        let phase = |name: &str, count| (Name::new(name).expect("a name"), count);
+        let late = MissionShare { phases: vec![phase("coast", 7)], ..share("timeout", 7, [f64::NAN; 2]) };
+        assert_eq!(ended(&late), "failed: a phase took too long (coast)");
+        let late = MissionShare { phases: vec![phase("coast", 4), phase("align", 3)], ..late };
+        assert_eq!(brief(&vec![late], true), "  missions: 7 failed: a phase took too long (coast 4, align 3)\n");
         assert!(found.contains("214 of 300 runs were not computed"), "{found}");
     }
 

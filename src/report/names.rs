@@ -165,6 +165,12 @@ pub fn of_input_column(plan: &Plan, column: &str) -> String {
     place_of(plan, column).map_or_else(|| of_column(column, ""), |place| of_input(plan, place))
 }
 
+/// With a capital at its beginning.
+pub fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

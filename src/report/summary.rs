@@ -148,7 +148,7 @@ impl Summary {
             value["nearest_correlations_of_scores"] = Value::Array(list.collect());
         }
         if !self.missions.is_empty() {
-            let one = |share: &MissionShare| json!({ "end": share.end, "count": share.count, "runs": share.runs, "not_computed": share.missing, "shares": share.shares(), "interval": share.interval });
+            let one = |share: &MissionShare| json!({ "end": share.end, "phases": share.phases.iter().map(|(name, count)| json!({ "phase": name.as_str(), "count": count })).collect::<Vec<_>>(), "count": share.count, "runs": share.runs, "not_computed": share.missing, "shares": share.shares(), "interval": share.interval });
             value["missions"] = Value::Array(self.missions.iter().map(one).collect());
         }
         if let Some(audit) = &self.audit {

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! without the attitude: 15 products of series, where turning a position of F_e by the quaternion of the body, q* (x) r (x) q, takes 32. Elsewhere, about a
-//! flattened body or beside the orbit, it is turned.
+//! flattened body or beside the orbit, it is turned: in all lanes alike, since the runs of a plan all have a J2 or none.
 
 use super::effects::within_arcs::MotionSeries;
 use super::orbit_series::next_of_power;

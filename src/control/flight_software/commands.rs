@@ -9,7 +9,7 @@ use crate::control::guidance::Failure;
 use crate::control::guidance::phase::Maneuver;
 use crate::control::guidance::target::Target;
 use crate::control::laws::LawInput;
-use crate::control::measurement::Readings;
+use crate::control::spec::Readings;
 use crate::control::vector::{cross, dcm_from_quaternion, difference, dot, product, scaled, sum};
 use crate::scene::{MAX_THRUSTERS, MAX_TORQUE_RODS, MAX_WHEELS};
 

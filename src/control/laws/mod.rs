@@ -25,7 +25,7 @@ use std::fmt;
 use crate::control::estimate::Estimate;
 use crate::control::flight_code::FlightCode;
 use crate::control::guidance::Failure;
-use crate::control::measurement::Readings;
+use crate::control::spec::Readings;
 use crate::control::vector::{cross, difference, dot, product, scaled, sum};
 use crate::sampling::SampleId;
 use crate::scene::{DeclaredTable, LawParameter, MassProperties, WheelMode};

@@ -7,7 +7,7 @@ use crate::ensemble::SingleRun;
 use crate::observables::Series;
 use crate::observables::request::NutationAxis;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
-use crate::report::over_time::envelope::{envelope, turns};
+use crate::report::over_time::envelope::{envelope, swing, turns};
 use crate::report::over_time::figure_list::{ListedFigure, Place, Shows, Traits, figures_of};
 use crate::report::over_time::limits;
 use crate::scene::Name;
@@ -127,13 +127,6 @@ impl<'a> Curves<'a> {
             let wheels = self.wheels;
             let of = |series: &&(Series, Vec<f64>)| {
                 series.0.quantity(wheels).is_some_and(|quantity| quantity.name() == name)
-            };
-            let ends = |values: &[f64]| {
-                values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)])
-            };
-            let swing = |values: &[f64]| {
-                let [low, high] = ends(values);
-                high - low
             };
             run.series.iter().find(of).map(|(_, values)| (turns(values), swing(values)))
         });

@@ -14,10 +14,22 @@ pub fn turns(values: &[f64]) -> usize {
 /// The same of swings that are seen: larger than this fraction of the range of the values. A step with noise on it is drawn as itself.
 const SEEN: f64 = 0.01;
 
-fn seen_turns(values: &[f64]) -> usize {
+/// A range smaller than this fraction of the values is no swing.
+const ROUND_OFF: f64 = 1e-9;
+
+/// The range of values; zero where it is round-off beside them, as that of a constant of the motion is.
+pub fn swing(values: &[f64]) -> f64 {
     let [low, high] =
         values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)]);
-    let least = SEEN * (high - low);
+    if high - low > ROUND_OFF * high.abs().max(low.abs()) { high - low } else { 0.0 }
+}
+
+fn seen_turns(values: &[f64]) -> usize {
+    let swing = swing(values);
+    if swing == 0.0 {
+        return 0;
+    }
+    let least = SEEN * swing;
     // the last value from which on it rises (1) or falls (-1), and how far it went
     let (mut extreme, mut direction, mut count) = (values.first().copied().unwrap_or(0.0), 0.0, 0);
     for value in values {
@@ -89,5 +101,8 @@ mod tests {
         };
         assert!(envelope(&times[..101], &step(1e-3)).is_none() && envelope(&times[..101], &step(0.1)).is_some());
         assert_eq!(seen_turns(&wave(1.0)), 12);
+        // a constant with the noise of rounding is a line
+        let constant: Vec<f64> = aliased.iter().map(|sign| 1.75e9 + 1e-3 * sign).collect();
+        assert!(envelope(&times[..101], &constant).is_none() && swing(&constant) == 0.0 && swing(&aliased) == 2.0);
     }
 }

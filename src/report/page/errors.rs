@@ -67,7 +67,7 @@ pub fn histogram(survey: &Survey, index: usize, outcome: &SurveyedOutcome, secti
     let column = &survey.thinned.outcomes[index];
     let values: Vec<f64> = rows.iter().map(|row| column[*row]).filter(|value| value.is_finite()).collect();
     let values: Vec<f64> = if outcome.is_error { values.into_iter().map(f64::abs).collect() } else { values };
-    let title = sentence(&names::of_quantity(&outcome.quantity));
+    let title = names::sentence(&names::of_quantity(&outcome.quantity));
     let (bins, is_log) = bins(&values);
     let mut marks = vec![Mark::Bars {
         label: "runs".to_owned(),
@@ -227,11 +227,6 @@ fn audits(survey: &Survey) -> Option<Figure> {
             },
         ],
     })
-}
-
-pub fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
 use crate::report::escaped::escaped;
 use crate::report::mission_text;
+use crate::report::names::sentence;
 use crate::report::page::cards::{Card, Judged, overall};
-use crate::report::page::errors::sentence;
 use crate::report::page::readable::{grouped, number};
 use crate::report::requirements;
 use crate::run::Status;
@@ -206,7 +206,7 @@ pub fn missions(missions: &Missions) -> String {
         };
         lines += &format!(
             "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"bar\"><svg width=\"100%\" height=\"22\" role=\"img\" aria-label=\"{}\"><rect class=\"mission {class}\" x=\"0\" y=\"3\" width=\"{}\" height=\"16\"/>{whisker}</svg></td></tr>",
-            escaped(mission_text::words(one.end)),
+            escaped(&mission_text::ended(one)),
             grouped(one.count),
             mission_text::share(one),
             escaped(&mission_text::share(one)),

@@ -15,10 +15,10 @@ use crate::campaign::{Plan, Statement};
 use crate::ensemble::Bands;
 use crate::report::drivers_text::{self, outcomes, ranked, verb};
 use crate::report::names;
+use crate::report::names::sentence;
 use crate::report::over_time::curves::{FEWEST, TimeBands};
 use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
-use crate::report::page::errors::sentence;
 use crate::report::page::influence::Influence;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::tables::StatisticsRow;
@@ -252,7 +252,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         notes.push(format!("{}.", sentence(&assumed)));
     }
     match (&one.reason, one.gate.decision) {
-        (Some(reason), _) => notes.push(format!("{}.", crate::report::page::errors::sentence(reason))),
+        (Some(reason), _) => notes.push(format!("{}.", crate::report::names::sentence(reason))),
         (None, Decision::Undecided(Some(runs))) => {
             notes.push(format!("{}.", sentence(&runs_needed(&grouped(runs)))));
         }
@@ -288,7 +288,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
             )
         }
     };
-    notes.extend(one.note.as_ref().map(|note| format!("{}.", crate::report::page::errors::sentence(note))));
+    notes.extend(one.note.as_ref().map(|note| format!("{}.", crate::report::names::sentence(note))));
     let is_fraction = matches!(requirement.statement, Statement::Fraction(_));
     Card {
         judged: match one.gate.decision {

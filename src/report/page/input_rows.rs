@@ -5,8 +5,8 @@ use crate::math::incomplete_gamma::incomplete_gamma;
 use crate::report::escaped::escaped;
 use crate::report::figure::{Figure, Mark};
 use crate::report::names;
+use crate::report::names::sentence;
 use crate::report::origin_text::{origin, unit_of};
-use crate::report::page::errors::sentence;
 use crate::report::page::readable::with_unit;
 
 /// Size of a small histogram, pixels.

@@ -9,7 +9,7 @@ use crate::math::vector::{difference, norm};
 use crate::observables::Series;
 use crate::report::mission_text;
 use crate::report::names;
-use crate::report::page::errors::sentence;
+use crate::report::names::sentence;
 use crate::report::page::payload::Payload;
 use crate::report::page::sky;
 use crate::run::StateField;

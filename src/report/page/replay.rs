@@ -10,7 +10,7 @@ use crate::control::net_launch::parameters::DebrisNumbers;
 use crate::ensemble::SingleRun;
 use crate::math::vector::{dcm_from_quaternion, difference, product};
 use crate::report::names;
-use crate::report::page::errors::sentence;
+use crate::report::names::sentence;
 use crate::report::page::live;
 use crate::report::page::payload::Payload;
 use crate::report::page::readable::with_unit;

@@ -180,7 +180,8 @@ pub fn still(plan: &Plan, run: &SingleRun) -> String {
     }
     let s3 = |point: &usize| scaled(1.4 * reach, product(turned(*point), [0.0, 0.0, 1.0]));
     attitude.lines.push(("path", shown.iter().map(s3).collect()));
-    attitude.labels.push((s3(&0), "s3".to_owned(), false));
+    let end = shown.last().map_or([0.0; 3], s3);
+    attitude.labels.push((end, "s3".to_owned(), true));
     let mut caption = "Still of the nominal run, seen from the replay's camera: the body at the start, the axes of F_e, and the path of s3 on a sphere.".to_owned();
     let around: Vec<_> = sky::at_start(run).collect();
     for (name, direction) in &around {

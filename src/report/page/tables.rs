@@ -7,11 +7,13 @@ use crate::control::laws::asked;
 use crate::report::escaped::escaped;
 use crate::report::mission_text;
 use crate::report::names;
+use crate::report::names::sentence;
 use crate::report::origin_text::unit_of;
-use crate::report::page::errors::sentence;
 use crate::report::page::readable::{grouped, in_brackets, number, with_unit};
 use crate::report::page::runs::ShownRun;
 use crate::run::Status;
+use crate::sampling::Transform;
+use crate::sampling::distribution::traits::Quantile;
 
 /// Inputs of a run that are listed; those farthest from nominal first, as multiples of their spread.
 const MOST_INPUTS: usize = 3;
@@ -127,7 +129,14 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
                 let name = names::of_component(column.parameter, column.component);
                 let sigmas = (value - column.nominal).abs() / spreads[index];
                 let values = drawn([*value, column.nominal].map(|value| shown.value(value)), &shown.unit);
-                (sigmas, format!("{name} {values}{} \u{3c3})", number(libm::round(10.0 * sigmas) / 10.0)))
+                let text = match plan.dispersions.distribution_of(index) {
+                    // a thruster that is dead is not so many deviations away
+                    Some(Transform::Scalar(distribution)) if distribution.steps().is_some() => values
+                        .strip_suffix(", ")
+                        .map_or(values.trim_end_matches(" (").to_owned(), |of| format!("{of})")),
+                    _ => format!("{values}{} \u{3c3})", number(libm::round(10.0 * sigmas) / 10.0)),
+                };
+                (sigmas, format!("{name} {text}"))
             })
             .collect();
         inputs.sort_by(|a, b| b.0.total_cmp(&a.0));

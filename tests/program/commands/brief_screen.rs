@@ -24,8 +24,8 @@ fn a_campaign_fits_a_screen() {
     let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
     for (name, code, question) in [
         ("spin_sweep", 0, "How large are the conservation errors of a run, "),
-        ("net_launch", 5, "With which probability does the spacecraft reach "),
-        ("slew_closed", 5, "How far does a small satellite point off after a slew "),
+        ("net_launch", 5, "How likely is the spacecraft to reach the state "),
+        ("slew_closed", 5, "How far off does a small satellite point after a slew "),
         ("detumble", 0, "How long do wheels and thrusters take "),
         ("acceptance", 3, "Does this spacecraft, integrated by the default method, "),
     ] {

@@ -52,7 +52,7 @@ fn every_result_has_a_row() {
         assert_eq!(page.matches(&link).count(), 1, "{link}");
         assert!(scratch.path("all").join(place.replace("%20", " ")).join("report.html").is_file());
     }
-    assert!(page.contains("is &lt;other&gt; slow enough?") && !page.contains("<other>"), "markup of a question");
+    assert!(page.contains("Is &lt;other&gt; slow enough?") && !page.contains("<other>"), "markup of a question");
     assert!(page.contains("default-src 'none'") && !page.contains("http://") && !page.contains("https://"));
     assert!(page.contains("<td class=\"text verdict fail\">1 FAIL</td><td>20</td>"), "{page}");
     assert!(page.contains("<li>half: not finished"), "{page}");

@@ -28,11 +28,21 @@ fn ends_are_those_of_the_rows() {
     let page = found.visible();
     let table = between(&page, "<section id=\"missions\">", "</section>");
     let mut all = 0.0;
-    for (end, code, words) in [("not_failed", 0.0, "did not fail"), ("timeout", 1.0, "failed: a phase took too long")] {
+    for (end, code, words) in
+        [("not_failed", 0.0, "did not fail"), ("timeout", 1.0, "failed: a phase took too long (detumble)")]
+    {
         let count = ok.iter().filter(|row| failures[**row] == code).count() as u64;
         let [low, high] = interval(count, ok.len() as u64, 0.95);
         let share = count as f64 / runs;
         let one = missions.iter().find(|one| one["end"] == end).expect(end);
+        if end == "timeout" {
+            let phases = column(&rows, "phase_final");
+            assert!(
+                ok.iter().all(|row| failures[*row] != code || phases[*row] == 0.0),
+                "the first phase is `detumble`"
+            );
+            assert_eq!(one["phases"], serde_json::json!([{ "phase": "detumble", "count": count }]));
+        }
         assert_eq!([&one["count"], &one["runs"]].map(|number| number.as_u64()), [Some(count), Some(ok.len() as u64)]);
         let percents = [share, low, high].map(|share| 100.0 * share);
         let counted = [&[count as f64, runs][..], &percents].concat();
