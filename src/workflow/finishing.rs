@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crate::analysis::fold::Gathered;
 use crate::analysis::input_sensitivity::InputSensitivity;
-use crate::campaign::{FilesRead, Plan, data};
+use crate::campaign::{FilesRead, Plan};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, PartId};
 use crate::report::image::PlotSize;
@@ -15,7 +15,6 @@ use crate::report::shell_word::quoted_path;
 use crate::report::summary::{Summary, SummaryEnd};
 use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
 use crate::storage::folder::Folder;
-use crate::storage::identity;
 use crate::storage::manifest::PartRecord;
 use crate::storage::manifest::PartsRead;
 use crate::storage::names::{PLAN, TRAJECTORIES};
@@ -30,7 +29,7 @@ use crate::workflow::error::WorkflowError;
 use crate::workflow::page;
 use crate::workflow::results::Results;
 use crate::workflow::session::Session;
-use crate::workflow::source::plan_in;
+use crate::workflow::source::{data_copies, plan_in};
 use crate::workflow::stored::{Stored, address};
 
 /// What is made of the rows beside the tables and the summary.
@@ -186,21 +185,6 @@ pub(super) fn keep_data(folder: &Folder, files: &FilesRead) -> Result<(), Workfl
     data_copies(files).try_for_each(|copy| {
         let (name, bytes) = copy?;
         folder.keep_data(&name, &bytes).map_err(WorkflowError::files)
-    })
-}
-
-/// The files of numbers and the module of the plan, each with the name that its copy has.
-///
-/// # Errors
-/// Where one has changed since the plan was made, or cannot be read.
-pub(super) fn data_copies(files: &FilesRead) -> impl Iterator<Item = Result<(String, Vec<u8>), WorkflowError>> {
-    files.data.iter().map(|(path, sha256)| {
-        let failed = |why: &dyn std::fmt::Display| WorkflowError::Files(format!("{}: {why}", path.display()));
-        let bytes = data::bytes(path).map_err(|error| failed(&error))?;
-        if identity::sha256(&bytes) != *sha256 {
-            return Err(failed(&"changed while it was read; run the command again"));
-        }
-        Ok((data::copy_name(path, sha256), bytes))
     })
 }
 

@@ -15,8 +15,8 @@ use crate::storage::names::{DATA, PLAN};
 use crate::storage::remote::{Address, Fault, Remote, head_of};
 use crate::storage::rows_file::identity;
 use crate::workflow::error::WorkflowError;
-use crate::workflow::finishing::data_copies;
 use crate::workflow::session::Session;
+use crate::workflow::source::data_copies;
 
 /// The variable of the environment that names the folder of working folders.
 pub const VARIABLE: &str = "SPINDRIFT_CACHE";

@@ -155,6 +155,15 @@ fn a_store_has_the_files_of_a_folder() {
     assert!(puts[0].contains("/data/") && puts[1].ends_with(HEAD_OBJECT) && puts.len() == found.len() + 1, "{puts:?}");
     assert!(puts[puts.len() - 2].ends_with("manifest.jsonl") && puts[puts.len() - 1].ends_with(SUCCESS), "{puts:?}");
 
+    let at = |object: &str| puts.iter().position(|put| put.ends_with(object)).expect("a put");
+    for part in 0..3 {
+        let commit = at(&format!("_commits/part-{part:06}.jsonl"));
+        assert!(
+            ["runs", "bands"].iter().all(|folder| at(&format!("/{folder}/part-{part:06}.parquet")) < commit),
+            "{puts:?}"
+        );
+    }
+
     let said = bench.prints("verify s3:x --fraction 1", "two", 0);
     assert!(said.contains("sound"), "{said}");
     assert!(bench.prints("compare s3:x whole --tolerance 0", "three", 0).contains("PASS"));

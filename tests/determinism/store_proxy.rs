@@ -167,10 +167,8 @@ impl Proxy {
         }
     }
 
-    fn kill(&self) {
-        if let Some(child) = &mut self.state().victim {
-            let _ = child.kill();
-        }
+    fn kill(&self) -> Option<()> {
+        self.state().victim.as_mut().and_then(|child| child.kill().ok())
     }
 
     fn serve(&self, mut stream: TcpStream) -> Option<()> {
@@ -190,10 +188,10 @@ impl Proxy {
                     format!("HTTP/1.1 {status} No\r\nConnection: close\r\nContent-Length: {}\r\n\r\n", body.len());
                 closed([head.as_bytes(), body.as_bytes()].concat(), &mut stream)
             }
-            Fate::KilledBefore => Some(self.kill()),
+            Fate::KilledBefore => self.kill(),
             Fate::KilledAfter => {
                 request.answered();
-                Some(self.kill())
+                self.kill()
             }
         }
     }
