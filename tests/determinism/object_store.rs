@@ -6,7 +6,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 
 use super::store_proxy::{Fate, Message, Proxy, asked, objects, server};
-use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, WHEEL1, WHEEL2};
+use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL2};
 use crate::support::scratch_folder::{ScratchFolder, contents};
 
 /// Six hundred samples, which are three parts, from a table; with bands and two retained runs.
@@ -247,6 +247,52 @@ fn a_kill_at_every_request_changes_no_byte() {
     assert!(killed > 50, "{killed}");
 }
 
+/// Law: a shard that ends with 0 has put all its parts, whatever request it was killed at before; and a campaign with `[stop]`, whose last part gets further rows after each look, puts no part that is not
+/// final: the result is that of a folder.
+#[test]
+fn parts_are_put_once_they_are_final() {
+    let bench = Bench::new("final");
+    let whole = bench.whole("--no-report");
+    let parts = whole.keys().filter(|name| name.starts_with("runs/")).count();
+    let killed_at =
+        |at: usize| Proxy::new(move |count, _: &Message| if count == at { Fate::KilledBefore } else { Fate::Passed });
+    for at in 0.. {
+        let prefix = format!("shard-{at}");
+        let command = format!("campaign stored.toml --shard 1/1 --out s3:{prefix}");
+        let ended = bench.behind(&killed_at(at), &command, &prefix);
+        bench.prints(&command, &prefix, 0);
+        let found = bench.objects(&prefix);
+        assert_eq!(found.keys().filter(|name| name.starts_with("_commits/part-")).count(), parts, "{at}");
+        assert!(!found.contains_key(SUCCESS));
+        if ended.is_some() {
+            bench.prints(&format!("finish s3:{prefix} --no-report"), "finisher", 0);
+            assert_whole(&bench.objects(&prefix), &whole, &prefix);
+            assert!(at > 10, "{at}");
+            break;
+        }
+    }
+
+    let design = HEAD.split("[design]").next().expect("a campaign").replace("seed = 7", "seed = 7\nsamples = 300");
+    let stop = "[stop]\nobservable = \"energy_error_max\"\nquantile = 0.5\nhalf_width = 1e-30\nmax_samples = 1200\n";
+    bench
+        .scratch
+        .file("stop.toml", &[&design, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION, stop].concat());
+    // 5: it does not become so precise
+    bench.prints("campaign stop.toml --no-report --out stopped", "unused", 5);
+    let whole = contents(&bench.scratch.path("stopped"));
+    for at in (0..).step_by(4) {
+        let prefix = format!("stop-{at}");
+        let command = format!("campaign stop.toml --no-report --out s3:{prefix}");
+        let ended = bench.behind(&killed_at(at), &command, &prefix);
+        let cache = if at % 8 == 0 { prefix.clone() } else { format!("other-{prefix}") };
+        bench.prints(&command, &cache, 5);
+        assert_whole(&bench.objects(&prefix), &whole, &prefix);
+        if ended.is_some() {
+            break;
+        }
+    }
+}
+
 /// Law: a reader that is killed at any request reads the same at its next try.
 #[test]
 fn a_reader_that_is_killed_reads_again() {
@@ -331,6 +377,13 @@ fn every_damaged_object_is_found() {
         bench.prints("campaign stored.toml --out s3:x", &cache, 0);
         assert_whole(&bench.objects("x"), &whole, name);
     }
+    // of a result that is not finished, too: a part that is listed and not there is put again
+    for name in [SUCCESS, "runs/part-000001.parquet"] {
+        bench.remove(&format!("x/{name}"));
+    }
+    assert!(bench.prints("verify s3:x", "unfinished", 4).contains("1 parts are missing"));
+    bench.prints("campaign stored.toml --out s3:x", "one", 0);
+    assert_whole(&bench.objects("x"), &whole, "unfinished");
     // the mark has no content that could change
     bench.remove(&format!("x/{SUCCESS}"));
     assert!(bench.prints("verify s3:x", "two", 5).contains("not finished"));
