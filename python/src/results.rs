@@ -59,12 +59,13 @@ impl Results {
     /// The finished result in the folder `root`.
     #[staticmethod]
     fn open(py: Python<'_>, root: PathBuf) -> PyResult<Self> {
-        let summary = py.detach(|| {
+        let opened = py.detach(|| {
             let watch = Quiet::default();
-            workflow::Results::open(&root, Session::new(&watch)?)?;
-            text(&root, SUMMARY)
+            // of one in an object store: the copy
+            let root = workflow::Results::open(&root, Session::new(&watch)?)?.root().to_owned();
+            text(&root, SUMMARY).map(|summary| Results { summary, root })
         });
-        Ok(Results { summary: summary.map_err(raised)?, root })
+        opened.map_err(raised)
     }
 
     /// Its folder.

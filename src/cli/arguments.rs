@@ -123,7 +123,7 @@ pub struct CampaignOptions {
     /// Overrides.
     #[command(flatten)]
     pub changed: Changed,
-    /// Result folder [default: results/NAME, the campaign's name].
+    /// Result folder, or s3://bucket/name [default: results/NAME, the campaign's name].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Number of samples; overrides the file.

@@ -48,7 +48,7 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
                 "{}{}: already complete in {} ({} samples{failed}), every checksum verified; nothing to do. --overwrite runs it again.\n{}",
                 completed_text::question(plan.description.as_deref()),
                 plan.name,
-                root.display(),
+                campaign.named().display(),
                 end.rows,
                 completed_text::of_end(&end, root),
             ))?;
@@ -56,7 +56,7 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
             Ok(if options.shard.is_some() { CommandOutcome::Done } else { outcome })
         }
         CampaignOutcome::ShardDone { shard, made } => {
-            screen::print(&shard_is_done(&plan.name, shard, root, made))?;
+            screen::print(&shard_is_done(&plan.name, shard, campaign.named(), made))?;
             Ok(CommandOutcome::Done)
         }
         CampaignOutcome::Stopped { samples, left } => {

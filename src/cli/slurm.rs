@@ -11,6 +11,7 @@ use crate::cli::slurm_script::{Jobs, MARK};
 use crate::ensemble::run_cost::parts;
 use crate::report::shell_word::quoted_path;
 use crate::storage::atomic;
+use crate::storage::remote::Address;
 use crate::workflow::campaign::{RESULTS, refuse_shards_with_stop};
 use crate::workflow::isa;
 use crate::workflow::source::plan;
@@ -33,7 +34,10 @@ pub fn run(options: &SlurmOptions) -> Result<CommandOutcome, Failure> {
     }
     let file = find(&options.file).unwrap_or_else(|_| options.file.clone());
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
-    let [file, out] = [file, out].map(|path| word(&absolute(&path).map_err(|error| in_file(&path, &error))?));
+    // an address is the same in every folder
+    let is_address = Address::of(&out).map_err(Failure::Input)?.is_some();
+    let absolute = |path: &Path| if is_address && path == out { Ok(path.to_owned()) } else { absolute(path) };
+    let [file, out] = [&file, &out].map(|path| word(&absolute(path).map_err(|error| in_file(path, &error))?));
     let program =
         std::env::current_exe().map_err(|error| Failure::files(format!("the path of this program: {error}")))?;
     let program = word(&program)?;

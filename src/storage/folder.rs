@@ -195,11 +195,11 @@ impl Folder {
         self.storage.remove(&path).map_err(at(&path))
     }
 
-    /// Adds a part: its files, then its line in the manifest.
+    /// Adds a part: its files, then its line in the manifest, which is returned.
     ///
     /// # Errors
     /// Where a file operation fails; the part is then not listed.
-    pub fn commit(&self, part: Part, files: &[PartFile]) -> Result<(), StorageError> {
+    pub fn commit(&self, part: Part, files: &[PartFile]) -> Result<PartRecord, StorageError> {
         let mut folders: Vec<PathBuf> = Vec::new();
         for file in files {
             let (folder, _) = file.name.split_once('/').unwrap_or_default();
@@ -219,8 +219,8 @@ impl Folder {
             files: files.iter().map(PartFile::record).collect(),
         };
         self.append(&Record::Part(record.clone()))?;
-        self.state().parts.insert(record.part, record);
-        Ok(())
+        self.state().parts.insert(record.part, record.clone());
+        Ok(record)
     }
 
     /// Takes parts out of the dataset, so that they are made again.

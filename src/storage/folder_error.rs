@@ -80,9 +80,12 @@ pub enum FolderError {
 fn differing_rows(there: &str, plan: &Plan) -> Vec<String> {
     // keys that do not change rows are no reason
     let is_reason = |one: &KeyDifference| !Plan::OUTSIDE_ROWS.iter().any(|key| one.key.starts_with(key));
+    text_differences(there, &plan.text()).into_iter().filter(is_reason).map(said).collect()
+}
+
+fn said(one: KeyDifference) -> String {
     let value = |value: Option<String>| value.unwrap_or_else(|| "absent".to_owned());
-    let keys = text_differences(there, &plan.text()).into_iter().filter(is_reason);
-    keys.map(|one| format!("{}: {} there, {} here", one.key, value(one.first), value(one.second))).collect()
+    format!("{}: {} there, {} here", one.key, value(one.first), value(one.second))
 }
 
 /// The same as one text; `None` where there are none, or there is no plan.
@@ -98,7 +101,18 @@ pub(super) fn occupied(
     there: &Identity,
     (plan, identity): (&Plan, &Identity),
 ) -> FolderError {
-    let mut list = differing_rows(&found.plan, plan);
+    let differences = reasons(differing_rows(&found.plan, plan), there, identity);
+    let what = if found.is_finished { "the result" } else { "an unfinished result" };
+    FolderError::Occupied { folder, what, differences }
+}
+
+/// All keys in which the plan of the text `there`, whose rows are `rows`, differs from `plan`, whose rows are `identity`, one a line.
+pub(super) fn all_differences((there, rows): (&str, &Identity), (plan, identity): (&Plan, &Identity)) -> String {
+    reasons(text_differences(there, &plan.text()).into_iter().map(said).collect(), rows, identity)
+}
+
+/// The text of a `list` of keys that differ, where the rows are `there` and not `identity`: what else differs is added, and what is too long is cut.
+fn reasons(mut list: Vec<String>, there: &Identity, identity: &Identity) -> String {
     if there.arithmetic != identity.arithmetic || there.format != identity.format {
         list.push(format!(
             "version of the row arithmetic: {}.{} there, {}.{} here",
@@ -118,6 +132,5 @@ pub(super) fn occupied(
         list.truncate(LISTED);
         list.push(format!("and {more} more"));
     }
-    let what = if found.is_finished { "the result" } else { "an unfinished result" };
-    FolderError::Occupied { folder, what, differences: list.join("\n  ") }
+    list.join("\n  ")
 }

@@ -8,7 +8,7 @@
 //! - [`disk`]: file operations, [`stored_file`]: of open files. - [`atomic`]: files that are whole or absent.
 //! - [`rows_file`]: the files of rows, which [`part_sink`] writes and [`rows_reader`] reads, through [`parquet_source`]; [`bands_file`]: of bands.
 //! - [`columnar`]: columns ([`heading`]) to Parquet, with [`arrow_metadata`]. - [`table`]: tables in a single file: [`timeseries`], [`bands_table`],
-//!   [`drawn_table`], [`precision_table`], [`described_table`]. - [`parallel`]: threads.
+//!   [`drawn_table`], [`precision_table`], [`described_table`]. - [`parallel`]: threads. - [`remote`]: results in an object store.
 //!
 //! Not here: what the rows say (`analysis`), text and figures for people (`report`), and reading tables for a campaign (`campaign`).
 
@@ -33,6 +33,7 @@ pub mod parquet_source;
 pub mod part_sink;
 pub mod precision_table;
 pub mod recovery;
+pub mod remote;
 pub mod replacement;
 pub mod rows_file;
 pub mod rows_reader;

@@ -12,6 +12,7 @@ use crate::ensemble::{Ensemble, Part, Rows, Sink};
 use crate::storage::bands_file::BandsFile;
 use crate::storage::disk::StorageError;
 use crate::storage::folder::{Folder, PartFile};
+use crate::storage::manifest::PartRecord;
 use crate::storage::names::{bands_of, rows_of};
 use crate::storage::rows_file::RowsFile;
 
@@ -139,15 +140,18 @@ impl Sink for PartSink<'_> {
     }
 }
 
-/// Runs `body` with a sink for the rows of `ensemble`, which also counts them in `counts`; when this returns, every part that the sink took is in `folder`, or an error says why
-/// not. An error of writing is reported before one of `body`.
+/// Is told of each part once it is in its folder.
+pub type Written<'a> = &'a (dyn Fn(&PartRecord) -> Result<(), StorageError> + Sync);
+
+/// Runs `body` with a sink for the rows of `ensemble`, which also counts them in `counts`; when this returns, every part that the sink took is in `folder` and `written` was told of it, or an
+/// error says why not. An error of writing is reported before one of `body`.
 ///
 /// # Errors
 /// Where parts could not be encoded or written.
 pub fn write_parts<R>(
     folder: &Folder,
     ensemble: &Ensemble<'_>,
-    counts: Option<&dyn CountRows>,
+    (counts, written): (Option<&dyn CountRows>, Written<'_>),
     body: impl FnOnce(&PartSink<'_>) -> R,
 ) -> Result<R, PartError> {
     let (encoded, waiting) = sync_channel::<Encoded>(WAITING);
@@ -158,7 +162,7 @@ pub fn write_parts<R>(
         let (buffers, waiting) = (&buffers, waiting);
         let write = move || -> Result<(), StorageError> {
             waiting.iter().try_for_each(|(part, files)| {
-                folder.commit(part, &files)?;
+                written(&folder.commit(part, &files)?)?;
                 buffers.give(files);
                 Ok(())
             })

@@ -16,6 +16,7 @@ use crate::workflow::results::Results;
 use crate::workflow::running::{Running, run_missing};
 use crate::workflow::session::Session;
 use crate::workflow::source::plan_and_files;
+use crate::workflow::stored::{Stored, address};
 
 /// Default folder of results, in the current folder.
 pub const RESULTS: &str = "results";
@@ -102,7 +103,7 @@ impl<'a> Campaign<'a> {
         self
     }
 
-    /// With the result in the folder `root`; else in [`RESULTS`], under the name of the campaign.
+    /// With the result in the folder `root`, or at the address `s3://bucket/name` of an object store; else in [`RESULTS`], under the name of the campaign.
     #[must_use]
     pub fn store(mut self, root: impl Into<PathBuf>) -> Self {
         self.root = Some(root.into());
@@ -158,8 +159,19 @@ impl<'a> Campaign<'a> {
         if let Some(Shard { number, of }) = self.shard {
             refuse_shards_with_stop(&plan, &format!("--shard {number}/{of}"))?;
         }
-        let root = self.root.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
-        Ok(Some(PreparedCampaign { campaign: self, plan, files, root }))
+        let named = self.root.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
+        let stored = match address(&named)? {
+            Some(_) if self.overwrite => {
+                return Err(WorkflowError::Input(format!(
+                    "--overwrite: must be left out for {}: what is in a store is not replaced; choose another --out",
+                    named.display()
+                )));
+            }
+            Some(address) => Some(Stored::of(&self.session, address, &Ensemble::new(&plan, self.session.isa))?),
+            None => None,
+        };
+        let root = stored.as_ref().map_or_else(|| named.clone(), |stored| stored.root().to_owned());
+        Ok(Some(PreparedCampaign { campaign: self, plan, files, named, root, stored }))
     }
 
     /// Runs what is not there yet, and opens the finished result.
@@ -186,7 +198,9 @@ pub struct PreparedCampaign<'a> {
     campaign: Campaign<'a>,
     plan: Plan,
     files: FilesRead,
+    named: PathBuf,
     root: PathBuf,
+    stored: Option<Stored<'a>>,
 }
 
 impl PreparedCampaign<'_> {
@@ -199,9 +213,14 @@ impl PreparedCampaign<'_> {
         &self.files
     }
 
-    /// The folder of the result.
+    /// The folder of the result; of one in an object store, that in which this machine works on it.
     pub fn root(&self) -> &Path {
         &self.root
+    }
+
+    /// Where the result is for its user: its folder or address.
+    pub fn named(&self) -> &Path {
+        &self.named
     }
 
     /// The plan ready to run.
@@ -216,14 +235,16 @@ impl PreparedCampaign<'_> {
     pub fn run(&self) -> Result<CampaignOutcome, WorkflowError> {
         asked::refuse_unanswered(self.plan.law.as_ref()).map_err(WorkflowError::Input)?;
         let Campaign { session, shard, overwrite, fail_fast, outputs, .. } = &self.campaign;
-        let (ensemble, root) = (self.ensemble(), &*self.root);
+        let (ensemble, root, stored) = (self.ensemble(), &*self.root, self.stored.as_ref());
+        let is_stored = stored.map_or(Ok(true), |stored| stored.begin(&ensemble, &self.files))?;
         let claimed = ClaimOptions { overwrite: *overwrite, shard: *shard, threads: session.readers() };
         let claimed = claim(session.storage, root, (&self.plan, &identity(&ensemble)), claimed);
-        let ready = match claimed.map_err(WorkflowError::files)? {
+        let mut ready = match claimed.map_err(WorkflowError::files)? {
             Claim::Finished(finished) => {
                 say_notes(session, root, &finished.notes);
                 let end = end_of_finished(session, root, &self.plan, &finished)?;
                 drop(finished);
+                stored.filter(|_| !is_stored).map_or(Ok(()), Stored::publish)?;
                 if let Some(file) = outputs.junit.as_deref().filter(|_| shard.is_none()) {
                     Results::open(root, *session)?.write_junit(file)?;
                 }
@@ -232,7 +253,10 @@ impl PreparedCampaign<'_> {
             Claim::Ready(ready) => *ready,
         };
         keep_data(&ready.folder, &self.files)?;
-        run_missing(&Running {
+        if let Some(stored) = stored {
+            stored.join(&ensemble, &mut ready, *shard)?;
+        }
+        let outcome = run_missing(&Running {
             session: *session,
             ensemble: &ensemble,
             ready: &ready,
@@ -240,7 +264,12 @@ impl PreparedCampaign<'_> {
             outputs,
             shard: *shard,
             fail_fast: *fail_fast,
-        })
+            stored,
+        })?;
+        if let (Some(stored), CampaignOutcome::Finished(_)) = (stored, &outcome) {
+            stored.publish()?;
+        }
+        Ok(outcome)
     }
 }
 

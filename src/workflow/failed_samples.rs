@@ -14,6 +14,7 @@ use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 use crate::workflow::source::{plan_and_files, plan_of_sound};
+use crate::workflow::stored::fetched;
 
 /// The samples whose runs are not `ok`, in the order of the files.
 fn failed(part: &mut PartReader) -> Result<Vec<SampleId>, RowsError> {
@@ -32,6 +33,7 @@ pub fn plan_of_failed(
     of: &Path,
     overrides: Overrides,
 ) -> Result<Option<(Plan, FilesRead)>, WorkflowError> {
+    let of = &*fetched(session, of)?;
     let (found, _locks) = open(session.storage, of, true).map_err(WorkflowError::files)?;
     let drawn = plan_of_sound(session, (of, &found), None)?;
     if !found.is_finished {

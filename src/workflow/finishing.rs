@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crate::analysis::fold::Gathered;
 use crate::analysis::input_sensitivity::InputSensitivity;
-use crate::campaign::{FilesRead, Plan, data};
+use crate::campaign::{FilesRead, Plan};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, PartId};
 use crate::report::image::PlotSize;
@@ -15,7 +15,6 @@ use crate::report::shell_word::quoted_path;
 use crate::report::summary::{Summary, SummaryEnd};
 use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
 use crate::storage::folder::Folder;
-use crate::storage::identity;
 use crate::storage::manifest::PartRecord;
 use crate::storage::manifest::PartsRead;
 use crate::storage::names::{PLAN, TRAJECTORIES};
@@ -30,7 +29,8 @@ use crate::workflow::error::WorkflowError;
 use crate::workflow::page;
 use crate::workflow::results::Results;
 use crate::workflow::session::Session;
-use crate::workflow::source::plan_in;
+use crate::workflow::source::{data_copies, plan_in};
+use crate::workflow::stored::{Stored, address};
 
 /// What is made of the rows beside the tables and the summary.
 #[derive(Clone, Debug, Default)]
@@ -182,17 +182,10 @@ fn refuse_missing(missing: &[Part], root: &Path) -> Result<(), WorkflowError> {
 /// # Errors
 /// Where one has changed since the plan was made, or a file operation fails.
 pub(super) fn keep_data(folder: &Folder, files: &FilesRead) -> Result<(), WorkflowError> {
-    for (path, sha256) in &files.data {
-        let bytes = data::bytes(path).map_err(|error| WorkflowError::Files(format!("{}: {error}", path.display())))?;
-        if identity::sha256(&bytes) != *sha256 {
-            return Err(WorkflowError::Files(format!(
-                "{}: changed while it was read; run the command again",
-                path.display()
-            )));
-        }
-        folder.keep_data(&data::copy_name(path, sha256), &bytes).map_err(WorkflowError::files)?;
-    }
-    Ok(())
+    data_copies(files).try_for_each(|copy| {
+        let (name, bytes) = copy?;
+        folder.keep_data(&name, &bytes).map_err(WorkflowError::files)
+    })
 }
 
 /// Says what is in the folder and not part of the result.
@@ -208,8 +201,8 @@ pub enum Finished {
     Already(SummaryEnd),
 }
 
-/// Finishes the result in `root`, whose parts are all there: what follows from the rows is made where it is missing. `check` is shown the files
-/// that the plan was made from before anything is written.
+/// Finishes the result in `root`, a folder or an address, whose parts are all there: what follows from the rows is made where it is missing. `check` is shown the
+/// files that the plan was made from before anything is written.
 ///
 /// # Errors
 /// Where parts are missing or damaged, `check` refuses, or a file operation fails.
@@ -219,6 +212,12 @@ pub fn finish(
     outputs: &Outputs,
     check: &dyn Fn(&FilesRead) -> Result<(), WorkflowError>,
 ) -> Result<Finished, WorkflowError> {
+    if let Some(address) = address(root)? {
+        let stored = Stored::there(session, address)?;
+        let is_whole = stored.fetch(false)?;
+        let finished = finish(session, stored.root(), outputs, check)?;
+        return if is_whole { Ok(finished) } else { stored.publish().map(|()| finished) };
+    }
     // a folder that is none is not created
     let (found, locks) = open(session.storage, root, false).map_err(WorkflowError::files)?;
     if let Some(difference) = &found.shards_differ {

@@ -6,7 +6,7 @@
 //! - [`finishing`]: what is made once all rows are there: [`analysed`], [`page`], `derived`. - `ending`: how a finished campaign ended.
 //! - [`verification`]: whether a result is what was written, and (`derived_check`) what its rows say.
 //! - [`results_index`]: all results below a folder. - [`failed_samples`]: samples that failed, again or as the end. - [`source`]: where plans come from. - [`session`]: disk, threads, control law, and who
-//!   is told. - [`error`].
+//!   is told. - `stored`: results in an object store. - [`error`].
 //!
 //! Not here: what is printed, options and exit codes (`cli`).
 
@@ -26,6 +26,7 @@ mod running;
 pub mod session;
 pub mod simulated;
 pub mod source;
+mod stored;
 pub mod verification;
 
 pub use analysed::Analysed;

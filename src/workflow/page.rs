@@ -24,6 +24,7 @@ use crate::workflow::analysed::{Analysed, computed};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 use crate::workflow::source::plan_of_sound;
+use crate::workflow::stored::fetched;
 
 /// A page that was made again.
 #[derive(Clone, Debug)]
@@ -49,7 +50,7 @@ pub fn remade(
     figures: Option<(&Path, PlotSize)>,
     noise: Option<u64>,
 ) -> Result<Remade, WorkflowError> {
-    let (storage, threads) = (session.storage, session.threads);
+    let (storage, threads, root) = (session.storage, session.threads, &*fetched(session, root)?);
     let (found, _locks) = open(storage, root, false).map_err(WorkflowError::files)?;
     let Some(manifest) = found.manifests.get(MANIFEST).filter(|_| found.is_finished) else {
         return Err(WorkflowError::Input(format!(

@@ -24,6 +24,7 @@ use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 use crate::workflow::simulated::not_physical;
 use crate::workflow::source::plan_of_sound;
+use crate::workflow::stored::fetched;
 
 /// A finished result, whose checksums were compared. No process changes it while this is there.
 pub struct Results<'a> {
@@ -37,12 +38,12 @@ pub struct Results<'a> {
 }
 
 impl<'a> Results<'a> {
-    /// The result in the folder `root`. A campaign that flew a control law is opened with that law in `session`.
+    /// The result in the folder `root`, or a copy of that at an address of an object store. A campaign that flew a control law is opened with that law in `session`.
     ///
     /// # Errors
     /// Where there is none, it is not finished, or it is damaged.
     pub fn open(root: impl Into<PathBuf>, session: Session<'a>) -> Result<Self, WorkflowError> {
-        let root = root.into();
+        let root = fetched(&session, &root.into())?.into_owned();
         let (found, locks) = open(session.storage, &root, true).map_err(|error| match error {
             FolderError::Nothing { .. } => WorkflowError::Input(error.to_string()),
             error => WorkflowError::files(error),

@@ -19,6 +19,7 @@ use crate::workflow::failed_samples::{FailFast, FailedRun, first_failed};
 use crate::workflow::finishing::{Finishing, Made, Outputs, complete, rows_of, say_notes};
 use crate::workflow::outcome::CampaignOutcome;
 use crate::workflow::session::Session;
+use crate::workflow::stored::Stored;
 
 /// A campaign whose folder is claimed.
 pub(super) struct Running<'a> {
@@ -29,6 +30,8 @@ pub(super) struct Running<'a> {
     pub outputs: &'a Outputs,
     pub shard: Option<Shard>,
     pub fail_fast: bool,
+    /// The store into which parts are put.
+    pub stored: Option<&'a Stored<'a>>,
 }
 
 /// Runs what is missing, and finishes the result.
@@ -129,7 +132,8 @@ impl Running<'_> {
         let progress = |samples| watch.advance(samples);
         let supervision = self.session.supervision(&progress);
         let counts = counts.map(|counts| counts as &dyn CountRows);
-        let ended = write_parts(&self.ready.folder, self.ensemble, counts, |sink: &PartSink<'_>| {
+        let put = |part: &PartRecord| self.stored.map_or(Ok(()), |stored| stored.put(self.ensemble, part));
+        let ended = write_parts(&self.ready.folder, self.ensemble, (counts, &put), |sink: &PartSink<'_>| {
             let watched = FailFast { sink, is_on: self.fail_fast, stop: watch.stop(), first: &first };
             let missing = missing.iter().copied();
             run_parts(self.ensemble, missing, self.session.threads, &watched, supervision).map(|()| sink.seconds())

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use crate::campaign::{FilesRead, Overrides, Plan, find, nearest_file};
+use crate::campaign::{FilesRead, Overrides, Plan, data, find, nearest_file};
 use crate::ensemble::Ensemble;
 use crate::report::shell_word::quoted_path;
 use crate::storage::found::Found;
+use crate::storage::identity::sha256;
 use crate::storage::manifest::{Identity, PartRecord};
 use crate::storage::names::{DATA, PLAN};
 use crate::storage::rows_file::identity;
@@ -126,4 +127,19 @@ pub fn refuse_other_rows(root: &Path, found: &Found, expected: &Identity) -> Res
 /// Where the plan is missing or wrong.
 pub fn plan_of_result(session: &Session<'_>, root: &Path, found: &Found) -> Result<Plan, WorkflowError> {
     plan_in(session, root, found).map(|(plan, _)| plan.at_look(found.rows()))
+}
+
+/// The files of numbers and the module of the plan, each with the name that its copy has.
+///
+/// # Errors
+/// Where one has changed since the plan was made, or cannot be read.
+pub(super) fn data_copies(files: &FilesRead) -> impl Iterator<Item = Result<(String, Vec<u8>), WorkflowError>> {
+    files.data.iter().map(|(path, expected)| {
+        let failed = |why: &dyn std::fmt::Display| WorkflowError::Files(format!("{}: {why}", path.display()));
+        let bytes = data::bytes(path).map_err(|error| failed(&error))?;
+        if sha256(&bytes) != *expected {
+            return Err(failed(&"changed while it was read; run the command again"));
+        }
+        Ok((data::copy_name(path, expected), bytes))
+    })
 }

@@ -21,6 +21,7 @@ use crate::workflow::error::WorkflowError;
 use crate::workflow::finishing::{Completed, Finishing, Outputs, complete, keep_data, stop_is_continued};
 use crate::workflow::session::Session;
 use crate::workflow::source::{plan_in, refuse_other_rows};
+use crate::workflow::stored::{Stored, address};
 
 /// How a result was verified.
 #[derive(Clone, Debug)]
@@ -46,11 +47,21 @@ pub struct Verification {
     pub repair: bool,
 }
 
-/// Compares every checksum of the result in `root` and computes some of its rows again; each problem is told. `None` where a repair was stopped.
+/// Compares every checksum of the result in `root`, a folder or an address, and computes some of its rows again; each problem is told. `None` where a repair was stopped.
 ///
 /// # Errors
 /// Where the result is damaged and not repaired, or a file operation fails.
 pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Result<Option<Verified>, WorkflowError> {
+    if let Some(address) = address(root)? {
+        if wanted.repair {
+            return Err(WorkflowError::Input(format!(
+                "--repair: must be left out for {address}: what is in a store is not replaced; remove the objects that `verify` names, and run the campaign's command again"
+            )));
+        }
+        let stored = Stored::there(session, address)?;
+        stored.fetch(true)?;
+        return verify(session, stored.root(), wanted);
+    }
     let storage = session.storage;
     let note = |text: &str| session.watch.note(text);
     let lost = if wanted.repair { new_manifest(session, root)? } else { None };
@@ -232,7 +243,7 @@ fn repair(
     let samples = |parts: &[Part]| parts.iter().map(|part| part.count as u64).sum();
     session.watch.begin(samples(&missing));
     let progress = |samples| session.watch.advance(samples);
-    let made = write_parts(&ready.folder, ensemble, None, |sink| {
+    let made = write_parts(&ready.folder, ensemble, (None, &|_| Ok(())), |sink| {
         run_parts(ensemble, missing, session.threads, sink, session.supervision(&progress))
     });
     session.watch.end();

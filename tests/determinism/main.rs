@@ -18,9 +18,13 @@ mod feedback;
 mod flight_code;
 mod lanes;
 mod lanes_runge_kutta;
+#[cfg(feature = "cloud")]
+mod object_store;
 mod panics;
 mod run_ends;
 mod skipping;
+#[cfg(feature = "cloud")]
+mod store_proxy;
 mod threads_and_order;
 mod value_hashes;
 mod whole_rows;

@@ -120,3 +120,18 @@ fn instruction_sets_do_not_change_a_byte() {
     }
     run("small", "abacus", 2);
 }
+
+/// Law: a build without object stores refuses an address, with the command that builds one that has them, and takes it for no folder; so it does with an address of another kind.
+#[cfg(not(feature = "cloud"))]
+#[test]
+fn addresses_need_a_build_with_stores() {
+    let scratch = folder("addresses");
+    let before = scratch.0.read_dir().unwrap().count();
+    for command in ["campaign small.toml --out", "campaign small.toml --only-failed-of", "finish", "report", "verify"] {
+        let out = if command.contains("failed") { "--out r" } else { "" };
+        let said = scratch.prints(&format!("{command} s3://bucket/x {out}"), 2);
+        assert!(said.contains("s3://bucket/x: this build") && said.contains("--features cloud"), "{said}");
+    }
+    assert!(scratch.prints("campaign small.toml --out gs://bucket/x", 2).contains("gs://bucket/x: must be a folder"));
+    assert_eq!(scratch.0.read_dir().unwrap().count(), before);
+}

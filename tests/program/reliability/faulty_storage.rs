@@ -341,7 +341,7 @@ pub fn make_with(
     // a last part that is made again with its further rows
     let is_there = |part: &u64| ready.folder.parts().iter().any(|record| record.part == *part);
     ready.folder.drop_parts(missing.iter().map(|part| part.id.0).filter(is_there)).map_err(Failure::files)?;
-    write_parts(&ready.folder, &ensemble, None, |sink| {
+    write_parts(&ready.folder, &ensemble, (None, &|_| Ok(())), |sink| {
         run(&ensemble, missing, NonZeroUsize::new(1), sink, Supervision::progress(&|_| {}))
     })
     .map_err(Failure::files)?

@@ -1,0 +1,474 @@
+//! Results in an object store: the bytes of a folder, whatever stops a process and however many there are; nothing is replaced, and nothing that is not whole looks whole. The store is a real server
+//! ([`super::store_proxy`]), which `.ci/cloud` starts.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::process::{Command, Stdio};
+
+use super::store_proxy::{Fate, Message, Proxy, asked, objects, server};
+use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL2};
+use crate::support::scratch_folder::{ScratchFolder, contents};
+
+/// Six hundred samples, which are three parts, from a table; with bands and two retained runs.
+const HEAD: &str = r#"
+[campaign]
+name = "stored"
+seed = 7
+duration_s = 1.0
+[integrator]
+method = "auto"
+tolerance = 1e-10
+[observe]
+points = 11
+[design]
+kind = "table"
+file = "table.csv"
+[retain]
+trajectories = "worst:2 by energy_error_max"
+"#;
+/// The objects that a folder has not.
+const COMMITS: &str = "_commits/";
+const HEAD_OBJECT: &str = "_commits/plan.jsonl";
+const SUCCESS: &str = "_SUCCESS";
+/// What no message and no file has.
+const SECRET: &str = "a-secret-that-nobody-reads";
+const KEY: &str = "AKIAKEYOFNOBODY";
+
+type Objects = BTreeMap<String, Vec<u8>>;
+
+/// A folder with the campaign as `stored.toml`, and a bucket of its own.
+struct Bench {
+    scratch: ScratchFolder,
+    bucket: String,
+}
+
+impl Bench {
+    fn new(name: &str) -> Bench {
+        let scratch = ScratchFolder::new(&format!("store-{name}"));
+        let text = [HEAD, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE].concat();
+        scratch.file("stored.toml", &text);
+        let rows = (0..600).map(|row| format!("{:?}\n", 0.2 + f64::from(row) * 1e-3));
+        scratch.file("table.csv", &("initial.angular_velocity_rad_s.z\n".to_owned() + &rows.collect::<String>()));
+        let bucket = format!("{name}-{}", std::process::id());
+        assert_eq!(asked("PUT", &format!("/{bucket}"), b"").0, 200);
+        Bench { scratch, bucket }
+    }
+
+    /// The program on the machine `cache`, which finds the store at `port`; `s3:x` is the address of `x` in the bucket.
+    fn command(&self, arguments: &str, cache: &str, port: u16) -> Command {
+        let bucket = format!("s3://{}/", self.bucket);
+        let arguments =
+            if arguments.contains("://") { arguments.to_owned() } else { arguments.replace("s3:", &bucket) };
+        let mut command = self.scratch.command(&arguments);
+        for (name, _) in
+            std::env::vars().filter(|(name, _)| name.starts_with("AWS_") || name.to_lowercase().ends_with("_proxy"))
+        {
+            command.env_remove(name);
+        }
+        command.env("AWS_ACCESS_KEY_ID", KEY).env("AWS_SECRET_ACCESS_KEY", SECRET).env("AWS_REGION", "us-east-1");
+        command.env("AWS_ENDPOINT_URL", format!("http://127.0.0.1:{port}")).env("AWS_ALLOW_HTTP", "true");
+        command.env("SPINDRIFT_CACHE", cache).env("COLUMNS", "1000");
+        command
+    }
+
+    /// Runs it without a proxy and checks its exit code; what it prints.
+    fn prints(&self, arguments: &str, cache: &str, code: i32) -> String {
+        let said = self.scratch.outputs(&mut self.command(arguments, cache, direct()), code);
+        assert!(!said.contains(SECRET) && !said.contains(KEY), "{said}");
+        said
+    }
+
+    /// Runs it behind `proxy`; its exit code, `None` where it was killed.
+    fn behind(&self, proxy: &Proxy, arguments: &str, cache: &str) -> Option<i32> {
+        let mut command = self.command(arguments, cache, proxy.port);
+        proxy.watch(command.stdout(Stdio::null()).stderr(Stdio::null()))
+    }
+
+    fn objects(&self, prefix: &str) -> Objects {
+        objects(&self.bucket, prefix)
+    }
+
+    /// The files of the result that a folder has: what the store has to have.
+    fn whole(&self, options: &str) -> Objects {
+        self.prints(&format!("campaign stored.toml --out whole {options}"), "unused", 0);
+        contents(&self.scratch.path("whole"))
+    }
+
+    fn put(&self, object: &str, bytes: &[u8]) {
+        assert_eq!(asked("PUT", &format!("/{}/{object}", self.bucket), bytes).0, 200);
+    }
+
+    fn remove(&self, object: &str) {
+        assert_eq!(asked("DELETE", &format!("/{}/{object}", self.bucket), b"").0, 204);
+    }
+}
+
+fn direct() -> u16 {
+    server().rsplit(':').next().and_then(|port| port.parse().ok()).expect("a port")
+}
+
+/// The objects that are files of a folder.
+fn files(objects: &Objects) -> Objects {
+    objects
+        .iter()
+        .filter(|(name, _)| !name.starts_with(COMMITS))
+        .map(|(name, bytes)| (name.clone(), bytes.clone()))
+        .collect()
+}
+
+/// Checks that the store has the files `whole`, byte for byte, and the commits of their manifest.
+fn assert_whole(found: &Objects, whole: &Objects, what: &str) {
+    let (names, expected): (Vec<_>, Vec<_>) = (files(found).into_keys().collect(), whole.keys().cloned().collect());
+    assert_eq!(names, expected, "{what}");
+    for (name, bytes) in whole {
+        assert!(found[name] == *bytes, "{what}: {name} differs");
+    }
+    let commits = found.iter().filter(|(name, _)| name.starts_with(COMMITS) && *name != HEAD_OBJECT);
+    let lines: Vec<u8> = found[HEAD_OBJECT].iter().copied().chain(commits.flat_map(|(_, line)| line.clone())).collect();
+    let manifest = &whole["manifest.jsonl"];
+    assert!(
+        manifest.starts_with(&lines) && manifest[lines.len()..].iter().filter(|byte| **byte == b'\n').count() == 1,
+        "{what}"
+    );
+}
+
+/// Law: a store has the files of a folder, byte for byte, each put on the condition that there is none; on another machine every command that reads a result finds it there, and the campaign finds
+/// it complete and puts nothing.
+#[test]
+fn a_store_has_the_files_of_a_folder() {
+    let bench = Bench::new("same");
+    let whole = bench.whole("");
+    let proxy = Proxy::new(|_, request: &Message| {
+        let is_conditional = request.method() != "PUT" || request.header("if-none-match").as_deref() == Some("*");
+        if is_conditional { Fate::Passed } else { Fate::Answered(400, "no condition") }
+    });
+    assert_eq!(bench.behind(&proxy, "campaign stored.toml --out s3:x", "one"), Some(0));
+    let found = bench.objects("x");
+    assert_whole(&found, &whole, "x");
+    assert!(
+        found.keys().any(|name| name.starts_with("trajectories/"))
+            && found.keys().any(|name| name.starts_with("data/"))
+    );
+    assert!(found.keys().filter(|name| name.starts_with("runs/")).count() > 2 && found.contains_key("report.html"));
+    // first what the plan names, whose copy is compared at the end, then the plan; last what says that everything is there
+    let puts: Vec<String> = proxy.requests().into_iter().filter(|request| request.starts_with("PUT")).collect();
+    assert!(puts[0].contains("/data/") && puts[1].ends_with(HEAD_OBJECT) && puts.len() == found.len() + 1, "{puts:?}");
+    assert!(puts[puts.len() - 2].ends_with("manifest.jsonl") && puts[puts.len() - 1].ends_with(SUCCESS), "{puts:?}");
+
+    let at = |object: &str| puts.iter().position(|put| put.ends_with(object)).expect("a put");
+    for part in 0..3 {
+        let commit = at(&format!("_commits/part-{part:06}.jsonl"));
+        assert!(
+            ["runs", "bands"].iter().all(|folder| at(&format!("/{folder}/part-{part:06}.parquet")) < commit),
+            "{puts:?}"
+        );
+    }
+
+    let said = bench.prints("verify s3:x --fraction 1", "two", 0);
+    assert!(said.contains("sound"), "{said}");
+    assert!(bench.prints("compare s3:x whole --tolerance 0", "three", 0).contains("PASS"));
+    bench.prints("report s3:x", "four", 0);
+    bench.prints("finish s3:x", "five", 0);
+    bench.prints("campaign stored.toml --only-failed-of s3:x --out again", "six", 0);
+    // a copy has the files of the folder, too
+    let copies: Vec<_> = fs::read_dir(bench.scratch.path("four")).unwrap().map(|copy| copy.unwrap().path()).collect();
+    assert!(copies.len() == 1 && contents(&copies[0]) == whole);
+    let before = proxy.requests().len();
+    for cache in ["one", "seven"] {
+        assert_eq!(bench.behind(&proxy, "campaign stored.toml --out s3:x", cache), Some(0));
+    }
+    assert!(proxy.requests()[before..].iter().all(|request| request.starts_with("GET")));
+    assert!(bench.prints("campaign stored.toml --out s3:x", "one", 0).contains("already complete in s3://"));
+    assert!(bench.objects("x") == found);
+    assert!(!contents(&bench.scratch.0).values().any(|bytes| {
+        [SECRET, KEY].iter().any(|secret| bytes.windows(secret.len()).any(|some| some == secret.as_bytes()))
+    }));
+}
+
+/// Law: shards on machines of their own and a finish on another give the same objects; one that was not all made is unfinished.
+#[test]
+fn shards_meet_in_a_store() {
+    let bench = Bench::new("shards");
+    let whole = bench.whole("");
+    let said = bench.prints("campaign stored.toml --shard 1/2 --out s3:x", "one", 0);
+    assert!(said.contains(&format!("spindrift finish s3://{}/x", bench.bucket)), "{said}");
+    assert!(bench.prints("finish s3:x", "early", 4).contains("1 parts are missing"));
+    assert!(bench.prints("verify s3:x", "early", 4).contains("1 parts are missing"));
+    assert!(bench.prints("report s3:x", "reader", 2).contains("is not finished"));
+    bench.prints("campaign stored.toml --shard 2/2 --out s3:x", "two", 0);
+    assert!(!bench.objects("x").contains_key(SUCCESS));
+    assert!(bench.prints("verify s3:x", "reader", 5).contains("not finished"));
+    bench.prints("finish s3:x", "three", 0);
+    assert_whole(&bench.objects("x"), &whole, "shards");
+    // the counter-test: no shard ran what the other had put
+    let proxy = Proxy::new(|_, _: &Message| Fate::Passed);
+    assert_eq!(bench.behind(&proxy, "campaign stored.toml --shard 1/2 --out s3:x", "four"), Some(0));
+    assert!(proxy.requests().iter().all(|request| request.starts_with("GET")));
+}
+
+/// Law: a process that is killed at any request, before the store sees it or before its answer, leaves nothing that looks whole and is not; the same command makes the whole result of the same
+/// bytes, on the same machine and on another.
+#[test]
+fn a_kill_at_every_request_changes_no_byte() {
+    let bench = Bench::new("kills");
+    let whole = bench.whole("--no-report");
+    let parts = whole.keys().filter(|name| name.starts_with("runs/")).count();
+    let command = |prefix: &str| format!("campaign stored.toml --no-report --out s3:{prefix}");
+    let mut killed = 0;
+    for (variant, fate) in [Fate::KilledBefore, Fate::KilledAfter].into_iter().enumerate() {
+        for at in 0.. {
+            let prefix = format!("{at}-{variant}");
+            let fate = fate.clone();
+            let proxy = Proxy::new(move |count, _: &Message| if count == at { fate.clone() } else { Fate::Passed });
+            let ended = bench.behind(&proxy, &command(&prefix), &prefix);
+            let found = bench.objects(&prefix);
+            if found.contains_key(SUCCESS) {
+                assert_whole(&found, &whole, &prefix);
+            } else {
+                assert!(ended.is_none(), "{prefix}");
+                // 5: all rows are there; 4: not even that
+                let is_part = |name: &&String| name.starts_with("_commits/part-");
+                let code = if found.keys().filter(is_part).count() == parts { 5 } else { 4 };
+                if at % 5 == 0 {
+                    bench.prints(&format!("verify s3:{prefix}"), &format!("reader-{prefix}"), code);
+                }
+            }
+            if ended.is_some() {
+                assert_eq!(ended, Some(0));
+                break;
+            }
+            killed += 1;
+            let cache = if at % 2 == 0 { prefix.clone() } else { format!("other-{prefix}") };
+            bench.prints(&command(&prefix), &cache, 0);
+            assert_whole(&bench.objects(&prefix), &whole, &prefix);
+        }
+    }
+    println!("{killed} kills");
+    assert!(killed > 50, "{killed}");
+}
+
+/// Law: a shard that ends with 0 has put all its parts, whatever request it was killed at before; and a campaign with `[stop]`, whose last part gets further rows after each look, puts no part that is not
+/// final: the result is that of a folder.
+#[test]
+fn parts_are_put_once_they_are_final() {
+    let bench = Bench::new("final");
+    let whole = bench.whole("--no-report");
+    let parts = whole.keys().filter(|name| name.starts_with("runs/")).count();
+    let killed_at =
+        |at: usize| Proxy::new(move |count, _: &Message| if count == at { Fate::KilledBefore } else { Fate::Passed });
+    for at in 0.. {
+        let prefix = format!("shard-{at}");
+        let command = format!("campaign stored.toml --shard 1/1 --out s3:{prefix}");
+        let ended = bench.behind(&killed_at(at), &command, &prefix);
+        bench.prints(&command, &prefix, 0);
+        let found = bench.objects(&prefix);
+        assert_eq!(found.keys().filter(|name| name.starts_with("_commits/part-")).count(), parts, "{at}");
+        assert!(!found.contains_key(SUCCESS));
+        if ended.is_some() {
+            bench.prints(&format!("finish s3:{prefix} --no-report"), "finisher", 0);
+            assert_whole(&bench.objects(&prefix), &whole, &prefix);
+            assert!(at > 10, "{at}");
+            break;
+        }
+    }
+
+    let design = HEAD.split("[design]").next().expect("a campaign").replace("seed = 7", "seed = 7\nsamples = 300");
+    let stop = "[stop]\nobservable = \"energy_error_max\"\nquantile = 0.5\nhalf_width = 1e-30\nmax_samples = 1200\n";
+    bench
+        .scratch
+        .file("stop.toml", &[&design, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION, stop].concat());
+    // 5: it does not become so precise
+    bench.prints("campaign stop.toml --no-report --out stopped", "unused", 5);
+    let whole = contents(&bench.scratch.path("stopped"));
+    for at in (0..).step_by(4) {
+        let prefix = format!("stop-{at}");
+        let command = format!("campaign stop.toml --no-report --out s3:{prefix}");
+        let ended = bench.behind(&killed_at(at), &command, &prefix);
+        let cache = if at % 8 == 0 { prefix.clone() } else { format!("other-{prefix}") };
+        bench.prints(&command, &cache, 5);
+        assert_whole(&bench.objects(&prefix), &whole, &prefix);
+        if ended.is_some() {
+            break;
+        }
+    }
+}
+
+/// Law: a reader that is killed at any request reads the same at its next try.
+#[test]
+fn a_reader_that_is_killed_reads_again() {
+    let bench = Bench::new("readers");
+    let whole = bench.whole("");
+    bench.prints("campaign stored.toml --out s3:x", "one", 0);
+    for at in 0.. {
+        let proxy = Proxy::new(move |count, _: &Message| if count == at { Fate::KilledBefore } else { Fate::Passed });
+        let cache = format!("reader-{at}");
+        if bench.behind(&proxy, "report s3:x", &cache).is_some() {
+            assert!(at > 10, "{at}");
+            break;
+        }
+        bench.prints("report s3:x", &cache, 0);
+        let copy = fs::read_dir(bench.scratch.path(&cache)).unwrap().next().unwrap().unwrap().path();
+        assert!(contents(&copy) == whole, "{at}");
+    }
+}
+
+/// Law: of processes that make the same at the same time all succeed, with one result; another plan, or another content under a name, is refused by name, and what was there first stays.
+#[test]
+fn the_first_content_stays() {
+    let bench = Bench::new("writers");
+    let whole = bench.whole("");
+    let start = |cache: &str| {
+        let mut command = bench.command("campaign stored.toml --out s3:x", cache, direct());
+        command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("a process")
+    };
+    let writers = ["one", "two", "three"].map(start);
+    for mut writer in writers {
+        assert!(writer.wait().expect("a process").success());
+    }
+    let found = bench.objects("x");
+    assert_whole(&found, &whole, "writers");
+
+    let said = bench.prints("campaign stored.toml --seed 8 --set campaign.duration_s=2 --out s3:x", "four", 4);
+    let named = ["another plan", "campaign.seed: 7 there, 8 here", "campaign.duration_s", "choose another --out"];
+    assert!(named.iter().all(|part| said.contains(part)), "{said}");
+    // a question that changes no row is another plan, too
+    let said = bench.prints("campaign stored.toml --set campaign.description=why --out s3:x", "four", 4);
+    assert!(said.contains("campaign.description"), "{said}");
+    assert!(bench.objects("x") == found);
+
+    for object in ["runs/part-000001.parquet", "_commits/part-000001.jsonl", "summary.json", "manifest.jsonl"] {
+        let prefix = format!("y-{}", object.replace('/', "-"));
+        bench.put(&format!("{prefix}/{object}"), b"of somebody else");
+        let said = bench.prints(&format!("campaign stored.toml --out s3:{prefix}"), &prefix, 4);
+        let there = bench.objects(&prefix);
+        assert!(said.contains(object), "{said}");
+        assert!(there[object] == b"of somebody else" && !there.contains_key(SUCCESS), "{object}");
+        bench.remove(&format!("{prefix}/{object}"));
+        bench.prints(&format!("campaign stored.toml --out s3:{prefix}"), &prefix, 0);
+        assert_whole(&bench.objects(&prefix), &whole, object);
+    }
+}
+
+/// Law: whatever object is changed or missing, `verify` and commands that read it say which; once what has changed is removed, the campaign's command puts the same bytes again.
+#[test]
+fn every_damaged_object_is_found() {
+    let bench = Bench::new("damage");
+    let whole = bench.whole("");
+    bench.prints("campaign stored.toml --out s3:x", "one", 0);
+    let found = bench.objects("x");
+    for (name, bytes) in found.iter().filter(|(name, _)| *name != SUCCESS) {
+        let mut changed = bytes.clone();
+        changed[bytes.len() / 2] ^= 1;
+        bench.put(&format!("x/{name}"), &changed);
+        let said = bench.prints("verify s3:x", "one", 4);
+        assert!(said.contains(name), "{name}: {said}");
+        if !name.starts_with(COMMITS) {
+            let said = bench.prints("report s3:x", &format!("reader-{}", name.replace('/', "-")), 4);
+            assert!(said.contains(name), "{name}: {said}");
+        }
+        let said = bench.prints("campaign stored.toml --out s3:x", "one", 4);
+        assert!(said.contains(name) && bench.objects("x")[name] == changed, "{name}: {said}");
+        bench.remove(&format!("x/{name}"));
+        if name != HEAD_OBJECT {
+            let said = bench.prints("verify s3:x", "one", 4);
+            assert!(said.contains(name) && said.contains("missing"), "{name}: {said}");
+        }
+        let cache = if name.len() % 2 == 0 { "one".to_owned() } else { format!("other-{}", name.replace('/', "-")) };
+        bench.prints("campaign stored.toml --out s3:x", &cache, 0);
+        assert_whole(&bench.objects("x"), &whole, name);
+    }
+    // of a result that is not finished, too: a part that is listed and not there is put again
+    for name in [SUCCESS, "runs/part-000001.parquet"] {
+        bench.remove(&format!("x/{name}"));
+    }
+    assert!(bench.prints("verify s3:x", "unfinished", 4).contains("1 parts are missing"));
+    bench.prints("campaign stored.toml --out s3:x", "one", 0);
+    assert_whole(&bench.objects("x"), &whole, "unfinished");
+    // the mark has no content that could change
+    bench.remove(&format!("x/{SUCCESS}"));
+    assert!(bench.prints("verify s3:x", "two", 5).contains("not finished"));
+    bench.prints("finish s3:x", "three", 0);
+    assert_whole(&bench.objects("x"), &whole, SUCCESS);
+}
+
+/// Law: 409 and 503 are tried again, and an answer that was lost is looked up; a store that never takes an object is given up with its name.
+#[test]
+fn what_a_store_refuses_for_a_moment_is_tried_again() {
+    let bench = Bench::new("again");
+    let whole = bench.whole("--no-report");
+    let mut turns = 0;
+    let conflicts = Proxy::new(move |_, request: &Message| {
+        turns += usize::from(request.method() == "PUT");
+        if request.method() == "PUT" && turns % 3 != 0 {
+            Fate::Answered(409, "<Code>ConditionalRequestConflict</Code>")
+        } else {
+            Fate::Passed
+        }
+    });
+    let busy = Proxy::new(
+        |count, _: &Message| if count % 3 == 0 { Fate::Answered(503, "<Code>SlowDown</Code>") } else { Fate::Passed },
+    );
+    let lost = Proxy::new(|count, _: &Message| if count % 3 == 2 { Fate::Lost } else { Fate::Passed });
+    for (name, proxy) in [("conflicts", conflicts), ("busy", busy), ("lost", lost)] {
+        let ended = bench.behind(&proxy, &format!("campaign stored.toml --no-report --out s3:{name}"), name);
+        assert_eq!(ended, Some(0), "{name}");
+        assert_whole(&bench.objects(name), &whole, name);
+    }
+    let never = Proxy::new(|_, request: &Message| {
+        let is_refused = request.method() == "PUT" && request.head.contains("/runs/");
+        if is_refused { Fate::Answered(409, "<Code>ConditionalRequestConflict</Code>") } else { Fate::Passed }
+    });
+    let mut command = bench.command("campaign stored.toml --no-report --out s3:never", "never", never.port);
+    let said = bench.scratch.outputs(&mut command, 4);
+    assert!(said.contains("/runs/part-00000") && said.contains("ConditionalRequestConflict"), "{said}");
+    assert!(!bench.objects("never").keys().any(|name| name.starts_with("runs/") || name == SUCCESS));
+    bench.prints("campaign stored.toml --no-report --out s3:never", "never", 0);
+    assert_whole(&bench.objects("never"), &whole, "never");
+}
+
+/// Law: what is missing is said with its remedy, within seconds, and no message has a credential.
+#[test]
+fn what_is_missing_is_said() {
+    let bench = Bench::new("missing");
+    let refusing = Proxy::new(|_, _: &Message| {
+        Fate::Answered(
+            403,
+            "<Error><Code>InvalidAccessKeyId</Code><Message>AKIAKEYOFNOBODY does not exist a-secret-that-nobody-reads</Message></Error>",
+        )
+    });
+    let unavailable = Proxy::new(|_, _: &Message| Fate::Answered(503, "<Code>SlowDown</Code>"));
+    let closed = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let says = |mut command: Command, code: i32, parts: &[&str]| {
+        let said = bench.scratch.outputs(&mut command, code);
+        assert!(parts.iter().all(|part| said.contains(part)), "{said}");
+        assert!(!said.contains(SECRET) && !said.contains(KEY), "{said}");
+    };
+    let run = |address: &str, port: u16| bench.command(&format!("campaign stored.toml --out {address}"), "one", port);
+    says(run("s3:x", refusing.port), 4, &["refused (InvalidAccessKeyId", "AWS_ACCESS_KEY_ID", "/x"]);
+    says(run("s3:x", unavailable.port), 4, &["SlowDown", "the same command continues"]);
+    says(run("s3:x", closed), 4, &["Connection refused", "AWS_ENDPOINT_URL"]);
+    says(run("s3://no-such-bucket/x", direct()), 4, &["there is no bucket `no-such-bucket`", "create it"]);
+    let mut command = run("s3:x", direct());
+    command.env_remove("AWS_ALLOW_HTTP");
+    says(command, 4, &["AWS_ALLOW_HTTP=true"]);
+    let mut command = run("s3:x", direct());
+    command.env_remove("AWS_ACCESS_KEY_ID").env_remove("AWS_SECRET_ACCESS_KEY");
+    command.env("AWS_METADATA_ENDPOINT", format!("http://127.0.0.1:{closed}"));
+    says(command, 4, &["no credentials: set AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY"]);
+    let mut command = run("s3:x", direct());
+    command.env_remove("AWS_SECRET_ACCESS_KEY");
+    says(command, 4, &["SecretAccessKey"]);
+
+    for (arguments, parts) in [
+        ("campaign stored.toml --out gs://b/x", ["gs://b/x", "s3://bucket/name"]),
+        ("campaign stored.toml --out s3://b", ["s3://b:", "s3://bucket/name"]),
+        ("campaign stored.toml --out s3://b/../x", ["s3://b/../x", "names have letters"]),
+        ("campaign stored.toml --overwrite --out s3:x", ["--overwrite", "is not replaced"]),
+        ("verify --repair s3:x", ["--repair", "is not replaced"]),
+    ] {
+        says(bench.command(arguments, "one", direct()), 2, &parts);
+    }
+    says(bench.command("report s3:x", "one", direct()), 4, &["/x: there is no result of spindrift"]);
+    // nothing of this has put anything
+    assert!(bench.objects("x").is_empty());
+}
