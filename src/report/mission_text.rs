@@ -93,6 +93,7 @@ pub fn text(missions: &Missions) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Name;
 
     /// Law: each way is named with its count, its share and the ends of its interval in order.
     #[test]
@@ -108,7 +109,7 @@ mod tests {
         let found = text(&vec![bounds]);
         assert!(found.contains("82 of 300 missions launched: 27.3% to 98.7% [22.3, 99.7]"), "{found}");
         // which phase took too long
-        let phase = |name: &str, count| (Name::new(name).expect("a name"), count);
+        let phase = |name: &str, count| (Name::of(name), count);
         let late = MissionShare { phases: vec![phase("coast", 7)], ..share("timeout", 7, [f64::NAN; 2]) };
         assert_eq!(ended(&late), "failed: a phase took too long (coast)");
         let late = MissionShare { phases: vec![phase("coast", 4), phase("align", 3)], ..late };
