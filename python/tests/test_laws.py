@@ -79,7 +79,7 @@ def test_a_law_is_told_what_the_sensors_deliver() -> None:
     tables["control"]["estimator"] = "mekf"
     tables["sensors"] = [
         {"name": "gyro", "kind": "rate_gyro", "angular_random_walk_rad_sqrt_s": 1e-5},
-        {"name": "eye", "kind": "star_tracker", "period_s": 1.0, "latency_s": 0.2, "noise_rad": 1e-4},
+        {"name": "eye", "kind": "star_tracker", "period_s": 1.0, "latency_s": 0.2, "noise_rad": [1e-4, 1e-4, 1e-4]},
         {"name": "turns", "kind": "tachometers", "period_s": 0.5},
     ]
     (phase,) = tables["guidance"]
