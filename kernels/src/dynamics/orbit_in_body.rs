@@ -105,8 +105,8 @@ impl<R: Real> OrbitInBody<R> {
             of_turned = added(of_turned, hamilton([zero, x, y, z], attitude[n - m]));
         }
         self.turned[n] = of_turned;
-        for m in 0..=n {
-            of_position = added(of_position, hamilton(conjugate(attitude[m]), self.turned[n - m]));
+        for (q, turned) in attitude[..=n].iter().zip(self.turned[..=n].iter().rev()) {
+            of_position = added(of_position, hamilton(conjugate(*q), *turned));
         }
         self.position[n] = [of_position[1], of_position[2], of_position[3]];
     }
