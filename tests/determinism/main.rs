@@ -24,6 +24,8 @@ mod panics;
 mod run_ends;
 mod skipping;
 #[cfg(feature = "cloud")]
+mod store_bench;
+#[cfg(feature = "cloud")]
 mod store_proxy;
 mod threads_and_order;
 mod value_hashes;

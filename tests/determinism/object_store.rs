@@ -1,136 +1,13 @@
 //! Results in an object store: the bytes of a folder, whatever stops a process and however many there are; nothing is replaced, and nothing that is not whole looks whole. The store is a real server
 //! ([`super::store_proxy`]), which `.ci/cloud` starts.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::process::{Command, Stdio};
 
-use super::store_proxy::{Fate, Message, Proxy, asked, objects, server};
+use super::store_bench::{Bench, COMMITS, HEAD, HEAD_OBJECT, KEY, SECRET, SUCCESS, assert_whole, direct};
+use super::store_proxy::{Fate, Message, Proxy};
 use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL2};
-use crate::support::scratch_folder::{ScratchFolder, contents};
-
-/// Six hundred samples, which are three parts, from a table; with bands and two retained runs.
-const HEAD: &str = r#"
-[campaign]
-name = "stored"
-seed = 7
-duration_s = 1.0
-[integrator]
-method = "auto"
-tolerance = 1e-10
-[observe]
-points = 11
-[design]
-kind = "table"
-file = "table.csv"
-[retain]
-trajectories = "worst:2 by energy_error_max"
-"#;
-/// The objects that a folder has not.
-const COMMITS: &str = "_commits/";
-const HEAD_OBJECT: &str = "_commits/plan.jsonl";
-const SUCCESS: &str = "_SUCCESS";
-/// What no message and no file has.
-const SECRET: &str = "a-secret-that-nobody-reads";
-const KEY: &str = "AKIAKEYOFNOBODY";
-
-type Objects = BTreeMap<String, Vec<u8>>;
-
-/// A folder with the campaign as `stored.toml`, and a bucket of its own.
-struct Bench {
-    scratch: ScratchFolder,
-    bucket: String,
-}
-
-impl Bench {
-    fn new(name: &str) -> Bench {
-        let scratch = ScratchFolder::new(&format!("store-{name}"));
-        let text = [HEAD, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE].concat();
-        scratch.file("stored.toml", &text);
-        let rows = (0..600).map(|row| format!("{:?}\n", 0.2 + f64::from(row) * 1e-3));
-        scratch.file("table.csv", &("initial.angular_velocity_rad_s.z\n".to_owned() + &rows.collect::<String>()));
-        let bucket = format!("{name}-{}", std::process::id());
-        assert_eq!(asked("PUT", &format!("/{bucket}"), b"").0, 200);
-        Bench { scratch, bucket }
-    }
-
-    /// The program on the machine `cache`, which finds the store at `port`; `s3:x` is the address of `x` in the bucket.
-    fn command(&self, arguments: &str, cache: &str, port: u16) -> Command {
-        let bucket = format!("s3://{}/", self.bucket);
-        let arguments =
-            if arguments.contains("://") { arguments.to_owned() } else { arguments.replace("s3:", &bucket) };
-        let mut command = self.scratch.command(&arguments);
-        for (name, _) in
-            std::env::vars().filter(|(name, _)| name.starts_with("AWS_") || name.to_lowercase().ends_with("_proxy"))
-        {
-            command.env_remove(name);
-        }
-        command.env("AWS_ACCESS_KEY_ID", KEY).env("AWS_SECRET_ACCESS_KEY", SECRET).env("AWS_REGION", "us-east-1");
-        command.env("AWS_ENDPOINT_URL", format!("http://127.0.0.1:{port}")).env("AWS_ALLOW_HTTP", "true");
-        command.env("SPINDRIFT_CACHE", cache).env("COLUMNS", "1000");
-        command
-    }
-
-    /// Runs it without a proxy and checks its exit code; what it prints.
-    fn prints(&self, arguments: &str, cache: &str, code: i32) -> String {
-        let said = self.scratch.outputs(&mut self.command(arguments, cache, direct()), code);
-        assert!(!said.contains(SECRET) && !said.contains(KEY), "{said}");
-        said
-    }
-
-    /// Runs it behind `proxy`; its exit code, `None` where it was killed.
-    fn behind(&self, proxy: &Proxy, arguments: &str, cache: &str) -> Option<i32> {
-        let mut command = self.command(arguments, cache, proxy.port);
-        proxy.watch(command.stdout(Stdio::null()).stderr(Stdio::null()))
-    }
-
-    fn objects(&self, prefix: &str) -> Objects {
-        objects(&self.bucket, prefix)
-    }
-
-    /// The files of the result that a folder has: what the store has to have.
-    fn whole(&self, options: &str) -> Objects {
-        self.prints(&format!("campaign stored.toml --out whole {options}"), "unused", 0);
-        contents(&self.scratch.path("whole"))
-    }
-
-    fn put(&self, object: &str, bytes: &[u8]) {
-        assert_eq!(asked("PUT", &format!("/{}/{object}", self.bucket), bytes).0, 200);
-    }
-
-    fn remove(&self, object: &str) {
-        assert_eq!(asked("DELETE", &format!("/{}/{object}", self.bucket), b"").0, 204);
-    }
-}
-
-fn direct() -> u16 {
-    server().rsplit(':').next().and_then(|port| port.parse().ok()).expect("a port")
-}
-
-/// The objects that are files of a folder.
-fn files(objects: &Objects) -> Objects {
-    objects
-        .iter()
-        .filter(|(name, _)| !name.starts_with(COMMITS))
-        .map(|(name, bytes)| (name.clone(), bytes.clone()))
-        .collect()
-}
-
-/// Checks that the store has the files `whole`, byte for byte, and the commits of their manifest.
-fn assert_whole(found: &Objects, whole: &Objects, what: &str) {
-    let (names, expected): (Vec<_>, Vec<_>) = (files(found).into_keys().collect(), whole.keys().cloned().collect());
-    assert_eq!(names, expected, "{what}");
-    for (name, bytes) in whole {
-        assert!(found[name] == *bytes, "{what}: {name} differs");
-    }
-    let commits = found.iter().filter(|(name, _)| name.starts_with(COMMITS) && *name != HEAD_OBJECT);
-    let lines: Vec<u8> = found[HEAD_OBJECT].iter().copied().chain(commits.flat_map(|(_, line)| line.clone())).collect();
-    let manifest = &whole["manifest.jsonl"];
-    assert!(
-        manifest.starts_with(&lines) && manifest[lines.len()..].iter().filter(|byte| **byte == b'\n').count() == 1,
-        "{what}"
-    );
-}
+use crate::support::scratch_folder::contents;
 
 /// Law: a store has the files of a folder, byte for byte, each put on the condition that there is none; on another machine every command that reads a result finds it there, and the campaign finds
 /// it complete and puts nothing.
