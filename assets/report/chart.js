@@ -214,6 +214,18 @@ function whiskerSeries(mark, figure, color, palette) {
   );
 }
 
+// The name of a limit as it fits into `room` pixels: without when it holds, then with a sign for "at most" and "at least".
+export function fittedName(name, room) {
+  const shorter = [[/ at the [a-z ]+$/, ""], [/^at most /, "\u2264 "], [/^at least /, "\u2265 "]];
+  return shorter.reduce((text, [from, to]) => (LETTER * (text.length + 2) > room ? text.replace(from, to) : text), name);
+}
+
+// The name of a vertical limit at `x` as it fits beside its line.
+function nameBeside(mark, x, box) {
+  const isInside = x >= box.x - 1 && x <= box.x + box.width + 1;
+  return fittedName(mark.label, isInside ? Math.max(x - box.x, box.x + box.width - x) : box.width);
+}
+
 // Whether the name of a vertical limit at `x`, so many pixels wide, is left of it: where it has no room on the right.
 function isNamedLeft(x, width, box) {
   return x > box.x + 0.7 * box.width || (x + width > box.x + box.width && x - width >= box.x);
@@ -225,7 +237,8 @@ function labelRows(figure, place, box) {
   const [rows, found] = [[], new Map()];
   for (const mark of figure.marks) {
     if (mark.kind !== "limit" || !mark.vertical || !mark.label) continue;
-    const [x, width] = [place(mark.at), LETTER * (mark.label.length + 3)];
+    const x = place(mark.at);
+    const width = LETTER * (nameBeside(mark, x, box).length + 3);
     const start = !(x >= box.x - 1) ? box.x : isNamedLeft(x, width, box) ? Math.min(x, box.x + box.width) - width : x;
     let row = 0;
     while (rows[row]?.some(([from, to]) => start < to && start + width > from)) row += 1;
@@ -254,19 +267,20 @@ function limitSeries(mark, palette, [xs, ys], row) {
     const [x, y] = to(...(mark.vertical ? [mark.at, data[0][1]] : [data[0][0], mark.at]));
     const dash = { stroke: palette.quiet, lineWidth: 1, lineDash: [5, 4] };
     // a halo, so that a curve behind it does not cross it out
-    const text = { text: mark.label, fill: palette.quiet, font: `12px ${FONT}`, stroke: palette.background, lineWidth: 3 };
+    const name = mark.vertical ? nameBeside(mark, x, box) : fittedName(mark.label, box.width);
+    const text = { text: name, fill: palette.quiet, font: `12px ${FONT}`, stroke: palette.background, lineWidth: 3 };
     const above = box.y - LABEL * row - 4;
     const [isLow, isHigh] = mark.vertical ? [!(x >= box.x - 1), x > box.x + box.width + 1] : [y > box.y + box.height + 1, y < box.y - 1];
     if (isLow || isHigh) {
       // outside of the axes: named at the edge beyond which it is
       const arrow = mark.vertical ? (isLow ? "←" : "→") : isLow ? "↓" : "↑";
-      const named = { ...text, text: mark.label ? `${arrow} ${mark.label}` : "" };
+      const named = { ...text, text: name ? `${arrow} ${name}` : "" };
       const isRight = mark.vertical && isHigh;
       const isBottom = !mark.vertical && isLow;
       return [{ type: "text", x: isRight ? box.x + box.width - 4 : box.x + 4, y: mark.vertical ? above : isBottom ? box.y + box.height - 4 : box.y + 4, style: { ...named, align: isRight ? "right" : "left", verticalAlign: mark.vertical || isBottom ? "bottom" : "top" } }];
     }
     if (mark.vertical) {
-      const isRight = isNamedLeft(x, LETTER * (mark.label.length + 3), box);
+      const isRight = isNamedLeft(x, LETTER * (name.length + 3), box);
       return [
         { type: "line", shape: { x1: x, y1: above - (mark.label ? 10 : 0), x2: x, y2: box.y + box.height }, style: dash },
         { type: "text", x: x + (isRight ? -4 : 4), y: above, style: { ...text, align: isRight ? "right" : "left", verticalAlign: "bottom" } },

@@ -196,7 +196,7 @@ export function showFigures(figures, echarts) {
     const caption = `${figure.section} ${figure.caption}`;
     view.box.querySelector("figcaption").hidden = figure.time && said.has(caption);
     said.add(caption);
-    (document.querySelector(`[data-figure="${figure.name}"]`) ?? document.querySelector(`#${figure.section} .figures`)).append(view.box);
+    (document.querySelector(`[data-figure~="${figure.name}"]`) ?? document.querySelector(`#${figure.section} .figures`)).append(view.box);
   }
   // so that nothing moves when they are drawn: links land where they point
   for (const view of views) view.reserve();

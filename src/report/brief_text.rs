@@ -31,6 +31,7 @@ pub fn text(plan: &Plan, summary: &Summary, all: &[InputSensitivity], file: &str
     text += &wrapped(&failures, width);
     let is_required = summary.verdicts.list.iter().any(|one| one.requirement.observable() == Some("launched"));
     text += &wrapped(&mission_text::brief(&summary.missions, is_required), width);
+    text += &wrapped(&summary.noted(), width);
     let outcomes = outcomes(summary, width);
     if !text.is_empty() && !outcomes.is_empty() {
         text.push('\n');
@@ -218,7 +219,8 @@ fn drivers(plan: &Plan, summary: &Summary, all: &[InputSensitivity]) -> String {
         let name = names::of_column(outcome, unit(outcome));
         Some(format!("  what drives {name}: {}\n", sentence(plan, outcome, rankings.first()?)))
     });
-    let said: String = said.take(most).collect();
+    let failed = mission_text::all_failed(&summary.missions).map(|why| format!("  what drives failures: {why}\n"));
+    let said: String = failed.into_iter().chain(said.take(most)).collect();
     match (said.is_empty(), all.is_empty()) {
         (true, false) => format!("  no significant driver found in {} runs\n", summary.samples),
         _ => said,

@@ -2,7 +2,7 @@
 
 use crate::report::figure::Mark;
 use crate::report::panel::{FLIGHT, Panel};
-use crate::report::shapes::{BAR, PALETTE, color, point, shade, stroke};
+use crate::report::shapes::{BAR, PALETTE, bar_opacity, color, point, shade, stroke};
 use crate::report::svg::{Anchor, INK, LABEL, Stroke, Svg};
 
 /// With more points than this they are small and transparent.
@@ -39,7 +39,7 @@ impl Panel<'_> {
             Mark::Bars { hue, edges, heights, .. } => {
                 for (ends, height) in edges.windows(2).zip(heights).filter(|(_, height)| **height > 0.0) {
                     let corners = [[self.x(ends[0]), bottom], [self.x(ends[1]), self.y(*height)]];
-                    svg.rectangle(corners[0], corners[1], color(*hue), BAR);
+                    svg.rectangle(corners[0], corners[1], color(*hue), bar_opacity(*hue));
                 }
             }
             Mark::Whiskers { hue, x, low, high, .. } => {

@@ -56,6 +56,14 @@ pub fn missing(missions: &Missions) -> Option<String> {
         .then(|| format!("{missing} of {runs} runs were not computed: each share is between none and all of them"))
 }
 
+/// What drives failures where no mission does anything else: no input can be told from the others by them. `None` where one mission did not fail.
+pub fn all_failed(missions: &Missions) -> Option<String> {
+    let is_failed = |one: &MissionShare| words(one.end).starts_with("failed") && one.missing == 0;
+    let runs = missions.first()?.runs;
+    let all_do = missions.iter().filter(|one| one.count > 0).all(is_failed);
+    (runs > 1 && all_do).then(|| format!("all {runs} missions fail, so no input decides which do"))
+}
+
 /// How missions ended in one sentence: the share that launched or did not fail, unless `is_stated` (a verdict says it), and how many ended in another way.
 pub fn brief(missions: &Missions, is_stated: bool) -> String {
     let Some(MissionShare { missing, .. }) = missions.first() else { return String::new() };
@@ -115,6 +123,14 @@ mod tests {
         let late = MissionShare { phases: vec![phase("coast", 4), phase("align", 3)], ..late };
         assert_eq!(brief(&vec![late], true), "  missions: 7 failed: a phase took too long (coast 4, align 3)\n");
         assert!(found.contains("214 of 300 runs were not computed"), "{found}");
+        // no input decides which fail where all do, in whatever way
+        let failed = vec![share("timeout", 150, [f64::NAN; 2]), share("keep_out", 50, [f64::NAN; 2])];
+        assert_eq!(all_failed(&failed).as_deref(), Some("all 200 missions fail, so no input decides which do"));
+        for other in ["launched", "flying", "not_failed"] {
+            assert_eq!(all_failed(&[failed.clone(), vec![share(other, 1, [f64::NAN; 2])]].concat()), None);
+            assert!(all_failed(&[failed.clone(), vec![share(other, 0, [f64::NAN; 2])]].concat()).is_some());
+        }
+        assert_eq!(all_failed(&vec![MissionShare { missing: 1, ..share("timeout", 199, [f64::NAN; 2]) }]), None);
     }
 
     /// Law: the code of a row is that of the list of failures, and a launched mission did not fail.

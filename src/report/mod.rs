@@ -1,6 +1,6 @@
 //! Layer 9: text and figures for people.
 //!
-//! - [`brief_text`], [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`warnings`]: what comes before them. - [`failure_text`]: why runs failed. [`share_text`]: shares of runs, and of noise. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. - [`precision_text`]: work-precision measurements as text.
+//! - [`brief_text`], [`summary`], [`observable_lines`], [`audit_summary`]: statistics of a campaign. - [`warnings`]: what comes before them. - [`failure_text`]: why runs failed. [`share_text`]: shares of runs, and of noise. - [`requirements`]: verdicts, also as JUnit XML. - [`drivers_text`]: what drives an outcome. [`filter_text`]: filters that do not know their errors. - [`precision_text`]: work-precision measurements as text.
 //! - [`figure`]: what a figure shows. - [`sheet`]: figures on one picture, drawn with `panel`, `axis`, `legend`, `marks`, `shapes` as `svg`; [`image`]: its files. - `escaped`: text within markup.
 //! - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in [`histogram`]s, with [`expected_counts`], of numbers drawn together by [`marginal`]; [`origin_text`]: in words), [`precision_figure`]: the figures of the commands; [`over_time`]: those over time, of the page too.
 //! - `surroundings`: Sun, shadow, field and the place below on an orbit. - [`comparison_text`]: two results compared. - [`stopping_text`]: looks of a campaign with `[stop]`.
@@ -17,6 +17,7 @@ mod escaped;
 pub mod expected_counts;
 pub mod failure_text;
 pub mod figure;
+pub mod filter_text;
 pub mod histogram;
 pub mod image;
 pub mod index_page;

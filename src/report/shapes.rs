@@ -15,6 +15,11 @@ const CURVE: f64 = 1.6;
 /// Length of the piece of a mark in a legend, pixels.
 pub(super) const SWATCH: f64 = 26.0;
 
+/// Opacity of bars in a colour: those of runs that miss a requirement stand in front of all runs, and are not mixed with their colour.
+pub(in crate::report) fn bar_opacity(hue: Hue) -> f64 {
+    if hue == Hue::Failed { 1.0 } else { BAR }
+}
+
 pub(super) fn color(hue: Hue) -> &'static str {
     PALETTE[hue.place() % PALETTE.len()]
 }
@@ -58,7 +63,7 @@ pub(super) fn draw_swatch(svg: &mut Svg, mark: &Mark, [x, y]: [f64; 2]) {
     match mark {
         Mark::Line { hue, dash, .. } => svg.line(&[[x, y], [end, y]], stroke(*hue, dash.lengths())),
         Mark::Band { hue, opacity, .. } => bar(*hue, *opacity),
-        Mark::Bars { hue, .. } => bar(*hue, BAR),
+        Mark::Bars { hue, .. } => bar(*hue, bar_opacity(*hue)),
         Mark::Flight { .. } => bar(Hue::Reference, BAR),
         Mark::Points { hue, shape, .. } => point(svg, [middle[0], y - 2.0], (*shape, 3.0, y + 6.0), *hue, 1.0),
         Mark::Whiskers { hue, .. } => {

@@ -16,7 +16,7 @@ use crate::campaign::Plan;
 use crate::ensemble::FailureReason;
 use crate::report::audit_summary::{AuditSummary, Numerics};
 use crate::report::observable_lines::{ObservableLine, lines};
-use crate::report::{requirements, stopping_text};
+use crate::report::{filter_text, requirements, stopping_text};
 use crate::run::Status;
 use crate::sampling::Replaced;
 use crate::storage::folder::IS_FINISHED;
@@ -49,6 +49,8 @@ pub struct Summary {
     pub(super) replaced: Vec<Replaced>,
     /// What comes before every number.
     pub(super) warnings: Vec<String>,
+    /// What the numbers leave unsaid: filters that do not know their errors.
+    pub(super) notes: Vec<String>,
     /// The last look of a campaign with `[stop]`, and in words.
     pub(super) stopping: Option<(Stopping, String)>,
 }
@@ -63,6 +65,7 @@ impl Summary {
         let audit = tally.audits.as_ref().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
         Summary {
             warnings: Vec::new(),
+            notes: filter_text::overconfident(statistics),
             name: plan.name.clone(),
             seed: plan.seed,
             samples: plan.samples,
@@ -127,6 +130,7 @@ impl Summary {
             "seed": self.seed,
             "samples": self.samples,
             "warnings": self.warnings,
+            "notes": self.notes,
             "statuses": statuses,
             "first_failed": first_failed,
             "failure_reasons": reasons,

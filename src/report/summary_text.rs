@@ -37,6 +37,7 @@ impl Summary {
         }
         text += &self.ended();
         text += &wrapped(&mission_text::text(&self.missions), width);
+        text += &wrapped(&self.noted(), width);
         text += &self.found(width);
         text += &wrapped(&self.brackets(), width);
         text += &wrapped(drivers, width);
@@ -77,6 +78,11 @@ impl Summary {
             return self.shown();
         }
         self.named.iter().filter_map(|name| self.lines.iter().find(|line| line.name == *name)).collect()
+    }
+
+    /// A line for each note.
+    pub(super) fn noted(&self) -> String {
+        self.notes.iter().map(|note| format!("  {note}\n")).collect()
     }
 
     fn ended(&self) -> String {
@@ -224,6 +230,7 @@ mod tests {
         Summary {
             missions: Vec::new(),
             warnings: Vec::new(),
+            notes: Vec::new(),
             name: "x".to_owned(),
             seed: 1,
             samples: 13,

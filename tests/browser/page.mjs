@@ -449,9 +449,11 @@ async function checkSelection(page, name) {
 // No two texts of a figure cover each other, and the name of a limit is above the bars.
 async function checkTexts(page, name) {
   const found = await page.evaluate(() => {
-    const wrong = [];
+    const [wrong, cut] = [[], []];
     for (const figure of document.querySelectorAll("figure")) {
       const texts = Array.from(figure.querySelectorAll(".plot svg text"), (text) => ({ text: text.textContent, box: text.getBoundingClientRect() })).filter(({ text, box }) => text.trim() && box.width > 0);
+      const plot = figure.querySelector(".plot").getBoundingClientRect();
+      for (const { text, box } of texts) if (box.left < plot.left - 1.5 || box.right > plot.right + 1.5) cut.push(`${figure.id}: "${text}"`);
       for (let i = 0; i < texts.length; i += 1) {
         for (let j = i + 1; j < texts.length; j += 1) {
           const [a, b] = [texts[i].box, texts[j].box];
@@ -460,9 +462,10 @@ async function checkTexts(page, name) {
         }
       }
     }
-    return wrong;
+    return { wrong, cut };
   });
-  for (const text of found.slice(0, 8)) problems.push(`${name}: texts cover each other: ${text}`);
+  for (const text of found.wrong.slice(0, 8)) problems.push(`${name}: texts cover each other: ${text}`);
+  for (const text of found.cut.slice(0, 8)) problems.push(`${name}: a text leaves its figure: ${text}`);
 }
 
 // An input is one line: a small histogram, nominal value, distribution and fit; it opens to its figure.

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use crate::report::figure::{Axis, Figure, Hue, Mark, PointShape, Scale};
 use crate::report::page::payload::Payload;
+use crate::report::shapes::bar_opacity;
 
 /// What the page needs to draw `figure`.
 pub(super) fn json_of(figure: &Figure, payload: &mut Payload) -> Value {
@@ -41,7 +42,7 @@ fn mark(mark: &Mark, payload: &mut Payload) -> Value {
             "x": array(x), "y": array(y), "samples": array(samples)
         }),
         Mark::Bars { label, hue, edges, heights } => json!({
-            "kind": "bars", "label": label, "hue": hue.place(), "edges": array(edges), "heights": array(heights)
+            "kind": "bars", "label": label, "hue": hue.place(), "opacity": bar_opacity(*hue), "edges": array(edges), "heights": array(heights)
         }),
         Mark::Whiskers { label, hue, x, low, high } => json!({
             "kind": "whiskers", "label": label, "hue": hue.place(), "x": array(x), "low": array(low), "high": array(high)

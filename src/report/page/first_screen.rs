@@ -88,8 +88,11 @@ fn lost(survey: &Survey) -> String {
     )
 }
 
-/// What drives the first outcome for which that is known, in a sentence; nothing where it is not.
-pub fn drivers(cards: &[Card]) -> String {
+/// What drives the first outcome for which that is known, in a sentence, unless all missions fail; nothing where it is not.
+pub fn drivers(cards: &[Card], missions: &Missions) -> String {
+    if let Some(why) = mission_text::all_failed(missions) {
+        return format!("<p id=\"drivers\"><b>What drives failures:</b> {why}.</p>\n");
+    }
     let found = cards.iter().find(|card| !card.drivers.is_empty());
     found.map_or_else(String::new, |card| {
         let (first, _) = card.drivers.split_once(". Spread: ").unwrap_or((&card.drivers, ""));
@@ -99,6 +102,11 @@ pub fn drivers(cards: &[Card]) -> String {
             escaped(first)
         )
     })
+}
+
+/// What the numbers leave unsaid, a paragraph each.
+pub fn notes(notes: &[String]) -> String {
+    notes.iter().map(|note| format!("<p class=\"note\"><b>Note:</b> {}.</p>\n", escaped(note))).collect()
 }
 
 /// What comes before every number; nothing where there is no warning.

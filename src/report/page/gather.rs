@@ -14,6 +14,7 @@ use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::ensemble::Bands;
 use crate::report::drivers_text::{self, outcomes, ranked, verb};
+use crate::report::filter_text;
 use crate::report::names;
 use crate::report::names::sentence;
 use crate::report::over_time::curves::{FEWEST, TimeBands};
@@ -61,6 +62,7 @@ impl Contents {
         said.extend(analysis.stopping.map(|found| stopping_text::text(plan, found)));
         Contents {
             warnings: analysis.warnings.to_vec(),
+            notes: filter_text::overconfident(analysis.statistics),
             loss: analysis.statistics.loss(),
             bands: analysis.bands.map_or_else(Vec::new, time_bands),
             statistics: analysis

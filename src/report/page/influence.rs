@@ -121,7 +121,11 @@ fn tornado(
     inputs: &[(String, [f64; 3])],
     all: usize,
 ) -> Figure {
-    let column = |place: usize| inputs.iter().map(|(_, value)| value[place]).collect::<Vec<f64>>();
+    // a share is between 0 and 1, whatever its estimate is; one that is not known stays so
+    let column = |place: usize| inputs.iter().map(|(_, value)| value[place].clamp(0.0, 1.0)).collect::<Vec<f64>>();
+    let shares = [0, 1, 2].map(column);
+    let largest = shares.iter().flatten().copied().fold(0.0, f64::max);
+    let end = (1.05 * largest).clamp(0.1, 1.0);
     let mut note =
         if inputs.len() < all { format!(" The strongest {} of {all} inputs.", inputs.len()) } else { String::new() };
     if !same.is_empty() {
@@ -145,14 +149,14 @@ fn tornado(
         caption: format!("{}{note}", influence.meaning),
         columns: 4,
         is_over_time: false,
-        x: Axis::linear(influence.measure.clone(), ""),
+        x: Axis::linear(influence.measure.clone(), "").within(0.0, end),
         y: Axis::names(inputs.iter().map(|(name, _)| names::of_input_column(plan, name)).collect()),
         marks: vec![Mark::Whiskers {
             label: crate::report::page::errors::interval_label(outcome.confidence),
             hue: Hue::Total,
-            x: column(0),
-            low: column(1),
-            high: column(2),
+            x: shares[0].clone(),
+            low: shares[1].clone(),
+            high: shares[2].clone(),
         }],
     }
 }

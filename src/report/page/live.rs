@@ -20,7 +20,7 @@ const ROUND_OFF: f64 = 1e-12;
 /// A quantity of one or several components over time, as the replay shows it.
 struct LiveNumber {
     name: String,
-    /// The column of `simulate` whose unit it has.
+    /// The column whose unit it has: one that a requirement may be about.
     column: String,
     unit: &'static str,
     /// The names of its components; one without a name is alone.
@@ -159,7 +159,7 @@ fn approach(run: &SingleRun, points: usize) -> Vec<LiveNumber> {
     };
     let list = [
         ("Distance to the debris", "debris_distance_m", "m", [StateField::DebrisPosition, StateField::ComPosition]),
-        ("Relative speed", "relative_speed_m_s", "m/s", [StateField::DebrisVelocity, StateField::ComVelocity]),
+        ("Relative speed", "relative_speed_launch_m_s", "m/s", [StateField::DebrisVelocity, StateField::ComVelocity]),
     ];
     list.into_iter().filter(|_| run.request.debris).map(number).collect()
 }

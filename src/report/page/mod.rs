@@ -61,6 +61,8 @@ pub struct Contents {
     pub influences: Vec<Influence>,
     /// What comes before every number; mostly nothing.
     pub warnings: Vec<String>,
+    /// What the numbers leave unsaid.
+    pub notes: Vec<String>,
     pub loss: Loss,
     /// The verdicts of the requirements; empty where the file has none.
     pub verdicts: Vec<Card>,
@@ -150,7 +152,8 @@ impl Page {
             first_screen::warnings(&contents.warnings),
             first_screen::missions(&contents.missions),
             first_screen::verdicts(&cards, !contents.verdicts.is_empty(), &contents.said),
-            first_screen::drivers(&cards),
+            first_screen::drivers(&cards, &contents.missions),
+            first_screen::notes(&contents.notes),
             first_screen::status(plan, survey),
         ];
         let word = match cards::overall(&contents.verdicts) {
@@ -209,8 +212,9 @@ fn sections(
         fold: None,
     };
     let is_off = first_screen::is_above_tolerance(plan, &contents.survey);
+    let curves = outcomes::folded_curves(drawn);
     [
-        figures(FigureSection::Outcome, "Outcome", "How each outcome is distributed over the runs.", ""),
+        figures(FigureSection::Outcome, "Outcome", "How each outcome is distributed over the runs.", &curves),
         plain("replay", "Replay", "The nominal run and the worst ones in three dimensions.", replay).filter(|_| has_replay),
         figures(FigureSection::Time, "Over time", "The nominal run, and where the dispersed runs are at each time. The slider of the replay moves a cursor through these figures; a click in one moves the replay.", ""),
         Some(PageSection { has_figures: has(FigureSection::Influence), ..influence }),

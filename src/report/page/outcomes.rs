@@ -19,6 +19,8 @@ use crate::statistics::sketch::{Sketch, middle};
 const MOST_POINTS: u64 = 400;
 /// Fewer runs than this have no distribution to be seen.
 const FEWEST_RUNS: u64 = 8;
+/// Most outcomes whose cumulative curves stand beside their distributions.
+const BESIDE: usize = 2;
 
 /// Distribution and cumulative curve of each outcome.
 pub fn figures(plan: &Plan, survey: &Survey, statistics: &[StatisticsRow], has_intervals: bool) -> Vec<Figure> {
@@ -40,9 +42,25 @@ pub fn figures(plan: &Plan, survey: &Survey, statistics: &[StatisticsRow], has_i
     laid_out(distributions, curves)
 }
 
+/// What the names of figures of cumulative distributions begin with.
+const CUMULATIVE: &str = "cumulative_";
+
+/// Where the cumulative curves of many outcomes are put: they are folded away. Nothing where each stands beside its distribution.
+pub fn folded_curves(drawn: &[Figure]) -> String {
+    let names: Vec<&str> =
+        drawn.iter().map(|figure| figure.name.as_str()).filter(|name| name.starts_with(CUMULATIVE)).collect();
+    match names.len() > BESIDE {
+        true => format!(
+            "<details class=\"fold\"><summary>Cumulative distributions</summary><div class=\"figures\" data-figure=\"{}\"></div></details>",
+            names.join(" ")
+        ),
+        false => String::new(),
+    }
+}
+
 /// One or two outcomes in rows of two figures, each beside its cumulative curve; more in rows of three, the curves after the distributions.
 fn laid_out(distributions: Vec<Figure>, curves: Vec<Figure>) -> Vec<Figure> {
-    let is_pairs = curves.len() == distributions.len() && curves.len() <= 2;
+    let is_pairs = curves.len() == distributions.len() && curves.len() <= BESIDE;
     let columns = if is_pairs { 6 } else { 4 };
     let all: Vec<Figure> = match is_pairs {
         true => distributions.into_iter().zip(curves).flat_map(|(one, other)| [one, other]).collect(),
@@ -185,7 +203,7 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
     let axis = if is_log { Axis::log } else { Axis::linear };
     let interval = if has_intervals { "Band: Clopper-Pearson." } else { NO_INTERVAL };
     Figure {
-        name: format!("cumulative_{}", outcome.quantity.name()),
+        name: format!("{CUMULATIVE}{}", outcome.quantity.name()),
         section: FigureSection::Outcome,
         title: format!("{}: cumulative distribution", sentence(&names::of_quantity(&outcome.quantity))),
         caption: format!("Fraction of {} runs with at most this value. {interval}", outcome.sketch.count()),

@@ -2,9 +2,10 @@
 
 use serde_json::Value;
 
-use crate::page::numbers::Found;
+use crate::commands::screen_numbers;
+use crate::page::numbers::{self, Found};
 use crate::small_campaign::RADIANS;
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::scratch_folder::{ScratchFolder, column};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
@@ -243,4 +244,32 @@ fn simulate_shows_what_the_scene_calls_for() {
     let header = said.lines().next().expect("a header").split_whitespace().collect::<Vec<_>>();
     assert_eq!(header[..3], ["time", "phase", "pointing"], "{said}");
     assert!(!header.contains(&"q_es_w"), "{said}");
+}
+
+/// Law: a filter whose errors are larger than its covariance says is named by the median of the rows, on screen, page and in the summary; one whose sensors err
+/// as it believes is not.
+#[test]
+fn filters_that_do_not_know_their_errors_are_named() {
+    for (name, bias, is_named) in [("biased", "20 arcsec", true), ("right", "0.01 arcsec", false)] {
+        let text = SLEW_CLOSED.replace("std = \"20 arcsec\"", &format!("std = \"{bias}\""));
+        let found = numbers::found(&format!("filter-{name}"), &text.replace("samples = 1024", "samples = 80"));
+        let squares = &column(&found.scratch.rows("r"), "attitude_nees_final")[1..];
+        let median = numbers::quantile(squares, 0.5);
+        let summary = found.scratch.summary("r");
+        let notes = summary["notes"].as_array().expect("notes");
+        assert_eq!(notes.len(), usize::from(is_named), "{notes:?}, a median of {median}");
+        let html = found.scratch.text("r/report.html");
+        let shown = [found.said.contains("overconfident"), html.contains("overconfident")];
+        assert_eq!(shown, [is_named; 2], "{}", found.said);
+        if is_named {
+            let factor = "final errors of attitude and gyro bias are # sigma";
+            assert!(median > 2.0, "{median}");
+            for said in [notes[0].as_str().expect("a note"), &found.said, &html] {
+                let of = screen_numbers::numbers(said, factor);
+                assert!((of[0] / median.sqrt() - 1.0).abs() < 6e-3, "{of:?} for {median}");
+            }
+        } else {
+            assert!((0.4..1.8).contains(&median), "{median}");
+        }
+    }
 }
