@@ -1,4 +1,4 @@
-//! Every law of attitude, in a loop, by its formula in docs/control.md and in its docstring: from the estimates recorded at a tick the torque commanded there.
+//! Every law of attitude, in a loop, by its formula in docs/control-formulas.md and in its docstring: from the estimates recorded at a tick the torque commanded there.
 
 use std::fmt::Write as _;
 
