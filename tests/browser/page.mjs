@@ -307,6 +307,25 @@ async function checkSaid(page, name) {
           if (!lines.includes(known)) found.push(`the tip of ${figure.name} says ${lines.join("; ")} for ${known}`);
         }
       }
+      // of bodies one upon the other each has its own share, with the sign of a loss
+      for (const mark of figure.marks.filter((one) => one.kind === "band" && one.stacked)) {
+        for (const isLoss of [false, true]) {
+          const k = mark.x.findIndex((_, at) => (isLoss ? mark.low[at] < 0 && mark.high[at] <= 0 : mark.high[at] > 0) && mark.high[at] !== mark.low[at]);
+          if (k < 0) continue;
+          const share = (isLoss ? -1 : 1) * Math.abs(mark.high[k] - mark.low[k]);
+          const lines = described(figure, [-1e6, -1e6], [mark.x[k], 0], () => [0, 0]);
+          if (!lines.includes(`${mark.label}: ${withUnit(share, figure.y.unit)}`)) found.push(`the tip of ${figure.name} says ${lines.join("; ")} for ${share} of ${mark.label}`);
+        }
+      }
+      // a limit outside of the axes is named with an arrow to where it is
+      const texts = chart ? Array.from(chart.getDom().querySelectorAll("svg text"), (text) => text.textContent) : [];
+      for (const mark of chart ? figure.marks.filter((one) => one.kind === "limit" && one.label && !(one.vertical ? figure.x : figure.y).log) : []) {
+        const [low, high] = chart.getModel().getComponent(mark.vertical ? "xAxis" : "yAxis").axis.scale.getExtent();
+        const arrows = mark.vertical ? ["\u2190", "\u2192"] : ["\u2193", "\u2191"];
+        const arrow = mark.at > high + 0.02 * (high - low) ? arrows[1] : mark.at < low - 0.02 * (high - low) ? arrows[0] : "";
+        const word = mark.label.split(" ").at(-1);
+        if (arrow && !texts.some((text) => text.startsWith(arrow))) found.push(`${figure.name}: no ${arrow} for ${mark.label}, beyond ${low} to ${high}: ${texts.filter((text) => text.includes(word))}`);
+      }
       const blocks = figure.x.names ? [] : csvText(figure).split("\n\n");
       figure.marks.forEach((mark, index) => {
         const own = columns[mark.kind]?.(mark) ?? [];

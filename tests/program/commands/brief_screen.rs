@@ -22,6 +22,7 @@ fn said(scratch: &ScratchFolder, command: &mut Command, width: usize, code: i32)
 fn a_campaign_fits_a_screen() {
     let scratch = ScratchFolder::new("brief-screen");
     let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let mut several = false;
     for (name, code, question) in [
         ("spin_sweep", 0, "How large are the conservation errors of a run, "),
         ("net_launch", 5, "How likely is the spacecraft to reach the state "),
@@ -70,11 +71,33 @@ fn a_campaign_fits_a_screen() {
                 assert!(count <= 3 || is_whole, "{number} in\n{out}");
             }
         }
+        // as many runs as decide all that is undecided, and the confidence of the intervals
+        let needed = list.iter().filter_map(|one| one["runs_that_would_decide"].as_u64()).max();
+        let joined = out.split_whitespace().collect::<Vec<_>>().join(" ");
+        match needed {
+            Some(runs) => assert!(joined.contains(&format!("about {runs} runs should decide")), "{runs}:\n{out}"),
+            None => assert!(!joined.contains("should decide"), "{out}"),
+        }
+        several |=
+            list.iter().any(|one| one["runs_that_would_decide"].as_u64().is_some_and(|runs| Some(runs) < needed));
         let (verbose, _) = run(&["--verbose", "--overwrite"]);
         assert_eq!((verbose.lines().next(), verbose.lines().last()), (out.lines().next(), out.lines().last()));
         assert!(verbose.lines().count() > 2 * out.lines().count() || name == "spin_sweep", "{verbose}");
         assert!(verbose.contains("energy_error_max") && verbose.contains("worst conservation error"), "{verbose}");
     }
+    assert!(several, "no campaign needs different numbers of runs");
+}
+
+/// Law: brackets are at the confidence of the statistics, whatever confidence a requirement has.
+#[test]
+fn brackets_have_their_own_confidence() {
+    let scratch = folder("brackets");
+    let required =
+        "[[require]]\nobservable = \"rate_w1_final_rad_s\"\nfraction = 0.5\nat_most = 1e9\nconfidence = 0.8\n";
+    scratch.file("c.toml", &(campaign() + required + "[statistics]\nconfidence = 0.9\n"));
+    let (out, _) = said(&scratch, &mut scratch.command("campaign c.toml --samples 60 --out r"), 120, 0);
+    assert!(out.contains("requirement, with 80% confidence") && out.contains("runs within [90%]"), "{out}");
+    assert!(!out.contains("[80%]"), "{out}");
 }
 
 /// Law: the last line is the same wherever a finished result is met: by the campaign that made it, by the same command again, by `finish`, and by `report`, which adds

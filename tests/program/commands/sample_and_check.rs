@@ -298,3 +298,16 @@ fn a_figure_of_samples_is_without_the_nominal_one() {
         assert!(near.1 != figure("near", &format!("{options} --seed 8")).1, "{samples} samples");
     }
 }
+
+/// Law: the torque of a thruster that `check --verbose` shows is r x F about the centre of mass, by hand from the numbers of the file: p2 at (0, -0.5, 3.0) m and p3 at (0, 0.5, 3.0) m
+/// push along -s3, and the centre is on s3.
+#[test]
+fn torques_of_thrusters_have_their_sign() {
+    let scratch = folder("torques");
+    let said = scratch.says("check", "net_launch.toml", "--verbose", 0);
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    for (name, torque) in [("p1", "[0, 0, 0]"), ("p2", "[0.5, 0, 0]"), ("p3", "[-0.5, 0, 0]")] {
+        let (_, rest) = said.split_once(&format!("thruster {name}: ")).unwrap_or_else(|| panic!("no {name}: {said}"));
+        assert!(rest.split("thruster ").next().unwrap().contains(&format!("torque {torque} N m")), "{name}: {rest}");
+    }
+}

@@ -1,11 +1,12 @@
 //! The figures over time of the page of a control loop: which there are, their limits, bands and runs in flight, against file, rows and telemetry.
 
+use arrow_array::cast::AsArray as _;
 use serde_json::Value;
 
 use crate::commands::screen_numbers;
 use crate::page::numbers::{self, Found};
 use crate::small_campaign::RADIANS;
-use crate::support::scratch_folder::{ScratchFolder, column};
+use crate::support::scratch_folder::{ScratchFolder, column, floats};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
@@ -272,4 +273,55 @@ fn filters_that_do_not_know_their_errors_are_named() {
             assert!((0.4..1.8).contains(&median), "{median}");
         }
     }
+}
+
+/// Law: a run whose mission failed, in whatever way, misses what the campaign wants, though it be within every limit.
+#[test]
+fn failed_missions_are_missed() {
+    let (mission, _) = NET_LAUNCH.split_once("[[require]]").expect("requirements");
+    let mission = mission.replace("timeout_s = 600.0", "timeout_s = 300.0");
+    let found =
+        page("fates", &(mission + "[[require]]\nobservable = \"impulse_total_n_s\"\nquantile = 0.9\nat_most = 1e5\n"));
+    let pairs = &found.data["pairs"];
+    let [samples, fates] = ["samples", "fates"].map(|key| found.array(&pairs[key]));
+    let failures = found.all(&["failure"]).remove(0);
+    let failed: Vec<f64> = samples.iter().map(|sample| failures[*sample as usize]).collect();
+    assert!(failed.contains(&1.0), "a phase took too long in none: {failed:?}");
+    let expected: Vec<f64> = failed.iter().map(|code| f64::from(u8::from(*code >= 1.0))).collect();
+    assert_eq!(fates, expected);
+}
+
+/// Law: what is called the band of 5 to 95% of a wheel is that of the file of bands, as is its median.
+#[test]
+fn bands_of_wheels_are_those_of_the_file() {
+    let found = page("wheel-bands", SLEW_CLOSED);
+    let bands = found.scratch.table("r/bands.parquet");
+    let series = bands.column_by_name("series").expect("names").as_string::<i32>().clone();
+    let [times, p05, p50, p95] = ["time_s", "p05", "p50", "p95"].map(|name| floats(&bands, name));
+    let mut seen = 0;
+    for (figure, column) in [("wheel_speed", "speed_{}_rad_s"), ("wheel_torque", "torque_{}_n_m")] {
+        for wheel in ["w1", "w2", "w3", "w4"] {
+            let name = column.replace("{}", wheel);
+            let rows: Vec<usize> = (0..times.len()).filter(|row| series.value(*row) == name).collect();
+            assert!(rows.len() > 100, "{name}");
+            let of = |label: &str, key: &str| {
+                let mark = found.mark(figure, &format!("{wheel}, {label}"));
+                (found.array(&mark["x"]), found.array(&mark[key]))
+            };
+            for (label, key, known) in [("5 to 95%", "low", &p05), ("5 to 95%", "high", &p95), ("median", "y", &p50)] {
+                let (x, y) = of(label, key);
+                for (x, y) in x.iter().zip(y) {
+                    let row = rows.iter().find(|row| times[**row] == *x).unwrap_or_else(|| panic!("{name} at {x} s"));
+                    let scale = p95[*row].abs().max(p05[*row].abs());
+                    assert!(
+                        (y - known[*row]).abs() <= 1e-6 * scale,
+                        "{name}, {label} at {x} s: {y} for {}",
+                        known[*row]
+                    );
+                    seen += 1;
+                }
+            }
+        }
+    }
+    assert!(seen > 1000, "{seen}");
 }

@@ -214,4 +214,19 @@ fn the_still_is_at_scale() {
     let apart = ["cx", "cy"].map(|key| number("station", key) - number("debris", key));
     let apart = (apart[0] * apart[0] + apart[1] * apart[1]).sqrt() * length / bar;
     assert!(apart <= 10.1 && apart > 2.0, "{apart} m");
+    // the nominal mission ends there, and not on the other side of the debris
+    let paths = still.split("<polyline class=\"path\" points=\"").skip(1);
+    let last = paths.last().expect("a path").split('"').next().unwrap().rsplit(' ').next().unwrap();
+    let end: Vec<f64> = last.split(',').map(|number| number.parse().expect("a number")).collect();
+    let from = |sign: f64| {
+        let [x, y] =
+            ["cx", "cy"].map(|key| number("debris", key) + sign * (number("station", key) - number("debris", key)));
+        (end[0] - x).hypot(end[1] - y) * length / bar
+    };
+    assert!(
+        from(1.0) < 2.0 && from(-1.0) > 4.0,
+        "{} m from the station, {} m from its mirror image",
+        from(1.0),
+        from(-1.0)
+    );
 }
