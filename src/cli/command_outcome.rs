@@ -84,4 +84,27 @@ mod tests {
             assert_eq!(CommandOutcome::of_campaign(runs, failed, undecided), expected);
         }
     }
+
+    /// Law: whatever makes a finished result no success gives its code, each alone: runs that failed, audits beyond their estimates, verdicts, a precision that was not reached.
+    #[test]
+    fn every_shortfall_has_its_code() {
+        let end = |failed, not_covered, word: &str, is_reached| SummaryEnd {
+            rows: 20,
+            failed,
+            not_covered,
+            warnings: Vec::new(),
+            verdicts: vec![("p95".to_owned(), word.to_owned())],
+            is_reached,
+        };
+        for (end, code) in [
+            (end(0, 0, "PASS", true), 0),
+            (end(3, 0, "PASS", true), 1),
+            (end(0, 2, "PASS", true), 1),
+            (end(0, 0, "FAIL", true), 3),
+            (end(0, 0, "UNDECIDED", true), 5),
+            (end(0, 0, "PASS", false), 5),
+        ] {
+            assert_eq!(exit_code(Ok(CommandOutcome::of_end(&end))), code, "{end:?}");
+        }
+    }
 }
