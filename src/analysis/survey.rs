@@ -78,6 +78,9 @@ pub struct Survey {
     pub audited: u64,
 }
 
+/// The column with the code of how a mission failed; 0 where it did not.
+pub const FAILURE: &str = "failure";
+
 /// Whether the column `name` is an error of the computation, which should be small and is never negative.
 fn is_error(name: &str) -> bool {
     let is_largest =
@@ -130,7 +133,9 @@ fn wanted(ensemble: &Ensemble<'_>) -> (Vec<String>, usize) {
         }
         names.len()
     };
-    let asked = add(&mut outcomes(plan).into_iter().chain(explained(plan)));
+    // how a mission failed says which runs the page marks
+    let failure = columns.iter().map(|column| column.quantity.name()).find(|name| *name == FAILURE).map(str::to_owned);
+    let asked = add(&mut outcomes(plan).into_iter().chain(explained(plan)).chain(failure));
     add(&mut main.chain(motion));
     (names, asked)
 }

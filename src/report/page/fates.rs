@@ -1,6 +1,6 @@
 //! [`Fate`]: whether a run is as the campaign wants it, by which figures colour their runs.
 
-use crate::analysis::survey::Survey;
+use crate::analysis::survey::{FAILURE, Survey};
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::run::Status;
 use crate::statistics::gate::GateLimit;
@@ -39,7 +39,7 @@ pub fn fates(plan: &Plan, survey: &Survey) -> Vec<Fate> {
         .filter(of_runs)
         .filter_map(|one| Some((column(one.observable()?)?, one.limit)))
         .collect();
-    let failure = column("failure");
+    let failure = column(FAILURE);
     let fate = |row: usize| {
         if thinned.statuses[row] != Status::Done {
             return Fate::NotComputed;
