@@ -57,13 +57,18 @@ pub fn size(mut number: usize) -> Vec<u8> {
 }
 
 /// Bytes behind their number.
-fn sized(bytes: &[u8]) -> Vec<u8> {
+pub fn sized(bytes: &[u8]) -> Vec<u8> {
     [size(bytes.len()), bytes.to_vec()].concat()
 }
 
 /// Things behind their number.
-fn list(things: &[Vec<u8>]) -> Vec<u8> {
+pub fn list(things: &[Vec<u8>]) -> Vec<u8> {
     [size(things.len()), things.concat()].concat()
+}
+
+/// The section `id` of a module.
+pub fn section(id: u8, content: Vec<u8>) -> Vec<u8> {
+    [vec![id], sized(&content)].concat()
 }
 
 /// `i32.const`.
@@ -92,7 +97,6 @@ impl Assembled {
 
     /// The module.
     pub fn bytes(&self) -> Vec<u8> {
-        let section = |id: u8, content: Vec<u8>| [vec![id], sized(&content)].concat();
         // types: 0 without a result, 1 with an i32
         let types = list(&[vec![0x60, 0, 0], vec![0x60, 0, 1, 0x7f]]);
         let step_type = u8::from(self.is_mistyped);

@@ -11,6 +11,7 @@ use spindrift::control::estimate::Estimate;
 use spindrift::control::flight_code::{FlightCode, MOST_BYTES};
 use spindrift::control::guidance::Failure;
 use spindrift::control::laws::{KnownBody, LawInput, LawSettings};
+use spindrift::control::spec::Readings;
 use spindrift::ensemble::{Ensemble, Part, PartId, Supervision};
 use spindrift::math::Isa;
 use spindrift::run::Status;
@@ -189,6 +190,7 @@ fn the_input_is_laid_out_as_documented() {
         acceleration_te_s: numbers(14),
         momentum_s: numbers(17),
         estimate: Some(&estimate),
+        readings: Readings::NONE,
     };
     let body = KnownBody { inertia: std::array::from_fn(|row| numbers(20 + 3 * row)) };
     for place in 0..48_usize {

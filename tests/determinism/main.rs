@@ -16,11 +16,17 @@ mod failures;
 mod feedback;
 #[cfg(feature = "wasm")]
 mod flight_code;
+#[cfg(feature = "wasm")]
+mod flight_code_fuzz;
 mod lanes;
 mod lanes_runge_kutta;
 #[cfg(feature = "cloud")]
 mod object_store;
 mod panics;
+#[cfg(feature = "wasm")]
+mod random_code;
+#[cfg(feature = "wasm")]
+mod random_modules;
 mod run_ends;
 mod skipping;
 #[cfg(feature = "cloud")]
