@@ -18,6 +18,8 @@ mod feedback;
 mod flight_code;
 #[cfg(feature = "wasm")]
 mod flight_code_fuzz;
+#[cfg(feature = "wasm")]
+mod flight_code_interface;
 mod lanes;
 mod lanes_runge_kutta;
 #[cfg(feature = "cloud")]

@@ -133,34 +133,31 @@ fn damaged(numbers: &mut Numbers, mut whole: Vec<u8>, shipped: &[Vec<u8>]) -> Ve
 }
 
 /// A text such as a module declares its tables by, with something wrong in it now and then.
-fn text(numbers: &mut Numbers) -> Vec<u8> {
-    let words = [
-        "a",
-        "gain_n_m",
-        "rate_rad_s",
-        "tracker",
-        "gyro",
-        "Error",
-        "1",
-        "N m",
-        "rad/s",
-        "0.5",
-        "-1e-3",
-        "nan",
-        "",
-        "é",
-        "torque_n_m",
-    ];
+fn text(numbers: &mut Numbers, name: &str) -> Vec<u8> {
+    let words =
+        ["a", "gain_n_m", "rate_rad_s", "tracker", "star_tracker", "gyro", "1", "N m", "rad/s", "0.5", "nan", "", "é"];
     let line = |numbers: &mut Numbers| {
         let words = (0..numbers.of(&[1, 3, 4, 4, 4, 5])).map(|_| numbers.of(&words));
         words.collect::<Vec<_>>().join(" | ").into_bytes()
     };
-    let fixed: [&str; 5] =
-        ["", "gain_n_m | N m | 0.5 | Gain\n", "tracker\n", "tracker\ngyro\n", "error_rad | rad | Error\n"];
-    let mut text = if numbers.once_in(3) {
+    let fixed = [
+        "",
+        "gain_n_m | N m | 0.5 | Gain\n",
+        "tracker | star_tracker\n",
+        "gyro | rate_gyro\ntracker | star_tracker\ntachometers | tachometers\n",
+        "error_rad | rad | Error\nratio | 1 | Ratio\n",
+    ];
+    let mut text = if numbers.once_in(8) {
         (0..numbers.below(4)).flat_map(|_| [line(numbers), b"\n".to_vec()].concat()).collect()
     } else {
-        numbers.of(&fixed).as_bytes().to_vec()
+        // mostly one of the table that it is
+        let own = match name {
+            "spindrift_parameter_table" => 1,
+            "spindrift_measurement_table" => 2 + numbers.below(2),
+            _ => 4,
+        };
+        let other = numbers.below(fixed.len());
+        fixed[if numbers.once_in(6) { other } else { own }].as_bytes().to_vec()
     };
     if numbers.once_in(20) {
         text.push(0xff);
@@ -185,7 +182,7 @@ fn valid(numbers: &mut Numbers) -> Vec<u8> {
     for (place, name) in NAMES.iter().enumerate() {
         let is_table = name.ends_with("_table");
         // a table stands behind its numbers, and belongs to them
-        is_there = if is_table { is_there } else { place < 4 || numbers.once_in(3) };
+        is_there = if is_table { is_there } else { place < 4 || numbers.once_in(if place < 6 { 12 } else { 3 }) };
         if !is_there || numbers.once_in(200) {
             continue;
         }
@@ -193,7 +190,7 @@ fn valid(numbers: &mut Numbers) -> Vec<u8> {
             "spindrift_interface" => numbers.of(&[1, 2, 2, 2, 2, 2, 2, 3]),
             _ if is_table => {
                 let at = texts.len();
-                texts.extend(text(numbers));
+                texts.extend(text(numbers, name));
                 TEXTS + at as i32
             }
             _ if numbers.once_in(60) => numbers.next() as i32,
@@ -235,7 +232,7 @@ fn valid(numbers: &mut Numbers) -> Vec<u8> {
         section(6, list(&globals)),
         section(7, list(&exports)),
     ];
-    if numbers.once_in(10) {
+    if numbers.once_in(20) {
         parts.push(section(8, size(4 * numbers.below(functions / 4))));
     }
     parts.push(section(9, list(&[[vec![0, 0x41, 0, 0x0b], list(&elements)].concat()])));
