@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use super::assembled_module::{Assembled, INPUT, NOTHING, OUTPUT, constant, copied, size};
+use super::assembled_module::{Assembled, INPUT, NOTHING, OUTPUT, constant, copied, list, section, size};
 use crate::support::scratch_folder::{ScratchFolder, contents};
 use sha2::{Digest, Sha256};
 use spindrift::campaign::{Overrides, Plan};
@@ -319,6 +319,11 @@ fn modules_that_cannot_fly_are_refused() {
             "3003000 blocks times locals",
         ),
         (changed(&|module| module.step = branches(20_001)), "20001 targets"),
+        (
+            changed(&|module| module.step = [[0x02, 0x40, 0x0b].repeat(5001), vec![0x0b]].concat()),
+            "are 25010001 in all",
+        ),
+        ([sound.bytes(), section(11, list(&vec![vec![0, 0x41, 0, 0x0b, 0]; 2001]))].concat(), "2001 segments"),
         (changed(&|module| module.imports = true), "imports print of env"),
         (changed(&|module| module.misnamed = "memory"), "does not export its memory"),
         (changed(&|module| module.misnamed = "spindrift_interface"), "does not export spindrift_interface"),
