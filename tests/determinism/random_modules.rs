@@ -100,7 +100,7 @@ fn damaged(numbers: &mut Numbers, mut whole: Vec<u8>, shipped: &[Vec<u8>]) -> Ve
         match numbers.below(12) {
             0..3 => whole[at] ^= 1 << numbers.below(8),
             3..5 => {
-                whole[at] = numbers.of(&[0x00, 0x01, 0x0b, 0x0c, 0x0d, 0x10, 0x40, 0x7c, 0x7f, 0x80, 0xfc, 0xfd, 0xff])
+                whole[at] = numbers.of(&[0x00, 0x01, 0x0b, 0x0c, 0x0d, 0x10, 0x40, 0x7c, 0x7f, 0x80, 0xfc, 0xfd, 0xff]);
             }
             5 => whole[at] = numbers.next() as u8,
             6 => whole.truncate(at),
@@ -256,7 +256,7 @@ fn large(numbers: &mut Numbers) -> Vec<u8> {
     let step: Vec<u8> = match numbers.below(14) {
         // values that live at once, on the stack of the module
         0 => [[0x20, 0].repeat(count), vec![0x6a; count - 1], vec![0x1a]].concat(),
-        1 => [vec![0x02, 0x40].repeat(count), vec![0x0b; count]].concat(),
+        1 => [[0x02, 0x40].repeat(count), vec![0x0b; count]].concat(),
         2 => [[0x20, 0, 0x04, 0x40].to_vec(), one_more, vec![0x0b]].concat().repeat(count),
         3 => [vec![0x03, 0x40, 0x20, 0, 0x0d, 0, 0x0b]].concat().repeat(count),
         4 => [vec![0x02, 0x40, 0x20, 0, 0x0e], size(count), vec![0; count + 1], vec![0x0b]].concat(),
