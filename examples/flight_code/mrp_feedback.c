@@ -9,7 +9,7 @@ static struct spindrift_output out;
 static struct { double stiffness, damping, integral, integral_limit; } numbers;
 static double summed[3]; /* the integral of K s, N m s */
 
-SPINDRIFT_EXPORT(spindrift_interface) int interface_number(void) { return SPINDRIFT_INTERFACE; }
+SPINDRIFT_EXPORT(spindrift_interface) int interface_number(void) { return 1; }
 SPINDRIFT_EXPORT(spindrift_input) struct spindrift_input *input(void) { return &in; }
 SPINDRIFT_EXPORT(spindrift_output) struct spindrift_output *output(void) { return &out; }
 SPINDRIFT_EXPORT(spindrift_parameters) void *parameters(void) { return &numbers; }

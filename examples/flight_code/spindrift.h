@@ -1,11 +1,11 @@
-/* Interface 1 between spindrift and flight code in a WebAssembly module: docs/flight-code.md.
+/* Interface 2 between spindrift and flight code in a WebAssembly module: docs/flight-code.md. A module without measurements and telemetry may say 1.
  *
  * Vectors have components in the frame of their last letter: F_s is the body's, F_e the inertial one, F_t the target's. Quaternions are Hamilton's, scalar first;
  * q_ts maps F_s to F_t. Units are SI. */
 #ifndef SPINDRIFT_H
 #define SPINDRIFT_H
 
-#define SPINDRIFT_INTERFACE 1
+#define SPINDRIFT_INTERFACE 2
 #define SPINDRIFT_EXPORT(name) __attribute__((export_name(#name)))
 
 /* What is known at a tick. */
@@ -30,6 +30,12 @@ struct spindrift_input {
 /* What is wanted of it. */
 struct spindrift_output {
     double torque_s[3];            /* torque on the body, N m */
+};
+
+/* What a sensor of spindrift_measurement_table has delivered last. */
+struct spindrift_measurement {
+    double age_s;                  /* time since it was measured; -1 while the sensor has delivered nothing */
+    double values[12];             /* in the order of its columns in `simulate`; NaN where one is not known, 0 beyond the last */
 };
 
 #endif

@@ -123,6 +123,9 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
                 let remedy = "write law = \"module\" in a [[guidance]] table, or delete this line";
                 root.document.add("control.module", Some(format!("{:?}", module.file)), allowed, remedy);
             }
+            if sensors.iter().all(Option::is_some) {
+                module_key::check_sensors(root, &module, &sensors);
+            }
             Some(module)
         }
     };

@@ -6,7 +6,8 @@ use super::section::Section;
 use super::units;
 use crate::control::flight_code::{FlightCode, MOST_BYTES};
 use crate::control::laws::LawKind;
-use crate::control::spec::ModuleSpec;
+use crate::control::sensors;
+use crate::control::spec::{ModuleSpec, SensorSpec};
 use sha2::{Digest, Sha256};
 
 /// What the file says of a module.
@@ -49,6 +50,28 @@ pub(super) fn read(section: &mut Section<'_, '_>) -> ModuleKey {
     }
 }
 
+/// Refuses a module that is given measurements of sensors which the file does not have.
+pub(super) fn check_sensors(root: &mut Section<'_, '_>, module: &ModuleSpec, sensors: &[Option<SensorSpec>]) {
+    let has = |sensor: &SensorSpec| (sensor.name.to_string(), sensors::KINDS[sensor.kind].name);
+    let there: Vec<(String, &str)> = sensors.iter().flatten().map(has).collect();
+    for wanted in module.code.sensors() {
+        if there.iter().any(|(name, kind)| name == wanted.name && *kind == wanted.kind) {
+            continue;
+        }
+        let listed: Vec<String> = there.iter().map(|(name, kind)| format!("{name:?}, a {kind}")).collect();
+        let listed = if listed.is_empty() { "none".to_owned() } else { listed.join("; ") };
+        let allowed = format!(
+            "a module whose sensors are in the file: it wants {:?}, a {}; there is {listed}",
+            wanted.name, wanted.kind
+        );
+        let remedy = format!(
+            "add a [[sensors]] table with name = {:?} and kind = {:?}, or rename one",
+            wanted.name, wanted.kind
+        );
+        root.document.add("control.module", Some(format!("{:?}", module.file)), allowed, &remedy);
+    }
+}
+
 /// The module in the file called `name`, of which `sha256` is the checksum that is written; or the key that is wrong, what is allowed, and the remedy.
 fn module(
     section: &mut Section<'_, '_>,
@@ -79,14 +102,14 @@ fn module(
         return Err(("module_sha256", format!("the SHA-256 of the module, {found}"), remedy.to_owned()));
     }
     let code = FlightCode::kept(&bytes, &found).map_err(|(allowed, remedy)| ("module", allowed, remedy))?;
-    for facts in code.kind().parameters.iter().map(|parameter| &parameter.facts) {
-        let unit = units::in_name(facts.key);
-        if facts.unit != unit {
+    let parameters = code.kind().parameters.iter().map(|parameter| (parameter.facts.key, parameter.facts.unit));
+    for (key, written) in parameters.chain(code.telemetry().iter().map(|declared| (declared.key, declared.unit))) {
+        let unit = units::in_name(key);
+        if written != unit {
             let allowed = format!(
-                "a module whose parameters have the unit that their key ends in ({:?} ends in {unit:?}, and says {:?})",
-                facts.key, facts.unit
+                "a module whose parameters and telemetry have the unit that their key ends in ({key:?} ends in {unit:?}, and says {written:?})"
             );
-            return Err(of_file(allowed, "rename the parameter: stiffness_n_m in N m, ratio in 1"));
+            return Err(of_file(allowed, "rename the key: stiffness_n_m in N m, ratio in 1"));
         }
     }
     section.document.files.push((path, found));

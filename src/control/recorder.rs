@@ -1,9 +1,10 @@
-//! [`Recorder`]: telemetry of a run under a loop: phase, estimates, commands and measurements at the control ticks.
+//! [`Recorder`]: telemetry of a run under a loop: phase, estimates, commands, measurements and what a module reports, at the control ticks.
 
 use super::control_loop::SAME_TIME;
 use super::estimate::Estimate;
 use super::estimators::kalman::NormalizedSquare;
 use super::estimators::{Consistency, ExpectedErrors};
+use super::flight_code::FlightCode;
 use super::flight_software::Commanded;
 use super::measurement::Measurement;
 use super::sensors::{Components, KINDS as SENSORS};
@@ -56,6 +57,8 @@ pub struct Tick<'a> {
     pub commanded: Commanded,
     /// What was delivered at the tick.
     pub measurements: &'a [Measurement],
+    /// What the module has reported; empty where it was not asked.
+    pub telemetry: &'a [f64],
 }
 
 impl Recorder {
@@ -198,6 +201,14 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
         Box::new(move |tick, row| row.extend(places.iter().map(|place| tick.commanded.dipoles[*place])));
     let meaning = "Commanded dipole of this torque rod.";
     add("commanded_dipole", &rod_names, ["A m^2", "a_m2"], meaning, values);
+    for (place, declared) in spec.code().map_or(&[][..], FlightCode::telemetry).iter().enumerate() {
+        let value: Values = Box::new(move |tick, row| row.push(tick.telemetry.get(place).map_or(f64::NAN, |one| *one)));
+        let meaning = format!(
+            "{}: telemetry of the module; null where it is not asked, or reports no finite number.",
+            declared.meaning
+        );
+        add(&declared.column(""), &[""], [declared.unit_of_column(), ""], &meaning, value);
+    }
     list
 }
 

@@ -220,8 +220,10 @@ fn stability(
     (phase, table): (&PhaseSpec, &DeclaredTable),
 ) -> Option<String> {
     let law = phase.law?;
-    // a slew under a torque limit brakes on a curve that has no gain at its end
-    if number(table, "max_torque_n_m") > 0.0 || law == &asked::KIND {
+    // a slew under a torque limit brakes on a curve that has no gain at its end; a law of measurements is not tried without them
+    let has_no_estimate =
+        law == &asked::KIND || spec.code().is_some_and(|code| law == code.kind() && !code.sensors().is_empty());
+    if number(table, "max_torque_n_m") > 0.0 || has_no_estimate {
         return None;
     }
     let believed = spec.believed(scene);

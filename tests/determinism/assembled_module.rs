@@ -1,8 +1,13 @@
 //! [`Assembled`]: WebAssembly modules byte by byte (WebAssembly 1.0, section 5), for what no compiler would build.
 
-/// Where the input and the output of modules are here.
+/// Where the input and the output of modules are here, their measurements and their telemetry.
 pub const INPUT: i32 = 1024;
 pub const OUTPUT: i32 = 4096;
+pub const MEASURED: i32 = 20_480;
+pub const REPORTED: i32 = 24_576;
+
+/// Where the texts of parameters, of measurements and of telemetry are.
+const TEXTS: [i32; 3] = [8192, 28_672, 32_768];
 
 /// The code of a module that wants no torque, and ends.
 pub const NOTHING: &[u8] = &[0x0b];
@@ -10,8 +15,8 @@ pub const NOTHING: &[u8] = &[0x0b];
 /// A module: one that is flown without a torque, but for what a test changes.
 #[derive(Clone, Debug)]
 pub struct Assembled {
-    /// What `spindrift_interface`, `spindrift_input` and `spindrift_output` return.
-    pub places: [i32; 3],
+    /// What `spindrift_interface`, `spindrift_input`, `spindrift_output`, `spindrift_measurements` and `spindrift_telemetry` return.
+    pub places: [i32; 5],
     /// Pages of 64 KiB of the memory.
     pub pages: u32,
     /// The body of `spindrift_step`, with its end.
@@ -20,12 +25,15 @@ pub struct Assembled {
     pub start: Option<Vec<u8>>,
     /// The text of the parameters, at 8192; their numbers are at 16384.
     pub table: Option<&'static str>,
+    /// The texts of measurements, at 28672, and of telemetry, at 32768.
+    pub tables: [Option<&'static str>; 2],
     /// A name that is exported as another one.
     pub misnamed: &'static str,
     /// Whether it imports a function.
     pub imports: bool,
-    /// Whether its step returns a number.
+    /// Whether its step returns a number, and whether it exports a function as `spindrift_init` that does.
     pub is_mistyped: bool,
+    pub is_init_mistyped: bool,
     /// How many locals its step has, and how many functions do nothing.
     pub locals: usize,
     pub functions: usize,
@@ -57,13 +65,18 @@ pub fn size(mut number: usize) -> Vec<u8> {
 }
 
 /// Bytes behind their number.
-fn sized(bytes: &[u8]) -> Vec<u8> {
+pub fn sized(bytes: &[u8]) -> Vec<u8> {
     [size(bytes.len()), bytes.to_vec()].concat()
 }
 
 /// Things behind their number.
-fn list(things: &[Vec<u8>]) -> Vec<u8> {
+pub fn list(things: &[Vec<u8>]) -> Vec<u8> {
     [size(things.len()), things.concat()].concat()
+}
+
+/// The section `id` of a module.
+pub fn section(id: u8, content: Vec<u8>) -> Vec<u8> {
+    [vec![id], sized(&content)].concat()
 }
 
 /// `i32.const`.
@@ -83,21 +96,34 @@ pub fn copied(from: i32, to: i32, count: i32) -> Vec<u8> {
 impl Assembled {
     /// One whose step has this code.
     pub fn with_step(step: &[u8]) -> Self {
-        let places = [1, INPUT, OUTPUT];
-        let (start, table, misnamed) = (None, None, "");
-        let (imports, is_mistyped, locals, functions) = (false, false, 0, 0);
+        let places = [1, INPUT, OUTPUT, MEASURED, REPORTED];
+        let (start, table, tables, misnamed) = (None, None, [None; 2], "");
+        let (imports, is_mistyped, is_init_mistyped, locals, functions) = (false, false, false, 0, 0);
         let step = step.to_vec();
-        Assembled { places, pages: 1, step, start, table, misnamed, imports, is_mistyped, locals, functions }
+        Assembled {
+            places,
+            pages: 1,
+            step,
+            start,
+            table,
+            tables,
+            misnamed,
+            imports,
+            is_mistyped,
+            is_init_mistyped,
+            locals,
+            functions,
+        }
     }
 
     /// The module.
     pub fn bytes(&self) -> Vec<u8> {
-        let section = |id: u8, content: Vec<u8>| [vec![id], sized(&content)].concat();
         // types: 0 without a result, 1 with an i32
         let types = list(&[vec![0x60, 0, 0], vec![0x60, 0, 1, 0x7f]]);
         let step_type = u8::from(self.is_mistyped);
-        let mut functions = vec![1, 1, 1, step_type, 1, 1];
-        let answers = [self.places[0], self.places[1], self.places[2], 0, 16_384, 8192];
+        let mut functions = vec![1, 1, 1, step_type, 1, 1, 1, 1, 1, 1];
+        let [interface, input, output, measured, reported] = self.places;
+        let answers = [interface, input, output, 0, 16_384, TEXTS[0], measured, TEXTS[1], reported, TEXTS[2]];
         let mut bodies: Vec<Vec<u8>> = answers.iter().map(|answer| [constant(*answer), vec![0x0b]].concat()).collect();
         bodies[3] = self.step.clone();
         if let Some(start) = &self.start {
@@ -114,12 +140,21 @@ impl Assembled {
             "spindrift_step",
             "spindrift_parameters",
             "spindrift_parameter_table",
+            "spindrift_measurements",
+            "spindrift_measurement_table",
+            "spindrift_telemetry",
+            "spindrift_telemetry_table",
         ];
+        let texts = [self.table, self.tables[0], self.tables[1]];
         let named = |name: &str| if name == self.misnamed { "other".to_owned() } else { name.to_owned() };
-        let exported = if self.table.is_some() { 6 } else { 4 };
-        let mut exports: Vec<Vec<u8>> = (0..exported)
+        let is_exported = |place: &usize| *place < 4 || texts[(place - 4) / 2].is_some();
+        let mut exports: Vec<Vec<u8>> = (0..names.len())
+            .filter(is_exported)
             .map(|place| [sized(named(names[place]).as_bytes()), vec![0], size(first + place)].concat())
             .collect();
+        if self.is_init_mistyped {
+            exports.push([sized(b"spindrift_init"), vec![0], size(first)].concat());
+        }
         exports.push([sized(named("memory").as_bytes()), vec![2, 0]].concat());
         let mut module = b"\0asm\x01\0\0\0".to_vec();
         module.extend(section(1, types));
@@ -130,7 +165,7 @@ impl Assembled {
         module.extend(section(5, list(&[[vec![0], size(self.pages as usize)].concat()])));
         module.extend(section(7, list(&exports)));
         if self.start.is_some() {
-            module.extend(section(8, size(first + 6)));
+            module.extend(section(8, size(first + names.len())));
         }
         let code = |(place, body): (usize, &Vec<u8>)| {
             // f64 locals
@@ -139,9 +174,13 @@ impl Assembled {
             sized(&[list(&locals), body.clone()].concat())
         };
         module.extend(section(10, list(&bodies.iter().enumerate().map(code).collect::<Vec<_>>())));
-        if let Some(table) = self.table {
-            module
-                .extend(section(11, list(&[[vec![0], constant(8192), vec![0x0b], sized(table.as_bytes())].concat()])));
+        let text = |(place, text): (i32, Option<&str>)| {
+            let of = |text: &str| [vec![0], constant(place), vec![0x0b], sized(text.as_bytes())].concat();
+            text.map(of)
+        };
+        let data: Vec<Vec<u8>> = TEXTS.into_iter().zip(texts).filter_map(text).collect();
+        if !data.is_empty() {
+            module.extend(section(11, list(&data)));
         }
         module
     }

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use super::assembled_module::{Assembled, INPUT, NOTHING, OUTPUT, constant, copied, size};
+use super::assembled_module::{Assembled, INPUT, NOTHING, OUTPUT, constant, copied, list, section, size};
 use crate::support::scratch_folder::{ScratchFolder, contents};
 use sha2::{Digest, Sha256};
 use spindrift::campaign::{Overrides, Plan};
@@ -11,6 +11,7 @@ use spindrift::control::estimate::Estimate;
 use spindrift::control::flight_code::{FlightCode, MOST_BYTES};
 use spindrift::control::guidance::Failure;
 use spindrift::control::laws::{KnownBody, LawInput, LawSettings};
+use spindrift::control::spec::Readings;
 use spindrift::ensemble::{Ensemble, Part, PartId, Supervision};
 use spindrift::math::Isa;
 use spindrift::run::Status;
@@ -19,15 +20,24 @@ use spindrift::scene::{DeclaredTable, Name};
 use spindrift::storage::claim::Shard;
 use spindrift::workflow::{Campaign, Quiet, Results, Session, Verification, verify};
 
-const CAMPAIGN: &str = include_str!("../../examples/flight_code/flight_code.toml");
+pub const CAMPAIGN: &str = include_str!("../../examples/flight_code/flight_code.toml");
 const BUILT: [&str; 2] = ["mrp_feedback_c.wasm", "mrp_feedback_rust.wasm"];
 
 fn example(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/flight_code").join(file)
 }
 
+/// A module of interface 2, with measurements and telemetry.
+const LATER: &str = "gyro_feedback.wasm";
+
+/// The campaign under it.
+fn later() -> String {
+    let lines = CAMPAIGN.lines().filter(|line| !line.starts_with("integral_"));
+    lines.map(|line| format!("{line}\n")).collect::<String>().replace(BUILT[0], LATER)
+}
+
 /// The plan of the campaign `text`, whose module is in the folder of the examples or in `folder`.
-fn plan_in(folder: &ScratchFolder, text: &str) -> Plan {
+pub fn plan_in(folder: &ScratchFolder, text: &str) -> Plan {
     folder.file("campaign.toml", text);
     Plan::load(&folder.path("campaign.toml"), Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -35,7 +45,7 @@ fn plan_in(folder: &ScratchFolder, text: &str) -> Plan {
 /// A folder with the modules of the examples.
 fn folder(name: &str) -> ScratchFolder {
     let folder = ScratchFolder::new(name);
-    BUILT.iter().for_each(|file| assert!(std::fs::copy(example(file), folder.path(file)).is_ok()));
+    BUILT.iter().chain([&LATER]).for_each(|file| assert!(std::fs::copy(example(file), folder.path(file)).is_ok()));
     folder
 }
 
@@ -45,7 +55,7 @@ fn built_in() -> String {
 }
 
 /// Statuses and all columns of `count` rows of `plan`, as bits.
-fn rows(plan: &Plan, isa: Isa, first: u64, count: usize) -> Vec<Vec<u64>> {
+pub fn rows(plan: &Plan, isa: Isa, first: u64, count: usize) -> Vec<Vec<u64>> {
     let ensemble = Ensemble::new(plan, isa);
     let mut rows = ensemble.rows(count);
     let part = Part { id: PartId(0), first: SampleId(first), count };
@@ -77,15 +87,17 @@ fn modules_have_the_bits_of_the_built_in_law() {
 #[test]
 fn rows_are_a_run_s_own() {
     let folder = folder("flight-code-own");
-    let plan = plan_in(&folder, CAMPAIGN);
-    let together = rows(&plan, Isa::best(), 0, 21);
-    for isa in Isa::available() {
-        assert!(rows(&plan, isa, 0, 21) == together, "{}", isa.name());
-    }
-    for sample in [0, 1, 13, 20] {
-        let alone = rows(&plan, Isa::best(), sample, 1);
-        let same = alone.iter().zip(&together).all(|(alone, all)| alone[0] == all[sample as usize]);
-        assert!(same, "sample {sample}");
+    for text in [CAMPAIGN.to_owned(), later()] {
+        let plan = plan_in(&folder, &text);
+        let together = rows(&plan, Isa::best(), 0, 21);
+        for isa in Isa::available() {
+            assert!(rows(&plan, isa, 0, 21) == together, "{}", isa.name());
+        }
+        for sample in [0, 1, 13, 20] {
+            let alone = rows(&plan, Isa::best(), sample, 1);
+            let same = alone.iter().zip(&together).all(|(alone, all)| alone[0] == all[sample as usize]);
+            assert!(same, "sample {sample}");
+        }
     }
 }
 
@@ -93,8 +105,13 @@ fn rows_are_a_run_s_own() {
 /// verified and opened.
 #[test]
 fn results_hold_without_the_module_s_own_file() {
-    let folder = folder("flight-code-results");
-    folder.file("campaign.toml", CAMPAIGN);
+    results_hold(folder("flight-code-results"), CAMPAIGN, BUILT[0]);
+    results_hold(folder("flight-code-later-results"), &later(), LATER);
+}
+
+/// Checks it of the campaign `text` under the module `file`.
+fn results_hold(folder: ScratchFolder, text: &str, file: &str) {
+    folder.file("campaign.toml", text);
     let quiet = Quiet::default();
     let session = |threads| Session::new(&quiet).unwrap().on_threads(std::num::NonZeroUsize::new(threads));
     let campaign = |out: &str, samples: u64, threads: usize| {
@@ -116,11 +133,11 @@ fn results_hold_without_the_module_s_own_file() {
     }
     let copies: Vec<String> =
         contents(&folder.path("one")).into_keys().filter(|name| name.ends_with(".wasm")).collect();
-    let sha256 = Sha256::digest(std::fs::read(example(BUILT[0])).unwrap());
+    let sha256 = Sha256::digest(std::fs::read(example(file)).unwrap());
     let sha256: String = sha256.iter().map(|byte| format!("{byte:02x}")).collect();
     assert_eq!(copies, [format!("data/{sha256}.wasm")]);
 
-    BUILT.iter().for_each(|file| std::fs::remove_file(folder.path(file)).unwrap());
+    std::fs::remove_file(folder.path(file)).unwrap();
     let root = folder.path("one");
     let results = Results::open(&root, session(1)).unwrap();
     assert!(results.plan().text().contains(&format!("module_sha256 = \"{sha256}\"")));
@@ -189,6 +206,7 @@ fn the_input_is_laid_out_as_documented() {
         acceleration_te_s: numbers(14),
         momentum_s: numbers(17),
         estimate: Some(&estimate),
+        readings: Readings::NONE,
     };
     let body = KnownBody { inertia: std::array::from_fn(|row| numbers(20 + 3 * row)) };
     for place in 0..48_usize {
@@ -200,7 +218,7 @@ fn the_input_is_laid_out_as_documented() {
 }
 
 /// The campaign with `module` and without what it declares.
-fn with(folder: &ScratchFolder, module: &[u8]) -> String {
+pub fn with(folder: &ScratchFolder, module: &[u8]) -> String {
     std::fs::write(folder.path("hostile.wasm"), module).unwrap();
     let is_of_module =
         |line: &&str| ["stiffness_n_m", "damping_n_m_s", "integral_"].iter().any(|key| line.starts_with(key));
@@ -301,6 +319,11 @@ fn modules_that_cannot_fly_are_refused() {
             "3003000 blocks times locals",
         ),
         (changed(&|module| module.step = branches(20_001)), "20001 targets"),
+        (
+            changed(&|module| module.step = [[0x02, 0x40, 0x0b].repeat(5001), vec![0x0b]].concat()),
+            "are 25010001 in all",
+        ),
+        ([sound.bytes(), section(11, list(&vec![vec![0, 0x41, 0, 0x0b, 0]; 2001]))].concat(), "2001 segments"),
         (changed(&|module| module.imports = true), "imports print of env"),
         (changed(&|module| module.misnamed = "memory"), "does not export its memory"),
         (changed(&|module| module.misnamed = "spindrift_interface"), "does not export spindrift_interface"),
@@ -311,7 +334,8 @@ fn modules_that_cannot_fly_are_refused() {
             changed(&|module| (module.is_mistyped, module.step) = (true, vec![0x41, 0, 0x0b])),
             "spindrift_step is no function",
         ),
-        (changed(&|module| module.places[0] = 2), "its interface is 2"),
+        (changed(&|module| module.is_init_mistyped = true), "spindrift_init is no function"),
+        (changed(&|module| module.places[0] = 0), "its interface is 0"),
         (changed(&|module| module.places[1] = 65_536 - 8 * 50 + 1), "spindrift_input returns 65137"),
         (changed(&|module| module.places[1] = -1), "spindrift_input returns 4294967295"),
         (changed(&|module| module.places[2] = 65_520), "spindrift_output returns 65520"),

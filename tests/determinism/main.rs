@@ -16,11 +16,19 @@ mod failures;
 mod feedback;
 #[cfg(feature = "wasm")]
 mod flight_code;
+#[cfg(feature = "wasm")]
+mod flight_code_fuzz;
+#[cfg(feature = "wasm")]
+mod flight_code_interface;
 mod lanes;
 mod lanes_runge_kutta;
 #[cfg(feature = "cloud")]
 mod object_store;
 mod panics;
+#[cfg(feature = "wasm")]
+mod random_code;
+#[cfg(feature = "wasm")]
+mod random_modules;
 mod run_ends;
 mod skipping;
 #[cfg(feature = "cloud")]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::control::estimate::EstimateErrors;
 use crate::control::flight_software::{FlightSoftware, Guided};
 use crate::control::guidance::target::{OrbitMotion, Target, TargetInput};
-use crate::control::guidance::{Failure, Guidance};
+use crate::control::guidance::{Failure, Guidance, Progress};
 use crate::control::loop_record::{KnownOverTime, NOTHING_KNOWN, SharedRecord, place};
 use crate::control::net_launch::launch::centers_of;
 use crate::control::outcome::columns::OutcomeColumns;
@@ -112,6 +112,11 @@ impl Mission {
         }
     }
 
+    /// Takes what the law has reported at a tick that is judged.
+    pub fn take_telemetry(&mut self, telemetry: &[f64]) {
+        self.outcome.take_telemetry(telemetry);
+    }
+
     /// The mission has launched, or failed.
     pub fn ends(&mut self, scene: &Scene, truth: &Truth, failure: Failure) {
         self.outcome.ends(scene, truth, failure, &self.criteria.launch);
@@ -132,6 +137,8 @@ impl Mission {
                 estimate: software.estimate(),
                 consistency: &software.consistency(truth, plant.gyro_bias_s()),
                 commanded: software.latest_commands(),
+                // no law is asked where the mission ends
+                telemetry: if guided.progress == Progress::Flies { software.telemetry() } else { &[] },
                 measurements: plant.measurements(truth.time).delivered,
             });
         }

@@ -108,6 +108,9 @@ impl ControlLoop {
             }
         };
         self.has_ended = ends.is_some();
+        if is_judged && guided.progress == Progress::Flies {
+            self.mission.take_telemetry(self.flight_software.telemetry());
+        }
         self.mission.record((&self.plant, truth), &self.flight_software, &guided);
         // rows have it of the last tick alone
         if is_judged && (self.has_ended || self.clock.is_final(truth.time)) {

@@ -1,7 +1,7 @@
 //! [`check`]: whether a module is simple enough to be compiled in seconds.
 //!
 //! A compiler's time and memory grow faster than the code: with the product of a function's blocks and locals, each of which may have another value in each
-//! block. What compilers make of flight code is below these limits.
+//! block, and with the square of its blocks. What compilers make of flight code is below these limits.
 
 use wasmparser::{FunctionBody, Operator, Parser, Payload};
 use wasmtime::{Result, bail};
@@ -15,6 +15,10 @@ const MOST_LOCALS: u64 = 1_000;
 const MOST_NESTED: u64 = 1_000;
 /// Most targets of all tables of branches.
 const MOST_TARGETS: u64 = 20_000;
+/// Most segments of data and of elements, each of which is code that an instance begins with: 45,000 of data take half a minute and more than a gigabyte.
+const MOST_SEGMENTS: u32 = 2_000;
+/// Largest sum, over the functions, of the square of their blocks, that of one with 5,000: some seconds; a function of 10,000 loops takes nine.
+const MOST_SQUARES: u64 = 25_000_000;
 /// Largest sum, over the functions, of blocks times locals: some seconds.
 const MOST_VALUES: u64 = 3_000_000;
 
@@ -23,7 +27,7 @@ const MOST_VALUES: u64 = 3_000_000;
 /// # Errors
 /// Which limit it exceeds.
 pub fn check(bytes: &[u8]) -> Result<()> {
-    let (mut targets, mut values) = (0, 0);
+    let (mut targets, mut values, mut squares, mut segments) = (0, 0, 0, 0);
     for payload in Parser::new(0).parse_all(bytes) {
         match payload? {
             Payload::CodeSectionStart { count, .. } if count > MOST_FUNCTIONS => {
@@ -36,9 +40,18 @@ pub fn check(bytes: &[u8]) -> Result<()> {
                 let of_function = counts(&body)?;
                 targets += of_function[0];
                 values += of_function[1];
+                squares += of_function[2];
             }
+            Payload::DataSection(list) => segments += list.count(),
+            Payload::ElementSection(list) => segments += list.count(),
             _ => {}
         }
+    }
+    if segments > MOST_SEGMENTS {
+        bail!("{segments} segments of data and elements are more than {MOST_SEGMENTS}");
+    }
+    if squares > MOST_SQUARES {
+        bail!("the squares of the blocks of its functions are {squares} in all, which is more than {MOST_SQUARES}");
     }
     if values > MOST_VALUES {
         bail!("its functions have {values} blocks times locals in all, which are more than {MOST_VALUES}");
@@ -49,8 +62,8 @@ pub fn check(bytes: &[u8]) -> Result<()> {
     Ok(())
 }
 
-/// The number of targets in the tables of branches of a function, and of its blocks times locals; these are within their own limits.
-fn counts(body: &FunctionBody<'_>) -> Result<[u64; 2]> {
+/// The number of targets in the tables of branches of a function, that of its blocks times locals, and the square of that of its blocks; locals are within their own limit.
+fn counts(body: &FunctionBody<'_>) -> Result<[u64; 3]> {
     let mut locals = 0;
     for declared in body.get_locals_reader()? {
         locals += u64::from(declared?.0);
@@ -73,5 +86,5 @@ fn counts(body: &FunctionBody<'_>) -> Result<[u64; 2]> {
             bail!("more than {MOST_NESTED} blocks are within each other");
         }
     }
-    Ok([targets, blocks * (1 + locals)])
+    Ok([targets, blocks * (1 + locals), blocks * blocks])
 }

@@ -1,13 +1,19 @@
-//! [`bytes`]: what a module is given at a tick, as it stands in its memory.
+//! [`bytes`] and [`measured`]: what a module is given at a tick, as it stands in its memory: little-endian numbers.
 
+use super::WantedSensor;
 use crate::control::laws::{KnownBody, LawInput};
+use crate::control::measurement::MAX_VALUES;
 use crate::scene::MAX_WHEELS;
 
 /// How many numbers it is given.
 pub const NUMBERS: usize = 50;
+/// How many numbers it is given of a sensor: `struct spindrift_measurement`.
+pub const MEASURED: usize = 1 + MAX_VALUES;
+/// The age of the measurement of a sensor that has delivered none.
+const NONE_YET: f64 = -1.0;
 
 /// The numbers of a tick `elapsed` seconds after the last one of the phase (zero at the first), in a loop of the control period and the delay `times`, s.
-/// Little-endian, in this order, which is that of the table in `docs/flight-code.md` and of `struct spindrift_input` in `examples/flight_code/spindrift.h`.
+/// In this order, which is that of the table in `docs/flight-code.md` and of `struct spindrift_input` in `examples/flight_code/spindrift.h`.
 pub fn bytes(body: &KnownBody, input: &LawInput<'_>, elapsed: f64, times: [f64; 2]) -> [u8; 8 * NUMBERS] {
     let mut bytes = [0; 8 * NUMBERS];
     let mut places = bytes.chunks_exact_mut(8);
@@ -38,6 +44,25 @@ pub fn bytes(body: &KnownBody, input: &LawInput<'_>, elapsed: f64, times: [f64; 
             write(&[1.0, 0.0, 0.0, 0.0]);
             write(&[0.0; 9 + MAX_WHEELS]);
         }
+    }
+    bytes
+}
+
+/// The last measurements of the sensors `wanted`, one after the other: age, s, and numbers, as telemetry has them; 0 beyond those that its kind has.
+pub fn measured(wanted: &[WantedSensor], input: &LawInput<'_>) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(8 * MEASURED * wanted.len());
+    for wanted in wanted {
+        let mut numbers = [0.0; MEASURED];
+        let last = input.readings.iter().find(|(sensor, _)| sensor.name.as_str() == wanted.name);
+        match last.filter(|(_, reading)| !reading.time.is_nan()) {
+            Some((sensor, reading)) => {
+                let width = sensor.width();
+                numbers[0] = input.time - reading.time;
+                numbers[1..=width].copy_from_slice(&sensor.telemetry(reading.values)[..width]);
+            }
+            None => numbers[0] = NONE_YET,
+        }
+        numbers.iter().for_each(|number| bytes.extend_from_slice(&number.to_le_bytes()));
     }
     bytes
 }

@@ -11,9 +11,10 @@ use wasmtime::{
     StoreLimitsBuilder, Trap, TypedFunc, WasmResults, bail, format_err,
 };
 
-use super::input::{self, NUMBERS};
+use super::input::{self, MEASURED, NUMBERS};
 use super::{
-    FlightCode, INTERFACE, MOST_MEMORY, MOST_STACK, NAME, Refusal, START_FUEL, STEP_FUEL, complexity, parameter_table,
+    DeclaredTelemetry, FlightCode, INTERFACES, MOST_MEMORY, MOST_STACK, NAME, Refusal, START_FUEL, STEP_FUEL,
+    WantedSensor, complexity, declared,
 };
 use crate::control::guidance::Failure;
 use crate::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
@@ -22,10 +23,14 @@ use crate::scene::LawParameter;
 /// Most tables of a module, and elements of each.
 const MOST_TABLES: usize = 4;
 const MOST_ELEMENTS: usize = 10_000;
-/// Longest text of parameters, bytes.
+/// Longest text of a table, bytes.
 const LONGEST_TEXT: usize = 1 << 14;
 /// The numbers of the output.
 const OUTPUT: usize = 3;
+/// The functions that return where numbers stand, each with the one that returns where the text stands that declares them.
+const PARAMETERS: [&str; 2] = ["spindrift_parameters", "spindrift_parameter_table"];
+const MEASUREMENTS: [&str; 2] = ["spindrift_measurements", "spindrift_measurement_table"];
+const TELEMETRY: [&str; 2] = ["spindrift_telemetry", "spindrift_telemetry_table"];
 
 /// The compiler of this process, and its settings.
 fn engine() -> Result<&'static Engine> {
@@ -50,12 +55,13 @@ pub fn kept(bytes: &[u8], sha256: &str) -> std::result::Result<&'static FlightCo
     if let Some(known) = kept.iter().find(|known| known.sha256 == sha256) {
         return Ok(known);
     }
-    let (compiled, parameters) = compiled(bytes).map_err(|error| {
+    let (compiled, declared) = compiled(bytes).map_err(|error| {
         let allowed = format!("a WebAssembly module that can be flown ({error:#})");
         (allowed, "build it as docs/flight-code.md shows".to_owned())
     })?;
+    let Declared { parameters, sensors, telemetry } = declared;
     let kind = LawKind { name: NAME, parameters, make };
-    let code = Box::leak(Box::new(FlightCode { sha256: sha256.to_owned(), kind, compiled }));
+    let code = Box::leak(Box::new(FlightCode { sha256: sha256.to_owned(), kind, sensors, telemetry, compiled }));
     kept.push(code);
     Ok(code)
 }
@@ -66,9 +72,10 @@ fn make(settings: &LawSettings<'_>) -> AttitudeLaw {
     let number =
         |parameter: &LawParameter| settings.table.named(parameter.facts.key).map_or(f64::NAN, |found| found[0]);
     AttitudeLaw::own(ModuleLaw {
-        compiled: &code.compiled,
+        code,
         parameters: code.kind.parameters.iter().map(number).collect(),
         times: [settings.period, settings.delay],
+        telemetry: Vec::new(),
         running: None,
         failure: None,
     })
@@ -77,8 +84,15 @@ fn make(settings: &LawSettings<'_>) -> AttitudeLaw {
 /// A module that is ready to be instantiated.
 pub struct Compiled(InstancePre<StoreLimits>);
 
-/// The module with these bytes, and the parameters that it declares. An instance has been started, so that those of runs can be.
-fn compiled(bytes: &[u8]) -> Result<(Compiled, &'static [LawParameter])> {
+/// What a module declares.
+struct Declared {
+    parameters: &'static [LawParameter],
+    sensors: &'static [WantedSensor],
+    telemetry: &'static [DeclaredTelemetry],
+}
+
+/// The module with these bytes, and what it declares. An instance has been started, so that those of runs can be.
+fn compiled(bytes: &[u8]) -> Result<(Compiled, Declared)> {
     match bytes {
         [0, b'a', b's', b'm', 1, 0, 0, 0, ..] => {}
         [0, b'a', b's', b'm', ..] => bail!("it is no core module: a component?"),
@@ -93,21 +107,21 @@ fn compiled(bytes: &[u8]) -> Result<(Compiled, &'static [LawParameter])> {
     let compiled = Compiled(Linker::new(module.engine()).instantiate_pre(&module)?);
     let mut running = Running::start(&compiled)?;
     let interface: i32 = running.required("spindrift_interface")?.call(&mut running.store, ())?;
-    if interface != INTERFACE {
-        bail!("its interface is {interface}, and this version of spindrift has {INTERFACE}");
+    if !INTERFACES.contains(&interface) {
+        let [first, last] = INTERFACES;
+        bail!("its interface is {interface}, and this version of spindrift has {first} and {last}");
     }
-    let parameters = match (running.optional("spindrift_parameter_table")?, running.parameters) {
-        (None, None) => &[],
-        (Some(table), Some(place)) => {
-            let table: i32 = table.call(&mut running.store, ())?;
-            let declared = running.text(table).and_then(parameter_table::parse);
-            let parameters = declared.map_err(|why| format_err!("spindrift_parameter_table: {why}"))?;
-            running.area(place, parameters.len(), "spindrift_parameters")?;
-            parameters
-        }
-        _ => bail!("it exports one of spindrift_parameters and spindrift_parameter_table; they belong together"),
+    let later = [MEASUREMENTS, TELEMETRY].as_flattened().iter().find(|name| module.get_export(name).is_some());
+    if let Some(later) = later.filter(|_| interface < 2) {
+        bail!("it exports {later}, which interface 2 has, and its interface is {interface}");
+    }
+    running.optional::<()>("spindrift_init")?;
+    let declared = Declared {
+        parameters: running.declared(PARAMETERS, running.parameters, 1, declared::parameters)?,
+        sensors: running.declared(MEASUREMENTS, running.measurements, MEASURED, declared::sensors)?,
+        telemetry: running.declared(TELEMETRY, running.telemetry, 1, declared::telemetry)?,
     };
-    Ok((compiled, parameters))
+    Ok((compiled, declared))
 }
 
 /// An instance, which has a memory of its own.
@@ -116,10 +130,12 @@ struct Running {
     instance: Instance,
     memory: Memory,
     step: TypedFunc<(), ()>,
-    /// Where in its memory its input and its output are, and its parameters if it has any.
+    /// Where in its memory its input and its output are, and its parameters, measurements and telemetry if it has any.
     input: usize,
     output: usize,
     parameters: Option<usize>,
+    measurements: Option<usize>,
+    telemetry: Option<usize>,
 }
 
 impl Running {
@@ -137,10 +153,13 @@ impl Running {
             constructors.call(&mut store, ())?;
         }
         let step = function(&instance, &mut store, "spindrift_step")?.ok_or_else(|| missing("spindrift_step"))?;
-        let mut running = Running { store, instance, memory, step, input: 0, output: 0, parameters: None };
+        let (input, output, parameters, measurements, telemetry) = (0, 0, None, None, None);
+        let mut running = Running { store, instance, memory, step, input, output, parameters, measurements, telemetry };
         running.input = running.place("spindrift_input")?.ok_or_else(|| missing("spindrift_input"))?;
         running.output = running.place("spindrift_output")?.ok_or_else(|| missing("spindrift_output"))?;
-        running.parameters = running.place("spindrift_parameters")?;
+        running.parameters = running.place(PARAMETERS[0])?;
+        running.measurements = running.place(MEASUREMENTS[0])?;
+        running.telemetry = running.place(TELEMETRY[0])?;
         running.area(running.input, NUMBERS, "spindrift_input")?;
         running.area(running.output, OUTPUT, "spindrift_output")?;
         Ok(running)
@@ -170,6 +189,24 @@ impl Running {
         Ok(())
     }
 
+    /// What the module declares in the text of the function `table`, whose numbers, `count` of each thing, stand at `place`, which the function `name` returns.
+    fn declared<T>(
+        &mut self,
+        [name, table]: [&str; 2],
+        place: Option<usize>,
+        count: usize,
+        parse: fn(String) -> std::result::Result<&'static [T], String>,
+    ) -> Result<&'static [T]> {
+        let text = match (self.optional::<i32>(table)?, place) {
+            (None, None) => return Ok(&[]),
+            (Some(text), Some(_)) => text.call(&mut self.store, ())?,
+            _ => bail!("it exports one of {name} and {table}; they belong together"),
+        };
+        let things = self.text(text).and_then(parse).map_err(|why| format_err!("{table}: {why}"))?;
+        self.area(place.unwrap_or(0), count * things.len(), name)?;
+        Ok(things)
+    }
+
     /// The text that begins at `place`, up to its zero.
     fn text(&self, place: i32) -> std::result::Result<String, String> {
         let memory = self.memory.data(&self.store).get(place.cast_unsigned() as usize..).unwrap_or_default();
@@ -186,31 +223,50 @@ impl Running {
         }
     }
 
-    /// Gives it its parameters and its first input, and lets it prepare itself.
-    fn prepare(&mut self, parameters: &[f64], input: &[u8]) -> Result<()> {
+    /// Gives it its parameters and what it knows at the first step, and lets it prepare itself.
+    fn prepare(&mut self, parameters: &[f64], known: &Known) -> Result<()> {
         if let Some(place) = self.parameters {
             let bytes: Vec<u8> = parameters.iter().flat_map(|number| number.to_le_bytes()).collect();
             self.write(place, &bytes);
         }
-        self.write(self.input, input);
+        self.tell(known);
         match self.optional::<()>("spindrift_init")? {
             Some(init) => init.call(&mut self.store, ()),
             None => Ok(()),
         }
     }
 
-    /// A step: the torque that it wants.
-    fn step(&mut self, input: &[u8]) -> Result<[f64; OUTPUT]> {
-        self.write(self.input, input);
+    /// Writes what is known at a step.
+    fn tell(&mut self, known: &Known) {
+        self.write(self.input, &known.input);
+        if let Some(place) = self.measurements {
+            self.write(place, &known.measured);
+        }
+    }
+
+    /// A step: the torque that it wants, and what it reports.
+    fn step(&mut self, known: &Known, telemetry: &mut [f64]) -> Result<[f64; OUTPUT]> {
+        self.tell(known);
         self.store.set_fuel(STEP_FUEL)?;
         self.step.call(&mut self.store, ())?;
-        let memory = self.memory.data(&self.store);
-        let number = |index: usize| {
-            let place = self.output + 8 * index;
-            memory.get(place..place + 8).and_then(|bytes| bytes.try_into().ok()).map_or(f64::NAN, f64::from_le_bytes)
-        };
-        Ok(std::array::from_fn(number))
+        telemetry.iter_mut().enumerate().for_each(|(index, value)| {
+            let number = self.number(self.telemetry.unwrap_or(0) + 8 * index);
+            *value = if number.is_finite() { number } else { f64::NAN };
+        });
+        Ok(std::array::from_fn(|index| self.number(self.output + 8 * index)))
     }
+
+    /// The number at `place` in its memory.
+    fn number(&self, place: usize) -> f64 {
+        let bytes = self.memory.data(&self.store).get(place..place + 8).and_then(|bytes| bytes.try_into().ok());
+        bytes.map_or(f64::NAN, f64::from_le_bytes)
+    }
+}
+
+/// What a module is given at a step.
+struct Known {
+    input: [u8; 8 * NUMBERS],
+    measured: Vec<u8>,
 }
 
 /// The function `name` of an instance, without arguments and with these results; `None` where it exports nothing of that name.
@@ -232,34 +288,42 @@ fn missing(name: &str) -> Error {
 
 /// The law of a phase in a run. Its instance is made at the first tick of the phase.
 struct ModuleLaw {
-    compiled: &'static Compiled,
+    code: &'static FlightCode,
     parameters: Vec<f64>,
     /// Control period and delay, s.
     times: [f64; 2],
+    /// What it has reported at its last step; empty before the first, and where that has failed.
+    telemetry: Vec<f64>,
     running: Option<Running>,
     failure: Option<Failure>,
 }
 
 impl ModuleLaw {
-    fn step(&mut self, input: &[u8]) -> Result<[f64; OUTPUT]> {
+    fn step(&mut self, known: &Known) -> Result<[f64; OUTPUT]> {
         let running = match &mut self.running {
             Some(running) => running,
             none => {
-                let mut running = Running::start(self.compiled)?;
-                running.prepare(&self.parameters, input)?;
+                let mut running = Running::start(&self.code.compiled)?;
+                running.prepare(&self.parameters, known)?;
                 none.insert(running)
             }
         };
-        running.step(input)
+        self.telemetry.resize(self.code.telemetry.len(), f64::NAN);
+        running.step(known, &mut self.telemetry)
     }
 }
 
 impl PhaseLaw for ModuleLaw {
     fn torque(&mut self, body: &KnownBody, input: &LawInput<'_>, elapsed: f64) -> [f64; 3] {
-        let stopped = match self.step(&input::bytes(body, input, elapsed, self.times)) {
+        let known = Known {
+            input: input::bytes(body, input, elapsed, self.times),
+            measured: input::measured(self.code.sensors, input),
+        };
+        let stopped = match self.step(&known) {
             Ok(torque) => return torque,
             Err(error) => error,
         };
+        self.telemetry.clear();
         self.failure = match stopped.downcast_ref() {
             Some(Trap::OutOfFuel) => Some(Failure::ModuleFuel),
             Some(_) => Some(Failure::ModuleTrap),
@@ -267,6 +331,10 @@ impl PhaseLaw for ModuleLaw {
             None => panic!("no instance of the module can be made: {stopped:#}"),
         };
         [f64::NAN; 3]
+    }
+
+    fn telemetry(&self) -> &[f64] {
+        &self.telemetry
     }
 
     fn failure(&self) -> Option<Failure> {
@@ -277,7 +345,7 @@ impl PhaseLaw for ModuleLaw {
 /// The same law as it begins.
 impl Clone for ModuleLaw {
     fn clone(&self) -> Self {
-        ModuleLaw { parameters: self.parameters.clone(), running: None, failure: None, ..*self }
+        ModuleLaw { parameters: self.parameters.clone(), telemetry: Vec::new(), running: None, failure: None, ..*self }
     }
 }
 

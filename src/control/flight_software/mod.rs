@@ -156,7 +156,11 @@ impl FlightSoftware {
             thrusters,
             rods: (!spec.rods.is_empty()).then(|| RodAllocation::of_loop(&believed, &spec.rods)),
             field: MeasuredField::NONE,
-            readings: if is_law_of(spec) { vec![Reading::NONE; spec.sensors.len()] } else { Vec::new() },
+            readings: if is_law_of(spec) || spec.code().is_some_and(|code| !code.sensors().is_empty()) {
+                vec![Reading::NONE; spec.sensors.len()]
+            } else {
+                Vec::new()
+            },
             thruster_drives: parts.thruster_drives,
             pulses: [PulseState::default(); MAX_THRUSTERS],
             launch,
@@ -316,6 +320,11 @@ impl FlightSoftware {
     /// What was commanded at the last control tick, of a run that is recorded.
     pub fn latest_commands(&self) -> Commanded {
         self.latest
+    }
+
+    /// What the law of the phase has reported when it was last asked.
+    pub fn telemetry(&self) -> &[f64] {
+        self.law.telemetry()
     }
 
     /// How the errors of the filters compare with their covariances, by the truth: flight software is judged by it, and does not keep it.

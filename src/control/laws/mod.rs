@@ -87,6 +87,11 @@ pub trait PhaseLaw {
     fn failure(&self) -> Option<Failure> {
         None
     }
+
+    /// What it has reported at its last tick, by the columns of the loop ([`FlightCode::telemetry`]); NaN where a value is no finite number.
+    fn telemetry(&self) -> &[f64] {
+        &[]
+    }
 }
 
 /// A [`PhaseLaw`] that can be copied without knowing its type.
@@ -166,6 +171,14 @@ impl AttitudeLaw {
         }
     }
 
+    /// What the law has reported at its last tick; nothing, but for modules.
+    pub fn telemetry(&self) -> &[f64] {
+        match self {
+            AttitudeLaw::Own(law) => law.0.telemetry(),
+            _ => &[],
+        }
+    }
+
     /// The law `law` of a program.
     pub fn own(law: impl PhaseLaw + Clone + fmt::Debug + Send + 'static) -> Self {
         AttitudeLaw::Own(OwnLaw(Box::new(law)))
@@ -189,7 +202,7 @@ pub struct LawInput<'a> {
     pub time: f64,
     /// All that is estimated; `None` where a law is tried without a loop.
     pub estimate: Option<&'a Estimate>,
-    /// What the sensors have delivered last; none where no law of the loop asks for it ([`asked`]).
+    /// What the sensors have delivered last; none where no law of the loop asks for it ([`asked`], [`FlightCode::sensors`]).
     pub readings: Readings<'a>,
 }
 

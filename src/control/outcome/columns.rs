@@ -2,6 +2,7 @@
 
 use super::{MissionCriteria, MissionOutcome, STANDARD_GRAVITY};
 use crate::control::estimators::kalman::NormalizedSquare;
+use crate::control::flight_code::FlightCode;
 use crate::control::guidance::{Failure, Guidance};
 use crate::control::net_launch::launch::AtLaunch;
 use crate::control::spec::LoopSpec;
@@ -23,6 +24,7 @@ enum Needs {
     Wheels,
     Filter,
     FilterOfMotion,
+    Telemetry,
 }
 
 impl Needs {
@@ -41,6 +43,7 @@ impl Needs {
             Needs::Wheels => "needs wheels in control.wheels",
             Needs::Filter => "needs an estimator with a filter: mekf",
             Needs::FilterOfMotion => "needs an estimator with a filter: mekf, and debris that a phase approaches",
+            Needs::Telemetry => "needs a module that declares telemetry",
         }
     }
 
@@ -60,6 +63,7 @@ impl Needs {
             Needs::Wheels => !spec.wheels.is_empty(),
             Needs::Filter => spec.has_filter(),
             Needs::FilterOfMotion => spec.has_filter() && approaches,
+            Needs::Telemetry => spec.code().is_some_and(|code| !code.telemetry().is_empty()),
         }
     }
 }
@@ -75,6 +79,11 @@ impl Run<'_> {
     /// What the launch says; NaN without one.
     fn launch(&self, value: fn(&AtLaunch) -> f64) -> f64 {
         self.outcome.at_launch.as_ref().map_or(f64::NAN, value)
+    }
+
+    /// The number of telemetry at `place`: the last one, and the largest magnitude.
+    fn telemetry(&self, place: usize) -> [f64; 2] {
+        self.outcome.telemetry.get(place).copied().unwrap_or([f64::NAN; 2])
     }
 }
 
@@ -197,6 +206,24 @@ static TABLE: [Row; 43] = [
         "Mean normalised square of the innovations of attitude and rate of the debris, over its degrees of freedom: 1 on average where the filter is right; null where it is not known."),
 ];
 
+/// The columns of each number of telemetry that a module declares; its own unit and meaning come on top.
+static TELEMETRY: [Row; 2] = [
+    row(
+        "module_<telemetry>_final",
+        "",
+        Needs::Telemetry,
+        |run, place| run.telemetry(place)[0],
+        "telemetry of the module at the last tick at which it was asked; null where it never was, or where this is no finite number.",
+    ),
+    row(
+        "module_<telemetry>_max",
+        "",
+        Needs::Telemetry,
+        |run, place| run.telemetry(place)[1],
+        "largest magnitude of that telemetry of the module at the ticks; null where it was never asked, or where one of them is no finite number.",
+    ),
+];
+
 /// The columns with a whole number, and the names of its codes.
 const COUNTS: [(&str, &[&str]); 3] = [("launched", &[]), ("failure", &Failure::NAMES), ("phase_final", &[])];
 
@@ -246,7 +273,15 @@ impl OutcomeColumns {
             ("<thruster>", names(&spec.thrusters, &spec.thruster_names)),
             ("<wheel>", names(&spec.wheels, &spec.wheel_names)),
         ];
-        Self::named(&names, |needs| needs.are_met(spec))
+        let mut columns = Self::named(&names, |needs| needs.are_met(spec));
+        for (place, declared) in spec.code().map_or(&[][..], FlightCode::telemetry).iter().enumerate() {
+            columns.0.extend(TELEMETRY.iter().zip(["_final", "_max"]).map(|(row, of)| {
+                let meaning = format!("{}: {}", declared.meaning, row.meaning);
+                let unit = declared.unit_of_column().to_owned();
+                (Quantity::named(declared.column(of), unit, meaning), row, place)
+            }));
+        }
+        columns
     }
 
     fn named(names: &Names, is_there: impl Fn(Needs) -> bool) -> Self {
@@ -257,7 +292,9 @@ impl OutcomeColumns {
     /// Those that any loop has, each with what it needs; `<phase>`, `<wheel>` and `<thruster>` stand for names.
     pub fn of_all_loops() -> Vec<(Quantity, &'static str)> {
         let names = ["<phase>", "<thruster>", "<wheel>"].map(|mark| (mark, vec![(0, mark.to_owned())]));
-        Self::named(&names, |_| true).0.into_iter().map(|(column, row, _)| (column, row.needs.words())).collect()
+        let of_loop = Self::named(&names, |_| true).0.into_iter().map(|(column, row, _)| (column, row));
+        let of_module = TELEMETRY.iter().map(|row| (Quantity::new(row.name, row.unit, row.meaning), row));
+        of_loop.chain(of_module).map(|(column, row)| (column, row.needs.words())).collect()
     }
 
     /// As columns of rows.

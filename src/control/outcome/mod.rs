@@ -68,6 +68,8 @@ pub struct MissionOutcome {
     rod_saturated: f64,
     attitude_error: [f64; 2],
     relative_error: [f64; 2],
+    /// What the module has reported at its last tick, and the largest magnitude so far: NaN once one was no finite number.
+    telemetry: Vec<[f64; 2]>,
     /// How the errors of the filters compare with their covariances, at the last tick.
     pub consistency: Consistency,
 }
@@ -97,6 +99,7 @@ impl MissionOutcome {
             rod_saturated: 0.0,
             attitude_error: [0.0; 2],
             relative_error: [f64::NAN; 2],
+            telemetry: Vec::new(),
             consistency: Consistency::default(),
         }
     }
@@ -148,6 +151,14 @@ impl MissionOutcome {
             self.settled_since = f64::NAN;
         } else if self.settled_since.is_nan() {
             self.settled_since = time;
+        }
+    }
+
+    /// Takes what the module has reported at a tick; nothing where it was not asked.
+    pub fn take_telemetry(&mut self, values: &[f64]) {
+        self.telemetry.resize(self.telemetry.len().max(values.len()), [f64::NAN, 0.0]);
+        for ([last, most], value) in self.telemetry.iter_mut().zip(values) {
+            (*last, *most) = (*value, if value.is_nan() || most.is_nan() { f64::NAN } else { most.max(value.abs()) });
         }
     }
 

@@ -138,5 +138,7 @@ fn columns_of_loops_are_found() {
             assert!(is_there, "{name}: {} needs {need:?}", quantity.name());
         }
     }
-    assert_eq!(seen.len(), known.len(), "net_launch has all of them but those of rods: {seen:?}");
+    // what a module declares is in tests/determinism/flight_code_interface.rs
+    let of_modules = known.iter().filter(|(quantity, _)| quantity.name().contains("<telemetry>")).count();
+    assert_eq!(seen.len() + of_modules, known.len(), "net_launch has all of them but those of rods: {seen:?}");
 }

@@ -1,0 +1,103 @@
+//! What a module declares, as texts in its memory: a line each, whose parts `|` divides.
+//!
+//! - parameters, `key | unit | default | meaning`: the default is empty where a campaign file must give the number;
+//! - sensors whose measurements it is given, `name | kind`;
+//! - telemetry, `key | unit | meaning`.
+//!
+//! Their numbers stand in the memory of the module in the order of the lines. What is declared is kept for good, as the module is.
+
+use super::{DeclaredTelemetry, WantedSensor};
+use crate::scene::LawParameter;
+use crate::scene::schema::Limit;
+
+/// Most parameters of a module.
+const MOST_PARAMETERS: usize = 64;
+/// Most sensors.
+const MOST_SENSORS: usize = 32;
+/// Most numbers of telemetry: each is two columns of the rows.
+const MOST_TELEMETRY: usize = 32;
+/// Longest key.
+const LONGEST_KEY: usize = 40;
+
+/// The lines of `text`, each in as many parts as `form` has.
+fn lines<const N: usize>(text: String, form: [&str; N], most: usize) -> Result<Vec<[&'static str; N]>, String> {
+    if text.chars().any(|letter| letter.is_control() && letter != '\n') {
+        return Err("its text has control characters".to_owned());
+    }
+    let text: &'static str = String::leak(text);
+    let lines: Vec<&'static str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
+    if lines.len() > most {
+        return Err(format!("{} lines are more than {most}", lines.len()));
+    }
+    let mut list: Vec<[&'static str; N]> = Vec::new();
+    for line in lines {
+        let parts: Vec<&'static str> = line.split('|').map(str::trim).collect();
+        let parts: [&'static str; N] =
+            parts.try_into().map_err(|_| format!("{line:?} is not of the form {:?}", form.join(" | ")))?;
+        if list.iter().any(|known| known[0] == parts[0]) {
+            return Err(format!("{:?} stands in it twice", parts[0]));
+        }
+        list.push(parts);
+    }
+    Ok(list)
+}
+
+/// Refuses what is no key.
+fn check_key(key: &str) -> Result<(), String> {
+    let is_key = key.starts_with(|first: char| first.is_ascii_lowercase())
+        && key.len() <= LONGEST_KEY
+        && key.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_');
+    if is_key {
+        return Ok(());
+    }
+    Err(format!("{key:?} is no key: a key has small letters, digits and _, at most {LONGEST_KEY}"))
+}
+
+/// The parameters that `text` declares.
+///
+/// # Errors
+/// What is wrong with a line; so of the functions below.
+pub fn parameters(text: String) -> Result<&'static [LawParameter], String> {
+    let mut list = Vec::new();
+    for [key, unit, default, meaning] in lines(text, ["key", "unit", "default", "meaning"], MOST_PARAMETERS)? {
+        check_key(key)?;
+        let parameter = LawParameter::number(key, unit, meaning, Limit::Finite);
+        list.push(match default {
+            "" => parameter,
+            number => match number.parse::<f64>() {
+                Ok(number) if number.is_finite() => parameter.or(Vec::leak(vec![number])),
+                _ => return Err(format!("the default {number:?} of {key} is no finite number")),
+            },
+        });
+    }
+    Ok(Vec::leak(list))
+}
+
+/// The sensors that `text` declares.
+pub fn sensors(text: String) -> Result<&'static [WantedSensor], String> {
+    let list = lines(text, ["name", "kind"], MOST_SENSORS)?;
+    Ok(Vec::leak(list.into_iter().map(|[name, kind]| WantedSensor { name, kind }).collect()))
+}
+
+/// The telemetry that `text` declares.
+pub fn telemetry(text: String) -> Result<&'static [DeclaredTelemetry], String> {
+    let mut list = Vec::new();
+    for [key, unit, meaning] in lines(text, ["key", "unit", "meaning"], MOST_TELEMETRY)? {
+        check_key(key)?;
+        let ending = ending(unit);
+        if !key.ends_with(&ending) || key.len() == ending.len() {
+            return Err(format!("the key {key:?} does not end in its unit, as in error{ending} of {unit:?}"));
+        }
+        list.push(DeclaredTelemetry { stem: &key[..key.len() - ending.len()], key, unit, meaning });
+    }
+    Ok(Vec::leak(list))
+}
+
+/// How keys in `unit` end: `_kg_m2` of `kg m^2`, nothing of `1`.
+fn ending(unit: &str) -> String {
+    if unit == "1" {
+        return String::new();
+    }
+    let words = unit.split([' ', '/', '(', ')']).filter(|word| !word.is_empty());
+    words.map(|word| format!("_{}", word.replace('^', "").to_ascii_lowercase())).collect()
+}
