@@ -114,7 +114,7 @@ impl Plan {
 
     /// What would run, in words.
     fn check(&self, py: Python<'_>, samples: Option<u64>, control: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
-        self.with(py, samples, control, |plan, isa| check::text(plan, isa).map(|(text, _)| text))
+        self.with(py, samples, control, |plan, isa| check::text(plan, isa, false).map(|(text, _)| text))
     }
 
     /// The dispersed parameters of so many samples.

@@ -40,11 +40,10 @@ pub(super) fn over_time(
     if population != Population::Independent {
         gate = Gate { decision: Decision::Undecided(None), bounds: [f64::NAN; 2], ..gate };
         interval = [f64::NAN; 2];
-        let why = match population {
-            Population::Replicated(_) => "bands do not tell replicates apart".to_owned(),
-            _ => population.intervals(),
-        };
-        reason = Some(format!("intervals: {why}"));
+        reason = Some(match population {
+            Population::Replicated(_) => "no intervals: bands do not tell replicates apart".to_owned(),
+            _ => population.about_intervals(),
+        });
     } else if within.is_empty() {
         reason = Some("there are no bands of it".to_owned());
     } else if runs == 0 {

@@ -94,6 +94,12 @@ impl Population {
         self == Population::Nominal || sample.0 > 0
     }
 
+    /// The same as a clause: what the intervals are, or why there are none.
+    pub fn about_intervals(self) -> String {
+        let text = self.intervals();
+        text.strip_prefix("none: ").map_or_else(|| format!("intervals: {text}"), |why| format!("no intervals: {why}"))
+    }
+
     /// What the intervals of statistics are, or why there are none, in words.
     pub fn intervals(self) -> String {
         match self {

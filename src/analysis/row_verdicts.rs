@@ -120,7 +120,7 @@ pub(super) fn assessment(
     if !population.has_intervals() {
         gate = Gate { decision: Decision::Undecided(None), bounds: [f64::NAN; 2], ..gate };
         interval = [f64::NAN; 2];
-        reason = Some(format!("intervals: {}", population.intervals()));
+        reason = Some(population.about_intervals());
         note = None;
     } else if runs == 0 {
         reason = Some("there are no runs that count".to_owned());

@@ -1,6 +1,11 @@
-//! [`differences`], [`text_differences`]: the keys in which two plans differ.
+//! [`differences`], [`text_differences`]: the keys in which two plans differ; [`said`]: a value of such a key as a person says it.
 
+use super::display::ShownUnit;
 use super::plan::Plan;
+use super::units;
+use crate::sampling::DistributionKind;
+use crate::sampling::keys::Kind;
+use crate::scene::Parameter;
 
 /// A key in which two plans differ.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,9 +86,79 @@ fn called<'t>(list: &str, lines: impl Iterator<Item = &'t str>) -> Option<String
     })
 }
 
+/// The value of a key of `plan`, which canonical text has in SI units: in the unit in which people see it where it is shorter so (5 deg for
+/// 0.08726646259971647), and with its unit where the key does not name it.
+pub fn said(plan: &Plan, key: &str, value: &str) -> String {
+    let Some((unit, shown, is_named)) = unit_of(plan, key) else { return value.to_owned() };
+    let inner = value.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
+    let numbers: Option<Vec<f64>> = inner.unwrap_or(value).split(", ").map(|number| number.parse().ok()).collect();
+    let Some(numbers) = numbers else { return value.to_owned() };
+    let text = |of: &dyn Fn(f64) -> f64| {
+        let number = |x: &f64| format!("{:?}", of(*x)).trim_end_matches(".0").to_owned();
+        let list: Vec<String> = numbers.iter().map(number).collect();
+        if inner.is_some() { format!("[{}]", list.join(", ")) } else { list.concat() }
+    };
+    let (own, other) = (text(&|x| x), text(&|x| shown.written(x)));
+    match (is_named, other.len() < own.len() && !shown.is_own()) {
+        (_, true) => format!("{other} {}", shown.unit),
+        (false, false) => format!("{own} {unit}").trim_end().to_owned(),
+        (true, false) => own,
+    }
+}
+
+/// The SI unit of the numbers of a key, the one in which people see them, and whether the key names it.
+fn unit_of(plan: &Plan, key: &str) -> Option<(&'static str, ShownUnit, bool)> {
+    let (table, last) = key.rsplit_once('.')?;
+    let (name, unit, is_named) =
+        if let Some(parameter) = table.strip_prefix("disperse[").and_then(|rest| rest.strip_suffix(']')) {
+            let rows = DistributionKind::ALL.iter().flat_map(|kind| kind.keys());
+            let is_amount = |kind: &Kind| matches!(kind, Kind::Amount | Kind::Amounts | Kind::AmountList);
+            match rows.filter(|row| row.key == last).all(|row| is_amount(&row.kind)) {
+                true => (parameter, Parameter::find(&plan.nominal, parameter)?.0.unit(), false),
+                false => (parameter, units::in_name(last), true),
+            }
+        } else if let Some(place) = table.strip_prefix("require[").and_then(|rest| rest.strip_suffix(']')) {
+            let requirement = plan.analysis.requirements.get(place.parse::<usize>().ok()?)?;
+            let columns = plan.request().columns();
+            let column = columns.iter().find(|column| Some(column.quantity.name()) == requirement.observable())?;
+            let unit = units::known(column.quantity.unit()).filter(|_| ["at_most", "at_least"].contains(&last))?;
+            (requirement.name(), unit, false)
+        } else {
+            (key, units::in_name(last), true)
+        };
+    (unit != "1").then(|| (unit, plan.analysis.display.of(name, unit), is_named))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::campaign::Overrides;
+
+    /// Known: numbers of dispersions and limits have the unit of what they are of, in which they were written; of other keys a number is in the unit of the key's name, unless it
+    /// is shorter in that of people. What is no number stays.
+    #[test]
+    fn values_are_said_in_the_units_of_people() {
+        let text = include_str!("../../campaigns/net_launch.toml");
+        let plan = Plan::from_text("net_launch", text, Overrides::default()).expect("valid");
+        let radians = core::f64::consts::PI / 180.0;
+        for (key, value, known) in [
+            ("disperse[thrusters.p1.tilt_rad].std", format!("{:?}", 0.3 * radians), "0.3 deg"),
+            ("disperse[initial.position_m].std", "1.5".to_owned(), "1.5 m"),
+            ("disperse[sensors.tracker.bias_rad].std", format!("{:?}", 20.0 * radians / 3600.0), "20 arcsec"),
+            ("disperse[thrusters.p1.thrust_scale].std", "0.03".to_owned(), "0.03"),
+            ("disperse[thrusters.p1.tilt_rad].distribution", "\"normal\"".to_owned(), "\"normal\""),
+            ("disperse[initial.attitude].std_rad", format!("{:?}", 2.0 * radians), "2 deg"),
+            ("require[1].at_most", format!("{:?}", 2.0 * radians), "2 deg"),
+            ("require[4].at_most", "0.05".to_owned(), "5 cm/s"),
+            ("require[0].fraction", "0.95".to_owned(), "0.95"),
+            ("guidance.aim.bandwidth_rad_s", "0.06".to_owned(), "0.06"),
+            ("guidance.aim.max_rate_rad_s", format!("{radians:?}"), "1 deg/s"),
+            ("initial.position_m", "[-28.0, -14.0, 18.0]".to_owned(), "[-28, -14, 18]"),
+            ("campaign.samples", "1024".to_owned(), "1024"),
+        ] {
+            assert_eq!(said(&plan, key, &value), known, "{key}");
+        }
+    }
 
     #[test]
     fn differing_keys_are_named() {

@@ -6,7 +6,7 @@
 
 use super::excerpt::Excerpt;
 use super::known_columns::KnownColumns;
-use super::problem::{CampaignError, Problem, SHOWN};
+use super::problem::{CampaignError, Problem, SHOWN, nearest};
 use super::size;
 use super::sources::{SourceText, Sources, lay_over, moved_table, put, value_at};
 use crate::control::ControlLaw;
@@ -139,6 +139,7 @@ impl<'a> Document<'a> {
                     allowed: format!("set where a campaign has the key ({why})"),
                     remedy: "write the key as shown in error messages: campaign.duration_s, wheels.w1.rate_rad_s"
                         .to_owned(),
+                    is_unknown: false,
                     excerpt: None,
                 })
             })?;
@@ -165,6 +166,7 @@ impl<'a> Document<'a> {
                 value: Some(shortened(self.line(line))),
                 allowed: format!("valid TOML ({})", size::plain(error.message())),
                 remedy: syntax_remedy(error.message()).to_owned(),
+                is_unknown: false,
                 excerpt: self.excerpt(&span),
             };
             let is_campaign = self.text.contains("[campaign");
@@ -190,6 +192,15 @@ impl<'a> Document<'a> {
 
     /// Notes a problem of `key`, on the line of that key or of the nearest table around it.
     pub fn add(&mut self, key: &str, value: Option<String>, allowed: impl Into<String>, remedy: impl Into<String>) {
+        self.note(key, value, allowed.into(), remedy.into(), false);
+    }
+
+    /// Notes that there is no key `key` in the table `place`.
+    pub(super) fn add_unknown(&mut self, key: &str, value: Option<String>, place: String, remedy: String) {
+        self.note(key, value, place, remedy, true);
+    }
+
+    fn note(&mut self, key: &str, value: Option<String>, allowed: String, remedy: String, is_unknown: bool) {
         if self.is_full() {
             self.more += 1;
             return;
@@ -198,16 +209,27 @@ impl<'a> Document<'a> {
         let excerpt =
             exact.and_then(|spans| self.excerpt(if spans.value.is_empty() { &spans.key } else { &spans.value }));
         let offset = self.offset_of(key);
+        // a setting has one value, which the message names
+        let excerpt = excerpt.filter(|_| offset.is_some_and(|offset| self.sources.at(offset).key.is_none()));
         let (file, line) = offset.map_or((self.sources.list[0].name.as_str(), None), |offset| self.place(offset));
         self.problems.push(Problem {
             file: file.to_owned(),
             line,
             key: key.chars().take(LONGEST_KEY).collect(),
             value: value.map(|value| shortened(&value)),
-            allowed: allowed.into(),
-            remedy: remedy.into(),
+            allowed,
+            remedy,
+            is_unknown,
             excerpt,
         });
+    }
+
+    /// The key of what is set at the byte `offset`, and the written key that it probably means: it, or what follows a table that no file has.
+    pub(super) fn setting_meant(&self, offset: usize) -> Option<String> {
+        let written = self.sources.at(offset).key.as_deref()?;
+        let (_, rest) = written.split_once('.')?;
+        let near = |name: &str| nearest(name, self.spans.keys().map(String::as_str).filter(|key| key.contains('.')));
+        near(rest).or_else(|| near(written)).filter(|meant| *meant != written).map(str::to_owned)
     }
 
     /// Number of problems that are noted.

@@ -253,6 +253,7 @@ fn unreachable_plan(file: &str) -> CampaignError {
         value: None,
         allowed: "complete".to_owned(),
         remedy: "this is an error of spindrift: please report it with the file".to_owned(),
+        is_unknown: false,
         excerpt: None,
     })
 }

@@ -17,9 +17,11 @@ pub struct Problem {
     pub key: String,
     /// The value as written; `None` where the key is missing.
     pub value: Option<String>,
-    /// What it must be (to follow the words `must be`).
+    /// What it must be (to follow the words `must be`); of a key that is unknown, what has no such key (to follow `not a key of`).
     pub allowed: String,
     pub remedy: String,
+    /// Whether it is the key that is wrong: nothing has it.
+    pub is_unknown: bool,
     /// The line with a mark under what is wrong, where the file has it.
     pub excerpt: Option<Excerpt>,
 }
@@ -32,6 +34,10 @@ impl Display for Problem {
         }
         let (key, allowed, remedy) = (printable(&self.key), printable(&self.allowed), printable(&self.remedy));
         match &self.value {
+            Some(value) if self.is_unknown => {
+                write!(f, ": {key} = {}: not a key of {allowed}; {remedy}", printable(value))
+            }
+            None if self.is_unknown => write!(f, ": {key}: not a key of {allowed}; {remedy}"),
             Some(value) => write!(f, ": {key} = {}: must be {allowed}; {remedy}", printable(value)),
             None => write!(f, ": {key} is missing: must be {allowed}; {remedy}"),
         }

@@ -316,21 +316,33 @@ impl<'d, 'a> Section<'d, 'a> {
                 self.document.add(name, Some(String::new()), "", ""); // counted only
                 continue;
             }
-            let remedy = match nearest(name, self.known.iter().map(String::as_str)) {
-                Some(meant) => format!("did you mean {meant}?"),
-                None => "delete it".to_owned(),
-            };
-            let place = match &self.title {
-                Some(title) => title.clone(),
-                None if self.path.is_empty() => "this file".to_owned(),
-                None => format!("[{}]", self.path),
-            };
-            let value = self.value(name).map(|value| self.document.written(value));
             let path = self.path(name);
             // the key is wrong, and not its value
             let span = self.table.and_then(|table| table.get_key_value(&**name)).map_or(0..0, |(key, _)| key.span());
+            let is_root = self.path.is_empty();
+            // of a setting the whole path may be meant otherwise
+            let of_setting = if is_root { self.document.setting_meant(span.start) } else { None };
+            let meant = of_setting.clone().or_else(|| {
+                let known = self.known.iter().map(String::as_str);
+                Some(nearest(name, known)?.to_owned())
+            });
+            let mut place = match &self.title {
+                Some(title) => title.clone(),
+                None if is_root => "a campaign file".to_owned(),
+                None => format!("[{}]", self.path),
+            };
+            let remedy = match meant {
+                Some(meant) => format!("did you mean {meant}?"),
+                None => {
+                    place += &format!(" ({})", self.known.join(", "));
+                    "delete it".to_owned()
+                }
+            };
+            // the value of a table is its keys, and that of a setting is what was set in it
+            let is_table = self.is_table(name) && is_root;
+            let value = self.value(name).filter(|_| !is_table).map(|value| self.document.written(value));
             self.document.spans.insert(path.clone(), Spans { key: span, value: 0..0 });
-            self.document.add(&path, value, format!("a key of {place} ({})", self.known.join(", ")), remedy);
+            self.document.add_unknown(&path, value, place, remedy);
         }
     }
 }

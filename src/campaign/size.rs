@@ -26,6 +26,7 @@ pub(super) fn too_large(file: &str, bytes: u64) -> Problem {
         remedy:
             "name tables of numbers as files of their own ([design] kind = \"table\", distribution = \"empirical\")"
                 .to_owned(),
+        is_unknown: false,
         excerpt: None,
     }
 }
@@ -40,6 +41,7 @@ pub(super) fn read(path: &Path, file: &str) -> Result<String, CampaignError> {
             value: Some(value),
             allowed: allowed.to_owned(),
             remedy: remedy.to_owned(),
+            is_unknown: false,
             excerpt: None,
         })
     };
@@ -75,6 +77,7 @@ pub(super) fn of_table(file: &str, table: &DeTable<'_>) -> Option<Problem> {
         value: Some(format!("{keys} keys")),
         allowed: format!("a campaign file of at most {MOST_KEYS} keys"),
         remedy: "delete what the campaign does not need, or divide it into several campaigns".to_owned(),
+        is_unknown: false,
         excerpt: None,
     })
 }

@@ -53,7 +53,16 @@ impl Sources {
             let refuse = |allowed: &str, remedy: &str| {
                 let (value, allowed, remedy) = (Some(format!("{written:?}")), allowed.to_owned(), remedy.to_owned());
                 let (file, key) = (name.clone(), "extends".to_owned());
-                Err(CampaignError::of(Problem { file, line: Some(line), key, value, allowed, remedy, excerpt: None }))
+                Err(CampaignError::of(Problem {
+                    file,
+                    line: Some(line),
+                    key,
+                    value,
+                    allowed,
+                    remedy,
+                    is_unknown: false,
+                    excerpt: None,
+                }))
             };
             if !path.is_file() && !path.metadata().is_err_and(|error| is_unreadable(&error)) {
                 return refuse("a campaign file, by its path from the folder of this file", "check the path");

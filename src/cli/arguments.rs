@@ -270,6 +270,9 @@ pub struct VerifyOptions {
 pub struct CheckOptions {
     /// The campaign file.
     pub file: PathBuf,
+    /// Show all that is known, not one screen of it: percentiles of the draws, masses, momenta, what is integrated and why.
+    #[arg(long)]
+    pub verbose: bool,
     /// Show the plan too: every key, with the defaults.
     #[arg(long)]
     pub plan: bool,
@@ -292,6 +295,9 @@ pub struct CompareOptions {
     /// Write the whole comparison to this file (.json or .parquet); .json has the plans and verdicts too.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// List every column that is shifted, and every key that differs, not one screen of them.
+    #[arg(long)]
+    pub verbose: bool,
     /// Number of threads, at most four per core [default: one per core].
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
@@ -414,8 +420,11 @@ pub struct NewOptions {
 /// Arguments of `columns`.
 #[derive(Debug, Args)]
 pub struct ColumnsOptions {
-    /// A group of columns, as named in campaign files, or a word to find in names and meanings [default: all].
+    /// A group of columns, as named in campaign files, or a word to find in names and meanings [default: the groups].
     pub word: Option<String>,
+    /// List the columns of every group.
+    #[arg(long, conflicts_with = "word")]
+    pub verbose: bool,
     /// List the columns of this campaign, with the names of its wheels, its dispersed values and audits.
     #[arg(long, value_name = "FILE")]
     pub campaign: Option<PathBuf>,

@@ -18,8 +18,7 @@ use crate::math::Isa;
 use crate::observables::{Group, Request};
 use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::report::failure_text;
-use crate::report::number::{bytes, short, trimmed};
-use crate::report::text_table::{Align, TextTable};
+use crate::report::number::{brief, bytes, short, trimmed};
 use crate::report::wrapped::wrapped;
 use crate::run::{StateField, Status};
 use crate::scene::{Scene, WheelMode};
@@ -33,7 +32,7 @@ use crate::workflow::source::plan;
 /// Where the campaign file is wrong.
 pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
     let plan = plan(&options.file, options.changed.overrides())?;
-    let (text, outcome) = text(&plan, isa()?)?;
+    let (text, outcome) = text(&plan, isa()?, options.verbose)?;
     screen::print(&text)?;
     if options.plan {
         // as it is in a file
@@ -42,20 +41,20 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
     Ok(outcome)
 }
 
-/// What `plan` would run, and how the command ends.
+/// What `plan` would run, on one screen or with all that is known, and how the command ends.
 ///
 /// # Errors
 /// Where its nominal scene is not physical.
-pub fn text(plan: &Plan, isa: Isa) -> Result<(String, CommandOutcome), Failure> {
+pub fn text(plan: &Plan, isa: Isa, is_verbose: bool) -> Result<(String, CommandOutcome), Failure> {
     asked::refuse_unanswered(plan.law.as_ref()).map_err(Failure::Input)?;
     let ensemble = Ensemble::new(plan, isa);
     let scene = Scene::resolve(&plan.nominal)
         .map_err(|errors| Failure::Input(errors.iter().map(|error| format!("{error}\n")).collect()))?;
     let probe = RunProbe::new(&ensemble);
-    let mut text = if probe.is_hopeless() { failures(&probe) } else { String::new() };
-    text += &summary(plan);
-    text += &estimate(&ensemble, &probe);
-    text += &audit_estimate(&ensemble);
+    let mut text = summary(plan);
+    if probe.is_hopeless() {
+        text += &failures(plan, &probe);
+    }
     let written = (|| {
         let unseen = influence::notes(plan, ensemble.isa());
         let notes: Vec<String> = plan.notes().into_iter().chain(implausible(plan)).chain(unseen).collect();
@@ -63,18 +62,32 @@ pub fn text(plan: &Plan, isa: Isa) -> Result<(String, CommandOutcome), Failure> 
             section(&mut text, "Notes")?;
         }
         notes.iter().try_for_each(|note| writeln!(text, "{note}"))?;
+        text += &estimate(&ensemble, &probe);
+        text += &audit_estimate(&ensemble);
         section(&mut text, "Dispersions")?;
-        dispersions::table(&mut text, plan)?;
-        section(&mut text, "Mass properties of the nominal scene")?;
-        scene_text::masses(&mut text, &plan.nominal, &scene.mass)?;
-        section(&mut text, "Momenta and torques of the nominal scene")?;
-        scene_text::momenta(&mut text, &plan.nominal, &scene, &plan.analysis.display)?;
+        if is_verbose {
+            dispersions::table(&mut text, plan)?;
+            section(&mut text, "Mass properties of the nominal scene")?;
+            scene_text::masses(&mut text, &plan.nominal, &scene.mass)?;
+            section(&mut text, "Momenta and torques of the nominal scene")?;
+            scene_text::momenta(&mut text, &plan.nominal, &scene, &plan.analysis.display)?;
+        } else {
+            dispersions::list(&mut text, plan)?;
+            section(&mut text, "Nominal scene")?;
+            writeln!(text, "{}", scene_text::in_short(&scene))?;
+        }
         if let Some(spec) = plan.law.as_ref().and_then(|law| law.spec()) {
-            section(&mut text, "Torque of the control loop")?;
+            if is_verbose {
+                section(&mut text, "Torque of the control loop")?;
+            }
             Capacity::of(spec, &scene).lines(spec).iter().try_for_each(|line| writeln!(text, "{line}"))?;
         }
         happenings(&mut text, plan)?;
-        computed(&mut text, &ensemble)?;
+        if is_verbose {
+            computed(&mut text, &ensemble)?;
+        } else {
+            writeln!(text, "\n{MORE}")?;
+        }
         std::fmt::Result::Ok(())
     })();
     written.map_err(Failure::files)?;
@@ -83,36 +96,39 @@ pub fn text(plan: &Plan, isa: Isa) -> Result<(String, CommandOutcome), Failure> 
     Ok((wrapped(&text, screen::width()), outcome))
 }
 
+/// How to see what the screen leaves out.
+const MORE: &str = "--verbose: percentiles, masses, momenta, what is integrated; --plan: every key";
+
 /// What the campaign asks, and what it runs.
 fn summary(plan: &Plan) -> String {
     let steps = match plan.step_s {
         Some(step) => format!("steps of {} s", trimmed(step, 6)),
         None => format!("tolerance {:e}", plan.tolerance.relative),
     };
-    let (rows, seconds) = (plan.rows(), plan.grid.duration());
+    let (rows, seconds) = (plan.rows(), trimmed(plan.grid.duration(), 6));
     let requirements = match plan.analysis.requirements.len() {
         0 => "no requirement".to_owned(),
         1 => "1 requirement".to_owned(),
         count => format!("{count} requirements"),
     };
     format!(
-        "{}{}: {rows} run{} of {seconds} s, method {}, {steps}, {requirements}\nplan {} (all of it: --plan)\n",
+        "{}{}: {rows} run{} of {seconds} s, method {}, {steps}, {requirements}\n",
         completed_text::question(plan.description.as_deref()),
         plan.name,
         if rows == 1 { "" } else { "s" },
         plan.method.name(),
-        &plan.hash()[..12],
     )
 }
 
 /// What the probe found where runs failed: how many, and why.
-fn failures(probe: &RunProbe) -> String {
+fn failures(plan: &Plan, probe: &RunProbe) -> String {
     let (failed, count) = (probe.failed(), probe.count());
-    let head = if probe.is_hopeless() {
-        "EVERY RUN FAILS: the campaign would have no statistics, and its requirements would fail\n"
-    } else {
-        ""
+    let lost = match plan.analysis.requirements.len() {
+        0 => "there would be no statistics",
+        1 => "there would be no statistics, and the requirement would fail",
+        _ => "there would be no statistics, and the requirements would fail",
     };
+    let head = if probe.is_hopeless() { format!("EVERY RUN FAILS: {lost}\n") } else { String::new() };
     format!("{head}{failed} of the first {count} runs failed:\n{}", failure_text::text(&probe.reasons().groups()))
 }
 
@@ -156,12 +172,11 @@ fn happenings(text: &mut String, plan: &Plan) -> std::fmt::Result {
 fn computed(text: &mut String, ensemble: &Ensemble<'_>) -> std::fmt::Result {
     section(text, "What is computed")?;
     let reasons = ensemble.request().reasons();
-    let mut table = TextTable::new([("", Align::Left), ("", Align::Sentence)]);
     for field in StateField::ALL.into_iter().filter(|field| has(ensemble.request(), *field)) {
-        table.row(match reasons.iter().find(|(needed, _)| *needed == field) {
-            Some((_, reason)) => [field_name(field).to_owned(), format!("needed by {reason}")],
-            None => [field_name(field).to_owned(), "not computed: no requested observable needs it".to_owned()],
-        });
+        match reasons.iter().find(|(needed, _)| *needed == field) {
+            Some((_, reason)) => writeln!(text, "{}: needed by {reason}", field_name(field))?,
+            None => writeln!(text, "{}: not computed: no requested observable needs it", field_name(field))?,
+        }
     }
     let scene = &ensemble.plan().nominal;
     let acting = ensemble.request().actuated;
@@ -176,10 +191,9 @@ fn computed(text: &mut String, ensemble: &Ensemble<'_>) -> std::fmt::Result {
             _ => "not computed: no command of the schedule acts",
         };
         if exists {
-            table.row([term, why]);
+            writeln!(text, "{term}: {why}")?;
         }
     }
-    text.push_str(&table.text(screen::width()));
     let columns = ensemble.request().columns();
     let has_columns = |group: &&Group| columns.iter().any(|column| column.group == **group);
     let (with, without): (Vec<&Group>, Vec<&Group>) = ensemble.plan().groups.iter().partition(has_columns);
@@ -247,7 +261,7 @@ fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
             "\n== Estimate\ntime and disk space cannot be estimated: sample {sample} needs more than {PACE_STEPS} steps, which lead to {reached:?} s of {duration:?} s{end}\n"
         );
     }
-    let failed = if probe.failed() == 0 || probe.is_hopeless() { String::new() } else { failures(probe) };
+    let failed = if probe.failed() == 0 || probe.is_hopeless() { String::new() } else { failures(plan, probe) };
     let parts = parts(plan, ensemble.isa()).count();
     let work = Workload::of_campaign((ensemble, plan.rows()), None, None, None);
     let cores = cores();
@@ -257,14 +271,14 @@ fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
     };
     format!(
         "\n== Estimate, from {count} run{}\n\
-         {:.3} ms per run on one core; {} sample{}{looks} on {cores} cores: about {} s\n\
+         {} ms per run on one core; {} sample{}{looks} on {cores} cores: about {} s\n\
          {} columns; {parts} file{} of rows: about {}; memory: at most {}\n\
          {failed}",
         if count == 1 { "" } else { "s" },
-        probe.seconds * 1e3,
+        brief(probe.seconds * 1e3),
         plan.rows(),
         if plan.rows() == 1 { "" } else { "s" },
-        short(probe.seconds * plan.rows() as f64 / cores as f64),
+        brief(probe.seconds * plan.rows() as f64 / cores as f64),
         headings(ensemble).len(),
         if parts == 1 { "" } else { "s" },
         bytes(work.disk as u64),
@@ -276,8 +290,7 @@ fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
 fn audit_estimate(ensemble: &Ensemble<'_>) -> String {
     let plan = ensemble.plan();
     if plan.audit_fraction == 0.0 {
-        return "no audit ([audit] fraction = 0.01 or --audit 0.01 compares one sample in a hundred with a reference solution)\n"
-            .to_owned();
+        return "no audit (--audit 0.01 compares one run in a hundred with a reference solution)\n".to_owned();
     }
     let AuditProbe { seconds, count } = match AuditProbe::new(ensemble) {
         Ok(probe) => probe,

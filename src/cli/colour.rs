@@ -23,7 +23,7 @@ const DIM: &str = "\x1b[2m";
 const RESET: &str = "\x1b[0m";
 
 /// Words that are a verdict, with their colour.
-const VERDICTS: [(&str, &str); 8] = [
+const VERDICTS: [(&str, &str); 7] = [
     ("PASS", GREEN),
     ("FAIL", RED),
     ("FAILED", RED),
@@ -31,7 +31,6 @@ const VERDICTS: [(&str, &str); 8] = [
     ("WORSE", RED),
     ("BETTER", GREEN),
     ("UNDECIDED", YELLOW),
-    ("DIFFERENT", YELLOW),
 ];
 
 /// The headings of help texts.
@@ -84,6 +83,8 @@ pub fn is_on(stream: &impl IsTerminal) -> bool {
 
 /// `text` with colour.
 pub fn coloured(text: &str, kind: Kind) -> String {
+    // what follows in an error is as important as its first line
+    let kind = if text.starts_with("error:") { Kind::Result } else { kind };
     text.split_inclusive('\n').map(|line| of_line(line, kind)).collect()
 }
 
@@ -145,8 +146,9 @@ mod tests {
         assert_eq!(found.matches(GREEN).count(), 1, "{found:?}");
         assert!(found.contains(&format!("{BOLD}Usage:{RESET} spindrift")), "{found:?}");
         assert!(found.lines().all(|line| line.matches('\x1b').count() % 3 != 1), "{found:?}");
-        let note = coloured("error: no PASS here\na note\n", Kind::Note);
-        assert_eq!(note, format!("{RED}{BOLD}error:{RESET} no PASS here\n{DIM}a note{RESET}\n"));
+        let error = coloured("error: nothing here\nnor there\n", Kind::Note);
+        assert_eq!(error, format!("{RED}{BOLD}error:{RESET} nothing here\nnor there\n"));
+        assert_eq!(coloured("a note\n", Kind::Note), format!("{DIM}a note{RESET}\n"));
     }
 
     /// Law: with `auto` a terminal has colour and a pipe has none; NO_COLOR and a dumb terminal take it away, an empty NO_COLOR does not; `always` and `never`

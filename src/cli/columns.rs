@@ -1,4 +1,6 @@
-//! `spindrift columns`: the columns of the rows of a result, with unit and meaning.
+//! `spindrift columns`: the groups of columns of the rows of a result, and the columns with unit and meaning.
+
+use std::path::Path;
 
 use crate::campaign::problem::nearest;
 use crate::campaign::{Overrides, Plan};
@@ -8,6 +10,7 @@ use crate::cli::screen;
 use crate::control::outcome::columns::OutcomeColumns;
 use crate::ensemble::Ensemble;
 use crate::observables::{Group, table};
+use crate::report::shell_word::quoted_path;
 use crate::report::text_table::{Align, TextTable};
 use crate::run::Quantity;
 use crate::storage::rows_file::headings;
@@ -24,8 +27,9 @@ pub fn run(options: &ColumnsOptions) -> Result<CommandOutcome, Failure> {
         Some(file) => of_campaign(&plan(file, Overrides::default())?)?,
     };
     let shown = match &options.word {
-        None => sections,
-        Some(word) => found(&sections, word).ok_or_else(|| {
+        None if options.verbose => text(&sections),
+        None => groups(&sections, options.campaign.as_deref()),
+        Some(word) => text(&found(&sections, word).ok_or_else(|| {
             let groups: Vec<&str> = sections.iter().map(|section| section.title.as_str()).collect();
             let words = sections.iter().flat_map(|section| section.columns.iter().map(|(quantity, _)| quantity.name()));
             let meant = nearest(word, words.chain(groups.iter().copied()));
@@ -34,11 +38,67 @@ pub fn run(options: &ColumnsOptions) -> Result<CommandOutcome, Failure> {
                 "{word}: must be a group ({}) or a word in a column's name or meaning{meant}",
                 groups.join(", ")
             ))
-        })?,
+        })?),
     };
-    screen::print(&text(&shown))?;
+    screen::print(&shown)?;
     Ok(CommandOutcome::Done)
 }
+
+/// The groups: how many columns each has, what they are about, and what they need.
+fn groups(sections: &[ColumnSection], campaign: Option<&Path>) -> String {
+    let heads = [("group", Align::Left), ("columns", Align::Right), ("what they are about", Align::Sentence)];
+    let mut table = TextTable::new(heads);
+    for ColumnSection { title, columns } in sections {
+        let (about, needs) = about(title);
+        // a campaign has what its columns need
+        let needs = if needs.is_empty() || campaign.is_some() { String::new() } else { format!(" ({needs})") };
+        table.row([title.clone(), columns.len().to_string(), about.to_owned() + &needs]);
+    }
+    let of = campaign.map_or(String::new(), |file| format!(" --campaign {}", quoted_path(file)));
+    let all: usize = sections.iter().map(|section| section.columns.len()).sum();
+    let mut examples = TextTable::new([("", Align::Title), ("", Align::Sentence)]);
+    for (word, says) in [
+        ("momentum_conservation", "that group: names, units, meanings"),
+        ("pointing", "every column with that word"),
+        ("--verbose", "all of them"),
+    ] {
+        examples.row([format!("spindrift columns {word}{of}"), says.to_owned()]);
+    }
+    format!("{}{all} columns in all\n\n{}", table.text(screen::width()), examples.text(screen::width()))
+}
+
+/// What the columns of a section are about, and what a campaign needs for them.
+fn about(title: &str) -> (&'static str, &'static str) {
+    let Some(group) = Group::from_name(title) else {
+        return match title {
+            SAMPLE => ("number, status, every dispersed value", ""),
+            AUDIT => ("errors against a reference solution", ""),
+            title if [CONTROL, Group::Control.name()].contains(&title) => {
+                ("pointing, phases, launch, filter", "[control]")
+            }
+            _ => ("when events and failures happened", ""),
+        };
+    };
+    match group {
+        Group::EnergyConservation => ("errors of the energy balance", ""),
+        Group::MomentumConservation => ("errors of linear and angular momentum", ""),
+        Group::Attitude => ("orthonormality; angle of s3 from its start", ""),
+        Group::Constraints => ("constraint residuals", "method null_space"),
+        Group::Energies => ("kinetic energy of each body in F_e", ""),
+        Group::EnergiesCom => ("the same about the centre of mass", ""),
+        Group::Exchange => ("energy of body and wheels", "wheels that turn"),
+        Group::FinalState => ("the state at the end", ""),
+        Group::StepStatistics => ("steps and evaluations of the integrator", ""),
+        Group::Numerics => ("estimated numerical errors", ""),
+        Group::Motion => ("rates, nutation, speeds", NAMED),
+        Group::MassProperties => ("mass, principal moments", NAMED),
+        Group::Orbit => ("distance, nadir, torques", NAMED),
+        Group::Control | Group::Events => ("", ""),
+    }
+}
+
+/// What groups need that no campaign observes unless it says so.
+const NAMED: &str = "in observe.groups";
 
 /// The group called `word`; or of all groups the columns with the word in their name, their unit or their meaning. `None` where there is none.
 fn found(sections: &[ColumnSection], word: &str) -> Option<Vec<ColumnSection>> {

@@ -11,7 +11,9 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::refuse_within;
 use crate::cli::screen;
 use crate::cli::terminal::Terminal;
-use crate::report::comparison_text::{self, Compared, ComparedVerdict};
+use crate::report::compared::{Compared, ComparedVerdict};
+use crate::report::summary::EndVerdict;
+use crate::report::{comparison_json, comparison_text};
 use crate::storage::{atomic, described_table};
 use crate::workflow::{Results, Session};
 
@@ -40,44 +42,30 @@ pub fn compared(session: &Session<'_>, options: &CompareOptions) -> Result<(Comm
     let found = first.compare(&second)?;
     let keys = differences(first.plan(), second.plan());
     let verdicts = verdicts([first.end()?.verdicts, second.end()?.verdicts]);
-    let compared = Compared { comparison: &found, keys: &keys, verdicts: &verdicts, tolerance: options.tolerance };
-    let names = [&options.first, &options.second].map(|root| root.display().to_string());
+    let names = &[&options.first, &options.second].map(|root| root.display().to_string());
+    let tolerance = options.tolerance;
+    let plans = [first.plan(), second.plan()];
+    let compared = Compared { names, plans, comparison: &found, keys: &keys, verdicts: &verdicts, tolerance };
     if let Some((path, format)) = options.out.as_deref().zip(format) {
-        let bytes = format.bytes(first.plan(), &found, || comparison_text::json(names.clone(), compared));
+        let bytes = format.bytes(first.plan(), &found, || comparison_json::text(compared));
         let written = bytes.and_then(|bytes| atomic::write_bytes(path, &bytes).map_err(|error| error.to_string()));
         written.map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
     }
-    let is_beyond = options.tolerance.is_some_and(|tolerance| found.is_beyond(tolerance));
-    let verdict = match options.tolerance {
-        Some(tolerance) if is_beyond => format!("\n  FAIL: a shift is beyond {tolerance:?} of the spread\n"),
-        Some(tolerance) => format!("\n  PASS: no shift is beyond {tolerance:?} of the spread\n"),
-        None => String::new(),
-    };
     let worse = verdicts.iter().filter(|one| one.is_worse()).count();
-    let worsened = match worse {
-        0 => String::new(),
-        1 => "\n  FAIL: one verdict is worse than before\n".to_owned(),
-        worse => format!("\n  FAIL: {worse} verdicts are worse than before\n"),
-    };
-    let outcome = match worse + usize::from(is_beyond) {
+    let outcome = match worse + usize::from(tolerance.is_some_and(|tolerance| found.is_beyond(tolerance))) {
         0 => CommandOutcome::Done,
         failed => CommandOutcome::RequirementsFailed(failed),
     };
-    Ok((
-        outcome,
-        format!("{}\n{}{verdict}{worsened}", names.join(" | "), comparison_text::text(compared, screen::width())),
-    ))
+    Ok((outcome, comparison_text::text(compared, options.verbose, screen::width())))
 }
 
 /// The requirements of both results: those of the first in their order, then those that only the second has.
-fn verdicts([first, second]: [Vec<(String, String)>; 2]) -> Vec<ComparedVerdict> {
-    let verdict = |list: &[(String, String)], name: &str| {
-        list.iter().find(|(known, _)| known == name).map(|(_, verdict)| verdict.clone())
-    };
-    let both = first.iter().chain(second.iter().filter(|(name, _)| verdict(&first, name).is_none()));
-    both.map(|(name, _)| ComparedVerdict {
-        requirement: name.clone(),
-        verdicts: [verdict(&first, name), verdict(&second, name)],
+fn verdicts([first, second]: [Vec<EndVerdict>; 2]) -> Vec<ComparedVerdict> {
+    let verdict = |list: &[EndVerdict], name: &str| list.iter().find(|one| one.requirement == name).cloned();
+    let both = first.iter().chain(second.iter().filter(|one| verdict(&first, &one.requirement).is_none()));
+    both.map(|one| ComparedVerdict {
+        requirement: one.requirement.clone(),
+        verdicts: [verdict(&first, &one.requirement), verdict(&second, &one.requirement)],
     })
     .collect()
 }

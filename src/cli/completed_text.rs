@@ -5,12 +5,15 @@ use std::path::Path;
 use crate::cli::screen::width;
 use crate::report::audit_summary::cost;
 use crate::report::number::bytes;
-use crate::report::summary::SummaryEnd;
-use crate::report::text_table::{Align, TextTable};
+use crate::report::summary::{EndVerdict, SummaryEnd};
+use crate::report::verdict_table::{self, VerdictRow};
 use crate::report::wrapped::wrapped;
 use crate::report::{brief_text, drivers_text};
 use crate::storage::names::REPORT;
 use crate::workflow::Completed;
+
+/// Lines of a screen without `--verbose`.
+const SCREEN: usize = 24;
 
 /// The result in words, on one screen or with all that is known of it; `replayed` is the campaign file as a word of the command `simulate`.
 pub fn text(completed: &Completed, replayed: &str, is_verbose: bool) -> String {
@@ -20,7 +23,9 @@ pub fn text(completed: &Completed, replayed: &str, is_verbose: bool) -> String {
         let drivers = drivers_text::text(plan, sensitivities, width());
         summary.text(&drivers, replayed, width()) + &files(completed)
     } else {
-        brief_text::text(plan, summary, sensitivities, replayed, width())
+        // the last line is the verdict
+        let most = SCREEN.saturating_sub(head.lines().count() + 1);
+        brief_text::text(plan, summary, sensitivities, replayed, [most, width()])
     };
     head + &body + &verdict(&completed.end, &completed.root)
 }
@@ -46,10 +51,15 @@ pub fn question(question: Option<&str>) -> String {
 
 /// The warnings and verdicts of a finished result in `root`, and its page.
 pub fn of_end(end: &SummaryEnd, root: &Path) -> String {
-    let mut verdicts = TextTable::new([("", Align::Left), ("", Align::Sentence)]);
-    end.verdicts.iter().for_each(|(one, verdict)| verdicts.row([verdict, one]));
+    let row = |one: &EndVerdict| VerdictRow {
+        word: one.word.clone(),
+        required: one.statement.clone(),
+        found: one.found.clone(),
+        notes: String::new(),
+    };
+    let verdicts: Vec<VerdictRow> = end.verdicts.iter().map(row).collect();
     let warnings: String = end.warnings.iter().map(|one| format!("  {one}\n")).collect();
-    wrapped(&warnings, width()) + &verdicts.text(width()) + &verdict(end, root)
+    wrapped(&warnings, width()) + &verdict_table::text([""; 2], &verdicts, width()) + &verdict(end, root)
 }
 
 /// The last line: the verdict, and the page in `root`, where there is one.

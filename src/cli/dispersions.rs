@@ -7,13 +7,59 @@ use crate::cli::screen::width;
 use crate::ensemble::drawn::{MASS_COLUMNS, magnitudes, mass_properties};
 use crate::ensemble::magnitude::Magnitude;
 use crate::ensemble::{DrawnScenes, Percentiles};
-use crate::report::number::short;
+use crate::report::number::{short, trimmed};
 use crate::report::origin_text::{origin, unit_of};
 use crate::report::text_table::{Align, TextTable};
+use crate::report::wrapped::wrapped;
 use crate::sampling::{Design, Replaced, SampleId};
 
 /// Draws behind the percentiles: the 1% and 99% lie within a tenth of the distribution's width of their true places.
 const DRAWS: u64 = 10_000;
+
+/// Nominal value and distribution of each dispersed parameter, a line each: its components together where they have one distribution.
+///
+/// # Errors
+/// What writing to `text` returns.
+pub fn list(text: &mut String, plan: &Plan) -> std::fmt::Result {
+    let columns = plan.dispersions.columns();
+    if columns.is_empty() {
+        return writeln!(text, "{NONE}");
+    }
+    let mut table = TextTable::new([("", Align::Title), ("", Align::Sentence)]);
+    let (mut first, mut lines) = (0, String::new());
+    while first < columns.len() {
+        let (parameter, said) = (columns[first].parameter, origin(plan, first));
+        let is_alike = |index: &usize| columns[*index].parameter == parameter && origin(plan, *index) == said;
+        let count = (first..columns.len()).take_while(is_alike).count();
+        let of_group = &columns[first..first + count];
+        let suffix = |index: usize| parameter.components()[of_group[index].component];
+        let name = match count == parameter.width() {
+            true => parameter.name(),
+            false => format!("{}.{}", parameter.name(), (0..count).map(suffix).collect::<Vec<_>>().join(", ")),
+        };
+        let shown = unit_of(plan, first);
+        let mut nominal: Vec<String> = of_group.iter().map(|one| trimmed(shown.value(one.nominal), 6)).collect();
+        // components that are all the same are said once
+        if nominal.iter().all(|one| *one == nominal[0]) {
+            nominal.truncate(1);
+        }
+        let nominal = if nominal.len() == 1 { nominal.concat() } else { format!("[{}]", nominal.join(", ")) };
+        // the distribution mostly says the unit
+        let (unit, ends) = (format!(" {}", shown.unit), |rest: &str| rest.is_empty() || rest.starts_with([' ', ',']));
+        let is_said = said.match_indices(&unit).any(|(at, _)| ends(&said[at + unit.len()..]));
+        let unit = if is_said { "" } else { unit.trim_end() };
+        let said = format!("{said}, nominal {nominal}{unit}");
+        lines += &wrapped(&format!("  {name}  {said}\n"), width());
+        table.row([name, said]);
+        first += count;
+    }
+    // rather close to each other than in several lines each
+    text.push_str(&if table.width() > width() { lines } else { table.text(width()) });
+    correlations(text, plan)
+}
+
+/// What is said where nothing is dispersed.
+const NONE: &str = "none: every sample is the nominal scene";
 
 /// Nominal value, percentiles of the draws, and distribution of each dispersed number, to `text`; draws again for that.
 ///
@@ -33,7 +79,7 @@ pub fn table(text: &mut String, plan: &Plan) -> std::fmt::Result {
 pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt::Result {
     let columns = plan.dispersions.columns();
     if columns.is_empty() {
-        return writeln!(text, "none: every sample is the nominal scene");
+        return writeln!(text, "{NONE}");
     }
     if *plan.dispersions.design() != Design::DEFAULT {
         let dimensions = plan.dispersions.dimensions().len();
@@ -43,11 +89,15 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
     let magnitudes = magnitudes(plan);
     let names: Vec<String> = of_columns.chain(magnitudes.iter().map(|magnitude| magnitude.name())).collect();
     let column_of = |magnitude: &Magnitude| columns.iter().position(|column| column.parameter == magnitude.parameter);
-    let of_magnitudes = magnitudes.iter().map(|magnitude| column_of(magnitude).unwrap_or(0));
-    let units: Vec<ShownUnit> = (0..columns.len()).chain(of_magnitudes).map(|column| unit_of(plan, column)).collect();
+    let of_magnitude = |magnitude: &Magnitude| match column_of(magnitude) {
+        Some(column) if magnitude.unit() == magnitude.parameter.unit() => unit_of(plan, column),
+        _ => plan.analysis.display.of(&magnitude.name(), magnitude.unit()),
+    };
+    let of_columns = (0..columns.len()).map(|column| unit_of(plan, column));
+    let units: Vec<ShownUnit> = of_columns.chain(magnitudes.iter().map(of_magnitude)).collect();
     writeln!(text, "percentiles of {} draws (sample 0 is nominal)", drawn.count())?;
     let mut table = TextTable::new([
-        ("parameter", Align::Left),
+        ("parameter", Align::Title),
         ("unit", Align::Left),
         ("nominal", Align::Right),
         ("1%", Align::Right),
@@ -68,6 +118,11 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
     if !drawn.is_exact() {
         writeln!(text, "percentiles of so many draws are within 0.05% of their distance from the nominal value")?;
     }
+    correlations(text, plan)
+}
+
+/// The parameters that are correlated, and the matrices that are used in place of those that no numbers have.
+fn correlations(text: &mut String, plan: &Plan) -> std::fmt::Result {
     for correlation in &plan.correlated {
         let name = |(parameter, component): &(crate::scene::Parameter, Option<usize>)| match component {
             Some(component) => parameter.component_name(*component),

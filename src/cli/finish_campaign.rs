@@ -6,6 +6,7 @@ use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::terminal::Terminal;
 use crate::cli::{completed_text, screen};
 use crate::report::shell_word::quoted_path;
+use crate::report::wrapped::wrapped;
 use crate::storage::names::PLAN;
 use crate::workflow::finishing::finish;
 use crate::workflow::{Finished, Outputs, Session};
@@ -34,11 +35,8 @@ pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
         ),
         Finished::Already(end) => (
             CommandOutcome::of_end(&end),
-            format!(
-                "{}: already finished, every checksum verified\n{}",
-                root.display(),
-                completed_text::of_end(&end, root)
-            ),
+            wrapped(&format!("{}: already finished, every checksum verified\n", root.display()), screen::width())
+                + &completed_text::of_end(&end, root),
         ),
     };
     screen::print(&text)?;

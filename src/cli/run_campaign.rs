@@ -12,6 +12,7 @@ use crate::cli::signals;
 use crate::cli::terminal::Terminal;
 use crate::cli::workload::Workload;
 use crate::report::shell_word::quoted_path;
+use crate::report::wrapped::wrapped;
 use crate::storage::claim::Shard;
 use crate::storage::names::PLAN;
 use crate::workflow::failed_samples::FailedRun;
@@ -44,14 +45,15 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
                 CommandOutcome::SomeFailed(_) if end.failed > 0 => format!(", {} of them failed", end.failed),
                 _ => String::new(),
             };
-            screen::print(&format!(
-                "{}{}: already complete in {} ({} samples{failed}), every checksum verified; nothing to do. --overwrite runs it again.\n{}",
-                completed_text::question(plan.description.as_deref()),
+            let there = format!(
+                "{}: already complete in {} ({} samples{failed}), every checksum verified; nothing to do. --overwrite runs it again.\n",
                 plan.name,
                 campaign.named().display(),
                 end.rows,
-                completed_text::of_end(&end, root),
-            ))?;
+            );
+            let question = completed_text::question(plan.description.as_deref());
+            let verdicts = completed_text::of_end(&end, root);
+            screen::print(&format!("{question}{}{verdicts}", wrapped(&there, screen::width())))?;
             // the verdicts are those of the campaign, not of a shard
             Ok(if options.shard.is_some() { CommandOutcome::Done } else { outcome })
         }

@@ -12,7 +12,6 @@ use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::report::drawn_columns::DrawnColumns;
 use crate::report::drawn_figure::drawn_figure;
 use crate::report::image::{PlotError, PlotFormat};
-use crate::report::wrapped::wrapped;
 use crate::sampling::SampleId;
 use crate::storage::drawn_table;
 use crate::storage::table::{TableError, TableFormat};
@@ -49,7 +48,7 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     let mut text = String::new();
     dispersions::table_of(&mut text, &plan, &percentiles).map_err(Failure::files)?;
     screen::print(&text)?;
-    plan.notes().iter().for_each(|note| screen::note(&wrapped(note, screen::width())));
+    plan.notes().iter().for_each(|note| screen::note(note));
     if percentiles.invalid() > 0 {
         screen::note(&format!(
             "{} of {} samples are not physical: their status would be invalid_sample",

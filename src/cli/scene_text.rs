@@ -23,6 +23,20 @@ fn vector(v: [f64; 3]) -> String {
     format!("[{}]", v.map(six).join(", "))
 }
 
+/// Mass and principal moments of the spacecraft in a line.
+pub fn in_short(scene: &Scene) -> String {
+    let (moments, _) = principal_axes(scene.mass.inertia);
+    format!("spacecraft: {} kg, principal moments {} kg m^2", six(scene.mass.total), vector(moments))
+}
+
+/// The angular momentum of the spacecraft about its centre of mass at the start, in F_s.
+fn momentum(scene: &Scene) -> [f64; 3] {
+    let (mass, initial) = (&scene.mass, &scene.initial);
+    let body = product(mass.inertia, initial.omega_se_s);
+    let wheels = mass.wheels.iter().zip(initial.wheel_rates);
+    wheels.fold(body, |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
+}
+
 /// Masses, centre of mass, inertia, principal axes, with the convention, and what contributes most.
 pub fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> Result {
     let names = input.turning_wheels();
@@ -60,12 +74,9 @@ pub fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> R
 /// Angular momenta at the start about the centre of mass, those of the wheels, and the torque of each thruster at one newton.
 pub fn momenta(text: &mut String, input: &SceneInput, scene: &Scene, display: &Display) -> Result {
     let (mass, initial) = (&scene.mass, &scene.initial);
-    let mut total = product(mass.inertia, initial.omega_se_s);
+    let total = momentum(scene);
     let wheels: Vec<f64> =
         mass.wheels.iter().zip(initial.wheel_rates).map(|(wheel, rate)| wheel.axial * rate).collect();
-    for (wheel, momentum) in mass.wheels.iter().zip(&wheels) {
-        total = sum(total, scaled(*momentum, wheel.axis));
-    }
     writeln!(
         text,
         "angular momentum of the spacecraft about its centre of mass, in F_s: {} N m s, of magnitude {}",
@@ -152,7 +163,7 @@ mod tests {
         let mut text = String::new();
         rows(&mut text, [[4.0, 8.7e-19, 1e-9], [8.7e-19, 4.5, 0.0], [1e-9, 0.0, 3.0]]);
         let words: Vec<&str> = text.split_whitespace().collect();
-        let small = "1.00000e-9";
+        let small = "1e-9";
         assert_eq!(words, ["4", "0", small, "0", "4.5", "0", small, "0", "3"]);
     }
 

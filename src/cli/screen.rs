@@ -1,10 +1,11 @@
 //! Printing. Characters of files and names that a terminal would obey are shown as escapes. The standard macros panic where the reader has closed the pipe (`spindrift check x | head`); these do not.
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 
 use crate::campaign::excerpt::printable;
 use crate::cli::colour::{self, Kind, coloured};
-use crate::cli::machine::terminal_width;
+use crate::cli::machine::{Stream, terminal_width};
+use crate::report::wrapped::message;
 
 /// Prints a result on standard output.
 ///
@@ -26,14 +27,21 @@ const UNKNOWN_WIDTH: usize = 100;
 /// Number of characters in a line of standard output: as the variable COLUMNS says (POSIX.1-2017, section 8.3), else as the terminal says,
 /// else 100.
 pub fn width() -> usize {
+    width_of(&io::stdout())
+}
+
+/// The same of another stream.
+fn width_of(stream: &impl Stream) -> usize {
     let asked = std::env::var("COLUMNS").ok().and_then(|text| text.trim().parse().ok());
-    asked.filter(|width| *width > 0).or_else(terminal_width).unwrap_or(UNKNOWN_WIDTH)
+    asked.filter(|width| *width > 0).or_else(|| terminal_width(stream)).unwrap_or(UNKNOWN_WIDTH)
 }
 
 /// Prints a message on standard error; failure to write it is ignored.
 pub fn note(text: &str) {
     let mut out = io::stderr().lock();
     let text = printable(text);
+    // a pipe gets lines as they are
+    let text = if out.is_terminal() { message(&text, width_of(&out)).into() } else { text };
     let text = if colour::is_on(&out) { coloured(&text, Kind::Note).into() } else { text };
     let _ = writeln!(out, "{text}");
 }

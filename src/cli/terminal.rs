@@ -1,7 +1,6 @@
 //! [`Terminal`]: what a command tells while it works: notes, and on a terminal a bar with rate and remaining time. Signals stop it.
 
 use std::fmt::Write;
-use std::io::IsTerminal;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -9,7 +8,6 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::cli::signals::{self, Signals};
 use crate::cli::{completed_text, screen, signals::asked};
-use crate::report::wrapped::wrapped;
 use crate::workflow::Watch;
 
 /// Redraws per second; progress is reported far more often.
@@ -34,9 +32,7 @@ impl Terminal {
 
 impl Watch for Terminal {
     fn note(&self, text: &str) {
-        // a pipe gets lines as they are, and commands stay whole, to be copied
-        let is_wrapped = std::io::stderr().is_terminal() && !text.contains("spindrift ");
-        screen::note(&if is_wrapped { wrapped(text, screen::width()) } else { text.to_owned() });
+        screen::note(text);
     }
 
     /// From now on signals stop the work, and not at once the program.

@@ -44,7 +44,7 @@ pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
         })),
         None if columns.is_empty() => {}
         None => {
-            notes.push("which dispersions change a column was not tried: the runs fail or take too long".to_owned());
+            notes.push("not tried: whether each dispersion changes a column (runs fail or take too long)".to_owned());
         }
     }
     notes

@@ -22,9 +22,14 @@ impl Magnitude {
     pub fn name(self) -> String {
         let name = self.parameter.name();
         match self.parameter.shape() {
-            Shape::Quaternion => format!("{name}: angle from nominal (rad)"),
+            Shape::Quaternion => format!("{name}, angle from nominal"),
             _ => format!("|{name}|"),
         }
+    }
+
+    /// Its SI unit.
+    pub fn unit(self) -> &'static str {
+        if self.parameter.shape() == Shape::Quaternion { "rad" } else { self.parameter.unit() }
     }
 
     /// Its value in `scene`, SI, where `nominal` is the nominal scene; NaN where a scene has no such key. The angle is

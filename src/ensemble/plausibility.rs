@@ -25,6 +25,12 @@ const FAST_WHEEL: f64 = 12_000.0 * TAU / 60.0;
 const HEAVY: f64 = 3000.0;
 /// How far the principal axis may be off s3 without a note, degrees.
 const OBLIQUE_DEG: f64 = 0.1;
+/// A duration from which on it is noted, s: ten years of 365.25 days.
+const LONG: f64 = 10.0 * YEAR;
+/// A year of 365.25 days, s.
+const YEAR: f64 = 365.25 * 86_400.0;
+/// More observation points than these nobody asks for.
+const MANY_POINTS: f64 = 1e7;
 /// A relative spread from which on it is noted.
 const WIDE: f64 = 0.5;
 
@@ -75,6 +81,12 @@ pub fn implausible(plan: &Plan) -> Vec<String> {
         notes.extend(Capacity::of(spec, &scene).notes(spec));
     }
     let duration = plan.grid.duration();
+    if duration >= LONG {
+        let years = digits(duration / YEAR);
+        let note =
+            format!("campaign.duration_s = {}: that is {years} years; usual are seconds to days", digits(duration));
+        notes.insert(0, note);
+    }
     let late = plan.nominal.actuation.iter().position(|arc| arc.start_s >= duration);
     notes.extend(late.map(|arc| {
         format!(
@@ -107,9 +119,13 @@ fn coarse_grid(plan: &Plan) -> Option<String> {
     let rate = norm(plan.nominal.initial.angular_velocity_rad_s);
     let turn = rate * step;
     (turn >= core::f64::consts::PI).then(|| {
-        let enough = libm::ceil(rate * plan.grid.duration() / core::f64::consts::PI * 4.0) as u64 + 1;
+        let enough = libm::ceil(rate * plan.grid.duration() / core::f64::consts::PI * 4.0) + 1.0;
+        let remedy = match enough < MANY_POINTS {
+            true => format!("{enough} points see an eighth of a turn"),
+            false => "no number of points is enough for so many turns".to_owned(),
+        };
         format!(
-            "observe.points = {}: the body makes {} turns from one point to the next, and extremes in between are missed; {enough} points see an eighth of a turn",
+            "observe.points = {}: the body makes {} turns from one point to the next, and extremes in between are missed; {remedy}",
             plan.grid.points(),
             digits(turn / TAU)
         )

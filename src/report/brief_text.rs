@@ -10,8 +10,9 @@ use crate::report::observable_lines::{ObservableLine, QuantileLine};
 use crate::report::share_text::with_interval;
 use crate::report::summary::Summary;
 use crate::report::text_table::{Align, TextTable};
+use crate::report::verdict_table::{self, VerdictRow};
 use crate::report::wrapped::wrapped;
-use crate::report::{drivers_text, mission_text, names, requirements, warnings};
+use crate::report::{drivers_text, mission_text, names, requirements, summary_text, warnings};
 use crate::statistics::binomial::Decision;
 use crate::statistics::quantile::percent;
 
@@ -20,30 +21,41 @@ const DRIVEN: usize = 3;
 /// Most quantiles beside the median.
 const MOST_QUANTILES: usize = 2;
 
-/// The text for lines of `width` characters. `file` is the campaign as a word of the commands that show a run.
-pub fn text(plan: &Plan, summary: &Summary, all: &[InputSensitivity], file: &str, width: usize) -> String {
-    let mut text = wrapped(&warnings::text(&summary.warnings), width);
+/// The text for at most `most` lines of `width` characters, where outcomes can be left out for that. `file` is the campaign as a word of the commands that show a run.
+pub fn text(plan: &Plan, summary: &Summary, all: &[InputSensitivity], file: &str, [most, width]: [usize; 2]) -> String {
+    let mut text = wrapped(warnings::text(&summary.warnings).trim_start_matches('\n'), width);
+    let is_warned = !summary.warnings.is_empty();
     text += &requirements_table(summary, width);
     if let Some((_, stop)) = &summary.stopping {
         text += &wrapped(&format!("  stop: {stop}\n"), width);
     }
     let failures = summary.why_failed();
-    text += &wrapped(&failures, width);
+    // below a warning of them they need no title
+    text += &wrapped(if is_warned { summary_text::untitled(&failures) } else { &failures }, width);
     let is_required = summary.verdicts.list.iter().any(|one| one.requirement.observable() == Some("launched"));
-    text += &wrapped(&mission_text::brief(&summary.missions, is_required), width);
+    text += &wrapped(&mission_text::brief(&summary.missions, is_required, is_warned), width);
     text += &wrapped(&summary.noted(), width);
-    let outcomes = outcomes(summary, width);
-    if !text.is_empty() && !outcomes.is_empty() {
-        text.push('\n');
-    }
-    text += &outcomes;
-    text += &wrapped(&drivers(plan, summary, all), width);
+    let mut end = wrapped(&drivers(plan, summary, all), width);
     if let Some(audit) = &summary.audit {
-        text += &wrapped(&audit.coverage(), width);
+        end += &wrapped(&audit.coverage(), width);
     }
     // commands stay whole, to be copied
-    if failures.is_empty() { text } else { text + &summary.first_failures(file) }
+    if !failures.is_empty() {
+        end += &summary.first_failures(file);
+    }
+    let gap = if text.is_empty() { "" } else { "\n" };
+    let room = most.saturating_sub([&text, gap, &end].map(|part| part.matches('\n').count()).iter().sum::<usize>());
+    let mut outcomes = outcomes(summary, usize::MAX, width);
+    if outcomes.lines().count() > room {
+        // the line that counts those that are left out
+        let others = outcomes.lines().count() - summary.outcomes().len() + 1;
+        outcomes = self::outcomes(summary, room.saturating_sub(others).max(LEAST_OUTCOMES), width);
+    }
+    if outcomes.is_empty() { text + &end } else { text + gap + &outcomes + &end }
 }
+
+/// Outcomes that are shown however many lines there are.
+const LEAST_OUTCOMES: usize = 2;
 
 /// A line for each requirement.
 fn requirements_table(summary: &Summary, width: usize) -> String {
@@ -63,25 +75,21 @@ fn requirements_table(summary: &Summary, width: usize) -> String {
     } else {
         found.to_owned()
     };
-    let longest = list.iter().map(|one| one.word().len()).max().unwrap_or(0);
-    // where a table is too wide, what was found is below what is required
-    let mut lines = format!("  {:longest$}  {head}: {of}\n", "");
-    let heads =
-        [(String::new(), Align::Left), (head, Align::Left), (of, Align::Left), (String::new(), Align::Sentence)];
-    let mut table = TextTable::new(heads);
-    for one in list {
+    let row = |one: &Assessment| {
         let confidence = match is_common {
             true => String::new(),
             false => format!(" ({}% confidence)", percent(one.requirement.confidence)),
         };
         let assumed = requirements::assumed(one);
         let notes: Vec<&str> = one.reason.iter().chain(&assumed).chain(&one.note).map(String::as_str).collect();
-        let [word, required, found] =
-            [one.word().to_owned(), requirements::statement(one) + &confidence, requirements::estimate(one)];
-        let said = [&[found.as_str()], &notes[..]].concat().join("; ");
-        lines += &wrapped(&format!("  {word:longest$}  {required}\n  {:longest$}    {said}\n", ""), width);
-        table.row([word, required, found, notes.join("; ")]);
-    }
+        VerdictRow {
+            word: one.word().to_owned(),
+            required: requirements::statement(one) + &confidence,
+            found: requirements::estimate(one),
+            notes: notes.join("; "),
+        }
+    };
+    let rows: Vec<VerdictRow> = list.iter().map(row).collect();
     let needed = list.iter().filter_map(|one| match one.gate.decision {
         Decision::Undecided(runs) => runs,
         _ => None,
@@ -89,19 +97,21 @@ fn requirements_table(summary: &Summary, width: usize) -> String {
     let needed = needed.max().map_or(String::new(), |runs| {
         format!("  about {runs} runs should decide what is undecided (9 of 10 such campaigns would)\n")
     });
-    let text = if table.width_of(3) > width { lines } else { table.text(width) };
-    text + &wrapped(&needed, width)
+    verdict_table::text([&head, &of], &rows, width) + &wrapped(&needed, width)
 }
 
 fn in_brackets(summary: &Summary) -> String {
     format!("[{}%]", percent(summary.confidence))
 }
 
-/// The table of outcomes: those that the file names, or those of the motion.
-fn outcomes(summary: &Summary, width: usize) -> String {
-    let shown = summary.outcomes();
+/// The table of the first `most` outcomes: those that the file names, or those of the motion.
+fn outcomes(summary: &Summary, most: usize, width: usize) -> String {
+    let mut shown = summary.outcomes();
+    shown.retain(|line| !is_stated(summary, line));
+    let left = shown.len().saturating_sub(most);
+    shown.truncate(most);
     if shown.is_empty() || shown.iter().all(|line| line.is_empty()) {
-        return if summary.is_computed() {
+        return if summary.is_computed() || !summary.warnings.is_empty() {
             String::new()
         } else {
             "  no statistics: no dispersed run was computed\n".to_owned()
@@ -137,14 +147,21 @@ fn outcomes(summary: &Summary, width: usize) -> String {
         true => format!("  {}\n", summary.treatment),
         false => String::new(),
     };
-    table.text(width) + &note + &treatment
+    let more = match left {
+        0 => String::new(),
+        1 => "  and 1 more outcome; --verbose shows all\n".to_owned(),
+        left => format!("  and {left} more outcomes; --verbose shows all\n"),
+    };
+    table.text(width) + &more + &note + &treatment
 }
 
 /// A row for each of `shown`, with the quantiles `ps` beside the median, and their intervals where these are wanted.
 fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64], with_intervals: bool) -> TextTable {
     let has_counts = shown.iter().any(|line| line.without_value > 0);
-    let title = if summary.without_nominal { "outcome" } else { "outcome of the nominal run" };
-    let mut heads = vec![(title.to_owned(), Align::Left)];
+    if !summary.without_nominal {
+        return nominal_table(shown);
+    }
+    let mut heads = vec![("outcome".to_owned(), Align::Left)];
     if has_counts {
         heads.push(("runs".to_owned(), Align::Right));
     }
@@ -154,9 +171,8 @@ fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64], with_
     heads.extend(ps.iter().map(|p| (format!("p{}{interval}", percent(*p)), Align::Right)));
     heads.push(("max".to_owned(), Align::Right));
     let mut table = TextTable::new(heads);
-    for line in shown.iter().filter(|line| !is_stated(summary, line)) {
-        let unit = if line.shown.unit.is_empty() { String::new() } else { format!(", {}", line.shown.unit) };
-        let mut cells = vec![names::of_column(&line.name, &line.unit) + &unit];
+    for line in shown {
+        let mut cells = vec![name(line)];
         if has_counts {
             cells.push(line.count.to_string());
         }
@@ -180,9 +196,24 @@ fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64], with_
     table
 }
 
-/// Whether the verdict on the share of runs says all of this outcome: it is yes or no.
+/// What an outcome is called, with the unit in which it is shown.
+fn name(line: &ObservableLine) -> String {
+    let unit = if line.shown.unit.is_empty() { String::new() } else { format!(", {}", line.shown.unit) };
+    names::of_column(&line.name, &line.unit) + &unit
+}
+
+/// The outcomes of a nominal run alone, which has one value of each.
+fn nominal_table(shown: &[&ObservableLine]) -> TextTable {
+    let mut table = TextTable::new([("outcome of the nominal run", Align::Left), ("value", Align::Right)]);
+    for line in shown {
+        table.row([name(line), line.max.map_or("-".to_owned(), |value| brief(line.shown.value(value)))]);
+    }
+    table
+}
+
+/// Whether the verdict on the share of runs says all of this outcome: it is yes or no. Of few runs a quantile lies between both.
 fn is_stated(summary: &Summary, line: &ObservableLine) -> bool {
-    line.share_of_yes().is_some()
+    (line.is_yes_or_no() || line.name == "launched")
         && summary.verdicts.list.iter().any(|one| one.requirement.observable() == Some(&line.name))
 }
 
@@ -221,8 +252,9 @@ fn drivers(plan: &Plan, summary: &Summary, all: &[InputSensitivity]) -> String {
     });
     let failed = mission_text::all_failed(&summary.missions).map(|why| format!("  what drives failures: {why}\n"));
     let said: String = failed.into_iter().chain(said.take(most)).collect();
-    match (said.is_empty(), all.is_empty()) {
-        (true, false) => format!("  no significant driver found in {} runs\n", summary.samples),
-        _ => said,
+    let computed = summary.statuses.ok();
+    match said.is_empty() && !all.is_empty() && summary.without_nominal && summary.warnings.is_empty() {
+        true => format!("  no significant driver found in {computed} runs\n"),
+        false => said,
     }
 }

@@ -9,9 +9,7 @@ const MOST: usize = 8;
 /// What can be done about runs that end with a status; `None` where the reason says it.
 pub fn remedy(status: Status) -> Option<&'static str> {
     match status {
-        Status::StepLimit => {
-            Some("to fix: increase integrator.max_steps or integrator.tolerance, or shorten campaign.duration_s")
-        }
+        Status::StepLimit => Some("to fix: increase integrator.max_steps or integrator.tolerance"),
         Status::StepFloor => Some("to fix: increase integrator.tolerance"),
         Status::Inaccurate => Some("to fix: decrease integrator.tolerance or integrator.step_s"),
         _ => None,

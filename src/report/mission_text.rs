@@ -64,11 +64,12 @@ pub fn all_failed(missions: &Missions) -> Option<String> {
     (runs > 1 && all_do).then(|| format!("all {runs} missions fail, so no input decides which do"))
 }
 
-/// How missions ended in one sentence: the share that launched or did not fail, unless `is_stated` (a verdict says it), and how many ended in another way.
-pub fn brief(missions: &Missions, is_stated: bool) -> String {
+/// How missions ended in one sentence: the share that launched or did not fail, unless `is_stated` (a verdict says it), and how many ended in another way. `is_said`: a warning says how many were
+/// not computed.
+pub fn brief(missions: &Missions, is_stated: bool, is_said: bool) -> String {
     let Some(MissionShare { missing, .. }) = missions.first() else { return String::new() };
     let is_good = |one: &&MissionShare| ["launched", "not_failed"].contains(&one.end);
-    let good = missions.iter().find(is_good).filter(|_| !is_stated || *missing > 0);
+    let good = missions.iter().find(is_good).filter(|_| !is_stated || *missing > 0 && !is_said);
     let good = good.map(|one| {
         let word = if one.end == "launched" { "launched" } else { "did not fail" };
         format!("{} {word}", share(one))
@@ -78,7 +79,7 @@ pub fn brief(missions: &Missions, is_stated: bool) -> String {
         format!("{} {}", one.count, words.strip_suffix(" at the end of the run").unwrap_or(&words))
     };
     let others = missions.iter().filter(|one| !is_good(one)).map(of_others);
-    let not_computed = (*missing > 0).then(|| format!("{missing} not computed"));
+    let not_computed = (*missing > 0 && !is_said).then(|| format!("{missing} not computed"));
     if let [MissionShare { end: "not_failed", runs, missing: 0, .. }] = missions[..] {
         return format!("  missions: none of {runs} failed\n");
     }
@@ -121,7 +122,7 @@ mod tests {
         let late = MissionShare { phases: vec![phase("coast", 7)], ..share("timeout", 7, [f64::NAN; 2]) };
         assert_eq!(ended(&late), "failed: a phase took too long (coast)");
         let late = MissionShare { phases: vec![phase("coast", 4), phase("align", 3)], ..late };
-        assert_eq!(brief(&vec![late], true), "  missions: 7 failed: a phase took too long (coast 4, align 3)\n");
+        assert_eq!(brief(&vec![late], true, false), "  missions: 7 failed: a phase took too long (coast 4, align 3)\n");
         assert!(found.contains("214 of 300 runs were not computed"), "{found}");
         // no input decides which fail where all do, in whatever way
         let failed = vec![share("timeout", 150, [f64::NAN; 2]), share("keep_out", 50, [f64::NAN; 2])];

@@ -22,12 +22,14 @@ const STATISTICS: [(&str, [&str; 2]); 9] = [
 const DURATIONS: [&str; 5] = ["settling_time", "mission_settling_time", "plume_time", "rod_saturated_time", "end_time"];
 
 /// Parts of names that nobody would say so.
-const SAID: [(&str, &str); 5] = [
+const SAID: [(&str, &str); 7] = [
     ("dcm ", "rotation matrix "),
     ("nees", "NEES"),
     ("q es ", "attitude quaternion "),
     ("ill conditioned", "ill-conditioned"),
     ("orthonormality", "orthonormality error"),
+    ("torque saturated", "time at the limit of motor torque"),
+    ("speed saturated", "time at the limit of wheel speed"),
 ];
 
 /// `name` without the `unit` at its end.
@@ -197,6 +199,8 @@ mod tests {
             ("impulse_total_n_s", "N s", "total impulse"),
             ("pointing_error_final_rad", "rad", "pointing error at the end"),
             ("settling_time_s", "s", "settling time"),
+            ("torque_saturated_s", "s", "time at the limit of motor torque"),
+            ("speed_saturated_s", "s", "time at the limit of wheel speed"),
             ("detumbled_time_s", "s", "time until detumbled"),
             ("highest_from_120_s_to_600_s_pointing_error_rad", "rad", "highest pointing error from 120 s to 600 s"),
             ("highest_from_120_s_pointing_error_rad", "rad", "highest pointing error from 120 s"),

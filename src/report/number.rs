@@ -55,10 +55,10 @@ pub fn outward([low, high]: [f64; 2], digits: i32) -> [f64; 2] {
 /// The same without zeros at the end of its decimals.
 pub fn trimmed(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
-    if text.contains('.') && !text.contains('e') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
+    let (number, power) = text.split_at(text.find('e').unwrap_or(text.len()));
+    match number.contains('.') {
+        true => number.trim_end_matches('0').trim_end_matches('.').to_owned() + power,
+        false => text,
     }
 }
 
@@ -100,6 +100,8 @@ mod tests {
             (0.5, "0.5"),
             (3.0, "3"),
             (1.234_567_8e-9, "1.23457e-9"),
+            (1e30, "1e30"),
+            (-1.5e-4, "-1.5e-4"),
         ] {
             assert_eq!(trimmed(value, 6), text);
         }

@@ -106,12 +106,16 @@ impl ObservableLine {
         self.quantiles.iter().any(|one| ps.contains(&one.p) && one.interval != [None; 2])
     }
 
-    /// The share of runs with 1, where no run has another number than 0 and 1, and both may be.
-    pub fn share_of_yes(&self) -> Option<f64> {
+    /// Whether no run has another number than 0 and 1.
+    pub fn is_yes_or_no(&self) -> bool {
         let is_whole = |value: f64| value == 0.0 || value == 1.0;
-        let ends = [self.min?, self.max?];
-        let mut values = self.quantiles.iter().filter_map(|one| one.value).chain(ends);
-        (self.unit.is_empty() && values.all(is_whole)).then_some(self.mean?)
+        let values = self.quantiles.iter().filter_map(|one| one.value).chain(self.min).chain(self.max);
+        self.unit.is_empty() && self.min.is_some() && values.into_iter().all(is_whole)
+    }
+
+    /// The share of runs with 1, where no run has another number than 0 and 1.
+    pub fn share_of_yes(&self) -> Option<f64> {
+        self.mean.filter(|_| self.is_yes_or_no())
     }
 
     fn quantile(&self, p: f64) -> Option<&QuantileLine> {

@@ -1,7 +1,7 @@
 //! Where the values of a dispersed number come from, in words.
 
 use crate::campaign::{Plan, ShownUnit};
-use crate::report::number::short;
+use crate::report::number::trimmed;
 use crate::sampling::NumberWords;
 
 /// The unit in which the dispersed number `column` of `plan` is shown.
@@ -14,9 +14,12 @@ pub fn unit_of(plan: &Plan, column: usize) -> ShownUnit {
 /// The distribution of the dispersed number `column` of `plan`, in the unit in which it is shown; or what gives its values.
 pub fn origin(plan: &Plan, column: usize) -> String {
     let shown = unit_of(plan, column);
-    let amount = |value: f64| format!("{} {}", short(shown.value(value)), shown.unit).trim_end().to_owned();
+    let number = |value: f64| trimmed(value, 4);
+    let amount = |value: f64| format!("{} {}", number(shown.value(value)), shown.unit).trim_end().to_owned();
+    let of_angles = plan.analysis.display.of(&plan.dispersions.columns()[column].parameter.name(), "rad");
+    let angle = |value: f64| format!("{} {}", number(of_angles.value(value)), of_angles.unit);
     if let Some(distribution) = plan.dispersions.distribution_of(column) {
-        distribution.text(NumberWords { amount: &amount, number: &short })
+        distribution.text(NumberWords { amount: &amount, angle: &angle, number: &number })
     } else if let Some(expression) = plan.dispersions.expression_of(column) {
         format!("= {expression}")
     } else if plan.dispersions.is_tabled(column) {
@@ -42,7 +45,7 @@ mod tests {
         let names = |column: usize| plan.dispersions.columns()[column].parameter.name();
         let of =
             |name: &str| (0..plan.dispersions.columns().len()).find(|column| names(*column) == name).expect("a column");
-        assert_eq!(origin(&plan, of("wheels.w1.tilt_rad")), "gamma, shape 2, scale 0.1000 deg, from 0 deg");
+        assert_eq!(origin(&plan, of("wheels.w1.tilt_rad")), "gamma, shape 2, scale 0.1 deg, from 0 deg");
         let spin = origin(&plan, of("initial.angular_velocity_rad_s"));
         assert!(spin.ends_with("magnitude uniform, 1 deg/s to 6 deg/s"), "{spin}");
     }

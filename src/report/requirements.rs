@@ -224,6 +224,8 @@ pub fn json(verdicts: &Verdicts) -> Value {
         json!({
             "requirement": one.sentence(),
             "verdict": one.word(),
+            "in_short": self::statement(one),
+            "found": self::estimate(one),
             "observable": requirement.observable(),
             "band": requirement.band().map(|band| json!({
                 "quantity": band.series,

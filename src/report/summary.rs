@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
+use crate::analysis::assessment::Assessment;
 use crate::analysis::ending::Ending;
 use crate::analysis::missions::{MissionShare, Missions};
 use crate::analysis::outcomes::named;
@@ -179,6 +180,19 @@ impl Summary {
     }
 }
 
+/// A requirement with its verdict.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct EndVerdict {
+    /// The requirement as a sentence.
+    pub requirement: String,
+    /// `PASS`, `FAIL` or `UNDECIDED`.
+    pub word: String,
+    /// The requirement in a few words: "pointing error at launch <= 2 deg in 95%".
+    pub statement: String,
+    /// What was found, with its interval: "97.7% [95.3, 99.1]".
+    pub found: String,
+}
+
 /// How a campaign ended, as its rows and its summary both say.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SummaryEnd {
@@ -190,7 +204,7 @@ pub struct SummaryEnd {
     /// What comes before every number, as the summary says it.
     pub warnings: Vec<String>,
     /// The requirements, each with its verdict.
-    pub verdicts: Vec<(String, String)>,
+    pub verdicts: Vec<EndVerdict>,
     /// Whether a campaign with `[stop]` has reached what it says; `true` of others.
     pub is_reached: bool,
 }
@@ -198,13 +212,18 @@ pub struct SummaryEnd {
 impl SummaryEnd {
     /// What the summary of a campaign says that ended like this, without its warnings.
     pub fn of(ending: &Ending) -> Self {
-        let verdicts = ending.verdicts.list.iter();
+        let verdict = |one: &Assessment| EndVerdict {
+            requirement: one.sentence(),
+            word: one.word().to_owned(),
+            statement: requirements::statement(one),
+            found: requirements::estimate(one),
+        };
         SummaryEnd {
             rows: ending.rows,
             failed: ending.failed,
             not_covered: ending.not_covered,
             warnings: Vec::new(),
-            verdicts: verdicts.map(|one| (one.sentence(), one.word().to_owned())).collect(),
+            verdicts: ending.verdicts.list.iter().map(verdict).collect(),
             is_reached: ending.stopping.as_ref().is_none_or(Stopping::is_reached),
         }
     }
@@ -229,9 +248,27 @@ impl SummaryEnd {
                 .and_then(Value::as_array)
                 .map_or_else(Vec::new, |list| list.iter().filter_map(Value::as_str).map(str::to_owned).collect()),
             not_covered: ["estimate", "debris_estimate"].into_iter().filter_map(excess).sum(),
-            verdicts: list.filter_map(|one| Some((text(one, "requirement")?, text(one, "verdict")?))).collect(),
+            verdicts: list
+                .filter_map(|one| {
+                    let requirement = text(one, "requirement")?;
+                    // summaries of earlier versions have the sentence alone
+                    let statement = text(one, "in_short").unwrap_or_else(|| requirement.clone());
+                    let found = text(one, "found").unwrap_or_default();
+                    Some(EndVerdict { requirement, word: text(one, "verdict")?, statement, found })
+                })
+                .collect(),
             is_reached: value.pointer("/stop/reached").and_then(Value::as_bool) != Some(false),
         })
+    }
+
+    /// The same without the words from which nothing follows: warnings, and the requirements in short.
+    pub fn without_words(&self) -> Self {
+        let bare = |one: &EndVerdict| EndVerdict {
+            requirement: one.requirement.clone(),
+            word: one.word.clone(),
+            ..EndVerdict::default()
+        };
+        SummaryEnd { warnings: Vec::new(), verdicts: self.verdicts.iter().map(bare).collect(), ..self.clone() }
     }
 
     /// The verdicts of the campaign in one line, or how many runs were computed where nothing is required, and where the rest stands: `3 PASS, 1 FAIL ->
@@ -256,7 +293,7 @@ impl SummaryEnd {
 
     /// The number of requirements with the verdict `word`.
     pub fn count(&self, word: &str) -> usize {
-        self.verdicts.iter().filter(|(_, verdict)| verdict == word).count()
+        self.verdicts.iter().filter(|one| one.word == word).count()
     }
 }
 
@@ -294,7 +331,10 @@ mod tests {
             failed,
             not_covered: 0,
             warnings: Vec::new(),
-            verdicts: words.iter().map(|word| ("p95".to_owned(), (*word).to_owned())).collect(),
+            verdicts: words
+                .iter()
+                .map(|word| EndVerdict { word: (*word).to_owned(), ..EndVerdict::default() })
+                .collect(),
             is_reached: true,
         };
         let line = |end: SummaryEnd| end.verdict_line(Path::new("r/report.html"));

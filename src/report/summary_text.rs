@@ -54,11 +54,7 @@ impl Summary {
     /// Why runs were not computed, a line for each reason, or for each way in which they ended where no reason is known; nothing where all were.
     pub(super) fn why_failed(&self) -> String {
         let groups = self.statuses.reasons().groups();
-        if groups.is_empty() {
-            self.failures()
-        } else {
-            format!("\n  why runs failed:\n{}", failure_text::text(&groups))
-        }
+        if groups.is_empty() { self.failures() } else { format!("{WHY}{}", failure_text::text(&groups)) }
     }
 
     /// How many runs ended in each way but well, and which were the first.
@@ -205,6 +201,14 @@ impl Summary {
         };
         self.statuses.failed().filter_map(line).collect()
     }
+}
+
+/// The title of the reasons of failures.
+const WHY: &str = "\n  why runs failed:\n";
+
+/// The reasons of failures without their title.
+pub(super) fn untitled(reasons: &str) -> &str {
+    reasons.strip_prefix(WHY).unwrap_or(reasons)
 }
 
 /// What [`crate::analysis::statistics::Statistics::treatment`] says where nothing is left out.

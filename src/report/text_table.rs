@@ -114,7 +114,7 @@ impl TextTable {
         if let Some(widest) = widest {
             widths[widest] = widths[widest].min(widths[widest].saturating_sub(excess).max(LEAST_NAME));
         }
-        let mut lines = Vec::with_capacity(self.rows.len());
+        let (mut lines, most) = (Vec::with_capacity(self.rows.len()), width);
         for (index, row) in self.rows.iter().enumerate() {
             let is_head = index == 0;
             if is_head && row.iter().all(String::is_empty) {
@@ -124,7 +124,7 @@ impl TextTable {
             for (column, ((cell, width), align)) in row.iter().zip(&widths).zip(&self.aligns).enumerate() {
                 if column == 0 && is_above {
                     if !cell.is_empty() {
-                        text += &format!("{line}{cell}\n");
+                        text += &wrapped(&format!("{line}{cell}\n"), most);
                     }
                     continue;
                 }

@@ -17,6 +17,8 @@ const MOST_LINES: usize = 21;
 
 /// Letters of the name of a phase.
 const LONGEST_PHASE: usize = 10;
+/// The share of the largest component of a vector, in the whole run, below which another is rounding: some hundred roundings.
+const ROUNDING: f64 = 1e-14;
 /// A header is shortened to this many letters, or to as many as tell it from the others.
 const SHORTEST_HEADER: usize = 10;
 
@@ -31,31 +33,34 @@ enum Digits {
     Magnitude,
 }
 
-/// Main columns: what they show, their headers (name, and what is in the line below), their numbers.
-const COLUMNS: [(TimeColumn, &str, &str, Digits); 10] = [
-    (TimeColumn::Time, "time", "s", Digits::Time),
-    (TimeColumn::State(StateField::Rate, 0), "omega_x", "rad/s", Digits::Short),
-    (TimeColumn::State(StateField::Rate, 1), "omega_y", "rad/s", Digits::Short),
-    (TimeColumn::State(StateField::Rate, 2), "omega_z", "rad/s", Digits::Short),
-    (TimeColumn::State(StateField::Attitude, 0), "q_es_w", "", Digits::Decimals),
-    (TimeColumn::State(StateField::Attitude, 1), "q_es_x", "", Digits::Decimals),
-    (TimeColumn::State(StateField::Attitude, 2), "q_es_y", "", Digits::Decimals),
-    (TimeColumn::State(StateField::Attitude, 3), "q_es_z", "", Digits::Decimals),
-    (TimeColumn::Series(Series::EnergyError), "energy", "error", Digits::Magnitude),
-    (TimeColumn::Series(Series::AngularMomentumError), "ang.mom.", "error", Digits::Magnitude),
+/// A column: what it shows, its name, and its numbers.
+type Listed = (TimeColumn, &'static str, Digits);
+
+/// Main columns.
+const COLUMNS: [Listed; 10] = [
+    (TimeColumn::Time, "time", Digits::Time),
+    (TimeColumn::State(StateField::Rate, 0), "omega_x", Digits::Short),
+    (TimeColumn::State(StateField::Rate, 1), "omega_y", Digits::Short),
+    (TimeColumn::State(StateField::Rate, 2), "omega_z", Digits::Short),
+    (TimeColumn::State(StateField::Attitude, 0), "q_es_w", Digits::Decimals),
+    (TimeColumn::State(StateField::Attitude, 1), "q_es_x", Digits::Decimals),
+    (TimeColumn::State(StateField::Attitude, 2), "q_es_y", Digits::Decimals),
+    (TimeColumn::State(StateField::Attitude, 3), "q_es_z", Digits::Decimals),
+    (TimeColumn::Series(Series::EnergyError), "energy error", Digits::Magnitude),
+    (TimeColumn::Series(Series::AngularMomentumError), "ang.mom. error", Digits::Magnitude),
 ];
 
 /// The same of what a control loop records.
-const OF_LOOPS: [(TimeColumn, &str, &str, Digits); 5] = [
-    (TimeColumn::Series(Series::PointingError), "pointing", "rad", Digits::Short),
-    (TimeColumn::Series(Series::AttitudeEstimateError), "att.err.", "rad", Digits::Magnitude),
-    (TimeColumn::Series(Series::RateEstimateError), "rate err.", "rad/s", Digits::Magnitude),
-    (TimeColumn::Series(Series::PositionEstimateError), "pos.err.", "m", Digits::Magnitude),
-    (TimeColumn::Series(Series::VelocityEstimateError), "vel.err.", "m/s", Digits::Magnitude),
+const OF_LOOPS: [Listed; 5] = [
+    (TimeColumn::Series(Series::PointingError), "pointing", Digits::Short),
+    (TimeColumn::Series(Series::AttitudeEstimateError), "att.err.", Digits::Magnitude),
+    (TimeColumn::Series(Series::RateEstimateError), "rate err.", Digits::Magnitude),
+    (TimeColumn::Series(Series::PositionEstimateError), "pos.err.", Digits::Magnitude),
+    (TimeColumn::Series(Series::VelocityEstimateError), "vel.err.", Digits::Magnitude),
 ];
 
 /// The columns of scenes of `plan`: the time, those that requirements are about, then those of the figures that the scene calls for, in their order.
-fn columns_of(plan: &Plan, wheels: &[Name]) -> Vec<(TimeColumn, &'static str, &'static str, Digits)> {
+fn columns_of(plan: &Plan, wheels: &[Name]) -> Vec<Listed> {
     let traits = Traits::of(plan, wheels);
     let shows = |listed: &ListedFigure, column: &TimeColumn| match (listed.shows, column) {
         // of |omega| the components
@@ -93,9 +98,22 @@ impl TimeTable {
     /// loop, and the rates of as many wheels as there is space for.
     pub fn new(plan: &Plan, series: &TimeSeries, width: usize) -> Self {
         let points = shown_points(series.points());
-        let cells = |key: TimeColumn, digits: Digits| -> Option<Vec<String>> {
-            let values = series.column(key)?.1;
-            Some(points.iter().map(|point| digits.text(values[*point])).collect())
+        let column = |key: TimeColumn, name: &str, digits: Digits| -> Option<TimeTableColumn> {
+            let (quantity, values) = series.column(key)?;
+            let shown = plan.analysis.display.of(quantity.name(), quantity.unit());
+            // what is left of components that cancel is not shown as a number
+            let rounding = match key {
+                TimeColumn::State(StateField::Rate, _) => ROUNDING * largest_rate(series),
+                _ => 0.0,
+            };
+            let value = |value: f64| if value.abs() < rounding { 0.0 } else { shown.value(value) };
+            let cells = points.iter().map(|point| digits.text(value(values[*point]))).collect();
+            // a pure number has the end of its name where others have their unit
+            let (name, below) = match name.split_once(' ').filter(|_| shown.unit.is_empty()) {
+                Some((name, end)) => (name.to_owned(), end.to_owned()),
+                None => (name.to_owned(), shown.unit),
+            };
+            Some(TimeTableColumn { name, below, cells })
         };
         let phase = series.columns().find(|(quantity, _)| quantity.name() == "phase").map(|(_, values)| {
             let name = |phase: f64| {
@@ -106,14 +124,13 @@ impl TimeTable {
                 none if none.is_nan() => String::new(),
                 phase => name(phase).unwrap_or_else(|| short(phase)),
             };
-            TimeTableColumn { name: "phase".to_owned(), below: "", cells: points.iter().map(text).collect() }
+            TimeTableColumn { name: "phase".to_owned(), below: String::new(), cells: points.iter().map(text).collect() }
         });
-        let main = columns_of(plan, series.wheels()).into_iter().filter_map(|(key, name, below, digits)| {
-            Some(TimeTableColumn { name: name.to_owned(), below, cells: cells(key, digits)? })
-        });
-        let wheels = series.wheels().iter().enumerate().filter_map(|(wheel, name)| {
-            let cells = cells(TimeColumn::State(StateField::WheelRates, wheel), Digits::Short)?;
-            Some(TimeTableColumn { name: name.to_string(), below: "rad/s", cells })
+        let main = columns_of(plan, series.wheels());
+        let main = main.into_iter().filter_map(|(key, name, digits)| column(key, name, digits));
+        let wheels = series.wheels().iter().enumerate();
+        let wheels = wheels.filter_map(|(wheel, name)| {
+            column(TimeColumn::State(StateField::WheelRates, wheel), name.as_str(), Digits::Short)
         });
         let mut main: Vec<TimeTableColumn> = main.collect();
         main.splice(main.len().min(1)..main.len().min(1), phase);
@@ -127,7 +144,7 @@ impl TimeTable {
         let table = |columns: &[&TimeTableColumn]| {
             let mut table =
                 TextTable::new(columns.iter().map(|column| (column.name.as_str(), Align::Right))).spaced(0, 1);
-            table.row(columns.iter().map(|column| column.below));
+            table.row(columns.iter().map(|column| column.below.as_str()));
             (0..points).for_each(|point| table.row(columns.iter().map(|column| column.cells[point].as_str())));
             table
         };
@@ -142,11 +159,17 @@ impl TimeTable {
     }
 }
 
+/// The largest magnitude of a component of the angular velocity in the run, rad/s.
+fn largest_rate(series: &TimeSeries) -> f64 {
+    let of = |axis| series.column(TimeColumn::State(StateField::Rate, axis)).map_or(&[][..], |(_, values)| values);
+    (0..3).flat_map(of).fold(0.0, |most: f64, value| most.max(value.abs()))
+}
+
 #[derive(Clone, Debug)]
 struct TimeTableColumn {
     name: String,
-    /// The second line of the header.
-    below: &'static str,
+    /// The second line of the header: the unit in which the numbers are.
+    below: String,
     cells: Vec<String>,
 }
 
@@ -201,14 +224,14 @@ mod tests {
 
     /// A table of the main columns, with numbers as long as they become, and of wheels with these names.
     fn table(names: &[&str], width: usize) -> TimeTable {
-        let main = COLUMNS.map(|(_, name, below, digits)| TimeTableColumn {
-            name: name.to_owned(),
-            below,
+        let main = COLUMNS.map(|(_, name, digits)| TimeTableColumn {
+            name: name.split(' ').next().expect("a name").to_owned(),
+            below: if name.ends_with(" error") { "error" } else { "deg/s" }.to_owned(),
             cells: [0.0, -0.012_345].map(|value| digits.text(value)).to_vec(),
         });
         let wheels = names.iter().map(|name| TimeTableColumn {
             name: (*name).to_owned(),
-            below: "rad/s",
+            below: "rpm".to_owned(),
             cells: vec!["209.4".to_owned(), "-1047.2".to_owned()],
         });
         TimeTable::of(main.to_vec(), wheels.collect(), 2, width)

@@ -5,7 +5,7 @@ use crate::analysis::population::Loss;
 use crate::analysis::statistics::Statistics;
 use crate::campaign::Plan;
 use crate::report::audit_summary::AuditSummary;
-use crate::report::drivers_text::driven_by;
+use crate::report::drivers_text::{ranked, sentence};
 use crate::report::share_text::with_interval;
 use crate::run::Status;
 
@@ -34,7 +34,9 @@ fn not_computed(plan: &Plan, statistics: &Statistics, failures: &[InputSensitivi
         .zip(statistics.statuses)
         .filter(|(status, count)| *count > 0 && ![Status::Done, Status::InvalidSample].contains(status));
     let ended: Vec<String> = ended.map(|(status, count)| format!("{} {count}", status.name())).collect();
-    let drivers = match driven_by(plan, failures, COMPUTED) {
+    let rankings = ranked(plan, failures, COMPUTED);
+    let known = rankings.iter().filter(|ranking| ranking.drivers().next().is_some());
+    let drivers = match known.map(|ranking| sentence(plan, COMPUTED, ranking)).collect::<Vec<_>>() {
         none if none.is_empty() => String::new(),
         drivers => format!(". What decides it: {}", drivers.join("; ")),
     };
@@ -42,7 +44,7 @@ fn not_computed(plan: &Plan, statistics: &Statistics, failures: &[InputSensitivi
         0 => "There are no numbers".to_owned(),
         left => {
             format!(
-                "The numbers below describe only the other {left}, which may differ systematically, so they have no intervals"
+                "The numbers below describe only the other {left}, which may differ systematically: they have no intervals"
             )
         }
     };

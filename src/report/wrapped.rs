@@ -36,6 +36,28 @@ pub fn wrapped(text: &str, width: usize) -> String {
     lines
 }
 
+/// The same of a message: lines of a file with their marks stay as they are, and a command at the end of a line stays whole, to be copied, on a line of its own.
+pub fn message(text: &str, width: usize) -> String {
+    let of_line = |line: &str| {
+        let is_long = line.trim_end_matches('\n').chars().count() > width;
+        if !is_long || line.trim_start().starts_with('|') {
+            return line.to_owned();
+        }
+        match line.find(COMMAND) {
+            Some(at) => {
+                let (before, command) = line.split_at(at + 1);
+                let indent = before.len() - before.trim_start().len() + 2;
+                format!("{}\n{:indent$}{}", wrapped(before, width), "", command.trim_start())
+            }
+            None => wrapped(line, width),
+        }
+    };
+    text.split_inclusive('\n').map(of_line).collect()
+}
+
+/// How a command at the end of a line begins.
+const COMMAND: &str = ": spindrift ";
+
 /// What stands for letters that are left out.
 const ELLIPSIS: &str = "...";
 
@@ -71,6 +93,27 @@ mod tests {
             assert_eq!(words(&broken), words(text));
         }
         assert_eq!(wrapped(text, 100), text);
+    }
+
+    /// Law: at every width all words of a message are there, in their order; only a marked line, a command, and a word alone are longer.
+    #[test]
+    fn messages_are_broken_and_marks_stay() {
+        let marked = "    | colour = \"a colour that nobody has seen on any spacecraft\"\n    | ^^^^^^";
+        let command = "spindrift simulate 'a folder/plan.toml' --sample 1234567 --set campaign.duration_s=20";
+        let text = format!(
+            "error: bad.toml:12: colour = 1: must be a number from 1 to 9 or none at all; delete it\n{marked}\n  that run again: {command}\nshort\n"
+        );
+        for width in 20..200 {
+            let broken = message(&text, width);
+            let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+            assert_eq!(words(&broken), words(&text), "{width}");
+            assert!(broken.contains(marked) && broken.contains(command), "{width}:\n{broken}");
+            let may_be_long =
+                |line: &str| line.contains('|') || line.trim_start() == command || !line.trim_start().contains(' ');
+            let is_fit = |line: &str| line.chars().count() <= width || may_be_long(line);
+            assert!(broken.lines().all(is_fit), "{width}:\n{broken}");
+        }
+        assert_eq!(message(&text, 200), text);
     }
 
     /// Law: text that fits is not changed; other text keeps its beginning and its end, and fits.

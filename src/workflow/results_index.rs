@@ -132,11 +132,12 @@ fn changed(before: &Found, after: &Found) -> String {
         said.push(format!("version {} -> {}", before.entry.version, after.entry.version));
     }
     let verdict = |end: &SummaryEnd, name: &str| {
-        end.verdicts.iter().find(|(known, _)| known == name).map(|(_, verdict)| verdict.clone())
+        end.verdicts.iter().find(|one| one.requirement == name).map(|one| one.word.clone())
     };
-    for (name, now) in &after.entry.end.verdicts {
-        if let Some(then) = verdict(&before.entry.end, name).filter(|then| then != now) {
-            said.push(format!("{then} -> {now}: {name}"));
+    for one in &after.entry.end.verdicts {
+        let now = &one.word;
+        if let Some(then) = verdict(&before.entry.end, &one.requirement).filter(|then| then != now) {
+            said.push(format!("{then} -> {now}: {}", one.statement));
         }
     }
     if said.is_empty() { "nothing".to_owned() } else { said.join("; ") }

@@ -183,7 +183,7 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         REQUIRE,
         "at_most = 1e-9",
         "at_most = 1e-9\nat_mots = 1",
-        "require[0].at_mots = 1: must be a key of [require[0]] (observable, band, from_s, to_s, at_all_times, quantile, fraction, mean, at_most, at_least, bounded, never, confidence); did you mean at_most?",
+        "require[0].at_mots = 1: not a key of [require[0]]; did you mean at_most?",
     ),
     (
         BAND,

@@ -55,6 +55,7 @@ impl<Q: Quantile> Map for AboutAxisMap<Q> {
 
     fn text(&self, words: NumberWords<'_>) -> String {
         let [x, y, z] = self.axis.map(words.number);
-        format!("nominal attitude turned about [{x}, {y}, {z}], angle (rad): {}", self.angle.text(words))
+        let angle = self.angle.text(NumberWords { amount: words.angle, ..words });
+        format!("nominal attitude turned about [{x}, {y}, {z}], angle {angle}")
     }
 }

@@ -74,8 +74,11 @@ impl Map for AttitudeErrorMap {
         // the covariance is L L^T
         let covariance = |i: usize, j: usize| dot(self.factor[i], self.factor[j]);
         let std: [f64; 3] = core::array::from_fn(|i| covariance(i, i).sqrt());
-        let [x, y, z] = std.map(words.number);
-        let mut text = format!("normal rotation vector from the nominal attitude, std (rad) [{x}, {y}, {z}]");
+        let mut text = "normal rotation from the nominal attitude, std ".to_owned();
+        text += &match std.map(words.angle) {
+            [x, y, z] if x == y && y == z => format!("{x} about each axis"),
+            [x, y, z] => format!("{x}, {y}, {z} about the axes"),
+        };
         let pairs = [(0, 1, "xy"), (0, 2, "xz"), (1, 2, "yz")];
         if pairs.iter().any(|(i, j, _)| covariance(*i, *j) != 0.0) {
             let of = |(i, j, name): (usize, usize, &str)| {

@@ -95,7 +95,7 @@ mod tests {
         assert_eq!([0.34, 0.66].map(row), [[1.0, -1.0]; 2]);
         assert_eq!([0.67, 1.0 - 0.5 * f64::EPSILON].map(row), [[2.0, -2.0]; 2]);
         assert_eq!(
-            map.text(NumberWords { amount: &|x| x.to_string(), number: &|x| x.to_string() }),
+            map.text(NumberWords { amount: &|x| x.to_string(), angle: &|x| x.to_string(), number: &|x| x.to_string() }),
             "one of the 3 rows of data.csv, 2 numbers together"
         );
     }

@@ -141,7 +141,7 @@ mod tests {
     fn a_choice_says_its_values_and_their_probabilities() {
         let text = |values: &[f64], weights: &[f64]| {
             let number = |x: f64| x.to_string();
-            ChoiceQuantile::new(values, weights).text(NumberWords { number: &number, amount: &number })
+            ChoiceQuantile::new(values, weights).text(NumberWords { number: &number, angle: &number, amount: &number })
         };
         assert_eq!(text(&[1.0, 0.0], &[3.0, 1.0]), "0 with probability 25%, else 1");
         assert_eq!(text(&[1.0, 0.0], &[1.0, 3.0]), "1 with probability 25%, else 0");

@@ -189,7 +189,7 @@ impl<Q: Quantile> Map for DirectionMap<Q> {
         let direction = match self.spread {
             DirectionSpread::Sphere => "direction uniform over the sphere".to_owned(),
             DirectionSpread::Cone { half_angle_rad } => {
-                format!("direction uniform in a cone of {} rad about [{x}, {y}, {z}]", (words.number)(half_angle_rad))
+                format!("direction uniform within {} of [{x}, {y}, {z}]", (words.angle)(half_angle_rad))
             }
             DirectionSpread::Fisher { concentration } => {
                 format!("direction von Mises-Fisher, kappa {}, about [{x}, {y}, {z}]", (words.number)(concentration))

@@ -10,7 +10,9 @@ use std::fmt::Debug;
 pub struct NumberWords<'a> {
     /// Those in the unit of the parameter.
     pub amount: &'a dyn Fn(f64) -> String,
-    /// Those of a unit of their own, or of none: shapes, angles, components of a direction.
+    /// Angles, rad, whatever the unit of the parameter.
+    pub angle: &'a dyn Fn(f64) -> String,
+    /// Those of a unit of their own, or of none: shapes, components of a direction.
     pub number: &'a dyn Fn(f64) -> String,
 }
 

@@ -168,10 +168,86 @@ fn sample_fits_a_screen() {
         if file.extension().is_none_or(|extension| extension != "toml") {
             continue;
         }
-        let (out, all) = said(&scratch, scratch.command("sample").arg(&file), 80, 0);
-        let long: Vec<&str> = all.lines().filter(|line| line.chars().count() > 80).collect();
+        // notes beside it are lines of their own in a pipe
+        let (out, _) = said(&scratch, scratch.command("sample").arg(&file), 80, 0);
+        let long: Vec<&str> = out.lines().filter(|line| line.chars().count() > 80).collect();
         assert!(long.is_empty(), "{}: {long:#?}", file.display());
         seen += usize::from(out.contains("percentiles of"));
     }
     assert!(seen > 20, "{seen} campaigns with dispersions");
+}
+
+/// Law: where nearly every run or every run is lost, and of three runs, of the nominal run alone and without a requirement, one screen is enough: 24 lines of 80 characters (commands stay
+/// whole), whose last is the verdict. How many runs were lost is said in one sentence, and again only where a reason is counted; of one run there is one value of each outcome.
+#[test]
+fn the_worst_campaigns_fit_a_screen() {
+    let scratch = ScratchFolder::new("worst-screens");
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let run = |name: &str, options: &str, code: i32| {
+        let mut command = scratch.command("campaign");
+        let command = command.arg(shipped.join(format!("{name}.toml"))).args(options.split_whitespace());
+        let (out, _) = said(&scratch, command, 80, code);
+        let is_fit = |line: &str| line.chars().count() <= 80 || line.contains(": spindrift simulate ");
+        assert!(out.lines().count() <= 24 && out.lines().all(is_fit), "{options}: {}\n{out}", out.lines().count());
+        assert!(out.lines().last().is_some_and(|line| line.contains(" -> ")), "{out}");
+        out
+    };
+    let out = run("net_launch", "--samples 60 --set integrator.max_steps=4600 --out lost --no-report", 3);
+    let ended = ended(&scratch.rows("lost"));
+    let lost = ended[1..].iter().filter(|(_, status)| status != "ok").count();
+    assert!((40..59).contains(&lost), "{lost}");
+    let words = out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains(&format!("NOT COMPUTED: {lost} of 59 runs")), "{out}");
+    assert!(
+        words.contains(&format!("{lost} step_limit: ")) && words.contains("to fix: increase integrator.max_steps"),
+        "{out}"
+    );
+    let count = words.split([' ', ';', ',', ')', '(']).filter(|word| *word == lost.to_string()).count();
+    assert!(count <= 3 && !words.contains("not computed"), "{count} times {lost}:\n{out}");
+
+    let out = run("spin_sweep", "--samples 50 --set integrator.max_steps=3 --out all --no-report", 1);
+    assert!(
+        out.contains("NOT COMPUTED: 49 of 49 runs") && !out.contains("driver") && !out.contains("no statistics"),
+        "{out}"
+    );
+    let out = run("net_launch", "--samples 3 --out three --no-report", 5);
+    assert!(out.contains("6 UNDECIDED"), "{out}");
+    let out = run("net_launch", "--samples 1 --out one --no-report", 5);
+    let value = out.lines().find(|line| line.contains("total impulse, N s")).expect("an outcome");
+    let impulse = column(&scratch.rows("one"), "impulse_total_n_s")[0];
+    let numbers: Vec<f64> = value.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    assert!(numbers.len() == 1 && (numbers[0] / impulse - 1.0).abs() < 6e-3 && !out.contains("driver"), "{out}");
+    run("spin_sweep", "--samples 3 --out few --no-report", 0);
+}
+
+/// Law: on a terminal a message is broken into lines of its width, and a marked line stays whole; in a pipe each is one line.
+#[test]
+#[cfg(target_os = "linux")]
+fn messages_are_wrapped_on_a_terminal() {
+    let scratch = folder("wrapped-messages");
+    scratch.file(
+        "bad.toml",
+        &campaign()
+            .replace("seed = 7", "seed = -7   # a comment that is longer than sixty letters of a line, as it is here"),
+    );
+    let arguments = "check bad.toml --set colour=1";
+    let piped = scratch.prints(arguments, 2);
+    assert!(
+        piped.lines().any(|line| line.contains("colour = 1: not a key of a campaign file (") && line.len() > 200),
+        "{piped}"
+    );
+    let program = env!("CARGO_BIN_EXE_spindrift");
+    let mut command = Command::new("script");
+    command.args(["-qec", &format!("stty cols 60; '{program}' {arguments} --color never"), "/dev/null"]);
+    let Ok(output) = command.current_dir(&scratch.0).env_remove("COLUMNS").stdin(std::process::Stdio::null()).output()
+    else {
+        println!("skipped: no command `script`");
+        return;
+    };
+    let shown = String::from_utf8_lossy(&output.stdout).replace('\r', "");
+    let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(words(&shown), words(&piped));
+    let marked = shown.lines().filter(|line| line.trim_start().starts_with('|')).count();
+    assert!(marked == 2 && shown.lines().count() > piped.lines().count(), "{shown}");
+    assert!(shown.lines().all(|line| line.chars().count() <= 60 || line.trim_start().starts_with('|')), "{shown}");
 }

@@ -12,7 +12,7 @@ use crate::support::scratch_folder::ScratchFolder;
 fn every_column_is_shown() {
     let scratch = folder("all-columns");
     let wide = |arguments: &str| scratch.prints_wide(arguments, 0);
-    let both = wide("columns");
+    let both = wide("columns --verbose");
     // those of control loops are the last
     let (all, of_loops) = both.split_once("\ncontrol loop\n").expect("columns of loops");
     assert_eq!(of_loops.lines().count(), OutcomeColumns::of_all_loops().len());
@@ -43,6 +43,45 @@ fn every_column_is_shown() {
     let meant = table::all().map(|column| column.quantity.clone());
     let meant = meant.filter(|one| has(one.name()) || has(one.unit()) || has(one.meaning())).count();
     assert!(meant > 2 && word.lines().filter(|line| line.starts_with("  ")).count() == meant, "{word}");
+}
+
+/// Law: without a word the groups are listed, each with the number of its columns, which `columns GROUP` lists, and what they add up to; so are those of a campaign. At most 24
+/// lines of 80 characters; every command that it names lists columns.
+#[test]
+fn groups_are_listed_with_their_columns() {
+    let scratch = folder("groups");
+    for of in ["", " --campaign small.toml"] {
+        let narrow =
+            |arguments: &str| scratch.outputs(scratch.command(&format!("{arguments}{of}")).env("COLUMNS", "80"), 0);
+        let said = narrow("columns");
+        assert!(said.lines().count() <= 24 && said.lines().all(|line| line.chars().count() <= 80), "{said}");
+        let all = scratch.prints_wide(&format!("columns --verbose{of}"), 0);
+        let mut titles = Vec::new();
+        let mut counts = Vec::new();
+        for line in all.lines().filter(|line| !line.is_empty()) {
+            if line.starts_with("  ") {
+                *counts.last_mut().expect("a title") += 1;
+            } else {
+                titles.push(line);
+                counts.push(0);
+            }
+        }
+        for (title, count) in titles.iter().zip(&counts) {
+            let line = said.lines().find(|line| line.trim_start().starts_with(&format!("{title}  "))).expect(title);
+            let about = line.trim_start().strip_prefix(title).expect("a title").trim_start();
+            assert!(about.starts_with(&format!("{count}  ")) && about.len() > 10, "{line}");
+        }
+        assert!(
+            titles.len() > 8 && said.contains(&format!("{} columns in all", counts.iter().sum::<usize>())),
+            "{said}"
+        );
+        for command in said.lines().filter_map(|line| line.trim_start().strip_prefix("spindrift ")) {
+            let (command, _) = command.split_once("  ").unwrap_or((command, ""));
+            if of.is_empty() || !command.contains("pointing") {
+                assert!(scratch.prints(command, 0).lines().count() > 3, "{command}");
+            }
+        }
+    }
 }
 
 /// Law: the file that `new` writes has the name that was asked for and runs as it is, with its requirement decided; a file that is there stays.
@@ -81,7 +120,7 @@ fn the_columns_of_a_campaign_are_those_of_its_rows() {
     scratch.prints("campaign small.toml --samples 10 --audit 1 --out r", 0);
     let rows = &scratch.table("r/runs/part-000000.parquet");
     let names: Vec<String> = rows.schema().fields().iter().map(|field| field.name().clone()).collect();
-    let text = scratch.prints_wide("columns --campaign small.toml", 0);
+    let text = scratch.prints_wide("columns --campaign small.toml --verbose", 0);
     let shown: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("  ")?.split_whitespace().next()).collect();
     let without_audits: Vec<&String> = names.iter().filter(|name| !name.starts_with("audit_")).collect();
     assert_eq!(shown, without_audits);

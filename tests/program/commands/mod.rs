@@ -4,6 +4,7 @@ pub mod brief_screen;
 pub mod campaign;
 pub mod columns;
 pub mod compare;
+mod compare_screen;
 pub mod exit_codes;
 pub mod index;
 pub mod memory;

@@ -3,6 +3,8 @@
 use std::fs;
 use std::process::Stdio;
 
+use spindrift::campaign::{Overrides, Plan};
+
 use crate::commands::screen_numbers::numbers;
 use crate::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder};
 use crate::support::campaigns::SPIN_DISPERSION;
@@ -56,7 +58,7 @@ fn sample_draws_the_rows_of_the_campaign() {
         assert!(is_physical || a[row].is_nan(), "{row}");
     }
     // the nominal one is that of `check`
-    let check = scratch.prints("check thin.toml", 0);
+    let check = scratch.prints("check thin.toml --verbose", 0);
     assert!(check.contains(&format!("{} kg", format!("{:.2}", mass[0]).trim_end_matches('0'))), "{check}");
     // one sample, in all digits, here and in `simulate`
     let sample = (1..600).find(|row| statuses[*row] != "invalid_sample").unwrap();
@@ -77,7 +79,7 @@ fn sample_draws_the_rows_of_the_campaign() {
 fn check_shows_what_would_run() {
     let scratch = folder("check");
     scratch.file("no_debris.toml", &campaign_without_debris());
-    let said = scratch.prints_wide("check small.toml --plan", 0);
+    let said = scratch.prints_wide("check small.toml --plan --verbose", 0);
     for expected in [
         "small: 600 runs of 1 s, method auto, tolerance 1e-10, no requirement\n",
         "samples = 600",
@@ -94,8 +96,8 @@ fn check_shows_what_would_run() {
         assert!(said.contains(expected), "{expected} in:\n{said}");
     }
     assert!(
-        said.contains("wheel rates  ")
-            && said.contains("velocity of the debris  ")
+        said.contains("wheel rates: needed by ")
+            && said.contains("velocity of the debris: ")
             && !said.contains("not computed: there is no"),
         "{said}"
     );
@@ -108,8 +110,8 @@ fn check_shows_what_would_run() {
     assert!((body + kg("wheel w1") + kg("wheel w2") - whole).abs() < 0.02, "{said}");
     let share = numbers(&said, "largest part: body.parts.fuselage, # % of the mass of the spacecraft")[0];
     assert!((share - 100.0 * body / whole).abs() < 0.051, "{share}: {said}");
-    let said = scratch.prints_wide("check no_debris.toml", 0);
-    assert!(said.contains("wheel rates  ") && !said.contains("of the debris"), "{said}");
+    let said = scratch.prints_wide("check no_debris.toml --verbose", 0);
+    assert!(said.contains("wheel rates: ") && !said.contains("of the debris"), "{said}");
     assert!(!scratch.path("results").exists(), "check writes nothing");
 }
 
@@ -120,9 +122,9 @@ fn check_has_no_line_about_what_is_not_there() {
     let bare = "[campaign]\nname = \"bare\"\nsamples = 1\nseed = 0\nduration_s = 2\n[body]\nmass_kg = 10\n\
                 inertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]\n[initial]\nangular_velocity_rad_s = [0, 0, 1]\n";
     scratch.file("bare.toml", bare);
-    let said = scratch.prints_wide("check bare.toml", 0);
+    let said = scratch.prints_wide("check bare.toml --verbose", 0);
     assert!(said.contains("inertia of the spacecraft about its centre of mass"), "{said}");
-    assert!(said.contains("angular velocity of the body ") && said.contains("attitude quaternion "), "{said}");
+    assert!(said.contains("angular velocity of the body: ") && said.contains("attitude quaternion: "), "{said}");
     let listed = said.split("== Mass properties").nth(1).expect("mass properties");
     for absent in ["wheel", "debris", "thrust", "actuat", "impulse", "null_space", "there is no"] {
         let line = listed.lines().find(|line| line.contains(absent) && !line.starts_with("observed groups"));
@@ -133,7 +135,7 @@ fn check_has_no_line_about_what_is_not_there() {
     let arc = |keys: &str| format!("{bare}{thruster}[[actuation]]\nend_s = 9\nthrust_n = {{ p1 = 1.0 }}\n{keys}\n");
     let says_work = |keys: &str| {
         scratch.file("bare.toml", &arc(keys));
-        let said = scratch.prints_wide("check bare.toml", 0);
+        let said = scratch.prints_wide("check bare.toml --verbose", 0);
         let is_computed = !said.contains("not computed: no command of the schedule acts");
         assert_eq!(said.contains("work of actuators") || said.contains("impulse"), is_computed, "{said}");
         is_computed
@@ -151,7 +153,7 @@ fn check_shows_magnitudes_and_implausible_numbers() {
                 [[disperse]]\nparameter = \"wheels.w1.tilt_rad\"\ndistribution = \"normal\"\nstd = 5\n\
                 [[disperse]]\nparameter = \"wheels.w2.rate_rad_s\"\ndistribution = \"normal\"\nstd = 5\n";
     scratch.file("more.toml", &(campaign() + more));
-    let said = scratch.prints_wide("check more.toml", 0);
+    let said = scratch.prints_wide("check more.toml --verbose", 0);
     let row = |name: &str| {
         let line = said
             .lines()
@@ -187,7 +189,7 @@ fn check_shows_magnitudes_and_implausible_numbers() {
         // four digits are shown
         assert!((shown / expected - 1.0).abs() < 1e-3, "{shown} {expected}");
     }
-    let (_, angles) = row("initial.attitude: angle from nominal (rad)");
+    let (_, angles) = row("initial.attitude, angle from nominal");
     // std 0.1 rad about each of three axes: the length has the quantiles 0.1 times 0.339, 1.538, 3.368 of the chi distribution with three
     // degrees of freedom; those of 599 draws are within a fifth
     for (shown, chi) in angles[1..].iter().zip([0.0339, 0.1538, 0.3368]) {
@@ -197,6 +199,89 @@ fn check_shows_magnitudes_and_implausible_numbers() {
     assert!(!said.contains("|wheels.w2") && !said.contains("|initial.debris"), "{said}");
     let notes = said.split("== Notes\n").nth(1).unwrap_or_else(|| panic!("{said}"));
     assert!(notes.lines().any(|note| note.starts_with("wheels.w1.tilt_rad, as dispersed")), "{notes}");
+}
+
+/// Law: of every shipped campaign `check` takes at most 45 lines of 80 characters, says every dispersed parameter once, and how to see the rest; the summary comes first.
+#[test]
+fn check_fits_a_screen() {
+    let scratch = folder("check-screen");
+    let shipped = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    for name in ["net_launch", "spin_sweep", "slew_closed", "pyramid", "nadir_pointing", "correlated"] {
+        let file = shipped.join(format!("{name}.toml"));
+        let mut command = scratch.command("check");
+        let said = scratch.outputs(command.arg(&file).env("COLUMNS", "80"), 0);
+        assert!(said.lines().count() <= 45, "{name}: {}\n{said}", said.lines().count());
+        assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+        assert!(said.lines().take(4).any(|line| line.starts_with(&format!("{name}: "))), "{said}");
+        assert!(said.lines().last().is_some_and(|line| line.starts_with("--verbose: ")), "{said}");
+        let plan = Plan::load(&file, Overrides::default()).expect("valid");
+        let mut seen = Vec::new();
+        for column in plan.dispersions.columns() {
+            let parameter = column.parameter.name();
+            let is_of = |line: &&str| {
+                line.trim_start().split([' ', ',']).next().is_some_and(|word| {
+                    word == parameter
+                        || word
+                            .strip_prefix(&parameter)
+                            .is_some_and(|rest| rest.starts_with('.') && rest.matches('.').count() == 1)
+                })
+            };
+            assert!(said.lines().any(|line| is_of(&line)), "{parameter} in:\n{said}");
+            seen.push(parameter);
+        }
+        assert!(!seen.is_empty(), "{name}");
+    }
+}
+
+/// Known: a dispersed parameter has a line with its distribution and its nominal value, in the units of people; components that are drawn alike stand together.
+#[test]
+fn dispersions_are_said_in_a_line() {
+    let scratch = folder("check-lines");
+    let said = |campaign: &str| {
+        let said = scratch.says("check", campaign, "", 0);
+        said.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    for (campaign, known) in [
+        ("net_launch.toml", "initial.position_m normal, std 1 m, nominal [-28, -14, 18] "),
+        (
+            "net_launch.toml",
+            "initial.attitude normal rotation from the nominal attitude, std 2 deg about each axis, nominal [1, 0, 0, 0] ",
+        ),
+        ("net_launch.toml", "initial.angular_velocity_rad_s normal, std 0.3 deg/s, nominal [0.4, -0.6, 0.8] "),
+        ("net_launch.toml", "thrusters.p1.tilt_rad normal, std 0.3 deg, nominal 0 "),
+        ("net_launch.toml", "thrusters.p2.thrust_scale 0 with probability 1%, else 1, nominal 1 "),
+        ("net_launch.toml", "sensors.gyro.bias_rad_s normal, std 2 deg/h, nominal 0 "),
+        ("spin_sweep.toml", "initial.angular_velocity_rad_s.x, y normal, std 28.65 deg/s, nominal [0, 180] "),
+        ("spin_sweep.toml", "initial.angular_velocity_rad_s.z normal, std 85.94 deg/s, nominal 1800 "),
+        ("spin_sweep.toml", "wheels.w1.rate_rad_s normal, std 60 rpm, nominal 3000 "),
+        ("spin_sweep.toml", "body.parts.fuselage.position_m.z = body.parts.fuselage.length_m / 2, nominal 1.5 m "),
+    ] {
+        let said = said(campaign);
+        assert!(said.contains(known), "{known} in:\n{said}");
+    }
+}
+
+/// Law: a duration that nobody means is named, whatever else is wrong with it; what fails comes before what would be estimated.
+#[test]
+fn check_says_what_is_wrong_with_an_endless_run() {
+    let scratch = folder("check-endless");
+    for seconds in ["1e30", "1e12"] {
+        let said = scratch.says(
+            "check",
+            "spin_sweep.toml",
+            &format!("--set campaign.duration_s={seconds}"),
+            if seconds == "1e30" { 1 } else { 0 },
+        );
+        let notes = said.split("== Notes").nth(1).expect("notes");
+        assert!(notes.trim_start().starts_with(&format!("campaign.duration_s = {seconds}: that is ")), "{said}");
+        assert!(!said.contains(" 0 points") && !said.contains("000000000"), "{said}");
+        if let Some(failing) = said.find("EVERY RUN FAILS") {
+            assert!(
+                failing < said.find("== Estimate").expect("an estimate") && !said.contains("requirement would"),
+                "{said}"
+            );
+        }
+    }
 }
 
 #[test]
@@ -224,6 +309,25 @@ fn bad_input_ends_with_code_2_and_says_everything() {
     scratch.prints("", 2);
     assert!(!scratch.path("results").exists(), "nothing is written for bad input");
     assert!(scratch.prints("--help", 0).contains("Exit codes"));
+}
+
+/// Law: a setting whose key no file has is refused with the key that was probably meant, or with all that there are; it has no line and no mark.
+#[test]
+fn settings_that_no_file_has_are_told() {
+    let scratch = folder("settings");
+    for (setting, known) in [
+        ("scene.wheels.w1.rate_rad_s=0", "scene: not a key of a campaign file; did you mean wheels.w1.rate_rad_s?"),
+        ("wheel.w1.rate_rad_s=0", "wheel: not a key of a campaign file; did you mean wheels.w1.rate_rad_s?"),
+        (
+            "wheels.w1.rate_rads=0",
+            "wheels.w1.rate_rads = 0: not a key of [[wheels]] with name = \"w1\"; did you mean rate_rad_s?",
+        ),
+        ("campain.seed=1", "campain: not a key of a campaign file; did you mean campaign.seed?"),
+        ("xyzzy=1", "xyzzy = 1: not a key of a campaign file (wheels, thrusters, "),
+    ] {
+        let said = scratch.prints(&format!("check small.toml --set {setting}"), 2);
+        assert!(said.contains(known) && !said.contains('|') && said.lines().count() == 1, "{setting}: {said}");
+    }
 }
 
 /// Law: a reader that closes the pipe early is no error and no panic.

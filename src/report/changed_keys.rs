@@ -1,0 +1,115 @@
+//! [`text`]: the keys in which two plans differ, as a table: those that changed alike once, and what only one plan has by its table.
+
+use crate::campaign::Plan;
+use crate::campaign::difference::{KeyDifference, said};
+use crate::report::compared::Compared;
+use crate::report::text_table::{Align, TextTable};
+use crate::report::wrapped::fitted;
+
+/// Most letters of a value where not every key is shown.
+const LONGEST_VALUE: usize = 24;
+/// Fewer keys are all shown.
+const FEW: usize = 4;
+
+/// A line of the table: the key, or what several have in common, and the values.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Line {
+    key: String,
+    count: usize,
+    values: [String; 2],
+}
+
+/// The table in lines of `width` characters with at most `most` rows; nothing where the plans are the same.
+pub fn text(compared: Compared<'_>, most: usize, width: usize) -> String {
+    let all = lines(compared.keys, compared.plans);
+    if all.is_empty() {
+        return "  the plans are the same\n".to_owned();
+    }
+    let heads = [("changed in the file", Align::Title), ("before", Align::Left), ("after", Align::Left)];
+    let mut table = TextTable::new(heads);
+    // both values beside each other below their key
+    let longest = if most < all.len().max(FEW) { LONGEST_VALUE } else { width.saturating_sub(10) / 2 };
+    for Line { key, count, values } in all.iter().take(most) {
+        let key = if *count > 1 { format!("{key} ({count} keys)") } else { key.clone() };
+        let [first, second] = values.each_ref().map(|value| fitted(value, longest, |text| text.chars().count()));
+        table.row([key, first, second]);
+    }
+    let left: usize = all.iter().skip(most).map(|line| line.count).sum();
+    let more = match left {
+        0 => String::new(),
+        1 => "  and 1 more key\n".to_owned(),
+        left => format!("  and {left} more keys\n"),
+    };
+    table.text(width) + &more
+}
+
+/// The lines, in the order of the keys.
+fn lines(keys: &[KeyDifference], [first, second]: [&Plan; 2]) -> Vec<Line> {
+    let mut lines: Vec<Line> = Vec::new();
+    for one in keys {
+        let value = |value: &Option<String>, plan: &Plan| {
+            value.as_ref().map_or_else(|| "-".to_owned(), |value| said(plan, &one.key, value))
+        };
+        let values = [value(&one.first, first), value(&one.second, second)];
+        match lines.iter_mut().find_map(|line| Some((common(&line.key, &one.key, &line.values, &values)?, line))) {
+            Some(((key, values), line)) => *line = Line { key, count: line.count + 1, values },
+            None => lines.push(Line { key: one.key.clone(), count: 1, values }),
+        }
+    }
+    lines
+}
+
+/// What two keys have in common that changed alike, `guidance.*.bandwidth_rad_s`, or that are of one table, which only one plan has; and the values of both.
+fn common(key: &str, other: &str, values: &[String; 2], of_other: &[String; 2]) -> Option<(String, [String; 2])> {
+    let of = |key: &str| key.rsplit_once('.').map(|(table, last)| (table.to_owned(), last.to_owned()));
+    let ((table, last), (other_table, other_last)) = (of(key)?, of(other)?);
+    let [is_new, is_gone] = [0, 1].map(|side| values[side] == "-" && of_other[side] == "-");
+    // `[table]` stands for all its keys
+    let listed = key.strip_suffix(".*").unwrap_or(&table);
+    if (is_new || is_gone) && listed == other_table {
+        let there = "there".to_owned();
+        let values = if is_new { ["-".to_owned(), there] } else { [there, "-".to_owned()] };
+        return Some((format!("{listed}.*"), values));
+    }
+    let list = |table: &str| table.split(['.', '[']).next().map(str::to_owned);
+    let is_alike =
+        last == other_last && values == of_other && table != other_table && list(&table) == list(&other_table);
+    (is_alike && last != "*").then(|| (format!("{}.*.{last}", list(&table).unwrap_or_default()), values.clone()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::Overrides;
+    use crate::campaign::difference::text_differences;
+
+    /// Known: keys that changed alike are one line, with their number; tables that only one plan has are one line; every key is counted in one line.
+    #[test]
+    fn keys_that_changed_alike_stand_together() {
+        let text = include_str!("../../campaigns/net_launch.toml");
+        let plan = Plan::from_text("net_launch", text, Overrides::default()).expect("valid");
+        let gains = |gain: &str| {
+            format!("[[guidance]]\nphase = \"a\"\ngain = {gain}\nk = 1\n[[guidance]]\nphase = \"b\"\ngain = {gain}\n")
+        };
+        let first = gains("1.0") + "[campaign]\nseed = 1\n[[disperse]]\nparameter = \"x\"\nstd = 1.0\n";
+        let second = gains("2.0").replace("k = 1", "k = 2")
+            + "[campaign]\nseed = 1\n[[disperse]]\nparameter = \"y\"\nstd = 2.0\nmean = 0.0\n";
+        let keys = text_differences(&first, &second);
+        let found = lines(&keys, [&plan, &plan]);
+        let line = |key: &str, count, values: [&str; 2]| Line {
+            key: key.to_owned(),
+            count,
+            values: values.map(str::to_owned),
+        };
+        assert_eq!(
+            found,
+            [
+                line("guidance.*.gain", 2, ["1", "2"]),
+                line("guidance.a.k", 1, ["1", "2"]),
+                line("disperse[x].*", 2, ["there", "-"]),
+                line("disperse[y].*", 3, ["-", "there"]),
+            ]
+        );
+        assert_eq!(found.iter().map(|line| line.count).sum::<usize>(), keys.len());
+    }
+}

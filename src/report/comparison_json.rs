@@ -1,0 +1,36 @@
+//! A comparison of two results as the text of a JSON file.
+
+use serde_json::{Value, json};
+
+use crate::analysis::comparison_table;
+use crate::campaign::difference::KeyDifference;
+use crate::report::compared::{Compared, ComparedVerdict};
+use crate::storage::described_table;
+
+/// The text of the file: everything that is compared.
+pub fn text(compared: Compared<'_>) -> String {
+    let Compared { comparison, keys, verdicts, tolerance, .. } = compared;
+    let result = |name: String, which: usize| {
+        let statistics = &comparison.statistics[which];
+        json!({ "result": name, "samples": statistics.samples(), "ok": statistics.ok(), "only_here": comparison.alone[which] })
+    };
+    let key = |key: &KeyDifference| json!({ "key": key.key, "first": key.first, "second": key.second });
+    let verdict = |one: &ComparedVerdict| json!({ "requirement": one.requirement, "first": one.word(0), "second": one.word(1), "is_worse": one.is_worse() });
+    let [first, second] = compared.names.clone();
+    let value = json!({
+        "program": "spindrift",
+        "version": env!("CARGO_PKG_VERSION"),
+        "first": result(first, 0),
+        "second": result(second, 1),
+        "differing_keys": keys.iter().map(key).collect::<Vec<Value>>(),
+        "compared_as": if comparison.pairs > 0 { "pairs" } else { "independent samples" },
+        "pairs": comparison.pairs,
+        "adjustment_of_p_values": "Holm",
+        "level": comparison.level(),
+        "tolerance": tolerance,
+        "beyond_tolerance": tolerance.map(|tolerance| comparison.is_beyond(tolerance)),
+        "requirements": verdicts.iter().map(verdict).collect::<Vec<Value>>(),
+        "observables": described_table::json(&comparison_table::table(comparison)),
+    });
+    format!("{value:#}\n")
+}

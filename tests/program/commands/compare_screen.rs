@@ -1,0 +1,171 @@
+//! The screen of `spindrift compare`: its numbers are those of rows and file, in the units of people; one screen of it, and all.
+
+use serde_json::Value;
+
+use crate::commands::screen_numbers::{numbers, template};
+use crate::small_campaign::{RADIANS, campaign_without_debris, folder, mixed_failures};
+use crate::support::scratch_folder::{ScratchFolder, column, ended};
+
+/// Runs of each result that are dispersed and ok, and all that are dispersed.
+fn runs(scratch: &ScratchFolder, sides: [&str; 2]) -> [[f64; 2]; 2] {
+    sides.map(|side| {
+        let ended = ended(&scratch.rows(side));
+        [ended[1..].iter().filter(|(_, status)| status == "ok").count() as f64, ended.len() as f64 - 1.0]
+    })
+}
+
+/// Degrees in a radian.
+const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+
+/// Law: one screen has at most 24 lines of 80 characters: results with their runs, each verdict with the share of the rows before and after, the keys that
+/// differ, and the mean of the outcome in deg/s with the shift of the pairs; it counts the other columns, and its last line is the verdict, whichever result comes first.
+#[test]
+fn a_comparison_fits_a_screen() {
+    let scratch = folder("compare-brief");
+    let limit = 2000.0;
+    let require = format!(
+        "\n[[require]]\nobservable = \"omega_se_s_z_final_rad_s\"\nfraction = 0.9\nat_most = \"{limit} deg/s\"\n"
+    );
+    let first = campaign_without_debris().replace(RADIANS, "") + &require;
+    let nominal = "31.41592653589793]";
+    assert!(first.contains(nominal));
+    scratch.file("slow.toml", &first);
+    scratch.file("fast.toml", &first.replace(nominal, "36.0]"));
+    scratch.prints("campaign slow.toml --out slow --no-report", 0);
+    scratch.prints("campaign fast.toml --out fast --no-report", 3);
+    let rates = ["slow", "fast"].map(|name| column(&scratch.rows(name), "omega_se_s_z_final_rad_s").split_off(1));
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let share = |values: &[f64]| {
+        100.0 * values.iter().filter(|rate| **rate * DEGREES <= limit).count() as f64 / values.len() as f64
+    };
+    for (places, code, mark) in [([0, 1], 3, "WORSE"), ([1, 0], 0, "BETTER")] {
+        let [before, after] = places.map(|place| ["slow", "fast"][place]);
+        let of = places.map(|place| &rates[place][..]);
+        let mut command = scratch.command(&format!("compare {before} {after} --out c.json"));
+        let said = scratch.outputs(command.env("COLUMNS", "80"), code);
+        assert!(said.lines().count() <= 24 && said.lines().all(|line| line.chars().count() <= 80), "{said}");
+        for (line, name) in said.lines().zip([before, after]) {
+            assert!(line.ends_with(&format!(" {name}, 599 of 599 runs ok")), "{line}");
+        }
+        let row = |begin: &str| said.lines().find(|line| line.trim_start().starts_with(begin)).expect(begin);
+        // too long for a line with its verdicts, which stand below it
+        let mut lines =
+            said.lines().skip_while(|line| !line.contains("angular velocity about s3 at the end <= 2000 deg/s in 90%"));
+        let verdict = lines.nth(1).expect("the verdicts");
+        assert!(verdict.ends_with(mark) && verdict.contains("PASS") && verdict.contains("FAIL"), "{said}");
+        let (_, found) = template(verdict);
+        assert_eq!(found.len(), 2, "{verdict}");
+        for (found, values) in found.iter().zip(of) {
+            assert!((found - share(values)).abs() < 0.06, "{verdict}: {}", share(values));
+        }
+        let key = row("initial.angular_velocity_rad_s");
+        assert!(key.contains("36") && key.contains("31.41592653589793"), "{key}");
+        let outcome = row("angular velocity about s3 at the end, deg/s");
+        let (_, found) = template(outcome);
+        let means = of.map(|values| mean(values) * DEGREES);
+        let known = [means[0], means[1], means[1] - means[0]];
+        let [.., first, second, shift, low, high] = found[..] else { panic!("{outcome}") };
+        for (found, known) in [first, second, shift].into_iter().zip(known) {
+            assert!((found - known).abs() <= 6e-3 * known.abs(), "{outcome}: {known:?}");
+        }
+        assert!(low <= known[2] && known[2] <= high, "{outcome}");
+        let file: Value = serde_json::from_str(&scratch.text("c.json")).expect("JSON");
+        let observables = file["observables"].as_array().expect("observables");
+        let shifted = observables.iter().filter(|one| one["is_shifted"] == 1).count() as f64;
+        // those that are listed, below their heads
+        let listed = said.lines().skip_while(|line| !line.contains("outcome, mean")).skip(1);
+        let listed = listed.take_while(|line| line.contains('[')).count() as f64;
+        let words = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        let counts = numbers(&words, "# more of # columns are shifted");
+        assert_eq!(counts, [shifted - listed, observables.len() as f64], "{said}");
+        assert!(
+            words.contains("compared sample by sample: 599 samples were drawn alike; --verbose lists all"),
+            "{said}"
+        );
+        let last = said.lines().last().expect("lines");
+        assert_eq!(
+            last,
+            if code == 3 { "FAIL: 1 verdict is worse than before" } else { "PASS: 1 verdict is better, none is worse" }
+        );
+    }
+}
+
+/// Law: each number on the whole screen is that of the file, of the result that is named: runs that are ok of each, keys, tests, and of each observable
+/// in a table its mean in the first result and its shift with its interval, in the unit after its name, p-values and largest shift. A shift that matters is one of the mean, or of any
+/// statistic where there is a tolerance.
+#[test]
+fn the_screen_is_the_file() {
+    let scratch = folder("compare-screen");
+    let text = mixed_failures().replace(RADIANS, "");
+    scratch.file("first.toml", &text.replace("samples = 600", "samples = 300"));
+    scratch.file("second.toml", &text.replace("samples = 600", "samples = 400").replace("0.5, 15]", "0.5, 5]"));
+    for (first, second) in [("first", "second"), ("second", "first")] {
+        for side in [first, second] {
+            scratch.prints(&format!("campaign {side}.toml --out {side} --no-report --overwrite"), 1);
+        }
+        let mut command = scratch.command(&format!("compare {first} {second} --verbose --tolerance 0.01 --out c.json"));
+        let said = scratch.outputs(command.env("COLUMNS", "250"), 3);
+        let found: Value = serde_json::from_str(&scratch.text("c.json")).expect("JSON");
+        let [of_first, of_second] = runs(&scratch, [first, second]);
+        for (name, known) in [(first, of_first), (second, of_second)] {
+            assert_eq!(numbers(&said, &format!("{name}, # of # runs ok")), known);
+        }
+        let observables = found["observables"].as_array().expect("observables");
+        let count = |is: &dyn Fn(&Value) -> bool| observables.iter().filter(|one| is(one)).count() as f64;
+        let shifted = count(&|one| one["is_shifted"] == 1);
+        assert_eq!(numbers(&said, "# of # columns are shifted"), [shifted, observables.len() as f64]);
+        assert_eq!(numbers(&said, "p adjusted for # tests")[0], count(&|one| !one["p_value"].is_null()));
+        // every key stands before the tables of columns
+        let head = &said[..said.find("  matters: ").expect("a table")];
+        for key in found["differing_keys"].as_array().expect("keys") {
+            assert!(head.contains(key["key"].as_str().expect("a key")), "{key} in:\n{head}");
+        }
+        let mut listed = 0;
+        let mut matters = false;
+        for line in said.lines().filter(|line| !line.contains("FAIL")) {
+            // the titles: what matters stands before what can only be detected
+            if line.starts_with("  matters: ") || line.starts_with("  detectable: ") || line.starts_with("  moved") {
+                matters = line.starts_with("  matters: ");
+                continue;
+            }
+            if line.starts_with("  beyond") || !line.contains(" of the spread") {
+                matters &= !line.starts_with("  beyond");
+                continue;
+            }
+            let text = line.trim_start().trim_start_matches("* ");
+            let name = text.split([' ', ',']).next().expect("a name");
+            let one = observables.iter().find(|one| one["observable"] == name).unwrap_or_else(|| panic!("{name}"));
+            // angles and rates in degrees, wheel speeds in turns a minute, all else in its own unit
+            let unit = text
+                .strip_prefix(name)
+                .and_then(|rest| rest.strip_prefix(", "))
+                .and_then(|rest| rest.split("  ").next());
+            let size = match (one["unit"].as_str().expect("a unit"), unit.unwrap_or("")) {
+                ("rad", "deg") | ("rad/s", "deg/s") => DEGREES,
+                ("rad/s", "rpm") => 30.0 / std::f64::consts::PI,
+                (own, shown) => {
+                    assert!(own == shown && !own.starts_with("rad"), "{line}");
+                    1.0
+                }
+            };
+            let keys = ["mean_first", "mean_shift", "mean_shift_lower", "mean_shift_upper"];
+            let mut known: Vec<f64> = keys.into_iter().filter_map(|key| Some(size * one[key].as_f64()?)).collect();
+            known.extend(["adjusted_p_value", "largest_shift"].into_iter().filter_map(|key| one[key].as_f64()));
+            // a unit may have a number
+            let after = text.strip_prefix(&format!("{name}, {}", unit.unwrap_or(""))).unwrap_or(text);
+            let found = template(after).1;
+            // ends of intervals are rounded outward to three digits
+            let is_same = |(found, known): (&f64, &f64)| (found - known).abs() <= 1.1e-2 * known.abs();
+            assert!(found.len() == known.len() && found.iter().zip(&known).all(is_same), "{line}: {known:?}");
+            assert!(line.contains(&format!(" {} by ", one["largest_shift_of"].as_str().expect("a name"))), "{line}");
+            assert_eq!(line.contains("(beyond)"), known.last() > Some(&0.01), "{line}");
+            assert_eq!(matters, known.last() > Some(&0.01) && one["is_shifted"] == 1, "{line}");
+            listed += 1;
+        }
+        assert!(listed > 10, "{said}");
+        let mut narrow = scratch.command(&format!("compare {first} {second} --verbose"));
+        let narrow = scratch.outputs(narrow.env("COLUMNS", "80"), 0);
+        assert!(narrow.lines().all(|line| line.chars().count() <= 80), "{narrow}");
+        assert!(narrow.contains("  matters: shifted by more than 0.2 of the spread"), "{narrow}");
+    }
+}
