@@ -48,7 +48,8 @@ pub fn text(plan: &Plan, summary: &Summary, all: &[InputSensitivity], file: &str
     let mut outcomes = outcomes(summary, usize::MAX, width);
     if outcomes.lines().count() > room {
         // the line that counts those that are left out
-        let others = outcomes.lines().count() - summary.outcomes().len() + 1;
+        let rows = summary.outcomes().iter().filter(|line| !is_stated(summary, line)).count();
+        let others = outcomes.lines().count().saturating_sub(rows) + 1;
         outcomes = self::outcomes(summary, room.saturating_sub(others).max(LEAST_OUTCOMES), width);
     }
     if outcomes.is_empty() { text + &end } else { text + gap + &outcomes + &end }

@@ -83,7 +83,9 @@ pub fn shifted<'c>(compared: Compared<'c>) -> Vec<(&'c ColumnComparison, &'c Shi
     };
     let found = comparison.columns.iter().filter(is_seen).filter(is_outcome);
     let mut found: Vec<(&ColumnComparison, &Shift)> = found
-        .filter_map(|column| Some((column, largest(compared, column).filter(|shift| !(shift.relative <= most))?)))
+        .filter_map(|column| {
+            Some((column, largest(compared, column).filter(|shift| shift.relative > most || shift.relative.is_nan())?))
+        })
         .collect();
     let order = |column: &ColumnComparison| place(column).unwrap_or(usize::MAX);
     found.sort_by(|(a, of_a), (b, of_b)| order(a).cmp(&order(b)).then(of_b.relative.total_cmp(&of_a.relative)));
