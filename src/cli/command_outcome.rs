@@ -69,6 +69,7 @@ pub fn exit_code(ended: Result<CommandOutcome, Failure>) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::summary::EndVerdict;
 
     /// Law: of several codes the one that comes first in 3, 5, 1, 0 is returned.
     #[test]
@@ -93,7 +94,12 @@ mod tests {
             failed,
             not_covered,
             warnings: Vec::new(),
-            verdicts: vec![("p95".to_owned(), word.to_owned())],
+            verdicts: vec![EndVerdict {
+                requirement: "p95".to_owned(),
+                word: word.to_owned(),
+                statement: String::new(),
+                found: String::new(),
+            }],
             is_reached,
         };
         for (end, code) in [

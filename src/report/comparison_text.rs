@@ -112,6 +112,9 @@ fn rest(compared: Compared<'_>, shown: Option<usize>) -> String {
         pairs => format!("compared sample by sample: {pairs} samples were drawn alike"),
     };
     let mut text = match shown {
+        _ if comparison.statistics.iter().any(|one| one.ok() == 0) => {
+            "  no column is compared: a result has no dispersed run with numbers".to_owned()
+        }
         _ if same == all.len() => format!("  all {same} columns have the same statistics"),
         _ if shifted == 0 => format!("  no shift is seen in any of {} columns", all.len()),
         Some(shown) if shown > 0 => {

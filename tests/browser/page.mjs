@@ -541,6 +541,10 @@ async function checked(browser, file) {
   await page.mouse.move(0, 0);
   // as it opens, with what is folded
   await page.evaluate(() => document.querySelectorAll("details.fold, details.input").forEach((fold) => { fold.open = false; }));
+  await page.emulateMediaType("print");
+  const lost = await page.$$eval("main > section", (list) => list.filter((section) => section.querySelector(":scope > .figures figure") && getComputedStyle(section).display === "none").map((section) => section.id));
+  if (lost.length > 0) problems.push(`${name}: sections with figures are not printed: ${lost}`);
+  await page.emulateMediaType(null);
   const pdf = await page.pdf({ path: join(folder, `${name}_print.pdf`), preferCSSPageSize: true, printBackground: true });
   const sheets = Buffer.from(pdf).toString("latin1").match(/\/Type\s*\/Page\b(?!s)/g)?.length ?? 0;
   if (sheets === 0 || (name === "net_launch" && sheets > MOST_SHEETS)) problems.push(`${name}: it is printed on ${sheets} sheets`);

@@ -170,3 +170,17 @@ fn the_screen_is_the_file() {
         assert!(narrow.contains("  matters: shifted by more than 0.2 of the spread"), "{narrow}");
     }
 }
+
+/// Law: a result without a run that has numbers is like no other: nothing is said to be the same.
+#[test]
+fn a_result_without_numbers_is_not_compared() {
+    let scratch = folder("compare-lost");
+    scratch.file("c.toml", &campaign_without_debris());
+    scratch.prints("campaign c.toml --samples 20 --out some --no-report", 0);
+    scratch.prints("campaign c.toml --samples 20 --set integrator.max_steps=1 --out none --no-report", 1);
+    for sides in ["some none", "none some"] {
+        let said = scratch.prints_wide(&format!("compare {sides}"), 0);
+        assert!(said.contains("no column is compared: a result has no dispersed run with numbers"), "{said}");
+        assert!(!said.contains("the same statistics"), "{said}");
+    }
+}

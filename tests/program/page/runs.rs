@@ -125,7 +125,7 @@ fn nominal_is_nominal() {
     near(y.iter().sum(), 299.0, 0.02, "expected samples");
     near(center(&x, &y), degrees(columns[2][0]), 0.01, "centre");
     // the printed table of the draws has the same unit
-    let said = found.scratch.prints_wide("check c.toml", 0);
+    let said = found.scratch.prints_wide("check c.toml --verbose", 0);
     let row = said.lines().find(|line| line.starts_with("  initial.angular_velocity_rad_s.z ")).expect("a row");
     let words: Vec<&str> = row.split_whitespace().collect();
     assert_eq!(words[1], "deg/s", "{row}");
