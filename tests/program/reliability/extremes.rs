@@ -219,6 +219,6 @@ fn masses_that_overflow_are_refused() {
 /// Law: a campaign of the nominal sample alone is checked: it has no draws, and so no percentiles.
 #[test]
 fn a_campaign_of_one_sample_is_checked() {
-    let said = folder("one-sample").says("check", "slew.toml", "--set campaign.samples=1", 0);
+    let said = folder("one-sample").says("check", "slew.toml", "--set campaign.samples=1 --verbose", 0);
     assert!(said.contains("of 0 draws (sample 0 is nominal)"), "{said}");
 }
