@@ -104,7 +104,7 @@ mod tests {
         assert_eq!(
             found,
             [
-                line("guidance.*.gain", 2, ["1", "2"]),
+                line("guidance.*.gain", 2, ["1.0", "2.0"]),
                 line("guidance.a.k", 1, ["1", "2"]),
                 line("disperse[x].*", 2, ["there", "-"]),
                 line("disperse[y].*", 3, ["-", "there"]),

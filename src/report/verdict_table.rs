@@ -20,7 +20,7 @@ pub fn text([required, found]: [&str; 2], rows: &[VerdictRow], width: usize) -> 
     let longest = rows.iter().map(|one| one.word.len()).max().unwrap_or(0);
     let mut lines = match required {
         "" => String::new(),
-        _ => format!("  {:longest$}  {required}: {found}\n", ""),
+        _ => wrapped(&format!("  {:longest$}  {required}: {found}\n", ""), width),
     };
     for VerdictRow { word, required, found, notes } in rows {
         table.row([word, required, found, notes]);

@@ -233,7 +233,7 @@ fn a_row_is_one_factor() {
     assert!(block[0] == block[1] && block[2] == block[3] && block[0] != block[3]);
 }
 
-/// Law: `sample --sample K` and `check` show the row that sample K takes, in all digits, and where it comes from.
+/// Law: `sample --sample K` and `check --verbose` show the row that sample K takes, in all digits, and where it comes from.
 #[test]
 fn one_sample_is_shown_with_its_row() {
     let scratch = ScratchFolder::new("bootstrap-shown");
@@ -249,7 +249,7 @@ fn one_sample_is_shown_with_its_row() {
             assert_eq!(line.split_whitespace().nth(1), Some(format!("{value:?}").as_str()), "{sample}: {shown}");
         }
     }
-    let checked = scratch.prints_wide("check rows.toml", 0);
+    let checked = scratch.prints_wide("check rows.toml --verbose", 0);
     let told = "one of the 32 rows of insertion.csv, 3 numbers together";
     assert_eq!(checked.matches(told).count(), 3, "{checked}");
 }
