@@ -9,6 +9,7 @@ import { colors, isOnPaper, onTheme } from "./theme.js";
 
 const PAPER_WIDTH = 240;
 const WHOLE_PAPER = 700;
+const HALF_PAPER = 344; // of figures of drivers, two in a row (page.css)
 const views = [];
 
 function element(tag, className, text) {
@@ -74,8 +75,8 @@ export class FigureView {
   }
 
   draw() {
-    // on paper three figures share the width: so wide that their text has the size of the text around
-    const paper = this.figure.columns === 12 ? WHOLE_PAPER : PAPER_WIDTH;
+    // on paper three figures share the width, or two: each so wide that its text has the size of the text around
+    const paper = this.figure.columns === 12 ? WHOLE_PAPER : this.figure.section === "influence" ? HALF_PAPER : PAPER_WIDTH;
     const width = isOnPaper() ? paper : Math.max(240, Math.floor(this.plot.clientWidth));
     if (this.chart && width === this.width && this.palette === colors().background) return;
     [this.width, this.palette] = [width, colors().background];
