@@ -1,13 +1,14 @@
 //! The extension of the Python package `spindrift`: what its modules in `spindrift/` stand on. Arguments arrive checked and typed; what is said to
 //! a user, and how, is decided there.
 //!
-//! - `plan`: a campaign file and what is changed of it. - `job`: a run on a thread of its own. - `law`: a law of attitude in Python. - `results`: a finished result. - `table`: rows and
-//!   other tables through Arrow's C interface. - `toml_values`: values of Python as TOML.
+//! - `plan`: a campaign file and what is changed of it. - `job`: a run on a thread of its own. - `law`: a law of attitude in Python. - `results`: a finished result. - `stores`: results
+//!   at s3:// addresses. - `table`: rows and other tables through Arrow's C interface. - `toml_values`: values of Python as TOML.
 
 mod job;
 mod law;
 mod plan;
 mod results;
+mod stores;
 mod table;
 mod toml_values;
 
@@ -56,6 +57,7 @@ fn columns() -> PyResult<Table> {
 
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    spindrift::storage::remote::connect_by(stores::connect);
     module.add("SpindriftError", module.py().get_type::<SpindriftError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<plan::Plan>()?;

@@ -1,4 +1,4 @@
-//! [`Client`]: requests to the store of an address, and what their errors mean.
+//! [`connect`]: requests to the store of an address, and what their errors mean. A part of the library with the feature `cloud`, and of the Python package.
 //!
 //! The crate `object_store` tries a request again that the store could not answer (5xx, 429, a connection that broke). An object that is put on the condition that there is none of its
 //! name needs more: an answer that was lost, 409 and 412 all leave open what is there. So it is looked at: the same content is success, whoever has put it; nothing is a
@@ -13,7 +13,7 @@ use object_store::path::Path as Key;
 use object_store::{ClientConfigKey, Error, ObjectStore, ObjectStoreExt, PutMode, PutOptions, RetryConfig};
 use tokio::runtime::{Builder, Runtime};
 
-use super::Address;
+use super::{Address, Objects};
 
 /// How often a request is tried again: with pauses up to 15 s, some minute in all.
 const RETRIES: usize = 10;
@@ -44,32 +44,34 @@ const ENDPOINTS: [&str; 3] = ["AWS_ENDPOINT_URL_S3", "AWS_ENDPOINT_URL", "AWS_EN
 const NO_BUCKET: &str = "NoSuchBucket";
 
 /// The objects below an address, each by its name below that.
-pub struct Client {
+struct Client {
     address: Address,
     runtime: Runtime,
     store: AmazonS3,
 }
 
-impl Client {
-    /// The client for `address`, and the content of the object `first`, if there is one: so it is known to work.
-    ///
-    /// # Errors
-    /// Where the environment does not say how to get there, or the store does not answer, or refuses.
-    pub fn open(address: &Address, first: &str) -> io::Result<(Client, Option<Vec<u8>>)> {
-        // connections are encrypted by ring; it is an error to say so twice
-        let _ = rustls::crypto::ring::default_provider().install_default();
-        let runtime = Builder::new_current_thread().enable_all().build()?;
-        let store = |retries| store(address, retries).map_err(|error| said(address, &error));
-        let client = Client { address: address.clone(), runtime, store: store(FIRST_RETRIES)? };
-        let found = client.get(first)?;
-        Ok((Client { store: store(RETRIES)?, ..client }, found))
-    }
+/// The client for `address`, and the content of the object `first`, if there is one: so it is known to work.
+///
+/// # Errors
+/// Where the environment does not say how to get there, or the store does not answer, or refuses.
+pub fn connect(address: &Address, first: &str) -> io::Result<(Box<dyn Objects>, Option<Vec<u8>>)> {
+    // connections are encrypted by ring; it is an error to say so twice
+    let _ = rustls::crypto::ring::default_provider().install_default();
+    let runtime = Builder::new_current_thread().enable_all().build()?;
+    let store = |retries| store(address, retries).map_err(|error| said(address, &error));
+    let client = Client { address: address.clone(), runtime, store: store(FIRST_RETRIES)? };
+    let found = client.get(first)?;
+    Ok((Box::new(Client { store: store(RETRIES)?, ..client }), found))
+}
 
-    /// Puts the object `name`, unless there is one. `None` where it has this content now; else what it has.
-    ///
-    /// # Errors
-    /// Where it is not known to be there.
-    pub fn create(&self, name: &str, bytes: &[u8]) -> io::Result<Option<Vec<u8>>> {
+impl Client {
+    fn key(&self, name: &str) -> Key {
+        Key::from(format!("{}/{name}", self.address.prefix))
+    }
+}
+
+impl Objects for Client {
+    fn create(&self, name: &str, bytes: &[u8]) -> io::Result<Option<Vec<u8>>> {
         let key = self.key(name);
         let mut last = None;
         for attempt in 0..ATTEMPTS {
@@ -95,11 +97,7 @@ impl Client {
         Err(last.unwrap_or_else(|| io::Error::other("was not put")))
     }
 
-    /// The content of the object `name`; `None` where there is none.
-    ///
-    /// # Errors
-    /// Where that is not known.
-    pub fn get(&self, name: &str) -> io::Result<Option<Vec<u8>>> {
+    fn get(&self, name: &str) -> io::Result<Option<Vec<u8>>> {
         let key = self.key(name);
         let got = self.runtime.block_on(async { self.store.get(&key).await?.bytes().await });
         match got {
@@ -109,19 +107,11 @@ impl Client {
         }
     }
 
-    /// The names of the objects of the folder `folder`.
-    ///
-    /// # Errors
-    /// Where they are not known.
-    pub fn list(&self, folder: &str) -> io::Result<Vec<String>> {
+    fn list(&self, folder: &str) -> io::Result<Vec<String>> {
         let listed = self.runtime.block_on(self.store.list_with_delimiter(Some(&self.key(folder))));
         let objects = listed.map_err(|error| said(&self.address, &error))?.objects;
         let name = |location: &Key| location.filename().map(|file| format!("{folder}/{file}"));
         Ok(objects.iter().filter_map(|object| name(&object.location)).collect())
-    }
-
-    fn key(&self, name: &str) -> Key {
-        Key::from(format!("{}/{name}", self.address.prefix))
     }
 }
 

@@ -1,19 +1,59 @@
 //! Results in an object store: [`Address`], where; [`Remote`], what is put and got there.
 //!
-//! - `client`: requests; in a build without the feature `cloud`, `no_client` in its place: an address is then refused. - `objects`: the files of a result as
+//! - `client`: requests, in a build with the feature `cloud` and in the Python package; where there is none, an address is refused. - `objects`: the files of a result as
 //!   objects, and the order in which they are put.
 
 #[cfg(feature = "cloud")]
 mod client;
-#[cfg(not(feature = "cloud"))]
-#[path = "no_client.rs"]
-mod client;
 mod objects;
 
-use std::fmt;
 use std::path::Path;
+use std::sync::OnceLock;
+use std::{fmt, io};
 
 pub use objects::{Fault, Remote, head_of};
+
+/// The objects below an address, each by its name below that: what a client of a store does.
+pub trait Objects: Send + Sync {
+    /// Puts the object `name`, unless there is one. `None` where it has this content now; else what it has.
+    ///
+    /// # Errors
+    /// Where it is not known to be there.
+    fn create(&self, name: &str, bytes: &[u8]) -> io::Result<Option<Vec<u8>>>;
+
+    /// The content of the object `name`; `None` where there is none.
+    ///
+    /// # Errors
+    /// Where that is not known.
+    fn get(&self, name: &str) -> io::Result<Option<Vec<u8>>>;
+
+    /// The names of the objects of the folder `folder`.
+    ///
+    /// # Errors
+    /// Where they are not known.
+    fn list(&self, folder: &str) -> io::Result<Vec<String>>;
+}
+
+/// The client for an address, and the content of the object of that name, if there is one: so the client is known to work.
+///
+/// # Errors
+/// Where the environment does not say how to get there, or the store does not answer, or refuses.
+pub type Connect = fn(&Address, &str) -> io::Result<(Box<dyn Objects>, Option<Vec<u8>>)>;
+
+static CONNECT: OnceLock<Connect> = OnceLock::new();
+
+/// Makes `connect` the client of this process, where the build has none of its own: so the Python package has object stores and the library of the program, compiled once.
+pub fn connect_by(connect: Connect) {
+    let _ = CONNECT.set(connect);
+}
+
+/// How this process connects to a store, where it can.
+fn connect() -> Option<Connect> {
+    #[cfg(feature = "cloud")]
+    return Some(client::connect);
+    #[cfg(not(feature = "cloud"))]
+    CONNECT.get().copied()
+}
 
 /// Where a result is in an object store: `s3://bucket/prefix`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,7 +67,7 @@ impl Address {
     /// The address that `path` is; `None` of the path of a folder.
     ///
     /// # Errors
-    /// What is wrong with it; in a build without the feature `cloud`, how to get one with it.
+    /// What is wrong with it; in a build without object stores, how to get one with them.
     pub fn of(path: &Path) -> Result<Option<Address>, String> {
         let Some((scheme, rest)) = path.to_str().and_then(|text| text.split_once("://")) else { return Ok(None) };
         if scheme.is_empty() || !scheme.bytes().all(|byte| byte.is_ascii_alphanumeric()) {
@@ -39,7 +79,7 @@ impl Address {
                 "{shown}: must be a folder, or an address in a store that has S3's interface: s3://bucket/name"
             ));
         }
-        if cfg!(not(feature = "cloud")) {
+        if connect().is_none() {
             return Err(format!(
                 "{shown}: this build of spindrift has no object stores; build one that has them: cargo build --release --features cloud"
             ));

@@ -16,8 +16,7 @@ use std::io;
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-use super::Address;
-use super::client::Client;
+use super::{Address, Objects};
 use crate::campaign::Plan;
 use crate::storage::disk::{Storage, StorageError, above, at, entries_in, new_folder};
 use crate::storage::folder::{Folder, MOST_MANIFEST, PartFile, begin, unmark};
@@ -51,7 +50,7 @@ pub fn head_of(plan: &str, identity: &Identity) -> String {
 /// A result in an object store.
 pub struct Remote {
     address: Address,
-    client: Client,
+    client: Box<dyn Objects>,
     /// The first object, where there is one.
     head: OnceLock<Vec<u8>>,
     /// Commits that are there with the files of their parts, and whether their content is known to be that of this process.
@@ -73,7 +72,9 @@ impl Remote {
     /// # Errors
     /// Where the store does not answer, or refuses.
     pub fn open(address: Address) -> Result<Remote, StorageError> {
-        let (client, head) = Client::open(&address, HEAD).map_err(at(Path::new(&address.to_string())))?;
+        let none = || io::Error::other("this build of spindrift has no object stores");
+        let connected = super::connect().ok_or_else(none).and_then(|connect| connect(&address, HEAD));
+        let (client, head) = connected.map_err(at(Path::new(&address.to_string())))?;
         Ok(Remote { address, client, head: head.map_or_else(OnceLock::new, OnceLock::from), commits: Mutex::default() })
     }
 
