@@ -63,7 +63,7 @@ pub const ENDED_BY: &str = "ended_by";
 pub(super) const MOST_EVENTS: usize = 16;
 /// What a name must be.
 const NAME: TextLimit = TextLimit {
-    allowed: "1 to 40 small letters, digits and underscores, the first a letter",
+    allowed: "1 to 40 lower-case letters, digits and underscores, the first a letter",
     remedy: "write it like settled",
     test: |name| is_name(name, 40),
 };

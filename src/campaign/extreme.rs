@@ -31,7 +31,7 @@ pub struct Extreme {
 const MOST_EXTREMES: usize = 16;
 /// What a name must be.
 const NAME: TextLimit = TextLimit {
-    allowed: "1 to 60 small letters, digits and underscores, the first a letter",
+    allowed: "1 to 60 lower-case letters, digits and underscores, the first a letter",
     remedy: "write it like pointing_error_max_rad",
     test: |name| is_name(name, 60),
 };

@@ -84,7 +84,7 @@ pub fn implausible(plan: &Plan) -> Vec<String> {
     notes.extend(plan.dispersed.iter().flat_map(|dispersion| {
         let name = dispersion.parameter.name();
         wide_spreads(&dispersion.distribution.written).into_iter().map(move |spread| {
-            format!("{name}, {spread}: a spread of half of the nominal value and more; percent are written with their unit, \"2 %\"")
+            format!("{name}, {spread}: a spread of half the nominal value or more; percentages are written with their unit, \"2 %\"")
         })
     }));
     notes.extend(nutation(plan));
@@ -96,7 +96,7 @@ pub fn implausible(plan: &Plan) -> Vec<String> {
     if duration >= LONG {
         let years = digits(duration / YEAR);
         let note = format!(
-            "campaign.duration_s = {}: that is {years} years; usual values are seconds to days",
+            "campaign.duration_s = {}: that is {years} years; usual durations are seconds to days",
             digits(duration)
         );
         notes.insert(0, note);

@@ -50,7 +50,7 @@ fn check_key(key: &str) -> Result<(), String> {
     if is_key {
         return Ok(());
     }
-    Err(format!("{key:?} is no key: a key has small letters, digits and _, at most {LONGEST_KEY}"))
+    Err(format!("{key:?} is no key: a key has lower-case letters, digits and _, at most {LONGEST_KEY}"))
 }
 
 /// The parameters that `text` declares.
