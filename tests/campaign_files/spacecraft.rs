@@ -167,7 +167,7 @@ fn a_wrong_dimension_is_refused() {
         ("\"0.5 deg\"", "\"0.5 deg/s\"", 21, "rad, deg, arcmin", "deg/s is a unit of other quantities (rad/s)"),
         ("\"20 min\"", "\"20 m\"", 5, "s, ms, min, h, day", "m is the unit of other quantities"),
         ("mass_kg = 500", "mass_kg = \"500 m\"", 7, "kg, g, t", "m is the unit of other quantities"),
-        ("\"3000 rpm\"", "\"3000 rmp\"", 16, "rpm", "is no unit that is known here"),
+        ("\"3000 rpm\"", "\"3000 rmp\"", 16, "rpm", "is not a known unit"),
         ("\"3000 rpm\"", "\"3000\"", 16, "rpm", "without quotes, or add the unit"),
         ("axis = [0, 1, 0]", "axis = [0, \"1 m\", 0]", 12, "%", "m is the unit of other quantities"),
     ] {
