@@ -111,14 +111,14 @@ impl Comparison {
         (1.0 - self.statistics[0].confidence).min(MOST_LEVEL)
     }
 
-    /// Whether chance is no explanation of the difference between the values of an observable.
+    /// Whether chance does not explain the difference between the values of an observable.
     pub fn is_shifted(&self, column: &ColumnComparison) -> bool {
         column.largest_relative() > 0.0 && column.adjusted_p_value.is_some_and(|p| p <= self.level())
     }
 }
 
 impl Comparison {
-    /// Whether the runs of an observable moved, each a little or most of them one way, and chance is no explanation, while its distribution is not shifted.
+    /// Whether the runs of an observable moved, each a little or most of them one way, and chance does not explain it, while its distribution is not shifted.
     pub fn is_moved(&self, column: &ColumnComparison) -> bool {
         !self.is_shifted(column) && column.adjusted_moved_p_value.is_some_and(|p| p <= self.level())
     }

@@ -19,13 +19,13 @@ pub fn table(comparison: &Comparison) -> Vec<DescribedColumn> {
         text("observable", "Name of the observable.", &|row| Some(row.quantity.name().to_owned())),
         text("unit", "Its unit; empty for a pure number.", &|row| Some(row.quantity.unit().to_owned())),
         text("meaning", "What it is.", &|row| Some(row.quantity.meaning().to_owned())),
-        count("is_required", "1 where a requirement of either plan names it.", &|row| u64::from(row.is_required)),
-        count("is_shifted", "1 where chance is no explanation of the difference.", &|row| {
+        count("is_required", "1 if a requirement of either plan names it.", &|row| u64::from(row.is_required)),
+        count("is_shifted", "1 if chance does not explain the difference.", &|row| {
             u64::from(comparison.is_shifted(row))
         }),
         count(
             "is_moved",
-            "1 where it is not shifted, and chance is no explanation of how the values of the pairs differ.",
+            "1 if it is not shifted, and chance does not explain how the values of the pairs differ.",
             &|row| u64::from(comparison.is_moved(row)),
         ),
         real(

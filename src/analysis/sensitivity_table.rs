@@ -45,7 +45,7 @@ const MEASURES: [Measure; 10] = [
     }),
     (
         "event_ratio",
-        "Risk ratio of the event at event_level against the other runs, by Koopman's score test; null where the input has many values, where it occurs in no other run, and at an end without a bound",
+        "Risk ratio of the event at event_level against the other runs, by Koopman's score test; null if the input has many values, if the event occurs in no other run, and at an end without a bound",
         |one| match one.on_event.as_ref()?.dependence {
             Dependence::Levels { ratio, .. } => {
                 let [value, lower, upper] =
@@ -108,7 +108,7 @@ fn table(list: &[InputSensitivity]) -> Vec<DescribedColumn> {
         ),
         DescribedColumn::numbers(
             "event_chance",
-            "Of an input with many values, the chance that a run with the event has the larger one; null where the event comes with distance from the median.",
+            "For an input with many values, the chance that a run with the event has the larger one; null if the event comes with distance from the median.",
             of_event(|on| match on.dependence {
                 Dependence::Shift { chance, .. } => Some(chance),
                 _ => None,

@@ -20,7 +20,7 @@ use crate::sampling::{Column, Design};
 pub struct Analysis {
     /// Which quantiles every observable has, ascending, each in (0, 1).
     pub quantiles: Vec<f64>,
-    /// Confidence of every interval but those of requirements.
+    /// Confidence of every interval except those of requirements.
     pub confidence: f64,
     /// Observables that the screen and the tables of sensitivity have besides the usual ones.
     pub summary_columns: Vec<String>,
@@ -51,9 +51,9 @@ pub const STATISTICS: [Row; 2] = [
     Row::new(
         "quantiles",
         Kind::Numbers(QUANTILE_LIST),
-        "Which quantiles every observable has; default: 0.1, 1, 5, 25, 50, 75, 95, 99, 99.9%",
+        "Quantiles to compute for every observable; default: 0.1, 1, 5, 25, 50, 75, 95, 99, 99.9%",
     ),
-    Row::new("confidence", Kind::Number, "Confidence of every interval but those of requirements")
+    Row::new("confidence", Kind::Number, "Confidence of every interval except those of requirements")
         .limited(CONFIDENCE)
         .or(Presence::Or(DEFAULT_CONFIDENCE)),
 ];
@@ -62,7 +62,7 @@ pub const STATISTICS: [Row; 2] = [
 pub const SUMMARY: [Row; 1] = [Row::new(
     "columns",
     Kind::Observables,
-    "Observables that the screen, `summary.json` and the tables of sensitivity have besides the usual ones",
+    "Observables to show on the screen, in `summary.json` and in the sensitivity tables besides the usual ones",
 )];
 
 impl Default for Analysis {

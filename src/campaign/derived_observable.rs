@@ -23,7 +23,7 @@ pub struct DerivedObservable {
 
 /// What a name must be.
 const NAME: TextLimit = TextLimit {
-    allowed: "1 to 60 small letters, digits and underscores, the first a letter",
+    allowed: "1 to 60 lower-case letters, digits and underscores, the first a letter",
     remedy: "write it like pointing_error_deg",
     test: |name| is_name(name, 60),
 };
@@ -31,7 +31,7 @@ const NAME: TextLimit = TextLimit {
 /// The keys of the table.
 #[rustfmt::skip]
 pub const ROWS: [Row; 3] = [
-    Row::new("name", Kind::Text(NAME), "Its name, which no column has").required_as(NAME.allowed, "\"pointing_error_deg\""),
+    Row::new("name", Kind::Text(NAME), "Its name, which must not be that of a column").required_as(NAME.allowed, "\"pointing_error_deg\""),
     Row::new("unit", Kind::Text(ANY_TEXT), "Its unit; default: a pure number"),
     Row::new("expression", Kind::Expression, "Arithmetic over columns of the rows and dispersed parameters")
         .required_as("arithmetic over columns and dispersed parameters", "\"2 * energy_error_max\""),

@@ -70,9 +70,9 @@ pub const ROWS: [Row; 2] = [
     Row::new(
         "units",
         Kind::Units,
-        "Units of different quantities, in which numbers are shown; default: deg and deg/s, of wheel speeds rpm",
+        "Units in which numbers are shown, one for each kind of quantity; default: deg and deg/s, and rpm for wheel speeds",
     ),
-    Row::new("columns", Kind::UnitsByName, "Units of single columns and parameters, by name"),
+    Row::new("columns", Kind::UnitsByName, "Units of individual columns and parameters, by name"),
 ];
 
 impl Display {

@@ -63,7 +63,7 @@ pub const ENDED_BY: &str = "ended_by";
 pub(super) const MOST_EVENTS: usize = 16;
 /// What a name must be.
 const NAME: TextLimit = TextLimit {
-    allowed: "1 to 40 small letters, digits and underscores, the first a letter",
+    allowed: "1 to 40 lower-case letters, digits and underscores, the first a letter",
     remedy: "write it like settled",
     test: |name| is_name(name, 40),
 };
@@ -73,12 +73,12 @@ const WHICH: [&str; 3] = [Which::ALL[0].0, Which::ALL[1].0, Which::ALL[2].0];
 /// The keys of the table.
 #[rustfmt::skip]
 pub const ROWS: [Row; 6] = [
-    Row::new("name", Kind::Text(NAME), "Its name, from which those of its columns are made").required_as(NAME.allowed, "\"settled\""),
-    Row::new("quantity", Kind::Expression, "A quantity over time that is observed, or an expression of several")
+    Row::new("name", Kind::Text(NAME), "Its name, with which the names of its columns begin").required_as(NAME.allowed, "\"settled\""),
+    Row::new("quantity", Kind::Expression, "An observed quantity over time, or an expression of several")
         .required_as("a quantity over time, or an expression of some", "\"angular_rate_rad_s\""),
     Row::new("value", Kind::Amount, "The value that it crosses").required_as(FINITE.allowed, "0.1"),
-    Row::new("direction", Kind::Word(&DIRECTIONS), "In which direction"),
-    Row::new("which", Kind::Word(&WHICH), "Which crossing its time is of; `stays`: the last one, where the quantity stays there to the end of the run"),
+    Row::new("direction", Kind::Word(&DIRECTIONS), "Direction of the crossing"),
+    Row::new("which", Kind::Word(&WHICH), "Which crossing gives its time; `stays`: the last one, if the quantity then stays on that side to the end of the run"),
     Row::new("ends_run", Kind::Flag, "Whether the run ends at its first crossing; default: false"),
 ];
 
@@ -163,12 +163,12 @@ impl Event {
     pub fn quantities(&self) -> [Quantity; 2] {
         let (name, says) = (&self.name, self.says());
         let time = match self.which {
-            Which::First if self.ends_run => format!("When {says}, at which the run ends; null where it never does."),
-            Which::First => format!("When {says} for the first time; null where it never does."),
-            Which::Last => format!("When {says} for the last time; null where it never does."),
+            Which::First if self.ends_run => format!("When {says}, at which the run ends; null if it never does."),
+            Which::First => format!("When {says} for the first time; null if it never does."),
+            Which::Last => format!("When {says} for the last time; null if it never does."),
             Which::Stays => {
                 format!(
-                    "When {says} and stays there to the end of the run, 0 where it is there all the time; null where it does not."
+                    "When {says} and stays there to the end of the run, 0 if it is there all the time; null if it does not."
                 )
             }
         };

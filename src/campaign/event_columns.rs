@@ -18,7 +18,7 @@ pub(super) fn of_failures(scene: &SceneInput) -> Vec<LawColumn> {
             column(
                 format!("failure_{name}_time_s"),
                 "s",
-                format!("When the {device} failed; null where the run ended before."),
+                format!("When the {device} failed; null if the run ended before."),
                 ColumnKind::Float,
             ),
             column(

@@ -31,7 +31,7 @@ pub struct Extreme {
 const MOST_EXTREMES: usize = 16;
 /// What a name must be.
 const NAME: TextLimit = TextLimit {
-    allowed: "1 to 60 small letters, digits and underscores, the first a letter",
+    allowed: "1 to 60 lower-case letters, digits and underscores, the first a letter",
     remedy: "write it like pointing_error_max_rad",
     test: |name| is_name(name, 60),
 };
@@ -41,11 +41,11 @@ const WHICH: [&str; 2] = ["max", "min"];
 #[rustfmt::skip]
 pub const ROWS: [Row; 5] = [
     Row::new("name", Kind::Text(NAME), "The name of its column").required_as(NAME.allowed, "\"angular_rate_after_max_rad_s\""),
-    Row::new("quantity", Kind::Expression, "A quantity over time that is observed, or an expression of several")
+    Row::new("quantity", Kind::Expression, "An observed quantity over time, or an expression of several")
         .required_as("a quantity over time, or an expression of some", "\"angular_rate_rad_s\""),
-    Row::new("which", Kind::Word(&WHICH), "The largest value, or the smallest"),
-    Row::new("after", Kind::Text(ANY_TEXT), "The name of the `[[event]]` from whose time on it is taken; default: from the start of the run"),
-    Row::new("delay_s", Kind::Number, "How much later it is taken; default: 0").not_negative(),
+    Row::new("which", Kind::Word(&WHICH), "Whether to take the largest value or the smallest"),
+    Row::new("after", Kind::Text(ANY_TEXT), "The name of the `[[event]]` after which it is taken; default: from the start of the run"),
+    Row::new("delay_s", Kind::Number, "Delay from that time; default: 0").not_negative(),
 ];
 
 impl Extreme {
@@ -124,7 +124,7 @@ impl Extreme {
     pub(super) fn column(&self) -> LawColumn {
         let word = if self.is_highest { "Largest" } else { "Smallest" };
         let meaning = format!(
-            "{word} value of {}{}, between observation points too; null where the run ends before.",
+            "{word} value of {}{}, between observation points too; null if the run ends before.",
             self.quantity,
             self.since()
         );

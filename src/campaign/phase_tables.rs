@@ -162,7 +162,7 @@ pub(super) fn read_phase(
             WORDS.contains(&key) || lists.iter().any(|list| list.iter().any(|other| other.facts.key == key))
         };
         if let Some(taken) = law.parameters.iter().find(|parameter| is_taken(parameter)) {
-            let allowed = format!("a law whose parameters are no other keys of the phase ({:?} is)", taken.facts.key);
+            let allowed = format!("a law whose parameters are not also keys of the phase ({:?} is)", taken.facts.key);
             section.refuse("law", allowed, "rename the parameter");
             return None;
         }

@@ -34,7 +34,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Name of the campaign and of its folder of results.
+    /// Name of the campaign and of its results folder.
     pub name: String,
     /// The question that the campaign answers: `campaign.description`, else the first sentence of the comments above the file's tables.
     pub description: Option<String>,
@@ -71,7 +71,7 @@ pub struct Plan {
     pub band_points: usize,
     /// How many of the first dispersed runs quantiles over time are of ([`Plan::last_counted`]).
     pub band_runs: u64,
-    /// Compression of the files of rows.
+    /// Compression of the row files.
     pub compression: Compression,
     /// The control law of every run; its parameters are in the nominal scene.
     pub law: Option<ControlLaw>,

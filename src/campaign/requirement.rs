@@ -83,18 +83,18 @@ const BOUNDS: ListLimit = ListLimit {
 /// The keys of a requirement.
 #[rustfmt::skip]
 pub const ROWS: [Row; 13] = [
-    Row::new("observable", Kind::Observable, "The observable that it is about"),
-    Row::new("band", Kind::Band, "The quantity over time that it is about"),
-    Row::new("from_s", Kind::Number, "Start of the interval of time; default: of the run"),
-    Row::new("to_s", Kind::Number, "End of the interval of time; default: of the run"),
-    Row::new("at_all_times", Kind::Flag, "Whether it is about each run at all times, and not about each time for itself; default: false"),
-    Row::new("quantile", Kind::Number, "Which quantile of the runs keeps the limit").limited(PROBABILITY),
-    Row::new("fraction", Kind::Number, "Which fraction of the runs keeps the limit").limited(PROBABILITY),
-    Row::new("mean", Kind::Yes, "Whether their mean does"),
-    Row::new("at_most", Kind::Amount, "Upper limit, in the unit of what it is about"),
-    Row::new("at_least", Kind::Amount, "Lower limit, in the unit of what it is about"),
-    Row::new("bounded", Kind::Numbers(BOUNDS), "Of a mean: between which two values every run is known to be"),
-    Row::new("never", Kind::Word(&NEVER), "Whether a run in which it never happens meets a fraction"),
+    Row::new("observable", Kind::Observable, "The observable that must keep the limit"),
+    Row::new("band", Kind::Band, "The quantity over time that must keep the limit"),
+    Row::new("from_s", Kind::Number, "Start of the time interval; default: the start of the run"),
+    Row::new("to_s", Kind::Number, "End of the time interval; default: the end of the run"),
+    Row::new("at_all_times", Kind::Flag, "Whether each run must keep the limit at all times, instead of the runs at each time separately; default: false"),
+    Row::new("quantile", Kind::Number, "The quantile of the runs that must keep the limit").limited(PROBABILITY),
+    Row::new("fraction", Kind::Number, "The fraction of the runs that must keep the limit").limited(PROBABILITY),
+    Row::new("mean", Kind::Yes, "Whether the mean of the runs must keep the limit"),
+    Row::new("at_most", Kind::Amount, "Upper limit, in the unit of the observable or quantity"),
+    Row::new("at_least", Kind::Amount, "Lower limit, in the unit of the observable or quantity"),
+    Row::new("bounded", Kind::Numbers(BOUNDS), "For a mean: two values between which every run is known to lie"),
+    Row::new("never", Kind::Word(&NEVER), "For a fraction: whether a run without a value, because the event never happens, meets the limit"),
     Row::new("confidence", Kind::Number, "Confidence of the verdict").limited(CONFIDENCE).or(Presence::Or(DEFAULT_CONFIDENCE)),
 ];
 
@@ -161,7 +161,7 @@ impl Requirement {
         })
     }
 
-    /// The observable that it is about; `None` where it is about a quantity at each time.
+    /// The observable that must keep the limit; `None` where it is about a quantity at each time.
     pub fn observable(&self) -> Option<&str> {
         match &self.subject {
             Subject::Observable(name) | Subject::AtAllTimes { column: name, .. } => Some(name),
@@ -177,7 +177,7 @@ impl Requirement {
         }
     }
 
-    /// The quantity over time that it is about, with the interval.
+    /// The quantity over time that must keep the limit, with the interval.
     pub fn band(&self) -> Option<&BandSubject> {
         match &self.subject {
             Subject::Observable(_) => None,

@@ -45,32 +45,32 @@ const NAME: TextLimit = TextLimit {
 #[rustfmt::skip]
 pub const HEAD: [(&str, &[Row]); 3] = [
     ("campaign", &[
-        Row::new("name", Kind::Text(NAME), "Name of the campaign and of its folder of results")
+        Row::new("name", Kind::Text(NAME), "Name of the campaign and of its results folder")
             .required_as(NAME.allowed, "\"my_campaign\""),
         Row::new("description", Kind::Text(description::LIMIT),
             "The question that the campaign answers; default: the first sentence of the comments at the top of the file"),
         Row::new("samples", Kind::Count([1, MAX_SAMPLES]),
-            "Number of samples, the nominal one included; may be left out where the design has a size of its own"),
-        Row::new("only", Kind::Samples(MOST_CHOSEN), "The numbers of the samples that run; default: all"),
+            "Number of samples, including the nominal one; may be omitted if the design has a size of its own"),
+        Row::new("only", Kind::Samples(MOST_CHOSEN), "The numbers of the samples to run; default: all"),
         Row::new("seed", Kind::Count([0, LARGEST_SEED]), "Seed of every draw").required_as("a whole number of at least 0", "1"),
         Row::new("duration_s", Kind::Number, "Duration of each run").limited(POSITIVE).required_as(POSITIVE.allowed, "10.0"),
     ]),
     ("integrator", &[
         Row::new("method", Kind::Word(&METHODS), "Equations and integrator"),
-        Row::new("tolerance", Kind::Number, "Both of the following; default: 1e-14 of auto and taylor (1e-12 of auto with drag or sunlight), 1e-10 of other methods")
+        Row::new("tolerance", Kind::Number, "Sets both of the following; default: 1e-14 for auto and taylor (1e-12 for auto with drag or sunlight), 1e-10 for other methods")
             .limited(TOLERANCE),
-        Row::new("relative_tolerance", Kind::Number, "Relative tolerance of local errors").limited(TOLERANCE),
-        Row::new("absolute_tolerance", Kind::Number, "Absolute tolerance of local errors").limited(TOLERANCE),
-        Row::new("step_s", Kind::Number, "The step of a method with a fixed step, which needs it").limited(POSITIVE),
-        Row::new("max_steps", Kind::Count([1, LARGEST_SEED]), "Most steps of a run; default: 10 million"),
+        Row::new("relative_tolerance", Kind::Number, "Relative tolerance for local errors").limited(TOLERANCE),
+        Row::new("absolute_tolerance", Kind::Number, "Absolute tolerance for local errors").limited(TOLERANCE),
+        Row::new("step_s", Kind::Number, "Step size, required by the methods with a fixed step").limited(POSITIVE),
+        Row::new("max_steps", Kind::Count([1, LARGEST_SEED]), "Largest number of steps of a run; default: 10 million"),
     ]),
     ("observe", &[
         Row::new("points", Kind::Count([2, MAX_POINTS]),
             "Number of points of the uniform grid of times from 0 to the duration; default: 101"),
         Row::new("groups", Kind::Words(&GROUPS, default_groups),
-            "Groups of columns that are observed; default: all but motion, mass_properties and orbit"),
+            "Groups of columns to observe; default: all but motion, mass_properties and orbit"),
         Row::new("nutation_axis", Kind::WordOrDirection(&["s3", "principal"]),
-            "Whose angle from the angular momentum nutation is; or a direction in F_s"),
+            "The axis whose angle from the angular momentum is the nutation angle; or a direction in F_s"),
     ]),
 ];
 
@@ -78,16 +78,16 @@ pub const HEAD: [(&str, &[Row]); 3] = [
 #[rustfmt::skip]
 pub const TAIL: [(&str, &[Row]); 3] = [
     ("audit", &[
-        Row::new("fraction", Kind::Number, "Share of the samples that are compared with a reference solution; default: 0")
+        Row::new("fraction", Kind::Number, "Fraction of the samples that are compared with a reference solution; default: 0")
             .limited(FRACTION),
     ]),
     ("bands", &[
         Row::new("points", Kind::Count([0, MOST_BAND_POINTS]),
-            "Points at which quantiles over time are counted, 0 for none; default: all of a grid of up to 65 points, else 33; under a control loop all of up to 257, else 201"),
+            "Number of points in time at which quantiles are counted, 0 for none; default: all points of a grid of up to 65, else 33; under a control loop, all points of a grid of up to 257, else 201"),
         Row::new("runs", Kind::Count([FEWEST_BAND_RUNS, MAX_SAMPLES]),
-            "How many dispersed runs, the first ones, these quantiles are of; default: 131072; all of a grid and other lists of samples"),
+            "How many of the dispersed runs, counted from the first, enter these quantiles; default: 131,072, or all runs of a grid and of other lists of samples"),
     ]),
-    ("output", &[Row::new("compression", Kind::Word(&COMPRESSIONS), "Compression of the files of rows")]),
+    ("output", &[Row::new("compression", Kind::Word(&COMPRESSIONS), "Compression of the row files")]),
 ];
 
 /// The tables of events and extremes, of what is made of the rows, and of what is kept of runs, with what their keys have to do with each other.
@@ -103,7 +103,7 @@ pub const ANALYSIS: [(&str, &[Row], &[Rule]); 9] = [
     ("[retain]", &retention::ROWS, &[]),
 ];
 
-/// Compression of the files of rows.
+/// Compression of the row files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compression {
     /// LZ4: nearly as small as Zstandard, twice as fast to write.

@@ -207,7 +207,7 @@ pub(super) fn put<'a>(table: &mut DeTable<'a>, path: &str, value: Spanned<DeValu
         None => (path, None),
     };
     let (key, index) = match first.strip_suffix(']').and_then(|first| first.split_once('[')) {
-        Some((key, index)) => (key, Some(index.parse::<usize>().map_err(|_| format!("{index:?} is no number"))?)),
+        Some((key, index)) => (key, Some(index.parse::<usize>().map_err(|_| format!("{index:?} is not a number"))?)),
         None => (first, None),
     };
     if key.is_empty() {
@@ -244,7 +244,7 @@ pub(super) fn put<'a>(table: &mut DeTable<'a>, path: &str, value: Spanned<DeValu
                 }
             }
         }
-        _ => Err(format!("{key} is no table")),
+        _ => Err(format!("{key} is not a table")),
     }
 }
 

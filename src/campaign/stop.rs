@@ -24,20 +24,20 @@ pub enum When {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stop {
     pub when: When,
-    /// Most samples, sample 0 included.
+    /// Largest number of samples, including sample 0.
     pub max_samples: u64,
 }
 
 /// The keys of the table; those between the first and the last one are of a goal.
 #[rustfmt::skip]
 pub const ROWS: [Row; 6] = [
-    Row::new("when", Kind::Word(&["precise", "decided"]), "What ends the campaign: that a quantile is known, or that no requirement is undecided"),
+    Row::new("when", Kind::Word(&["precise", "decided"]), "What ends the campaign: a quantile is known precisely enough, or no requirement is undecided"),
     Row::new("observable", Kind::Observable, "The observable").required_as("the name of an observable", "\"energy_error_max\""),
-    Row::new("quantile", Kind::Number, "Which quantile of it").limited(PROBABILITY).required_as(PROBABILITY.allowed, "0.95"),
-    Row::new("half_width", Kind::Amount, "How narrow the interval of the quantile must be, in the unit of the observable")
+    Row::new("quantile", Kind::Number, "Which of its quantiles").limited(PROBABILITY).required_as(PROBABILITY.allowed, "0.95"),
+    Row::new("half_width", Kind::Amount, "The half-width that the interval of the quantile must reach, in the unit of the observable")
         .limited(POSITIVE).required_as(POSITIVE.allowed, "1e-12"),
     Row::new("confidence", Kind::Number, "Confidence of the interval").limited(CONFIDENCE).or(Presence::Or(DEFAULT_CONFIDENCE)),
-    Row::new("max_samples", Kind::Count([2, MAX_SAMPLES]), "Most samples, sample 0 included")
+    Row::new("max_samples", Kind::Count([2, MAX_SAMPLES]), "Largest number of samples, including sample 0")
         .required_as("a whole number above campaign.samples", "100000"),
 ];
 

@@ -204,7 +204,7 @@ fn single(text: &str, unit: &str, may_be_plain: bool) -> Result<f64, UnitProblem
         None if UNITS.iter().any(|(_, of, ..)| *of == written) => {
             problem(format!("{written} is the unit of other quantities; check key and unit"))
         }
-        None => problem(format!("{written:?} is no unit that is known here; {}", example(unit))),
+        None => problem(format!("{written:?} is not a known unit; {}", example(unit))),
     }
 }
 

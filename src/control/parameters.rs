@@ -30,14 +30,14 @@ declared! {
         stability_from: f64 = number(
             "stability_from_s",
             "s",
-            "Start of the window over which the attitude is to be stable; 0: when the mission has settled",
+            "Start of the window over which stability is measured; 0: when the mission has settled",
             &[0.0],
         );
         stability_window: f64 = number("stability_window_s", "s", "Length of that window; 0: to the end of the run", &[0.0]);
         saturation_timeout: f64 = number(
             "saturation_timeout_s",
             "s",
-            "How long the limit of a wheel's speed may cut its motor before the mission fails; 0: for ever",
+            "How long a wheel's speed limit may cut off its motor before the mission fails; 0: forever",
             &[0.0],
         );
     }
@@ -70,10 +70,10 @@ declared! {
         time: f64 = number(
             "unloading_time_s",
             "s",
-            "Time constant with which thrusters take momentum out of the wheels; 0: not at all",
+            "Time constant with which thrusters unload the wheels; 0: they do not",
             &[0.0],
         );
-        dead_band: f64 = number("unloading_dead_band_n_m_s", "N m s", "Momentum that may stay in the wheels", &[0.0]);
+        dead_band: f64 = number("unloading_dead_band_n_m_s", "N m s", "Wheel momentum that need not be unloaded", &[0.0]);
     }
 }
 
@@ -82,7 +82,7 @@ const WANTED_ATTITUDE: LawParameter = LawParameter {
     facts: Facts {
         key: "attitude",
         unit: "1",
-        meaning: "Attitude quaternion that is wanted, scalar first: F_s -> F_e, of an orbital attitude F_s -> F_o",
+        meaning: "Target attitude quaternion, scalar first: F_s -> F_e, or F_s -> F_o for an orbital attitude",
         components: &["w", "x", "y", "z"],
         shape: Shape::Quaternion,
         presence: Presence::Required("[1, 0, 0, 0]"),

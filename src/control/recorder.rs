@@ -139,7 +139,7 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
         add("estimated_omega_de_d", XYZ, rate, meaning, of_debris(|debris, _| debris.omega_de_d));
     }
     if spec.has_filter() {
-        let meaning = "Normalised square of an estimation error, or of the innovation of this tick, over its degrees of freedom; null where there is none.";
+        let meaning = "Normalised square of an estimation error, or of the innovation of this tick, divided by its degrees of freedom; null if there is none.";
         type Squares = fn(&Consistency) -> [Option<NormalizedSquare>; 2];
         let squares: [(&str, bool, Squares); 4] = [
             ("attitude", true, |of| [of.attitude, of.attitude_innovation]),
@@ -184,7 +184,7 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
                 let shown = last.map(|last| sensor.telemetry(last.values));
                 row.extend(places.iter().map(|at| shown.map_or(f64::NAN, |shown| shown[*at])));
             });
-            let meaning = format!("{}; null where none was delivered.", quantity.meaning);
+            let meaning = format!("{}; null if none was delivered.", quantity.meaning);
             add(&format!("{prefix}{}", quantity.name), components, quantity.unit, &meaning, values);
         }
     }
@@ -204,7 +204,7 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
     for (place, declared) in spec.code().map_or(&[][..], FlightCode::telemetry).iter().enumerate() {
         let value: Values = Box::new(move |tick, row| row.push(tick.telemetry.get(place).map_or(f64::NAN, |one| *one)));
         let meaning = format!(
-            "{}: telemetry of the module; null where it is not asked, or reports no finite number.",
+            "{}: telemetry of the module; null if it is not asked, or does not report a finite number.",
             declared.meaning
         );
         add(&declared.column(""), &[""], [declared.unit_of_column(), ""], &meaning, value);

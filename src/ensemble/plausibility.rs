@@ -44,7 +44,7 @@ const TABLE: &[Row] = &[
         1.0,
         360.0 / TAU,
         "deg/s",
-        "usual are below 0.1 rad/s, of a spinning body some turns a minute; degrees are written with their unit, \"30 deg/s\"",
+        "usual values are below 0.1 rad/s, or a few turns a minute for a spinning body; degrees are written with their unit, \"30 deg/s\"",
     ),
     (
         "debris_relative_angular_velocity_rad_s",
@@ -58,10 +58,22 @@ const TABLE: &[Row] = &[
         FAST_WHEEL,
         60.0 / TAU,
         "rpm",
-        "usual are up to 6000 rpm; revolutions are written with their unit, \"3000 rpm\"",
+        "usual values are up to 6000 rpm; revolutions are written with their unit, \"3000 rpm\"",
     ),
-    ("tilt_rad", 0.1, 360.0 / TAU, "deg", "usual are below 0.02 rad; degrees are written with their unit, \"0.1 deg\""),
-    ("angle_rad", TAU, 360.0 / TAU, "deg", "usual are 0 to 2 pi; degrees are written with their unit, \"30 deg\""),
+    (
+        "tilt_rad",
+        0.1,
+        360.0 / TAU,
+        "deg",
+        "usual values are below 0.02 rad; degrees are written with their unit, \"0.1 deg\"",
+    ),
+    (
+        "angle_rad",
+        TAU,
+        360.0 / TAU,
+        "deg",
+        "usual values are 0 to 2 pi; degrees are written with their unit, \"30 deg\"",
+    ),
 ];
 
 /// The numbers of `plan` that look like a mistake, a sentence each.
@@ -72,7 +84,7 @@ pub fn implausible(plan: &Plan) -> Vec<String> {
     notes.extend(plan.dispersed.iter().flat_map(|dispersion| {
         let name = dispersion.parameter.name();
         wide_spreads(&dispersion.distribution.written).into_iter().map(move |spread| {
-            format!("{name}, {spread}: a spread of half of the nominal value and more; percent are written with their unit, \"2 %\"")
+            format!("{name}, {spread}: a spread of half the nominal value or more; percentages are written with their unit, \"2 %\"")
         })
     }));
     notes.extend(nutation(plan));
@@ -83,8 +95,10 @@ pub fn implausible(plan: &Plan) -> Vec<String> {
     let duration = plan.grid.duration();
     if duration >= LONG {
         let years = digits(duration / YEAR);
-        let note =
-            format!("campaign.duration_s = {}: that is {years} years; usual are seconds to days", digits(duration));
+        let note = format!(
+            "campaign.duration_s = {}: that is {years} years; usual durations are seconds to days",
+            digits(duration)
+        );
         notes.insert(0, note);
     }
     let late = plan.nominal.actuation.iter().position(|arc| arc.start_s >= duration);
@@ -172,7 +186,7 @@ fn driven_wheels(input: &SceneInput) -> Vec<String> {
         (most >= FAST_WHEEL && wheel.rate_rad_s.abs() < FAST_WHEEL).then(|| {
             let rpm = digits(most * 60.0 / TAU);
             format!(
-                "wheels.{}: the torques of [[actuation]] bring it to about {rpm} rpm; usual are up to 6000 rpm",
+                "wheels.{}: the torques of [[actuation]] bring it to about {rpm} rpm; usual values are up to 6000 rpm",
                 wheel.name
             )
         })
@@ -184,7 +198,7 @@ fn mass(input: &SceneInput) -> Option<String> {
     let mass = Scene::resolve(input).ok()?.mass.total;
     (mass >= HEAVY).then(|| {
         format!(
-            "the spacecraft has a mass of {} kg; usual are 1 kg to some tons: check densities and sizes; grams and millimetres are written with their unit, \"50 g\", \"20 mm\"",
+            "the spacecraft has a mass of {} kg; usual values are 1 kg to some tons: check densities and sizes; grams and millimetres are written with their unit, \"50 g\", \"20 mm\"",
             digits(mass)
         )
     })

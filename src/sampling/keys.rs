@@ -29,7 +29,7 @@ pub struct TextLimit {
 
 pub const ANY_TEXT: TextLimit = TextLimit { allowed: "text", remedy: "write it in quotes", test: |_| true };
 
-/// Whether `text` is a name of at most `most` small letters, digits and underscores, the first a letter.
+/// Whether `text` is a name of at most `most` lower-case letters, digits and underscores, the first a letter.
 pub fn is_name(text: &str, most: usize) -> bool {
     let is_letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     text.starts_with(|c: char| c.is_ascii_lowercase()) && text.chars().all(is_letter) && text.len() <= most

@@ -13,9 +13,10 @@ use crate::storage::names::unfinished;
 /// That `path` is free, or a file or a link that a rename replaces: not a device, and not a pipe.
 fn check_replaceable(path: &Path) -> io::Result<()> {
     match fs::symlink_metadata(path) {
-        Ok(found) if !(found.is_file() || found.is_symlink()) => {
-            Err(io::Error::new(io::ErrorKind::AlreadyExists, "there is something of that name that is no regular file"))
-        }
+        Ok(found) if !(found.is_file() || found.is_symlink()) => Err(io::Error::new(
+            io::ErrorKind::AlreadyExists,
+            "there is something of that name that is not a regular file",
+        )),
         _ => Ok(()),
     }
 }

@@ -181,7 +181,7 @@ impl StoredBands {
             };
             (is_whole && found.makes_sense()).then_some(found)
         };
-        found().ok_or_else(|| RowsError { path: path.display().to_string(), what: "is no file of bands".to_owned() })
+        found().ok_or_else(|| RowsError { path: path.display().to_string(), what: "is not a file of bands".to_owned() })
     }
 
     fn makes_sense(&self) -> bool {
@@ -302,9 +302,11 @@ mod tests {
             [([7, 0], "1 0 0 0"), ([7, 10], "1 0 0 0"), ([1, 1], "1 0 0 0"), ([7, 1], "1 0 0"), ([7, 1], "1 0 0 1")]
         {
             let wrong = file(&folder, 0, 1.0, &[row], lengths, ends);
-            assert!(refused(&[&wrong]).ends_with("is no file of bands"), "{row:?} {lengths}");
+            assert!(refused(&[&wrong]).ends_with("is not a file of bands"), "{row:?} {lengths}");
         }
-        assert!(refused(&[&file(&folder, 0, 1.0, &sound, lengths, ["1.0", "2.5"])]).ends_with("is no file of bands"));
+        assert!(
+            refused(&[&file(&folder, 0, 1.0, &sound, lengths, ["1.0", "2.5"])]).ends_with("is not a file of bands")
+        );
         std::fs::write(&first, b"PAR1").unwrap();
         assert!(refused(&[&first]).starts_with(first.to_str().unwrap()));
         std::fs::remove_dir_all(&folder).unwrap();

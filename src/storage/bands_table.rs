@@ -39,7 +39,7 @@ pub fn headings() -> Vec<Heading> {
         ),
     ];
     let values = [
-        real("nominal", format!("Value of the nominal run, {unit}; null where it has none.")),
+        real("nominal", format!("Value of the nominal run, {unit}; null if it has none.")),
         real("min", format!("Smallest value of the runs, {unit}.")),
         real("max", format!("Largest value of the runs, {unit}.")),
     ];

@@ -109,7 +109,7 @@ impl Found {
         let lines = |(name, manifest): (&String, &Manifest)| -> Vec<String> {
             manifest.damaged.iter().map(|line| format!("{name}:{line}: damaged line")).collect()
         };
-        let commits = self.foreign_commits.iter().map(|name| format!("{name}: is no commit of this result"));
+        let commits = self.foreign_commits.iter().map(|name| format!("{name}: is not a commit of this result"));
         self.manifests.iter().flat_map(lines).chain(self.plan_damage.clone()).chain(commits).collect()
     }
 }

@@ -41,7 +41,7 @@ fn foreign_rows(bytes: Vec<u8>, identity: &Identity, part: &PartRecord) -> Optio
             there.seed, there.row_hash, identity.seed, identity.row_hash
         )),
         Some((_, id, rows)) => Some(format!("has the {rows} rows of part {}", id.0)),
-        None => Some("is no file of rows".to_owned()),
+        None => Some("is not a file of rows".to_owned()),
     }
 }
 

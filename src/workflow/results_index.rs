@@ -95,7 +95,7 @@ fn read(session: &Session<'_>, folder: &Path, name: &Path) -> Result<Found, Stri
     let text = |key: &str| value[key].as_str().map(str::to_owned);
     let campaign = text("campaign").ok_or_else(|| format!("{SUMMARY} names no campaign"))?;
     let plan = session.storage.read(&folder.join(PLAN), MOST_PLAN).map_err(|error| error.to_string())?;
-    let plan = String::from_utf8(plan).map_err(|_| format!("{PLAN} is no text"))?;
+    let plan = String::from_utf8(plan).map_err(|_| format!("{PLAN} is not text"))?;
     let question = toml::from_str::<toml::Table>(&plan)
         .ok()
         .and_then(|table| Some(table.get("campaign")?.get("description")?.as_str()?.to_owned()));

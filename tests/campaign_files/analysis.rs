@@ -231,7 +231,7 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         OBSERVABLE,
         "twice",
         "Twice",
-        "observable[0].name = \"Twice\": must be 1 to 60 small letters, digits and underscores, the first a letter; write it like pointing_error_deg",
+        "observable[0].name = \"Twice\": must be 1 to 60 lower-case letters, digits and underscores, the first a letter; write it like pointing_error_deg",
     ),
     (
         OBSERVABLE,

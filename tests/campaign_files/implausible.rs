@@ -73,8 +73,8 @@ fn each_implausible_number_has_its_note() {
         ("rx = 0.1", "rx = 7", "wheels.rx: the torques of [[actuation]]", "13140 rpm"),
         ("\"0.1 deg\"", "0.1", "wheels.rx.tilt_rad, as dispersed", "0.1 deg"),
         ("\"360 deg\"", "360", "wheels.rx.angle_rad, as dispersed", "0 to 2 pi"),
-        ("relative_std = 0.1", "relative_std = 0.5", "wheels.rx.rate_rad_s, relative_std = 0.5", "half of the nominal"),
-        ("mass_kg = 300", "mass_kg = 300000", "the spacecraft has a mass of 300000 kg", "usual are"),
+        ("relative_std = 0.1", "relative_std = 0.5", "wheels.rx.rate_rad_s, relative_std = 0.5", "half the nominal"),
+        ("mass_kg = 300", "mass_kg = 300000", "the spacecraft has a mass of 300000 kg", "usual values are"),
         ("points = 121", "points = 3", "observe.points = 3:", "turns from one point to the next"),
         ("5.0\nend_s = 10.0", "60.0\nend_s = 70.0", "actuation[0].start_s = 60.0", "at the end of the run or later"),
     ] {

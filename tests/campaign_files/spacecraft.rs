@@ -68,9 +68,9 @@ fn the_newcomers_spacecraft_takes_25_lines_and_runs() {
     assert!(!names.iter().any(|name| name.contains("_wheels_")), "one wheel is all wheels together");
 }
 
-/// Law: names are a small letter, then small letters, digits and underscores, at most 23 of them; each list has each name once.
+/// Law: names are a lower-case letter, then lower-case letters, digits and underscores, at most 23 of them; each list has each name once.
 #[test]
-fn names_are_small_letters_digits_and_underscores_and_unique() {
+fn names_are_lower_case_letters_digits_and_underscores_and_unique() {
     for name in ["a", "w1", "wheel_1", "x23456789012345678901_3"] {
         let plan = plan(&changed("\"w1\"", &format!("{name:?}")));
         assert_eq!(plan.nominal.wheels[0].name.as_str(), name);
@@ -86,7 +86,7 @@ fn names_are_small_letters_digits_and_underscores_and_unique() {
                 (problem.key.as_str(), problem.value.as_deref()),
                 (&*format!("{list}[0].name"), Some(&*format!("{name:?}")))
             );
-            assert!(problem.allowed.contains("small letters, digits and underscores"), "{problem}");
+            assert!(problem.allowed.contains("lower-case letters, digits and underscores"), "{problem}");
         }
     }
     let part = |name: &str| format!("[[body.parts]]\nname = {name:?}\nshape = \"point_mass\"\nmass_kg = 1\n");
@@ -167,7 +167,7 @@ fn a_wrong_dimension_is_refused() {
         ("\"0.5 deg\"", "\"0.5 deg/s\"", 21, "rad, deg, arcmin", "deg/s is a unit of other quantities (rad/s)"),
         ("\"20 min\"", "\"20 m\"", 5, "s, ms, min, h, day", "m is the unit of other quantities"),
         ("mass_kg = 500", "mass_kg = \"500 m\"", 7, "kg, g, t", "m is the unit of other quantities"),
-        ("\"3000 rpm\"", "\"3000 rmp\"", 16, "rpm", "is no unit that is known here"),
+        ("\"3000 rpm\"", "\"3000 rmp\"", 16, "rpm", "is not a known unit"),
         ("\"3000 rpm\"", "\"3000\"", 16, "rpm", "without quotes, or add the unit"),
         ("axis = [0, 1, 0]", "axis = [0, \"1 m\", 0]", 12, "%", "m is the unit of other quantities"),
     ] {

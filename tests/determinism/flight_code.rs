@@ -302,7 +302,7 @@ fn modules_that_cannot_fly_are_refused() {
     let cases: Vec<(Vec<u8>, &str)> = vec![
         (Vec::new(), "does not begin as one does"),
         (b"(module)".to_vec(), "does not begin as one does"),
-        (component, "no core module"),
+        (component, "not a core module"),
         (truncated, "unexpected end"),
         (huge, "at most 4194304 bytes"),
         (
@@ -332,9 +332,9 @@ fn modules_that_cannot_fly_are_refused() {
         (changed(&|module| module.misnamed = "spindrift_step"), "does not export spindrift_step"),
         (
             changed(&|module| (module.is_mistyped, module.step) = (true, vec![0x41, 0, 0x0b])),
-            "spindrift_step is no function",
+            "spindrift_step is not a function",
         ),
-        (changed(&|module| module.is_init_mistyped = true), "spindrift_init is no function"),
+        (changed(&|module| module.is_init_mistyped = true), "spindrift_init is not a function"),
         (changed(&|module| module.places[0] = 0), "its interface is 0"),
         (changed(&|module| module.places[1] = 65_536 - 8 * 50 + 1), "spindrift_input returns 65137"),
         (changed(&|module| module.places[1] = -1), "spindrift_input returns 4294967295"),
@@ -344,8 +344,8 @@ fn modules_that_cannot_fly_are_refused() {
         (changed(&|module| module.pages = 1000), "memory"),
         (changed(&|module| (module.table, module.misnamed) = (Some(""), "spindrift_parameters")), "belong together"),
         (changed(&|module| module.table = Some("gain_n_m | N m | 1\n")), "\"key | unit | default | meaning\""),
-        (changed(&|module| module.table = Some("Gain | 1 | 1 | Gain\n")), "\"Gain\" is no key"),
-        (changed(&|module| module.table = Some("gain | 1 | much | Gain\n")), "no finite number"),
+        (changed(&|module| module.table = Some("Gain | 1 | 1 | Gain\n")), "\"Gain\" is not a key"),
+        (changed(&|module| module.table = Some("gain | 1 | much | Gain\n")), "not a finite number"),
         (changed(&|module| module.table = Some("gain | 1 | 1 | Gain\ngain | 1 | 1 | Gain\n")), "stands in it twice"),
         (changed(&|module| module.table = Some("gain_n_m | rad | 1 | Gain\n")), "ends in \"N m\", and says \"rad\""),
         (changed(&|module| module.table = Some("timeout_s | s | 1 | Time\n")), "\"timeout_s\" is"),

@@ -93,7 +93,7 @@ fn word_of(error: &str) -> &'static str {
         ("does not begin", "no-module"),
         ("core module", "no-module"),
         ("imports", "imports"),
-        ("is no function", "wrong-type"),
+        ("is not a function", "wrong-type"),
         ("does not export", "exports"),
         ("belong together", "exports"),
         ("its interface is", "interface"),

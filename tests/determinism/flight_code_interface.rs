@@ -202,7 +202,7 @@ fn what_is_declared_is_checked() {
         (sensors("gyro | star_tracker\n"), "it wants \"gyro\", a star_tracker; there is \"gyro\", a rate_gyro"),
         (sensors("\x1b[31mgyro | rate_gyro\n"), "its text has control characters"),
         (telemetry("error_rad | Error\n"), "\"error_rad | Error\" is not of the form \"key | unit | meaning\""),
-        (telemetry("Error | 1 | Error\n"), "\"Error\" is no key"),
+        (telemetry("Error | 1 | Error\n"), "\"Error\" is not a key"),
         (telemetry("error | rad | Error\n"), "the key \"error\" does not end in its unit, as in error_rad of \"rad\""),
         (telemetry("error_rad | 1 | Error\n"), "\"error_rad\" ends in \"rad\", and says \"1\""),
         (telemetry("error_deg | deg | Error\n"), "\"error_deg\" ends in \"1\", and says \"deg\""),

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{CommandFactory, Parser};
 use spindrift::campaign::{Overrides, Plan, find};
 use spindrift::cli::arguments::{Arguments, Command};
+use spindrift::ensemble::plausibility::implausible;
 use spindrift::propagation::Method;
 use spindrift::run::Status;
 use spindrift::scene::Scene;
@@ -206,6 +207,20 @@ fn every_campaign_file_is_valid() {
         }
     }
     assert!(count >= 4, "{count} blocks were found");
+}
+
+/// Checked: the complete example of a campaign file raises no note of `check`; with a rate that looks like a mistake it would.
+#[test]
+fn the_complete_example_raises_no_note() {
+    let document = text(&root().join("docs/campaign-files.md"));
+    let example = blocks(&document).into_iter().find(|block| block.language == "toml").expect("an example").text;
+    let notes = |text: &str| {
+        let plan = Plan::from_text("example.toml", text, Overrides::default()).expect("a plan");
+        [plan.notes(), implausible(&plan)].concat()
+    };
+    assert_eq!(notes(&example), Vec::<String>::new());
+    let fast = example.replacen("= [0, 0.05, 0.5]", "= [0, 0.05, 31.6]", 1);
+    assert_eq!(notes(&fast).len(), 2, "its rate, and the angle between two points: {:?}", notes(&fast));
 }
 
 /// Checked: every command in the documents exists, with its options, targets and files.

@@ -269,7 +269,7 @@ fn keys_of_tables() -> String {
                 Kind::AmountList => ("an array of numbers".to_owned(), "of the parameter"),
                 Kind::List => ("an array of numbers".to_owned(), ""),
                 Kind::Number => ("a number".to_owned(), ""),
-                Kind::Amount => ("a number".to_owned(), "of what the table is about"),
+                Kind::Amount => ("a number".to_owned(), "of the observable or quantity"),
                 Kind::Numbers(limit) => (limit.allowed.to_owned(), ""),
                 Kind::Observable => ("the name of an observable".to_owned(), ""),
                 Kind::Observables => ("an array of names of observables".to_owned(), ""),
@@ -287,7 +287,7 @@ fn keys_of_tables() -> String {
                 Kind::Words(words, _) => (format!("an array of `\"{}\"`", words.join("\"`, `\"")), ""),
                 Kind::Counts(_) => ("whole numbers above zero".to_owned(), ""),
                 Kind::Word(words) | Kind::WordOrDirection(words) => {
-                    (format!("`\"{}\"`", words.join("\"` (default), `\"")), "")
+                    (format!("`\"{}\"`", words.join("\"`, `\"")).replacen("\"`", "\"` (default)", 1), "")
                 }
                 Kind::Distribution => ("a table with a distribution of one number".to_owned(), ""),
                 Kind::Column | Kind::Columns => ("the path of a file".to_owned(), ""),

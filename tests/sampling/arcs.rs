@@ -173,7 +173,7 @@ fn wrong_names_and_numbers_are_refused() {
         (
             "name = \"late\"",
             "name = \"4th\"",
-            "actuation[4].name = \"4th\": must be a name of at most 23 small letters",
+            "actuation[4].name = \"4th\": must be a name of at most 23 lower-case letters",
         ),
         ("end_s = 4.0", "end_s = 4.0\nthrust_scale = -1", "actuation[2].thrust_scale = -1.0: must be zero or above"),
         ("end_s = 4.0", "end_s = 4.0\ntorque_scale = inf", "actuation[2].torque_scale = inf: must be a finite number"),

@@ -199,9 +199,9 @@ macro_rules! errors {
     ($group:ident, $scenes:ident, $series:ident, $name:literal, [$unit:literal, $suffix:literal], [$rate:literal, $rate_suffix:literal], $what:literal) => {
         &[
             of!($group, $scenes, $series, Error(ErrorStatistic::Max), [$name, "_max", $suffix], $unit, ["Maximum magnitude of ", $what]),
-            of!($group, $scenes, $series, Error(ErrorStatistic::Final), [$name, "_final", $suffix], $unit, ["Last value of ", $what]),
+            of!($group, $scenes, $series, Error(ErrorStatistic::Final), [$name, "_final", $suffix], $unit, ["Final value of ", $what]),
             of!($group, $scenes, $series, Error(ErrorStatistic::Rms), [$name, "_rms", $suffix], $unit, ["Root mean square over the points of ", $what]),
-            of!($group, $scenes, $series, Error(ErrorStatistic::Slope), [$name, "_rate", $rate_suffix], $rate, ["Least-squares slope in time of ", $what]),
+            of!($group, $scenes, $series, Error(ErrorStatistic::Slope), [$name, "_rate", $rate_suffix], $rate, ["Least-squares slope over time of ", $what]),
         ]
     };
 }
@@ -211,8 +211,8 @@ macro_rules! errors {
 macro_rules! scales {
     ($group:ident, $scenes:ident, $series:ident, $name:literal, [$unit:literal, $suffix:literal], $what:literal) => {
         &[
-            of!($group, $scenes, $series, Order(OrderStatistic::Initial), [$name, "_initial", $suffix], $unit, ["Initial value of ", $what, "."]),
-            of!($group, $scenes, $series, Order(OrderStatistic::Max), [$name, "_max", $suffix], $unit, ["Maximum of ", $what, " on the grid."]),
+            of!($group, $scenes, $series, Order(OrderStatistic::Initial), [$name, "_initial", $suffix], $unit, ["Initial ", $what, "."]),
+            of!($group, $scenes, $series, Order(OrderStatistic::Max), [$name, "_max", $suffix], $unit, ["Maximum ", $what, " on the grid."]),
         ]
     };
 }
@@ -222,12 +222,12 @@ macro_rules! scales {
 macro_rules! energies {
     ($group:ident, $scenes:ident, $series:ident, $name:literal, $what:literal) => {
         &[
-            of!($group, $scenes, $series, Value(ValueStatistic::Initial), [$name, "_initial_j"], "J", ["Initial value of ", $what, "."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::Final), [$name, "_final_j"], "J", ["Final value of ", $what, "."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::Min), [$name, "_min_j"], "J", ["Minimum of ", $what, " on the grid."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::Max), [$name, "_max_j"], "J", ["Maximum of ", $what, " on the grid."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::Mean), [$name, "_mean_j"], "J", ["Mean over the points of ", $what, "."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::PeakToPeak), [$name, "_peak_to_peak_j"], "J", ["Maximum minus minimum of ", $what, " on the grid."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Initial), [$name, "_initial_j"], "J", ["Initial ", $what, "."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Final), [$name, "_final_j"], "J", ["Final ", $what, "."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Min), [$name, "_min_j"], "J", ["Minimum ", $what, " on the grid."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Max), [$name, "_max_j"], "J", ["Maximum ", $what, " on the grid."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Mean), [$name, "_mean_j"], "J", ["Mean over the points of the ", $what, "."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::PeakToPeak), [$name, "_peak_to_peak_j"], "J", ["Maximum minus minimum ", $what, " on the grid."]),
         ]
     };
 }
@@ -238,10 +238,10 @@ macro_rules! exchange {
     ($series:ident, $scenes:ident, $body:literal, $what:literal) => {
         &[
             of!(Exchange, $scenes, $series, Value(ValueStatistic::PeakToPeak), ["exchange_", $body, "_peak_to_peak_j"], "J", ["Maximum minus minimum of the kinetic energy of ", $what, " about the centre of mass."]),
-            of!(Exchange, $scenes, $series, Fraction, ["exchange_", $body, "_fraction"], "", ["Maximum minus minimum of the kinetic energy of ", $what, ", relative to the largest total about the centre of mass (0 where that is 0)."]),
-            of!(Exchange, $scenes, $series, Value(ValueStatistic::Net), ["exchange_", $body, "_net_j"], "J", ["Last minus first kinetic energy of ", $what, " about the centre of mass."]),
-            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Gross), ["exchange_", $body, "_gross_j"], "J", ["Sum of |dT| from point to point, T the kinetic energy of ", $what, " about the centre of mass."]),
-            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Power), ["exchange_", $body, "_power_max_w"], "W", ["Maximum of |dT/dt| from point to point, T the kinetic energy of ", $what, " about the centre of mass."]),
+            of!(Exchange, $scenes, $series, Fraction, ["exchange_", $body, "_fraction"], "", ["Maximum minus minimum of the kinetic energy of ", $what, ", relative to the largest total energy about the centre of mass (0 if that is 0)."]),
+            of!(Exchange, $scenes, $series, Value(ValueStatistic::Net), ["exchange_", $body, "_net_j"], "J", ["Final minus initial kinetic energy of ", $what, " about the centre of mass."]),
+            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Gross), ["exchange_", $body, "_gross_j"], "J", ["Sum of |dT| from point to point, where T is the kinetic energy of ", $what, " about the centre of mass."]),
+            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Power), ["exchange_", $body, "_power_max_w"], "W", ["Maximum of |dT/dt| from point to point, where T is the kinetic energy of ", $what, " about the centre of mass."]),
         ]
     };
 }

@@ -340,7 +340,7 @@ fn without_wheels(input: &SceneInput, own: f64, inertia: [[f64; 3]; 3], problems
     if !(smallest > 0.0 && largest <= (total - largest) + 2.0 * INERTIA_SLACK * total) {
         if let Some((centre, arm)) = distant_centre(input) {
             let allowed = format!(
-                "within a body's size of the wheels: it is {arm:.3} m from one of them, and what is left without the wheels is no inertia of a body"
+                "within a body's size of the wheels: it is {arm:.3} m from one of them, and what is left without the wheels is not the inertia of a body"
             );
             let remedy = "check its unit (\"12 mm\"), the positions of the wheels, or set body.includes_wheels = false";
             problems.add("body.center_of_mass_m", shown(&centre), allowed, remedy);

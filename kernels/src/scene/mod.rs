@@ -131,7 +131,7 @@ pub struct ThrusterModel {
 pub struct WheelModel {
     /// Factor of the commanded torque.
     pub torque_scale: f64,
-    /// What the motor gives beyond the scaled torque while a torque other than zero is commanded, N m.
+    /// Torque added to the scaled torque whenever the commanded torque is not zero, N m.
     pub torque_bias: f64,
     /// Largest torque, N m; infinite without a limit.
     pub torque_limit: f64,

@@ -5,7 +5,7 @@ use std::fmt::{self, Debug, Display, Formatter};
 /// Largest number of letters of a name.
 pub const MAX_LETTERS: usize = 23;
 
-/// A name: a small letter, then small letters, digits and underscores. In place, so that scenes are copied without allocating.
+/// A name: a lower-case letter, then lower-case letters, digits and underscores. In place, so that scenes are copied without allocating.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Name {
     bytes: [u8; MAX_LETTERS],
@@ -18,7 +18,7 @@ impl Name {
 
     /// What a name must be, to follow "must be".
     pub const ALLOWED: &'static str =
-        "a name of at most 23 small letters, digits and underscores that starts with a letter";
+        "a name of at most 23 lower-case letters, digits and underscores that starts with a letter";
 
     /// The name `text`, where it is one.
     pub const fn new(text: &str) -> Option<Name> {
@@ -45,7 +45,7 @@ impl Name {
     pub const fn of(text: &str) -> Name {
         match Name::new(text) {
             Some(name) => name,
-            None => panic!("a name starts with a small letter and has small letters, digits and underscores"),
+            None => panic!("a name starts with a lower-case letter and has lower-case letters, digits and underscores"),
         }
     }
 

@@ -20,7 +20,7 @@ pub struct Wheel<R = f64> {
     pub axis: [R; 3],
     /// Moment of inertia about the spin axis, kg m^2.
     pub axial: R,
-    /// Moment of inertia about any axis through the centre across the spin axis, kg m^2.
+    /// Moment of inertia about any axis through the centre perpendicular to the spin axis, kg m^2.
     pub transverse: R,
     /// Whether it turns freely or its motor holds its speed.
     pub mode: WheelMode,

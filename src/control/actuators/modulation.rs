@@ -11,8 +11,8 @@ pub const NAMES: [&str; 3] = ["throttled", "pulse_width", "hysteresis"];
 declared! {
     /// Of hysteresis.
     Levels = LEVELS {
-        on: f64 = number("level_on", "1", "Share of the shortest firing at which a thruster turns on", &[0.75]);
-        off: f64 = number("level_off", "1", "Share of the shortest firing at which it turns off", &[0.25]);
+        on: f64 = number("level_on", "1", "Fraction of the shortest firing at which a thruster turns on", &[0.75]);
+        off: f64 = number("level_off", "1", "Fraction of the shortest firing at which it turns off", &[0.25]);
     }
 }
 

@@ -48,14 +48,14 @@ declared! {
         bias_sigma: f64 = belief(
         "initial_bias_sigma_rad_s",
         "rad/s",
-        "Initial standard deviation of the gyro bias, first estimated as zero",
+        "Initial standard deviation of the gyro bias, whose first estimate is zero",
         &[1e-4],
     );
-        rate_sigma: f64 = belief("initial_rate_sigma_rad_s", "rad/s", "Initial standard deviation of the rate; without a gyro", &[0.1]);
+        rate_sigma: f64 = belief("initial_rate_sigma_rad_s", "rad/s", "Initial standard deviation of the rate; used without a gyro", &[0.1]);
         rate_walk: f64 = belief(
         "rate_random_walk_rad_s_sqrt_s",
         "rad/s/sqrt(s)",
-        "Process noise of the rate: unknown torque; without a gyro",
+        "Process noise of the rate: unknown torque; used without a gyro",
         &[1e-4],
     );
         position_sigma: f64 = belief("initial_position_sigma_m", "m", "Initial standard deviation of the position, along each axis", &[10.0]);

@@ -50,7 +50,7 @@ fn check_key(key: &str) -> Result<(), String> {
     if is_key {
         return Ok(());
     }
-    Err(format!("{key:?} is no key: a key has small letters, digits and _, at most {LONGEST_KEY}"))
+    Err(format!("{key:?} is not a key: a key has lower-case letters, digits and _, at most {LONGEST_KEY}"))
 }
 
 /// The parameters that `text` declares.
@@ -66,7 +66,7 @@ pub fn parameters(text: String) -> Result<&'static [LawParameter], String> {
             "" => parameter,
             number => match number.parse::<f64>() {
                 Ok(number) if number.is_finite() => parameter.or(Vec::leak(vec![number])),
-                _ => return Err(format!("the default {number:?} of {key} is no finite number")),
+                _ => return Err(format!("the default {number:?} of {key} is not a finite number")),
             },
         });
     }

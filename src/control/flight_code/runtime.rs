@@ -95,7 +95,7 @@ struct Declared {
 fn compiled(bytes: &[u8]) -> Result<(Compiled, Declared)> {
     match bytes {
         [0, b'a', b's', b'm', 1, 0, 0, 0, ..] => {}
-        [0, b'a', b's', b'm', ..] => bail!("it is no core module: a component?"),
+        [0, b'a', b's', b'm', ..] => bail!("it is not a core module; is it a component?"),
         _ => bail!("it does not begin as one does"),
     }
     Module::validate(engine()?, bytes)?;
@@ -279,7 +279,9 @@ fn function<R: WasmResults>(
         return Ok(None);
     }
     let found = instance.get_typed_func(store, name);
-    found.map(Some).map_err(|_| format_err!("{name} is no function with the arguments and results that it must have"))
+    found
+        .map(Some)
+        .map_err(|_| format_err!("{name} is not a function with the arguments and results that it must have"))
 }
 
 fn missing(name: &str) -> Error {

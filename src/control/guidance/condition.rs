@@ -26,7 +26,7 @@ pub struct GuidanceInput {
     pub velocity_to_go: [f64; 3],
     /// Direction of s3 in F_e.
     pub s3_e: [f64; 3],
-    /// Time until the station is reached in the transfer that is flown, s; NaN without one.
+    /// Time until the current transfer reaches the station, s; NaN without one.
     pub time_to_station: f64,
     /// Time since the debris was last measured, s; NaN without debris.
     pub debris_age: f64,
@@ -84,7 +84,7 @@ pub static QUANTITIES: [GuidanceQuantity; 16] = [
     own("time_s", "Time since the start of the run", |s| s.time).within(QuantityRange::Time),
     own("time_in_phase_s", "Time since the phase began", |s| s.time_in_phase).within(QuantityRange::Time),
     own("body_rate_rad_s", "Magnitude of the angular velocity of the body relative to F_e", |s| s.body_rate),
-    own("pointing_error_rad", "Angle of the rotation to the target of the phase", |s| s.error.angle())
+    own("pointing_error_rad", "Rotation angle to the target of the phase", |s| s.error.angle())
         .within(QuantityRange::Angle),
     own("wheel_speed_rad_s", "Largest magnitude of the rate of a wheel relative to the body", |s| s.wheel_speed),
     own("wheel_momentum_n_m_s", "Magnitude of the momentum of the wheels relative to the body", |s| s.wheel_momentum),
@@ -102,19 +102,17 @@ pub static QUANTITIES: [GuidanceQuantity; 16] = [
     }),
     of_debris(
         "velocity_to_go_m_s",
-        "Magnitude of the impulse per mass that is left of the maneuver of the phase",
+        "Magnitude of the velocity change that the maneuver of the phase has still to make",
         |s| norm(s.velocity_to_go),
     ),
     of_debris(
         "velocity_to_go_along_m_s",
-        "Component along s3 of the impulse per mass that is left of the maneuver of the phase",
+        "Component along s3 of the velocity change that the maneuver of the phase has still to make",
         |s| crate::control::vector::dot(s.velocity_to_go, s.s3_e),
     )
     .within(QuantityRange::Any),
-    of_debris("time_to_station_s", "Time until the station is reached in the transfer that is flown", |s| {
-        s.time_to_station
-    })
-    .within(QuantityRange::Any),
+    of_debris("time_to_station_s", "Time until the current transfer reaches the station", |s| s.time_to_station)
+        .within(QuantityRange::Any),
     of_debris("debris_age_s", "Time since the debris was last measured", |s| s.debris_age),
     of_debris("debris_rate_rad_s", "Magnitude of the angular velocity of the debris relative to F_e", |s| {
         s.debris_rate

@@ -30,8 +30,8 @@ pub struct MrpFeedback {
 declared! {
     /// Its numbers in campaign files.
     MrpNumbers = PARAMETERS {
-        stiffness: f64 = LawParameter::number("stiffness_n_m", "N m", "Torque against an MRP of one: K", Limit::Positive);
-        damping: f64 = LawParameter::number("damping_n_m_s", "N m s", "Torque against a rate of 1 rad/s: P", Limit::NotNegative);
+        stiffness: f64 = LawParameter::number("stiffness_n_m", "N m", "Torque opposing an MRP of one: K", Limit::Positive);
+        damping: f64 = LawParameter::number("damping_n_m_s", "N m s", "Torque opposing a rate of 1 rad/s: P", Limit::NotNegative);
         integral: f64 = LawParameter::number("integral_1_n_m_s", "1/(N m s)", "Gain of the integral: Ki", Limit::NotNegative).or(&[0.0]);
         integral_limit: f64 = LawParameter::number(
             "integral_limit_n_m_s",

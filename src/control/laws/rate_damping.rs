@@ -19,7 +19,7 @@ pub struct RateDamping {
 declared! {
     /// Its numbers in campaign files.
     RateDampingNumbers = PARAMETERS {
-        gain: f64 = LawParameter::number("gain_n_m_s", "N m s", "Torque against a rate of 1 rad/s", Limit::Positive);
+        gain: f64 = LawParameter::number("gain_n_m_s", "N m s", "Torque opposing a rate of 1 rad/s", Limit::Positive);
         integral_gain: f64 = integral::GAIN;
         integral_limit: f64 = integral::RATE_LIMIT;
     }

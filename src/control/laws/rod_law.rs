@@ -25,7 +25,7 @@ pub const ROD_USES: [(&str, RodUse); 3] =
 declared! {
     /// Of a phase with B-dot.
     BDotNumbers = B_DOT {
-        gain: f64 = LawParameter::number("b_dot_gain_a_m2_s_t", "A m^2 s/T", "Dipole against a change of the field by 1 T/s", Limit::Positive);
+        gain: f64 = LawParameter::number("b_dot_gain_a_m2_s_t", "A m^2 s/T", "Dipole opposing a change in the field of 1 T/s", Limit::Positive);
     }
 }
 
@@ -35,7 +35,7 @@ declared! {
         time: f64 = LawParameter::number(
             "rod_unloading_time_s",
             "s",
-            "Time constant with which torque rods take momentum out of the wheels, where the field is across it",
+            "Time constant with which torque rods unload the wheels of momentum perpendicular to the field",
             Limit::Positive,
         );
     }

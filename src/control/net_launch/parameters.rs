@@ -20,7 +20,7 @@ declared! {
         least_debris_speed: f64 = number(
             "least_debris_speed_m_s",
             "m/s",
-            "Speed of the debris below which its velocity is no axis",
+            "Speed of the debris below which its velocity does not define the launch axis",
             &[1e-3],
         );
         approach_axis: [f64; 3] = LawParameter::number(
@@ -35,7 +35,7 @@ declared! {
         lost_target_timeout: f64 = number(
             "lost_target_timeout_s",
             "s",
-            "How long the debris may be unmeasured before the mission fails; 0: for ever",
+            "How long the debris may go unmeasured before the mission fails; 0: forever",
             &[0.0],
         );
         plume_range: f64 = number(

@@ -38,7 +38,7 @@ declared! {
     half_field_of_view: f64 = optional(
         "half_field_of_view_rad",
         "rad",
-        "Angle from the boresight beyond which it does not find nadir; 0: all before it",
+        "Angle from the boresight beyond which it does not find nadir; 0: it covers everything in front of it",
     );
     bias: f64 = optional("bias_rad", "rad", "Constant error of both angles");
     }

@@ -37,7 +37,7 @@ declared! {
     MagnetometerNumbers = PARAMETERS {
     noise: [f64; 3] = axes("noise_t", "T", "Standard deviation of each component", Limit::NotNegative);
     bias: [f64; 3] = axes("bias_t", "T", "Constant error of each component", Limit::Finite);
-    scale: [f64; 3] = axes("scale", "1", "Measured over true component along each of its axes", Limit::Finite).or(&[1.0; 3]);
+    scale: [f64; 3] = axes("scale", "1", "Ratio of measured to true component along each of its axes", Limit::Finite).or(&[1.0; 3]);
     misalignment: [f64; 3] = axes("misalignment_rad", "rad", "Rotation vector from the body to its axes, in F_s", Limit::Finite);
     }
 }

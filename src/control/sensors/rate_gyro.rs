@@ -37,20 +37,20 @@ declared! {
     angular_random_walk: f64 = optional(
         "angular_random_walk_rad_sqrt_s",
         "rad/sqrt(s)",
-        "Deviation of the angle after a second, of white noise of the rate",
+        "Standard deviation of the angle after one second, from white noise in the rate",
     );
     bias_random_walk: f64 = optional(
         "bias_random_walk_rad_s_sqrt_s",
         "rad/s/sqrt(s)",
-        "Deviation of the bias after a second, of its random walk",
+        "Standard deviation of the bias after one second, from its random walk",
     );
     bias: [f64; 3] = axes("bias_rad_s", "rad/s", "Bias at the start of the run", Limit::Finite);
-    scale: [f64; 3] = LawParameter::number("scale", "1", "Measured over true rotation about each axis", Limit::Finite)
+    scale: [f64; 3] = LawParameter::number("scale", "1", "Ratio of measured to true rotation about each axis", Limit::Finite)
         .with_components(&AXES)
         .or(&[1.0; 3]);
     misalignment: [f64; 3] = axes("misalignment_rad", "rad", "Rotation vector from the body to the axes of the gyro", Limit::Finite);
     count_angle: f64 = optional("quantization_rad", "rad", "Angle of one count; the remainder is carried to the next sample; 0: none");
-    max_rate: f64 = optional("max_rate_rad_s", "rad/s", "Largest mean rate about each axis that it measures; 0: no limit");
+    max_rate: f64 = optional("max_rate_rad_s", "rad/s", "Largest mean rate about each axis that it can measure; 0: no limit");
     }
 }
 

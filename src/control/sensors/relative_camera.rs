@@ -41,7 +41,7 @@ declared! {
         "Standard deviation of the relative attitude about each axis of the spacecraft",
     );
     rate_noise: f64 = optional("rate_noise_rad_s", "rad/s", "Standard deviation of each component of the relative rate");
-    max_range: f64 = optional("max_range_m", "m", "Distance of the centres of mass beyond which it gives nothing; 0: no limit");
+    max_range: f64 = optional("max_range_m", "m", "Distance between the centres of mass beyond which it delivers nothing; 0: no limit");
     }
 }
 

@@ -40,8 +40,8 @@ declared! {
         Limit::NotNegative,
     );
     boresight: [f64; 3] = axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0, 0.0, 1.0]);
-    bias: [f64; 3] = axes("bias_rad", "rad", "Constant rotation vector from the body to the body as measured", Limit::Finite);
-    max_rate: f64 = optional("max_rate_rad_s", "rad/s", "Rate of the body above which it gives nothing; 0: no limit");
+    bias: [f64; 3] = axes("bias_rad", "rad", "Constant rotation vector from the true body axes to the measured ones", Limit::Finite);
+    max_rate: f64 = optional("max_rate_rad_s", "rad/s", "Rate of the body above which it delivers nothing; 0: no limit");
     }
 }
 

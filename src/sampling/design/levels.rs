@@ -12,7 +12,7 @@ pub const LEVELS: [Row; 2] = [
     Row::new(
         "levels",
         Kind::Counts(MAX_SAMPLES),
-        "So many levels in each dimension, or a list in the order of the file",
+        "Number of levels in each dimension, or a list of numbers in the order of the file",
     ),
     Row::new("quantiles", Kind::List, "The levels of each dimension as quantiles").within(
         "numbers between 0 and 1, neither included",

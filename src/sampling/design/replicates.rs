@@ -19,7 +19,7 @@ const MOST: u64 = 1024;
 pub const REPLICATES: Row = Row::new(
     "replicates",
     Kind::Count([1, MOST]),
-    "Number of designs of this kind, each scrambled on its own; default: 1",
+    "Number of designs of this kind, each scrambled independently; default: 1",
 );
 
 /// The number of replicates, at least 1.

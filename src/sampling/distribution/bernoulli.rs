@@ -12,8 +12,9 @@ pub struct Bernoulli;
 impl Scalar for Bernoulli {
     const NAME: &'static str = "bernoulli";
     const KEYS: &'static [Row] = &[
-        Row::amounts("value", "The other value").required("0.0"),
-        Row::values("probability", "Its probability").required("0.05").within(
+        Row::amounts("value", "The value that the parameter takes with `probability`, instead of the nominal one")
+            .required("0.0"),
+        Row::values("probability", "Probability of `value`").required("0.05").within(
             "from 0 to 1",
             "0.05 is one in twenty",
             |x| (0.0..=1.0).contains(&x),

@@ -58,7 +58,7 @@ impl Scalar for Choice {
     const NAME: &'static str = "choice";
     const KEYS: &'static [Row] = &[
         Row::new("values", Kind::AmountList, "The values").required_as("an array of finite numbers", "[1.0, 2.0]"),
-        Row::new("weights", Kind::List, "Their weights, in proportion; default: equal"),
+        Row::new("weights", Kind::List, "Their relative weights; default: equal"),
     ];
     type Quantile = ChoiceQuantile;
 

@@ -26,7 +26,7 @@ pub struct VonMisesFisher<N>(PhantomData<N>);
 
 const AXIS: Row = Row::new("axis", Kind::Vector, "The axis, of any length; default: the nominal vector");
 const MAGNITUDE: Row =
-    Row::new("magnitude", Kind::Distribution, "The distribution of the length; default: the nominal one");
+    Row::new("magnitude", Kind::Distribution, "The distribution of the length; default: the nominal length");
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectionMap<Q> {
@@ -140,7 +140,7 @@ impl<N: Nested> Together for Cone<N> {
 impl<N: Nested> Together for VonMisesFisher<N> {
     const NAME: &'static str = "von_mises_fisher";
     const KEYS: &'static [Row] = &[
-        Row::new("concentration", Kind::Number, "kappa; about 1/sigma^2 of a narrow distribution")
+        Row::new("concentration", Kind::Number, "kappa; about 1/sigma^2 for a narrow distribution")
             .required_as("given, above 0", "100.0")
             .within("above 0", "1/sigma^2 of a narrow distribution: 100 spreads about 0.1 rad each way", |x| {
                 (f64::MIN_POSITIVE..=f64::MAX).contains(&x)

@@ -39,7 +39,7 @@ impl Scalar for Empirical {
     const NAME: &'static str = "empirical";
     const KEYS: &'static [Row] = &[
         Row::new("file", Kind::Column, "File of numbers, with `column`, and `sha256`, the checksum of the file"),
-        Row::new("interpolation", Kind::Word(&["none", "linear"]), "What lies between the values of the file"),
+        Row::new("interpolation", Kind::Word(&["none", "linear"]), "How to interpolate between the values of the file"),
     ];
     type Quantile = EmpiricalQuantile;
 

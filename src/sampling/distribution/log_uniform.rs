@@ -30,11 +30,11 @@ impl Scalar for LogUniform {
     const KEYS: &'static [Row] = &[
         Row::amounts("min", "Lower end").within("> 0", LOGARITHM, |x| x > 0.0),
         Row::amounts("max", "Upper end"),
-        Row::values("factor", "From the nominal value divided by it to the nominal value times it").within(
-            "> 1",
-            "2 means from half to twice the nominal",
-            |x| x > 1.0,
-        ),
+        Row::values(
+            "factor",
+            "The range is from the nominal value divided by this factor to the nominal value times it",
+        )
+        .within("> 1", "2 means from half to twice the nominal", |x| x > 1.0),
     ];
     const RULES: &'static [Rule] = &[
         Rule::One(&[&["factor"], &["min", "max"]], "2.0", ALL_BUT_ONE),

@@ -86,13 +86,13 @@ impl Scalar for TruncatedNormal {
         SPREAD[0],
         SPREAD[1],
         SPREAD[2],
-        sigmas("sigmas", "Both bounds, so many standard deviations from the nominal value"),
+        sigmas("sigmas", "Both bounds, as a number of standard deviations from the nominal value"),
         Row::amounts("lower", "Lower bound"),
         Row::values("relative_lower", "Lower bound from the nominal value, as a fraction of it: below zero"),
-        sigmas("lower_sigmas", "Lower bound, so many standard deviations from the nominal value"),
+        sigmas("lower_sigmas", "Lower bound, as a number of standard deviations below the nominal value"),
         Row::amounts("upper", "Upper bound"),
         Row::values("relative_upper", "Upper bound from the nominal value, as a fraction of it"),
-        sigmas("upper_sigmas", "Upper bound, so many standard deviations from the nominal value"),
+        sigmas("upper_sigmas", "Upper bound, as a number of standard deviations above the nominal value"),
     ];
     const RULES: &'static [Rule] = &[
         ONE_SPREAD,

@@ -18,7 +18,7 @@ pub struct UniformQuantile {
 impl Scalar for Uniform {
     const NAME: &'static str = "uniform";
     const KEYS: &'static [Row] = &[
-        Row::amounts("half_width", "So far on both sides of the nominal value").not_negative(),
+        Row::amounts("half_width", "Distance from the nominal value to either end").not_negative(),
         Row::values("relative_half_width", "The same as a fraction of the nominal value").not_negative(),
         Row::amounts("min", "Lower end"),
         Row::amounts("max", "Upper end"),

@@ -83,6 +83,26 @@ fn recipes_give_the_numbers_of_the_rows() {
     }
 }
 
+/// Law: `summary.json` has every key that its section of the document lists, missions aside, which need a control loop.
+#[test]
+fn the_summary_has_the_keys_of_its_document() {
+    let scratch = ScratchFolder::new("summary-keys");
+    scratch.says("campaign", "spin_sweep.toml", "--samples 300 --audit 0.02", 0);
+    let written = std::fs::read_to_string(scratch.path("results/spin_sweep/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&written).unwrap();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/results.md");
+    let document = std::fs::read_to_string(path).unwrap();
+    let section = document.split("\n### ").find(|section| section.starts_with("summary.json")).expect("a section");
+    let section = section.split("\n## ").next().unwrap_or_default();
+    let cells = section.lines().filter_map(|line| line.strip_prefix("| `")?.split(" | ").next());
+    let keys: Vec<&str> = cells.flat_map(|cell| cell.split(", ")).map(|key| key.trim_matches('`')).collect();
+    assert!(keys.len() > 10 && keys.contains(&"missions"), "{keys:?}");
+    let has = |key: &str| summary.pointer(&format!("/{}", key.replace('.', "/"))).is_some();
+    let absent: Vec<&&str> = keys.iter().filter(|key| **key != "missions" && !has(key)).collect();
+    assert!(absent.is_empty(), "{absent:?}");
+    assert!(!has("requirements.verdicts") && !has("missions"), "it can fail");
+}
+
 /// Counter-test: what the test looks for is found where it is, and only there.
 #[test]
 fn the_reading_can_fail() {

@@ -11,8 +11,8 @@ use crate::scene::name::Name;
 rows! {
     /// An arc of constant thrust and torque, as commanded.
     pub struct ActuationInput in ActuationInput [table => table] {
-    start_s: f64 = 0.0, "s", "Start", SCALAR, Plain, Limit::Finite, (required "0.0");
-    end_s: f64 = 1.0, "s", "End", SCALAR, Plain, Limit::Finite, (required "1.0");
+    start_s: f64 = 0.0, "s", "Start of the arc", SCALAR, Plain, Limit::Finite, (required "0.0");
+    end_s: f64 = 1.0, "s", "End of the arc", SCALAR, Plain, Limit::Finite, (required "1.0");
     } others {
         /// Thrusts in the order of the thrusters, never negative, N; zero beyond. In a file a table by name, `thrust_n = { p1 = 100.0 }`.
         thrust_n: [f64; MAX_THRUSTERS] = [0.0; MAX_THRUSTERS],
@@ -30,12 +30,12 @@ rows! {
     /// How an arc differs from its command, beyond what thrusters, wheels and `[actuators]` have in all arcs: factors multiply theirs, delays
     /// add to theirs.
     pub struct ArcErrors in ActuationInput [table => table.errors] {
-    thrust_scale: f64 = 1.0, "1", "Factor of the commanded thrusts of this arc", SCALAR, Plain,
+    thrust_scale: f64 = 1.0, "1", "Scale factor for the commanded thrusts of this arc", SCALAR, Plain,
         Limit::Thrust("write zero for an arc that does not ignite"), (optional);
-    torque_scale: f64 = 1.0, "1", "Factor of the commanded motor torques of this arc", SCALAR, Plain, Limit::Finite, (optional);
-    switch_on_delay_s: f64 = 0.0, "s", "How much later than the others this arc starts", SCALAR, Plain, Limit::Finite, (optional);
+    torque_scale: f64 = 1.0, "1", "Scale factor for the commanded motor torques of this arc", SCALAR, Plain, Limit::Finite, (optional);
+    switch_on_delay_s: f64 = 0.0, "s", "Delay of the start of this arc, added to that of [actuators]", SCALAR, Plain, Limit::Finite, (optional);
     switch_off_delay_s: f64 = 0.0, "s",
-        "How much later than the others this arc ends; no effect where the next arc starts as this one ends", SCALAR, Plain,
+        "Delay of the end of this arc, added to that of [actuators]; no effect if the next arc starts as this one ends", SCALAR, Plain,
         Limit::Finite, (optional);
     } others {}
 }

@@ -15,12 +15,12 @@ rows! {
     /// Where there are parts ([`super::PartInput`]), a mass that is given scales their inertia, a centre of mass moves it as it is, and a
     /// tensor or principal moments replace it. The errors are applied last.
     pub struct BodyInput in BodyInput [table => table] {
-    mass_kg: Option<f64> = None, "kg", "Mass, instead of the one that the parts give", SCALAR, Plain, Limit::Positive,
+    mass_kg: Option<f64> = None, "kg", "Mass, in place of that of the parts", SCALAR, Plain, Limit::Positive,
         (optional);
-    center_of_mass_m: Option<[f64; 3]> = None, "m", "Centre of mass from p in F_s, instead of the one that the parts give",
+    center_of_mass_m: Option<[f64; 3]> = None, "m", "Centre of mass from p in F_s, in place of that of the parts",
         XYZ, Plain, Limit::Finite, (optional);
     inertia_kg_m2: Option<[[f64; 3]; 3]> = None, "kg m^2",
-        "Inertia tensor about the centre of mass in F_s, by rows, instead of the one that the parts give", SYMMETRIC, Symmetric,
+        "Inertia tensor about the centre of mass in F_s, by rows, in place of that of the parts", SYMMETRIC, Symmetric,
         Limit::Inertia, (optional);
     } others {
         /// The same inertia by principal moments and axes; at most one of the two is given.

@@ -58,7 +58,7 @@ macro_rules! debris {
 
 /// The rows of `[debris]`.
 const ROWS: &[Row<DebrisInput>] = &[
-    debris!(side_m, "m", "Side l_d of a cube", SCALAR, Plain, Limit::Positive, (required "0.2"),
+    debris!(side_m, "m", "Side of a cube", SCALAR, Plain, Limit::Positive, (required "0.2"),
         |debris| *debris = DebrisInput::BLANK,
         DebrisInput::Cube { side_m: value, .. } => value),
     debris!(size_m, "m", "Sides of a box along d1, d2, d3", XYZ, Plain, Limit::Positive, (optional),

@@ -12,16 +12,16 @@ rows! {
         (optional);
     magnetic_dipole_a_m2: Option<[f64; 3]> = None, "A m^2", "Residual magnetic dipole of the spacecraft, in F_s", XYZ, Plain,
         Limit::Finite, (optional);
-    density_scale: f64 = 1.0, "1", "Factor of the density of the air", SCALAR, Plain, Limit::NotNegative, (optional);
+    density_scale: f64 = 1.0, "1", "Scale factor for the air density", SCALAR, Plain, Limit::NotNegative, (optional);
     base_density_kg_m3: Option<f64> = None, "kg/m^3", "Density of an exponential atmosphere at base_height_m, in place of the table",
         SCALAR, Plain, Limit::NotNegative, (optional);
     base_height_m: Option<f64> = None, "m", "Height above body_radius_m of the density base_density_kg_m3", SCALAR, Plain,
         Limit::Finite, (optional);
-    scale_height_m: Option<f64> = None, "m", "Height over which the density falls by the factor e", SCALAR, Plain,
+    scale_height_m: Option<f64> = None, "m", "Height over which the density falls by a factor of e", SCALAR, Plain,
         Limit::Positive, (optional);
     solar_pressure_n_m2: f64 = 4.56e-6, "N/m^2", "Pressure of sunlight at 1 au on a surface that absorbs it", SCALAR, Plain,
         Limit::NotNegative, (optional);
-    area_scale: f64 = 1.0, "1", "Factor of the areas of all plates", SCALAR, Plain, Limit::NotNegative, (optional);
+    area_scale: f64 = 1.0, "1", "Scale factor for the areas of all plates", SCALAR, Plain, Limit::NotNegative, (optional);
     } others {
         /// Whether the torque of the gravity gradient acts; it needs an orbit.
         gravity_gradient: bool = false,

@@ -9,21 +9,21 @@ use crate::scene::name::Name;
 rows! {
     /// A device that fails at a time of a run. Control software is not told.
     pub struct FailureInput in FailureInput [table => table] {
-    at_s: f64 = 0.0, "s", "When the device fails; after the end of the run it does not", SCALAR, Plain, Limit::NotNegative,
+    at_s: f64 = 0.0, "s", "Time at which the device fails; after the end of the run it has no effect", SCALAR, Plain, Limit::NotNegative,
         (required "100.0");
-    torque_scale: Option<f64> = None, "1", "Of a wheel: what becomes of its motor's torque, as a factor; 0 for a motor that gives none", SCALAR,
+    torque_scale: Option<f64> = None, "1", "For a wheel: factor on its motor torque from then on; 0 for a dead motor", SCALAR,
         Plain, Limit::Finite, (optional);
-    coulomb_friction_n_m: Option<f64> = None, "N m", "Of a wheel under a control loop: friction of its bearing from then on, independent of the rate",
+    coulomb_friction_n_m: Option<f64> = None, "N m", "For a wheel under a control loop: its bearing friction from then on, independent of the rate",
         SCALAR, Plain, Limit::NotNegative, (optional);
     viscous_friction_n_m_s: Option<f64> = None, "N m s",
-        "Of a wheel under a control loop: friction of its bearing from then on, in proportion to the rate", SCALAR, Plain, Limit::NotNegative,
+        "For a wheel under a control loop: its bearing friction from then on, proportional to the rate", SCALAR, Plain, Limit::NotNegative,
         (optional);
-    thrust_n: Option<f64> = None, "N", "Of a thruster: its thrust from then on, whatever is commanded; 0 for one that is stuck off", SCALAR, Plain,
+    thrust_n: Option<f64> = None, "N", "For a thruster: its thrust from then on, whatever is commanded; 0 if it is stuck off", SCALAR, Plain,
         Limit::NotNegative, (optional);
-    dipole_a_m2: Option<f64> = None, "A m^2", "Of a torque rod: its dipole from then on, whatever is commanded; 0 for one that is dead", SCALAR, Plain,
+    dipole_a_m2: Option<f64> = None, "A m^2", "For a torque rod: its dipole from then on, whatever is commanded; 0 if it is dead", SCALAR, Plain,
         Limit::Finite, (optional);
-    bias_rad_s: Option<[f64; 3]> = None, "rad/s", "Of a rate gyro: what its bias changes by", XYZ, Plain, Limit::Finite, (optional);
-    bias_rad: Option<[f64; 3]> = None, "rad", "Of a star tracker: what its bias changes by", XYZ, Plain, Limit::Finite, (optional);
+    bias_rad_s: Option<[f64; 3]> = None, "rad/s", "For a rate gyro: the change in its bias", XYZ, Plain, Limit::Finite, (optional);
+    bias_rad: Option<[f64; 3]> = None, "rad", "For a star tracker: the change in its bias", XYZ, Plain, Limit::Finite, (optional);
     } others {
         /// The name.
         name: Name = Name::NONE,

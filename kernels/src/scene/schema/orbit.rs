@@ -11,24 +11,24 @@ rows! {
     pub struct OrbitInput in OrbitInput [table => table] {
     mu_m3_s2: f64 = 3.986004418e14, "m^3/s^2", "Gravitational parameter of the central body", SCALAR, Plain, Limit::Positive,
         (optional);
-    body_radius_m: f64 = 6_378_137.0, "m", "Radius of the central body, which the orbit stays above", SCALAR, Plain,
+    body_radius_m: f64 = 6_378_137.0, "m", "Radius of the central body; the orbit must stay above it", SCALAR, Plain,
         Limit::NotNegative, (optional);
-    j2: Option<f64> = None, "1", "Second zonal harmonic of the central body, with body_radius_m; a point mass where it is left out", SCALAR,
+    j2: Option<f64> = None, "1", "Second zonal harmonic of the central body, relative to body_radius_m; if omitted, the body is a point mass", SCALAR,
         Plain, Limit::NotNegative, (optional);
     position_m: Option<[f64; 3]> = None, "m", "Position of the centre of mass from the central body, in F_e", XYZ, Plain,
         Limit::Finite, (optional);
     velocity_m_s: Option<[f64; 3]> = None, "m/s", "Velocity of the centre of mass relative to F_e, in F_e", XYZ, Plain,
         Limit::Finite, (optional);
     semi_major_axis_m: Option<f64> = None, "m", "Semi-major axis", SCALAR, Plain, Limit::Positive, (optional);
-    eccentricity: Option<f64> = None, "1", "Eccentricity; 0 where it is left out", SCALAR, Plain, Limit::NotNegative,
+    eccentricity: Option<f64> = None, "1", "Eccentricity; 0 if omitted", SCALAR, Plain, Limit::NotNegative,
         (optional);
-    inclination_rad: Option<f64> = None, "rad", "Inclination to the e1-e2 plane; 0 where it is left out", SCALAR, Plain,
+    inclination_rad: Option<f64> = None, "rad", "Inclination to the e1-e2 plane; 0 if omitted", SCALAR, Plain,
         Limit::Finite, (optional);
-    ascending_node_rad: Option<f64> = None, "rad", "Angle from e1 to the ascending node; 0 where it is left out", SCALAR, Plain,
+    ascending_node_rad: Option<f64> = None, "rad", "Angle from e1 to the ascending node; 0 if omitted", SCALAR, Plain,
         Limit::Finite, (optional);
     argument_of_periapsis_rad: Option<f64> = None, "rad",
-        "Angle from the ascending node to the periapsis; 0 where it is left out", SCALAR, Plain, Limit::Finite, (optional);
-    true_anomaly_rad: Option<f64> = None, "rad", "Angle from the periapsis to the spacecraft; 0 where it is left out", SCALAR,
+        "Angle from the ascending node to the periapsis; 0 if omitted", SCALAR, Plain, Limit::Finite, (optional);
+    true_anomaly_rad: Option<f64> = None, "rad", "Angle from the periapsis to the spacecraft; 0 if omitted", SCALAR,
         Plain, Limit::Finite, (optional);
     } others {
         /// The date at time zero, UTC.

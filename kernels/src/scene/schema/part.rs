@@ -11,7 +11,7 @@ rows! {
     /// A rigid homogeneous part of the body, with its centre of mass at `position_m`.
     pub struct PartInput in PartInput [table => table] {
     outer_radius_m: Option<f64> = None, "m", "Outer radius of a hollow cylinder", SCALAR, Plain, Limit::Positive, (optional);
-    wall_thickness_m: Option<f64> = None, "m", "Wall thickness of shell and end plates of a hollow cylinder", SCALAR, Plain,
+    wall_thickness_m: Option<f64> = None, "m", "Thickness of the shell and the end plates of a hollow cylinder", SCALAR, Plain,
         Limit::Positive, (optional);
     radius_m: Option<f64> = None, "m", "Radius of a solid cylinder or a sphere", SCALAR, Plain, Limit::Positive, (optional);
     length_m: Option<f64> = None, "m", "Outer length of a cylinder, along the third axis of the part's frame", SCALAR, Plain,

@@ -17,9 +17,9 @@ rows! {
         ACROSS, Plain, Limit::Finite, (optional);
     center_m: [f64; 3] = [0.0; 3], "m", "Centre of the area from p, in F_s", XYZ, Plain, Limit::Finite, (required "[0, 0, 0]");
     drag_coefficient: f64 = 2.2, "1", "Drag coefficient", SCALAR, Plain, Limit::NotNegative, (optional);
-    specular: f64 = 0.0, "1", "Share of the light that is reflected as by a mirror; what is neither this nor diffuse is absorbed", SCALAR,
+    specular: f64 = 0.0, "1", "Fraction of the light that is reflected as by a mirror; what is reflected neither this way nor diffusely is absorbed", SCALAR,
         Plain, Limit::NotNegative, (optional);
-    diffuse: f64 = 0.0, "1", "Share of the light that is reflected in all directions (Lambert)", SCALAR, Plain, Limit::NotNegative,
+    diffuse: f64 = 0.0, "1", "Fraction of the light that is reflected diffusely (Lambert)", SCALAR, Plain, Limit::NotNegative,
         (optional);
     } others {
         /// The name.
