@@ -6,8 +6,8 @@ use spindrift::dynamics::effects::ForceModel;
 use spindrift::ode::{Control, Integrator};
 use spindrift::propagation::Method;
 use spindrift::scene::{
-    ActuationInput, BodyInput, DebrisInput, EnvironmentInput, Epoch, Name, OrbitInput, PlateInput, Scene, SceneInput,
-    ThrusterInput,
+    Actuation, ActuationInput, Arc, BodyInput, DebrisInput, EnvironmentInput, Epoch, FieldModel, Name, OrbitInput,
+    PlateInput, Scene, SceneInput, ThrusterInput, TorqueRod,
 };
 
 /// Gravitational parameter of the Earth, m^3/s^2.
@@ -77,6 +77,33 @@ pub fn plated(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
         input
     };
     inputs(count, seed, rates).into_iter().map(plates).map(resolved).collect()
+}
+
+/// The same as [`tumbling`] without a gravity gradient, with a residual dipole in the Earth's field (IGRF for even numbers, a dipole for the others), and two torque
+/// rods that are commanded anew at random times until `duration` s: torques like that of the gravity gradient.
+pub fn magnetic(count: u64, seed: u64, rates: [f64; 2], duration: f64) -> Vec<Scene> {
+    let mut u = Uniform::new(seed + 2);
+    let magnetic = |(k, mut input): (usize, SceneInput)| {
+        input.orbit.as_mut().expect("an orbit").epoch = Epoch::parse("2026-06-01T00:00:00Z");
+        input.environment = EnvironmentInput {
+            magnetic_field: Some(if k.is_multiple_of(2) { FieldModel::Igrf } else { FieldModel::Dipole }),
+            magnetic_dipole_a_m2: Some(u.vector(10.0)),
+            ..EnvironmentInput::DEFAULT
+        };
+        let mut scene = resolved(input);
+        scene.torque_rods =
+            [[1.0, 0.0, 0.0], [0.0, 0.6, 0.8]].map(|axis| TorqueRod { axis, limit: 15.0, scale: 1.0 }).to_vec();
+        let mut start = 0.0;
+        while start < duration {
+            let until = start + u.between(0.05, 0.4) * duration;
+            let [x, along] = u.vector(10.0);
+            let dipole = [x, 0.6 * along, 0.8 * along];
+            scene.schedule.push(Arc { start, applied: Actuation { dipole, ..Actuation::none(until.min(duration)) } });
+            start = until;
+        }
+        scene
+    };
+    inputs(count, seed, rates).into_iter().enumerate().map(magnetic).collect()
 }
 
 /// The satellite of `drag_tumble.toml` between 400 and 500 km, where the table of densities has kinks, on orbits with shadow, that tumbles with 0.01 to 2 deg/s.

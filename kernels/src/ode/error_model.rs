@@ -21,6 +21,23 @@ pub struct StepErrors {
     pub dense: f64,
 }
 
+impl StepErrors {
+    /// The error of a step in units of its estimate, at the relative tolerance `tolerance`.
+    pub fn gain(&self, tolerance: f64) -> f64 {
+        self.factor * libm::pow(tolerance, self.extrapolation)
+    }
+}
+
+impl ErrorModel {
+    /// How many times the estimate of a step counts where the right-hand side is not smooth: local extrapolation gains nothing there.
+    pub(super) fn rough_weight(&self, tolerance: f64) -> f64 {
+        match self {
+            ErrorModel::Estimated(errors) => (1.0 / errors.gain(tolerance)).max(1.0),
+            ErrorModel::Remainder(_) => 1.0,
+        }
+    }
+}
+
 /// Error model of a method with a given step: the first term of the solution's Taylor series that its steps do not reproduce.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Remainder {

@@ -40,6 +40,7 @@ where
     }
     let has_switches = !M::HAS_FIXED_STEP && runs.has_switches();
     let mut switches = Switches::new(zero);
+    let rough_weight = M::ERRORS.rough_weight(control.tolerance.relative);
     while slots.any_occupied() {
         if has_switches {
             switches.choose(runs, &mut stepper, &mut lanes);
@@ -52,7 +53,11 @@ where
         }
         lanes.accepted += zero.indicator(attempt.accepted);
         lanes.rejected += zero.indicator(!attempt.accepted);
-        lanes.error_sum += R::select(attempt.accepted, attempt.error, zero);
+        let mut counted = R::select(attempt.accepted, attempt.error, zero);
+        if has_switches {
+            counted = R::select(runs.is_rough(zero), counted * zero.splat(rough_weight), counted);
+        }
+        lanes.error_sum += counted;
 
         // observation points up to the end of the step
         let limit = R::select(attempt.accepted, step.end, zero.splat(f64::NEG_INFINITY));

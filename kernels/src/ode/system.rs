@@ -27,6 +27,13 @@ pub trait System<R: Real, const N: usize> {
         time.splat(f64::INFINITY)
     }
 
+    /// Where f is not smooth even within its branches, as at the edge of one where it begins with a fractional power: there a formula of higher order is no more
+    /// accurate than one of lower order.
+    #[inline(always)]
+    fn is_rough(&self, zero: R) -> R::Mask {
+        zero.never()
+    }
+
     /// The fraction of `step` at which a switch function may be below zero that is above at both `ends`, states with their derivatives
     /// ([`super::switches::dip`]); infinite where there is none.
     #[inline(always)]

@@ -98,6 +98,11 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_
     }
 
     #[inline(always)]
+    fn is_rough(&self, zero: R) -> R::Mask {
+        self.effects.is_rough(zero)
+    }
+
+    #[inline(always)]
     fn margin(&self, time: R, state: &[R; N]) -> R {
         self.effects.margin(time, state)
     }

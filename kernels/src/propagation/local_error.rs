@@ -14,7 +14,7 @@ pub fn local_errors(model: &ErrorModel, tolerance: f64, completion: &EndedRun) -
     match model {
         ErrorModel::Remainder(_) => rounding,
         ErrorModel::Estimated(errors) => {
-            let error = errors.factor * libm::pow(tolerance, errors.extrapolation) * tolerance * completion.error_sum;
+            let error = errors.gain(tolerance) * tolerance * completion.error_sum;
             LocalErrors {
                 truncation: error,
                 // where no step comes near the tolerance, nor does a point inside it

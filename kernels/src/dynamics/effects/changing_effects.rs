@@ -8,7 +8,7 @@
 /// ```
 ///
 /// `Constants<R>` has `NEEDS_ORBIT`, `none(zero)`, `set_lane(lane, &Constants<f64>)` and `torque(&Motion<R>)`, in B, N m; those of the form `Evaluated` have
-/// a force too, `force(&Motion<R>)`, in B, N, and branches ([`crate::ode::switches`]): `switches(&[Motion<R>; M], visit)` and `choose_branches(lanes, &Motion<R>)`. `Series<R>` has `new(zero,
+/// a force too, `force(&Motion<R>)`, in B, N, and branches ([`crate::ode::switches`]): `is_rough(zero)`, `switches(&[Motion<R>; M], visit)` and `choose_branches(lanes, &Motion<R>)`. `Series<R>` has `new(zero,
 /// order)`, `NEEDS_POSITION`, `begin(&Constants<R>, time, unit)` and `extend(n, &MotionSeries<R>)`, coefficient n of the torque in the unit of time. The file has `of(zero, scene, c_sb)`, the constants in the frame B that `c_sb` maps to F_s, `None` where the
 /// effect does not act; `largest_torque(scene)`, an upper bound, N m; and `largest_rate(scene)`, the fastest motion that it makes, rad/s.
 macro_rules! changing_effects {
@@ -20,6 +20,18 @@ macro_rules! changing_effects {
             #[inline(always)]
             pub fn has_switches(&self) -> bool {
                 false $(|| self.$evaluated.is_some())*
+            }
+
+            /// Where one is not smooth even within its branches.
+            #[inline(always)]
+            pub fn is_rough(&self, zero: R) -> R::Mask {
+                let mut rough = zero.never();
+                $(
+                    if let Some(effect) = &self.$evaluated {
+                        rough = rough | effect.is_rough(zero);
+                    }
+                )*
+                rough
             }
 
             /// The sum of their forces, B, N, where they move the centre of mass.

@@ -63,6 +63,12 @@ impl<R: Real> Drag<R> {
         self.plates.choose_branches(lanes, flow(motion));
     }
 
+    /// Nowhere: within a layer and with the same plates it is smooth.
+    #[inline(always)]
+    pub fn is_rough(&self, zero: R) -> R::Mask {
+        zero.never()
+    }
+
     /// Gives `visit` the switch functions in `M` states.
     #[inline(always)]
     pub fn switches<const M: usize>(&self, motions: &[Motion<R>; M], visit: &mut impl FnMut([R; M])) {

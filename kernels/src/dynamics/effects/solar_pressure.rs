@@ -115,6 +115,12 @@ impl<R: Real> SolarPressure<R> {
         self.plates.choose_branches(lanes, seen(&sun, motion));
     }
 
+    /// In part shadow.
+    #[inline(always)]
+    pub fn is_rough(&self, zero: R) -> R::Mask {
+        self.zone.is_part(zero)
+    }
+
     /// Gives `visit` the switch functions in `M` states.
     #[inline(always)]
     pub fn switches<const M: usize>(&self, motions: &[Motion<R>; M], visit: &mut impl FnMut([R; M])) {

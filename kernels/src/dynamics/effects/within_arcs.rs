@@ -166,6 +166,9 @@ pub trait WithinArcs<R: Real> {
     /// Whether they have branches.
     fn has_switches(&self) -> bool;
 
+    /// Where they are not smooth even within their branches ([`crate::ode::System::is_rough`]).
+    fn is_rough(&self, zero: R) -> R::Mask;
+
     /// The smallest of their switch functions, where they act as in [`WithinArcs::act`].
     fn margin<const N: usize>(&self, time: R, state: &[R; N]) -> R;
 
@@ -207,6 +210,11 @@ impl<R: Real> WithinArcs<R> for NoEffects {
     #[inline(always)]
     fn has_switches(&self) -> bool {
         false
+    }
+
+    #[inline(always)]
+    fn is_rough(&self, zero: R) -> R::Mask {
+        zero.never()
     }
 
     #[inline(always)]
@@ -334,6 +342,11 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
     #[inline(always)]
     fn has_switches(&self) -> bool {
         self.effects.has_switches()
+    }
+
+    #[inline(always)]
+    fn is_rough(&self, zero: R) -> R::Mask {
+        self.effects.is_rough(zero)
     }
 
     #[inline(always)]

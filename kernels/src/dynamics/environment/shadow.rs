@@ -70,6 +70,12 @@ impl<R: Real> Zone<R> {
         }
     }
 
+    /// Where it is part shadow, whose light is not smooth at its edges: from there on the overlap of two discs grows with the power 3/2 of the depth.
+    #[inline(always)]
+    pub fn is_part(&self, zero: R) -> R::Mask {
+        self.0[0].lt(zero) & zero.lt(self.0[1])
+    }
+
     /// The switch functions in this zone.
     #[inline(always)]
     pub fn switches(&self, shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> [R; 2] {
