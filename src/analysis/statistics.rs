@@ -108,7 +108,8 @@ impl Statistics {
     pub fn treatment(&self) -> String {
         match self.samples() - self.ok() {
             0 => "every run was computed".to_owned(),
-            failed => format!("{failed} of {} runs were not computed and are left out", self.samples()),
+            _ if self.population == Population::Nominal => "the nominal run was not computed".to_owned(),
+            failed => format!("{failed} of {} dispersed runs were not computed and are left out", self.samples()),
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::report::audit_summary::AuditSummary;
 use crate::report::escaped::escaped;
 use crate::report::names;
 use crate::report::number::{brief, outward, short};
-use crate::report::share_text::with_interval;
+use crate::report::share_text::{self, with_interval};
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
@@ -82,6 +82,21 @@ pub fn assumed(one: &Assessment) -> Option<String> {
         one.runs,
         short(one.shown.value(room)),
     ))
+}
+
+/// The bound that decided, in a few words, where the interval in brackets has the limit in it: a verdict looks at one side. `None` where the interval shows it.
+pub fn decided_by(one: &Assessment) -> Option<String> {
+    let (bound, is_lower) = one.hidden_bound()?;
+    let side = if is_lower { "at least" } else { "at most" };
+    let bound = match one.requirement.statement {
+        Statement::Mean => {
+            // what is said holds: rounded away from what was found
+            let rounded = outward([one.shown.value(bound); 2], 3)[usize::from(!is_lower)];
+            format!("{} {}", brief(rounded), one.shown.unit)
+        }
+        _ => share_text::bound(bound, is_lower),
+    };
+    Some(format!("{side} {}, one-sided at {}%", bound.trim_end(), percent(one.confidences[0])))
 }
 
 /// What the intervals in brackets are, in words.

@@ -337,12 +337,12 @@ async function checkSaid(page, name) {
       });
     }
     const marks = runs ? pairFigure(runs, 0, runs.columns.length - 1).marks : [];
-    const fateOf = { computed: 0, "meets the requirements": 0, "misses a requirement": 1, "not computed": 2 };
+    const fateOf = { computed: 0, ...Object.fromEntries((runs?.words ?? []).map((words, fate) => [words, fate])) };
     for (const mark of marks) {
       const other = Array.from(mark.samples).find((sample) => runs.fates[runs.samples.indexOf(sample)] !== fateOf[mark.label]);
       if (other !== undefined) found.push(`sample ${other} is called "${mark.label}"`);
     }
-    const isJudged = marks.some((mark) => mark.label === "misses a requirement");
+    const isJudged = marks.some((mark) => mark.label === runs.words[1]);
     for (const mark of marks.filter((one) => isJudged && one.samples.length > 1)) {
       select(mark.samples);
       const said = document.querySelector(".selection").innerText;

@@ -23,7 +23,7 @@ use crate::report::page::cards::{Card, Judged, driven_by};
 use crate::report::page::influence::Influence;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::tables::StatisticsRow;
-use crate::report::requirements::{assumed, runs_needed, together};
+use crate::report::requirements::{assumed, decided_by, runs_needed, together};
 use crate::report::share_text;
 use crate::report::stopping_text;
 use crate::statistics::binomial::Decision;
@@ -303,6 +303,8 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         statistic,
         estimate,
         interval: ends,
+        extremes: [f64::NAN; 2],
+        decided_by: decided_by(one).unwrap_or_default(),
         limit: Some((limit, is_upper && !is_fraction)),
         unit,
         note: notes.join(" "),

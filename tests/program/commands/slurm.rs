@@ -78,7 +78,7 @@ fn the_scripts_make_the_campaign() {
     scratch.prints("campaign small.toml --out whole", 0);
     let said =
         scratch.prints("slurm small.toml --nodes 5 --cpus 2 --time 1:00:00 --out sharded --sbatch=--partition=long", 0);
-    assert!(said.contains("3 parts are to be made: 3 of 5 tasks have work"), "{said}");
+    assert!(said.contains("3 parts to make: 3 of 5 tasks busy"), "{said}");
     assert!(said.contains("sbatch --dependency=afterany:\"$job\" small-finish.sh"), "{said}");
     let array = scratch.text("small-array.sh");
     let own = ["--array=1-3", "--signal=B:USR1@60", "--requeue"];
