@@ -14,7 +14,7 @@ use crate::report::image::{PlotError, PlotFormat};
 use crate::report::mission_text;
 use crate::report::number::{counted, short};
 use crate::report::page::runs::GROUPS;
-use crate::report::simulation_figure::simulation_figure;
+use crate::report::simulation_figure::{left_out, simulation_figure};
 use crate::report::text_table::{Align, TextTable};
 use crate::report::time_table::TimeTable;
 use crate::run::{Grid, Status};
@@ -143,12 +143,14 @@ fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, run: &SingleRun) ->
         _ => Failure::Files(format!("{}: {error}", path.display())),
     })?;
     let points = run.outcome.points.min(run.grid.points());
-    screen::note(&format!(
-        "{}: {} of {}",
-        path.display(),
-        counted(figure.panels.len(), "figure"),
-        counted(points, "point")
-    ));
+    let empty = left_out(plan, run);
+    let without = if empty.is_empty() {
+        String::new()
+    } else {
+        format!("; left out, zero or absent throughout: {}", empty.join(", "))
+    };
+    let (figures, points) = (counted(figure.panels.len(), "figure"), counted(points, "point"));
+    screen::note(&format!("{}: {figures} of {points}{without}", path.display()));
     Ok(())
 }
 

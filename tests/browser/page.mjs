@@ -354,6 +354,27 @@ async function checkSaid(page, name) {
   problems.push(...wrong.slice(0, 8).map((text) => `${name}: ${text}`));
 }
 
+// No table is cut: it has room for all of its cells, or is in a box that scrolls and whose edge says so; the worst runs have room. Folded ones too.
+async function checkTables(page, name) {
+  const wrong = await page.evaluate(() => {
+    for (const details of document.querySelectorAll("details")) details.open = true;
+    const width = document.documentElement.clientWidth;
+    const found = document.documentElement.scrollWidth > width ? [`the page is ${document.documentElement.scrollWidth} pixels wide`] : [];
+    for (const table of document.querySelectorAll("table")) {
+      const what = table.closest("section")?.id ?? "a table";
+      const box = table.closest(".table");
+      const style = box ? getComputedStyle(box) : null;
+      const scrolls = style?.overflowX === "auto" && style.backgroundImage !== "none" && box.getBoundingClientRect().right <= width + 1;
+      const right = Math.max(...Array.from(table.querySelectorAll("th, td"), (cell) => cell.getBoundingClientRect().right));
+      if (right > width + 1 && (what === "worst" || !scrolls)) found.push(`${what} is cut at ${width} of ${right} pixels`);
+      const cut = Array.from(table.querySelectorAll("th, td")).find((cell) => cell.scrollWidth > cell.clientWidth + 1 && cell.clientWidth > 0);
+      if (cut) found.push(`a cell of ${what} is cut: ${cut.innerText}`);
+    }
+    return found;
+  });
+  problems.push(...wrong.map((text) => `${name}: ${text}`));
+}
+
 // What scripts make of a page - texts, buttons, what figures draw and say of their middle - is what somebody has read and found right: tests/golden/views. With
 // SPINDRIFT_WRITE_VIEWS=1 it is written; the difference is read before it is committed.
 async function checkView(page, name) {
@@ -560,6 +581,7 @@ async function checked(browser, file) {
   const narrow = await opened(browser, file, { width: 390, height: 800 }, "light");
   await checkFigures(narrow, `${name}, narrow`, shot("narrow"));
   await checkTexts(narrow, `${name}, narrow`);
+  await checkTables(narrow, `${name}, narrow`);
   await narrow.close();
   console.log(`${name}: ${figures} figures, ${size} bytes`);
 }
