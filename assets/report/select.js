@@ -135,7 +135,7 @@ export function startSelection(pairs, replayed, show) {
     said.textContent = "";
     const rows = Array.from(runs.samples.keys()).filter((row) => chosen.has(runs.samples[row]));
     const count = (fate) => rows.filter((row) => runs.fates[row] === fate).length;
-    const shares = runs.words.flatMap((words, fate) => (runs.judged && count(fate) > 0 ? [`${samples.length > 1 ? `${count(fate)} ` : ""}${words}`] : []));
+    const shares = runs.fateWords.flatMap((words, fate) => (runs.judged && count(fate) > 0 ? [`${samples.length > 1 ? `${count(fate)} ` : ""}${words}`] : []));
     text.textContent = `${samples.length === 1 ? `Sample ${samples[0]}` : `${samples.length} runs`}${shares.length > 0 ? `: ${shares.join(", ")}` : ""}`;
     replay.hidden = !(samples.length === 1 && replayed.includes(samples[0]));
   });

@@ -79,8 +79,8 @@ impl Assessment {
     }
 
     /// The bound on one side by which it passed or failed, where its interval has the limit in it and so seems to say that nothing is decided; of the fraction of runs within the limit, or
-    /// of the mean. `true`: a lower bound.
-    pub fn hidden_bound(&self) -> Option<(f64, bool)> {
+    /// of the mean: the bound and the limit. `true`: a lower bound.
+    pub fn hidden_bound(&self) -> Option<([f64; 2], bool)> {
         let [low, high] = self.interval;
         let (limit, is_least) = match (self.requirement.statement, self.requirement.limit) {
             (Statement::Mean, limit) => (limit.value(), matches!(limit, GateLimit::AtLeast(_))),
@@ -93,7 +93,8 @@ impl Assessment {
             Decision::Undecided(_) => return None,
         };
         let bound = self.gate.bounds[usize::from(!is_lower)];
-        (low < limit && limit < high && bound.is_finite() && self.reason.is_none()).then_some((bound, is_lower))
+        (low < limit && limit < high && bound.is_finite() && self.reason.is_none())
+            .then_some(([bound, limit], is_lower))
     }
 
     /// Whether there is an interval.

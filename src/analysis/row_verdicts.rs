@@ -240,11 +240,11 @@ mod tests {
             let found = assessment(asked(&p95), String::new(), &counts, Population::Independent, false);
             let has_limit = found.interval[0] < 0.95 && 0.95 < found.interval[1];
             match (found.word(), found.hidden_bound()) {
-                ("PASS", Some((bound, is_lower))) => {
+                ("PASS", Some(([bound, _], is_lower))) => {
                     assert!(has_limit && is_lower && bound >= 0.95);
                     seen[0] += 1;
                 }
-                ("FAIL", Some((bound, is_lower))) => {
+                ("FAIL", Some(([bound, _], is_lower))) => {
                     assert!(has_limit && !is_lower && bound < 0.95);
                     seen[1] += 1;
                 }
@@ -268,7 +268,8 @@ mod tests {
                     Population::Independent,
                     false,
                 );
-                let Some((bound, is_lower)) = found.hidden_bound() else { continue };
+                let Some(([bound, limit_there], is_lower)) = found.hidden_bound() else { continue };
+                assert_eq!(limit_there, at);
                 assert_eq!(is_lower, bound > at, "{at}: {bound}");
                 assert_eq!(limit.is_met(bound), found.word() == "PASS", "{at}: {bound}");
             }

@@ -150,7 +150,12 @@ impl Panel<'_> {
                 };
                 svg.line(&[tip, [tip[0] + 2.0 * step[0], tip[1] + 2.0 * step[1]]], grey);
                 svg.line(&[wing(1.0), tip, wing(-1.0)], grey);
-                covered.push(self.draw_name(svg, label, ([edge + 20.0 * inward, y + 4.0], anchor), width));
+                let place = [edge + 20.0 * inward, y + 4.0];
+                if *vertical {
+                    svg.text(label, place, LABEL, anchor, grey.color, false);
+                } else {
+                    covered.push(self.draw_name(svg, label, (place, anchor), width));
+                }
             }
         }
     }

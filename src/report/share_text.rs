@@ -50,12 +50,6 @@ fn ends([low, high]: [f64; 2]) -> [String; 2] {
     [end(low, below, false), end(high, above, true)]
 }
 
-/// A bound of a share, rounded away from what was found: "95.1%".
-pub fn bound(share: f64, is_lower: bool) -> String {
-    let [low, high] = ends([share; 2]);
-    format!("{}%", if is_lower { low } else { high })
-}
-
 /// A share, or where runs are missing its least and largest value, with its interval in brackets where there is one.
 pub fn with_interval([least, most]: [f64; 2], interval: [f64; 2]) -> String {
     let share = if least == most {

@@ -43,9 +43,7 @@ fn not_computed(plan: &Plan, statistics: &Statistics, failures: &[InputSensitivi
     let others = match runs - missing {
         0 => "There are no numbers of them".to_owned(),
         left => {
-            format!(
-                "The numbers below describe only the other {left}, which may differ systematically: they have no intervals"
-            )
+            format!("The numbers below describe only the other {left}, which may differ: they have no intervals")
         }
     };
     let share = missing as f64 / runs as f64;

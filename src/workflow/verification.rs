@@ -65,7 +65,7 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     }
     let storage = session.storage;
     let note = |text: &str| session.watch.note(text);
-    let lost = if wanted.repair { new_manifest(session, root)? } else { None };
+    let lost = if wanted.repair && !root.is_file() { new_manifest(session, root)? } else { None };
     let (found, locks) = open(storage, root, !wanted.repair)?;
     let (plan, read) = plan_in(session, root, &found)?;
     let plan = plan.at_look(found.rows());

@@ -337,12 +337,12 @@ async function checkSaid(page, name) {
       });
     }
     const marks = runs ? pairFigure(runs, 0, runs.columns.length - 1).marks : [];
-    const fateOf = { computed: 0, ...Object.fromEntries((runs?.words ?? []).map((words, fate) => [words, fate])) };
+    const fateOf = { computed: 0, ...Object.fromEntries((runs?.fateWords ?? []).map((words, fate) => [words, fate])) };
     for (const mark of marks) {
       const other = Array.from(mark.samples).find((sample) => runs.fates[runs.samples.indexOf(sample)] !== fateOf[mark.label]);
       if (other !== undefined) found.push(`sample ${other} is called "${mark.label}"`);
     }
-    const isJudged = marks.some((mark) => mark.label === runs.words[1]);
+    const isJudged = marks.some((mark) => mark.label === runs.fateWords[1]);
     for (const mark of marks.filter((one) => isJudged && one.samples.length > 1)) {
       select(mark.samples);
       const said = document.querySelector(".selection").innerText;
@@ -355,7 +355,7 @@ async function checkSaid(page, name) {
 }
 
 // No table is cut: it has room for all of its cells, or is in a box that scrolls and whose edge says so; the worst runs have room. Folded ones too.
-async function checkTables(page, name) {
+async function checkNarrowTables(page, name) {
   const wrong = await page.evaluate(() => {
     for (const details of document.querySelectorAll("details")) details.open = true;
     const width = document.documentElement.clientWidth;
@@ -367,7 +367,7 @@ async function checkTables(page, name) {
       const scrolls = style?.overflowX === "auto" && style.backgroundImage !== "none" && box.getBoundingClientRect().right <= width + 1;
       const right = Math.max(...Array.from(table.querySelectorAll("th, td"), (cell) => cell.getBoundingClientRect().right));
       if (right > width + 1 && (what === "worst" || !scrolls)) found.push(`${what} is cut at ${width} of ${right} pixels`);
-      const cut = Array.from(table.querySelectorAll("th, td")).find((cell) => cell.scrollWidth > cell.clientWidth + 1 && cell.clientWidth > 0);
+      const cut = Array.from(table.querySelectorAll("th, td")).find((cell) => cell.clientWidth > 0 && (cell.scrollWidth > cell.clientWidth + 1 || cell.scrollHeight > cell.clientHeight + 1));
       if (cut) found.push(`a cell of ${what} is cut: ${cut.innerText}`);
     }
     return found;
@@ -581,7 +581,7 @@ async function checked(browser, file) {
   const narrow = await opened(browser, file, { width: 390, height: 800 }, "light");
   await checkFigures(narrow, `${name}, narrow`, shot("narrow"));
   await checkTexts(narrow, `${name}, narrow`);
-  await checkTables(narrow, `${name}, narrow`);
+  await checkNarrowTables(narrow, `${name}, narrow`);
   await narrow.close();
   console.log(`${name}: ${figures} figures, ${size} bytes`);
 }

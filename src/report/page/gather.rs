@@ -241,7 +241,11 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         }
     };
     let within = one.runs.saturating_sub(one.violations);
-    let mut notes = vec![format!("{} of {} runs are within the limit.", grouped(within), grouped(one.runs))];
+    let mut notes = vec![match (within, one.runs) {
+        (0, 1) => "The run is not within the limit.".to_owned(),
+        (_, 1) => "The run is within the limit.".to_owned(),
+        _ => format!("{} of {} runs are within the limit.", grouped(within), grouped(one.runs)),
+    }];
     if let Some(worst) = &one.worst {
         let at = format!("At {}, where the fewest are: ", with_unit(worst.time_s, "s"));
         notes[0] = format!("{at}{}", notes[0]);

@@ -257,5 +257,5 @@ fn pairs(plan: &Plan, survey: &Survey, payload: &mut Payload) -> Value {
     let fates = fates::fates(plan, survey);
     let shown: Vec<f64> = rows.iter().map(|row| fates[*row].place()).collect();
     let judged = fates.contains(&Fate::Missed) || !plan.analysis.requirements.is_empty();
-    json!({ "columns": columns, "samples": payload.array(&samples), "fates": payload.singles(&shown), "judged": judged, "words": fates::words(plan), "all": survey.statuses.runs() })
+    json!({ "columns": columns, "samples": payload.array(&samples), "fates": payload.singles(&shown), "judged": judged, "fateWords": fates::words(plan), "all": survey.statuses.runs() })
 }

@@ -89,7 +89,7 @@ fn the_scripts_make_the_campaign() {
     }
     let finish = scratch.text("small-finish.sh");
     assert!(finish.contains("#SBATCH --partition=long\n") && !own.iter().any(|line| finish.contains(line)), "{finish}");
-    assert_eq!(ends(&scratch, "small-finish.sh", 1), Some(4), "nothing is there");
+    assert_eq!(ends(&scratch, "small-finish.sh", 1), Some(2), "nothing is there");
     // what is asked of the scripts is asked of the campaign
     scratch.prints("slurm small.toml --nodes 2 --cpus 1 --time 10 --samples 300 --seed 11 --out seeded", 0);
     let whole = "campaign small.toml --samples 300 --seed 11 --out seeded_whole";
