@@ -23,7 +23,7 @@ pub fn text(compared: Compared<'_>, is_verbose: bool, width: usize) -> String {
     let Compared { names, comparison, .. } = compared;
     let mut text = String::new();
     for ((when, name), of) in ["before:", "after: "].into_iter().zip(names).zip(&comparison.statistics) {
-        text += &wrapped(&format!("{when} {name}, {} of {} runs ok\n", of.ok(), of.samples()), width);
+        text += &wrapped(&format!("{when} {name}, {} of {} ok\n", of.ok(), counted(of.samples(), "run")), width);
     }
     let [of_verdicts, of_keys] = if is_verbose { [usize::MAX; 2] } else { FEW };
     for section in
