@@ -7,7 +7,7 @@ use crate::cli::screen::width;
 use crate::ensemble::drawn::{MASS_COLUMNS, magnitudes, mass_properties};
 use crate::ensemble::magnitude::Magnitude;
 use crate::ensemble::{DrawnScenes, Percentiles};
-use crate::report::number::{short, trimmed};
+use crate::report::number::{counted, short, trimmed};
 use crate::report::origin_text::{origin, unit_of};
 use crate::report::text_table::{Align, TextTable};
 use crate::report::wrapped::wrapped;
@@ -95,7 +95,7 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
     };
     let of_columns = (0..columns.len()).map(|column| unit_of(plan, column));
     let units: Vec<ShownUnit> = of_columns.chain(magnitudes.iter().map(of_magnitude)).collect();
-    writeln!(text, "percentiles of {} draws (sample 0 is nominal)", drawn.count())?;
+    writeln!(text, "percentiles of {} (sample 0 is nominal)", counted(drawn.count(), "draw"))?;
     let mut table = TextTable::new([
         ("parameter", Align::Title),
         ("unit", Align::Left),

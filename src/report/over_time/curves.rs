@@ -162,7 +162,7 @@ impl<'a> Curves<'a> {
         } else {
             format!("{} dispersed runs that were computed", bands.runs)
         };
-        format!("Bands: 5 to 95% and 25 to 75% of {of}, at each of {} times.{left}{aliased}", bands.times.len())
+        format!("Bands: 5 to 95% and 25 to 75% of {of}, at each of {} times.{aliased}{left}", bands.times.len())
     }
 
     /// Name and unit of a series.
