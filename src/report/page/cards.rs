@@ -268,11 +268,13 @@ impl Card {
         let x = at(self.estimate);
         inside += &format!("<circle class=\"dot\" cx=\"{x:.1}\" cy=\"28\" r=\"5\"/>");
         inside += &label(x, 47, anchor(x), &self.value());
-        for (end, word, anchor) in [(self.extremes[0], "smallest", "start"), (self.extremes[1], "largest", "end")] {
+        for (end, word, (edge, anchor)) in
+            [(self.extremes[0], "smallest", (LEFT, "start")), (self.extremes[1], "largest", (RIGHT, "end"))]
+        {
             if end.is_finite() {
                 let x = at(end);
                 inside += &format!("<line class=\"end\" x1=\"{x:.1}\" y1=\"20\" x2=\"{x:.1}\" y2=\"36\"/>");
-                inside += &label(x, 11, anchor, &format!("{word} {}", with_unit(end, &self.unit)));
+                inside += &label(edge, 11, anchor, &format!("{word} {}", with_unit(end, &self.unit)));
             }
         }
         if let Some((limit, is_upper)) = self.limit {
