@@ -378,7 +378,7 @@ mod tests {
         let (most, pass, fail) = (GateLimit::AtMost(23.15), Decision::Pass, Decision::Fail);
         for (statement, decision, bounds, text) in [
             (Statement::Fraction(0.9), pass, [0.922_36, 1.0], "at least 92.2%"),
-            (Statement::Fraction(0.9223), pass, [0.922_36, 1.0], "at least 92.23%"),
+            (Statement::Fraction(0.9223), pass, [0.922_36, 1.0], "at least 92.236%"),
             (Statement::Quantile(0.99991), pass, [0.999_927, 1.0], "at least 99.992%"),
             (Statement::Fraction(0.9223), fail, [0.5, 0.922_26], "at most 92.226%"),
             (Statement::Mean, pass, [22.0, 23.126], "at most 23.13 m"),
