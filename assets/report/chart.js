@@ -260,7 +260,8 @@ function middleOf(axis) {
   return axis.type === "category" ? 0 : axis.type === "log" ? Math.sqrt(axis.min * axis.max) : 0.5 * (axis.min + axis.max);
 }
 
-function limitSeries(mark, palette, [xs, ys], row) {
+// `others` are the limits across the figure that come before it.
+function limitSeries(mark, palette, [xs, ys], row, others) {
   // the series has a point within the axes: one outside of them would not be drawn
   const data = [[middleOf(xs), middleOf(ys)]];
   return drawn(data, { x: 0, y: 1 }, (to, box) => {
@@ -287,9 +288,11 @@ function limitSeries(mark, palette, [xs, ys], row) {
       ];
     }
     const isTop = y < box.y + 20;
+    // two names side by side where their lines have no room for one above the other
+    const isLeft = others.filter((other) => Math.abs(to(data[0][0], other.at)[1] - y) < LABEL + 3).length % 2 === 1;
     return [
       { type: "line", shape: { x1: box.x, y1: y, x2: box.x + box.width, y2: y }, style: dash },
-      { type: "text", x: box.x + box.width - 4, y: y + (isTop ? 3 : -3), style: { ...text, align: "right", verticalAlign: isTop ? "top" : "bottom" } },
+      { type: "text", x: isLeft ? box.x + 4 : box.x + box.width - 4, y: y + (isTop ? 3 : -3), style: { ...text, align: isLeft ? "left" : "right", verticalAlign: isTop ? "top" : "bottom" } },
     ];
   }, mark.vertical ? LABEL * (row + 1) + 4 : 0);
 }
@@ -366,7 +369,7 @@ export function chartOption(figure, width, palette = colors()) {
     band: (mark) => bandSeries(mark, figure, color(mark)),
     bars: (mark) => barSeries(mark, figure, color(mark)),
     whiskers: (mark) => whiskerSeries(mark, figure, color(mark), palette),
-    limit: (mark) => limitSeries(mark, palette, axes, rows.get(mark) ?? 0),
+    limit: (mark) => limitSeries(mark, palette, axes, rows.get(mark) ?? 0, figure.marks.slice(0, figure.marks.indexOf(mark)).filter((one) => one.kind === "limit" && !one.vertical && one.label)),
     matrix: (mark) => matrixSeries(mark, figure, palette),
     flight: (mark) => flightSeries(mark, color(mark), axes),
   };

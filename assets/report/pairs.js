@@ -15,9 +15,9 @@ export function pairFigure(pairs, first, second) {
   };
   const axis = (column) => ({ quantity: column.name, unit: column.unit, log: positive(column), names: null, range: null });
   const [met, missed, failed] = [0, 1, 2].map(kept);
-  const marks = [points(missed.length > 0 ? "meets the requirements" : "computed", 0, false, met)];
-  if (missed.length > 0) marks.push(points("misses a requirement", 1, true, missed));
-  if (failed.length > 0) marks.push(points("not computed", 8, true, failed));
+  const marks = [points(missed.length > 0 ? pairs.fateWords[0] : "computed", 0, false, met)];
+  if (missed.length > 0) marks.push(points(pairs.fateWords[1], 1, true, missed));
+  if (failed.length > 0) marks.push(points(pairs.fateWords[2], 8, true, failed));
   return { name: `pair_${x.column}_${y.column}`, section: "influence", title: `${y.name} against ${x.name}`, caption: `${rows.length} of ${pairs.all} samples, chosen by sample number.`, columns: 12, time: false, x: axis(x), y: axis(y), marks };
 }
 

@@ -129,14 +129,13 @@ export function startSelection(pairs, replayed, show) {
   const buttons = [replay, button("copy the command", copy), button("clear", () => select([]))];
   bar.append(text, ...buttons, said);
   document.body.append(bar);
-  const fates = ["meets the requirements", "misses a requirement", "not computed"];
   onSelection(() => {
     const samples = selected();
     bar.hidden = samples.length === 0;
     said.textContent = "";
     const rows = Array.from(runs.samples.keys()).filter((row) => chosen.has(runs.samples[row]));
     const count = (fate) => rows.filter((row) => runs.fates[row] === fate).length;
-    const shares = fates.flatMap((words, fate) => (runs.judged && count(fate) > 0 ? [`${samples.length > 1 ? `${count(fate)} ` : ""}${words}`] : []));
+    const shares = runs.fateWords.flatMap((words, fate) => (runs.judged && count(fate) > 0 ? [`${samples.length > 1 ? `${count(fate)} ` : ""}${words}`] : []));
     text.textContent = `${samples.length === 1 ? `Sample ${samples[0]}` : `${samples.length} runs`}${shares.length > 0 ? `: ${shares.join(", ")}` : ""}`;
     replay.hidden = !(samples.length === 1 && replayed.includes(samples[0]));
   });

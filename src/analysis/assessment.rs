@@ -78,6 +78,25 @@ impl Assessment {
         (assumes && self.reason.is_none()).then_some((limit - bound).abs())
     }
 
+    /// The bound on one side by which it passed or failed, where its interval has the limit in it and so seems to say that nothing is decided; of the fraction of runs within the limit, or
+    /// of the mean: the bound and the limit. `true`: a lower bound.
+    pub fn hidden_bound(&self) -> Option<([f64; 2], bool)> {
+        let [low, high] = self.interval;
+        let (limit, is_least) = match (self.requirement.statement, self.requirement.limit) {
+            (Statement::Mean, limit) => (limit.value(), matches!(limit, GateLimit::AtLeast(_))),
+            (Statement::Fraction(target), _) => (target, true),
+            (Statement::Quantile(p), limit) => (limit.fraction(p), true),
+        };
+        let is_lower = match self.gate.decision {
+            Decision::Pass => is_least,
+            Decision::Fail => !is_least,
+            Decision::Undecided(_) => return None,
+        };
+        let bound = self.gate.bounds[usize::from(!is_lower)];
+        (low < limit && limit < high && bound.is_finite() && self.reason.is_none())
+            .then_some(([bound, limit], is_lower))
+    }
+
     /// Whether there is an interval.
     pub fn has_interval(&self) -> bool {
         self.interval.iter().any(|end| end.is_finite())

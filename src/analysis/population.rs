@@ -12,6 +12,8 @@ pub const LISTED: &str = "campaign.only";
 pub struct Loss {
     pub missing: u64,
     pub runs: u64,
+    /// Samples that are not physical.
+    pub outside: u64,
 }
 
 impl Loss {
@@ -23,10 +25,16 @@ impl Loss {
     pub fn of(statuses: &[u64; Status::ALL.len()]) -> Self {
         let counts = Status::ALL.iter().zip(statuses);
         counts.fold(Loss::default(), |loss, (status, count)| match status {
-            Status::InvalidSample => loss,
+            Status::InvalidSample => Loss { outside: count + loss.outside, ..loss },
             Status::Done => Loss { runs: loss.runs + count, ..loss },
-            _ => Loss { runs: loss.runs + count, missing: loss.missing + count },
+            _ => Loss { runs: loss.runs + count, missing: loss.missing + count, ..loss },
         })
+    }
+
+    /// How many of how many are missing, with what these are: neither the nominal run nor a sample that is not physical is one of them.
+    pub fn counts(self) -> String {
+        let which = if self.outside > 0 { " that are physical" } else { "" };
+        format!("{} of {} dispersed runs{which}", self.missing, self.runs)
     }
 
     /// Whether so many runs are missing that what is left says little of all.
@@ -119,9 +127,9 @@ impl Population {
                 format!("none: samples of design \"{design}\" are chosen, not drawn from a population")
             }
             Population::Nominal => "none: the nominal sample alone".to_owned(),
-            Population::Incomplete(Loss { missing, runs }) => format!(
-                "none: {missing} of {runs} runs have no numbers, and need not be like the others"
-            ),
+            Population::Incomplete(loss) => {
+                format!("none: {} have no numbers, and need not be like the others", loss.counts())
+            }
         }
     }
 }

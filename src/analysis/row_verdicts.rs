@@ -114,7 +114,12 @@ pub(super) fn assessment(
     }
     if missing > 0 {
         gate.decision = Decision::Fail;
-        reason = Some(format!("{missing} runs without a value violate it"));
+        let runs = if missing == 1 {
+            "1 run without a value violates".to_owned()
+        } else {
+            format!("{missing} runs without a value violate")
+        };
+        reason = Some(format!("{runs} it"));
         interval = [f64::NAN; 2];
     }
     if !population.has_intervals() {
@@ -224,6 +229,53 @@ mod tests {
         assert_eq!(of(0, 0).reason.as_deref(), Some("there are no runs that count"));
     }
 
+    /// Law: of 400 runs, however many are within, a bound is named exactly where the verdict is decided while the two-sided interval has the limit in it; it is on the side of the limit that
+    /// decides, and so it is for means on both sides of a limit.
+    #[test]
+    fn hidden_bounds_are_those_that_decide() {
+        let p95 = requirement(Statement::Fraction(0.95), GateLimit::AtMost(1.0));
+        let mut seen = [0; 3];
+        for within in 330..=400 {
+            let counts = counts(&[(400, within, &[])]);
+            let found = assessment(asked(&p95), String::new(), &counts, Population::Independent, false);
+            let has_limit = found.interval[0] < 0.95 && 0.95 < found.interval[1];
+            match (found.word(), found.hidden_bound()) {
+                ("PASS", Some(([bound, _], is_lower))) => {
+                    assert!(has_limit && is_lower && bound >= 0.95);
+                    seen[0] += 1;
+                }
+                ("FAIL", Some(([bound, _], is_lower))) => {
+                    assert!(has_limit && !is_lower && bound < 0.95);
+                    seen[1] += 1;
+                }
+                (word, None) => {
+                    assert!(word == "UNDECIDED" || !has_limit, "{within}");
+                    seen[2] += 1;
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+        assert!(seen.iter().all(|count| *count > 0), "{seen:?}");
+        let values: Vec<f64> = (0..100).map(|k| f64::from(k % 10)).collect();
+        for step in 0..400 {
+            let at = 3.5 + 0.005 * f64::from(step);
+            for limit in [GateLimit::AtMost(at), GateLimit::AtLeast(at)] {
+                let mean = requirement(Statement::Mean, limit);
+                let found = assessment(
+                    asked(&mean),
+                    String::new(),
+                    &counts(&[(100, 100, &values)]),
+                    Population::Independent,
+                    false,
+                );
+                let Some(([bound, limit_there], is_lower)) = found.hidden_bound() else { continue };
+                assert_eq!(limit_there, at);
+                assert_eq!(is_lower, bound > at, "{at}: {bound}");
+                assert_eq!(limit.is_met(bound), found.word() == "PASS", "{at}: {bound}");
+            }
+        }
+    }
+
     /// Law: a run without a value violates a requirement on the mean; designs without a population decide nothing, nor do equal values of
     /// an observable that need not be constant.
     #[test]
@@ -235,7 +287,7 @@ mod tests {
         };
         assert_eq!(of(30, Population::Independent).word(), "PASS");
         let missing = of(31, Population::Independent);
-        assert_eq!((missing.word(), missing.reason.as_deref()), ("FAIL", Some("1 runs without a value violate it")));
+        assert_eq!((missing.word(), missing.reason.as_deref()), ("FAIL", Some("1 run without a value violates it")));
         for population in [Population::Dependent("sobol"), Population::Chosen("grid"), Population::Nominal] {
             let found = of(30, population);
             assert!(

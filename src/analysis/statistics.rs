@@ -108,7 +108,8 @@ impl Statistics {
     pub fn treatment(&self) -> String {
         match self.samples() - self.ok() {
             0 => "every run was computed".to_owned(),
-            failed => format!("{failed} of {} runs were not computed and are left out", self.samples()),
+            _ if self.population == Population::Nominal => "the nominal run was not computed".to_owned(),
+            failed => format!("{failed} of {} dispersed runs were not computed and are left out", self.samples()),
         }
     }
 }
@@ -337,7 +338,7 @@ mod tests {
         assert_eq!((column.moments.count(), column.moments.mean(), column.moments.max()), (5, Some(4.0), Some(10.0)));
         let median = column.quantiles.iter().find(|quantile| quantile.p == 0.5).expect("the median");
         assert_eq!(median.value, Some(3.0));
-        assert_eq!(found.treatment(), "1 of 6 runs were not computed and are left out");
+        assert_eq!(found.treatment(), "1 of 6 dispersed runs were not computed and are left out");
     }
 
     /// Law: beyond the exact ones, quantiles are within a hundredth of a standard deviation, whatever the offset of the values is, also far from the

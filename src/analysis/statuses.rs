@@ -82,6 +82,11 @@ impl Statuses {
         self.list.each_ref().map(|ended| ended.of_population)
     }
 
+    /// Whether the nominal run is `ok`, and no part of the population.
+    pub fn has_nominal(&self) -> bool {
+        self.list.iter().any(|ended| ended.status == Status::Done && ended.of_population < ended.count)
+    }
+
     /// Those of them that have no numbers.
     pub fn loss(&self) -> Loss {
         Loss::of(&self.of_population())
@@ -144,7 +149,10 @@ mod tests {
         assert_eq!((failed.len(), failed[0].count, failed[0].of_population), (1, 12, 11));
         let first: Vec<u64> = failed[0].first.iter().map(|(sample, _)| sample.0).collect();
         assert_eq!((first, &*failed[0].first[2].1), (vec![0, 1, 3, 5, 9, 20, 21, 22, 23, 24], "at 3 s"));
-        assert_eq!((statuses.runs(), statuses.ok(), statuses.loss()), (13, 1, Loss { missing: 11, runs: 12 }));
+        assert_eq!(
+            (statuses.runs(), statuses.ok(), statuses.loss()),
+            (13, 1, Loss { missing: 11, runs: 12, outside: 0 })
+        );
         assert_eq!(statuses.reasons().groups()[0].count, 12);
     }
 

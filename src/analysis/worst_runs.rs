@@ -18,6 +18,11 @@ impl WorstRuns {
         WorstRuns { most, is_low, runs: Vec::new() }
     }
 
+    /// Whether it keeps as many runs as it may: others may be as bad as the last of them.
+    pub fn is_full(&self) -> bool {
+        self.runs.len() >= self.most
+    }
+
     /// Adds a run; NaN is no value.
     pub fn add(&mut self, sample: SampleId, value: f64) {
         let badness = |value: f64| if self.is_low { -value } else { value.abs() };

@@ -1,5 +1,8 @@
 //! `campaign.description`: the question that a campaign answers, for people. No row depends on it.
 
+use toml::de::DeTable;
+
+use super::sources::Sources;
 use crate::sampling::keys::TextLimit;
 
 /// Most characters of a description.
@@ -19,10 +22,28 @@ pub(super) fn in_one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The first sentence of the comments that a file begins with, without "Question:"; `None` where it begins with something else. Lines that
+/// The question of a campaign that is made of `sources`, in which `written` is the value of `campaign.description`: as it was set beside the files, else that of the first file that
+/// has one, by its key or its first comment. What a file asks is not what the file asks that it extends.
+pub(super) fn of_sources(sources: &Sources, written: Option<String>) -> Option<String> {
+    if sources.list.iter().any(|source| source.key.as_deref() == Some("campaign.description")) {
+        return written;
+    }
+    let files = sources.list.iter().filter(|source| source.key.is_none());
+    files.map(|source| &sources.text[source.range.clone()]).find_map(|text| of_key(text).or_else(|| of_comment(text)))
+}
+
+/// The value of `campaign.description` in a text.
+fn of_key(text: &str) -> Option<String> {
+    let (table, _) = DeTable::parse_recoverable(text);
+    let campaign = table.get_ref().get("campaign")?.get_ref().as_table()?;
+    Some(in_one_line(campaign.get("description")?.get_ref().as_str()?))
+}
+
+/// The first sentence of the comments that a file begins with, without "Question:"; `None` where it begins with something else than that, blank lines, or what it extends. Lines that
 /// are indented continue a sentence.
-pub(super) fn of_comment(text: &str) -> Option<String> {
-    let comments = text.lines().map_while(|line| line.trim_start().strip_prefix('#'));
+fn of_comment(text: &str) -> Option<String> {
+    let is_before = |line: &&str| line.trim().is_empty() || line.starts_with("extends");
+    let comments = text.lines().skip_while(is_before).map_while(|line| line.trim_start().strip_prefix('#'));
     let mut found = String::new();
     for line in comments {
         let is_continued = line.starts_with("  ");
@@ -49,5 +70,37 @@ mod tests {
         assert_eq!(of_comment("# A campaign.\n").as_deref(), Some("A campaign."));
         assert_eq!(of_comment("[campaign]\n# no\n"), None);
         assert_eq!(of_comment("#\n"), None);
+        assert_eq!(of_comment("\nextends = \"b.toml\"\n\n# Question: and faster?\n").as_deref(), Some("and faster?"));
+    }
+
+    /// Law: a file has its own question, by key or comment, before that of the file that it extends, which it has where it says none; what is set beside the files comes first.
+    #[test]
+    fn a_variant_has_its_own_question() {
+        let folder = std::env::temp_dir().join(format!("spindrift-question-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let key = "[campaign]\ndescription = \"parent by key\"\n";
+        for (parent, child, set, asked) in [
+            ("# Question: parent?\n", "# Question: child?\n", None, Some("child?")),
+            ("# Question: parent?\n", "", None, Some("parent?")),
+            (key, "# Question: child?\n", None, Some("child?")),
+            (key, "", None, Some("parent by key")),
+            (
+                "# Question: parent?\n",
+                "# A comment.\n[campaign]\ndescription = \"child by key\"\n",
+                None,
+                Some("child by key"),
+            ),
+            (key, "# Question: child?\n", Some("set"), Some("set")),
+            ("", "", None, None),
+        ] {
+            std::fs::write(folder.join("parent.toml"), parent).unwrap();
+            let (comment, table) = child.split_at(child.find('[').unwrap_or(child.len()));
+            let text = format!("{comment}extends = \"parent.toml\"\n{table}");
+            let settings: Vec<_> =
+                set.map(|set| ("campaign.description".to_owned(), set.to_owned())).into_iter().collect();
+            let sources = Sources::read(&folder, "child.toml", &text, &settings).expect("readable");
+            assert_eq!(of_sources(&sources, set.map(str::to_owned)).as_deref(), asked, "{parent}, {child}");
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -36,7 +36,7 @@ use std::path::{Path, PathBuf};
 pub struct Plan {
     /// Name of the campaign and of its results folder.
     pub name: String,
-    /// The question that the campaign answers: `campaign.description`, else the first sentence of the comments above the file's tables.
+    /// The question that the campaign answers: `campaign.description`, else the first sentence of the comments above the file's tables; of a file that says none, that of the file that it extends.
     pub description: Option<String>,
     /// Number of samples, at least 1; sample 0 is the nominal scene.
     pub samples: u64,
@@ -230,7 +230,7 @@ fn read(folder: &Path, file: &str, text: &str, overrides: Overrides) -> Result<(
     let data = std::mem::take(&mut document.files);
     document.verdict()?;
     let plan = plan.ok_or_else(|| unreachable_plan(file))?;
-    let description = plan.description.or_else(|| description::of_comment(text));
+    let description = description::of_sources(&sources, plan.description);
     Ok((Plan { description, ..plan }, FilesRead { campaign: PathBuf::new(), extended: sources.extended, data }))
 }
 

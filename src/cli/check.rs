@@ -18,7 +18,7 @@ use crate::math::Isa;
 use crate::observables::{Group, Request};
 use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::report::failure_text;
-use crate::report::number::{brief, bytes, short, trimmed};
+use crate::report::number::{brief, bytes, counted, short, trimmed};
 use crate::report::wrapped::wrapped;
 use crate::run::{StateField, Status};
 use crate::scene::{Scene, WheelMode};
@@ -105,17 +105,15 @@ fn summary(plan: &Plan) -> String {
         Some(step) => format!("steps of {} s", trimmed(step, 6)),
         None => format!("tolerance {:e}", plan.tolerance.relative),
     };
-    let (rows, seconds) = (plan.rows(), trimmed(plan.grid.duration(), 6));
+    let (rows, seconds) = (counted(plan.rows(), "run"), trimmed(plan.grid.duration(), 6));
     let requirements = match plan.analysis.requirements.len() {
         0 => "no requirement".to_owned(),
-        1 => "1 requirement".to_owned(),
-        count => format!("{count} requirements"),
+        count => counted(count, "requirement"),
     };
     format!(
-        "{}{}: {rows} run{} of {seconds} s, method {}, {steps}, {requirements}\n",
+        "{}{}: {rows} of {seconds} s, method {}, {steps}, {requirements}\n",
         completed_text::question(plan.description.as_deref()),
         plan.name,
-        if rows == 1 { "" } else { "s" },
         plan.method.name(),
     )
 }
@@ -129,7 +127,11 @@ fn failures(plan: &Plan, probe: &RunProbe) -> String {
         _ => "there would be no statistics, and the requirements would fail",
     };
     let head = if probe.is_hopeless() { format!("EVERY RUN FAILS: {lost}\n") } else { String::new() };
-    format!("{head}{failed} of the first {count} runs failed:\n{}", failure_text::text(&probe.reasons().groups()))
+    format!(
+        "{head}{failed} of the first {} failed:\n{}",
+        counted(count, "run"),
+        failure_text::text(&probe.reasons().groups())
+    )
 }
 
 fn section(text: &mut String, title: &str) -> std::fmt::Result {
@@ -270,17 +272,17 @@ fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
         _ => String::new(),
     };
     format!(
-        "\n== Estimate, from {count} run{}\n\
-         {} ms per run on one core; {} sample{}{looks} on {cores} cores: about {} s\n\
-         {} columns; {parts} file{} of rows: about {}; memory: at most {}\n\
+        "\n== Estimate, from {}\n\
+         {} ms per run on one core; {}{looks} on {}: about {} s\n\
+         {}; {} of rows: about {}; memory: at most {}\n\
          {failed}",
-        if count == 1 { "" } else { "s" },
+        counted(count, "run"),
         brief(probe.seconds * 1e3),
-        plan.rows(),
-        if plan.rows() == 1 { "" } else { "s" },
+        counted(plan.rows(), "sample"),
+        counted(cores, "core"),
         brief(probe.seconds * plan.rows() as f64 / cores as f64),
-        headings(ensemble).len(),
-        if parts == 1 { "" } else { "s" },
+        counted(headings(ensemble).len(), "column"),
+        counted(parts, "file"),
         bytes(work.disk as u64),
         bytes(work.memory as u64),
     )
@@ -303,10 +305,12 @@ fn audit_estimate(ensemble: &Ensemble<'_>) -> String {
     let audits = plan.audit_fraction * plan.rows() as f64;
     let cores = cores();
     format!(
-        "audit of {} of the samples, from {count} audits: {:.1} ms each; about {} audits on {cores} cores: {} s more\n",
+        "audit of {} of the samples, from {}: {:.1} ms each; about {} audits on {}: {} s more\n",
         short(plan.audit_fraction),
+        counted(count, "audit"),
         seconds * 1e3,
         short(libm::round(audits)),
+        counted(cores, "core"),
         short(seconds * audits / cores as f64),
     )
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::cli::screen::width;
 use crate::report::audit_summary::cost;
-use crate::report::number::bytes;
+use crate::report::number::{bytes, counted};
 use crate::report::summary::{EndVerdict, SummaryEnd};
 use crate::report::verdict_table::{self, VerdictRow};
 use crate::report::wrapped::wrapped;
@@ -39,7 +39,7 @@ fn files(completed: &Completed) -> String {
         String::new()
     };
     let (root, files, size) = (completed.root.display(), completed.files, bytes(completed.bytes));
-    format!("{audits}\n  {root}: {files} file{} of rows, {size}\n", if files == 1 { "" } else { "s" })
+    format!("{audits}\n  {root}: {} of rows, {size}\n", counted(files, "file"))
 }
 
 /// The question of a campaign, which comes first.
@@ -81,7 +81,7 @@ fn headline(completed: &Completed) -> String {
         }
         _ => String::new(),
     };
-    format!("{name}: {ok}{} run{} computed{run}, seed {seed}\n", end.rows, if end.rows == 1 { "" } else { "s" })
+    format!("{name}: {ok}{} computed{run}, seed {seed}\n", counted(end.rows, "run"))
 }
 
 /// A number of samples per second: whole, or with one decimal below ten.

@@ -7,7 +7,7 @@ use crate::cli::screen::width;
 use crate::ensemble::drawn::{MASS_COLUMNS, magnitudes, mass_properties};
 use crate::ensemble::magnitude::Magnitude;
 use crate::ensemble::{DrawnScenes, Percentiles};
-use crate::report::number::{short, trimmed};
+use crate::report::number::{counted, short, trimmed};
 use crate::report::origin_text::{origin, unit_of};
 use crate::report::text_table::{Align, TextTable};
 use crate::report::wrapped::wrapped;
@@ -95,7 +95,7 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
     };
     let of_columns = (0..columns.len()).map(|column| unit_of(plan, column));
     let units: Vec<ShownUnit> = of_columns.chain(magnitudes.iter().map(of_magnitude)).collect();
-    writeln!(text, "percentiles of {} draws (sample 0 is nominal)", drawn.count())?;
+    writeln!(text, "percentiles of {} (sample 0 is nominal)", counted(drawn.count(), "draw"))?;
     let mut table = TextTable::new([
         ("parameter", Align::Title),
         ("unit", Align::Left),
@@ -150,9 +150,28 @@ fn order(plan: &Plan, magnitudes: &[Magnitude]) -> Vec<usize> {
     rows
 }
 
-/// The numbers that sample `sample` applies, in all digits; with the mass properties that follow from them if `with_mass`, where they are
+/// The numbers that sample `sample` applies beside the nominal ones, in the units in which they are shown. Nothing where nothing is dispersed.
+pub fn shown(plan: &Plan, sample: SampleId) -> String {
+    let mut draws = SceneDraws::new(plan);
+    // a sample that is not physical applies its numbers too
+    let _ = draws.scene(sample);
+    let mut table = TextTable::new(["", "", ""].map(|head| (head, Align::Left))).spaced(0, 2);
+    for (index, (column, value)) in plan.dispersions.columns().iter().zip(draws.applied()).enumerate() {
+        let shown = unit_of(plan, index);
+        let number =
+            |value: f64| format!("{} {}", trimmed(shown.value(value), SHOWN_DIGITS), shown.unit).trim_end().to_owned();
+        let nominal = format!("nominal {}", number(column.nominal));
+        table.row([column.parameter.component_name(column.component), number(*value), nominal]);
+    }
+    table.text(width())
+}
+
+/// Digits of a number that a sample applies: what is measured has no more.
+const SHOWN_DIGITS: usize = 6;
+
+/// The numbers that sample `sample` applies, in all digits; with the mass properties that follow from them, where they are
 /// physical. Nothing where nothing is dispersed.
-pub fn applied(plan: &Plan, sample: SampleId, with_mass: bool) -> String {
+pub fn applied(plan: &Plan, sample: SampleId) -> String {
     let columns = plan.dispersions.columns();
     let mut draws = SceneDraws::new(plan);
     let scene = draws.scene(sample);
@@ -161,7 +180,7 @@ pub fn applied(plan: &Plan, sample: SampleId, with_mass: bool) -> String {
         let nominal = format!("nominal {:?}", column.nominal);
         table.row([column.parameter.component_name(column.component), format!("{value:?}"), nominal]);
     }
-    if let Some(scene) = scene.ok().filter(|_| with_mass) {
+    if let Ok(scene) = scene {
         let values = mass_properties(&scene);
         MASS_COLUMNS
             .iter()

@@ -5,6 +5,7 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::screen;
 use crate::cli::terminal::Terminal;
 use crate::report::index_page;
+use crate::report::number::counted;
 use crate::storage::atomic;
 use crate::workflow::Session;
 use crate::workflow::results_index::{ResultsIndex, indexed};
@@ -35,8 +36,7 @@ pub fn run(options: &IndexOptions) -> Result<CommandOutcome, Failure> {
     let path = root.join(PAGE);
     atomic::write_bytes(&path, html.as_bytes())
         .map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
-    let results = if entries.len() == 1 { "result" } else { "results" };
     let table = index_page::text(&entries, &unreadable, screen::width());
-    screen::print(&format!("{table}{} {results} -> {}\n", entries.len(), path.display()))?;
+    screen::print(&format!("{table}{} -> {}\n", counted(entries.len(), "result"), path.display()))?;
     Ok(CommandOutcome::Done)
 }

@@ -7,6 +7,7 @@ use crate::cli::arguments::NewOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::screen;
 use crate::report::shell_word::quoted_path;
+use crate::storage::atomic;
 
 /// The file: a spacecraft with a wheel, what is uncertain of it, and a requirement.
 const START: &str = include_str!("../../assets/start.toml");
@@ -23,7 +24,7 @@ pub fn run(options: &NewOptions) -> Result<CommandOutcome, Failure> {
     let file = OpenOptions::new().write(true).create_new(true).open(path);
     let text = START.replace("name = \"start\"", &format!("name = \"{name}\""));
     file.and_then(|mut file| file.write_all(text.as_bytes()))
-        .map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
+        .map_err(|error| Failure::Files(format!("{}: {}", path.display(), atomic::explained(path, error))))?;
     let file = quoted_path(path);
     screen::print(&format!(
         "{file}: a campaign to start from; its comments say what can be changed\n  spindrift check {file}\n  spindrift campaign {file}\n"

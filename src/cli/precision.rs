@@ -14,9 +14,10 @@ use crate::ensemble::precision::{Limits, Precision, States};
 use crate::ensemble::runner::start_threads;
 use crate::ensemble::settings::nominal;
 use crate::propagation::Method;
+use crate::report::number::counted;
 use crate::report::precision_figure::precision_figure;
 use crate::report::precision_text;
-use crate::storage::precision_table;
+use crate::storage::{atomic, precision_table};
 use crate::workflow::isa;
 use crate::workflow::source::plan_and_files;
 
@@ -46,7 +47,7 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
         refuse_inputs(&files.paths(), &[("--out", Some(&folder.join(format!("precision.{extension}"))))])?;
     }
     Workload::of_precision(&Ensemble::new(&plan, isa), options.samples.get()).check(&folder, options.yes, false)?;
-    std::fs::create_dir_all(&folder).map_err(|error| Failure::Files(format!("{}: {error}", folder.display())))?;
+    atomic::make_folder(&folder).map_err(Failure::files)?;
 
     let states = if options.observed { States::Observed } else { States::All };
     let samples = usize::try_from(options.samples.get()).unwrap_or(usize::MAX);
@@ -58,11 +59,11 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
     }
     let limits = Limits { repeats: options.repeats.get(), limit: options.limit_s };
     screen::print(&format!(
-        "{}: {} samples over {:?} s at {} points, {} states, on {}; largest errors against a reference in double-double\n{}",
+        "{}: {} over {:?} s at {}, {} states, on {}; largest errors against a reference in double-double\n{}",
         plan.name,
-        precision.samples(),
+        counted(precision.samples(), "sample"),
         plan.grid.duration(),
-        plan.grid.points(),
+        counted(plan.grid.points(), "point"),
         if options.observed { "observed" } else { "all" },
         isa.name(),
         precision_text::headline(),
@@ -82,7 +83,7 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
     screen::print(&precision_text::omissions(&omitted, limits.limit))?;
 
     save(&folder, "parquet", |path| precision_table::save(&measured, &plan, isa.name(), path).map_err(Failure::files))?;
-    let title = format!("{}: {} samples, {:?} s", plan.name, precision.samples(), plan.grid.duration());
+    let title = format!("{}: {}, {:?} s", plan.name, counted(precision.samples(), "sample"), plan.grid.duration());
     let figure = precision_figure(title, &measured);
     for format in ["svg", "png"] {
         save(&folder, format, |path| figure.save(path, options.size.of()).map_err(Failure::files))?;

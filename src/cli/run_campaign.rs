@@ -11,6 +11,7 @@ use crate::cli::screen;
 use crate::cli::signals;
 use crate::cli::terminal::Terminal;
 use crate::cli::workload::Workload;
+use crate::report::number::counted;
 use crate::report::shell_word::quoted_path;
 use crate::report::wrapped::wrapped;
 use crate::storage::claim::Shard;
@@ -46,10 +47,10 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
                 _ => String::new(),
             };
             let there = format!(
-                "{}: already complete in {} ({} samples{failed}), every checksum verified; nothing to do. --overwrite runs it again.\n",
+                "{}: already complete in {} ({}{failed}), every checksum verified; nothing to do. --overwrite runs it again.\n",
                 plan.name,
                 campaign.named().display(),
-                end.rows,
+                counted(end.rows, "sample"),
             );
             let question = completed_text::question(plan.description.as_deref());
             let verdicts = completed_text::of_end(&end, root);
@@ -155,10 +156,10 @@ fn ended_by(name: &str, failed: &FailedRun, root: &Path) -> String {
 
 fn shard_is_done(name: &str, shard: Shard, root: &Path, made: Made) -> String {
     format!(
-        "{name}: shard {}/{} is complete ({} samples in {:.2} s). When all are: spindrift finish {}\n",
+        "{name}: shard {}/{} is complete ({} in {:.2} s). When all are: spindrift finish {}\n",
         shard.number,
         shard.of,
-        made.samples,
+        counted(made.samples, "sample"),
         made.elapsed.as_secs_f64(),
         quoted_path(root)
     )

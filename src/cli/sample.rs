@@ -12,6 +12,7 @@ use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::report::drawn_columns::DrawnColumns;
 use crate::report::drawn_figure::drawn_figure;
 use crate::report::image::{PlotError, PlotFormat};
+use crate::report::number::counted;
 use crate::sampling::SampleId;
 use crate::storage::drawn_table;
 use crate::storage::table::{TableError, TableFormat};
@@ -71,10 +72,10 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
             )));
         }
         let title = format!(
-            "{}, {}{} samples, {} design",
+            "{}, {}{}, {} design",
             plan.name,
             if dispersed.count() as u64 + 1 < plan.samples { "first " } else { "" },
-            dispersed.count(),
+            counted(dispersed.count(), "sample"),
             plan.design.name().replace('_', " ")
         );
         drawn_figure(title, &shown).in_units(&plan.analysis.display).save(path, options.size.of()).map_err(
@@ -84,8 +85,8 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
             },
         )?;
         let (numbers, samples) = (columns.len(), dispersed.count());
-        let [of_numbers, of_samples] = [numbers, samples].map(|count| if count == 1 { "" } else { "s" });
-        screen::note(&format!("{}: {numbers} number{of_numbers} of {samples} sample{of_samples}", path.display()));
+        let (numbers, samples) = (counted(numbers, "number"), counted(samples, "sample"));
+        screen::note(&format!("{}: {numbers} of {samples}", path.display()));
     }
     Ok(CommandOutcome::Done)
 }
@@ -96,7 +97,7 @@ fn one(plan: &Plan, sample: u64) -> Result<CommandOutcome, Failure> {
         let (last, name) = (plan.samples - 1, &plan.name);
         return Err(Failure::Input(format!("--sample {sample}: must be 0 to {last}, the samples of {name}")));
     }
-    screen::print(&dispersions::applied(plan, SampleId(sample), true))?;
+    screen::print(&dispersions::applied(plan, SampleId(sample)))?;
     if let Err(errors) = draw(plan, SampleId(sample)) {
         let reasons: String = errors.iter().map(|error| format!("\n  {error}")).collect();
         screen::note(&format!("sample {sample} is not physical (its status would be invalid_sample):{reasons}"));
@@ -109,7 +110,7 @@ fn save(path: &Path, plan: &Plan, percentiles: &mut Percentiles) -> Result<(), F
         TableError::Format(_) => Failure::Input(error.to_string()),
         _ => Failure::Files(format!("{}: {error}", path.display())),
     })?;
-    let (samples, columns) = (plan.samples, drawn_table::headings(plan).len());
-    screen::note(&format!("{}: {samples} samples, {columns} columns", path.display()));
+    let (samples, columns) = (counted(plan.samples, "sample"), counted(drawn_table::headings(plan).len(), "column"));
+    screen::note(&format!("{}: {samples}, {columns}", path.display()));
     Ok(())
 }

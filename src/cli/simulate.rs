@@ -11,9 +11,10 @@ use crate::ensemble::SingleRun;
 use crate::ensemble::audit::AuditValue;
 use crate::math::Isa;
 use crate::report::image::{PlotError, PlotFormat};
-use crate::report::number::short;
+use crate::report::mission_text;
+use crate::report::number::{counted, short};
 use crate::report::page::runs::GROUPS;
-use crate::report::simulation_figure::simulation_figure;
+use crate::report::simulation_figure::{left_out, simulation_figure};
 use crate::report::text_table::{Align, TextTable};
 use crate::report::time_table::TimeTable;
 use crate::run::{Grid, Status};
@@ -57,17 +58,23 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
     }
     if options.out.is_none() && options.plot.is_none() {
         if options.sample > 0 {
-            screen::print(&dispersions::applied(&plan, SampleId(options.sample), false))?;
+            screen::print(&dispersions::shown(&plan, SampleId(options.sample)))?;
         }
         let (table, points) = (TimeTable::new(&plan, &series, screen::width()), series.points());
         screen::print(&table.text)?;
         screen::note(&format!(
-            "({} of {points} points; --out X.csv or X.parquet writes all points, columns and digits; --plot X.svg draws them)",
-            table.points
+            "({} of {}; --out X.csv or X.parquet writes all points, columns and digits; --plot X.svg draws them)",
+            table.points,
+            counted(points, "point")
         ));
         if !table.left_out.is_empty() {
             screen::note(&format!("(too wide for {} columns: {})", screen::width(), table.left_out));
         }
+    }
+    let names = run.request.columns().into_iter().map(|column| column.quantity.name().to_owned());
+    let row: Vec<(String, f64)> = names.zip(run.row.iter().copied()).collect();
+    if let Some(end) = mission_text::of_run(&row) {
+        screen::note(&end);
     }
     if run.outcome.status != Status::Done {
         let (status, reason) = (run.outcome.status.name(), &run.reason);
@@ -120,8 +127,8 @@ fn save(path: &Path, series: &TimeSeries) -> Result<(), Failure> {
         TableError::Format(_) => Failure::Input(error.to_string()),
         _ => Failure::Files(format!("{}: {error}", path.display())),
     })?;
-    let (points, columns) = (series.points(), series.headings().len());
-    screen::note(&format!("{}: {points} points, {columns} columns", path.display()));
+    let (points, columns) = (counted(series.points(), "point"), counted(series.headings().len(), "column"));
+    screen::note(&format!("{}: {points}, {columns}", path.display()));
     Ok(())
 }
 
@@ -136,7 +143,14 @@ fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, run: &SingleRun) ->
         _ => Failure::Files(format!("{}: {error}", path.display())),
     })?;
     let points = run.outcome.points.min(run.grid.points());
-    screen::note(&format!("{}: {} figures of {points} points", path.display(), figure.panels.len()));
+    let empty = left_out(plan, run);
+    let without = if empty.is_empty() {
+        String::new()
+    } else {
+        format!("; left out, zero or absent throughout: {}", empty.join(", "))
+    };
+    let (figures, points) = (counted(figure.panels.len(), "figure"), counted(points, "point"));
+    screen::note(&format!("{}: {figures} of {points}{without}", path.display()));
     Ok(())
 }
 

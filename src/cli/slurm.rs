@@ -9,6 +9,7 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::screen;
 use crate::cli::slurm_script::{Jobs, MARK};
 use crate::ensemble::run_cost::parts;
+use crate::report::number::counted;
 use crate::report::shell_word::quoted_path;
 use crate::storage::atomic;
 use crate::storage::remote::Address;
@@ -28,8 +29,10 @@ pub fn run(options: &SlurmOptions) -> Result<CommandOutcome, Failure> {
     let shards = options.nodes.get().min(many);
     if shards < options.nodes.get() {
         screen::note(&format!(
-            "{}: {many} parts are to be made: {shards} of {} tasks have work",
-            plan.name, options.nodes
+            "{}: {} to make: {shards} of {} tasks busy",
+            plan.name,
+            counted(many, "part"),
+            options.nodes
         ));
     }
     let file = find(&options.file).unwrap_or_else(|_| options.file.clone());
@@ -65,15 +68,17 @@ pub fn run(options: &SlurmOptions) -> Result<CommandOutcome, Failure> {
         let first = submit(&array, None)?;
         let last = submit(&finish, Some(&first))?;
         format!(
-            "{}: submitted: array {first} of {shards} tasks ({}), then {last} ({})\n",
+            "{}: submitted: array {first} of {} ({}), then {last} ({})\n",
             plan.name,
+            counted(shards, "task"),
             array.display(),
             finish.display()
         )
     } else {
         format!(
-            "{}: {shards} tasks. Where Slurm is:\n  job=$(sbatch --parsable {})\n  sbatch --dependency=afterany:\"$job\" {}\n",
+            "{}: {}. Where Slurm is:\n  job=$(sbatch --parsable {})\n  sbatch --dependency=afterany:\"$job\" {}\n",
             plan.name,
+            counted(shards, "task"),
             quoted_path(&array),
             quoted_path(&finish)
         )

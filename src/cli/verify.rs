@@ -4,6 +4,7 @@ use crate::cli::arguments::VerifyOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::terminal::Terminal;
 use crate::cli::{completed_text, screen};
+use crate::report::number::counted;
 use crate::storage::names::PLAN;
 use crate::workflow::{Session, Verification, Verified, verify};
 
@@ -23,7 +24,7 @@ pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
     let completed = completed.as_ref().map(|completed| completed_text::text(completed, &replayed, false));
     let end = match (&completed, is_finished, problems) {
         (Some(_), _, 0) => "sound, and finished now".to_owned(),
-        (Some(_), ..) => format!("{problems} problems, repaired"),
+        (Some(_), ..) => format!("{}, repaired", counted(*problems, "problem")),
         (None, true, _) => "sound".to_owned(),
         (None, false, _) if unchecked.is_empty() => {
             "what was compared is sound, and the result is not finished: _SUCCESS is missing, or not empty; the campaign's command finishes it".to_owned()

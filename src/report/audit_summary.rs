@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::analysis::audit_tally::{AuditTally, Coverage, PROMISED_COVERAGE};
 use crate::ensemble::audit::AuditValue;
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
-use crate::report::number::short;
+use crate::report::number::{counted, short};
 use crate::report::text_table::{Align, TextTable};
 use crate::statistics::quantile::percent;
 use crate::statistics::spread::Spread;
@@ -192,7 +192,8 @@ impl AuditSummary {
     pub fn text(&self, width: usize) -> String {
         let (audited, plain) = (self.audited, self.audited - self.in_double_double);
         let mut head = format!(
-            "  audit: {audited} runs compared with reference solutions, {} of them in double-double",
+            "  audit: {} compared with reference solutions, {} of them in double-double",
+            counted(audited, "run"),
             self.in_double_double
         );
         if plain > 0 {

@@ -5,7 +5,7 @@ use crate::analysis::drivers::Question;
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::campaign::{Plan, Statement};
 use crate::report::drivers_text::{ranked, sentence};
-use crate::report::number::{brief, outward, significant};
+use crate::report::number::{brief, counted, outward, significant};
 use crate::report::observable_lines::{ObservableLine, QuantileLine};
 use crate::report::share_text::with_interval;
 use crate::report::summary::Summary;
@@ -13,6 +13,7 @@ use crate::report::text_table::{Align, TextTable};
 use crate::report::verdict_table::{self, VerdictRow};
 use crate::report::wrapped::wrapped;
 use crate::report::{drivers_text, mission_text, names, requirements, summary_text, warnings};
+use crate::run::Status;
 use crate::statistics::binomial::Decision;
 use crate::statistics::quantile::percent;
 
@@ -81,8 +82,9 @@ fn requirements_table(summary: &Summary, width: usize) -> String {
             true => String::new(),
             false => format!(" ({}% confidence)", percent(one.requirement.confidence)),
         };
-        let assumed = requirements::assumed(one);
-        let notes: Vec<&str> = one.reason.iter().chain(&assumed).chain(&one.note).map(String::as_str).collect();
+        let (decided_by, assumed) = (requirements::decided_by(one), requirements::assumed(one));
+        let notes = decided_by.iter().chain(&one.reason).chain(&assumed).chain(&one.note);
+        let notes: Vec<&str> = notes.map(String::as_str).collect();
         VerdictRow {
             word: one.word().to_owned(),
             required: requirements::statement(one) + &confidence,
@@ -253,9 +255,10 @@ fn drivers(plan: &Plan, summary: &Summary, all: &[InputSensitivity]) -> String {
     });
     let failed = mission_text::all_failed(&summary.missions).map(|why| format!("  what drives failures: {why}\n"));
     let said: String = failed.into_iter().chain(said.take(most)).collect();
-    let computed = summary.statuses.ok();
+    let computed = Status::ALL.into_iter().zip(summary.statuses.of_population());
+    let computed: u64 = computed.filter(|(status, _)| *status == Status::Done).map(|(_, count)| count).sum();
     match said.is_empty() && !all.is_empty() && summary.without_nominal && summary.warnings.is_empty() {
-        true => format!("  no significant driver found in {computed} runs\n"),
+        true => format!("  no significant driver found in {}\n", counted(computed, "dispersed run")),
         false => said,
     }
 }

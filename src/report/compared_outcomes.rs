@@ -6,6 +6,7 @@ use crate::campaign::{Plan, ShownUnit, Statement};
 use crate::observables::Group;
 use crate::report::compared::Compared;
 use crate::report::names;
+use crate::report::number::counted;
 use crate::report::number::{brief, outward, trimmed};
 use crate::report::share_text;
 use crate::report::text_table::{Align, TextTable};
@@ -201,7 +202,7 @@ fn table(compared: Compared<'_>, title: &str, columns: &[&ColumnComparison], wid
     }
     let confidence = percent(compared.comparison.statistics[0].confidence);
     let mut table = TextTable::new([
-        (format!("{} column{}", columns.len(), if columns.len() == 1 { "" } else { "s" }), Align::Title),
+        (counted(columns.len(), "column"), Align::Title),
         ("mean".to_owned(), Align::Right),
         (format!("its shift [{confidence}%]"), Align::Right),
         ("adjusted p".to_owned(), Align::Right),

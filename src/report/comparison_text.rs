@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use crate::analysis::comparison::ColumnComparison;
 use crate::analysis::population::Population;
 use crate::report::compared::{Compared, ComparedVerdict};
+use crate::report::number::counted;
 use crate::report::text_table::{Align, TextTable};
 use crate::report::wrapped::wrapped;
 use crate::report::{changed_keys, compared_outcomes};
@@ -22,7 +23,7 @@ pub fn text(compared: Compared<'_>, is_verbose: bool, width: usize) -> String {
     let Compared { names, comparison, .. } = compared;
     let mut text = String::new();
     for ((when, name), of) in ["before:", "after: "].into_iter().zip(names).zip(&comparison.statistics) {
-        text += &wrapped(&format!("{when} {name}, {} of {} runs ok\n", of.ok(), of.samples()), width);
+        text += &wrapped(&format!("{when} {name}, {} of {} ok\n", of.ok(), counted(of.samples(), "run")), width);
     }
     let [of_verdicts, of_keys] = if is_verbose { [usize::MAX; 2] } else { FEW };
     for section in
@@ -109,14 +110,14 @@ fn rest(compared: Compared<'_>, shown: Option<usize>) -> String {
         [count(&|column| comparison.is_shifted(column)), count(&|column| comparison.is_moved(column))];
     let how = match comparison.pairs {
         0 => "compared as independent samples".to_owned(),
-        pairs => format!("compared sample by sample: {pairs} samples were drawn alike"),
+        pairs => format!("compared sample by sample: {} drawn alike", counted(pairs, "sample")),
     };
     let mut text = match shown {
         _ if comparison.statistics.iter().any(|one| one.ok() == 0) => {
             "  no column is compared: a result has no dispersed run with numbers".to_owned()
         }
         _ if same == all.len() => format!("  all {same} columns have the same statistics"),
-        _ if shifted == 0 => format!("  no shift is seen in any of {} columns", all.len()),
+        _ if shifted == 0 => format!("  no shift is seen in any of {}", counted(all.len(), "column")),
         Some(shown) if shown > 0 => {
             format!("  {} more of {} columns are shifted", shifted.saturating_sub(shown), all.len())
         }
@@ -132,7 +133,7 @@ fn rest(compared: Compared<'_>, shown: Option<usize>) -> String {
     }
     for (names, which) in comparison.alone.iter().zip(["before", "after"]) {
         if !names.is_empty() {
-            let listed = if shown.is_none() { names.join(", ") } else { format!("{} columns", names.len()) };
+            let listed = if shown.is_none() { names.join(", ") } else { counted(names.len(), "column") };
             text += &format!("  only {which}: {listed}\n");
         }
     }

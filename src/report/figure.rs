@@ -18,6 +18,7 @@ pub enum Hue {
     Total,
     /// The nominal run in front of others.
     Nominal,
+    /// What failed, in the figure's own terms; nothing else has this hue on the page, but the first wheel.
     Failed,
     /// One of many curves of a panel, by its index.
     Curve(usize),

@@ -92,7 +92,7 @@ pub fn of_input(name: &str, unit: &str, samples: &[f64], nominal: f64, asked: Op
             };
             let x = edges.windows(2).map(middle).collect();
             let expected = asked.expected(&edges, count);
-            marks.push(Mark::line("expected counts", Hue::Failed, Dash::Solid, x, expected));
+            marks.push(Mark::line("expected counts", Hue::Nominal, Dash::Solid, x, expected));
         }
         (None, None) => {}
     }
@@ -132,7 +132,7 @@ fn stems(values: &[(f64, f64)], count: usize, edges: &[f64]) -> Mark {
         }
     }
     let label = "expected count of a discrete value".to_owned();
-    Mark::Points { label, hue: Hue::Failed, shape: PointShape::Stem, x, y, samples: Vec::new() }
+    Mark::Points { label, hue: Hue::Nominal, shape: PointShape::Stem, x, y, samples: Vec::new() }
 }
 
 #[cfg(test)]

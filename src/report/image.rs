@@ -89,7 +89,7 @@ impl Sheet {
 /// # Errors
 /// [`PlotError`].
 pub fn save_all(figures: &[Figure], of: &str, folder: &Path, size: PlotSize) -> Result<usize, PlotError> {
-    std::fs::create_dir_all(folder)?;
+    atomic::make_folder(folder)?;
     for figure in figures {
         let caption = format!("{} {of}", figure.caption.trim()).trim().to_owned();
         let sheet = Sheet::of(&Figure { caption, ..figure.clone() });

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::report::escaped::escaped;
 use crate::report::names::sentence;
+use crate::report::number::counted;
 use crate::report::summary::SummaryEnd;
 use crate::report::text_table::{Align, TextTable};
 
@@ -130,8 +131,7 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
     } else {
         format!("<section id=\"unreadable\"><h2>Not in the table</h2><ul>{left_out}</ul></section>\n")
     };
-    let count = |count: usize| if count == 1 { "1 result".to_owned() } else { format!("{count} results") };
-    let (name, count) = (escaped(title), count(entries.len()));
+    let (name, count) = (escaped(title), counted(entries.len(), "result"));
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{name} - spindrift</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}{OWN_STYLE}</style>\n</head>\n<body>\n<header><h1>{name}</h1><p class=\"facts\">{count}, by campaign, the latest run first</p></header>\n<main>\n<section id=\"results\"><div class=\"scroll\"><table><thead><tr>{heads}</tr></thead><tbody>\n{rows}</tbody></table></div></section>\n{left_out}</main>\n</body>\n</html>\n"
     )

@@ -94,7 +94,17 @@ impl Panel<'_> {
         let mut rows = 0;
         // names in rows from the top, none over another
         let mut named: Vec<(usize, [f64; 2])> = Vec::new();
-        for mark in self.marks() {
+        let mut covered: Vec<Corners> = Vec::new();
+        let is_across = |mark: &&Mark| matches!(mark, Mark::Limit { at, vertical: false, .. } if (top..=bottom).contains(&self.y(*at)));
+        let lines: Vec<f64> = self
+            .marks()
+            .iter()
+            .filter(is_across)
+            .filter_map(|mark| if let Mark::Limit { at, .. } = mark { Some(self.y(*at)) } else { None })
+            .collect();
+        // names that stand beside their lines give way to those at the edges
+        let (across, others): (Vec<&Mark>, Vec<&Mark>) = self.marks().iter().partition(is_across);
+        for mark in others.into_iter().chain(across) {
             let Mark::Limit { label, at, vertical } = mark else { continue };
             let at = if *vertical { self.x(*at) } else { self.y(*at) };
             let (low, high) = if *vertical { (left, right) } else { (top, bottom) };
@@ -110,16 +120,11 @@ impl Panel<'_> {
                 let (place, anchor) = match *vertical {
                     true if is_right => ([at + 5.0, below], Anchor::Start),
                     true => ([at - 5.0, below], Anchor::End),
-                    false if at > top + 18.0 => ([left + 6.0, at - 4.0], Anchor::Start),
-                    false => ([left + 6.0, at + 14.0], Anchor::Start),
+                    false => beside((at, width), self.edges, &lines, &covered),
                 };
-                // curves behind the name do not cross it out
-                let start = if anchor == Anchor::End { place[0] - width } else { place[0] };
                 if !label.is_empty() {
-                    let corners = [[start - 2.0, place[1] - LABEL], [start + width + 2.0, place[1] + 3.0]];
-                    svg.rectangle(corners[0], corners[1], "#ffffff", 0.8);
+                    covered.push(self.draw_name(svg, label, (place, anchor), width));
                 }
-                svg.text(label, place, LABEL, anchor, grey.color, false);
             } else if !at.is_nan() && !label.is_empty() {
                 let is_before = at < low;
                 let y = if *vertical {
@@ -145,10 +150,62 @@ impl Panel<'_> {
                 };
                 svg.line(&[tip, [tip[0] + 2.0 * step[0], tip[1] + 2.0 * step[1]]], grey);
                 svg.line(&[wing(1.0), tip, wing(-1.0)], grey);
-                svg.text(label, [edge + 20.0 * inward, y + 4.0], LABEL, anchor, grey.color, false);
+                let place = [edge + 20.0 * inward, y + 4.0];
+                if *vertical {
+                    svg.text(label, place, LABEL, anchor, grey.color, false);
+                } else {
+                    covered.push(self.draw_name(svg, label, (place, anchor), width));
+                }
             }
         }
     }
+
+    /// Writes the name of a limit on a ground of its own, so that curves behind it do not cross it out; what it covers.
+    fn draw_name(&self, svg: &mut Svg, label: &str, (place, anchor): (Place, Anchor), width: f64) -> Corners {
+        let corners = corners(place, anchor, width);
+        svg.rectangle(corners[0], corners[1], "#ffffff", 0.8);
+        svg.text(label, place, LABEL, anchor, PALETTE[8], false);
+        corners
+    }
+}
+
+/// A point, pixels.
+type Place = [f64; 2];
+/// The corners of a rectangle, left and top first, pixels.
+type Corners = [Place; 2];
+
+/// What a name of this `width` covers that stands at `place`.
+fn corners(place: Place, anchor: Anchor, width: f64) -> Corners {
+    let start = if anchor == Anchor::End { place[0] - width } else { place[0] };
+    [[start - 2.0, place[1] - LABEL], [start + width + 2.0, place[1] + 3.0]]
+}
+
+/// Where the name, `width` pixels wide, of a limit across the figure at the height `at` stands: within the `edges`, over no name that has `covered` its place, and if that can be on none of
+/// the `lines` of other limits; above its line before below it, at the left before the right.
+fn beside(
+    (at, width): (f64, f64),
+    [left, top, right, bottom]: [f64; 4],
+    lines: &[f64],
+    covered: &[Corners],
+) -> (Place, Anchor) {
+    let places = [(left + 6.0, Anchor::Start), (right - 6.0, Anchor::End)]
+        .into_iter()
+        .flat_map(|(x, anchor)| [at - 4.0, at + 14.0].map(|y| ([x, y], anchor)))
+        .collect::<Vec<_>>();
+    let of = |(place, anchor): &(Place, Anchor)| corners(*place, *anchor, width);
+    let is_inside = |corners: &Corners| corners[0][1] >= top && corners[1][1] <= bottom;
+    let is_free = |corners: &Corners| covered.iter().all(|other| !do_meet(corners, other));
+    let is_off_lines = |[[_, above], [_, below]]: &Corners| {
+        lines.iter().all(|line| (line - at).abs() < 1e-9 || *line <= *above || *line >= *below)
+    };
+    let fits = |place: &&(Place, Anchor)| is_inside(&of(place)) && is_free(&of(place));
+    let best = places.iter().find(|place| fits(place) && is_off_lines(&of(place)));
+    *best.or_else(|| places.iter().find(fits)).unwrap_or(&places[0])
+}
+
+/// Whether two rectangles have a point in common.
+fn do_meet(one: &Corners, other: &Corners) -> bool {
+    (0..2).all(|axis| one[0][axis] < other[1][axis] && other[0][axis] < one[1][axis])
 }
 
 /// The first row in which a name from `ends[0]` to `ends[1]` covers none of those in `named`, where it is noted.
@@ -189,6 +246,32 @@ mod tests {
             let outwards = |point: [f64; 2]| if vertical { point[0] } else { -point[1] } * f64::signum(at);
             for inner in [head[0], head[2], shaft[1]] {
                 assert!(outwards(tip) > outwards(inner), "{vertical} {at}: {head:?} {shaft:?}");
+            }
+        }
+    }
+
+    /// Law: names of two limits across a figure do not cover each other and stay within the axes, however near the limits are, at the edges too; where there is room, a name is on no
+    /// line of another.
+    #[test]
+    fn names_across_do_not_meet() {
+        let edges = [40.0, 20.0, 400.0, 220.0];
+        for first in (22..=218).step_by(7) {
+            for second in (22..=218).step_by(3) {
+                let lines = [f64::from(first), f64::from(second)];
+                let mut covered = Vec::new();
+                for at in lines {
+                    let (place, anchor) = beside((at, 90.0), edges, &lines, &covered);
+                    covered.push(corners(place, anchor, 90.0));
+                }
+                assert!(!do_meet(&covered[0], &covered[1]), "{lines:?}: {covered:?}");
+                let is_inside = |one: &Corners| one[0][1] >= edges[1] && one[1][1] <= edges[3];
+                assert!(covered.iter().all(is_inside), "{lines:?}: {covered:?}");
+                let crossed = |one: &Corners, line: f64| one[0][1] < line && line < one[1][1];
+                let apart = (lines[0] - lines[1]).abs();
+                assert!(
+                    apart < 40.0 || !crossed(&covered[0], lines[1]) && !crossed(&covered[1], lines[0]),
+                    "{lines:?}"
+                );
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::analysis::missions::{MissionShare, Missions};
 use crate::control::guidance::Failure;
+use crate::report::number::trimmed;
 use crate::report::share_text::with_interval;
 
 /// How a mission ended, in words that follow "mission".
@@ -44,6 +45,16 @@ pub fn of_row(row: &[(String, f64)]) -> Option<String> {
     Some(format!("mission {}", words(Failure::NAMES.get(failure as usize)?)))
 }
 
+/// The same with the time at which it ended: "mission failed at 812 s: a phase took too long".
+pub fn of_run(row: &[(String, f64)]) -> Option<String> {
+    let end = of_row(row)?;
+    let time = row.iter().find(|(column, _)| column == "end_time_s").map(|(_, time)| *time);
+    let Some(time) = time.filter(|time| time.is_finite()) else { return Some(end) };
+    let (what, why) =
+        end.split_once(": ").map_or((end.as_str(), String::new()), |(what, why)| (what, format!(": {why}")));
+    Some(format!("{what} at {} s{why}", trimmed(time, 6)))
+}
+
 /// The share in per cent, between bounds where runs are missing, and its interval where there is one.
 pub fn share(share: &MissionShare) -> String {
     with_interval(share.shares(), share.interval)
@@ -52,8 +63,9 @@ pub fn share(share: &MissionShare) -> String {
 /// What runs that were not computed mean for the shares; `None` where there are none.
 pub fn missing(missions: &Missions) -> Option<String> {
     let MissionShare { missing, runs, .. } = missions.first()?;
-    (*missing > 0)
-        .then(|| format!("{missing} of {runs} runs were not computed: each share is between none and all of them"))
+    (*missing > 0).then(|| {
+        format!("{missing} of {runs} dispersed runs were not computed: each share is between none and all of them")
+    })
 }
 
 /// What drives failures where no mission does anything else: no input can be told from the others by them. `None` where one mission did not fail.
@@ -123,7 +135,7 @@ mod tests {
         assert_eq!(ended(&late), "failed: a phase took too long (coast)");
         let late = MissionShare { phases: vec![phase("coast", 4), phase("align", 3)], ..late };
         assert_eq!(brief(&vec![late], true, false), "  missions: 7 failed: a phase took too long (coast 4, align 3)\n");
-        assert!(found.contains("214 of 300 runs were not computed"), "{found}");
+        assert!(found.contains("214 of 300 dispersed runs were not computed"), "{found}");
         // no input decides which fail where all do, in whatever way
         let failed = vec![share("timeout", 150, [f64::NAN; 2]), share("keep_out", 50, [f64::NAN; 2])];
         assert_eq!(all_failed(&failed).as_deref(), Some("all 200 missions fail, so no input decides which do"));
@@ -145,5 +157,15 @@ mod tests {
         }
         assert_eq!(row(1.0, 0.0).as_deref(), Some("mission launched"));
         assert_eq!([row(0.0, 0.0), of_row(&[])], [None, None]);
+        // of one run also when
+        let at = |launched: f64, failure: f64, end: f64| {
+            of_run(
+                &[("launched", launched), ("failure", failure), ("end_time_s", end)]
+                    .map(|(name, value)| (name.to_owned(), value)),
+            )
+        };
+        assert_eq!(at(0.0, 1.0, 812.5).as_deref(), Some("mission failed at 812.5 s: a phase took too long"));
+        assert_eq!(at(1.0, 0.0, 900.0).as_deref(), Some("mission launched at 900 s"));
+        assert_eq!([at(0.0, 0.0, f64::NAN), at(f64::NAN, f64::NAN, f64::NAN)], [None, None]);
     }
 }

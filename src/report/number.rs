@@ -62,6 +62,11 @@ pub fn trimmed(value: f64, digits: usize) -> String {
     }
 }
 
+/// A count with what is counted: "1 run", "3 runs". `thing` is regular.
+pub fn counted<C: core::fmt::Display + PartialEq + From<u8>>(count: C, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == C::from(1) { "" } else { "s" })
+}
+
 /// A size of files in decimal units.
 pub fn bytes(size: u64) -> String {
     const UNITS: [&str; 5] = ["B", "kB", "MB", "GB", "TB"];
@@ -128,6 +133,12 @@ mod tests {
             assert!(outward(found, digits) == found, "{found:?} is not rounded again");
         }
         assert!(outward([f64::NAN, 1.0], 3)[0].is_nan());
+    }
+
+    /// Law: one is one thing, and everything else, nothing too, are several.
+    #[test]
+    fn one_is_singular() {
+        assert_eq!([0_usize, 1, 2, 11].map(|count| counted(count, "run")), ["0 runs", "1 run", "2 runs", "11 runs"]);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::ensemble::precision::{Deviation, Measurement, Setting, Skipped};
+use crate::report::number::counted;
 use crate::report::number::{brief, significant};
 use crate::report::text_table::{Align, TextTable};
 
@@ -34,8 +35,8 @@ pub fn headline() -> String {
 /// A measurement as a line, with its maximum errors.
 pub fn line(m: &Measurement) -> String {
     let error = |of: Option<Deviation>| of.map_or("-".to_owned(), |error| significant(error.max, 2));
-    let failed = (m.runs[1] > 0).then(|| format!("{} of {} runs failed", m.runs[1], m.runs[0]));
-    let few = (m.repeats < 3).then(|| format!("{} repetition{}", m.repeats, if m.repeats == 1 { "" } else { "s" }));
+    let failed = (m.runs[1] > 0).then(|| format!("{} of {} failed", m.runs[1], counted(m.runs[0], "run")));
+    let few = (m.repeats < 3).then(|| counted(m.repeats, "repetition"));
     let mut table = table();
     table.row([
         m.method.name().to_owned(),

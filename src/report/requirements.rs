@@ -12,7 +12,7 @@ use crate::campaign::{Plan, Statement};
 use crate::report::audit_summary::AuditSummary;
 use crate::report::escaped::escaped;
 use crate::report::names;
-use crate::report::number::{brief, outward, short};
+use crate::report::number::{brief, counted, outward, short, trimmed};
 use crate::report::share_text::with_interval;
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::gate::GateLimit;
@@ -83,6 +83,26 @@ pub fn assumed(one: &Assessment) -> Option<String> {
         short(one.shown.value(room)),
     ))
 }
+
+/// The bound that decided, in a few words, where the interval in brackets has the limit in it: a verdict looks at one side. `None` where the interval shows it.
+pub fn decided_by(one: &Assessment) -> Option<String> {
+    let ([bound, limit], is_lower) = one.hidden_bound()?;
+    let is_mean = one.requirement.statement == Statement::Mean;
+    let shown = |value: f64| if is_mean { one.shown.value(value) } else { 100.0 * value };
+    let (bound, limit) = (shown(bound), shown(limit));
+    // what is said holds, and decides: rounded away from what was found, in as many digits as that takes
+    let rounded = |digits: i32| outward([bound; 2], digits)[usize::from(!is_lower)];
+    let digits = (3..DIGITS)
+        .find(|digits| if is_lower { rounded(*digits) > limit } else { rounded(*digits) < limit })
+        .unwrap_or(DIGITS);
+    let number = trimmed(rounded(digits), digits as usize);
+    let number = if is_mean { format!("{number} {}", one.shown.unit) } else { format!("{number}%") };
+    let side = if is_lower { "at least" } else { "at most" };
+    Some(format!("{side} {}, one-sided at {}%", number.trim_end(), percent(one.confidences[0])))
+}
+
+/// Most digits of a bound.
+const DIGITS: i32 = 12;
 
 /// What the intervals in brackets are, in words.
 pub fn intervals(confidence: f64) -> String {
@@ -179,7 +199,7 @@ fn finding(one: &Assessment) -> String {
                 share if share.is_finite() => format!(": {}", with_interval([share; 2], one.interval)),
                 _ => String::new(),
             };
-            format!("{value}{within} of {} runs within the limit{at}{share}{missing}", one.runs)
+            format!("{value}{within} of {} within the limit{at}{share}{missing}", counted(one.runs, "run"))
         }
     };
     let needed = match (&one.reason, one.gate.decision) {
@@ -322,4 +342,51 @@ pub fn junit(plan: &Plan, verdicts: &Verdicts, tally: &Tally, stop: Option<(bool
         case("[stop] reaches its goal", (!is_reached).then_some(("error", "stop", text.as_str())));
     }
     xml + "  </testsuite>\n</testsuites>\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::requirement::Subject;
+    use crate::campaign::{Requirement, ShownUnit};
+    use crate::statistics::gate::Gate;
+
+    /// Law: a bound that is named decides as it is written: rounded away from what was found, it is on the side of the limit on which the exact one is.
+    #[test]
+    fn a_named_bound_decides() {
+        let said = |statement, limit, decision, bounds: [f64; 2]| {
+            let subject = Subject::Observable("x".to_owned());
+            let requirement =
+                Requirement { subject, statement, limit, bounded: None, never_meets: false, confidence: 0.95 };
+            decided_by(&Assessment {
+                requirement,
+                confidences: [0.95; 2],
+                unit: "m".to_owned(),
+                shown: ShownUnit::own("m"),
+                gate: Gate { decision, estimate: 0.5, bounds },
+                interval: [0.0, 100.0],
+                value: None,
+                runs: 300,
+                violations: 10,
+                missing: 0,
+                failed: 0,
+                worst: None,
+                reason: None,
+                note: None,
+            })
+        };
+        let (most, pass, fail) = (GateLimit::AtMost(23.15), Decision::Pass, Decision::Fail);
+        for (statement, decision, bounds, text) in [
+            (Statement::Fraction(0.9), pass, [0.922_36, 1.0], "at least 92.2%"),
+            (Statement::Fraction(0.9223), pass, [0.922_36, 1.0], "at least 92.236%"),
+            (Statement::Quantile(0.99991), pass, [0.999_927, 1.0], "at least 99.992%"),
+            (Statement::Fraction(0.9223), fail, [0.5, 0.922_26], "at most 92.226%"),
+            (Statement::Mean, pass, [22.0, 23.126], "at most 23.13 m"),
+            (Statement::Mean, fail, [23.154, 24.0], "at least 23.154 m"),
+        ] {
+            let found = said(statement, most, decision, bounds);
+            assert_eq!(found.as_deref(), Some(format!("{text}, one-sided at 95%").as_str()), "{bounds:?}");
+        }
+        assert_eq!(said(Statement::Mean, most, Decision::Undecided(None), [22.0, 23.5]), None);
+    }
 }

@@ -4,20 +4,14 @@
 
 use crate::campaign::Plan;
 use crate::ensemble::SingleRun;
-use crate::report::figure::{Figure, Mark};
+use crate::report::figure::Figure;
 use crate::report::over_time::curves::Curves;
 use crate::report::sheet::Sheet;
 
 /// The figure of a run of `plan`.
 pub fn simulation_figure(title: String, plan: &Plan, run: &SingleRun) -> Sheet {
     let mut panels: Vec<Figure> = Curves::of_plot(plan, run).figures();
-    panels.retain(Figure::is_visible);
-    for panel in &mut panels {
-        let curves = panel.marks.iter().filter(|mark| !mark.legend().is_empty()).count();
-        if let ([Mark::Line { label, .. }], 1) = (&mut panel.marks[..], curves) {
-            label.clear(); // the title names it
-        }
-    }
+    panels.retain(has_values);
     if panels.len() % 2 == 1
         && let Some(last) = panels.last_mut()
     {
@@ -27,11 +21,23 @@ pub fn simulation_figure(title: String, plan: &Plan, run: &SingleRun) -> Sheet {
     Sheet { title, width, panel_height: 320.0, has_common_legend: false, panels }
 }
 
+/// The titles of the figures that its scene calls for and that are not drawn, since what they show is zero, or absent, throughout the run.
+pub fn left_out(plan: &Plan, run: &SingleRun) -> Vec<String> {
+    let figures = Curves::of_plot(plan, run).figures().into_iter();
+    figures.filter(|figure| !has_values(figure)).map(|figure| figure.title).collect()
+}
+
+/// Whether a figure shows anything other than zeros.
+fn has_values(figure: &Figure) -> bool {
+    figure.is_visible() && figure.marks.iter().any(|mark| mark.largest() > 0.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::campaign::Overrides;
     use crate::math::Isa;
+    use crate::report::figure::Mark;
     use crate::report::page::runs::GROUPS;
     use crate::run::Grid;
     use crate::sampling::SampleId;
@@ -73,6 +79,45 @@ mod tests {
             assert!(x.windows(2).all(|pair| (pair[0] - pair[1]).abs() < 20.0), "a line crosses the figure: {x:?}");
             assert!(y.iter().all(|latitude| latitude.abs() <= 60.001), "{y:?}");
         }
+    }
+
+    /// Law: a thruster that gives nothing has its curve and says so, in the figure of a mission that it decides; every curve beside another has a name; a figure of zeros alone is left out, and
+    /// named as that.
+    #[test]
+    fn a_dead_thruster_is_drawn() {
+        let text = include_str!("../../campaigns/net_launch.toml").replace("duration_s = 2400.0", "duration_s = 60.0");
+        for (dead, names) in [("p2", ["p1", "p2: none", "p3"]), ("p1", ["p1: none", "p2", "p3"])] {
+            let of = |name: &str| (format!("thrusters.{name}.thrust_scale"), "0.0".to_owned());
+            let overrides = Overrides { settings: vec![of(dead)], ..Overrides::default() };
+            let plan = Plan::from_text("n", &text, overrides).unwrap_or_else(|error| panic!("{error}"));
+            let run = SingleRun::with_series(&plan, SampleId(0), Grid::uniform(60.0, 61), Isa::best(), &GROUPS)
+                .expect("a run");
+            let panels = simulation_figure("x".to_owned(), &plan, &run).panels;
+            for title in ["Thrust", "Impulse of the thrusters"] {
+                let panel = panels.iter().find(|panel| panel.title == title).expect(title);
+                let drawn: Vec<&str> = panel.marks.iter().map(Mark::legend).filter(|name| !name.is_empty()).collect();
+                assert_eq!(drawn[..3], names, "{title}");
+            }
+            for panel in &panels {
+                assert!(panel.marks.iter().any(|mark| mark.largest() > 0.0), "{}", panel.title);
+                let lines = panel.marks.iter().filter(|mark| matches!(mark, Mark::Line { .. }));
+                let names: Vec<&str> = lines.map(Mark::legend).collect();
+                assert!(
+                    names.iter().all(|name| !name.is_empty()) || names.iter().all(|name| name.is_empty()),
+                    "{}: {names:?}",
+                    panel.title
+                );
+            }
+        }
+        // on a circle about the Earth without thrusters nothing of them is called for, and a spin about one axis has the name of its axis
+        let text = "[campaign]\nname = \"o\"\nsamples = 1\nseed = 1\nduration_s = 9.0\n[body]\nmass_kg = 10.0\nprincipal_moments_kg_m2 = [1.0, 2.0, 2.5]\n[initial]\nangular_velocity_rad_s = [0.0, 0.0, 0.1]\n";
+        let plan = Plan::from_text("o", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+        let run =
+            SingleRun::with_series(&plan, SampleId(0), Grid::uniform(9.0, 10), Isa::best(), &GROUPS).expect("a run");
+        let panels = simulation_figure("x".to_owned(), &plan, &run).panels;
+        let rate = panels.iter().find(|panel| panel.title.starts_with("Angular velocity of the body")).expect("a rate");
+        assert_eq!(rate.marks.iter().map(Mark::legend).collect::<Vec<_>>(), ["z"]);
+        assert!(left_out(&plan, &run).contains(&"Linear momentum in F_e".to_owned()), "{:?}", left_out(&plan, &run));
     }
 
     /// Law: a track of more than 16 revolutions ends there and says so; points that are too far apart are not joined.

@@ -16,6 +16,7 @@ use crate::analysis::verdicts::Verdicts;
 use crate::campaign::Plan;
 use crate::ensemble::FailureReason;
 use crate::report::audit_summary::{AuditSummary, Numerics};
+use crate::report::number::counted;
 use crate::report::observable_lines::{ObservableLine, lines};
 use crate::report::{filter_text, requirements, stopping_text};
 use crate::run::Status;
@@ -279,8 +280,8 @@ impl SummaryEnd {
         let mut said: Vec<String> = found.map(|(count, word)| format!("{count} {word}")).collect();
         let (rows, ok) = (self.rows, self.rows - self.failed);
         if said.is_empty() || self.failed > 0 {
-            let of = if self.failed > 0 { format!("{ok} of {rows}") } else { rows.to_string() };
-            said.push(format!("{of} run{} computed", if rows == 1 { "" } else { "s" }));
+            let of = if self.failed > 0 { format!("{ok} of ") } else { String::new() };
+            said.push(format!("{of}{} computed", counted(rows, "run")));
         }
         if self.not_covered > 0 {
             said.push("audit FAILED".to_owned());

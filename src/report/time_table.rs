@@ -183,6 +183,8 @@ impl TimeTableColumn {
 impl Digits {
     fn text(self, value: f64) -> String {
         match self {
+            // what does not exist at this point
+            _ if value.is_nan() => "-".to_owned(),
             Digits::Short => short(value),
             Digits::Time => trimmed(value, 6),
             Digits::Decimals => {
@@ -286,6 +288,8 @@ mod tests {
     #[test]
     fn numbers_are_short() {
         assert_eq!(Digits::Decimals.text(-1e-18), "0.0000");
+        let all = [Digits::Short, Digits::Time, Digits::Decimals, Digits::Magnitude];
+        assert_eq!(all.map(|digits| digits.text(f64::NAN)), ["-"; 4], "what does not exist is no number");
         assert_eq!([0.0, -1.234e-16].map(|value| Digits::Magnitude.text(value)), ["0", "-1.2e-16"]);
     }
 }

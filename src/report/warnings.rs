@@ -25,7 +25,7 @@ pub fn warnings(
 /// That many runs have no numbers, and what decides which.
 fn not_computed(plan: &Plan, statistics: &Statistics, failures: &[InputSensitivity]) -> Option<String> {
     let loss = statistics.loss();
-    let Loss { missing, runs } = loss;
+    let Loss { missing, runs, .. } = loss;
     if !loss.is_big() {
         return None;
     }
@@ -41,16 +41,15 @@ fn not_computed(plan: &Plan, statistics: &Statistics, failures: &[InputSensitivi
         drivers => format!(". What decides it: {}", drivers.join("; ")),
     };
     let others = match runs - missing {
-        0 => "There are no numbers".to_owned(),
+        0 => "There are no numbers of them".to_owned(),
         left => {
-            format!(
-                "The numbers below describe only the other {left}, which may differ systematically: they have no intervals"
-            )
+            format!("The numbers below describe only the other {left}, which may differ: they have no intervals")
         }
     };
     let share = missing as f64 / runs as f64;
     Some(format!(
-        "NOT COMPUTED: {missing} of {runs} runs, {} ({}). {others}{drivers}",
+        "NOT COMPUTED: {}, {} ({}). {others}{drivers}",
+        loss.counts(),
         with_interval([share; 2], [f64::NAN; 2]),
         ended.join(", ")
     ))

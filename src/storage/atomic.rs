@@ -15,10 +15,41 @@ fn check_replaceable(path: &Path) -> io::Result<()> {
     match fs::symlink_metadata(path) {
         Ok(found) if !(found.is_file() || found.is_symlink()) => Err(io::Error::new(
             io::ErrorKind::AlreadyExists,
-            "there is something of that name that is not a regular file",
+            "there is something of that name that is not a regular file; move it away, or choose another name",
         )),
         _ => Ok(()),
     }
+}
+
+/// The error of making `path`, in words: what is in the way, and what to do about it; as it is where the system says that itself.
+pub fn explained(path: &Path, error: io::Error) -> io::Error {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let text = match error.kind() {
+        io::ErrorKind::AlreadyExists if path.is_dir() => "is a folder; choose another name".to_owned(),
+        io::ErrorKind::AlreadyExists => {
+            "is there already, and is not replaced; move it away, or choose another name".to_owned()
+        }
+        io::ErrorKind::NotFound => {
+            format!("there is no folder `{}`; make it, or choose another path", folder.display())
+        }
+        io::ErrorKind::NotADirectory => {
+            let file = path.ancestors().find(|part| part.is_file()).unwrap_or(folder);
+            format!("`{}` is a file and not a folder; choose another path", file.display())
+        }
+        _ => return error,
+    };
+    io::Error::new(error.kind(), text)
+}
+
+/// Makes the folder `path`, which may be there, with all folders above it, for files that a command is told to write.
+///
+/// # Errors
+/// Where it cannot be made, in words with the path.
+pub fn make_folder(path: &Path) -> io::Result<()> {
+    fs::create_dir_all(path).map_err(|error| {
+        let why = explained(path, error);
+        io::Error::new(why.kind(), format!("{}: {why}", path.display()))
+    })
 }
 
 /// Writes the file `path` with `content` and renames it; an older file of that name is replaced only then, and so is a link, not what it
@@ -32,7 +63,8 @@ pub fn write<E: From<io::Error>>(
 ) -> Result<(), E> {
     check_replaceable(path)?;
     let temporary = unfinished(path);
-    let file = OpenOptions::new().write(true).create_new(true).open(&temporary)?;
+    let file = OpenOptions::new().write(true).create_new(true).open(&temporary);
+    let file = file.map_err(|error| explained(path, error))?;
     let written = (|| {
         let mut file = BufWriter::with_capacity(1 << 16, file);
         content(&mut file)?;
@@ -80,6 +112,36 @@ mod tests {
         assert_eq!(failed.unwrap_err().to_string(), "the disk is full");
         assert_eq!(fs::read(&path).unwrap(), b"old");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    /// Law: what is in the way of a file is said in words, without the numbers of the system, with what to do: a file, a folder, a folder that is not there.
+    #[test]
+    fn what_is_in_the_way_is_said() {
+        let folder = folder("words");
+        let file = folder.join("a");
+        fs::write(&file, b"a").unwrap();
+        let create = |path: &Path| {
+            OpenOptions::new()
+                .write(true)
+                .create_new(true)
+                .open(path)
+                .map(|_| ())
+                .map_err(|error| explained(path, error))
+        };
+        let cases = [
+            (create(&file), "is there already, and is not replaced; move it away"),
+            (create(&folder), "is a folder; choose another name"),
+            (create(&folder.join("no/b")), "there is no folder `"),
+            (create(&file.join("b")), "a` is a file and not a folder; choose"),
+            (write_bytes(&folder.join("no/b"), b"b"), "there is no folder `"),
+            (make_folder(&file), "is there already, and is not replaced; move it away"),
+            (make_folder(&file.join("b")), "a` is a file and not a folder; choose"),
+        ];
+        for (found, words) in cases {
+            let said = found.expect_err(words).to_string();
+            assert!(said.contains(words) && !said.contains("os error"), "{words}: {said}");
+        }
         fs::remove_dir_all(&folder).unwrap();
     }
 

@@ -1,11 +1,13 @@
 //! [`claim`]: whether a campaign may write to the folder of a result, and the locks that keep others away.
 
 use std::fs::{File, TryLockError};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crate::campaign::Plan;
+use crate::storage::atomic::explained;
 use crate::storage::disk::{Storage, at, meant, new_folder, no_link};
 use crate::storage::folder::{Folder, MOST_MANIFEST, MOST_SUMMARY, begin};
 pub use crate::storage::folder_error::FolderError;
@@ -112,6 +114,10 @@ pub fn claim(
     (plan, identity): (&Plan, &Identity),
     options: ClaimOptions,
 ) -> Result<Claim, FolderError> {
+    if root.ancestors().any(Path::is_file) {
+        // what the system says of it has no remedy
+        return Err(at(root)(explained(root, ErrorKind::NotADirectory.into())).into());
+    }
     let root = &*meant(root).map_err(at(root))?;
     if let Some(new) = replacement::interrupted(storage, root)? {
         let mut locks = Locks::default();
@@ -305,7 +311,11 @@ pub fn lock(storage: &dyn Storage, root: &Path) -> Result<Locks, FolderError> {
 pub fn open(storage: &'static dyn Storage, root: &Path, is_shared: bool) -> Result<(Found, Locks), FolderError> {
     let folder = root.display().to_string();
     let nothing = |why: &str| FolderError::Nothing { folder: folder.clone(), why: why.to_owned() };
-    if storage.list(root).map_err(at(root))?.is_empty() {
+    let entries = match storage.list(root) {
+        Err(error) if error.kind() == ErrorKind::NotADirectory => return Err(nothing("it is a file")),
+        entries => entries.map_err(at(root))?,
+    };
+    if entries.is_empty() {
         return Err(nothing("there is no such folder, or it is empty"));
     }
     let mut locks = Locks::default();

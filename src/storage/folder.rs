@@ -397,6 +397,6 @@ pub fn begin(
     if manifest.parts.is_empty() || is_another {
         return Ok(manifest);
     }
-    let why = format!("it lists {} parts, and its folder did not show it; run the command again", manifest.parts.len());
+    let why = "it lists parts, and its folder did not show it; run the command again";
     Err(at(&path)(std::io::Error::other(why)))
 }

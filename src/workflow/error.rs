@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::campaign::CampaignError;
+use crate::storage::claim::FolderError;
 
 /// Why a campaign could not run, or a result could not be used. The text says where, what is wrong, and what to do.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -27,6 +28,18 @@ impl From<CampaignError> for WorkflowError {
     fn from(error: CampaignError) -> Self {
         let text = error.with_excerpts();
         if error.is_unreadable { WorkflowError::Files(text) } else { WorkflowError::Input(text) }
+    }
+}
+
+impl From<FolderError> for WorkflowError {
+    /// A folder without a result is a wrong argument, whichever command it is given to; everything else is about its files.
+    fn from(error: FolderError) -> Self {
+        let text = error.to_string();
+        if matches!(error, FolderError::Nothing { .. }) {
+            WorkflowError::Input(text)
+        } else {
+            WorkflowError::Files(text)
+        }
     }
 }
 

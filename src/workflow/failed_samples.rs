@@ -6,6 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::campaign::{FilesRead, Overrides, Plan};
 use crate::ensemble::{Rows, Sink};
+use crate::report::number::counted;
 use crate::run::Status;
 use crate::sampling::SampleId;
 use crate::storage::claim::open;
@@ -34,13 +35,13 @@ pub fn plan_of_failed(
     overrides: Overrides,
 ) -> Result<Option<(Plan, FilesRead)>, WorkflowError> {
     let of = &*fetched(session, of)?;
-    let (found, _locks) = open(session.storage, of, true).map_err(WorkflowError::files)?;
+    let (found, _locks) = open(session.storage, of, true)?;
     let drawn = plan_of_sound(session, (of, &found), None)?;
     if !found.is_finished {
         session.watch.note(&format!(
-            "{}: not finished: the failures among the {} rows that are there",
+            "{}: not finished: the failures among {} so far",
             of.display(),
-            found.rows()
+            counted(found.rows(), "row")
         ));
     }
     let mut samples = Vec::new();

@@ -11,6 +11,7 @@ use crate::campaign::{FilesRead, Plan};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, PartId};
 use crate::report::image::PlotSize;
+use crate::report::number::counted;
 use crate::report::shell_word::quoted_path;
 use crate::report::summary::{Summary, SummaryEnd};
 use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
@@ -167,9 +168,9 @@ pub(super) fn stop_is_continued(root: &Path) -> String {
 fn refuse_missing(missing: &[Part], root: &Path) -> Result<(), WorkflowError> {
     let (Some(first), Some(last)) = (missing.first(), missing.last()) else { return Ok(()) };
     Err(WorkflowError::Files(format!(
-        "{}: {} parts are missing, from part {} to part {}; this makes them and finishes: spindrift campaign {} --out {}",
+        "{}: {} missing, from part {} to part {}; this makes what is missing and finishes: spindrift campaign {} --out {}",
         root.display(),
-        missing.len(),
+        counted(missing.len(), "part"),
         first.id.0,
         last.id.0,
         quoted_path(&root.join(PLAN)),
@@ -219,7 +220,7 @@ pub fn finish(
         return if is_whole { Ok(finished) } else { stored.publish().map(|()| finished) };
     }
     // a folder that is none is not created
-    let (found, locks) = open(session.storage, root, false).map_err(WorkflowError::files)?;
+    let (found, locks) = open(session.storage, root, false)?;
     if let Some(difference) = &found.shards_differ {
         return Err(WorkflowError::Files(format!(
             "{}: its shards ask different questions: {difference}\nthis answers those of a file, from the rows that are there: spindrift campaign FILE --out {}",

@@ -9,6 +9,7 @@ use crate::campaign::Plan;
 use crate::control::laws::asked;
 use crate::ensemble::Ensemble;
 use crate::report::image::{self, PlotSize};
+use crate::report::number::counted;
 use crate::report::page::gather::Analysis;
 use crate::report::page::{Contents, Page};
 use crate::report::shell_word::quoted_path;
@@ -51,7 +52,7 @@ pub fn remade(
     noise: Option<u64>,
 ) -> Result<Remade, WorkflowError> {
     let (storage, threads, root) = (session.storage, session.threads, &*fetched(session, root)?);
-    let (found, _locks) = open(storage, root, false).map_err(WorkflowError::files)?;
+    let (found, _locks) = open(storage, root, false)?;
     let Some(manifest) = found.manifests.get(MANIFEST).filter(|_| found.is_finished) else {
         return Err(WorkflowError::Input(format!(
             "the result in `{}` is not finished; the campaign's command continues it, or: spindrift finish {}",
@@ -141,9 +142,8 @@ pub fn save_figures(
     place: Option<(&Path, PlotSize)>,
 ) -> Result<(), WorkflowError> {
     let Some((folder, size)) = place else { return Ok(()) };
-    let rows = plan.rows();
-    let of = format!("{}: {rows} run{}.", plan.name, if rows == 1 { "" } else { "s" });
+    let of = format!("{}: {}.", plan.name, counted(plan.rows(), "run"));
     let count = image::save_all(&page.figures, &of, folder, size).map_err(WorkflowError::files)?;
-    session.watch.note(&format!("{}: {count} files of figures", folder.display()));
+    session.watch.note(&format!("{}: {} of figures", folder.display(), counted(count, "file")));
     Ok(())
 }

@@ -12,7 +12,7 @@ use crate::campaign::Plan;
 use crate::ensemble::{Bands, Ensemble, SingleRun};
 use crate::report::summary::SummaryEnd;
 use crate::sampling::SampleId;
-use crate::storage::claim::{FolderError, Locks, open};
+use crate::storage::claim::{Locks, open};
 use crate::storage::folder::MOST_SUMMARY;
 use crate::storage::manifest::PartRecord;
 use crate::storage::manifest::PartsRead;
@@ -44,10 +44,7 @@ impl<'a> Results<'a> {
     /// Where there is none, it is not finished, or it is damaged.
     pub fn open(root: impl Into<PathBuf>, session: Session<'a>) -> Result<Self, WorkflowError> {
         let root = fetched(&session, &root.into())?.into_owned();
-        let (found, locks) = open(session.storage, &root, true).map_err(|error| match error {
-            FolderError::Nothing { .. } => WorkflowError::Input(error.to_string()),
-            error => WorkflowError::files(error),
-        })?;
+        let (found, locks) = open(session.storage, &root, true)?;
         if !found.is_finished {
             return Err(WorkflowError::Input(format!("the result in `{}` is not finished", root.display())));
         }

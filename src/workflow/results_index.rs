@@ -1,5 +1,6 @@
 //! [`indexed`]: all results below a folder, what each says, and what changed since the last run of the same campaign.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
@@ -44,7 +45,14 @@ struct Found {
 /// # Errors
 /// Where the folder itself cannot be read.
 pub fn indexed(session: &Session<'_>, root: &Path) -> Result<ResultsIndex, WorkflowError> {
-    std::fs::read_dir(root).map_err(|error| WorkflowError::Input(format!("{}: {error}", root.display())))?;
+    std::fs::read_dir(root).map_err(|error| {
+        let why = match error.kind() {
+            ErrorKind::NotFound => "there is no such folder".to_owned(),
+            ErrorKind::NotADirectory => "is a file; name the folder that has the results".to_owned(),
+            _ => error.to_string(),
+        };
+        WorkflowError::Input(format!("`{}`: {why}", root.display()))
+    })?;
     let mut folders = Vec::new();
     visit(root, 0, &mut folders);
     folders.sort();

@@ -10,6 +10,7 @@ use crate::campaign::Plan;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
 use crate::ensemble::{Ensemble, Part, Parts, run as run_parts};
+use crate::report::number::counted;
 use crate::report::stopping_text::text as stopping_text;
 use crate::storage::claim::{Ready, Shard};
 use crate::storage::manifest::PartRecord;
@@ -156,7 +157,7 @@ impl Running<'_> {
         if ready.rows > 0 {
             let left = missing.iter().map(|part| part.count as u64).sum::<u64>();
             let there = samples - left.min(samples);
-            watch.note(&format!("{}: {there} samples are there already, {left} to run", plan.name));
+            watch.note(&format!("{}: {} already there, {left} to run", plan.name, counted(there, "sample")));
         }
     }
 
@@ -166,7 +167,7 @@ impl Running<'_> {
             && parts > 0
             && threads(Some(asked), parts) < asked.get()
         {
-            self.session.watch.note(&format!("{parts} parts are to be made: {parts} of {asked} threads have work"));
+            self.session.watch.note(&format!("{} to make: {parts} of {asked} threads busy", counted(parts, "part")));
         }
     }
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::campaign::{FilesRead, Overrides, Plan, data, find, nearest_file};
 use crate::ensemble::Ensemble;
+use crate::report::number::counted;
 use crate::report::shell_word::quoted_path;
 use crate::storage::found::Found;
 use crate::storage::identity::sha256;
@@ -94,7 +95,11 @@ pub fn plan_of_sound(
         Some(first) => Err(WorkflowError::Files(format!(
             "{}: {first}{}; this makes it again: spindrift verify {} --repair",
             root.display(),
-            if problems.len() > 1 { format!(" (and {} more problems)", problems.len() - 1) } else { String::new() },
+            if problems.len() > 1 {
+                format!(" (and {})", counted(problems.len() - 1, "more problem"))
+            } else {
+                String::new()
+            },
             quoted_path(root),
         ))),
     }

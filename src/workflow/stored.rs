@@ -64,7 +64,11 @@ impl<'a> Stored<'a> {
     /// The result at `address`.
     pub fn there(session: &Session<'a>, address: Address) -> Result<Self, WorkflowError> {
         let remote = Remote::open(address).map_err(WorkflowError::files)?;
-        let (identity, plan) = remote.origin().map_err(WorkflowError::files)?;
+        // an address without a result is a wrong argument, as a folder without one
+        let (identity, plan) = remote.origin().map_err(|error| match error.source.kind() {
+            std::io::ErrorKind::NotFound => WorkflowError::Input(error.to_string()),
+            _ => WorkflowError::files(error),
+        })?;
         Ok(Stored { session: *session, remote, root: working_folder(&head_of(&plan, &identity)) })
     }
 

@@ -6,6 +6,7 @@ use std::sync::Mutex;
 use crate::control::laws::asked;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts};
+use crate::report::number::counted;
 use crate::sampling::SampleId;
 use crate::storage::claim::{Claim, ClaimOptions, claim, lock, open};
 use crate::storage::folder::{PartFile, unmark};
@@ -64,8 +65,8 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     }
     let storage = session.storage;
     let note = |text: &str| session.watch.note(text);
-    let lost = if wanted.repair { new_manifest(session, root)? } else { None };
-    let (found, locks) = open(storage, root, !wanted.repair).map_err(WorkflowError::files)?;
+    let lost = if wanted.repair && !root.is_file() { new_manifest(session, root)? } else { None };
+    let (found, locks) = open(storage, root, !wanted.repair)?;
     let (plan, read) = plan_in(session, root, &found)?;
     let plan = plan.at_look(found.rows());
     // also without rows to compute again: the page has runs over time
@@ -84,7 +85,7 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     let missing = missing_parts(&found, &ensemble);
     problems.extend(
         (!missing.is_empty())
-            .then(|| format!("{} parts are missing, the first is part {}", missing.len(), missing[0].id.0)),
+            .then(|| format!("{} missing, the first is part {}", counted(missing.len(), "part"), missing[0].id.0)),
     );
     let sound: Vec<Part> =
         records.iter().filter(|part| !broken.iter().any(|(id, _)| *id == part.part)).map(PartRecord::samples).collect();
@@ -93,18 +94,19 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     problems.extend(differing.iter().map(|part| format!("{}: its rows are not those of the plan", rows_of(part.id))));
     let rows: usize = chosen.iter().map(|part| part.count).sum();
     let mut checked = format!(
-        "{}: {} parts, {} rows: checksums compared; {} parts with {rows} rows computed again and compared bit for bit",
+        "{}: {}, {}: checksums compared; {} with {} computed again and compared bit for bit",
         root.display(),
-        records.len(),
-        found.rows(),
-        chosen.len()
+        counted(records.len(), "part"),
+        counted(found.rows(), "row"),
+        counted(chosen.len(), "part"),
+        counted(rows, "row"),
     );
     // what follows from rows that are damaged, or not all there, is made again with them
     let is_comparable = problems.is_empty() && !found.written().is_empty();
     if is_comparable {
         let chosen = |samples: &[SampleId]| choice(samples, wanted.fraction);
         let check = derived_problems(session, (root, &found), (&ensemble, &read), &records, &chosen)?;
-        checked += &format!("; {} files made of plan and rows again and compared", check.files);
+        checked += &format!("; {} made of plan and rows again and compared", counted(check.files, "file"));
         if check.left_out > 0 {
             checked += &format!(" ({} time series are not among them; --fraction 1 makes all)", check.left_out);
         }
@@ -118,8 +120,8 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     problems.iter().for_each(|problem| note(problem));
     if !wanted.repair {
         return Err(WorkflowError::Files(format!(
-            "{checked}: {} problems; --repair makes what is damaged again",
-            problems.len()
+            "{checked}: {}; --repair makes what is damaged again",
+            counted(problems.len(), "problem")
         )));
     }
     if is_comparable && found.is_finished {

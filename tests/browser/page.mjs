@@ -337,12 +337,12 @@ async function checkSaid(page, name) {
       });
     }
     const marks = runs ? pairFigure(runs, 0, runs.columns.length - 1).marks : [];
-    const fateOf = { computed: 0, "meets the requirements": 0, "misses a requirement": 1, "not computed": 2 };
+    const fateOf = { computed: 0, ...Object.fromEntries((runs?.fateWords ?? []).map((words, fate) => [words, fate])) };
     for (const mark of marks) {
       const other = Array.from(mark.samples).find((sample) => runs.fates[runs.samples.indexOf(sample)] !== fateOf[mark.label]);
       if (other !== undefined) found.push(`sample ${other} is called "${mark.label}"`);
     }
-    const isJudged = marks.some((mark) => mark.label === "misses a requirement");
+    const isJudged = marks.some((mark) => mark.label === runs.fateWords[1]);
     for (const mark of marks.filter((one) => isJudged && one.samples.length > 1)) {
       select(mark.samples);
       const said = document.querySelector(".selection").innerText;
@@ -352,6 +352,27 @@ async function checkSaid(page, name) {
     return found;
   });
   problems.push(...wrong.slice(0, 8).map((text) => `${name}: ${text}`));
+}
+
+// No table is cut: it has room for all of its cells, or is in a box that scrolls and whose edge says so; the worst runs have room. Folded ones too.
+async function checkNarrowTables(page, name) {
+  const wrong = await page.evaluate(() => {
+    for (const details of document.querySelectorAll("details")) details.open = true;
+    const width = document.documentElement.clientWidth;
+    const found = document.documentElement.scrollWidth > width ? [`the page is ${document.documentElement.scrollWidth} pixels wide`] : [];
+    for (const table of document.querySelectorAll("table")) {
+      const what = table.closest("section")?.id ?? "a table";
+      const box = table.closest(".table");
+      const style = box ? getComputedStyle(box) : null;
+      const scrolls = style?.overflowX === "auto" && style.backgroundImage !== "none" && box.getBoundingClientRect().right <= width + 1;
+      const right = Math.max(...Array.from(table.querySelectorAll("th, td"), (cell) => cell.getBoundingClientRect().right));
+      if (right > width + 1 && (what === "worst" || !scrolls)) found.push(`${what} is cut at ${width} of ${right} pixels`);
+      const cut = Array.from(table.querySelectorAll("th, td")).find((cell) => cell.clientWidth > 0 && (cell.scrollWidth > cell.clientWidth + 1 || cell.scrollHeight > cell.clientHeight + 1));
+      if (cut) found.push(`a cell of ${what} is cut: ${cut.innerText}`);
+    }
+    return found;
+  });
+  problems.push(...wrong.map((text) => `${name}: ${text}`));
 }
 
 // What scripts make of a page - texts, buttons, what figures draw and say of their middle - is what somebody has read and found right: tests/golden/views. With
@@ -560,6 +581,7 @@ async function checked(browser, file) {
   const narrow = await opened(browser, file, { width: 390, height: 800 }, "light");
   await checkFigures(narrow, `${name}, narrow`, shot("narrow"));
   await checkTexts(narrow, `${name}, narrow`);
+  await checkNarrowTables(narrow, `${name}, narrow`);
   await narrow.close();
   console.log(`${name}: ${figures} figures, ${size} bytes`);
 }

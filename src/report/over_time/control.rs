@@ -6,6 +6,7 @@ use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, Scale};
 use crate::report::over_time::curves::{Curves, areas, lines, over_time};
 use crate::report::over_time::figure_list::{ListedFigure, Shows};
 use crate::report::over_time::limits;
+use crate::report::page::readable::with_unit;
 
 /// How many times the error that a filter expects is drawn beside the errors.
 const SIGMAS: f64 = 3.0;
@@ -19,6 +20,14 @@ impl Curves<'_> {
         let mut marks = self.marks(&name, self.nominal(series), listed.hue, "");
         let bound: Vec<f64> = self.recorded(expected)?.iter().map(|error| SIGMAS * error).collect();
         let mut caption = self.caption(&name);
+        if self.is_plot() {
+            // beside the other curve
+            for mark in &mut marks {
+                if let Mark::Line { label, .. } = mark {
+                    *label = "the error".to_owned();
+                }
+            }
+        }
         if !self.is_plot() || !marks.is_empty() {
             marks.extend(lines("3 sigma of the filter", (Hue::Reference, Dash::Long), &self.times(), &bound));
             caption += " 3 sigma: covariance of the filter in the nominal run.";
@@ -138,9 +147,10 @@ impl Curves<'_> {
                 x.extend(time);
                 y.extend([(sum[1] - sum[0]) / (time[1] - time[0]); 2]);
             }
-            if y.iter().any(|thrust| *thrust != 0.0) {
-                marks.push(Mark::line(name.as_str(), Hue::Curve(index), Dash::Solid, x, y));
-            }
+            marks.push(Mark::line(named(name, &y), Hue::Curve(index), Dash::of_curve(index), x, y));
+        }
+        if marks.iter().all(|mark| mark.largest() == 0.0) {
+            marks.clear();
         }
         let thrusters = &self.plan.law.as_ref()?.spec()?.thrusters;
         let models = thrusters.iter().map(|place| run.scene.actuators.thrusters[*place].max_thrust);
@@ -159,12 +169,14 @@ impl Curves<'_> {
             let marks = self.marks(&name, self.nominal(Series::Impulse), listed.hue, "");
             return Some(self.judged(listed, (&name, &unit), (listed.title, self.caption(&name)), marks));
         }
-        let fired = || impulses.iter().enumerate().filter(|(_, (_, sum))| sum.iter().any(|impulse| *impulse != 0.0));
         let line = |(index, (name, sum)): (usize, &(String, Vec<f64>))| {
-            Mark::line(name.as_str(), Hue::Curve(index), Dash::Solid, self.times(), sum.clone())
+            Mark::line(named(name, sum), Hue::Curve(index), Dash::of_curve(index), self.times(), sum.clone())
         };
-        let mut marks: Vec<Mark> = fired().map(line).collect();
-        if fired().count() > 1 {
+        let mut marks: Vec<Mark> = impulses.iter().enumerate().map(line).collect();
+        if marks.iter().all(|mark| mark.largest() == 0.0) {
+            marks.clear();
+        }
+        if marks.len() > 1 {
             marks.push(Mark::line("all", Hue::Nominal, Dash::Dashed, self.times(), total(&impulses)));
         }
         let caption = "Impulse since the start in the nominal run.".to_owned();
@@ -199,13 +211,20 @@ impl Curves<'_> {
         if is_distance {
             let launches = self.plan.law.as_ref()?.spec()?.launches();
             let station = self.constant("launch_distance_m").filter(|_| launches);
+            let shown = self.plan.analysis.display.of(&name, &unit);
             for (label, at) in [("keep-out", self.constant("keep_out_m")), ("station", station)] {
-                let limit = |at| Mark::Limit { label: label.to_owned(), at, vertical: false };
+                let value = |at| with_unit(shown.written(at), &shown.unit);
+                let limit = |at| Mark::Limit { label: format!("{label} {}", value(at)), at, vertical: false };
                 marks.extend(at.filter(|at| *at > 0.0).map(limit));
             }
         }
         Some(self.judged(listed, (&name, &unit), (listed.title, self.caption(&name)), marks))
     }
+}
+
+/// The name of a thruster with the curve `values`: one that gives nothing, as a dead one does, may be what decides the run, and says so.
+fn named(name: &str, values: &[f64]) -> String {
+    if values.iter().all(|value| *value == 0.0) { format!("{name}: none") } else { name.to_owned() }
 }
 
 /// The sum of the impulses of all thrusters.

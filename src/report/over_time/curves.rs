@@ -47,6 +47,8 @@ pub struct Curves<'a> {
 
 /// Angles that are rounding, rad: some hundred roundings of a turn.
 const NO_ANGLE_RAD: f64 = 1e-12;
+/// With fewer times than this in each oscillation bands do not show it.
+const PER_TURN: usize = 4;
 /// The fraction of the width of the bands from which on a swing is seen beside them.
 const SEEN_SWING: f64 = 0.05;
 
@@ -132,11 +134,11 @@ impl<'a> Curves<'a> {
         });
         let width =
             bands.quantiles[0].iter().zip(&bands.quantiles[4]).map(|(low, high)| high - low).fold(0.0, f64::max);
-        let is_seen = swings.is_some_and(|(turns, swing)| turns + 1 >= bands.times.len() && swing > SEEN_SWING * width);
+        let is_seen =
+            swings.is_some_and(|(turns, swing)| is_coarse(turns, bands.times.len()) && swing > SEEN_SWING * width);
         let aliased = if is_seen && points > bands.times.len() {
             format!(
-                " The nominal run oscillates faster than the {} times of the bands resolve; more points in [bands] would show it.",
-                bands.times.len()
+                " These are fewer than {PER_TURN} in each oscillation of the nominal run, and do not show how the runs oscillate; more points in [bands] would.",
             )
         } else {
             String::new()
@@ -160,7 +162,7 @@ impl<'a> Curves<'a> {
         } else {
             format!("{} dispersed runs that were computed", bands.runs)
         };
-        format!("Bands: 5 to 95% and 25 to 75% of {of}, at each of {} times.{left}{aliased}", bands.times.len())
+        format!("Bands: 5 to 95% and 25 to 75% of {of}, at each of {} times.{aliased}{left}", bands.times.len())
     }
 
     /// Name and unit of a series.
@@ -284,6 +286,11 @@ impl<'a> Curves<'a> {
     }
 }
 
+/// Whether `times` times are fewer than [`PER_TURN`] in each oscillation of a curve that turns back so often, twice in each.
+fn is_coarse(turns: usize, times: usize) -> bool {
+    PER_TURN * turns > 2 * times.saturating_sub(1)
+}
+
 /// The ranges of points, of `count`, in which all are there: what is null between is not drawn.
 fn pieces(count: usize, is_there: impl Fn(usize) -> bool) -> Vec<Range<usize>> {
     let mut found: Vec<Range<usize>> = Vec::new();
@@ -334,6 +341,23 @@ pub(super) fn over_time(name: &str, title: &str, caption: String, y: Axis, marks
 mod tests {
     use super::*;
     use crate::campaign::Overrides;
+
+    /// Law: times are too few for a curve exactly where fewer than four of them are in each of its oscillations, whatever the number of these.
+    #[test]
+    fn four_times_show_an_oscillation() {
+        for oscillations in [1, 5, 20, 50] {
+            let wave =
+                |k: u32| libm::sin(core::f64::consts::TAU * f64::from(oscillations) * f64::from(k) / 10_000.0 + 0.1);
+            let turns = turns(&(0..=10_000).map(wave).collect::<Vec<f64>>());
+            let intervals = 4 * oscillations as usize;
+            assert_eq!(
+                [intervals, intervals + 1].map(|times| is_coarse(turns, times)),
+                [true, false],
+                "{oscillations}: {turns}"
+            );
+        }
+        assert!(!is_coarse(0, 2));
+    }
 
     /// Law: bands of the first runs say the standard errors sqrt(p (1 - p)/n) of their shares, of the n that are counted, whatever others there are; those of all
     /// runs say none.

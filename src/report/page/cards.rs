@@ -72,10 +72,14 @@ pub struct Card {
     pub estimate: f64,
     /// The ends of its interval; NaN where the runs do not bound it.
     pub interval: [f64; 2],
+    /// The smallest and the largest value, of a finding; NaN where there are none, or of a requirement.
+    pub extremes: [f64; 2],
     /// The limit, and whether it is an upper one.
     pub limit: Option<(f64, bool)>,
     /// Unit of estimate and limit.
     pub unit: String,
+    /// The bound that decided, where the interval does not show it.
+    pub decided_by: String,
     /// What else there is to say: the number of runs that would decide.
     pub note: String,
     /// What drives the outcome; empty where that is not known.
@@ -148,8 +152,10 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &Shown
         statistic,
         estimate: shown.value(estimate),
         interval: [low, high].map(|end| shown.value(end)),
+        extremes: if runs > 1 { [min, max].map(|end| shown.value(end)) } else { [f64::NAN; 2] },
         limit: None,
         unit: shown.unit.clone(),
+        decided_by: String::new(),
         note,
         drivers,
     }
@@ -178,6 +184,7 @@ impl Card {
         if self.estimate.is_finite() {
             row(&format!("{}:", sentence_case(&self.statistic)), &self.found());
         }
+        row("Decided by:", &self.decided_by);
         let shown = core::mem::take(&mut rows);
         let mut row = |term: &str, text: &str| {
             if !text.is_empty() {
@@ -219,16 +226,13 @@ impl Card {
         }
     }
 
-    /// Dot, whisker and limit line; an axis by decades where the range exceeds 100.
+    /// Dot, whisker, and limit line or the ends of what was found; an axis by decades where the range exceeds 100.
     fn scale(&self) -> String {
         const LEFT: f64 = 8.0;
         const RIGHT: f64 = 312.0;
         let limit = self.limit.map(|(limit, _)| limit);
-        let values: Vec<f64> = [Some(self.estimate), Some(self.interval[0]), Some(self.interval[1]), limit]
-            .into_iter()
-            .flatten()
-            .filter(|x| x.is_finite())
-            .collect();
+        let known = [self.estimate].into_iter().chain(self.interval).chain(self.extremes).chain(limit);
+        let values: Vec<f64> = known.filter(|x| x.is_finite()).collect();
         if !self.estimate.is_finite() || values.len() < 2 {
             return String::new();
         }
@@ -264,6 +268,15 @@ impl Card {
         let x = at(self.estimate);
         inside += &format!("<circle class=\"dot\" cx=\"{x:.1}\" cy=\"28\" r=\"5\"/>");
         inside += &label(x, 47, anchor(x), &self.value());
+        for (end, word, (edge, anchor)) in
+            [(self.extremes[0], "smallest", (LEFT, "start")), (self.extremes[1], "largest", (RIGHT, "end"))]
+        {
+            if end.is_finite() {
+                let x = at(end);
+                inside += &format!("<line class=\"end\" x1=\"{x:.1}\" y1=\"20\" x2=\"{x:.1}\" y2=\"36\"/>");
+                inside += &label(edge, 11, anchor, &format!("{word} {}", with_unit(end, &self.unit)));
+            }
+        }
         if let Some((limit, is_upper)) = self.limit {
             let x = at(limit);
             let word = if is_upper { "at most" } else { "at least" };
@@ -290,6 +303,8 @@ mod tests {
             statistic: "99% quantile".to_owned(),
             estimate,
             interval,
+            extremes: [f64::NAN; 2],
+            decided_by: String::new(),
             limit,
             unit: "J".to_owned(),
             note: String::new(),
@@ -337,6 +352,18 @@ mod tests {
         // a share that is not all, and one whose interval ends below all
         let share = Card { unit: "%".to_owned(), ..card(Judged::Pass, 99.984, [99.44, 99.9975], None) }.html();
         assert!(share.contains("99.98% [99.4, 99.998]</p>") && share.contains(">99.98%</text>"), "{share}");
+        // what was found has a scale without an interval too: from the smallest to the largest value
+        let found = Card { extremes: [0.0, 3.0], ..card(Judged::Finding, 2.0, [f64::NAN; 2], None) }.html();
+        for said in ["class=\"dot\"", "class=\"end\"", ">smallest 0\u{a0}J</text>", ">largest 3\u{a0}J</text>"] {
+            assert!(found.contains(said) && !found.contains("NaN"), "{said}: {found}");
+        }
+        // the bound that decided is not folded away
+        let decided = Card { decided_by: "at least 95.1%".to_owned(), ..card(Judged::Pass, 97.0, [94.9, 99.0], None) };
+        let (seen, _) = (decided.html() + "<details")
+            .split_once("<details")
+            .map(|(seen, rest)| (seen.to_owned(), rest.to_owned()))
+            .expect("a part");
+        assert!(seen.contains("Decided by:</b> at least 95.1%"), "{seen}");
         let empty = card(Judged::Finding, f64::NAN, [f64::NAN; 2], None).html();
         assert!(!empty.contains("NaN") && !empty.contains("<circle class=\"dot\""), "{empty}");
         assert!(!card(Judged::Pass, 0.0, [0.0; 2], Some((0.0, true))).html().contains("NaN"));

@@ -5,12 +5,12 @@ use crate::campaign::{Plan, Requirement, Statement};
 use crate::run::Status;
 use crate::statistics::gate::GateLimit;
 
-/// What became of a run.
+/// What became of a run, by the limits that a figure is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
     /// It is within all limits, or nothing is required of it.
     Met,
-    /// It misses the limit of a requirement on runs, or its mission failed.
+    /// It misses the limit of a requirement on runs, or, by all that the campaign wants, its mission failed.
     Missed,
     NotComputed,
 }
@@ -26,20 +26,42 @@ impl Fate {
     }
 }
 
-/// What became of each run of the thinned table.
+/// What became of each run of the thinned table, by all that the campaign wants: for figures about all requirements together.
 pub fn fates(plan: &Plan, survey: &Survey) -> Vec<Fate> {
-    let thinned = &survey.thinned;
-    let column = |name: &str| survey.outcome(name).map(|(index, _)| &thinned.outcomes[index][..]);
+    let failure = survey.outcome(FAILURE).map(|(index, _)| &survey.thinned.outcomes[index][..]);
+    judged(survey, &limits(plan, survey, |_| true), failure)
+}
+
+/// The same by the limits on the outcome `name` alone: in a figure about it a run that misses another requirement is none that failed.
+pub fn of_outcome(plan: &Plan, survey: &Survey, name: &str) -> Vec<Fate> {
+    judged(survey, &limits(plan, survey, |one| one.observable() == Some(name)), None)
+}
+
+/// What the fates are called, by their places: of a campaign without requirements they are those of its missions.
+pub fn words(plan: &Plan) -> [&'static str; 3] {
+    match plan.analysis.requirements.is_empty() {
+        true => ["mission did not fail", "mission failed", "not computed"],
+        false => ["meets the requirements", "misses a requirement", "not computed"],
+    }
+}
+
+/// The limits of the requirements that are wanted, each with the values of its observable.
+fn limits<'s>(
+    plan: &Plan,
+    survey: &'s Survey,
+    is_wanted: impl Fn(&Requirement) -> bool,
+) -> Vec<(&'s [f64], GateLimit)> {
     // a mean is no limit of single runs, and a band is at one time
-    let of_runs = |one: &&Requirement| one.statement != Statement::Mean && one.band().is_none();
-    let limits: Vec<(&[f64], GateLimit)> = plan
-        .analysis
-        .requirements
-        .iter()
-        .filter(of_runs)
-        .filter_map(|one| Some((column(one.observable()?)?, one.limit)))
-        .collect();
-    let failure = column(FAILURE);
+    let is_of_runs = |one: &&Requirement| one.statement != Statement::Mean && one.band().is_none() && is_wanted(one);
+    let of_column = |one: &Requirement| {
+        let (index, _) = survey.outcome(one.observable()?)?;
+        Some((&survey.thinned.outcomes[index][..], one.limit))
+    };
+    plan.analysis.requirements.iter().filter(is_of_runs).filter_map(of_column).collect()
+}
+
+fn judged(survey: &Survey, limits: &[(&[f64], GateLimit)], failure: Option<&[f64]>) -> Vec<Fate> {
+    let thinned = &survey.thinned;
     let fate = |row: usize| {
         if thinned.statuses[row] != Status::Done {
             return Fate::NotComputed;

@@ -176,7 +176,13 @@ pub fn status(plan: &Plan, survey: &Survey) -> String {
         }
         (0, all) => format!("None of {} runs was computed: there are no statistics.", grouped(all)),
         (ok, all) => {
-            format!("{} of {} runs were computed; the statistics below are of these.", grouped(ok), grouped(all))
+            let nominal = if survey.statuses.has_nominal() { ", the nominal one among them" } else { "" };
+            let of = if plan.dispersed_rows() > 0 { "dispersed ones" } else { "others" };
+            format!(
+                "{} of {} runs were computed{nominal}; the statistics below are of the {of}.",
+                grouped(ok),
+                grouped(all)
+            )
         }
     };
     if ok == all {

@@ -23,7 +23,7 @@ use crate::report::page::cards::{Card, Judged, driven_by};
 use crate::report::page::influence::Influence;
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::tables::StatisticsRow;
-use crate::report::requirements::{assumed, runs_needed, together};
+use crate::report::requirements::{assumed, decided_by, runs_needed, together};
 use crate::report::share_text;
 use crate::report::stopping_text;
 use crate::statistics::binomial::Decision;
@@ -241,7 +241,11 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         }
     };
     let within = one.runs.saturating_sub(one.violations);
-    let mut notes = vec![format!("{} of {} runs are within the limit.", grouped(within), grouped(one.runs))];
+    let mut notes = vec![match (within, one.runs) {
+        (0, 1) => "The run is not within the limit.".to_owned(),
+        (_, 1) => "The run is within the limit.".to_owned(),
+        _ => format!("{} of {} runs are within the limit.", grouped(within), grouped(one.runs)),
+    }];
     if let Some(worst) = &one.worst {
         let at = format!("At {}, where the fewest are: ", with_unit(worst.time_s, "s"));
         notes[0] = format!("{at}{}", notes[0]);
@@ -303,6 +307,8 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         statistic,
         estimate,
         interval: ends,
+        extremes: [f64::NAN; 2],
+        decided_by: decided_by(one).unwrap_or_default(),
         limit: Some((limit, is_upper && !is_fraction)),
         unit,
         note: notes.join(" "),

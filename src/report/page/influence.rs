@@ -185,13 +185,13 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
         y,
         samples: rows.iter().map(|row| thinned.samples[*row] as f64).collect(),
     };
-    let fates = fates::fates(plan, survey);
+    let fates = fates::of_outcome(plan, survey, outcome.quantity.name());
     let (missed, met): (Vec<usize>, Vec<usize>) = kept.iter().partition(|row| fates[**row] == Fate::Missed);
     let value = |rows: &[usize]| rows.iter().map(|row| ordinates[*row]).collect::<Vec<f64>>();
-    let word = if missed.is_empty() { "computed" } else { "meets the requirements" };
+    let word = if missed.is_empty() { "computed" } else { "meets its limit" };
     let mut marks = vec![points(&met, word, Hue::Total, PointShape::Disc, value(&met))];
     if !missed.is_empty() {
-        marks.push(points(&missed, "misses a requirement", Hue::Failed, PointShape::Cross, value(&missed)));
+        marks.push(points(&missed, "misses its limit", Hue::Failed, PointShape::Cross, value(&missed)));
     }
     let failed: Vec<usize> =
         (0..thinned.samples.len()).filter(|row| fates[*row] == Fate::NotComputed).take(SCATTER).collect();

@@ -178,7 +178,7 @@ mod tests {
     fn a_fit_is_that_of_its_classes() {
         let fit_of = |heights: &[f64], expected: &[f64]| {
             let edges: Vec<f64> = (0..=heights.len()).map(|edge| edge as f64).collect();
-            let line = Mark::line("", Hue::Failed, Dash::Solid, edges[1..].to_vec(), expected.to_vec());
+            let line = Mark::line("", Hue::Nominal, Dash::Solid, edges[1..].to_vec(), expected.to_vec());
             let bars = Mark::Bars { label: String::new(), hue: Hue::Body, heights: heights.to_vec(), edges };
             fit(&Figure::new("x", Axis::linear("", ""), Axis::linear("", ""), vec![bars, line]))
         };

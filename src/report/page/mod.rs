@@ -45,6 +45,7 @@ use crate::campaign::event::Event;
 use crate::ensemble::Ensemble;
 use crate::report::figure::{Figure, FigureSection, Mark, Scale};
 use crate::report::names;
+use crate::report::number::counted;
 use crate::report::over_time::curves::{Curves, TimeBands};
 use crate::sampling::{Design, SampleId};
 
@@ -93,8 +94,7 @@ fn event_times(plan: &Plan, statistics: &[StatisticsRow]) -> Vec<Mark> {
         let name = format!("{}_time_s", event.name);
         let row = statistics.iter().find(|row| row.name == name)?;
         let at = row.quantiles.iter().find(|[p, ..]| *p == 0.5).map(|[_, time, ..]| *time)?;
-        let runs = if row.count == 1 { "1 run".to_owned() } else { format!("{} runs", row.count) };
-        let label = format!("{}, median of {runs}", event.name.replace('_', " "));
+        let label = format!("{}, median of {}", event.name.replace('_', " "), counted(row.count, "run"));
         at.is_finite().then_some(Mark::Limit { label, at, vertical: true })
     };
     plan.events.iter().filter_map(of).collect()
@@ -257,5 +257,5 @@ fn pairs(plan: &Plan, survey: &Survey, payload: &mut Payload) -> Value {
     let fates = fates::fates(plan, survey);
     let shown: Vec<f64> = rows.iter().map(|row| fates[*row].place()).collect();
     let judged = fates.contains(&Fate::Missed) || !plan.analysis.requirements.is_empty();
-    json!({ "columns": columns, "samples": payload.array(&samples), "fates": payload.singles(&shown), "judged": judged, "all": survey.statuses.runs() })
+    json!({ "columns": columns, "samples": payload.array(&samples), "fates": payload.singles(&shown), "judged": judged, "fateWords": fates::words(plan), "all": survey.statuses.runs() })
 }

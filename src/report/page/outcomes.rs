@@ -69,15 +69,15 @@ fn laid_out(distributions: Vec<Figure>, curves: Vec<Figure>) -> Vec<Figure> {
     all.into_iter().map(|figure| Figure { columns, ..figure }).collect()
 }
 
-/// The runs in the bars of a histogram that miss a requirement, as bars of their own in front of these; nothing where no run does.
+/// The runs in the bars of a histogram that miss the limit on its own outcome, as bars of their own in front of these; nothing where no run does.
 fn missed(plan: &Plan, survey: &Survey, index: usize, outcome: &SurveyedOutcome, marks: &[Mark]) -> Option<Mark> {
-    let fates = fates::fates(plan, survey);
+    let fates = fates::of_outcome(plan, survey, outcome.quantity.name());
     let edges = marks.iter().find_map(|mark| if let Mark::Bars { edges, .. } = mark { Some(edges) } else { None })?;
     let rows = shown_rows(survey).into_iter().filter(|row| fates[*row] == Fate::Missed);
     let values = rows.map(|row| survey.thinned.outcomes[index][row]);
     let values: Vec<f64> = values.map(|value| if outcome.is_error { value.abs() } else { value }).collect();
     let heights = counts(&values, edges);
-    let label = "of these, miss a requirement".to_owned();
+    let label = "of these, miss its limit".to_owned();
     let any = heights.iter().any(|height| *height > 0.0);
     any.then(|| Mark::Bars { label, hue: Hue::Failed, heights, edges: edges.clone() })
 }

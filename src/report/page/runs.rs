@@ -1,6 +1,7 @@
 //! [`ShownRun`]: the runs that the page shows in full: the nominal one, those that failed first, those with the largest errors.
 
 use crate::analysis::survey::Survey;
+use crate::analysis::worst_runs::WorstRuns;
 use crate::campaign::Plan;
 use crate::ensemble::{DrawnScenes, SingleRun};
 use crate::math::Isa;
@@ -151,14 +152,14 @@ fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
                     }
                     continue;
                 }
-                let rank = match (place, is_low) {
-                    (0, false) => "largest".to_owned(),
-                    (0, true) => "smallest".to_owned(),
-                    (place, _) => {
-                        let which = PLACES
-                            .get(place - 1)
-                            .map_or_else(|| format!("{}th", place + 1), |which| (*which).to_owned());
-                        format!("{which} {}", if is_low { "smallest" } else { "largest" })
+                let (first, tie) = tied(&outcome.worst, *value);
+                let side = if is_low { "smallest" } else { "largest" };
+                let rank = match first.checked_sub(1) {
+                    None => side.to_owned(),
+                    Some(before) => {
+                        let which =
+                            PLACES.get(before).map_or_else(|| format!("{}th", first + 1), |word| (*word).to_owned());
+                        format!("{which} {side}")
                     }
                 };
                 let quantity = &outcome.quantity;
@@ -169,11 +170,22 @@ fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
                 let said =
                     if is_low { ["lowest ", "minimum ", "smallest "] } else { ["highest ", "maximum ", "largest "] };
                 let name = said.into_iter().find_map(|word| name.strip_prefix(word)).unwrap_or(&name);
-                list.push((*sample, format!("{rank} {name} ({value})")));
+                list.push((*sample, format!("{rank} {name} ({value}{tie})")));
             }
         }
     }
     list
+}
+
+/// The first place in `worst` of the runs that are as bad as one with `value`, and how many these are, in words: they have no order.
+fn tied(worst: &WorstRuns, value: f64) -> (usize, String) {
+    let size = |value: f64| if worst.is_low { value } else { value.abs() };
+    let is_same = |(_, other): &(SampleId, f64)| size(*other) == size(value);
+    let first = worst.runs.iter().position(is_same).unwrap_or(0);
+    let count = worst.runs[first..].iter().take_while(|run| is_same(run)).count();
+    // others that are not kept may be as bad
+    let more = if worst.is_full() && first + count == worst.runs.len() { " or more" } else { "" };
+    (first, if count > 1 { format!("; {count}{more} runs tie") } else { String::new() })
 }
 
 /// The times of the runs in the page: the campaign's, with divided intervals where it is coarse or the motion fast.
@@ -191,4 +203,27 @@ fn grid(plan: &Plan, isa: Isa) -> Grid {
     let wanted = (fastest * plan.grid.duration() / TURN).clamp(fewest as f64, MOST as f64) as usize;
     let intervals = if given >= wanted { given.min(MOST) } else { given * (wanted / given).max(1) };
     Grid::uniform(plan.grid.duration(), intervals + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: equal runs have the place of the first of them and say how many they are, at least where more than are kept may be equal; a run that is alone says nothing.
+    #[test]
+    fn equal_runs_have_no_order() {
+        let found = |is_low: bool, most: usize, values: &[f64]| {
+            let mut worst = WorstRuns::new(most, is_low);
+            values.iter().enumerate().for_each(|(sample, value)| worst.add(SampleId(sample as u64), *value));
+            worst.runs.iter().map(|(_, value)| tied(&worst, *value)).collect::<Vec<_>>()
+        };
+        let of = |places: &[(usize, &str)]| {
+            places.iter().map(|(place, text)| (*place, (*text).to_owned())).collect::<Vec<_>>()
+        };
+        let two = "; 2 runs tie";
+        assert_eq!(found(false, 10, &[3.0, 5.0, -5.0, 1.0]), of(&[(0, two), (0, two), (2, ""), (3, "")]));
+        assert_eq!(found(true, 10, &[3.0, 5.0, -5.0, 3.0]), of(&[(0, ""), (1, two), (1, two), (3, "")]));
+        assert_eq!(found(false, 2, &[1.0, 1.0, 1.0]), of(&[(0, "; 2 or more runs tie"); 2]));
+        assert_eq!(found(false, 2, &[2.0, 1.0]), of(&[(0, ""), (1, "")]));
+    }
 }

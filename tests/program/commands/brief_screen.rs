@@ -197,7 +197,7 @@ fn the_worst_campaigns_fit_a_screen() {
     let lost = ended[1..].iter().filter(|(_, status)| status != "ok").count();
     assert!((40..59).contains(&lost), "{lost}");
     let words = out.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(words.contains(&format!("NOT COMPUTED: {lost} of 59 runs")), "{out}");
+    assert!(words.contains(&format!("NOT COMPUTED: {lost} of 59 dispersed runs")), "{out}");
     assert!(
         words.contains(&format!("{lost} step_limit: ")) && words.contains("to fix: increase integrator.max_steps"),
         "{out}"
@@ -207,7 +207,9 @@ fn the_worst_campaigns_fit_a_screen() {
 
     let out = run("spin_sweep", "--samples 50 --set integrator.max_steps=3 --out all --no-report", 1);
     assert!(
-        out.contains("NOT COMPUTED: 49 of 49 runs") && !out.contains("driver") && !out.contains("no statistics"),
+        out.contains("NOT COMPUTED: 49 of 49 dispersed runs")
+            && !out.contains("driver")
+            && !out.contains("no statistics"),
         "{out}"
     );
     let out = run("net_launch", "--samples 3 --out three --no-report", 5);

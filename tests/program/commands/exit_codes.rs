@@ -65,6 +65,100 @@ fn exit_codes() {
     assert_eq!(fs::read_dir(scratch.path("foreign")).expect("a folder").count(), 1);
 }
 
+/// Law: a folder without a result is a wrong argument of every command that takes one, in each place in which it may stand: not there, empty, a file; the message names it, and no command makes
+/// anything there.
+#[test]
+fn a_missing_result_is_bad_input() {
+    let scratch = folder("no-result");
+    fs::create_dir(scratch.path("empty")).expect("a folder");
+    scratch.file("file", "no result");
+    scratch.prints("campaign small.toml --samples 20 --out there", 0);
+    for missing in ["absent", "empty", "file"] {
+        for command in [
+            format!("verify {missing}"),
+            format!("verify {missing} --repair"),
+            format!("report {missing}"),
+            format!("finish {missing}"),
+            format!("compare {missing} there"),
+            format!("compare there {missing}"),
+            format!("index {missing}"),
+            format!("campaign small.toml --only-failed-of {missing} --out again"),
+        ] {
+            let said = scratch.prints(&command, 2);
+            assert!(said.contains(&format!("`{missing}`")) && !said.contains("os error"), "{command}: {said}");
+        }
+    }
+    assert!(!scratch.path("absent").exists() && !scratch.path("again").exists());
+    // the counter-test
+    for command in [
+        "verify there",
+        "report there",
+        "finish there",
+        "compare there there",
+        "campaign small.toml --only-failed-of there --out again",
+    ] {
+        scratch.prints(command, 0);
+    }
+}
+
+/// Law: what is in the way of a file or folder that a command is to make is said in words, with what to do, and stays as it is.
+#[test]
+fn what_is_in_the_way_is_named() {
+    let scratch = folder("in-the-way");
+    scratch.file("file", "precious");
+    fs::create_dir_all(scratch.path("all/index.html")).expect("a folder");
+    scratch.prints("campaign small.toml --samples 20 --out all/one", 0);
+    for (command, said) in [
+        ("new file", "is there already, and is not replaced"),
+        ("new all", "is a folder"),
+        ("new nowhere/c.toml", "there is no folder `nowhere`"),
+        ("new file/c.toml", "`file` is a file and not a folder"),
+        ("index all", "no regular file; move it away"),
+        ("report all/one --figures file", "is there already, and is not replaced"),
+        ("campaign small.toml --samples 20 --out file", "`file` is a file and not a folder"),
+        ("campaign small.toml --samples 20 --out file/below", "`file` is a file and not a folder"),
+        ("simulate small.toml --out nowhere/s.csv", "there is no folder `nowhere`"),
+        ("simulate small.toml --plot file/p.svg", "`file` is a file and not a folder"),
+        ("sample small.toml --samples 5 --out file/s.csv", "`file` is a file and not a folder"),
+    ] {
+        let found = scratch.prints(command, 4);
+        assert!(found.contains(said) && !found.contains("os error"), "{command}: {found}");
+    }
+    assert_eq!(scratch.text("file"), "precious");
+}
+
+/// Law: one is singular on every screen: a campaign of one run, one part, one file, and what commands say of it.
+#[test]
+fn one_is_singular_on_screens() {
+    let scratch = folder("one-of-all");
+    let one = campaign().replace("samples = 600", "samples = 1");
+    scratch.file("one.toml", &(one + &require("quantile = 0.95", "at_most = 1e-9")));
+    for (command, code) in [
+        ("check one.toml", 0),
+        ("check one.toml --verbose", 0),
+        ("campaign one.toml --samples 1 --out r --verbose --figures figures", 5),
+        ("campaign one.toml --samples 1 --out r", 5),
+        ("campaign one.toml --samples 1 --out again", 5),
+        ("verify r", 0),
+        ("report r", 0),
+        ("compare r again", 0),
+        ("index .", 0),
+        ("sample one.toml --samples 2 --out s.csv", 0),
+        ("simulate one.toml --times 0.5 --out t.csv", 0),
+        ("campaign one.toml --samples 2 --out two", 5),
+        ("precision one.toml --samples 1 --methods auto --tolerances 1e-8 --repeats 1 --out p", 0),
+    ] {
+        let said = scratch.prints_wide(command, code);
+        let words: Vec<&str> =
+            said.split_whitespace().map(|word| word.trim_matches(|c: char| !c.is_alphanumeric())).collect();
+        for pair in words.windows(2).filter(|pair| pair[0] == "1") {
+            let is_plural =
+                pair[1].len() > 3 && pair[1].ends_with('s') && pair[1].chars().all(|c| c.is_ascii_lowercase());
+            assert!(!is_plural, "{command}: {pair:?} in\n{said}");
+        }
+    }
+}
+
 /// Law: the shipped campaign has one requirement of each verdict; screen, summary and JUnit file say the same.
 #[test]
 fn the_acceptance_campaign_has_every_verdict() {

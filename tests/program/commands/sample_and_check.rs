@@ -60,12 +60,21 @@ fn sample_draws_the_rows_of_the_campaign() {
     // the nominal one is that of `check`
     let check = scratch.prints("check thin.toml --verbose", 0);
     assert!(check.contains(&format!("{} kg", format!("{:.2}", mass[0]).trim_end_matches('0'))), "{check}");
-    // one sample, in all digits, here and in `simulate`
+    // one sample, in all digits; in `simulate` as people read numbers, in the unit of the screen
     let sample = (1..600).find(|row| statuses[*row] != "invalid_sample").unwrap();
     let line = text.lines().nth(sample + 1).unwrap().split(',').nth(2).unwrap();
-    for command in ["sample", "simulate"] {
-        let said = scratch.prints(&format!("{command} thin.toml --sample {sample}"), 0);
+    let value: f64 = line.parse().unwrap();
+    for (options, shown, factor) in
+        [("", "rad/s", 1.0), (" --set display.units=[\"deg/s\"]", "deg/s", 180.0 / std::f64::consts::PI)]
+    {
+        let said = scratch.prints(&format!("sample thin.toml --sample {sample}{options}"), 0);
         assert!(said.contains("initial.angular_velocity_rad_s.x") && said.contains(line), "{line} in:\n{said}");
+        let said = scratch.prints(&format!("simulate thin.toml --sample {sample}{options}"), 0);
+        let of_row = said.lines().find(|line| line.starts_with("initial.angular_velocity_rad_s.x")).expect("a line");
+        let words: Vec<&str> = of_row.split_whitespace().collect();
+        assert!(words[1].len() <= 11 && words[2] == shown && words[3..] == ["nominal", "0", shown], "{of_row}");
+        let found: f64 = words[1].parse().expect("a number");
+        assert!((found / (value * factor) - 1.0).abs() < 1e-5, "{found} of {value}");
     }
     assert!(
         scratch.prints(&format!("sample thin.toml --sample {sample}"), 0).contains("principal_moment_largest_kg_m2")

@@ -108,12 +108,12 @@ fn a_campaign_counts_what_it_has() {
     let rounded = 0.0051 + 0.51 * seconds / rate;
     assert!((now / rate - seconds).abs() < rounded && seconds > 0.015, "{now} in {seconds} s, {rate} per second");
 
-    says(&said, "small: # samples are there already, # to run", &[samples - now, now]);
+    says(&said, "small: # samples already there, # to run", &[samples - now, now]);
     let [_, share] = numbers(&said, "audits: # s of CPU time, #% of the total")[..] else { panic!("{said}") };
     assert!((50.0..100.0).contains(&share), "an audit takes a hundred times a run: {share}");
 
     says(&said, "# of # runs were computed", &[ok, 600.0]);
-    says(&said, "# of # runs were not computed and are left out", &[600.0 - ok, 599.0]);
+    says(&said, "# of # dispersed runs were not computed and are left out", &[600.0 - ok, 599.0]);
     says(&said, "# of # samples (#%) are not physical", &[invalid, 599.0, 100.0 * invalid / 599.0]);
     for (status, count) in [("invalid_sample", invalid), ("inaccurate", inaccurate)] {
         let first = of(status);

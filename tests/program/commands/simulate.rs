@@ -66,6 +66,26 @@ fn simulate_writes_the_promised_columns() {
     assert_eq!([start("v_po_e_x_m_s"), start("v_po_e_y_m_s"), start("v_po_e_z_m_s")], [10.0, 0.0, 0.0]);
 }
 
+/// Law: of a mission that ended it is said when and why, as in its row; what does not exist at a time, as a pointing error without a target, is no number.
+#[test]
+fn the_end_of_a_mission_is_said() {
+    let scratch = folder("mission-end");
+    for (options, code, said) in [
+        ("--set guidance.detumble.timeout_s=5", 1.0, "mission failed at # s: a phase took too long"),
+        ("--sample 1", 0.0, "mission launched at # s"),
+    ] {
+        let found = scratch.says("simulate", "net_launch.toml", options, 0);
+        assert!(!found.contains("NaN"), "{found}");
+        let campaign = if code > 0.0 { options } else { "" };
+        scratch.says("campaign", "net_launch.toml", &format!("{campaign} --samples 2 --out r{code} --no-report"), 5);
+        let rows = &scratch.table(&format!("r{code}/runs/part-000000.parquet"));
+        let row = usize::from(code == 0.0);
+        let end = floats(rows, "end_time_s")[row];
+        let line = said.replace('#', &format!("{end}"));
+        assert!(found.contains(&line), "{line}: {found}");
+    }
+}
+
 /// Law: the velocity of p is the derivative of its position (central differences, error h^2/6 times the third derivative).
 #[test]
 fn the_velocity_of_p_is_the_derivative_of_its_position() {

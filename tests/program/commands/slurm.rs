@@ -78,7 +78,7 @@ fn the_scripts_make_the_campaign() {
     scratch.prints("campaign small.toml --out whole", 0);
     let said =
         scratch.prints("slurm small.toml --nodes 5 --cpus 2 --time 1:00:00 --out sharded --sbatch=--partition=long", 0);
-    assert!(said.contains("3 parts are to be made: 3 of 5 tasks have work"), "{said}");
+    assert!(said.contains("3 parts to make: 3 of 5 tasks busy"), "{said}");
     assert!(said.contains("sbatch --dependency=afterany:\"$job\" small-finish.sh"), "{said}");
     let array = scratch.text("small-array.sh");
     let own = ["--array=1-3", "--signal=B:USR1@60", "--requeue"];
@@ -89,7 +89,7 @@ fn the_scripts_make_the_campaign() {
     }
     let finish = scratch.text("small-finish.sh");
     assert!(finish.contains("#SBATCH --partition=long\n") && !own.iter().any(|line| finish.contains(line)), "{finish}");
-    assert_eq!(ends(&scratch, "small-finish.sh", 1), Some(4), "nothing is there");
+    assert_eq!(ends(&scratch, "small-finish.sh", 1), Some(2), "nothing is there");
     // what is asked of the scripts is asked of the campaign
     scratch.prints("slurm small.toml --nodes 2 --cpus 1 --time 10 --samples 300 --seed 11 --out seeded", 0);
     let whole = "campaign small.toml --samples 300 --seed 11 --out seeded_whole";

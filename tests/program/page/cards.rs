@@ -69,7 +69,16 @@ fn card_shows(card: &str, known: &Known<'_>) {
     let dot = place("dot", "cx");
     assert!(place("whisker", "x1") <= dot && dot <= place("whisker", "x2"), "{card}");
     let texts: Vec<&str> = card.split("<text ").skip(1).map(|text| between(text, ">", "<")).collect();
-    assert_eq!((texts[0], texts.len()), (estimate, 1 + usize::from(known.limit.is_some())));
+    // of a finding also the smallest and the largest value, at the ends of what was found
+    let ends = if card.contains("card finding") { 2 } else { 0 };
+    assert_eq!((texts[0], texts.len()), (estimate, 1 + usize::from(known.limit.is_some()) + ends));
+    if ends > 0 {
+        let [low, high] =
+            [("smallest ", 1), ("largest ", 2)].map(|(word, at)| si(texts[at].strip_prefix(word).expect(word)));
+        assert!(low <= si(estimate) && si(estimate) <= high, "{card}");
+        let (_, largest) = card.split_once("largest is ").or(card.split_once(" and ")).expect("the extremes");
+        assert!(largest.contains(texts[2].strip_prefix("largest ").expect("the largest")), "{card}");
+    }
     if let Some((side, limit)) = known.limit {
         same(texts[1].strip_prefix(side).expect(side).trim_start(), limit, "limit");
         let (beyond, right) = (limit.as_f64().expect("a limit") - si(estimate), place("limit", "x1") - dot);

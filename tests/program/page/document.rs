@@ -49,7 +49,7 @@ fn figures_are_files_too() {
     }
     let text = scratch.text("figures/drift_energy.svg");
     assert!(text.starts_with("<svg") && text.contains("Drift of energy"), "{text}");
-    let said = scratch.prints("report campaigns", 4);
+    let said = scratch.prints("report campaigns", 2);
     assert!(said.contains("has no result of spindrift"), "{said}");
 }
 

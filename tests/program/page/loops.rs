@@ -108,7 +108,7 @@ fn limits_are_those_of_the_file() {
     near(&of("wheel_torque"), &[("limit \u{b1}4\u{a0}N m", 4.0), ("", -4.0)]);
     near(&of("wheel_speed"), &[("limit 125.7\u{a0}rad/s", 40.0 * core::f64::consts::PI)]);
     near(&of("thrust"), &[("limit of p2, p3 10\u{a0}N", 10.0), ("limit of p1 20\u{a0}N", 20.0)]);
-    near(&of("debris_distance_m"), &[("keep-out", 5.0), ("station", 10.0)]);
+    near(&of("debris_distance_m"), &[("keep-out 5\u{a0}m", 5.0), ("station 10\u{a0}m", 10.0)]);
     near(&of("impulse_n_s"), &[("at most 4,000\u{a0}N s", 4000.0)]);
     near(&of("debris_relative_speed_m_s"), &[("at most 5\u{a0}cm/s at the launch", 5.0)]);
     near(&of("spin_axis_debris_angle_rad"), &[("at most 2\u{a0}deg at the launch", 2.0)]);

@@ -46,6 +46,18 @@ fn bars_are(found: &Found, mark: &Value, values: &[f64], what: &str) {
     }
 }
 
+/// The limits of the requirements on single runs that are about `column`, each with the sign of the side on which it is missed.
+fn limits_on(found: &Found, column: &str) -> Vec<(f64, f64)> {
+    let summary = found.scratch.summary("r");
+    let list = summary["requirements"]["list"].as_array().expect("requirements").clone();
+    let of_column = list.iter().filter(|one| one["observable"] == column && one["statement"] != "mean");
+    let limit = |one: &Value| match one["at_most"].as_f64() {
+        Some(limit) => (limit, 1.0),
+        None => (one["at_least"].as_f64().expect("a limit"), -1.0),
+    };
+    of_column.map(limit).collect()
+}
+
 /// A series of a figure of one column: the distribution, its curve, its tail, its convergence.
 fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f64), values: &[f64], nominal: f64) {
     let label = text(mark, "label");
@@ -59,10 +71,15 @@ fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f
     let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
     match (kind, text(mark, "kind"), label) {
         ("histogram_", "bars", "runs") => bars_are(found, mark, values, &what),
-        ("histogram_", "bars", "of these, miss a requirement") => {
+        ("histogram_", "bars", "of these, miss its limit") => {
             let all = found.array(&found.mark(&format!("{kind}{column}"), "runs")["heights"]);
             let missed = of("heights");
             assert!(missed.iter().zip(&all).all(|(missed, all)| missed <= all), "{what}: {missed:?} of {all:?}");
+            // success is never drawn in the colour of failure: these are the runs beyond the limits on this column, and no others
+            let limits = limits_on(found, column);
+            let beyond =
+                values.iter().filter(|value| limits.iter().any(|(limit, sign)| sign * (*value / factor - limit) > 0.0));
+            assert_eq!(missed.iter().sum::<f64>(), beyond.count() as f64, "{what}: {limits:?}");
             assert!(missed.iter().sum::<f64>() > 0.0, "{what}");
         }
         ("histogram_", "limit", "nominal") => near(mark["at"].as_f64().expect("a place"), nominal, 1e-9, &what),
@@ -176,7 +193,7 @@ fn scatter_is(found: &Found, figure: &Value, outcomes: &[&str]) {
     let mut lowest = f64::INFINITY;
     let mut all = Vec::new();
     for mark in figure["marks"].as_array().expect("marks") {
-        let is_ok = ["computed", "meets the requirements", "misses a requirement"].contains(&text(mark, "label"));
+        let is_ok = ["computed", "meets its limit", "misses its limit"].contains(&text(mark, "label"));
         let [samples, x, y] = ["samples", "x", "y"].map(|key| found.array(&mark[key]));
         for (k, sample) in samples.iter().enumerate() {
             let row = *sample as usize;

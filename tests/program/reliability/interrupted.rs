@@ -92,7 +92,7 @@ fn a_finished_campaign_is_extended() {
     scratch.prints("campaign small.toml --samples 900 --out grown", 0);
     let before = scratch.parts("grown");
     let said = scratch.prints("campaign small.toml --samples 2000 --out grown", 0);
-    assert!(said.contains("768 samples are there already, 1232 to run"), "{said}");
+    assert!(said.contains("768 samples already there, 1232 to run"), "{said}");
     assert_eq!(scratch.parts("grown")[..3], before[..3], "whole parts stay");
     scratch.prints("campaign small.toml --samples 2000 --out whole", 0);
     // table engines see that it grew: the log has a commit more and a copy of the last part before (table_log.rs), which the last line lists
@@ -123,7 +123,7 @@ fn other_questions_of_the_same_rows_run_nothing() {
     let require = "\n[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.9\nat_most = 1e-30\n";
     scratch.file("strict.toml", &format!("{}{require}", campaign().replace("\"small\"", "\"strict\"")));
     let said = scratch.prints("campaign strict.toml --out r", 3);
-    assert!(said.contains("600 samples are there already, 0 to run") && said.contains("FAIL"), "{said}");
+    assert!(said.contains("600 samples already there, 0 to run") && said.contains("FAIL"), "{said}");
     assert_eq!(scratch.parts("r"), before);
     assert!(scratch.text("r/plan.toml").contains("strict"));
     scratch.prints("campaign strict.toml --out r", 3);

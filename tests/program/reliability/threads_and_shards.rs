@@ -82,12 +82,12 @@ fn a_shard_reads_its_own_parts() {
     fs::write(part(1), b"x").unwrap();
     let said = scratch.prints(&shard(1), 0);
     // parts 0, 3 and 6 of 256
-    assert!(!said.contains("damaged") && said.contains("768 samples are there already, 0 to run"), "{said}");
+    assert!(!said.contains("damaged") && said.contains("768 samples already there, 0 to run"), "{said}");
     let said = scratch.prints("finish r", 4);
     assert!(said.contains("part-000001") && said.contains("missing"), "{said}");
     // parts 1, 4 and 7, which has 208
     let said = scratch.prints(&shard(2), 0);
-    assert!(said.contains("464 samples are there already, 256 to run"), "{said}");
+    assert!(said.contains("464 samples already there, 256 to run"), "{said}");
     assert!(fs::read(part(1)).unwrap() == whole);
     scratch.prints("finish r", 0);
 }

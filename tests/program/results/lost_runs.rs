@@ -44,7 +44,11 @@ fn a_loss_is_said_first_and_is_not_random() {
 
     // first of all, with what decides it
     let share = 100.0 * missing as f64 / runs as f64;
-    says(&said, "NOT COMPUTED: # of # runs, #% (step_limit #)", &[missing as f64, runs as f64, share, missing as f64]);
+    says(
+        &said,
+        "NOT COMPUTED: # of # dispersed runs, #% (step_limit #)",
+        &[missing as f64, runs as f64, share, missing as f64],
+    );
     let warning = said.find("NOT COMPUTED").expect("a warning");
     assert!(warning < said.find("requirements").expect("requirements"), "{said}");
     let summary = scratch.summary("lost");
