@@ -12,7 +12,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum InputError {
     /// It is something else, in words: "a folder".
-    #[error("{0}, and no regular file")]
+    #[error("{0}, not a regular file")]
     Kind(&'static str),
     /// It has so many bytes.
     #[error("{0} bytes are too many")]
@@ -42,7 +42,7 @@ fn kind(file: FileType) -> &'static str {
             return "a socket";
         }
     }
-    if file.is_dir() { "a folder" } else { "no regular file" }
+    if file.is_dir() { "a folder" } else { "something that is not a file" }
 }
 
 /// Opens a regular file of at most `most` bytes for reading; the file, and its size.

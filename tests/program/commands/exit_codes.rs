@@ -113,7 +113,7 @@ fn what_is_in_the_way_is_named() {
         ("new all", "is a folder"),
         ("new nowhere/c.toml", "there is no folder `nowhere`"),
         ("new file/c.toml", "`file` is a file and not a folder"),
-        ("index all", "no regular file; move it away"),
+        ("index all", "not a regular file; move it away"),
         ("report all/one --figures file", "is there already, and is not replaced"),
         ("campaign small.toml --samples 20 --out file", "`file` is a file and not a folder"),
         ("campaign small.toml --samples 20 --out file/below", "`file` is a file and not a folder"),
