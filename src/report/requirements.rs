@@ -84,8 +84,12 @@ pub fn assumed(one: &Assessment) -> Option<String> {
     ))
 }
 
-/// The bound that decided, in a few words, where the interval in brackets has the limit in it: a verdict looks at one side. `None` where the interval shows it.
+/// What decided, in a few words, where the interval in brackets seems to say otherwise: the bound of a verdict, which looks at one side, where the interval has the limit in it; that nothing is
+/// decided, where it has not. `None` where the interval shows it.
 pub fn decided_by(one: &Assessment) -> Option<String> {
+    if one.fails_alone() {
+        return Some(missed_alone(one));
+    }
     let ([bound, limit], is_lower) = one.hidden_bound()?;
     let is_mean = one.requirement.statement == Statement::Mean;
     let shown = |value: f64| if is_mean { one.shown.value(value) } else { 100.0 * value };
@@ -99,6 +103,12 @@ pub fn decided_by(one: &Assessment) -> Option<String> {
     let number = if is_mean { format!("{number} {}", one.shown.unit) } else { format!("{number}%") };
     let side = if is_lower { "at least" } else { "at most" };
     Some(format!("{side} {}, one-sided at {}%", number.trim_end(), percent(one.confidences[0])))
+}
+
+/// Why a requirement is not decided that would be missed, were it the only one.
+fn missed_alone(one: &Assessment) -> String {
+    let [alone, together] = one.confidences.map(|confidence| trimmed(100.0 * confidence, 6));
+    format!("missed at {alone}%, not at the {together}% that all requirements together ask for")
 }
 
 /// Most digits of a bound.
@@ -211,11 +221,7 @@ fn finding(one: &Assessment) -> String {
         _ => String::new(),
     };
     let alone = match one.fails_alone() {
-        true => format!(
-            "; missed at {:.4}%, not at the {:.4}% of all together",
-            100.0 * one.confidences[0],
-            100.0 * one.confidences[1]
-        ),
+        true => format!("; {}", missed_alone(one)),
         false => String::new(),
     };
     let notes = assumed(one).into_iter().chain(one.note.clone());
@@ -360,7 +366,7 @@ mod tests {
                 Requirement { subject, statement, limit, bounded: None, never_meets: false, confidence: 0.95 };
             decided_by(&Assessment {
                 requirement,
-                confidences: [0.95; 2],
+                confidences: [0.95, 0.9875],
                 unit: "m".to_owned(),
                 shown: ShownUnit::own("m"),
                 gate: Gate { decision, estimate: 0.5, bounds },
@@ -388,5 +394,11 @@ mod tests {
             assert_eq!(found.as_deref(), Some(format!("{text}, one-sided at 95%").as_str()), "{bounds:?}");
         }
         assert_eq!(said(Statement::Mean, most, Decision::Undecided(None), [22.0, 23.5]), None);
+        // not decided, though the interval has not the limit in it: the others ask for more
+        for (statement, bounds) in [(Statement::Fraction(0.9), [0.5, 0.89]), (Statement::Mean, [23.2, 24.0])] {
+            let found = said(statement, most, Decision::Undecided(None), bounds);
+            let expected = "missed at 95%, not at the 98.75% that all requirements together ask for";
+            assert_eq!(found.as_deref(), Some(expected), "{bounds:?}");
+        }
     }
 }

@@ -184,7 +184,7 @@ impl Card {
         if self.estimate.is_finite() {
             row(&format!("{}:", sentence_case(&self.statistic)), &self.found());
         }
-        row("Decided by:", &self.decided_by);
+        row(if self.judged == Judged::Undecided { "Undecided:" } else { "Decided by:" }, &self.decided_by);
         let shown = core::mem::take(&mut rows);
         let mut row = |term: &str, text: &str| {
             if !text.is_empty() {
@@ -364,6 +364,8 @@ mod tests {
             .map(|(seen, rest)| (seen.to_owned(), rest.to_owned()))
             .expect("a part");
         assert!(seen.contains("Decided by:</b> at least 95.1%"), "{seen}");
+        let open = Card { decided_by: "missed at 95%".to_owned(), ..card(Judged::Undecided, 93.0, [90.0, 94.9], None) };
+        assert!(open.html().contains("Undecided:</b> missed at 95%"), "{}", open.html());
         let empty = card(Judged::Finding, f64::NAN, [f64::NAN; 2], None).html();
         assert!(!empty.contains("NaN") && !empty.contains("<circle class=\"dot\""), "{empty}");
         assert!(!card(Judged::Pass, 0.0, [0.0; 2], Some((0.0, true))).html().contains("NaN"));

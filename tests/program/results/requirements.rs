@@ -65,6 +65,6 @@ fn a_requirement_may_fail_alone() {
     let known = ["confidence_of_pass_and_bounds", "confidence_of_fail"].map(|key| 100.0 * one[key].as_f64().unwrap());
     assert!((known[0] - 95.0).abs() < 1e-9 && (known[1] - 97.5).abs() < 1e-9, "{known:?}");
     for said in [said, scratch.text("junit.xml")] {
-        says(&said, "missed at #%, not at the #% of all together", &known);
+        says(&said, "missed at #%, not at the #% that all requirements together ask for", &known);
     }
 }
