@@ -189,6 +189,7 @@ fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64], with_
                 cells.push(number(quantile(0.5).and_then(|one| one.value)));
                 cells.extend(ps.iter().map(|p| {
                     quantile(*p)
+                        .filter(|_| !has_no_number(summary, line, *p))
                         .map_or("-".to_owned(), |one| if with_intervals { ends(line, one) } else { number(one.value) })
                 }));
                 cells.push(number(line.max));
@@ -197,6 +198,14 @@ fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64], with_
         table.row(cells);
     }
     table
+}
+
+/// Whether the quantile `p` is required of an outcome and a run without a value, which is not within the limit: that of the runs with a value would look as if it were.
+fn has_no_number(summary: &Summary, line: &ObservableLine, p: f64) -> bool {
+    let is_it = |one: &&Assessment| {
+        one.requirement.observable() == Some(&line.name) && one.requirement.statement == Statement::Quantile(p)
+    };
+    summary.verdicts.list.iter().find(is_it).is_some_and(|one| one.missing > 0 && one.value.is_none())
 }
 
 /// What an outcome is called, with the unit in which it is shown.

@@ -5,14 +5,16 @@ use crate::report::expected_counts::Asked;
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape, Scale};
 use crate::report::number::short;
 
-const BARS: usize = 40;
+/// Fewest and most bars; between them as many as the square root of the number of values, so that few values are no comb.
+const BARS: [usize; 2] = [10, 40];
 /// A nominal value farther from all samples than this fraction of their span is named at the edge: the samples keep two thirds of the axis.
 const FAR: f64 = 0.5;
 /// Values whose median is below this fraction of the largest are those of a distribution over decades.
 const OVER_DECADES: f64 = 0.05;
 
-/// Edges of bars for `values`, and whether they are by decades: where all are positive and their range exceeds 100.
-pub fn bins(values: &[f64]) -> (Vec<f64>, bool) {
+/// Edges of bars for `values`, and whether they are by decades: where all are positive and their range exceeds 100. The first of `limits` among the values is an edge, so that no bar
+/// stands on both sides of it.
+pub fn bins(values: &[f64], limits: &[f64]) -> (Vec<f64>, bool) {
     let (low, high) = ends(values);
     if low > high {
         return (Vec::new(), false);
@@ -24,33 +26,58 @@ pub fn bins(values: &[f64]) -> (Vec<f64>, bool) {
         && high > 100.0 * positive
         && values.iter().filter(|x| **x == 0.0).count() * 100 < values.len();
     if !is_log {
-        return (linear_bins(values), false);
+        return (linear_bins(values, limits), false);
     }
+    let bars = bars(values.len());
     let edge = |k: usize| match k {
         0 => positive,
-        BARS => high,
-        _ => positive * libm::pow(high / positive, part(k)),
+        _ if k == bars => high,
+        _ => positive * libm::pow(high / positive, part(k, bars)),
     };
-    ((0..=BARS).map(edge).collect(), true)
+    let edges: Vec<f64> = (0..=bars).map(edge).collect();
+    (moved(edges, limits, |edge, by| edge * by, |to, from| to / from), true)
+}
+
+/// How many bars so many values have.
+fn bars(values: usize) -> usize {
+    (values as f64).sqrt().ceil().clamp(BARS[0] as f64, BARS[1] as f64) as usize
+}
+
+/// `edges` with one more, moved by less than a bar so that the first of `limits` between their ends is an edge. `add` moves an edge by a distance, and `distance` is that from one to another.
+fn moved(
+    edges: Vec<f64>,
+    limits: &[f64],
+    add: impl Fn(f64, f64) -> f64,
+    distance: impl Fn(f64, f64) -> f64,
+) -> Vec<f64> {
+    let [first, second, .., last] = edges[..] else { return edges };
+    let Some(limit) = limits.iter().copied().find(|limit| first < *limit && *limit < last) else { return edges };
+    let Some(next) = edges.iter().copied().find(|edge| *edge >= limit) else { return edges };
+    let by = distance(limit, next);
+    let mut found: Vec<f64> = edges.iter().map(|edge| if *edge == next { limit } else { add(*edge, by) }).collect();
+    found.push(add(add(last, by), distance(second, first)).max(last));
+    found
 }
 
 fn ends(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)))
 }
 
-fn part(k: usize) -> f64 {
-    k as f64 / BARS as f64
+fn part(k: usize, bars: usize) -> f64 {
+    k as f64 / bars as f64
 }
 
 /// Edges of equally wide bars; whole numbers have a bar each.
-fn linear_bins(values: &[f64]) -> Vec<f64> {
+fn linear_bins(values: &[f64], limits: &[f64]) -> Vec<f64> {
     let (low, high) = ends(values);
     let are_whole = values.iter().all(|value| *value == libm::floor(*value));
-    if are_whole && high - low <= BARS as f64 {
+    if are_whole && high - low <= BARS[1] as f64 {
         return (0..=(high - low) as usize + 1).map(|k| low + k as f64 - 0.5).collect();
     }
     let half = if high > low { 0.0 } else { 0.05 * low.abs().max(1e-300) };
-    (0..=BARS).map(|k| (1.0 - part(k)) * (low - half) + part(k) * (high + half)).collect()
+    let bars = bars(values.len());
+    let edge = |k: usize| (1.0 - part(k, bars)) * (low - half) + part(k, bars) * (high + half);
+    moved((0..=bars).map(edge).collect(), limits, |edge, by| edge + by, |to, from| to - from)
 }
 
 /// How many `values` are between neighbouring `edges`; those at the ends count too.
@@ -77,7 +104,7 @@ pub fn of_input(name: &str, unit: &str, samples: &[f64], nominal: f64, asked: Op
     let mut sorted = shown.clone();
     sorted.sort_by(f64::total_cmp);
     let is_by_decades = sorted.get(sorted.len() / 2).is_some_and(|median| *median < OVER_DECADES * ends(&shown).1);
-    let (edges, is_log) = if is_by_decades { bins(&shown) } else { (linear_bins(&shown), false) };
+    let (edges, is_log) = if is_by_decades { bins(&shown, &[]) } else { (linear_bins(&shown, &[]), false) };
     let mut marks = vec![Mark::Bars {
         label: "samples".to_owned(),
         hue: Hue::Body,
@@ -154,13 +181,38 @@ mod tests {
             vec![8.0, 9.0, 9.0, 12.0],
             vec![-1.5e308, 1.5e308],
         ] {
-            let (edges, is_log) = bins(&values);
+            let (edges, is_log) = bins(&values, &[]);
             let counts = counts(&values, &edges);
             assert_eq!(counts.iter().sum::<f64>(), values.len() as f64, "{values:?}");
             assert_eq!(is_log, values[0] == 1e-15, "{values:?}");
             assert!(edges.is_sorted() && edges.iter().all(|edge| edge.is_finite()), "{edges:?}");
         }
-        assert!(bins(&[]).0.is_empty());
+        assert!(bins(&[], &[]).0.is_empty());
+    }
+
+    /// Law: bars are as many as the square root of the number of values, from ten to forty; a limit between the values is an edge of them, on every kind of axis, and every value is still in
+    /// one bar.
+    #[test]
+    fn bars_are_few_for_few_values_and_end_at_a_limit() {
+        for (count, bars) in [(2, 10), (100, 10), (225, 15), (1000, 32), (1600, 40), (100_000, 40)] {
+            let values = |end: f64| (0..count).map(move |k| 1.0 + end * f64::from(k) / f64::from(count - 1));
+            for (values, is_by_decades) in [
+                (values(2.5).collect::<Vec<f64>>(), false),
+                (values(1.0).map(|value| libm::pow(1e6, value - 1.0)).collect(), true),
+            ] {
+                let (low, high) = ends(&values);
+                let (edges, is_log) = bins(&values, &[]);
+                assert_eq!((edges.len(), is_log), (bars + 1, is_by_decades), "{count}");
+                for share in [1e-9, 0.03, 0.5, 0.77, 1.0 - 1e-9] {
+                    let limit = if is_log { low * libm::pow(high / low, share) } else { low + share * (high - low) };
+                    let (edges, _) = bins(&values, &[low - 1.0, limit]);
+                    assert!(edges.contains(&limit) && edges.is_sorted() && edges.len() == bars + 2, "{edges:?}");
+                    assert!(edges[0] <= low && edges[bars + 1] >= high, "{limit}: {edges:?}");
+                    assert_eq!(counts(&values, &edges).iter().sum::<f64>(), f64::from(count), "{limit}");
+                }
+                assert_eq!(bins(&values, &[high + 1.0]).0, edges);
+            }
+        }
     }
 
     /// Law: a value at an edge between two bars is in the upper one, as the stem of its probability is; the last edge is in the last bar.

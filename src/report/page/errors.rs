@@ -33,12 +33,12 @@ pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
         outcome.is_error && !outcome.is_outcome && outcome.sketch.max().is_some_and(|max| max > 0.0)
     });
     for (index, outcome) in errors.take(MOST_ERRORS) {
-        figures.push(histogram(survey, index, outcome, FigureSection::Numerics));
+        figures.push(histogram(survey, (index, outcome), FigureSection::Numerics, &[]));
         figures.push(exceedance(outcome, has_intervals));
     }
     figures.extend(audits(survey));
     let steps = survey.outcome("steps");
-    figures.extend(steps.map(|(index, outcome)| histogram(survey, index, outcome, FigureSection::Numerics)));
+    figures.extend(steps.map(|steps| histogram(survey, steps, FigureSection::Numerics, &[])));
     figures.retain(Figure::is_visible);
     figures
 }
@@ -61,14 +61,19 @@ pub fn shown_rows(survey: &Survey) -> Vec<usize> {
         .collect()
 }
 
-/// The histogram of an outcome over the thinned table; of an error, of its magnitude.
-pub fn histogram(survey: &Survey, index: usize, outcome: &SurveyedOutcome, section: FigureSection) -> Figure {
+/// The histogram of an outcome over the thinned table; of an error, of its magnitude. `limits` are those on it.
+pub fn histogram(
+    survey: &Survey,
+    (index, outcome): (usize, &SurveyedOutcome),
+    section: FigureSection,
+    limits: &[f64],
+) -> Figure {
     let rows = shown_rows(survey);
     let column = &survey.thinned.outcomes[index];
     let values: Vec<f64> = rows.iter().map(|row| column[*row]).filter(|value| value.is_finite()).collect();
     let values: Vec<f64> = if outcome.is_error { values.into_iter().map(f64::abs).collect() } else { values };
     let title = names::sentence(&names::of_quantity(&outcome.quantity));
-    let (bins, is_log) = bins(&values);
+    let (bins, is_log) = bins(&values, limits);
     let mut marks = vec![Mark::Bars {
         label: "runs".to_owned(),
         hue: Hue::Total,

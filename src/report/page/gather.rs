@@ -267,6 +267,8 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         }
         _ => {}
     }
+    let is_fraction = matches!(requirement.statement, Statement::Fraction(_));
+    let is_share = is_fraction || matches!(requirement.statement, Statement::Quantile(_)) && one.value.is_none();
     let (statistic, estimate, ends, limit, unit) = match requirement.statement {
         Statement::Mean => (
             "mean".to_owned(),
@@ -275,7 +277,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
             shown.written(limit),
             shown.unit.clone(),
         ),
-        Statement::Quantile(p) => {
+        Statement::Quantile(p) if one.value.is_some() => {
             let quantile = statistics.required(requirement);
             let ends = quantile
                 .map_or([None; 2], |quantile| quantile.interval)
@@ -283,7 +285,9 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
             let value = shown.value(one.value.unwrap_or(f64::NAN));
             (format!("{}% quantile", percent(p)), value, ends, shown.written(limit), shown.unit.clone())
         }
-        Statement::Fraction(fraction) => {
+        // of a quantile that is a run without a value too
+        Statement::Fraction(target) | Statement::Quantile(target) => {
+            let fraction = if is_fraction { target } else { requirement.limit.fraction(target) };
             let hundred = |value: f64| 100.0 * value;
             (
                 "runs within the limit".to_owned(),
@@ -295,7 +299,6 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         }
     };
     notes.extend(one.note.as_ref().map(|note| format!("{}.", crate::report::names::sentence(note))));
-    let is_fraction = matches!(requirement.statement, Statement::Fraction(_));
     Card {
         judged: match one.gate.decision {
             Decision::Pass => Judged::Pass,
@@ -309,7 +312,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         interval: ends,
         extremes: [f64::NAN; 2],
         decided_by: decided_by(one).unwrap_or_default(),
-        limit: Some((limit, is_upper && !is_fraction)),
+        limit: Some((limit, is_upper && !is_share)),
         unit,
         note: notes.join(" "),
         drivers: driven_by(requirement.observable().unwrap_or(requirement.name()), influences),

@@ -33,11 +33,20 @@ pub fn figures(plan: &Plan, survey: &Survey, statistics: &[StatisticsRow], has_i
             continue;
         }
         let row = statistics.iter().find(|row| row.name == outcome.quantity.name());
-        let mut distribution = histogram(survey, index, outcome, FigureSection::Outcome);
-        distribution.marks.extend(missed(plan, survey, index, outcome, &distribution.marks));
-        distribution.marks.extend(limits(plan, outcome));
+        let limits = limits(plan, outcome);
+        let at = |mark: &Mark| if let Mark::Limit { at, .. } = mark { Some(*at) } else { None };
+        let edges: Vec<f64> = limits.iter().filter_map(at).collect();
+        let mut distribution = histogram(survey, (index, outcome), FigureSection::Outcome, &edges);
+        let missed = missed(plan, survey, index, outcome, &distribution.marks);
+        distribution.marks.extend(missed);
+        distribution.marks.extend(limits);
+        let mut curve = cumulative(plan, outcome, row, has_intervals);
+        // both on one kind of axis, where the values allow it
+        if distribution.x.scale == Scale::Log && outcome.sketch.min().is_some_and(|min| min > 0.0) {
+            curve.x.scale = Scale::Log;
+        }
         distributions.push(near_limits(distribution));
-        curves.push(near_limits(cumulative(plan, outcome, row, has_intervals)));
+        curves.push(near_limits(curve));
     }
     laid_out(distributions, curves)
 }

@@ -325,3 +325,26 @@ fn bands_of_wheels_are_those_of_the_file() {
     }
     assert!(seen > 1000, "{seen}");
 }
+
+/// Law: where the required quantile is a run without a value, screen and card show the share of the runs that are within, with its interval, and no quantile of the few that have a value.
+#[test]
+fn a_quantile_without_a_number_is_a_share() {
+    let scratch = ScratchFolder::new("loop-page-without-a-number");
+    scratch.file("detumble.toml", DETUMBLE);
+    let said = scratch.prints("campaign detumble.toml --samples 64 --set campaign.duration_s=30 --out r", 5);
+    let found = Found::read(scratch, said);
+    let summary = found.scratch.summary("r");
+    let one = &summary["requirements"]["list"][0];
+    assert_eq!((one["statement"].as_str(), one["verdict"].as_str()), (Some("quantile"), Some("FAIL")), "{one}");
+    assert!(one["value"].is_null(), "{one}");
+    let runs = ["runs", "violations"].map(|key| one[key].as_f64().expect(key));
+    let share = format!("{:.2}%", 100.0 * (runs[0] - runs[1]) / runs[0]);
+    let row = found.said.lines().find(|line| line.contains("time until phase rest, ")).expect("a row");
+    // the number of runs, the median of those that have a value, no quantile, and the largest
+    let cells: Vec<&str> = row.split_once(", min").expect("minutes").1.split_whitespace().collect();
+    assert!(cells.len() == 4 && cells[2] == "-", "{row}");
+    let page = found.visible();
+    let card = page.split("<article").nth(1).expect("a card");
+    assert!(card.contains(&format!("Runs within the limit:</b> {share} [")), "{share}: {card}");
+    assert!(card.contains("at least 95%") && card.contains("<svg"), "{card}");
+}
