@@ -280,15 +280,15 @@ mod tests {
         for (text, unit, told) in [
             ("5 deg", "rad/s", "unit of other quantities"),
             ("5 rad/s", "rad", "unit of other quantities"),
-            ("5 degs", "rad", "no unit that is known"),
+            ("5 degs", "rad", "not a known unit"),
             ("5", "rad", "without quotes"),
             ("five deg", "rad", "write a number"),
             ("inf deg", "rad", "write a number"),
             ("5 deg", "1", "unit of other quantities"),
             ("5 deg / 0", "rad", "divide by zero"),
-            ("5 deg / s", "rad", "no unit that is known"),
+            ("5 deg / s", "rad", "not a known unit"),
             ("5 rad/s", "deg", "unit of other quantities"),
-            ("5 degs", UNKNOWN, "no unit that is known"),
+            ("5 degs", UNKNOWN, "not a known unit"),
         ] {
             let problem = parsed(text, unit).expect_err(text);
             assert!(problem.remedy.contains(told), "{text}: {problem:?}");

@@ -488,7 +488,7 @@ static FAMILIES: &[&[Column]] = &[
     errors!(EnergyConservation, All, EnergyError, "energy_error", "the error in total kinetic energy minus the work of actuators and torques on the body, relative to the largest sum of the energies of all bodies and the magnitudes of the work."),
     scales!(EnergyConservation, All, EnergyTotal, "energy_total", ["J", "_j"], "total kinetic energy (including the debris) in F_e"),
     &[
-        direct!(EnergyConservation, ExternalTorque, Float, WorkThrusters, "work_thrusters_final_j", "J", "Work done up to the last point by the thrusters and by any torque that the environment or a control law applies to the body; on an orbit also by gravity, including its work on the debris."),
+        direct!(EnergyConservation, ExternalTorque, Float, WorkThrusters, "work_thrusters_final_j", "J", "Work done up to the last point by the thrusters and by the torques on the body that the environment or a control law applies; on an orbit also by gravity, including its work on the debris."),
         direct!(EnergyConservation, Motors, Float, WorkMotors, "work_motors_final_j", "J", "Work done by the wheel motors up to the last point."),
     ],
     errors!(MomentumConservation, IntegratedVelocity, LinearMomentumError, "linear_momentum_error", "the error vector of the spacecraft's linear momentum minus the impulse, relative to the largest sum of the magnitudes of its terms and the impulse."),
