@@ -120,7 +120,7 @@ function axisOption(figure, which, palette, width) {
   // what is never negative begins at 0, unless most of the axis would be empty
   if (!given && !axis.log && range[0] > 0 && range[0] < 0.5 * range[1]) range = [0, range[1]];
   const room = which === "x" ? width - (figure.y.names ? 0.5 * width : 84) : heightOf(figure, width) - 58;
-  const found = axis.log ? logAxis(axis, range, room) : linearAxis(axis, range, which === "x" && figure.time, which === "x" ? Math.max(3, width / 90) : 5, room);
+  const found = axis.log ? logAxis(axis, range, room) : linearAxis(axis, range, which === "x" && figure.time, which === "x" ? Math.max(3, width / 90) : room < 140 ? 3 : 5, room);
   // the title of a vertical axis is beside the longest of its numbers
   const widest = DIGIT * Math.max(0, ...found.texts.map((text) => text.length));
   const beside = Math.max(56, Math.ceil(widest) + 20);
@@ -231,19 +231,27 @@ function isNamedLeft(x, width, box) {
   return x > box.x + 0.7 * box.width || (x + width > box.x + box.width && x - width >= box.x);
 }
 
-// The rows of the names of vertical limits, which stand above the axes, where they cover no bar and each other neither: for each mark its row from below.
+// The rows of the names of vertical limits, which stand above the axes, where they cover no bar, no line crosses them and they cover each other neither: for each mark its row from below.
 // `place` gives where a value is, pixels; `box` is what the axes enclose.
 function labelRows(figure, place, box) {
   const [rows, found] = [[], new Map()];
-  for (const mark of figure.marks) {
-    if (mark.kind !== "limit" || !mark.vertical || !mark.label) continue;
+  const open = figure.marks.filter((mark) => mark.kind === "limit" && mark.vertical && mark.label).map((mark) => {
     const x = place(mark.at);
     const width = LETTER * (nameBeside(mark, x, box).length + 3);
     const start = !(x >= box.x - 1) ? box.x : isNamedLeft(x, width, box) ? Math.min(x, box.x + box.width) - width : x;
-    let row = 0;
-    while (rows[row]?.some(([from, to]) => start < to && start + width > from)) row += 1;
-    (rows[row] ??= []).push([start, start + width]);
-    found.set(mark, row);
+    return { mark, x, start, end: start + width };
+  });
+  const covers = (name, { x }) => name.start < x && x < name.end;
+  const placed = [];
+  while (open.length > 0) {
+    // the line of a name ends at its row: what follows stands above
+    const next = open.find((one) => !open.some((other) => other !== one && covers(one, other))) ?? open[0];
+    open.splice(open.indexOf(next), 1);
+    let row = Math.max(0, ...placed.filter((other) => covers(next, other)).map((other) => found.get(other.mark) + 1));
+    while (rows[row]?.some(({ start, end }) => next.start < end && next.end > start)) row += 1;
+    (rows[row] ??= []).push(next);
+    placed.push(next);
+    found.set(next.mark, row);
   }
   return found;
 }
@@ -260,8 +268,8 @@ function middleOf(axis) {
   return axis.type === "category" ? 0 : axis.type === "log" ? Math.sqrt(axis.min * axis.max) : 0.5 * (axis.min + axis.max);
 }
 
-// `others` are the limits across the figure that come before it.
-function limitSeries(mark, palette, [xs, ys], row, others) {
+// `across` are the limits across the figure.
+function limitSeries(mark, palette, [xs, ys], row, across) {
   // the series has a point within the axes: one outside of them would not be drawn
   const data = [[middleOf(xs), middleOf(ys)]];
   return drawn(data, { x: 0, y: 1 }, (to, box) => {
@@ -287,12 +295,16 @@ function limitSeries(mark, palette, [xs, ys], row, others) {
         { type: "text", x: x + (isRight ? -4 : 4), y: above, style: { ...text, align: isRight ? "right" : "left", verticalAlign: "bottom" } },
       ];
     }
-    const isTop = y < box.y + 20;
-    // two names side by side where their lines have no room for one above the other
-    const isLeft = others.filter((other) => Math.abs(to(data[0][0], other.at)[1] - y) < LABEL + 3).length % 2 === 1;
+    // lines that have no room for a name between them have theirs above all of them, or below, in their order
+    const levelOf = (one) => to(data[0][0], one.at)[1];
+    const near = across.filter((other) => Math.abs(levelOf(other) - y) < LABEL + 3).sort((one, other) => levelOf(other) - levelOf(one));
+    const levels = [y, ...near.map(levelOf)];
+    const isTop = Math.min(...levels) - LABEL * Math.max(1, near.length) - 5 < box.y;
+    const rank = Math.max(0, isTop ? near.length - 1 - near.indexOf(mark) : near.indexOf(mark));
+    const named = isTop ? Math.max(...levels) + 3 + LABEL * rank : Math.min(...levels) - 3 - LABEL * rank;
     return [
       { type: "line", shape: { x1: box.x, y1: y, x2: box.x + box.width, y2: y }, style: dash },
-      { type: "text", x: isLeft ? box.x + 4 : box.x + box.width - 4, y: y + (isTop ? 3 : -3), style: { ...text, align: isLeft ? "left" : "right", verticalAlign: isTop ? "top" : "bottom" } },
+      { type: "text", x: box.x + box.width - 4, y: named, style: { ...text, align: "right", verticalAlign: isTop ? "top" : "bottom" } },
     ];
   }, mark.vertical ? LABEL * (row + 1) + 4 : 0);
 }
@@ -369,7 +381,7 @@ export function chartOption(figure, width, palette = colors()) {
     band: (mark) => bandSeries(mark, figure, color(mark)),
     bars: (mark) => barSeries(mark, figure, color(mark)),
     whiskers: (mark) => whiskerSeries(mark, figure, color(mark), palette),
-    limit: (mark) => limitSeries(mark, palette, axes, rows.get(mark) ?? 0, figure.marks.slice(0, figure.marks.indexOf(mark)).filter((one) => one.kind === "limit" && !one.vertical && one.label)),
+    limit: (mark) => limitSeries(mark, palette, axes, rows.get(mark) ?? 0, figure.marks.filter((one) => one.kind === "limit" && !one.vertical && one.label)),
     matrix: (mark) => matrixSeries(mark, figure, palette),
     flight: (mark) => flightSeries(mark, color(mark), axes),
   };

@@ -491,14 +491,18 @@ async function checkSelection(page, name) {
   expect((await rings()) === before, "what is no longer selected is still shown");
 }
 
-// No two texts of a figure cover each other, and the name of a limit is above the bars.
+// No two texts of a figure cover each other, no line of a limit crosses one, and the name of a limit is above the bars.
 async function checkTexts(page, name) {
   const found = await page.evaluate(() => {
-    const [wrong, cut] = [[], []];
+    const [wrong, cut, crossed] = [[], [], []];
     for (const figure of document.querySelectorAll("figure")) {
       const texts = Array.from(figure.querySelectorAll(".plot svg text"), (text) => ({ text: text.textContent, box: text.getBoundingClientRect() })).filter(({ text, box }) => text.trim() && box.width > 0);
       const plot = figure.querySelector(".plot").getBoundingClientRect();
       for (const { text, box } of texts) if (box.left < plot.left - 1.5 || box.right > plot.right + 1.5) cut.push(`${figure.id}: "${text}"`);
+      const dashed = Array.from(figure.querySelectorAll(".plot svg path[stroke-dasharray]"), (line) => line.getBoundingClientRect());
+      const upright = dashed.filter((line) => line.width < 2 && line.height > 20);
+      const isOn = (line, box) => line.left > box.left + 2 && line.right < box.right - 2 && line.top < box.bottom - 4 && line.bottom > box.top + 4;
+      for (const { text, box } of texts) if (upright.some((line) => isOn(line, box))) crossed.push(`${figure.id}: "${text}"`);
       for (let i = 0; i < texts.length; i += 1) {
         for (let j = i + 1; j < texts.length; j += 1) {
           const [a, b] = [texts[i].box, texts[j].box];
@@ -507,8 +511,9 @@ async function checkTexts(page, name) {
         }
       }
     }
-    return { wrong, cut };
+    return { wrong, cut, crossed };
   });
+  for (const text of found.crossed.slice(0, 8)) problems.push(`${name}: a line of a limit crosses a name: ${text}`);
   for (const text of found.wrong.slice(0, 8)) problems.push(`${name}: texts cover each other: ${text}`);
   for (const text of found.cut.slice(0, 8)) problems.push(`${name}: a text leaves its figure: ${text}`);
 }
