@@ -1,8 +1,9 @@
-//! [`text`]: the keys in which two plans differ, as a table: those that changed alike once, and what only one plan has by its table.
+//! The keys in which two plans differ, as a table ([`text`]) or as phrases ([`phrases`]): those that changed alike once, and what only one plan has by its table.
 
 use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, said};
 use crate::report::compared::Compared;
+use crate::report::number::counted;
 use crate::report::text_table::{Align, TextTable};
 use crate::report::wrapped::fitted;
 
@@ -44,6 +45,21 @@ pub fn text(compared: Compared<'_>, most: usize, width: usize) -> String {
         left => format!("  and {left} more keys\n"),
     };
     table.text(width) + &more
+}
+
+/// The same as phrases, at most `most` and one that counts the other keys; `plans` where both can be read.
+pub fn phrases(keys: &[KeyDifference], plans: Option<[&Plan; 2]>, most: usize) -> Vec<String> {
+    let all = lines(keys, plans);
+    let phrase = |Line { key, values: [before, after], .. }: &Line| match (before.as_str(), after.as_str()) {
+        (ABSENT, THERE) => format!("new: {key}"),
+        (THERE, ABSENT) => format!("gone: {key}"),
+        (ABSENT, after) => format!("new: {key} = {after}"),
+        (before, ABSENT) => format!("gone: {key} = {before}"),
+        (before, after) => format!("{key}: {before} -> {after}"),
+    };
+    let left: usize = all.iter().skip(most).map(|line| line.count).sum();
+    let more = (left > 0).then(|| counted(left, "more key"));
+    all.iter().take(most).map(phrase).chain(more).collect()
 }
 
 /// The lines, in the order of the keys.
@@ -112,5 +128,10 @@ mod tests {
             ]
         );
         assert_eq!(found.iter().map(|line| line.count).sum::<usize>(), keys.len());
+        assert_eq!(
+            phrases(&keys, Some([&plan; 2]), 3),
+            ["guidance.*.gain: 1 -> 2", "guidance.a.k: 1 -> 2", "gone: disperse[x].*", "3 more keys"]
+        );
+        assert_eq!(phrases(&text_differences("a = 1.0\n", "b = 2\n"), None, 4), ["gone: .a = 1", "new: .b = 2"]);
     }
 }
