@@ -63,7 +63,7 @@ pub fn together(verdicts: &Verdicts) -> Vec<String> {
     let has_number = |one: &Assessment| matches!(one.gate.decision, Decision::Undecided(Some(_)));
     if verdicts.looks == 1 && verdicts.list.iter().any(has_number) {
         said.push(
-            "to decide by adding runs write [stop] when = \"decided\": testing again after each addition errs more often"
+            "to add runs until every requirement is decided, write [stop] when = \"decided\"; adding runs by hand and testing again makes wrong verdicts more likely"
                 .to_owned(),
         );
     }
