@@ -75,7 +75,10 @@ fn a_campaign_fits_a_screen() {
         let needed = list.iter().filter_map(|one| one["runs_that_would_decide"].as_u64()).max();
         let joined = out.split_whitespace().collect::<Vec<_>>().join(" ");
         match needed {
-            Some(runs) => assert!(joined.contains(&format!("about {runs} runs should decide")), "{runs}:\n{out}"),
+            Some(runs) => {
+                let said = format!("about {runs} runs should decide what is undecided, if the truth is as observed ");
+                assert!(joined.contains(&said), "{runs}:\n{out}");
+            }
             None => assert!(!joined.contains("should decide"), "{out}"),
         }
         several |=
