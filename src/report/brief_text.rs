@@ -41,7 +41,7 @@ pub fn text(plan: &Plan, summary: &Summary, all: &[InputSensitivity], file: &str
         end += &wrapped(&audit.coverage(), width);
     }
     if !failures.is_empty() {
-        end += &summary.first_failures(file);
+        end += &summary.first_failures(file, width);
     }
     let gap = if text.is_empty() { "" } else { "\n" };
     let room = most.saturating_sub([&text, gap, &end].map(|part| part.matches('\n').count()).iter().sum::<usize>());
