@@ -4,6 +4,7 @@ use crate::analysis::missions::Missions;
 use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
 use crate::report::escaped::escaped;
+use crate::report::failure_text::readable;
 use crate::report::mission_text;
 use crate::report::names::sentence;
 use crate::report::page::cards::{Card, Judged, overall};
@@ -162,7 +163,7 @@ pub fn status(plan: &Plan, survey: &Survey) -> String {
             format!(
                 "<p class=\"reason\"><b>{}</b> first in sample {sample}: {}. Replay in this folder: <code>spindrift simulate plan.toml --sample {sample}</code></p>",
                 words(ended.status),
-                escaped(reason.trim_end_matches('.')),
+                escaped(readable(reason).trim_end_matches('.')),
             )
         })
         .collect();
