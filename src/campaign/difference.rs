@@ -86,24 +86,41 @@ fn called<'t>(list: &str, lines: impl Iterator<Item = &'t str>) -> Option<String
     })
 }
 
-/// The value of a key of `plan`, which canonical text has in SI units: in the unit in which people see it where it is shorter so (5 deg for
-/// 0.08726646259971647), and with its unit where the key does not name it.
-pub fn said(plan: &Plan, key: &str, value: &str) -> String {
-    let Some((unit, shown, is_named)) = unit_of(plan, key) else { return value.to_owned() };
+/// The values of a key of two `plans`, which canonical text has in SI units: both in the unit in which people see them where they are shorter so (5 deg for
+/// 0.08726646259971647), each with that unit, or with its own where the key does not name it. Without plans only the numbers are written as people write them.
+pub fn said(plans: Option<[&Plan; 2]>, key: &str, values: [Option<&str>; 2]) -> [Option<String>; 2] {
+    let units = [0, 1].map(|side| values[side].and(unit_of(plans?[side], key)));
+    let [first, second] = units.each_ref().map(|unit| unit.as_ref().map(|(unit, ..)| *unit));
+    if values.iter().all(Option::is_some) && first != second {
+        // the requirements in this place are about different quantities
+        let [first, _] = said(plans, key, [values[0], None]);
+        let [_, second] = said(plans, key, [None, values[1]]);
+        return [first, second];
+    }
+    let texts = |of: &dyn Fn(f64) -> f64| values.map(|value| value.map(|value| with_numbers(value, of)));
+    let own = texts(&|x| x);
+    let unit = units.into_iter().flatten().next();
+    let Some((unit, shown, is_named)) = unit else { return own.map(|text| text.map(|(text, _)| text)) };
+    let other = texts(&|x| shown.written(x));
+    let length =
+        |texts: &[Option<(String, bool)>; 2]| texts.iter().flatten().map(|(text, _)| text.len()).sum::<usize>();
+    let is_shown = !shown.is_own() && length(&other) < length(&own) && other[0] != other[1];
+    let (texts, unit) = match is_shown {
+        true => (other, shown.unit.as_str()),
+        false => (own, if is_named { "" } else { unit }),
+    };
+    let with_unit = |(text, is_number)| if is_number { format!("{text} {unit}").trim_end().to_owned() } else { text };
+    texts.map(|text| text.map(with_unit))
+}
+
+/// A value with `of` of each of its numbers, and whether it is a number or a list of them; anything else as it is.
+fn with_numbers(value: &str, of: &dyn Fn(f64) -> f64) -> (String, bool) {
     let inner = value.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
     let numbers: Option<Vec<f64>> = inner.unwrap_or(value).split(", ").map(|number| number.parse().ok()).collect();
-    let Some(numbers) = numbers else { return value.to_owned() };
-    let text = |of: &dyn Fn(f64) -> f64| {
-        let number = |x: &f64| format!("{:?}", of(*x)).trim_end_matches(".0").to_owned();
-        let list: Vec<String> = numbers.iter().map(number).collect();
-        if inner.is_some() { format!("[{}]", list.join(", ")) } else { list.concat() }
-    };
-    let (own, other) = (text(&|x| x), text(&|x| shown.written(x)));
-    match (is_named, other.len() < own.len() && !shown.is_own()) {
-        (_, true) => format!("{other} {}", shown.unit),
-        (false, false) => format!("{own} {unit}").trim_end().to_owned(),
-        (true, false) => own,
-    }
+    let Some(numbers) = numbers else { return (value.to_owned(), false) };
+    let number = |x: &f64| format!("{:?}", of(*x)).trim_end_matches(".0").to_owned();
+    let list: Vec<String> = numbers.iter().map(number).collect();
+    (if inner.is_some() { format!("[{}]", list.join(", ")) } else { list.concat() }, true)
 }
 
 /// The SI unit of the numbers of a key, the one in which people see them, and whether the key names it.
@@ -156,8 +173,40 @@ mod tests {
             ("initial.position_m", "[-28.0, -14.0, 18.0]".to_owned(), "[-28, -14, 18]"),
             ("campaign.samples", "1024".to_owned(), "1024"),
         ] {
-            assert_eq!(said(&plan, key, &value), known, "{key}");
+            let [found, none] = said(Some([&plan; 2]), key, [Some(&value), None]);
+            assert_eq!((found.as_deref(), none), (Some(known), None), "{key}");
         }
+        // without a plan, and of a key without a unit
+        assert_eq!(said(None, "campaign.duration_s", [Some("600.0"), None])[0].as_deref(), Some("600"));
+    }
+
+    /// Law: both values of a key are in one unit, in which they differ, and both say it or, where the key names it, neither; those of requirements about different quantities
+    /// are each in its own.
+    #[test]
+    fn both_values_are_in_one_unit() {
+        let text = include_str!("../../campaigns/net_launch.toml");
+        let plan = Plan::from_text("net_launch", text, Overrides::default()).expect("valid");
+        let radians = core::f64::consts::PI / 180.0;
+        let rates = "initial.angular_velocity_rad_s";
+        let ten = format!("[0.0, 0.0, {:?}]", 10.0 * radians);
+        let near = format!("{:?}", 10.0 * radians + 1e-9);
+        for (key, values, known) in [
+            (rates, [&ten[..], "[0.0, 0.0, 0.25]"], ["[0, 0, 10] deg/s", "[0, 0, 14.324] deg/s"]),
+            (rates, ["[0.0, 0.0, 0.25]", &ten[..]], ["[0, 0, 14.324] deg/s", "[0, 0, 10] deg/s"]),
+            (rates, ["[0.0, 0.0, 0.5]", "[0.0, 0.0, 0.25]"], ["[0, 0, 0.5]", "[0, 0, 0.25]"]),
+            ("disperse[initial.position_m].std", ["1.5", "2.0"], ["1.5 m", "2 m"]),
+            ("guidance.aim.max_rate_rad_s", ["0.17453292", &near], ["0.17453292", &near]),
+            ("campaign.duration_s", ["600.0", "30.0"], ["600", "30"]),
+            ("integrator.method", ["\"auto\"", "\"taylor\""], ["\"auto\"", "\"taylor\""]),
+        ] {
+            let found = said(Some([&plan; 2]), key, values.map(Some));
+            assert_eq!(found.each_ref().map(Option::as_deref), known.map(Some), "{key}");
+        }
+        let text = include_str!("../../campaigns/nadir_pointing.toml");
+        let other = Plan::from_text("nadir_pointing", text, Overrides::default()).expect("valid");
+        let limit = format!("{:?}", 0.1 * radians);
+        let found = said(Some([&plan, &other]), "require[0].at_most", [Some("1.0"), Some(&limit)]);
+        assert_eq!(found, ["1", "0.1 deg"].map(|text| Some(text.to_owned())));
     }
 
     #[test]

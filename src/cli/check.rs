@@ -260,7 +260,9 @@ fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
             String::new()
         };
         return format!(
-            "\n== Estimate\ntime and disk space cannot be estimated: sample {sample} needs more than {PACE_STEPS} steps, which lead to {reached:?} s of {duration:?} s{end}\n"
+            "\n== Estimate\ntime and disk space cannot be estimated: sample {sample} needs more than {PACE_STEPS} steps, which lead to {} s of {} s{end}\n",
+            trimmed(reached, 6),
+            trimmed(duration, 6)
         );
     }
     let failed = if probe.failed() == 0 || probe.is_hopeless() { String::new() } else { failures(plan, probe) };

@@ -27,21 +27,24 @@ const UNKNOWN_WIDTH: usize = 100;
 /// Number of characters in a line of standard output: as the variable COLUMNS says (POSIX.1-2017, section 8.3), else as the terminal says,
 /// else 100.
 pub fn width() -> usize {
-    width_of(&io::stdout())
+    width_of(&io::stdout()).unwrap_or(UNKNOWN_WIDTH)
 }
 
-/// The same of another stream.
-fn width_of(stream: &impl Stream) -> usize {
+/// The same of any stream; `None` where nothing says it.
+fn width_of(stream: &impl Stream) -> Option<usize> {
     let asked = std::env::var("COLUMNS").ok().and_then(|text| text.trim().parse().ok());
-    asked.filter(|width| *width > 0).or_else(|| terminal_width(stream)).unwrap_or(UNKNOWN_WIDTH)
+    asked.filter(|width| *width > 0).or_else(|| terminal_width(stream))
 }
 
 /// Prints a message on standard error; failure to write it is ignored.
 pub fn note(text: &str) {
     let mut out = io::stderr().lock();
     let text = printable(text);
-    // a pipe gets lines as they are
-    let text = if out.is_terminal() { message(&text, width_of(&out)).into() } else { text };
+    // a pipe whose reader names no width gets lines as they are
+    let text = match width_of(&out).or(out.is_terminal().then_some(UNKNOWN_WIDTH)) {
+        Some(width) => message(&text, width).into(),
+        None => text,
+    };
     let text = if colour::is_on(&out) { coloured(&text, Kind::Note).into() } else { text };
     let _ = writeln!(out, "{text}");
 }

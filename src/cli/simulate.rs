@@ -10,6 +10,7 @@ use crate::cli::{dispersions, screen};
 use crate::ensemble::SingleRun;
 use crate::ensemble::audit::AuditValue;
 use crate::math::Isa;
+use crate::report::failure_text::readable;
 use crate::report::image::{PlotError, PlotFormat};
 use crate::report::mission_text;
 use crate::report::number::{counted, short};
@@ -77,7 +78,7 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
         screen::note(&end);
     }
     if run.outcome.status != Status::Done {
-        let (status, reason) = (run.outcome.status.name(), &run.reason);
+        let (status, reason) = (run.outcome.status.name(), readable(&run.reason));
         let later = if run.outcome.status == Status::Inaccurate { "" } else { "; later points are not shown" };
         screen::note(&format!("the run ended with {status}: {reason}{later}"));
     }

@@ -5,6 +5,7 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::terminal::Terminal;
 use crate::cli::{completed_text, screen};
 use crate::report::number::counted;
+use crate::report::wrapped::wrapped;
 use crate::storage::names::PLAN;
 use crate::workflow::{Session, Verification, Verified, verify};
 
@@ -34,6 +35,7 @@ pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
             unchecked.join(", ")
         ),
     };
-    screen::print(&format!("{}{checked}: {end}\n", completed.unwrap_or_default()))?;
+    let said = wrapped(&format!("{checked}: {end}\n"), screen::width());
+    screen::print(&(completed.unwrap_or_default() + &said))?;
     Ok(if *is_finished { CommandOutcome::Done } else { CommandOutcome::Unfinished })
 }

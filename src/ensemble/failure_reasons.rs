@@ -46,8 +46,13 @@ impl FailureReasons {
     }
 }
 
-/// `text` with a mark in place of each number. Digits within a name (`w1`) are part of it.
+/// `text` with a mark in place of each number.
 fn without_numbers(text: &str) -> String {
+    with_numbers(text, |_| "#".to_owned())
+}
+
+/// `text` with each number as it is `shown`. Digits within a name (`w1`) are part of it.
+pub fn with_numbers(text: &str, shown: impl Fn(&str) -> String) -> String {
     let mut kept = String::with_capacity(text.len());
     let mut chars = text.chars().peekable();
     while let Some(c) = chars.next() {
@@ -56,17 +61,15 @@ fn without_numbers(text: &str) -> String {
             kept.push(c);
             continue;
         }
+        let mut number = if kept.ends_with('-') { kept.pop().into_iter().collect() } else { String::new() };
+        number.push(c);
         // the sign of an exponent follows its e
-        let mut last = c;
         while let Some(next) = chars.next_if(|next| {
-            next.is_ascii_digit() || matches!(next, '.' | 'e') || matches!(next, '+' | '-') && last == 'e'
+            next.is_ascii_digit() || matches!(next, '.' | 'e') || matches!(next, '+' | '-') && number.ends_with('e')
         }) {
-            last = next;
+            number.push(next);
         }
-        if kept.ends_with('-') {
-            kept.pop();
-        }
-        kept.push('#');
+        kept += &shown(&number);
     }
     kept
 }

@@ -40,9 +40,8 @@ pub fn text(plan: &Plan, summary: &Summary, all: &[InputSensitivity], file: &str
     if let Some(audit) = &summary.audit {
         end += &wrapped(&audit.coverage(), width);
     }
-    // commands stay whole, to be copied
     if !failures.is_empty() {
-        end += &summary.first_failures(file);
+        end += &summary.first_failures(file, width);
     }
     let gap = if text.is_empty() { "" } else { "\n" };
     let room = most.saturating_sub([&text, gap, &end].map(|part| part.matches('\n').count()).iter().sum::<usize>());
@@ -97,9 +96,9 @@ fn requirements_table(summary: &Summary, width: usize) -> String {
         Decision::Undecided(runs) => runs,
         _ => None,
     });
-    let needed = needed.max().map_or(String::new(), |runs| {
-        format!("  about {runs} runs should decide what is undecided (9 of 10 such campaigns would)\n")
-    });
+    let needed = needed
+        .max()
+        .map_or(String::new(), |runs| format!("  {}\n", requirements::runs_needed(Some(&runs.to_string()))));
     verdict_table::text([&head, &of], &rows, width) + &wrapped(&needed, width)
 }
 

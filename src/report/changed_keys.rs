@@ -1,8 +1,9 @@
-//! [`text`]: the keys in which two plans differ, as a table: those that changed alike once, and what only one plan has by its table.
+//! The keys in which two plans differ, as a table ([`text`]) or as phrases ([`phrases`]): those that changed alike once, and what only one plan has by its table.
 
 use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, said};
 use crate::report::compared::Compared;
+use crate::report::number::counted;
 use crate::report::text_table::{Align, TextTable};
 use crate::report::wrapped::fitted;
 
@@ -10,6 +11,9 @@ use crate::report::wrapped::fitted;
 const LONGEST_VALUE: usize = 24;
 /// Fewer keys are all shown.
 const FEW: usize = 4;
+/// In place of the value of a key that a plan does not have, and of the values of several that it has.
+const ABSENT: &str = "-";
+const THERE: &str = "there";
 
 /// A line of the table: the key, or what several have in common, and the values.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,7 +25,7 @@ struct Line {
 
 /// The table in lines of `width` characters with at most `most` rows; nothing where the plans are the same.
 pub fn text(compared: Compared<'_>, most: usize, width: usize) -> String {
-    let all = lines(compared.keys, compared.plans);
+    let all = lines(compared.keys, Some(compared.plans));
     if all.is_empty() {
         return "  the plans are the same\n".to_owned();
     }
@@ -43,14 +47,27 @@ pub fn text(compared: Compared<'_>, most: usize, width: usize) -> String {
     table.text(width) + &more
 }
 
+/// The same as phrases, at most `most` and one that counts the other keys; `plans` where both can be read.
+pub fn phrases(keys: &[KeyDifference], plans: Option<[&Plan; 2]>, most: usize) -> Vec<String> {
+    let all = lines(keys, plans);
+    let phrase = |Line { key, values: [before, after], .. }: &Line| match (before.as_str(), after.as_str()) {
+        (ABSENT, THERE) => format!("new: {key}"),
+        (THERE, ABSENT) => format!("gone: {key}"),
+        (ABSENT, after) => format!("new: {key} = {after}"),
+        (before, ABSENT) => format!("gone: {key} = {before}"),
+        (before, after) => format!("{key}: {before} -> {after}"),
+    };
+    let left: usize = all.iter().skip(most).map(|line| line.count).sum();
+    let more = (left > 0).then(|| counted(left, "more key"));
+    all.iter().take(most).map(phrase).chain(more).collect()
+}
+
 /// The lines, in the order of the keys.
-fn lines(keys: &[KeyDifference], [first, second]: [&Plan; 2]) -> Vec<Line> {
+fn lines(keys: &[KeyDifference], plans: Option<[&Plan; 2]>) -> Vec<Line> {
     let mut lines: Vec<Line> = Vec::new();
     for one in keys {
-        let value = |value: &Option<String>, plan: &Plan| {
-            value.as_ref().map_or_else(|| "-".to_owned(), |value| said(plan, &one.key, value))
-        };
-        let values = [value(&one.first, first), value(&one.second, second)];
+        let values = said(plans, &one.key, [one.first.as_deref(), one.second.as_deref()]);
+        let values = values.map(|value| value.unwrap_or_else(|| ABSENT.to_owned()));
         match lines.iter_mut().find_map(|line| Some((common(&line.key, &one.key, &line.values, &values)?, line))) {
             Some(((key, values), line)) => *line = Line { key, count: line.count + 1, values },
             None => lines.push(Line { key: one.key.clone(), count: 1, values }),
@@ -63,12 +80,12 @@ fn lines(keys: &[KeyDifference], [first, second]: [&Plan; 2]) -> Vec<Line> {
 fn common(key: &str, other: &str, values: &[String; 2], of_other: &[String; 2]) -> Option<(String, [String; 2])> {
     let of = |key: &str| key.rsplit_once('.').map(|(table, last)| (table.to_owned(), last.to_owned()));
     let ((table, last), (other_table, other_last)) = (of(key)?, of(other)?);
-    let [is_new, is_gone] = [0, 1].map(|side| values[side] == "-" && of_other[side] == "-");
+    let [is_new, is_gone] = [0, 1].map(|side| values[side] == ABSENT && of_other[side] == ABSENT);
     // `[table]` stands for all its keys
     let listed = key.strip_suffix(".*").unwrap_or(&table);
     if (is_new || is_gone) && listed == other_table {
-        let there = "there".to_owned();
-        let values = if is_new { ["-".to_owned(), there] } else { [there, "-".to_owned()] };
+        let (there, absent) = (THERE.to_owned(), ABSENT.to_owned());
+        let values = if is_new { [absent, there] } else { [there, absent] };
         return Some((format!("{listed}.*"), values));
     }
     let list = |table: &str| table.split(['.', '[']).next().map(str::to_owned);
@@ -95,7 +112,7 @@ mod tests {
         let second = gains("2.0").replace("k = 1", "k = 2")
             + "[campaign]\nseed = 1\n[[disperse]]\nparameter = \"y\"\nstd = 2.0\nmean = 0.0\n";
         let keys = text_differences(&first, &second);
-        let found = lines(&keys, [&plan, &plan]);
+        let found = lines(&keys, Some([&plan, &plan]));
         let line = |key: &str, count, values: [&str; 2]| Line {
             key: key.to_owned(),
             count,
@@ -104,12 +121,17 @@ mod tests {
         assert_eq!(
             found,
             [
-                line("guidance.*.gain", 2, ["1.0", "2.0"]),
+                line("guidance.*.gain", 2, ["1", "2"]),
                 line("guidance.a.k", 1, ["1", "2"]),
                 line("disperse[x].*", 2, ["there", "-"]),
                 line("disperse[y].*", 3, ["-", "there"]),
             ]
         );
         assert_eq!(found.iter().map(|line| line.count).sum::<usize>(), keys.len());
+        assert_eq!(
+            phrases(&keys, Some([&plan; 2]), 3),
+            ["guidance.*.gain: 1 -> 2", "guidance.a.k: 1 -> 2", "gone: disperse[x].*", "3 more keys"]
+        );
+        assert_eq!(phrases(&text_differences("a = 1.0\n", "b = 2\n"), None, 4), ["gone: .a = 1", "new: .b = 2"]);
     }
 }

@@ -17,11 +17,14 @@ const FEW: [usize; 2] = [6, 3];
 /// Outcomes at least, on such a screen.
 const LEAST_OUTCOMES: usize = 2;
 
-/// The text for lines of `width` characters, all of it or one screen: the results, the requirements, what differs between the plans, the outcomes that are
+/// The text for lines of `width` characters, all of it or one screen: that the campaigns are different, where they are, the results, the requirements, what differs between the plans, the outcomes that are
 /// shifted, and the verdict.
 pub fn text(compared: Compared<'_>, is_verbose: bool, width: usize) -> String {
-    let Compared { names, comparison, .. } = compared;
-    let mut text = String::new();
+    let Compared { names, comparison, plans: [first, second], .. } = compared;
+    let mut text = match (&first.name, &second.name) {
+        (first, second) if first == second => String::new(),
+        (first, second) => wrapped(&format!("different campaigns: {first} and {second}\n"), width),
+    };
     for ((when, name), of) in ["before:", "after: "].into_iter().zip(names).zip(&comparison.statistics) {
         text += &wrapped(&format!("{when} {name}, {} of {} ok\n", of.ok(), counted(of.samples(), "run")), width);
     }

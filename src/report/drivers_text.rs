@@ -117,7 +117,7 @@ fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ra
     if named.is_empty() {
         let of = event.of;
         let verb = verb(outcome, event, of.events);
-        return format!("{} of {} runs {verb}; no input is shown to decide which", of.events, of.runs);
+        return format!("{} of {} runs {verb}; no input was found that explains which", of.events, of.runs);
     }
     named.join("; ")
 }
@@ -164,7 +164,7 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     }
     let most = ranking.inputs.iter().map(|ranked| ranked.share.value).fold(0.0, f64::max);
     let rest = rest.map_or_else(String::new, |rest| format!("; {rest}"));
-    format!("no single input is seen to explain more than {:.0}% of the variance{rest}", (100.0 * most).ceil())
+    format!("no single input was found to explain more than {:.0}% of the variance{rest}", (100.0 * most).ceil())
 }
 
 /// What the rest of the variance is, where the drivers explain less than half of it.
@@ -201,7 +201,7 @@ pub fn text(plan: &Plan, all: &[InputSensitivity], width: usize) -> String {
     if has_rest && !matches!(plan.design, Design::Saltelli(_)) {
         text += &format!("  shares of the variance: {SEE_INTERACTIONS}\n");
     }
-    if text.is_empty() { text } else { format!("\n  driven by\n{text}") }
+    if text.is_empty() { text } else { format!("\n  drivers\n{text}") }
 }
 
 #[cfg(test)]

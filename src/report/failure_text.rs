@@ -1,6 +1,8 @@
 //! Why runs failed, as lines of text.
 
 use crate::ensemble::FailureReason;
+use crate::ensemble::failure_reasons::with_numbers;
+use crate::report::number::trimmed;
 use crate::run::Status;
 
 /// Most reasons that are listed.
@@ -16,12 +18,24 @@ pub fn remedy(status: Status) -> Option<&'static str> {
     }
 }
 
+/// A reason as people read it: its numbers, which are those of the run bit for bit, in six digits.
+pub fn readable(reason: &str) -> String {
+    with_numbers(reason, |number| {
+        // a sentence may end with it
+        let digits = number.trim_end_matches('.');
+        match digits.parse::<f64>() {
+            Ok(value) if digits.contains('.') && digits.len() > 8 => trimmed(value, 6) + &number[digits.len()..],
+            _ => number.to_owned(),
+        }
+    })
+}
+
 /// A line for each of `groups`, as many as are listed: how many runs, how they ended, and the reason of the first.
 pub fn text(groups: &[&FailureReason]) -> String {
     let line = |one: &&FailureReason| {
         let (status, which) = (one.status.name(), if one.count == 1 { "" } else { "first " });
         let remedy = remedy(one.status).map_or(String::new(), |remedy| format!("{:14}{remedy}\n", ""));
-        format!("  {:>10}  {status}: {} ({which}sample {})\n{remedy}", one.count, one.text, one.first)
+        format!("  {:>10}  {status}: {} ({which}sample {})\n{remedy}", one.count, readable(&one.text), one.first)
     };
     let mut text: String = groups.iter().take(MOST).map(line).collect();
     if groups.len() > MOST {
@@ -35,6 +49,19 @@ pub fn text(groups: &[&FailureReason]) -> String {
 mod tests {
     use super::*;
     use crate::sampling::SampleId;
+
+    /// Known: long numbers are rounded; names, counts, short numbers and points at the end of a sentence stay.
+    #[test]
+    fn long_numbers_are_rounded() {
+        for (reason, said) in [
+            ("the run reached 0.6315175779453478 s", "the run reached 0.631518 s"),
+            ("at -1.2345678901234567e-7.", "at -1.23457e-7."),
+            ("wheels.w1.mass_kg is 12.5; 1000000000 steps. 2.", "wheels.w1.mass_kg is 12.5; 1000000000 steps. 2."),
+            ("sha 0123456789abc.5", "sha 0123456789abc.5"),
+        ] {
+            assert_eq!(readable(reason), said);
+        }
+    }
 
     /// Law: every run is counted once, in the line of its reason or in that of the others; a run that is alone is not the first of several.
     #[test]

@@ -38,15 +38,14 @@ pub struct Unreadable {
     pub reason: String,
 }
 
-/// The words of verdicts, those that call for attention first.
-const WORDS: [&str; 3] = ["FAIL", "UNDECIDED", "PASS"];
+/// The words of verdicts.
+const WORDS: [&str; 3] = ["PASS", "FAIL", "UNDECIDED"];
 
 impl IndexEntry {
-    /// The verdicts, counted: `3 PASS, 1 FAIL`; of a campaign without requirements a dash.
-    fn verdicts(&self) -> String {
-        let count = |word: &&str| (self.end.count(word), word.to_string());
-        let found = ["PASS", "FAIL", "UNDECIDED"].iter().map(count).filter(|(count, _)| *count > 0);
-        let found: Vec<String> = found.map(|(count, word)| format!("{count} {word}")).collect();
+    /// The verdicts, counted, each as `said` of its count and its word: `3 PASS, 1 FAIL`; of a campaign without requirements a dash.
+    fn verdicts(&self, said: impl Fn(usize, &str) -> String) -> String {
+        let counts = WORDS.iter().map(|word| (self.end.count(word), word)).filter(|(count, _)| *count > 0);
+        let found: Vec<String> = counts.map(|(count, word)| said(count, word)).collect();
         if found.is_empty() { "-".to_owned() } else { found.join(", ") }
     }
 
@@ -55,19 +54,13 @@ impl IndexEntry {
         let SummaryEnd { rows, failed, .. } = self.end;
         if failed > 0 { format!("{} of {rows}", rows - failed) } else { rows.to_string() }
     }
-
-    /// The class of the verdict that weighs most.
-    fn class(&self) -> String {
-        let worst = WORDS.iter().find(|word| self.end.count(word) > 0);
-        worst.map_or("none".to_owned(), |word| word.to_lowercase())
-    }
 }
 
 /// The table as text for lines of `width` characters.
 pub fn text(entries: &[IndexEntry], unreadable: &[Unreadable], width: usize) -> String {
     let mut table = TextTable::new([
-        ("result", Align::Left),
-        ("verdicts", Align::Left),
+        ("result", Align::Title),
+        ("verdicts", Align::Whole),
         ("runs", Align::Right),
         ("day", Align::Left),
         ("version", Align::Left),
@@ -79,7 +72,7 @@ pub fn text(entries: &[IndexEntry], unreadable: &[Unreadable], width: usize) -> 
         let campaign = if is_named { String::new() } else { format!(" ({})", one.campaign) };
         let cells = [
             format!("{}{campaign}", one.folder.display()),
-            one.verdicts(),
+            one.verdicts(|count, word| format!("{count} {word}")),
             one.runs(),
             one.day.clone(),
             one.version.clone(),
@@ -99,7 +92,8 @@ pub fn text(entries: &[IndexEntry], unreadable: &[Unreadable], width: usize) -> 
 /// The page; `title` is the name of the folder.
 pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> String {
     let row = |one: &IndexEntry| {
-        let folder = escaped(&one.folder.display().to_string());
+        // a long path is broken between its folders
+        let folder = escaped(&one.folder.display().to_string()).replace('/', "/<wbr>");
         let name = match &one.page {
             Some(page) => format!("<a href=\"{}\">{folder}</a>", link(&page.display().to_string())),
             None => folder,
@@ -108,19 +102,20 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
             .question
             .as_deref()
             .map_or(String::new(), |text| format!("<br><span class=\"quiet\">{}</span>", escaped(&sentence(text))));
-        format!(
-            "<tr><td class=\"text\">{name}{question}</td><td class=\"text\">{}</td><td class=\"text verdict {}\">{}</td><td>{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>\n",
+        let word = |count, word: &str| format!("<span class=\"{}\">{count} {word}</span>", word.to_lowercase());
+        let cells = [
+            name + &question,
             escaped(&one.campaign),
-            one.class(),
-            escaped(&one.verdicts()),
+            one.verdicts(word),
             escaped(&one.runs()),
             escaped(&one.day),
             escaped(&one.version),
             escaped(one.changed.as_deref().unwrap_or("first run")),
-        )
+        ];
+        let cells = HEADS.iter().zip(cells).map(|(head, cell)| format!("<td data-head=\"{head}\">{cell}</td>"));
+        format!("<tr>{}</tr>\n", cells.collect::<String>())
     };
-    let heads = ["Result", "Campaign", "Verdicts", "Runs computed", "Day", "Version", "Changed since the last run"];
-    let heads: String = heads.iter().map(|head| format!("<th scope=\"col\">{head}</th>")).collect();
+    let heads: String = HEADS.iter().map(|head| format!("<th scope=\"col\">{head}</th>")).collect();
     let rows: String = entries.iter().map(row).collect();
     let left_out: String = unreadable
         .iter()
@@ -133,12 +128,25 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
     };
     let (name, count) = (escaped(title), counted(entries.len(), "result"));
     format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{name} - spindrift</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}{OWN_STYLE}</style>\n</head>\n<body>\n<header><h1>{name}</h1><p class=\"facts\">{count}, by campaign, the latest run first</p></header>\n<main>\n<section id=\"results\"><div class=\"scroll\"><table><thead><tr>{heads}</tr></thead><tbody>\n{rows}</tbody></table></div></section>\n{left_out}</main>\n</body>\n</html>\n"
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{name} - spindrift</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}{OWN_STYLE}</style>\n</head>\n<body>\n<header><h1>{name}</h1><p class=\"facts\">{count}, by campaign, the latest run first</p></header>\n<main>\n<section id=\"results\"><table><thead><tr>{heads}</tr></thead><tbody>\n{rows}</tbody></table></section>\n{left_out}</main>\n</body>\n</html>\n"
     )
 }
 
-/// Of the table of results alone.
-const OWN_STYLE: &str = "td.verdict.pass { color: var(--pass); } td.verdict.fail { color: var(--fail); font-weight: 600; } td.verdict.undecided { color: var(--undecided); } td, th { vertical-align: top; text-align: left; } td.text, th { white-space: normal; overflow-wrap: anywhere; min-width: 5rem; }\n";
+/// The heads of the table. What changed may have names of any length, and alone is broken within a word.
+const HEADS: [&str; 7] =
+    ["Result", "Campaign", "Verdicts", "Runs computed", "Day", "Version", "Changed since the last run"];
+
+/// Of the table of results alone: where it is narrow each row is a card.
+const OWN_STYLE: &str = "\
+.pass { color: var(--pass); } .fail { color: var(--fail); font-weight: 600; } .undecided { color: var(--undecided); }
+#results th, #results td { text-align: left; white-space: normal; } #results td span:not(.quiet), #results td:nth-child(5) { white-space: nowrap; }
+#results td:last-child { overflow-wrap: anywhere; min-width: 12rem; }
+@media screen and (max-width: 699px) {
+  #results thead { display: none; } #results table, #results tbody, #results tr, #results td { display: block; }
+  #results tr { margin: 0.8rem 0; padding: 0.4rem 0.7rem; border: 1px solid var(--line); border-radius: 5px; background: var(--panel); }
+  #results td { border: 0; padding: 0.1rem 0; overflow-wrap: anywhere; } #results td + td::before { content: attr(data-head) \": \"; color: var(--quiet); }
+}
+";
 
 /// A relative path as a link: what has a meaning in one is written by its number (RFC 3986, section 2.1).
 fn link(path: &str) -> String {
@@ -153,6 +161,7 @@ fn link(path: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::summary::EndVerdict;
 
     /// Law: the screen and the page say how many runs were computed, of all where some were not.
     #[test]
@@ -164,9 +173,33 @@ mod tests {
             let (version, day) = ("v".to_owned(), "today".to_owned());
             let entry = IndexEntry { folder, campaign, question: None, end, version, day, page: None, changed: None };
             let page = html("all", std::slice::from_ref(&entry), &[]);
-            assert!(page.contains(&format!("<td>{said}</td>")), "{page}");
+            assert!(page.contains(&format!("<td data-head=\"Runs computed\">{said}</td>")), "{page}");
             let words = text(&[entry], &[], 100).split_whitespace().collect::<Vec<_>>().join(" ");
             assert!(words.contains(&format!("- {said} today")), "{words}");
+        }
+    }
+
+    /// Law: each count of verdicts has the colour of its own word on the page, and on the screen stands whole in one line, however narrow that is; at 80 characters no line is longer, and the name
+    /// of the folder is there in full.
+    #[test]
+    fn verdicts_are_whole() {
+        let verdict = |word: &&str| EndVerdict { word: (*word).to_owned(), ..EndVerdict::default() };
+        let verdicts = WORDS.iter().map(verdict).collect();
+        let end = SummaryEnd { rows: 20, failed: 0, not_covered: 0, warnings: Vec::new(), verdicts, is_reached: true };
+        let long = "a_campaign_with_a_long_name/of_a_day_in_november";
+        let (folder, campaign) = (PathBuf::from(long), "another_name".to_owned());
+        let (version, day) = ("0.1.0".to_owned(), "2026-11-27".to_owned());
+        let changed = Some("campaign.duration_s: 10 -> 30".to_owned());
+        let entry = IndexEntry { folder, campaign, question: None, end, version, day, page: None, changed };
+        let page = html("all", std::slice::from_ref(&entry), &[]);
+        for word in WORDS {
+            assert!(page.contains(&format!("<span class=\"{}\">1 {word}</span>", word.to_lowercase())), "{page}");
+        }
+        for width in 30..200 {
+            let text = text(std::slice::from_ref(&entry), &[], width);
+            assert!(text.lines().any(|line| line.contains("1 PASS, 1 FAIL, 1 UNDECIDED")), "{width}:\n{text}");
+            let is_fit = text.lines().all(|line| line.chars().count() <= width) && text.contains(long);
+            assert!(is_fit || width < 80, "{width}:\n{text}");
         }
     }
 

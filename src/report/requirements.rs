@@ -63,14 +63,14 @@ pub fn together(verdicts: &Verdicts) -> Vec<String> {
     let has_number = |one: &Assessment| matches!(one.gate.decision, Decision::Undecided(Some(_)));
     if verdicts.looks == 1 && verdicts.list.iter().any(has_number) {
         said.push(
-            "to decide by adding runs write [stop] when = \"decided\": testing again after each addition errs more often"
+            "to add runs until every requirement is decided, write [stop] when = \"decided\"; adding runs by hand and testing again makes wrong verdicts more likely"
                 .to_owned(),
         );
     }
     said
 }
 
-// what the text says
+// what the documents say of that number
 const _: () = assert!(POWER == 0.9);
 
 /// What a decision on a mean assumes of events that the runs do not show; `None` where it assumes nothing.
@@ -119,11 +119,12 @@ pub fn intervals(confidence: f64) -> String {
     format!("two-sided {}% intervals (Clopper-Pearson for shares)", percent(confidence))
 }
 
-/// How many runs would decide, in words.
-pub fn runs_needed(runs: &str) -> String {
-    format!(
-        "with {runs} runs, nine of ten campaigns would decide if the truth were exactly what was observed; since it never is, expect about half to"
-    )
+/// How many `runs` would decide, in words; `None`: no number of them.
+pub fn runs_needed(runs: Option<&str>) -> String {
+    match runs {
+        Some(runs) => format!("about {runs} runs should decide what is undecided, if the truth is as observed"),
+        None => "no number of runs would decide what is undecided, if the truth is as observed".to_owned(),
+    }
 }
 
 /// The requirement in a few words: "pointing error at launch <= 2 deg in 95%".
@@ -214,9 +215,8 @@ fn finding(one: &Assessment) -> String {
     };
     let needed = match (&one.reason, one.gate.decision) {
         (Some(reason), _) => format!("; {reason}"),
-        (None, Decision::Undecided(Some(runs))) => format!("; {}", runs_needed(&runs.to_string())),
-        (None, Decision::Undecided(None)) => {
-            "; no number of runs would decide this if the truth were exactly what was observed".to_owned()
+        (None, Decision::Undecided(runs)) => {
+            format!("; {}", runs_needed(runs.map(|runs| runs.to_string()).as_deref()))
         }
         _ => String::new(),
     };

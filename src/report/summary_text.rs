@@ -5,7 +5,7 @@ use super::number::short;
 use super::observable_lines::{ObservableLine, table};
 use super::summary::{LISTED, Summary};
 use super::text_table::{Align, TextTable};
-use super::wrapped::wrapped;
+use super::wrapped::{message, wrapped};
 use super::{failure_text, mission_text, requirements, warnings};
 use crate::analysis::assessment::Assessment;
 use crate::analysis::outcomes::OF_MOTION;
@@ -35,15 +35,14 @@ impl Summary {
         if let Some((_, stop)) = &self.stopping {
             text += &wrapped(&format!("\n  stop: {stop}\n"), width);
         }
-        text += &self.ended();
+        text += &wrapped(&self.ended(), width);
         text += &wrapped(&mission_text::text(&self.missions), width);
         text += &wrapped(&self.noted(), width);
         text += &self.found(width);
         text += &wrapped(&self.brackets(), width);
         text += &wrapped(drivers, width);
         text += &wrapped(&self.numerics(width), width);
-        // commands stay whole, to be copied
-        text + &self.replay(file)
+        text + &self.replay(file, width)
     }
 
     /// Whether a run was computed.
@@ -182,24 +181,24 @@ impl Summary {
 
     /// The runs with the greatest errors and the first that failed, with the command that shows one; `file` is the campaign as
     /// a word of that command. Empty where there are none.
-    fn replay(&self, file: &str) -> String {
+    fn replay(&self, file: &str, width: usize) -> String {
         let mut text = String::new();
         let worst =
             self.worst.iter().filter_map(|worst| Some((format!("worst {}", worst.name), worst.list.runs.first()?)));
         for (why, (sample, error)) in worst {
             text += &format!("  {why} {}: spindrift simulate {file} --sample {sample}\n", short(*error));
         }
-        text += &self.first_failures(file);
+        text = message(&text, width) + &self.first_failures(file, width);
         if text.is_empty() { text } else { format!("\n{text}") }
     }
 
-    /// The first run with each status that is not `ok`, with the command that shows it.
-    pub(super) fn first_failures(&self, file: &str) -> String {
+    /// The first run with each status that is not `ok`, with the command that shows it, which stays whole, to be copied.
+    pub(super) fn first_failures(&self, file: &str, width: usize) -> String {
         let line = |ended: &Ended| {
             let (sample, _) = ended.first.first()?;
             Some(format!("  the first {}: spindrift simulate {file} --sample {sample}\n", ended.status.name()))
         };
-        self.statuses.failed().filter_map(line).collect()
+        message(&self.statuses.failed().filter_map(line).collect::<String>(), width)
     }
 }
 

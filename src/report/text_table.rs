@@ -10,6 +10,8 @@ pub enum Align {
     Left,
     /// At the left, the first column: names, on lines of their own above the other cells where the lines are too narrow.
     Title,
+    /// At the left, never shortened: verdicts.
+    Whole,
     Right,
     /// At the left, the last column: sentences, broken into lines in their column, or below the other cells where that is too narrow.
     Sentence,

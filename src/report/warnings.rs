@@ -41,7 +41,7 @@ fn not_computed(plan: &Plan, statistics: &Statistics, failures: &[InputSensitivi
         drivers => format!(". What decides it: {}", drivers.join("; ")),
     };
     let others = match runs - missing {
-        0 => "There are no numbers of them".to_owned(),
+        0 => "There are no results to show for them".to_owned(),
         left => {
             format!("The numbers below describe only the other {left}, which may differ: they have no intervals")
         }

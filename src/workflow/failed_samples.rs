@@ -6,6 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::campaign::{FilesRead, Overrides, Plan};
 use crate::ensemble::{Rows, Sink};
+use crate::report::failure_text::readable;
 use crate::report::number::counted;
 use crate::run::Status;
 use crate::sampling::SampleId;
@@ -86,7 +87,7 @@ pub fn first_failed(rows: &RowsReader) -> Result<Option<FailedRun>, RowsError> {
 }
 
 fn said(status: Status, reason: Option<&str>) -> String {
-    reason.map_or_else(|| status.name().to_owned(), |reason| format!("{}: {reason}", status.name()))
+    reason.map_or_else(|| status.name().to_owned(), |reason| format!("{}: {}", status.name(), readable(reason)))
 }
 
 /// Passes rows on, and lets no further part start after one with a run that failed.

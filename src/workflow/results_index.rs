@@ -6,7 +6,9 @@ use std::time::UNIX_EPOCH;
 
 use serde_json::Value;
 
+use crate::campaign::Plan;
 use crate::campaign::difference::text_differences;
+use crate::report::changed_keys;
 use crate::report::index_page::{IndexEntry, Unreadable};
 use crate::report::summary::SummaryEnd;
 use crate::scene::epoch::date_of;
@@ -17,7 +19,7 @@ use crate::workflow::session::Session;
 
 /// Folders are looked at so deep below the first one.
 const DEEPEST: usize = 6;
-/// Keys of plans that are named as changed.
+/// Changes of plans that are named.
 const MOST_KEYS: usize = 4;
 /// A file says of itself that it is of this day since 1970 at most: of the year 9999.
 const LAST_DAY: u64 = 2_932_896;
@@ -71,7 +73,7 @@ pub fn indexed(session: &Session<'_>, root: &Path) -> Result<ResultsIndex, Workf
     let changes: Vec<Option<String>> = (0..found.len())
         .map(|place| match found.get(place + 1) {
             Some(before) if before.entry.campaign == found[place].entry.campaign => {
-                Some(changed(before, &found[place]))
+                Some(changed(session, root, [before, &found[place]]))
             }
             _ => None,
         })
@@ -124,18 +126,17 @@ fn read(session: &Session<'_>, folder: &Path, name: &Path) -> Result<Found, Stri
     Ok(Found { entry, seconds, plan })
 }
 
-/// What changed from the run `before` to the one `after` it: keys of the plan, then verdicts.
-fn changed(before: &Found, after: &Found) -> String {
-    let value = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
-    let keys = text_differences(&before.plan, &after.plan);
-    let more = keys.len().saturating_sub(MOST_KEYS);
-    let of_key = |key: crate::campaign::difference::KeyDifference| {
-        format!("{}: {} -> {}", key.key, value(key.first), value(key.second))
+/// What changed from the run `before` to the one `after` it: keys of the plan but those that say how numbers are shown, then verdicts.
+fn changed(session: &Session<'_>, root: &Path, [before, after]: [&Found; 2]) -> String {
+    let mut keys = text_differences(&before.plan, &after.plan);
+    keys.retain(|one| !one.key.starts_with("display."));
+    // that of another version of the program, or of a control law that is not here, is only text
+    let plan = |one: &Found| {
+        let folder = root.join(&one.entry.folder);
+        Plan::from_text_in(&folder, PLAN, &one.plan, session.overrides()).ok().filter(|_| !keys.is_empty())
     };
-    let mut said: Vec<String> = keys.into_iter().take(MOST_KEYS).map(of_key).collect();
-    if more > 0 {
-        said.push(format!("{more} more keys"));
-    }
+    let plans = plan(before).zip(plan(after));
+    let mut said = changed_keys::phrases(&keys, plans.as_ref().map(|(before, after)| [before, after]), MOST_KEYS);
     if before.entry.version != after.entry.version {
         said.push(format!("version {} -> {}", before.entry.version, after.entry.version));
     }
@@ -148,7 +149,7 @@ fn changed(before: &Found, after: &Found) -> String {
             said.push(format!("{then} -> {now}: {}", one.statement));
         }
     }
-    if said.is_empty() { "nothing".to_owned() } else { said.join("; ") }
+    if said.is_empty() { "the same campaign, version and verdicts".to_owned() } else { said.join("; ") }
 }
 
 /// The day of a time since 1970 in UTC, `2026-11-25`.

@@ -191,7 +191,7 @@ impl Card {
                 rows += &format!("<p class=\"detail\"><b>{}</b> {}</p>", escaped(term), escaped(text));
             }
         };
-        row("Driven by", &self.drivers);
+        row("Drivers:", &sentence_case(&self.drivers));
         row("Note:", &self.note);
         let more = if rows.is_empty() {
             rows
@@ -331,6 +331,18 @@ mod tests {
         let [left, dot] = places(1e-4, 1e-1, 1.0);
         let right = 320.0 - left;
         assert!((dot - (left + 0.75 * (right - left))).abs() < 0.2, "{left}, {dot}, {right}");
+    }
+
+    /// Law: what is said of drivers is a sentence of its own after its label, whatever it says.
+    #[test]
+    fn drivers_are_a_sentence() {
+        for (drivers, said) in [
+            ("no single input was found to explain more", "No single input was found to explain more"),
+            ("1 of 63 runs fails", "1 of 63 runs fails"),
+        ] {
+            let html = Card { drivers: drivers.to_owned(), ..card(Judged::Fail, 1.0, [0.5, 2.0], None) }.html();
+            assert!(html.contains(&format!("<b>Drivers:</b> {said}</p>")), "{html}");
+        }
     }
 
     /// Law: a verdict is a word and a shape of its own; text is escaped; no number on the card is NaN.

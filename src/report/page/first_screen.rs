@@ -4,6 +4,7 @@ use crate::analysis::missions::Missions;
 use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
 use crate::report::escaped::escaped;
+use crate::report::failure_text::readable;
 use crate::report::mission_text;
 use crate::report::names::sentence;
 use crate::report::page::cards::{Card, Judged, overall};
@@ -162,7 +163,7 @@ pub fn status(plan: &Plan, survey: &Survey) -> String {
             format!(
                 "<p class=\"reason\"><b>{}</b> first in sample {sample}: {}. Replay in this folder: <code>spindrift simulate plan.toml --sample {sample}</code></p>",
                 words(ended.status),
-                escaped(reason.trim_end_matches('.')),
+                escaped(readable(reason).trim_end_matches('.')),
             )
         })
         .collect();
@@ -276,7 +277,7 @@ pub fn is_above_tolerance(plan: &Plan, survey: &Survey) -> bool {
 /// The cards, and what they `said` together; an example of a requirement where there is none.
 pub fn verdicts(cards: &[Card], has_requirements: bool, said: &[String]) -> String {
     let cards = match cards {
-        [] => "<p>Nothing: no dispersed run has a value of an outcome.</p>".to_owned(),
+        [] => "<p>No results: no dispersed run produced a value for any outcome.</p>".to_owned(),
         cards => cards.iter().map(Card::html).collect(),
     };
     let said: String =
@@ -315,7 +316,7 @@ mod tests {
     #[test]
     fn without_outcomes_there_is_no_card() {
         let text = verdicts(&[], false, &[]);
-        assert!(text.contains("Nothing: no dispersed run") && !text.contains("<article"), "{text}");
+        assert!(text.contains("No results: no dispersed run") && !text.contains("<article"), "{text}");
     }
 
     /// Law: a reason is text, whatever is in it, at the head of the page and in the list of worst runs.

@@ -259,11 +259,8 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
     }
     match (&one.reason, one.gate.decision) {
         (Some(reason), _) => notes.push(format!("{}.", crate::report::names::sentence(reason))),
-        (None, Decision::Undecided(Some(runs))) => {
-            notes.push(format!("{}.", sentence(&runs_needed(&grouped(runs)))));
-        }
-        (None, Decision::Undecided(None)) => {
-            notes.push("No number of runs would decide this if the truth were exactly what was observed.".to_owned());
+        (None, Decision::Undecided(runs)) => {
+            notes.push(format!("{}.", sentence(&runs_needed(runs.map(grouped).as_deref()))));
         }
         _ => {}
     }

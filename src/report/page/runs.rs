@@ -6,6 +6,7 @@ use crate::campaign::Plan;
 use crate::ensemble::{DrawnScenes, SingleRun};
 use crate::math::Isa;
 use crate::observables::Group;
+use crate::report::failure_text::readable;
 use crate::report::names;
 use crate::report::page::readable::with_unit;
 use crate::run::{Grid, Status};
@@ -96,7 +97,7 @@ fn shown(plan: &Plan, sample: SampleId, why: String, grid: &Grid, isa: Isa) -> S
     let inputs = inputs(plan, sample);
     match SingleRun::with_series(plan, sample, grid.clone(), isa, &GROUPS) {
         Ok(run) => {
-            let (status, reason) = (run.outcome.status, run.reason.clone());
+            let (status, reason) = (run.outcome.status, readable(&run.reason));
             let row = row(plan, &run, &inputs, isa, sample);
             ShownRun { sample, why, status, reason, inputs, row, run: Some(run) }
         }

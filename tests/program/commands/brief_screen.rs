@@ -75,7 +75,10 @@ fn a_campaign_fits_a_screen() {
         let needed = list.iter().filter_map(|one| one["runs_that_would_decide"].as_u64()).max();
         let joined = out.split_whitespace().collect::<Vec<_>>().join(" ");
         match needed {
-            Some(runs) => assert!(joined.contains(&format!("about {runs} runs should decide")), "{runs}:\n{out}"),
+            Some(runs) => {
+                let said = format!("about {runs} runs should decide what is undecided, if the truth is as observed ");
+                assert!(joined.contains(&said), "{runs}:\n{out}");
+            }
             None => assert!(!joined.contains("should decide"), "{out}"),
         }
         several |=
@@ -220,6 +223,31 @@ fn the_worst_campaigns_fit_a_screen() {
     let numbers: Vec<f64> = value.split_whitespace().filter_map(|word| word.parse().ok()).collect();
     assert!(numbers.len() == 1 && (numbers[0] / impulse - 1.0).abs() < 6e-3 && !out.contains("driver"), "{out}");
     run("spin_sweep", "--samples 3 --out few --no-report", 0);
+}
+
+/// Law: where COLUMNS says the width, no line of either stream is longer, but for a command that stands alone to be copied; and no number that a person reads has as many digits as a double.
+#[test]
+fn every_screen_fits_its_width() {
+    let scratch = folder("every-screen");
+    for (command, code) in [
+        ("campaign small.toml --samples 20 --out whole --verbose", 0),
+        ("campaign small.toml --samples 20 --out lost --verbose --set integrator.max_steps=3", 1),
+        ("campaign small.toml --samples 20 --out brief --set integrator.max_steps=3", 1),
+        ("verify whole", 0),
+        ("verify lost", 0),
+        ("simulate small.toml --sample 3", 0),
+        ("simulate small.toml --set integrator.max_steps=3", 1),
+        ("check small.toml --set integrator.max_steps=3", 1),
+        ("check small.toml --set colour=1", 2),
+        ("columns nonsense", 2),
+    ] {
+        let (_, all) = said(&scratch, &mut scratch.command(command), 80, code);
+        let is_fit = |line: &str| line.chars().count() <= 80 || line.trim_start().starts_with("spindrift ");
+        assert!(all.lines().all(is_fit), "{command}:\n{all}");
+        let digits = |word: &str| word.chars().filter(char::is_ascii_digit).count();
+        let is_long = |word: &str| word.contains('.') && word.parse::<f64>().is_ok() && digits(word) > 12;
+        assert!(!all.split_whitespace().any(is_long), "{command}:\n{all}");
+    }
 }
 
 /// Law: on a terminal a message is broken into lines of its width, and a marked line stays whole; in a pipe each is one line.

@@ -181,3 +181,20 @@ fn a_result_without_numbers_is_not_compared() {
         assert!(!said.contains("the same statistics"), "{said}");
     }
 }
+
+/// Law: a comparison of campaigns with different names says so before all else, one of a campaign with itself does not; and both values of a key that changed are in one unit.
+#[test]
+fn different_campaigns_are_named() {
+    let scratch = folder("compare-names");
+    let text = campaign_without_debris().replace(RADIANS, "");
+    for (name, spin) in [("one", "0.17453292519943295]"), ("two", "0.25]")] {
+        let text = text.replace("name = \"small\"", &format!("name = \"{name}\"")).replace("31.41592653589793]", spin);
+        scratch.file("c.toml", &text);
+        scratch.prints(&format!("campaign c.toml --samples 20 --out {name} --no-report"), 0);
+    }
+    let said = scratch.prints_wide("compare one two", 0);
+    assert!(said.starts_with("different campaigns: one and two\nbefore: one"), "{said}");
+    let row = said.lines().find(|line| line.contains("initial.angular_velocity_rad_s")).expect("the key");
+    assert!(row.contains("10] deg/s") && row.contains("14.324] deg/s"), "{row}");
+    assert!(scratch.prints_wide("compare one one", 0).starts_with("before: one"));
+}

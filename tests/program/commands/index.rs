@@ -37,7 +37,7 @@ fn every_result_has_a_row() {
     let flat = said.split_whitespace().collect::<Vec<_>>().join(" ");
     for words in [
         "1 FAIL 20",
-        "require[0].at_most: 1000000000.0 -> 0.0",
+        "require[0].at_most: 1000000000 rad/s -> 0 rad/s; PASS -> FAIL: ",
         "half not finished",
         "broken summary.json is none of spindrift",
     ] {
@@ -54,9 +54,14 @@ fn every_result_has_a_row() {
     }
     assert!(page.contains("Is &lt;other&gt; slow enough?") && !page.contains("<other>"), "markup of a question");
     assert!(page.contains("default-src 'none'") && !page.contains("http://") && !page.contains("https://"));
-    assert!(page.contains("<td class=\"text verdict fail\">1 FAIL</td><td>20</td>"), "{page}");
+    assert!(page.contains("<span class=\"fail\">1 FAIL</span></td><td data-head=\"Runs computed\">20</td>"), "{page}");
     assert!(page.contains("<li>half: not finished"), "{page}");
     assert_eq!(scratch.parts("all/a new"), before);
+
+    // how numbers are shown is no change, and a page of the same twice says so
+    scratch.prints("campaign c.toml --samples 20 --set display.units=[\"deg\"] --out all/shown", 3);
+    let said = scratch.prints_wide("index all", 0);
+    assert!(said.contains("the same campaign, version and verdicts") && !said.contains("display"), "{said}");
 
     // a result is no place for the page
     assert!(scratch.prints("index all/half", 2).contains("is itself a result"));

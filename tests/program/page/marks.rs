@@ -118,7 +118,7 @@ fn every_named_driver_has_its_direction() {
         "initial.angular_velocity_rad_s.y - 0.3 * initial.angular_velocity_rad_s.z",
     );
     let found = found("directions", &text);
-    let start = found.said.find("driven by").expect("drivers");
+    let start = found.said.find("  drivers\n").expect("drivers");
     let said = &found.said[start..start + found.said[start..].find("\n\n").expect("an end")];
     let mut seen = [0; 2];
     for line in said.lines().skip(1).filter(|line| line.contains("with it")) {
