@@ -92,8 +92,9 @@ pub fn text(entries: &[IndexEntry], unreadable: &[Unreadable], width: usize) -> 
 /// The page; `title` is the name of the folder.
 pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> String {
     let row = |one: &IndexEntry| {
-        // a long path is broken between its folders
-        let folder = escaped(&one.folder.display().to_string()).replace('/', "/<wbr>");
+        // a long name is broken between its words
+        let words = |name: &str| escaped(name).replace('/', "/<wbr>").replace('_', "_<wbr>");
+        let folder = words(&one.folder.display().to_string());
         let name = match &one.page {
             Some(page) => format!("<a href=\"{}\">{folder}</a>", link(&page.display().to_string())),
             None => folder,
@@ -105,7 +106,7 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
         let word = |count, word: &str| format!("<span class=\"{}\">{count} {word}</span>", word.to_lowercase());
         let cells = [
             name + &question,
-            escaped(&one.campaign),
+            words(&one.campaign),
             one.verdicts(word),
             escaped(&one.runs()),
             escaped(&one.day),
@@ -140,7 +141,7 @@ const HEADS: [&str; 7] =
 const OWN_STYLE: &str = "\
 .pass { color: var(--pass); } .fail { color: var(--fail); font-weight: 600; } .undecided { color: var(--undecided); }
 #results th, #results td { text-align: left; white-space: normal; } #results td span:not(.quiet), #results td:nth-child(5) { white-space: nowrap; }
-#results td:last-child { overflow-wrap: anywhere; min-width: 12rem; }
+#results td:last-child { overflow-wrap: anywhere; min-width: 9rem; }
 @media screen and (max-width: 699px) {
   #results thead { display: none; } #results table, #results tbody, #results tr, #results td { display: block; }
   #results tr { margin: 0.8rem 0; padding: 0.4rem 0.7rem; border: 1px solid var(--line); border-radius: 5px; background: var(--panel); }

@@ -38,7 +38,7 @@ impl Summary {
         text += &wrapped(&self.ended(), width);
         text += &wrapped(&mission_text::text(&self.missions), width);
         text += &wrapped(&self.noted(), width);
-        text += &self.found(width);
+        text += &wrapped(&self.found(width), width);
         text += &wrapped(&self.brackets(), width);
         text += &wrapped(drivers, width);
         text += &wrapped(&self.numerics(width), width);

@@ -102,7 +102,7 @@ fn shown(plan: &Plan, sample: SampleId, why: String, grid: &Grid, isa: Isa) -> S
             ShownRun { sample, why, status, reason, inputs, row, run: Some(run) }
         }
         Err(errors) => {
-            let reason = errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
+            let reason = readable(&errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "));
             ShownRun { sample, why, status: Status::InvalidSample, reason, inputs, row: Vec::new(), run: None }
         }
     }
