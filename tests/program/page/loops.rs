@@ -331,7 +331,7 @@ fn bands_of_wheels_are_those_of_the_file() {
 fn a_quantile_without_a_number_is_a_share() {
     let scratch = ScratchFolder::new("loop-page-without-a-number");
     scratch.file("detumble.toml", DETUMBLE);
-    let said = scratch.prints("campaign detumble.toml --samples 64 --set campaign.duration_s=30 --out r", 1);
+    let said = scratch.prints("campaign detumble.toml --samples 64 --set campaign.duration_s=30 --out r", 3);
     let found = Found::read(scratch, said);
     let summary = found.scratch.summary("r");
     let one = &summary["requirements"]["list"][0];

@@ -158,7 +158,7 @@ fn what_is_not_compared_is_named() {
     let mut kept = lines(&scratch);
     kept.pop();
     scratch.file("r/manifest.jsonl", &(kept.join("\n") + "\n"));
-    let said = scratch.prints("verify r --fraction 1", 5);
+    let said = scratch.prints_wide("verify r --fraction 1", 5);
     let (_, named) = said.split_once("not compared, since nothing says what should be in them: ").expect("named");
     let top = ["plan.toml", "manifest.jsonl", "_SUCCESS"];
     for name in whole.keys() {
