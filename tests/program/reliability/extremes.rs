@@ -5,6 +5,7 @@ use std::fs;
 use crate::small_campaign::{campaign, folder};
 use arrow_array::Array;
 use arrow_array::cast::AsArray;
+use spindrift::report::failure_text::readable;
 
 /// What is changed in the campaign, and to what.
 const CHANGES: &[(&str, &str)] = &[
@@ -185,7 +186,8 @@ fn outliers_end_alone() {
     assert_eq!(limited.len() + statuses.iter().filter(|status| *status == Some("ok")).count(), 40, "{statuses:?}");
     for row in limited {
         let said = scratch.prints(&format!("simulate outliers.toml --sample {row}"), 1);
-        assert!(said.contains(&format!("the run ended with step_limit: {};", reasons.value(row))), "{row}: {said}");
+        let reason = readable(reasons.value(row));
+        assert!(said.contains(&format!("the run ended with step_limit: {reason};")), "{row}: {said}");
     }
 }
 
