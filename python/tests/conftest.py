@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -14,9 +15,15 @@ REPOSITORY = Path(__file__).parents[2]
 START = REPOSITORY / "assets" / "start.toml"
 
 
+def unbroken() -> dict[str, str]:
+    """An environment in which no message is wrapped: without the width of a terminal, which the module `readline` hands on to processes."""
+    return {key: value for key, value in os.environ.items() if key != "COLUMNS"}
+
+
 def command(*words: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
     """The command line of the package."""
-    return subprocess.run([sys.executable, "-m", "spindrift", *words], capture_output=True, text=True, cwd=cwd, timeout=300)
+    line = [sys.executable, "-m", "spindrift", *words]
+    return subprocess.run(line, capture_output=True, text=True, cwd=cwd, env=unbroken(), timeout=300)
 
 
 @pytest.fixture(scope="session")

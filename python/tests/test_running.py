@@ -12,7 +12,7 @@ from pathlib import Path
 
 import polars as pl
 import pytest
-from conftest import START
+from conftest import START, unbroken
 
 import spindrift as sd
 
@@ -31,7 +31,7 @@ except KeyboardInterrupt as stopped:
 
 def started(out: Path, words: list[str]) -> subprocess.Popen[str]:
     """A process that runs into `out`, once its first two parts are there."""
-    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=unbroken())
     limit = time.monotonic() + 120
     while len(list(out.glob("runs/part-*"))) < 2:
         assert process.poll() is None and time.monotonic() < limit, "it has ended, or does nothing"
