@@ -20,10 +20,10 @@ def unbroken() -> dict[str, str]:
     return {key: value for key, value in os.environ.items() if key != "COLUMNS"}
 
 
-def command(*words: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-    """The command line of the package."""
+def command(*words: str, cwd: Path | None = None, as_wide: bool = False) -> subprocess.CompletedProcess[str]:
+    """The command line of the package, unbroken, or with the width of a terminal that this process knows."""
     line = [sys.executable, "-m", "spindrift", *words]
-    return subprocess.run(line, capture_output=True, text=True, cwd=cwd, env=unbroken(), timeout=300)
+    return subprocess.run(line, capture_output=True, text=True, cwd=cwd, env=None if as_wide else unbroken(), timeout=300)
 
 
 @pytest.fixture(scope="session")

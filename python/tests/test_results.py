@@ -101,7 +101,7 @@ def test_results_are_compared(results: sd.Results, tmp_path: Path) -> None:
         assert {value for value in same.shifts[name] if value is not None} == {0.0}, name
     other = sd.load(START).set({"wheels.w1.rate_rad_s": "1500 rpm"}).run(samples=300, out=tmp_path / "other")
     found = sd.compare(results, other)
-    printed = command("compare", str(results.path), str(other.path))
+    printed = command("compare", str(results.path), str(other.path), as_wide=True)
     assert str(found) == printed.stdout and "rate_rad_s" in str(found)
     assert max(value or 0.0 for value in found.shifts["largest_shift"]) > 0.1
     assert found._repr_html_().startswith("<pre>")
