@@ -13,7 +13,7 @@ use object_store::path::Path as Key;
 use object_store::{ClientConfigKey, Error, ObjectStore, ObjectStoreExt, PutMode, PutOptions, RetryConfig};
 use tokio::runtime::{Builder, Runtime};
 
-use super::{Address, Objects};
+use super::{Address, Connected, Objects};
 
 /// How often a request is tried again: with pauses up to 15 s, some minute in all.
 const RETRIES: usize = 10;
@@ -54,7 +54,7 @@ struct Client {
 ///
 /// # Errors
 /// Where the environment does not say how to get there, or the store does not answer, or refuses.
-pub fn connect(address: &Address, first: &str) -> io::Result<(Box<dyn Objects>, Option<Vec<u8>>)> {
+pub fn connect(address: &Address, first: &str) -> io::Result<Connected> {
     // connections are encrypted by ring; it is an error to say so twice
     let _ = rustls::crypto::ring::default_provider().install_default();
     let runtime = Builder::new_current_thread().enable_all().build()?;

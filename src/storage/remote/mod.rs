@@ -34,11 +34,14 @@ pub trait Objects: Send + Sync {
     fn list(&self, folder: &str) -> io::Result<Vec<String>>;
 }
 
-/// The client for an address, and the content of the object of that name, if there is one: so the client is known to work.
+/// A client, and the content of an object, if there is one: so the client is known to work.
+pub type Connected = (Box<dyn Objects>, Option<Vec<u8>>);
+
+/// The client for an address, and the content of the object of that name.
 ///
 /// # Errors
 /// Where the environment does not say how to get there, or the store does not answer, or refuses.
-pub type Connect = fn(&Address, &str) -> io::Result<(Box<dyn Objects>, Option<Vec<u8>>)>;
+pub type Connect = fn(&Address, &str) -> io::Result<Connected>;
 
 static CONNECT: OnceLock<Connect> = OnceLock::new();
 

@@ -33,9 +33,9 @@ rows! {
     thrust_scale: f64 = 1.0, "1", "Scale factor for the commanded thrusts of this arc", SCALAR, Plain,
         Limit::Thrust("write zero for an arc that does not ignite"), (optional);
     torque_scale: f64 = 1.0, "1", "Scale factor for the commanded motor torques of this arc", SCALAR, Plain, Limit::Finite, (optional);
-    switch_on_delay_s: f64 = 0.0, "s", "Delay of the start of this arc, added to that of [actuators]", SCALAR, Plain, Limit::Finite, (optional);
+    switch_on_delay_s: f64 = 0.0, "s", "Delay of the start of this arc, added to that of the actuators", SCALAR, Plain, Limit::Finite, (optional);
     switch_off_delay_s: f64 = 0.0, "s",
-        "Delay of the end of this arc, added to that of [actuators]; no effect if the next arc starts as this one ends", SCALAR, Plain,
+        "Delay of the end of this arc, added to that of the actuators; no effect if the next arc starts as this one ends", SCALAR, Plain,
         Limit::Finite, (optional);
     } others {}
 }
