@@ -41,17 +41,14 @@ const COVERAGE: f64 = 0.95;
 /// than the term of order p + 1 of the series says, measured 190 to 910 times and 130; tolerances of the null-space method are held by its
 /// fast wheels, whose errors hardly reach the body: measured 220 times, and 1.4e6 where the wheels' momenta cancel. `docs/results.md` says so.
 ///
-/// `taylor` at 1e-10 in Table I: the estimate adds what 120 steps leave out as if all had one direction; measured 130 times. Under a gravity gradient the
-/// same at tolerances above 1e-8, where steps are parts of a libration and what they leave out changes its sign with it: measured 240 times; and 390 times
-/// with `gauss_legendre_6`, which is symmetric in time. In a magnetic field likewise: 140 times.
-///
-/// The debris by the null-space method: the errors of its redundant states are added too; measured 130 times.
+/// `taylor` at 1e-10 in Table I: the estimate adds what 120 steps leave out as if all had one direction; measured 130 times. Under a gravity gradient
+/// `gauss_legendre_6`, which is symmetric in time, is 390 times better.
 ///
 /// In air at 1e-4: the estimate takes errors to grow as fast as the torque allows at each moment; measured 320 times for bodies that turn with 0.01 deg/s, and 68
 /// for those of 0.2 deg/s.
 fn too_large(method: Method, family: &str) -> f64 {
     match (method, family) {
-        (Method::NullSpace, "mixed, forced" | "boxes of debris") => 200.0,
+        (Method::NullSpace, "mixed, forced") => 200.0,
         (Method::NullSpace, "zero momentum") => 1e7,
         (Method::NullSpace, "slew by thrusters") => 1e3,
         (
@@ -60,13 +57,21 @@ fn too_large(method: Method, family: &str) -> f64 {
         ) => 3e3,
         (Method::Gyrostat(Integrator::GaussLegendre), "slew by thrusters") => 200.0,
         (Method::Taylor, "spin_sweep" | "no_debris") => 200.0,
-        (Method::Auto | Method::Taylor, "gravity gradient") => 400.0,
-        (Method::Auto | Method::Taylor, "magnetic torque") => 200.0,
         (_, "drag_tumble") => 400.0,
         (Method::Gyrostat(Integrator::GaussLegendre), "gravity gradient") => 600.0,
         _ => 100.0,
     }
 }
+
+/// Whether the estimate of a setting is shown, but not judged: `docs/results.md` has the reasons and the shares.
+///
+/// At tolerances below 1e-12 the rounding of drag and light counts, which the estimate does not know; a note of the program says so. With steps as short as
+/// a thousandth of a libration's radian `gauss_legendre_6` makes errors of 3e-15, all of them rounding, of which 82% are covered.
+fn is_shown_only(method: Method, family: &str, setting: f64) -> bool {
+    (IN_AIR.contains(&family) && setting < 1e-12)
+        || (method == Method::Gyrostat(Integrator::GaussLegendre) && family == LIBRATING && setting < 5e-3)
+}
+
 /// A smaller true error is a few roundings: no more can be known of it.
 const FLOOR: f64 = 1e-15;
 /// Largest true error that counts as small.
@@ -181,6 +186,20 @@ fn held(count: u64) -> Family {
     };
     Family::new("speed held", Grid::uniform(10.0, 101), (0..count).map(scene).collect())
 }
+
+/// The first samples of `libration.toml` over two orbits, turning `faster` times as fast across the orbit: about the axis of the largest moment, so that the
+/// errors of all steps may well have one direction. The nominal scene turns in the plane of its orbit.
+fn librating(faster: f64, samples: u64) -> Family {
+    let mut scenes = draws::scenes(&plans::shipped("libration", Some(samples)), 0..samples);
+    for scene in &mut scenes {
+        scene.initial.omega_se_s = scene.initial.omega_se_s.map(|rate| faster * rate);
+    }
+    Family::new(if faster > 1.0 { SPINNING } else { LIBRATING }, Grid::uniform(12_000.0, 201), scenes)
+}
+
+/// Families of one scene, dispersed.
+const LIBRATING: &str = "librating";
+const SPINNING: &str = "spinning on orbit";
 
 /// The result of one run.
 #[derive(Clone, Copy, Debug)]
@@ -297,7 +316,10 @@ fn measured(count: u64) -> Vec<Measured> {
         Family::new("mixed, forced", Grid::uniform(10.0, 101), mixed(count, true, 10.0)),
         boxes(2 * count),
         Family::new("gravity gradient", Grid::uniform(12_000.0, 201), tumbling(count, 71, [0.0, 20.0])),
+        Family::new("gravity gradient, fast", Grid::uniform(6_000.0, 201), tumbling(count, 72, [20.0, 200.0])),
         Family::new("magnetic torque", Grid::uniform(6_000.0, 101), magnetic(count, 71, [0.0, 20.0], 6_000.0)),
+        librating(1.0, count),
+        librating(10.0, count),
         Family::new(IN_AIR[0], Grid::uniform(6_000.0, 101), plated(count, 71, [0.0, 20.0])),
         Family::new(IN_AIR[1], Grid::uniform(6_000.0, 101), in_thin_air(count, 5)),
     ];
@@ -327,8 +349,7 @@ fn measured(count: u64) -> Vec<Measured> {
     all
 }
 
-/// Families in which, at tolerances below 1e-12, the rounding of drag and light counts, which the estimate does not know: a note of the program says so,
-/// and they are shown, not judged.
+/// Families in which drag acts.
 const IN_AIR: [&str; 2] = ["air and light", "drag_tumble"];
 
 /// Checks the law for all families, with a factor on the estimate for the counter-test; returns the violations.
@@ -351,7 +372,7 @@ pub(super) fn breaches(all: &[Measured], factor: f64) -> Vec<String> {
                 runs.iter().filter(|run| run.error > SMALL).count(),
             );
             println!("{line}");
-            if IN_AIR.contains(family) && *setting < 1e-12 {
+            if is_shown_only(*method, family, *setting) {
                 continue;
             }
             if at_most(covered as u64, n as u64, COVERAGE) < ALPHA || median > too_large(*method, family) {

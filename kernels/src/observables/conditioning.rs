@@ -40,6 +40,7 @@ use super::acting::Acting;
 use super::error_sums::{Here, Sums};
 use super::rotor::{Body, adjugate};
 use super::torque_growth;
+use crate::dynamics::effects::ForceModel;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{constant, constant_matrix, cross, difference, dot, product, scaled, sum};
 use crate::math::{Lanes, Real};
@@ -214,7 +215,8 @@ impl Conditioning {
         let scale = rate_scale(largest, self.times[count - 1]);
         // relative to that, as all errors are from here on
         let local = LocalErrors { truncation: local.truncation / scale, feedback: local.feedback / scale, ..*local };
-        let curve = if widest <= STILL * largest {
+        let is_changed = acting.is_some_and(|acting| ForceModel::of(acting.scene()).changes_within_arcs());
+        let curve = if widest <= STILL * largest && !is_changed {
             self.at_equilibrium(body, [count, stride, last], scale, table, &local)
         } else {
             self.along_curve(body, count, scale, acting, &local)

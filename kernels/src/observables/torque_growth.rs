@@ -4,7 +4,9 @@
 //! points to leaves an error like exp(lambda t), lambda^2 the largest eigenvalue of the symmetric part of J^(-1/2) M J^(-1/2) where that is above zero:
 //! below zero it librates. A body that turns with a rate w beside it, or is held by a momentum of J w, sees M change its sign within 1/w, and what is
 //! gained is mostly lost again: the growth is of the second order, lambda^3/w^2. Between both, the exponent of the growth is taken as the integral of
-//! lambda^3/(lambda^2 + w^2); `tests/accuracy/error_estimate.rs` measures the coverage. A torque along omega adds the largest eigenvalue of
+//! lambda^3/(lambda^2 + w^2). Nor does an orientation count that the body leaves again within half the period of an oscillation: M and w^2 are averaged over spans of
+//! pi/lambda_0, with lambda_0^2 the largest magnitude of an eigenvalue at any point, before lambda is taken. (Without that a libration of thirty orbits, whose
+//! errors hardly grow, had a growth of e^3.) `tests/accuracy/error_estimate.rs` measures the coverage. A torque along omega adds the largest eigenvalue of
 //! J^(-1/2) D J^(-1/2) where that is above zero. What a torque points to is taken to turn with the orbit.
 //!
 //! Not here: the growth of errors in the free motion ([`super::conditioning`]).
@@ -41,7 +43,10 @@ pub(super) fn exponent(scene: &Scene, table: &StateTable, times: &[f64], filled:
     let orbit = scene.orbit.as_ref().map(OrbitPath::new);
     let size = (moments[0] + moments[1] + moments[2]) / 3.0;
     let stride = last.div_ceil(POINTS).max(1);
-    let (mut all, mut count) = (0.0, 0.0);
+    let (mut driven, mut count) = (0.0, 0);
+    let mut slopes = [[[0.0; 3]; 3]; POINTS + 1];
+    let mut squares = [0.0; POINTS + 1];
+    let mut largest = 0.0_f64;
     for point in (0..=last).step_by(stride) {
         let place = orbit.as_ref().map_or(OrbitState::unknown(0.0), |orbit| orbit.state(times[point]));
         let attitude = hamilton(table.at(StateField::Attitude, point), q_sb);
@@ -72,14 +77,23 @@ pub(super) fn exponent(scene: &Scene, table: &StateTable, times: &[f64], filled:
             });
         }
         let (of_turns, of_rates) = torques.split_at(6);
-        let unstable = largest_slope(moments, of_turns) / ROTATION;
-        if unstable > 0.0 {
-            all += unstable * unstable.sqrt() / (unstable + rate2);
-        }
-        all += (largest_slope(moments, of_rates) / faster).max(0.0);
-        count += 1.0;
+        let of_turn = slope(moments, of_turns).map(|row| row.map(|x| x / ROTATION));
+        largest = principal_axes(of_turn).0.into_iter().fold(largest, |most, x| most.max(x.abs()));
+        (slopes[count], squares[count]) = (of_turn, rate2);
+        driven += (largest_eigenvalue(slope(moments, of_rates)) / faster).max(0.0);
+        count += 1;
     }
-    all / count * times[last]
+    let spans = (times[last] * largest.sqrt() / core::f64::consts::PI).round().clamp(1.0, count as f64);
+    let span = (count as f64 / spans).ceil() as usize;
+    let turning = slopes[..count].chunks(span).zip(squares[..count].chunks(span)).map(|(slopes, squares)| {
+        let points = squares.len() as f64;
+        let mean = core::array::from_fn(|i| {
+            core::array::from_fn(|j| slopes.iter().map(|slope| slope[i][j]).sum::<f64>() / points)
+        });
+        let (unstable, rate2) = (largest_eigenvalue(mean), squares.iter().sum::<f64>() / points);
+        if unstable > 0.0 { points * unstable * unstable.sqrt() / (unstable + rate2) } else { 0.0 }
+    });
+    (driven + turning.sum::<f64>()) / count as f64 * times[last]
 }
 
 /// `motion` with the body turned by `angle` about its axis `axis`.
@@ -99,15 +113,20 @@ fn hastened(motion: &Motion<f64>, axis: usize, rate: f64) -> Motion<f64> {
     hastened
 }
 
-/// The largest eigenvalue of the symmetric part of J^(-1/2) S J^(-1/2), of a body of the principal moments `moments`; column j of S is half the
-/// difference of the torques at a change of `1` and of `-1` along axis j, which follow one another in `torques`.
+/// The symmetric part of J^(-1/2) S J^(-1/2), of a body of the principal moments `moments`; column j of S is half the difference of the torques at a change of
+/// `1` and of `-1` along axis j, which follow one another in `torques`.
 #[inline(always)]
-fn largest_slope(moments: [f64; 3], torques: &[[f64; 3]]) -> f64 {
+fn slope(moments: [f64; 3], torques: &[[f64; 3]]) -> [[f64; 3]; 3] {
     let columns: [[f64; 3]; 3] =
         core::array::from_fn(|axis| scaled(0.5, difference(torques[2 * axis], torques[2 * axis + 1])));
-    let symmetric: [[f64; 3]; 3] = core::array::from_fn(|i| {
+    core::array::from_fn(|i| {
         core::array::from_fn(|j| 0.5 * (columns[j][i] + columns[i][j]) / (moments[i] * moments[j]).sqrt())
-    });
+    })
+}
+
+/// The largest eigenvalue of a symmetric matrix.
+#[inline(always)]
+fn largest_eigenvalue(symmetric: [[f64; 3]; 3]) -> f64 {
     let (values, _) = principal_axes(symmetric);
     values[0].max(values[1]).max(values[2])
 }
@@ -132,7 +151,7 @@ mod tests {
             let place = OrbitState { position, velocity: [0.0; 3], distance: 1.0 };
             let motion = Motion { time: 0.0, attitude: [1.0, 0.0, 0.0, 0.0], rate: [0.0; 3], place };
             let torque = |(axis, sign)| gradient.torque(&turned(&motion, axis, sign * ROTATION));
-            largest_slope(moments, &CHANGES.map(torque)) / ROTATION
+            largest_eigenvalue(super::slope(moments, &CHANGES.map(torque))) / ROTATION
         };
         assert!(slope([0.0, 0.0, 1.0]) <= 1e-10);
         let (found, expected) = (slope([0.0, 1.0, 0.0]), (100.0 - 40.0) / 90.0);
@@ -144,7 +163,7 @@ mod tests {
     fn a_torque_along_omega_drives() {
         let slope = |coefficient: f64| {
             let torque = |(axis, sign)| core::array::from_fn(|i| if i == axis { coefficient * sign } else { 0.0 });
-            largest_slope([2.0, 4.0, 5.0], &CHANGES.map(torque))
+            largest_eigenvalue(super::slope([2.0, 4.0, 5.0], &CHANGES.map(torque)))
         };
         assert!((slope(3.0) - 1.5).abs() < 1e-14 && slope(-3.0) < 0.0);
     }

@@ -76,8 +76,8 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
     }
 }
 
-/// Order of the estimate of the error of a step: it grows with this power of the rate at which a body turns.
-const ORDER: i32 = 5;
+/// The error of a step, which local extrapolation continues with the formula of order five, grows with this power of the rate at which a body turns.
+const ORDER: i32 = 6;
 
 /// The rates of a body at all points, where they are observed.
 fn rates(table: &StateTable, field: StateField) -> impl Iterator<Item = [f64; 3]> + '_ {

@@ -110,6 +110,8 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
             }
             length = R::select(brief.lanes, left, length);
             truncation.add_brief(&segment.jet, length, brief);
+        } else if E::ACT {
+            truncation.add_directed(&segment.jet, length, &constants);
         } else {
             truncation.add(&segment.jet, length);
         }

@@ -2,9 +2,10 @@
 
 use super::brief::{Brief, LEAST};
 use super::step::StepRule;
+use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ATTITUDE, OMEGA, WITH_ATTITUDE};
 use crate::math::Real;
-use crate::math::vector::norm;
+use crate::math::vector::{dcm_from_quaternion, dot, norm, product, scaled, sum};
 use crate::propagation::local_error::rounding;
 use crate::run::LocalErrors;
 
@@ -22,6 +23,12 @@ pub(super) struct TruncationSums {
 
 /// Sums over the steps of a run, in lanes.
 ///
+/// Where effects act within arcs, and a run has librations and turns by the hundred, what steps leave out of omega has every direction, and magnitudes
+/// that are added are far from the error. There each step counts as a vector: as the angular momentum that it leaves out, which lasts in inertial axes. The
+/// sum of a run is the largest magnitude that the sum of vectors has had, and the root of the sum of squares: a step's direction is only estimated. It is
+/// that of the last two terms of even and odd order together, with the sign that the term after them has: terms of a series alternate as those two
+/// orders apart do.
+///
 /// The first term left out of a series is estimated from the series: the last one kept, times the root of what that is of
 /// the term two orders before; or the one before the last, times what that is of the term two orders before it, whichever is larger: from
 /// rest at a constant acceleration all terms of odd order of the attitude are zero. Where only rates are integrated the attitude counts as turning
@@ -37,6 +44,12 @@ pub(super) struct Truncation<R> {
     rate: R,
     /// First terms left out of the attitude, added up, rad.
     turn: R,
+    /// What is left out of the angular momentum where effects act within arcs, over the mean moment of inertia, added up in inertial axes.
+    momentum: [R; 3],
+    /// The largest square of that so far.
+    farthest: R,
+    /// The squares of its parts, added up.
+    squares: R,
 }
 
 impl<R: Real> Truncation<R> {
@@ -44,36 +57,86 @@ impl<R: Real> Truncation<R> {
     pub(super) fn new(zero: R, rule: &StepRule) -> Self {
         let order = rule.order;
         let factorial: f64 = (1..=order + 1).map(|n| n as f64).product();
-        Truncation { order, factor: 2.0 / factorial, all: 1.0 + rule.rest(), rate: zero, turn: zero }
+        Truncation {
+            order,
+            factor: 2.0 / factorial,
+            all: 1.0 + rule.rest(),
+            rate: zero,
+            turn: zero,
+            momentum: [zero; 3],
+            farthest: zero,
+            squares: zero,
+        }
     }
 
     /// The sums of the run in `lane`.
     pub(super) fn sums(&self, lane: usize) -> TruncationSums {
-        TruncationSums { rate: self.rate.lane(lane), turn: self.turn.lane(lane) }
+        let directed = self.farthest.lane(lane).sqrt() + self.squares.lane(lane).sqrt();
+        TruncationSums { rate: self.rate.lane(lane) + directed, turn: self.turn.lane(lane) }
     }
 
     /// Continues the sums of the run in `lane` in a unit of time that is `ratio` times as long.
     pub(super) fn rescale(&mut self, lane: usize, ratio: f64) {
-        self.rate.set_lane(lane, self.rate.lane(lane) * ratio);
+        let rescale = |sum: &mut R, ratio: f64| sum.set_lane(lane, sum.lane(lane) * ratio);
+        rescale(&mut self.rate, ratio);
+        self.momentum.iter_mut().for_each(|sum| rescale(sum, ratio));
+        rescale(&mut self.farthest, ratio * ratio);
+        rescale(&mut self.squares, ratio * ratio);
     }
 
     /// Sets the sums of the run in `lane`.
     pub(super) fn set(&mut self, lane: usize, sums: TruncationSums) {
         self.rate.set_lane(lane, sums.rate);
         self.turn.set_lane(lane, sums.turn);
+        for sum in self.momentum.iter_mut().chain([&mut self.farthest, &mut self.squares]) {
+            sum.set_lane(lane, 0.0);
+        }
     }
 
     /// Adds a step of length `length` along the series `jet`.
     #[inline(always)]
     pub(super) fn add<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
+        let rate = self.left_out_of_rate(jet, length);
+        self.rate += rate;
+        self.add_turn(jet, length);
+    }
+
+    /// The same where effects act within arcs, in lanes of the constants `constants`: the rate's part with its direction.
+    #[inline(always)]
+    pub(super) fn add_directed<const N: usize>(&mut self, jet: &[[R; N]], length: R, constants: &Constants<R>) {
+        let rate = self.left_out_of_rate(jet, length);
+        self.add_turn(jet, length);
         let order = self.order;
-        let power = raised_to(length, order - 1);
-        let [third, second, before, last] = [&jet[order - 3], &jet[order - 2], &jet[order - 1], &jet[order]];
-        let rates = [size(third), size(second), size(before), size(last)];
-        self.rate += length.splat(self.all) * (power * left_out(rates, length));
+        let [second, before, last] = [&jet[order - 2], &jet[order - 1], &jet[order]].map(rates);
+        let direction = sum(before, scaled(length, last));
+        let moments = constants.inverse.map(|inverse| length.splat(1.0) / inverse);
+        let mean = length.splat(1.0 / 3.0) * (moments[0] + moments[1] + moments[2]);
+        let tiny = length.splat(f64::MIN_POSITIVE);
+        let share = rate / (norm(direction).larger(tiny) * mean);
+        let share = R::select(dot(last, second).lt(length.zero()), -share, share);
+        let left: [R; 3] = core::array::from_fn(|i| moments[i] * (direction[i] * share));
+        self.squares += dot(left, left);
+        let start = &jet[0];
+        let attitude = [start[ATTITUDE], start[ATTITUDE + 1], start[ATTITUDE + 2], start[ATTITUDE + 3]];
+        self.momentum = sum(self.momentum, product(dcm_from_quaternion(attitude), left));
+        self.farthest = self.farthest.larger(dot(self.momentum, self.momentum));
+    }
+
+    /// What a step of length `length` leaves out of omega's series, in magnitude.
+    #[inline(always)]
+    fn left_out_of_rate<const N: usize>(&self, jet: &[[R; N]], length: R) -> R {
+        let order = self.order;
+        let sizes = [&jet[order - 3], &jet[order - 2], &jet[order - 1], &jet[order]].map(size);
+        length.splat(self.all) * (raised_to(length, order - 1) * left_out(sizes, length))
+    }
+
+    /// Adds what a step of length `length` leaves out of the attitude.
+    #[inline(always)]
+    fn add_turn<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
+        let order = self.order;
         self.turn += if N >= WITH_ATTITUDE {
-            let turns = [turn(third), turn(second), turn(before), turn(last)];
-            length.splat(2.0) * (power * left_out(turns, length))
+            let turns = [&jet[order - 3], &jet[order - 2], &jet[order - 1], &jet[order]].map(turn);
+            length.splat(2.0) * (raised_to(length, order - 1) * left_out(turns, length))
         } else {
             length.splat(self.factor) * raised_to(length.splat(0.5) * (size(&jet[0]) * length), order + 1)
         };
@@ -127,10 +190,16 @@ fn share<R: Real>(term: R, of: R) -> R {
     (term / of.larger(of.splat(f64::MIN_POSITIVE))).smaller(of.splat(1.0))
 }
 
+/// omega of one order of a series.
+#[inline(always)]
+fn rates<R: Real, const N: usize>(term: &[R; N]) -> [R; 3] {
+    [term[OMEGA], term[OMEGA + 1], term[OMEGA + 2]]
+}
+
 /// |omega| of one order of a series.
 #[inline(always)]
 fn size<R: Real, const N: usize>(term: &[R; N]) -> R {
-    norm([term[OMEGA], term[OMEGA + 1], term[OMEGA + 2]])
+    norm(rates(term))
 }
 
 /// |q| of one order of a series.
