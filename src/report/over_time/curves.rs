@@ -186,6 +186,10 @@ impl<'a> Curves<'a> {
 
     /// The same with the runs in flight, and an axis that ends where all but one in a hundred have ended, and the nominal run.
     pub(super) fn in_flight(&self, mut figure: Figure) -> Figure {
+        if let (true, [first, .., last]) = (self.is_plot() && figure.is_over_time, &self.times()[..]) {
+            // one time axis, also where a curve is not there at all times
+            figure.x = figure.x.within(*first, *last);
+        }
         let Some(bands) = self.bands.first().filter(|_| figure.is_over_time) else { return figure };
         let runs = bands.runs as f64;
         if bands.in_flight.last().is_none_or(|left| *left == bands.runs) {
