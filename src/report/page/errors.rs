@@ -88,11 +88,7 @@ pub fn histogram(
         marks.push(Mark::Limit { label: "nominal".to_owned(), at: nominal, vertical: true });
     }
     let axis = if is_log { Axis::log } else { Axis::linear };
-    let what = if outcome.is_error {
-        format!("|{}|", names::of_quantity(&outcome.quantity))
-    } else {
-        names::of_quantity(&outcome.quantity)
-    };
+    let what = magnitude(outcome);
     let all = outcome.sketch.count();
     // the meaning of a column that the file defines is in its own names, which the glossary has
     let meaning = outcome.quantity.meaning();
@@ -110,6 +106,13 @@ pub fn histogram(
         y: Axis::linear("runs", ""),
         marks,
     }
+}
+
+/// What an axis of an outcome says: of errors that have a sign, that it shows their magnitudes.
+pub fn magnitude(outcome: &SurveyedOutcome) -> String {
+    let (column, name) = (outcome.quantity.name(), names::of_quantity(&outcome.quantity));
+    let has_sign = outcome.is_error && !["_max", "_estimate"].iter().any(|end| column.ends_with(end));
+    if has_sign { format!("|{name}|") } else { name }
 }
 
 /// What an interval of this confidence is called.
@@ -157,8 +160,7 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         ),
         columns: 6,
         is_over_time: false,
-        x: Axis::log(format!("|{}|", names::of_quantity(&outcome.quantity)), outcome.quantity.unit())
-            .showing(outcome.quantity.name()),
+        x: Axis::log(magnitude(outcome), outcome.quantity.unit()).showing(outcome.quantity.name()),
         y: Axis::log("fraction of runs", ""),
         marks,
     }

@@ -7,7 +7,7 @@ use crate::report::escaped::escaped;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::names;
 use crate::report::names::sentence;
-use crate::report::page::errors::shown_rows;
+use crate::report::page::errors::{magnitude, shown_rows};
 use crate::report::page::fates::{self, Fate};
 use crate::run::Quantity;
 use crate::sampling::Design;
@@ -202,11 +202,7 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
         marks.push(points(&failed, "not computed (at the lower edge)", Hue::Reference, PointShape::Cross, y));
     }
     let all = outcome.sketch.count();
-    let label = if outcome.is_error {
-        format!("|{}|", names::of_quantity(&outcome.quantity))
-    } else {
-        names::of_quantity(&outcome.quantity)
-    };
+    let label = magnitude(outcome);
     let axis = if is_log { Axis::log } else { Axis::linear };
     Figure {
         name: format!("scatter_{}_{}", outcome.quantity.name(), column.parameter.column_name(column.component)),
@@ -246,6 +242,7 @@ pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
             stacked: false,
         });
     }
+    let band = if marks.is_empty() { "" } else { "; where the band begins, N bounds the quantile from both sides" };
     marks.push(line("99% quantile", Hue::Wheel(0), 2));
     marks.push(line("median", Hue::Body, 1));
     let (quantity, unit): (&Quantity, &str) = (&outcome.quantity, outcome.quantity.unit());
@@ -253,9 +250,9 @@ pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         name: format!("convergence_{}", quantity.name()),
         section: FigureSection::Statistics,
         title: format!("Convergence of {}", names::of_quantity(quantity)),
-        caption: "Quantiles of the first N dispersed runs that were computed, in the order of their numbers; where the band begins, N bounds the \
-                  quantile from both sides."
-            .to_owned(),
+        caption: format!(
+            "Quantiles of the first N dispersed runs that were computed, in the order of their numbers{band}."
+        ),
         columns: 6,
         is_over_time: false,
         x: Axis::log("runs N", ""),

@@ -7,7 +7,7 @@ use crate::report::histogram::counts;
 use crate::report::names;
 use crate::report::names::sentence;
 use crate::report::page::NO_INTERVAL;
-use crate::report::page::errors::{histogram, interval_label, shown_rows};
+use crate::report::page::errors::{histogram, interval_label, magnitude, shown_rows};
 use crate::report::page::fates::{self, Fate};
 use crate::report::page::readable::{number, with_unit};
 use crate::report::page::tables::StatisticsRow;
@@ -203,11 +203,7 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
         marks.push(Mark::Points { label, hue, shape: PointShape::Disc, x, y, samples });
     }
     marks.extend(limits(plan, outcome));
-    let what = if outcome.is_error {
-        format!("|{}|", names::of_quantity(&outcome.quantity))
-    } else {
-        names::of_quantity(&outcome.quantity)
-    };
+    let what = magnitude(outcome);
     let is_log = outcome.is_error && outcome.sketch.min().is_some_and(|min| min > 0.0);
     let axis = if is_log { Axis::log } else { Axis::linear };
     let interval = if has_intervals { "Band: Clopper-Pearson." } else { NO_INTERVAL };
