@@ -209,8 +209,7 @@ fn rest(plan: &Plan, ranking: &Ranking<'_>) -> Option<String> {
         return Some(format!("a regression on all inputs together explains {:.0}%", (100.0 * together).floor()));
     }
     let noise = if plan.law.is_some() { "noise in the loop, " } else { "" };
-    let runs = counted(first.rows, "run");
-    Some(format!("the rest is {noise}interactions of inputs, or effects too small to show in {runs}"))
+    Some(format!("the rest is {noise}interactions, or effects too small to show"))
 }
 
 /// The rankings of an outcome in words; empty where no influence was estimated.

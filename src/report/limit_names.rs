@@ -167,8 +167,10 @@ impl<'f> Panel<'f> {
             svg.line(&line, Stroke { dash: Some([4, 4]), ..grey });
         }
         for LimitName { label, place, anchor, corners, arrow } in self.limit_names(&svg.font, &limits) {
-            // a ground of its own, so that a curve behind it does not cross it out
-            svg.rectangle(corners[0], corners[1], "#ffffff", 0.8);
+            // a ground of its own, so that a curve behind it does not cross it out; above bars it needs none
+            if arrow.is_none_or(|[_, step]| step[0] == 0.0) {
+                svg.rectangle(corners[0], corners[1], "#ffffff", 0.8);
+            }
             svg.text(label, place, LABEL, anchor, grey.color, false);
             let Some([tip, step]) = arrow else { continue };
             let wing = |side: f64| {

@@ -282,7 +282,11 @@ fn samples_and_points_are_counted() {
         let shown = rows.len();
         let heads: Vec<&str> =
             said.lines().next().expect("heads").split_whitespace().filter(|word| *word != "rate").collect();
-        says(&said, "(# of # points;", &[shown as f64, f64::from(points)]);
+        let (shown, points_there) = (shown as f64, f64::from(points));
+        match shown == points_there {
+            true => says(&said, "(all # points;", &[points_there]),
+            false => says(&said, "(# of # points;", &[shown, points_there]),
+        }
         let below: Vec<&str> = said.lines().nth(1).expect("units").split_whitespace().collect();
         let count = |unit: &str| below.iter().filter(|word| **word == unit).count();
         let wheels = heads.iter().filter(|head| head.starts_with('w')).count();

@@ -263,7 +263,7 @@ fn filters_that_do_not_know_their_errors_are_named() {
         let shown = [found.said.contains("overconfident"), html.contains("overconfident")];
         assert_eq!(shown, [is_named; 2], "{}", found.said);
         if is_named {
-            let factor = "final errors of attitude and gyro bias are # sigma";
+            let factor = "attitude and gyro bias typically end # sigma off";
             assert!(median > 2.0, "{median}");
             for said in [notes[0].as_str().expect("a note"), &found.said, &html] {
                 let of = screen_numbers::numbers(said, factor);

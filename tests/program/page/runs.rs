@@ -213,7 +213,8 @@ fn bars_of_influence_descend() {
         let line = found.said.lines().find(|line| line.trim_start().starts_with(outcome) && line.contains("with it"));
         let line = line.unwrap_or_else(|| panic!("{outcome}: {}", found.said));
         // what the numbers are, in the same words in both places
-        let said = format!("{first} explains {:.0}% of the variance (", 100.0 * shares[0]);
+        let share = if shares[0] >= 0.995 { "over 99".to_owned() } else { format!("{:.0}", 100.0 * shares[0]) };
+        let said = format!("{first} explains {share}% of the variance (");
         assert!(line.contains(&said), "{said}: {line}");
         assert_eq!(found.figure(&figure)["x"]["quantity"], "share of the variance");
         // what a regression explains, in percent, and of how many runs
