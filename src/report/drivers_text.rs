@@ -206,7 +206,7 @@ fn rest(plan: &Plan, ranking: &Ranking<'_>) -> Option<String> {
     }
     let together = first.r_squared.map_or(0.0, |of| of.value);
     if together >= 0.5 {
-        return Some(format!("a regression on all inputs together explains {:.0}%", (100.0 * together).floor()));
+        return Some(format!("a linear regression on all inputs together explains {:.0}%", (100.0 * together).floor()));
     }
     let noise = if plan.law.is_some() { "noise in the loop, " } else { "" };
     Some(format!("the rest is {noise}interactions, or effects too small to show"))

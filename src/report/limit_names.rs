@@ -147,11 +147,14 @@ impl<'f> Panel<'f> {
         for limit in others.into_iter().chain(across).filter(|limit| !limit.label.is_empty()) {
             let fault = |name: &LimitName<'_>| {
                 let is_covered = names.iter().any(|other| do_meet(&name.corners, &other.corners));
-                let crossed = lines.iter().filter(|[from, to]| crosses(*from, *to, &name.corners)).count();
                 let parts = curves.iter().flat_map(|curve| curve.windows(2));
                 let on_curves = parts.filter(|ends| crosses(ends[0], ends[1], &name.corners)).count();
+                // an upright line is behind few letters, one across behind all of them
+                let crossed = lines.iter().filter(|[from, to]| crosses(*from, *to, &name.corners));
+                let crossed: usize = crossed.map(|[from, to]| if from[0] == to[0] { 1 } else { 4 }).sum();
                 // what is worse first
-                (is_covered || !is_inside(&name.corners, self.edges), crossed, on_curves)
+                let is_wrong = is_covered || !is_inside(&name.corners, self.edges);
+                (is_wrong, crossed + if on_curves > 0 { 2 } else { 0 }, on_curves)
             };
             let candidates = limit.candidates(font.width(limit.label, LABEL), self.edges);
             names.extend(candidates.into_iter().min_by_key(fault));

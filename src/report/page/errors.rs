@@ -37,7 +37,8 @@ pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
         figures.push(exceedance(outcome, has_intervals));
     }
     figures.extend(audits(survey));
-    let steps = survey.outcome("steps");
+    // as many in all runs, as a fixed step takes, have no distribution
+    let steps = survey.outcome("steps").filter(|(_, steps)| steps.sketch.min() != steps.sketch.max());
     figures.extend(steps.map(|steps| histogram(survey, steps, FigureSection::Numerics, &[])));
     figures.retain(Figure::is_visible);
     figures

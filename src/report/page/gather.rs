@@ -190,7 +190,10 @@ fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity], driv
     let of_observable = || all.iter().filter(|one| one.observable == first.observable);
     let mut text = format!("Of {} runs; {driven}.", grouped(first.rows));
     if let Some(share) = first.r_squared.filter(|share| share.value >= LEAST_REGRESSION) {
-        text += &format!(" A regression on all inputs explains {}%.", number(libm::round(1000.0 * share.value) / 10.0));
+        text += &format!(
+            " A linear regression on all inputs explains {}%.",
+            number(libm::round(1000.0 * share.value) / 10.0)
+        );
     }
     let correlated: Vec<String> = of_observable()
         .filter_map(|one| {

@@ -224,7 +224,7 @@ fn bars_of_influence_descend() {
         let known = [299.0, 100.0 * floats(&table, "r_squared")[row]];
         let meaning = found.figure(&figure)["caption"].as_str().expect("a caption");
         says(meaning, "Of # runs", &known[..1]);
-        let share = numbers(meaning, "A regression on all inputs explains #%.")[0];
+        let share = numbers(meaning, "A linear regression on all inputs explains #%.")[0];
         assert!((share - known[1]).abs() < 0.051, "{share}% for {known:?}");
     }
 }
