@@ -1,6 +1,6 @@
 // What is under the pointer of a figure, with exact values and units, and the cursor that the replay moves.
 
-import { readable, withUnit } from "./numbers.js";
+import { raised, readable, withUnit } from "./numbers.js";
 
 // The index of the element of ascending `values` that is nearest to `value`.
 export function nearest(values, value) {
@@ -30,6 +30,11 @@ export function nearestPoint(mark, toPixel, at, reach) {
   return found;
 }
 
+// Whether a line is the interval of a quantile: from one abscissa to another at one height.
+function isInterval(mark) {
+  return mark.kind === "line" && mark.x.length === 2 && mark.y[0] === mark.y[1];
+}
+
 // Lines of text about what is at pixel `at`, whose value is `value`, in `figure`.
 export function described(figure, at, value, toPixel) {
   const lines = [];
@@ -50,7 +55,7 @@ export function described(figure, at, value, toPixel) {
       let bar = 0;
       while (bar < mark.heights.length - 1 && mark.edges[bar + 1] <= value[0]) bar += 1;
       if (value[0] < mark.edges[0] || value[0] > mark.edges[mark.edges.length - 1]) continue;
-      lines.push(`${withUnit(mark.edges[bar], x.unit)} to ${withUnit(mark.edges[bar + 1], x.unit)}`, `${mark.label}: ${withUnit(mark.heights[bar], "")} ${y.quantity}`);
+      lines.push(`${withUnit(mark.edges[bar], x.unit)} to ${withUnit(mark.edges[bar + 1], x.unit)}`, mark.label === y.quantity ? `${withUnit(mark.heights[bar], "")} ${y.quantity}` : `${mark.label}: ${withUnit(mark.heights[bar], "")} ${y.quantity}`);
     }
     if (mark.kind === "whiskers" && y.names) {
       const row = Math.round(value[1]);
@@ -78,12 +83,16 @@ export function described(figure, at, value, toPixel) {
       lines.push(`${y.names[row]}: ${withUnit(from, x.unit)} to ${withUnit(to, x.unit)}`);
       continue;
     }
+    if (isInterval(mark) && !figure.time) {
+      lines.push(`${mark.label}: [${readable(from)}, ${readable(to)}]${x.unit ? ` ${raised(x.unit)}` : ""}`);
+      continue;
+    }
     const index = nearest(mark.x, value[0]);
     if (isFirst) lines.push(`${x.quantity}: ${withUnit(mark.x[index], x.unit)}`);
     isFirst = false;
     if (mark.kind === "line") lines.push(`${mark.label}: ${withUnit(mark.y[index], y.unit)}`);
     else if (mark.stacked) lines.push(`${mark.label}: ${withUnit(mark.high[index] > 0 ? mark.high[index] - mark.low[index] : mark.low[index] - mark.high[index], y.unit)}`);
-    else lines.push(`${mark.label}: [${readable(mark.low[index])}, ${readable(mark.high[index])}]${y.unit ? ` ${y.unit}` : ""}`);
+    else lines.push(`${mark.label}: [${readable(mark.low[index])}, ${readable(mark.high[index])}]${y.unit ? ` ${raised(y.unit)}` : ""}`);
   }
   if (lines.length === 0) {
     for (const mark of marks.filter((other) => other.kind === "line")) {
