@@ -193,9 +193,9 @@ export function showFigures(figures, echarts) {
   const said = new Set();
   for (const figure of figures) {
     const view = new FigureView(figure, echarts);
-    // what a section has said of bands need not be said at each of its figures
+    // what a section has said of bands need not be said at each of its figures, unless they mislead
     const caption = `${figure.section} ${figure.caption}`;
-    view.box.querySelector("figcaption").hidden = figure.time && said.has(caption);
+    view.box.querySelector("figcaption").hidden = figure.time && said.has(caption) && !figure.caption.includes("[bands]");
     said.add(caption);
     (document.querySelector(`[data-figure~="${figure.name}"]`) ?? document.querySelector(`#${figure.section} .figures`)).append(view.box);
   }

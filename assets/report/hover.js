@@ -50,6 +50,12 @@ export function described(figure, at, value, toPixel) {
     lines.push(sample, `${x.quantity}: ${withUnit(mark.x[found.index], x.unit)}`, `${y.quantity}: ${withUnit(mark.y[found.index], y.unit)}`);
     return lines;
   }
+  // the abscissa that is named is that of the series with the most points; another that stands elsewhere says where
+  const isThere = (mark) => !y.names && !(isInterval(mark) && !figure.time) && !(figure.time && (value[0] < mark.x[0] || value[0] > mark.x[mark.x.length - 1]));
+  const shown = series.filter(isThere);
+  const finest = shown.reduce((most, mark) => (most && most.x.length >= mark.x.length ? most : mark), null);
+  const named = finest ? finest.x[nearest(finest.x, value[0])] : null;
+  if (finest) lines.push(`${x.quantity}: ${withUnit(named, x.unit)}`);
   for (const mark of marks) {
     if (mark.kind === "bars" && mark.edges.length > 1) {
       let bar = 0;
@@ -65,7 +71,8 @@ export function described(figure, at, value, toPixel) {
     }
     if (mark.kind === "flight") {
       const index = nearest(mark.x, value[0]);
-      lines.push(`${x.quantity}: ${withUnit(mark.x[index], x.unit)}`, `${mark.label}: ${mark.counts[index]} of ${mark.runs}`);
+      if (!finest) lines.push(`${x.quantity}: ${withUnit(mark.x[index], x.unit)}`);
+      lines.push(`${mark.label}: ${mark.counts[index]} of ${mark.runs}`);
     }
     if (mark.kind === "matrix") {
       const count = y.names.length;
@@ -74,7 +81,6 @@ export function described(figure, at, value, toPixel) {
       lines.push(y.names[row], x.names[column], `correlation: ${mark.values[row * count + column].toFixed(3)}`);
     }
   }
-  let isFirst = lines.length === 0;
   for (const mark of series) {
     const [from, to] = [mark.x[0], mark.x[mark.x.length - 1]];
     if (figure.time && (value[0] < from || value[0] > to)) continue;
@@ -88,11 +94,10 @@ export function described(figure, at, value, toPixel) {
       continue;
     }
     const index = nearest(mark.x, value[0]);
-    if (isFirst) lines.push(`${x.quantity}: ${withUnit(mark.x[index], x.unit)}`);
-    isFirst = false;
-    if (mark.kind === "line") lines.push(`${mark.label}: ${withUnit(mark.y[index], y.unit)}`);
-    else if (mark.stacked) lines.push(`${mark.label}: ${withUnit(mark.high[index] > 0 ? mark.high[index] - mark.low[index] : mark.low[index] - mark.high[index], y.unit)}`);
-    else lines.push(`${mark.label}: [${readable(mark.low[index])}, ${readable(mark.high[index])}]${y.unit ? ` ${raised(y.unit)}` : ""}`);
+    const label = Math.abs(mark.x[index] - named) <= 1e-6 * Math.abs(named) ? mark.label : `${mark.label} at ${withUnit(mark.x[index], x.unit)}`;
+    if (mark.kind === "line") lines.push(`${label}: ${withUnit(mark.y[index], y.unit)}`);
+    else if (mark.stacked) lines.push(`${label}: ${withUnit(mark.high[index] > 0 ? mark.high[index] - mark.low[index] : mark.low[index] - mark.high[index], y.unit)}`);
+    else lines.push(`${label}: [${readable(mark.low[index])}, ${readable(mark.high[index])}]${y.unit ? ` ${raised(y.unit)}` : ""}`);
   }
   if (lines.length === 0) {
     for (const mark of marks.filter((other) => other.kind === "line")) {

@@ -38,6 +38,7 @@ pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
     }
     figures.extend(audits(survey));
     let steps = survey.outcome("steps");
+    let steps = steps.filter(|(_, steps)| steps.sketch.min() < steps.sketch.max());
     figures.extend(steps.map(|steps| histogram(survey, steps, FigureSection::Numerics, &[])));
     figures.retain(Figure::is_visible);
     figures

@@ -232,9 +232,9 @@ pub fn missions(missions: &Missions, nominal: Option<&str>) -> String {
         return lines;
     }
     format!(
-        "<section id=\"missions\"><h2>How did the missions end?</h2><table class=\"missions\"><thead><tr><th>end</th><th>runs</th><th>share</th><th></th></tr></thead><tbody>{lines}</tbody></table><p class=\"caption\">Of the dispersed runs{}. The nominal run, without sensor noise: {}.</p></section>\n",
+        "<section id=\"missions\"><h2>How did the missions end?</h2><table class=\"missions\"><thead><tr><th>end</th><th>runs</th><th>share</th><th></th></tr></thead><tbody>{lines}</tbody></table><p class=\"caption\">Of the dispersed runs{}. The nominal run has no sensor noise; its {}.</p></section>\n",
         mission_text::missing(missions).map_or_else(String::new, |note| format!("; {}", escaped(&note))),
-        escaped(nominal.unwrap_or("mission still flying at the end of the run"))
+        escaped(nominal.unwrap_or("mission did not end before the run did"))
     )
 }
 
