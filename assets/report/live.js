@@ -21,6 +21,8 @@ export class LiveNumbers {
     this.motion = motion;
     const made = motion.run.live.map((number) => {
       const [name, value] = ["dt", "dd"].map((tag) => document.createElement(tag));
+      // what may need two lines has them, so that nothing moves while a run plays
+      value.className = number.components.length > 1 ? "several" : "";
       name.textContent = number.components.length > 1 ? `${number.name}: ${number.components.join(", ")}` : number.name;
       return [name, value];
     });

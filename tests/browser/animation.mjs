@@ -72,14 +72,18 @@ await page.evaluate(async () => {
   // the picture: what is seen, the numbers, the slider with its phases
   document.querySelectorAll(".replay > :not(.beside, .time, .marks, .clock)").forEach((element) => element.remove());
 });
-const box = await page.$(".replay");
+// pictures of one size: what is below moves where a number needs another line
+const clip = await page.$eval(".replay", (replay) => {
+  const { x, y, width, height } = replay.getBoundingClientRect();
+  return { x: x + scrollX, y: y + scrollY, width, height };
+});
 const frames = [];
 for (let frame = 0; frame < FRAMES; frame += 1) {
   await page.evaluate(async (part) => {
     const replay = await globalThis.spindriftPage.replay();
     replay.goTo(part * replay.motion.last);
   }, frame / (FRAMES - 1));
-  frames.push(Buffer.from(await box.screenshot()));
+  frames.push(Buffer.from(await page.screenshot({ clip, captureBeyondViewport: true })));
 }
 await browser.close();
 writeFileSync(picture, animated(frames, frames[STILL]));

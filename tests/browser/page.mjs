@@ -178,6 +178,11 @@ async function checkMission(page, name) {
       // it is shown to the end of the mission
       expect(run.marks.every((mark) => mark.time <= replay.motion.last * (1 + 1e-6)), `${run.name} ends at ${replay.motion.last} s, before ${run.marks.at(-1)?.name} at ${run.marks.at(-1)?.time} s`);
       marks.forEach(([time, at], k) => expect(time === run.marks[k].time && near(at, Math.min(1, time / replay.motion.last)), `the mark ${run.marks[k].name} is at ${at}`));
+      // numbers that change move nothing below them
+      const heightAt = (part) => (replay.goTo(part * replay.motion.last), document.querySelector(".live").getBoundingClientRect().height);
+      const heights = [0, 0.2, 0.4, 0.6, 0.8, 1].map(heightAt);
+      expect(Math.max(...heights) - Math.min(...heights) < 1, `${run.name}: the numbers are ${heights} pixels high`);
+      replay.goTo(run.times[place]);
       if (replay.approach) {
         replay.view("approach");
         const drawn = replay.approach.line.geometry.attributes.position.array;
