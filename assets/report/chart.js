@@ -50,11 +50,11 @@ function titleOf(axis, unit, room) {
   // the unit stays beside the last word
   const words = axis.quantity.split(" ");
   words.push(words.pop() + end);
-  const lines = [words[0]];
-  for (const word of words.slice(1)) {
-    if (lines.at(-1).length + 1 + word.length <= most) lines[lines.length - 1] += ` ${word}`;
-    else lines.push(word);
-  }
+  const broken = (width) => words.slice(1).reduce((lines, word) => (lines.at(-1).length + 1 + word.length <= width ? [...lines.slice(0, -1), `${lines.at(-1)} ${word}`] : [...lines, word]), [words[0]]);
+  // as few lines as there have to be, of lengths as equal as they can be
+  let width = most;
+  while (width > 1 && broken(width - 1).length === broken(most).length) width -= 1;
+  const lines = broken(width);
   const cut = (line) => (line.length > most && !line.endsWith(end) ? `${line.slice(0, Math.max(2, most - 1))}\u2026` : line);
   return [...lines.slice(0, LINES - 1).map(cut), ...(lines.length < LINES ? [] : [lines.length > LINES ? `\u2026 ${lines.at(-1)}` : lines.at(-1)])].join("\n");
 }
