@@ -140,10 +140,11 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
 const HEADS: [&str; 7] =
     ["Result", "Campaign", "Verdicts", "Runs computed", "Day", "Version", "Changed since the last run"];
 
-/// Of the table of results alone: where it is narrow each row is a card.
+/// Of the table of results alone: campaigns have a column where one is not named by its folder; where the table is narrow each row is a card.
 const OWN_STYLE: &str = "\
 .pass { color: var(--pass); } .fail { color: var(--fail); font-weight: 600; } .undecided { color: var(--undecided); }
 #results th, #results td { text-align: left; white-space: normal; } @media (min-width: 700px) { #results th:nth-child(4), #results td:nth-child(4) { text-align: right; } } #results td span:not(.quiet), #results td:nth-child(5) { white-space: nowrap; }
+#results table:not(:has(td:nth-child(2):not(:empty))) :is(th, td):nth-child(2) { display: none; }
 #results td:last-child { overflow-wrap: anywhere; min-width: 9rem; }
 @media screen and (max-width: 699px) {
   #results thead { display: none; } #results table, #results tbody, #results tr, #results td { display: block; }
