@@ -55,7 +55,8 @@ export function described(figure, at, value, toPixel) {
   const shown = series.filter(isThere);
   const finest = shown.reduce((most, mark) => (most && most.x.length >= mark.x.length ? most : mark), null);
   const named = finest ? finest.x[nearest(finest.x, value[0])] : null;
-  if (finest) lines.push(`${x.quantity}: ${withUnit(named, x.unit)}`);
+  // a bar has ends of its own
+  if (finest && !marks.some((mark) => mark.kind === "bars")) lines.push(`${x.quantity}: ${withUnit(named, x.unit)}`);
   for (const mark of marks) {
     if (mark.kind === "bars" && mark.edges.length > 1) {
       let bar = 0;
@@ -93,7 +94,12 @@ export function described(figure, at, value, toPixel) {
       lines.push(`${mark.label}: [${readable(from)}, ${readable(to)}]${x.unit ? ` ${raised(x.unit)}` : ""}`);
       continue;
     }
-    const index = nearest(mark.x, value[0]);
+    let index = nearest(mark.x, value[0]);
+    // of a fraction that steps at an abscissa the larger one is "at most" or "at least" this value
+    const heights = mark.y ?? mark.high;
+    const isStep = (next) => mark.x[next] === mark.x[index] && heights[next] > heights[index];
+    while (isStep(index + 1)) index += 1;
+    while (isStep(index - 1)) index -= 1;
     const label = Math.abs(mark.x[index] - named) <= 1e-6 * Math.abs(named) ? mark.label : `${mark.label} at ${withUnit(mark.x[index], x.unit)}`;
     if (mark.kind === "line") lines.push(`${label}: ${withUnit(mark.y[index], y.unit)}`);
     else if (mark.stacked) lines.push(`${label}: ${withUnit(mark.high[index] > 0 ? mark.high[index] - mark.low[index] : mark.low[index] - mark.high[index], y.unit)}`);

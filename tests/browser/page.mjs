@@ -350,11 +350,20 @@ async function checkSaid(page, name) {
           if (at >= mark.x.length) continue;
           const lines = described(figure, [-1e6, -1e6], [mark.x[k] + part * (mark.x[k + 1] - mark.x[k]), 0], () => [0, 0]);
           const known = `${mark.label}: ${withUnit(mark.y[at], figure.y.unit)}`;
-          // under the abscissa that is named, or with its own
+          // under the abscissa that is named, or with its own; within the ends of a bar
           const own = withUnit(mark.x[at], figure.x.unit);
-          const isNamed = lines.includes(`${figure.x.quantity}: ${own}`) ? lines.includes(known) : lines.includes(known.replace(":", ` at ${own}:`));
+          const isInBar = figure.marks.some((one) => one.kind === "bars");
+          const isNamed = isInBar || lines.includes(`${figure.x.quantity}: ${own}`) ? lines.includes(known) : lines.includes(known.replace(":", ` at ${own}:`));
           if (!isNamed) found.push(`the tip of ${figure.name} says ${lines.join("; ")} for ${known}`);
         }
+      }
+      // a fraction of runs at a value that several have is that of all of them
+      for (const mark of figure.marks.filter((one) => one.kind === "line" && one.x.length > 2 && /^(cumulative|tail)_/.test(figure.name))) {
+        const k = mark.x.findIndex((value, at) => value === mark.x[at + 1]);
+        if (k < 0) continue;
+        const most = Math.max(...Array.from(mark.y).filter((_, at) => mark.x[at] === mark.x[k]));
+        const lines = described(figure, [-1e6, -1e6], [mark.x[k], 0], () => [0, 0]);
+        if (!lines.includes(`${mark.label}: ${withUnit(most, "")}`)) found.push(`the tip of ${figure.name} says ${lines.join("; ")} for ${most}`);
       }
       // of bodies one upon the other each has its own share, with the sign of a loss
       for (const mark of figure.marks.filter((one) => one.kind === "band" && one.stacked)) {
