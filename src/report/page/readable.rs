@@ -45,8 +45,13 @@ pub fn with_unit(value: f64, unit: &str) -> String {
     match unit {
         _ if unit.is_empty() || value.is_nan() => number(value),
         "%" => format!("{}%", number(value)),
-        _ => format!("{}\u{a0}{unit}", number(value)),
+        _ => format!("{}\u{a0}{}", number(value), raised(unit)),
     }
+}
+
+/// A unit whose powers are raised.
+fn raised(unit: &str) -> String {
+    unit.replace("^2", "\u{b2}").replace("^3", "\u{b3}")
 }
 
 /// A whole number with its thousands apart.

@@ -244,7 +244,10 @@ fn two_statuses_are_told_apart() {
     let rows: Vec<&str> = worst.split("<tr>").collect();
     // the bars are side by side
     let mut end = summary["statuses"]["ok"].as_f64().expect("a count") / 3.0;
-    for (status, words) in [("invalid_sample", "invalid: not physical"), ("inaccurate", "inaccurate")] {
+    for (status, words, said) in [
+        ("invalid_sample", "invalid: not physical", "Invalid: not physical"),
+        ("inaccurate", "inaccurate", "Inaccurate"),
+    ] {
         let count = summary["statuses"][status].as_u64().expect("a count");
         let share =
             visible.split("<li>").skip(1).find(|item| item.contains(words) && item.contains("<b>")).expect(status);
@@ -257,7 +260,7 @@ fn two_statuses_are_told_apart() {
         let reasons = summary["failure_reasons"].as_array().unwrap();
         let of = reasons.iter().filter(|one| one["status"] == status);
         let sample = of.map(|one| one["sample"].as_u64().expect("a sample")).min().expect("a reason");
-        let row = rows.iter().find(|row| row.contains(&format!("Computation failed: {status}"))).expect("a row");
+        let row = rows.iter().find(|row| row.contains(&format!("<td class=\"text\">{said}<"))).expect("a row");
         assert!(row.contains(&format!("<b>{status}</b>: ")), "{row}");
         assert!(row.starts_with(&format!("<th scope=\"row\">{sample}</th>")), "{sample}: {row}");
         let first = format!("first in sample {sample}: ");
