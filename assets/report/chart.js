@@ -1,6 +1,6 @@
 // From what a figure shows to what ECharts draws.
 
-import { readable, superscript, tickScale, tickText } from "./numbers.js";
+import { raised, readable, superscript, tickScale, tickText } from "./numbers.js";
 import { colors, isOnPaper } from "./theme.js";
 
 const LETTER = 6.6; // width of a letter of 12 pixels, about
@@ -40,39 +40,68 @@ function roundStep(span, count) {
   return (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10) * power;
 }
 
-// Quantity and unit of an axis that is `room` pixels long, in two lines where one is too short; then the quantity is shortened, the unit is not.
+const LINES = 3; // of the title of an axis, at most
+
+// Quantity and unit of an axis that is `room` pixels long, in as many lines as it needs; then the quantity is shortened, the unit is not.
 function titleOf(axis, unit, room) {
   const most = Math.max(6, Math.floor(room / 7.2));
-  const end = unit ? ` / ${unit}` : "";
+  const end = unit ? ` / ${raised(unit)}` : "";
   if (axis.quantity.length + end.length <= most) return axis.quantity + end;
-  // the break that leaves the shorter longest line
-  const breaks = Array.from(axis.quantity.matchAll(/ /g), (found) => found.index);
-  const longest = (at) => Math.max(at, axis.quantity.length - at - 1 + end.length);
-  const at = breaks.reduce((best, other) => (best === undefined || longest(other) < longest(best) ? other : best), undefined);
-  const lines = at === undefined ? [axis.quantity] : [axis.quantity.slice(0, at), axis.quantity.slice(at + 1)];
-  const short = lines.map((line, place) => {
-    const letters = most - (place === lines.length - 1 ? end.length : 0);
-    return line.length > letters ? `${line.slice(0, Math.max(2, letters - 1))}…` : line;
-  });
-  return short.join("\n") + end;
+  // the unit stays beside the last word
+  const words = axis.quantity.split(" ");
+  words.push(words.pop() + end);
+  const broken = (width) => words.slice(1).reduce((lines, word) => (lines.at(-1).length + 1 + word.length <= width ? [...lines.slice(0, -1), `${lines.at(-1)} ${word}`] : [...lines, word]), [words[0]]);
+  // as few lines as there have to be, of lengths as equal as they can be
+  let width = most;
+  while (width > 1 && broken(width - 1).length === broken(most).length) width -= 1;
+  const lines = broken(width);
+  const cut = (line) => (line.length > most && !line.endsWith(end) ? `${line.slice(0, Math.max(2, most - 1))}\u2026` : line);
+  return [...lines.slice(0, LINES - 1).map(cut), ...(lines.length < LINES ? [] : [lines.length > LINES ? `\u2026 ${lines.at(-1)}` : lines.at(-1)])].join("\n");
 }
 
-function linearAxis(axis, [low, high], isTime, count, room) {
+function linearAxis(axis, [low, high], { isTime, isAcross, count, room }) {
   // what varies by rounding alone is constant
   if (!(high - low > 1e-10 * Math.max(Math.abs(low), Math.abs(high)))) {
     const half = low === 0 ? 1 : 0.05 * Math.abs(low);
     [low, high] = [low >= 0 ? Math.max(0, low - half) : low - half, high + half];
   }
   // of a given step a multiple, where it has no room
-  const step = axis.step ? axis.step * Math.ceil((high - low) / (2 * axis.step * count) - 1e-9) : roundStep(high - low, count);
+  const stepOf = (some) => {
+    if (axis.step) return axis.step * Math.ceil((high - low) / (2 * axis.step * some) - 1e-9);
+    return axis.isCount ? Math.max(1, roundStep(high - low, some)) : roundStep(high - low, some);
+  };
   const scale = tickScale(low, high, axis.unit);
   const name = titleOf(axis, scale.unit, room);
+  // numbers side by side are fewer where they are long: none is left out between others
+  const widthOf = (step) => ((high - low) / step + 1) * (DIGIT * Math.max(...[low, high].map((end) => tickText(Math.round(end / step) * step, step, scale.factor).length)) + 8);
+  let step = stepOf(count);
+  for (let some = count - 1; isAcross && some >= 2 && widthOf(step) > room; some -= 1) step = stepOf(some);
   const text = (value) => tickText(value, step, scale.factor);
   const [first, last] = [Math.floor(low / step + 1e-9) * step, Math.ceil(high / step - 1e-9) * step];
   // a run ends where it ends: the last tick may be before it
   const [min, max] = isTime ? [first, high] : [first, last];
   const texts = Array.from({ length: Math.floor((max - first) / step + 1e-6) + 1 }, (_, k) => text(first + k * step));
   return { type: "value", min, max, interval: step, name, texts, axisLabel: { formatter: text, hideOverlap: true, showMaxLabel: last - max < 1e-6 * step } };
+}
+
+const FEW = 5; // values of an input that has steps, at most
+
+// The axis of an input that has few values: a tick at each of them, and room beside the first and the last.
+function steppedAxis(axis, values, room) {
+  const beside = 0.08 * (values.at(-1) - values[0]);
+  const text = (value) => readable(value, 4);
+  const customValues = values;
+  return { type: "value", min: values[0] - beside, max: values.at(-1) + beside, name: titleOf(axis, axis.unit, room), texts: values.map(text), axisTick: { customValues }, axisLabel: { formatter: text, customValues } };
+}
+
+// The abscissae of a scatter plot in which these are few, ascending; nothing of others.
+function stepsOf(figure) {
+  const values = new Set();
+  for (const mark of figure.name.startsWith("scatter_") && !figure.x.log ? figure.marks : []) {
+    for (const value of mark.x ?? []) if (Number.isFinite(value)) values.add(value);
+    if (values.size > FEW) return [];
+  }
+  return values.size > 1 ? [...values].sort((a, b) => a - b) : [];
 }
 
 // Ticks of a logarithmic axis: decades, no more than nine; where there are fewer than two, also 2 and 5 times a decade, and if need be
@@ -120,7 +149,9 @@ function axisOption(figure, which, palette, width) {
   // what is never negative begins at 0, unless most of the axis would be empty
   if (!given && !axis.log && range[0] > 0 && range[0] < 0.5 * range[1]) range = [0, range[1]];
   const room = which === "x" ? width - (figure.y.names ? 0.5 * width : 84) : heightOf(figure, width) - 58;
-  const found = axis.log ? logAxis(axis, range, room) : linearAxis(axis, range, which === "x" && figure.time, which === "x" ? Math.max(3, width / 90) : room < 140 ? 3 : 5, room);
+  const steps = which === "x" ? stepsOf(figure) : [];
+  const isCount = which === "y" && !axis.unit && axis.quantity === "runs";
+  const found = steps.length > 0 ? steppedAxis(axis, steps, room) : axis.log ? logAxis(axis, range, room) : linearAxis({ ...axis, isCount }, range, { isTime: which === "x" && figure.time, isAcross: which === "x", count: which === "x" ? Math.max(3, width / 90) : room < 140 ? 3 : 5, room });
   // the title of a vertical axis is beside the longest of its numbers
   const widest = DIGIT * Math.max(0, ...found.texts.map((text) => text.length));
   const beside = Math.max(56, Math.ceil(widest) + 20);
@@ -365,7 +396,7 @@ function flightOf(figure) {
 
 // The height of a figure that is `width` pixels wide.
 export function heightOf(figure, width) {
-  if (isOnPaper() && !figure.x.names) return figure.y.names ? 62 + 17 * figure.y.names.length + flightOf(figure) : width < 300 ? 168 : 260;
+  if (isOnPaper() && !figure.x.names) return figure.y.names ? 62 + 17 * figure.y.names.length + flightOf(figure) : width < 300 ? 168 : width < 600 ? 190 : 260;
   if (figure.x.names) return Math.min(640, 60 + Math.max(18, Math.min(34, (width - 260) / figure.y.names.length)) * figure.y.names.length);
   if (figure.y.names) return 70 + 26 * figure.y.names.length + flightOf(figure);
   return Math.round(Math.max(210, Math.min(320, 0.56 * width)));

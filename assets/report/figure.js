@@ -29,7 +29,7 @@ function legendElement(figure) {
   const palette = colors();
   for (const entry of legendOf(figure, palette)) {
     const item = element("li");
-    const shape = entry.kind === "line" ? `<line x1="0" y1="7" x2="22" y2="7" stroke="${entry.color}" stroke-width="2"${entry.dash ? ` stroke-dasharray="${entry.dash.join(" ")}"` : ""}/>` : entry.kind === "points" ? (entry.crosses ? `<path d="M7 3l8 8M15 3l-8 8" stroke="${entry.color}" stroke-width="2"/>` : `<circle cx="11" cy="7" r="4" fill="${entry.color}"/>`) : `<rect x="2" y="1" width="18" height="12" fill="${entry.color}" opacity="${entry.opacity}"/>`;
+    const shape = entry.kind === "whiskers" ? `<path d="M1 7h20M1 3v8M21 3v8" stroke="${palette.text}" stroke-width="1.5"/><circle cx="11" cy="7" r="4" fill="${entry.color}"/>` : entry.kind === "line" ? `<line x1="0" y1="7" x2="22" y2="7" stroke="${entry.color}" stroke-width="2"${entry.dash ? ` stroke-dasharray="${entry.dash.join(" ")}"` : ""}/>` : entry.kind === "points" ? (entry.crosses ? `<path d="M7 3l8 8M15 3l-8 8" stroke="${entry.color}" stroke-width="2"/>` : `<circle cx="11" cy="7" r="4" fill="${entry.color}"/>`) : `<rect x="2" y="1" width="18" height="12" fill="${entry.color}" opacity="${entry.opacity}"/>`;
     item.innerHTML = `<svg class="key wide" viewBox="0 0 22 14" aria-hidden="true">${shape}<\/svg>`;
     item.append(entry.label);
     list.append(item);
@@ -193,9 +193,9 @@ export function showFigures(figures, echarts) {
   const said = new Set();
   for (const figure of figures) {
     const view = new FigureView(figure, echarts);
-    // what a section has said of bands need not be said at each of its figures
+    // what a section has said of bands need not be said at each of its figures, unless they mislead
     const caption = `${figure.section} ${figure.caption}`;
-    view.box.querySelector("figcaption").hidden = figure.time && said.has(caption);
+    view.box.querySelector("figcaption").hidden = figure.time && said.has(caption) && !figure.caption.includes("[bands]");
     said.add(caption);
     (document.querySelector(`[data-figure~="${figure.name}"]`) ?? document.querySelector(`#${figure.section} .figures`)).append(view.box);
   }

@@ -1,13 +1,13 @@
 // Beside and below the replay: the numbers that change with it, and the marks of the phases on its slider.
 
-import { readable, withUnit } from "./numbers.js";
+import { raised, readable, withUnit } from "./numbers.js";
 
 // The text of a number of one or several components.
 function liveText(number, values) {
-  if (!values.every(Number.isFinite)) return "none";
+  if (!values.every(Number.isFinite)) return "not defined";
   if (number.words) return number.words[values[0] <= 0 ? 0 : values[0] < 1 ? 1 : 2];
   if (values.length === 1) return withUnit(Number(values[0].toPrecision(4)), number.unit);
-  return `${values.map((value) => readable(value, 4)).join(", ")} ${number.unit}`;
+  return `${values.map((value) => readable(value, 4)).join(", ")} ${raised(number.unit)}`;
 }
 
 export class LiveNumbers {
@@ -21,6 +21,8 @@ export class LiveNumbers {
     this.motion = motion;
     const made = motion.run.live.map((number) => {
       const [name, value] = ["dt", "dd"].map((tag) => document.createElement(tag));
+      // what may need two lines has them, so that nothing moves while a run plays
+      value.className = number.components.length > 1 ? "several" : "";
       name.textContent = number.components.length > 1 ? `${number.name}: ${number.components.join(", ")}` : number.name;
       return [name, value];
     });

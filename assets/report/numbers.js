@@ -21,16 +21,24 @@ export function readable(value, digits = 5) {
   return `${Number(mantissa)} × 10${superscript(Number(power))}`;
 }
 
+// A unit whose powers are raised.
+export function raised(unit) {
+  return unit.replace("^2", "²").replace("^3", "³");
+}
+
 export function withUnit(value, unit) {
-  return unit ? `${readable(value)} ${unit}` : readable(value);
+  return unit ? `${readable(value)} ${raised(unit)}` : readable(value);
 }
 
 // How the ticks of a linear axis are written: the factor between values and ticks, and what that makes of the unit.
 export function tickScale(low, high, unit) {
   const size = Math.max(Math.abs(low), Math.abs(high));
-  let power = size > 0 ? 3 * Math.floor(Math.log10(size) / 3 + 1e-9) : 0;
+  const isScalable = SCALABLE.includes(unit);
+  // without a prefix a tick has one digit before its point
+  const every = isScalable ? 3 : 1;
+  let power = size > 0 ? every * Math.floor(Math.log10(size) / every + 1e-9) : 0;
   if (size >= 0.01 && size < 1e4) power = 0;
-  const hasPrefix = SCALABLE.includes(unit) && power in PREFIXES;
+  const hasPrefix = isScalable && power in PREFIXES;
   const scaled = hasPrefix ? PREFIXES[power] + unit : [power === 0 ? "" : `10${superscript(power)}`, unit].filter(Boolean).join(" ");
   return { factor: 10 ** power, unit: scaled };
 }

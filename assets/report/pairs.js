@@ -1,6 +1,7 @@
 // Any two columns against each other, on demand.
 
 import { FigureView } from "./figure.js";
+import { readable } from "./numbers.js";
 
 // The figure of two columns.
 export function pairFigure(pairs, first, second) {
@@ -18,7 +19,7 @@ export function pairFigure(pairs, first, second) {
   const marks = [points(missed.length > 0 ? pairs.fateWords[0] : "computed", 0, false, met)];
   if (missed.length > 0) marks.push(points(pairs.fateWords[1], 1, true, missed));
   if (failed.length > 0) marks.push(points(pairs.fateWords[2], 8, true, failed));
-  return { name: `pair_${x.column}_${y.column}`, section: "influence", title: `${y.name} against ${x.name}`, caption: `${rows.length} of ${pairs.all} samples, chosen by sample number.`, columns: 12, time: false, x: axis(x), y: axis(y), marks };
+  return { name: `pair_${x.column}_${y.column}`, section: "influence", title: `${y.name} against ${x.name}`, caption: rows.length === pairs.all ? `${readable(pairs.all)} samples.` : `${readable(rows.length)} of ${readable(pairs.all)} samples, chosen by sample number.`, columns: 12, time: false, x: axis(x), y: axis(y), marks };
 }
 
 export function startPairs(pairs, echarts) {

@@ -129,7 +129,7 @@ export class Replay {
       bar.append(made);
       return made;
     };
-    this.runs = control("select", { title: "Run" });
+    this.runs = control("select", { title: "Run", className: "run" });
     this.runs.setAttribute("aria-label", "Run");
     this.data.runs.forEach((run, index) => this.runs.append(new Option(run.sample === 0 ? run.name : `${run.name}: ${run.why}`, index)));
     this.runs.addEventListener("change", () => this.choose(Number(this.runs.value)));
@@ -267,7 +267,7 @@ export class Replay {
   view(name) {
     this.cameraName = name;
     const isApproach = name === "approach";
-    const near = [0.75, 0.5, 0.42].map((value) => 5.2 * value * this.size);
+    const near = [0.75, 0.5, 0.42].map((value) => 5.6 * value * this.size);
     this.controls.target.set(...(isApproach ? this.approach.bounds.center : [0, 0, 0]));
     this.camera.position.set(...(isApproach ? this.approach.camera(this.size) : near));
     this.camera.far = Math.max(400 * this.size, isApproach ? 20 * this.approach.bounds.reach : 0);

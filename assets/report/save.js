@@ -73,7 +73,10 @@ export function csvText(figure) {
     if (mark.kind === "flight") Object.assign(columns, { [head(figure.x)]: mark.x, [mark.label]: mark.counts });
     if (mark.samples?.length) columns.sample = mark.samples;
     if (mark.kind === "line" || mark.kind === "points") Object.assign(columns, { [head(figure.x)]: mark.x, [`${mark.label}: ${head(figure.y)}`]: mark.y });
-    if (mark.kind === "band") Object.assign(columns, { [head(figure.x)]: mark.x, [`${mark.label}, low`]: mark.low, [`${mark.label}, high`]: mark.high });
+    // a strip of a row of names is what begins and ends there
+    const row = mark.kind === "band" && !mark.label ? figure.y.names?.[Math.round((mark.low[0] + mark.high[0]) / 2)] : undefined;
+    if (row !== undefined) Object.assign(columns, { name: [quoted(row)], [`begin: ${head(figure.x)}`]: [mark.x[0]], [`end: ${head(figure.x)}`]: [mark.x.at(-1)] });
+    else if (mark.kind === "band") Object.assign(columns, { [head(figure.x)]: mark.x, [`${mark.label}, low`]: mark.low, [`${mark.label}, high`]: mark.high });
     lines.push(Object.keys(columns).map(quoted).join(","));
     const values = Object.values(columns);
     for (let k = 0; k < values[0].length; k += 1) lines.push(values.map((column) => column[k] ?? "").join(","));

@@ -119,11 +119,9 @@ impl Assessment {
     pub fn sentence(&self) -> String {
         let requirement = &self.requirement;
         let unit = if self.shown.unit.is_empty() { String::new() } else { format!(" {}", self.shown.unit) };
-        let limit = self.shown.written(requirement.limit.value());
-        let limit = match requirement.limit {
-            GateLimit::AtMost(_) => format!("at most {limit:?}{unit}"),
-            GateLimit::AtLeast(_) => format!("at least {limit:?}{unit}"),
-        };
+        let limit = format!("{:?}", self.shown.written(requirement.limit.value()));
+        let side = if matches!(requirement.limit, GateLimit::AtMost(_)) { "at most" } else { "at least" };
+        let limit = format!("{side} {}{unit}", limit.trim_end_matches(".0"));
         let (name, confidence) = (requirement.name(), percent(requirement.confidence));
         let limit = format!("{limit}{}", requirement.times());
         let what = match requirement.statement {
@@ -131,7 +129,13 @@ impl Assessment {
                 format!("{}% of runs with {name} {limit}", percent(requirement.limit.fraction(p)))
             }
             Statement::Quantile(p) => format!("p{} of {name} {limit}", percent(p)),
-            Statement::Fraction(fraction) => format!("{}% of runs with {name} {limit}", percent(fraction)),
+            Statement::Fraction(fraction) => {
+                // yes or no
+                let is_yes =
+                    name == "launched" && matches!(requirement.limit, GateLimit::AtLeast(limit) if limit > 0.0);
+                let which = if is_yes { "that launch".to_owned() } else { format!("with {name} {limit}") };
+                format!("{}% of runs {which}", percent(fraction))
+            }
             Statement::Mean => {
                 let bounded = requirement.bounded.map(|ends| ends.map(|end| self.shown.written(end)));
                 let range = bounded.map(|[low, high]| format!(" (bounded = [{low:?}, {high:?}]{unit})"));

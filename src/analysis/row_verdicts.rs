@@ -223,7 +223,7 @@ mod tests {
         };
         let found = of(59, 59);
         assert_eq!(found.word(), "PASS");
-        assert_eq!(found.sentence(), "p95 of x at most 1.0 J, with 95% confidence");
+        assert_eq!(found.sentence(), "p95 of x at most 1 J, with 95% confidence");
         assert_eq!((of(58, 58).word(), of(59, 58).word(), of(59, 10).word()), ("UNDECIDED", "UNDECIDED", "FAIL"));
         assert_eq!(of(58, 58).gate.decision, Decision::Undecided(Some(59)));
         assert_eq!(of(0, 0).reason.as_deref(), Some("there are no runs that count"));

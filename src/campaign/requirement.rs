@@ -197,7 +197,7 @@ impl Requirement {
     pub fn times(&self) -> String {
         let Some(band) = self.band() else { return String::new() };
         let which = if self.window().is_some() { "at all times" } else { "at each time" };
-        let end = |word: &str, end: Option<f64>| end.map_or(String::new(), |end| format!(" {word} {end:?} s"));
+        let end = |word: &str, end: Option<f64>| end.map_or(String::new(), |end| format!(" {word} {end} s"));
         format!(" {which}{}{}", end("from", band.from_s), end("to", band.to_s))
     }
 

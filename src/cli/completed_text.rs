@@ -81,7 +81,10 @@ fn headline(completed: &Completed) -> String {
         }
         _ => String::new(),
     };
-    format!("{name}: {ok}{} computed{run}, seed {seed}\n", counted(end.rows, "run"))
+    // every other count is of the dispersed runs
+    let has_nominal = end.rows == completed.plan.samples && end.rows > 1;
+    let nominal = if has_nominal { " (1 nominal)" } else { "" };
+    format!("{name}: {ok}{}{nominal} computed{run}, seed {seed}\n", counted(end.rows, "run"))
 }
 
 /// A number of samples per second: whole, or with one decimal below ten.

@@ -16,6 +16,9 @@ use crate::sampling::{Design, Replaced, SampleId};
 /// Draws behind the percentiles: the 1% and 99% lie within a tenth of the distribution's width of their true places.
 const DRAWS: u64 = 10_000;
 
+/// Fewer draws have a range and no percentiles.
+const FEW: u64 = 100;
+
 /// Nominal value and distribution of each dispersed parameter, a line each: its components together where they have one distribution.
 ///
 /// # Errors
@@ -95,24 +98,30 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
     };
     let of_columns = (0..columns.len()).map(|column| unit_of(plan, column));
     let units: Vec<ShownUnit> = of_columns.chain(magnitudes.iter().map(of_magnitude)).collect();
-    writeln!(text, "percentiles of {} (sample 0 is nominal)", counted(drawn.count(), "draw"))?;
-    let mut table = TextTable::new([
-        ("parameter", Align::Title),
-        ("unit", Align::Left),
-        ("nominal", Align::Right),
-        ("1%", Align::Right),
-        ("50%", Align::Right),
-        ("99%", Align::Right),
-        ("distribution", Align::Sentence),
-    ]);
-    let percentiles = drawn.quantiles([0.01, 0.5, 0.99]);
+    // few draws have no percentiles of one in a hundred
+    let is_few = drawn.count() < FEW;
+    let what = if is_few { "range" } else { "percentiles" };
+    writeln!(text, "{what} of {} (sample 0 is nominal)", counted(drawn.count(), "draw"))?;
+    let (heads, ps) = if is_few {
+        (vec!["least", "largest"], vec![0.0, 1.0])
+    } else {
+        (vec!["1%", "50%", "99%"], vec![0.01, 0.5, 0.99])
+    };
+    let ends = [("parameter", Align::Title), ("unit", Align::Left), ("nominal", Align::Right)].into_iter();
+    let heads =
+        ends.chain(heads.into_iter().map(|head| (head, Align::Right))).chain([("distribution", Align::Sentence)]);
+    let mut table = TextTable::new(heads);
+    let percentiles = drawn.quantiles(&ps);
     for row in order(plan, &magnitudes) {
         let shown = &units[row];
         let unit = if shown.unit.is_empty() { "-".to_owned() } else { shown.unit.clone() };
-        let none = ["-".to_owned(), "-".to_owned(), "-".to_owned()];
-        let [low, middle, high] = percentiles[row].map_or(none, |values| values.map(|value| short(shown.value(value))));
+        let number = |value: &f64| short(shown.value(*value));
+        let values = percentiles[row]
+            .as_ref()
+            .map_or(vec!["-".to_owned(); ps.len()], |values| values.iter().map(number).collect());
         let origin = if row < columns.len() { origin(plan, row) } else { "of the components".to_owned() };
-        table.row([names[row].clone(), unit, short(shown.value(drawn.nominal()[row])), low, middle, high, origin]);
+        let cells = [names[row].clone(), unit, short(shown.value(drawn.nominal()[row]))];
+        table.row(cells.into_iter().chain(values).chain([origin]));
     }
     text.push_str(&table.text(width()));
     if !drawn.is_exact() {

@@ -63,10 +63,12 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
         }
         let (table, points) = (TimeTable::new(&plan, &series, screen::width()), series.points());
         screen::print(&table.text)?;
+        let shown = match points - table.points {
+            0 => format!("all {}", counted(points, "point")),
+            _ => format!("{} of {}", table.points, counted(points, "point")),
+        };
         screen::note(&format!(
-            "({} of {}; --out X.csv or X.parquet writes all points, columns and digits; --plot X.svg draws them)",
-            table.points,
-            counted(points, "point")
+            "({shown}; --out X.csv or X.parquet writes all points, columns and digits; --plot X.svg draws them)"
         ));
         if !table.left_out.is_empty() {
             screen::note(&format!("(too wide for {} columns: {})", screen::width(), table.left_out));

@@ -6,13 +6,15 @@ use crate::analysis::event::{Event, Occurs};
 use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
 use crate::campaign::{Plan, ShownUnit};
 use crate::report::names;
-use crate::report::number::{brief, outward, short};
+use crate::report::number::{brief, counted, outward, short};
 use crate::report::origin_text::unit_of;
 use crate::report::text_table::{Align, TextTable};
 use crate::sampling::Design;
 use crate::statistics::quantile::percent;
 
 const NAMED: usize = 2;
+/// Runs from which on a share of the variance is said, and more than one driver of it is named: of 30 runs a share of 50% is known to within 26%, of 6 not at all.
+const RUNS_OF_SHARES: u64 = 30;
 
 /// How a campaign shows interactions.
 pub const SEE_INTERACTIONS: &str =
@@ -141,30 +143,58 @@ fn at_a_distance(plan: &Plan, runs: &str, ranking: &Ranking<'_>) -> Option<Strin
 fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     let Some(first) = ranking.inputs.first() else { return String::new() };
     let is_total = first.input.total.is_some();
-    let name = |(place, ranked): (usize, &Ranked<'_>)| {
-        let direction = match ranked.input.direction {
-            Some(Direction::Rises) => " (rises with it)",
-            Some(Direction::Falls) => " (falls with it)",
-            Some(Direction::NotMonotonic) => " (not monotonic)",
-            None => "",
-        };
-        let name = names::of_input_column(plan, &ranked.input.input);
-        match (is_total, place) {
-            (true, _) => format!("{name} {:.2}{direction}", ranked.share.value),
-            (false, 0) => format!("{name} explains {:.0}% of the variance{direction}", 100.0 * ranked.share.value),
-            (false, _) => format!("{name} {:.0}%{direction}", 100.0 * ranked.share.value),
-        }
+    let runs = counted(first.input.rows, "run");
+    let name = |ranked: &Ranked<'_>| names::of_input_column(plan, &ranked.input.input);
+    let direction = |ranked: &Ranked<'_>| match ranked.input.direction {
+        Some(Direction::Rises) => " (rises with it)",
+        Some(Direction::Falls) => " (falls with it)",
+        Some(Direction::NotMonotonic) => " (not monotonic)",
+        None => "",
     };
-    let names: Vec<String> = ranking.drivers().take(NAMED).enumerate().map(name).collect();
-    let rest = rest(plan, ranking);
-    if !names.is_empty() {
+    let drivers: Vec<&Ranked<'_>> = ranking.drivers().take(NAMED).collect();
+    if !is_total && first.input.rows < RUNS_OF_SHARES {
+        return match drivers.first() {
+            Some(driver) => format!(
+                "{}{}; {runs} are too few to say how much of the variance it explains",
+                name(driver),
+                direction(driver)
+            ),
+            None => format!("no input was found to drive it in {runs}"),
+        };
+    }
+    let said: Vec<String> = if is_total {
+        let of = |driver: &&Ranked<'_>| format!("{} {:.2}{}", name(driver), driver.share.value, direction(driver));
+        drivers.iter().map(of).collect()
+    } else {
+        let shares = said_shares(&drivers.iter().map(|driver| driver.share.value).collect::<Vec<f64>>());
+        let of = |(driver, share): (&&Ranked<'_>, String)| format!("{} {share}{}", name(driver), direction(driver));
+        drivers.iter().zip(shares).map(of).collect()
+    };
+    let rest = rest(plan, ranking).map_or_else(String::new, |rest| format!("; {rest}"));
+    if !said.is_empty() {
         let measure = if is_total { "total Sobol indices: " } else { "" };
-        let rest = rest.map_or_else(String::new, |rest| format!("; {rest}"));
-        return format!("{measure}{}{rest}", names.join(", "));
+        return format!("{measure}{}{rest}", said.join(", "));
     }
     let most = ranking.inputs.iter().map(|ranked| ranked.share.value).fold(0.0, f64::max);
-    let rest = rest.map_or_else(String::new, |rest| format!("; {rest}"));
     format!("no single input was found to explain more than {:.0}% of the variance{rest}", (100.0 * most).ceil())
+}
+
+/// What is said of drivers with these shares of the variance, the largest first. Each share is that of one input alone, some by index and some by rank, so that
+/// they may overlap: of one that does not fit beside those before it only the order is said, and that of estimates near one is no more than "over 99%".
+fn said_shares(shares: &[f64]) -> Vec<String> {
+    let mut sum = 0.0;
+    let say = |(place, share): (usize, &f64)| {
+        let percent = libm::round(100.0 * share);
+        let fits = place == 0 || sum + percent <= 100.0;
+        sum = if fits { sum + percent } else { f64::INFINITY };
+        match (place, fits) {
+            (0, _) if percent >= 100.0 => "explains over 99% of the variance".to_owned(),
+            (0, _) => format!("explains {percent:.0}% of the variance"),
+            (_, true) => format!("{percent:.0}%"),
+            (_, false) => "less".to_owned(),
+        }
+    };
+    shares.iter().enumerate().map(say).collect()
 }
 
 /// What the rest of the variance is, where the drivers explain less than half of it.
@@ -175,11 +205,11 @@ fn rest(plan: &Plan, ranking: &Ranking<'_>) -> Option<String> {
         return None;
     }
     let together = first.r_squared.map_or(0.0, |of| of.value);
-    Some(match (together >= 0.5, plan.law.is_some()) {
-        (true, _) => format!("a regression on all inputs together explains {:.0}%", (100.0 * together).floor()),
-        (false, true) => "the rest is noise in the loop or interactions of inputs".to_owned(),
-        (false, false) => "the rest is interactions of inputs, or effects too small for so few runs to show".to_owned(),
-    })
+    if together >= 0.5 {
+        return Some(format!("a linear regression on all inputs together explains {:.0}%", (100.0 * together).floor()));
+    }
+    let noise = if plan.law.is_some() { "noise in the loop, " } else { "" };
+    Some(format!("the rest is {noise}interactions, or effects too small to show"))
 }
 
 /// The rankings of an outcome in words; empty where no influence was estimated.
@@ -245,6 +275,62 @@ mod tests {
             let inputs = vec![Ranked { input: &input, share, is_driver: true }];
             let ranking = Ranking { question: Question::Event(event), inputs };
             assert_eq!(sentence(&plan, "y", &ranking), said);
+        }
+    }
+    /// Law: of any shares, as they are estimated, those that are said add up to no more than 100%, the first is always said, and of none that is said more is said than it is.
+    #[test]
+    fn shares_that_are_said_fit_in_the_whole() {
+        let percents = [0, 10, 20, 32, 33, 40, 49, 50, 51, 60, 76, 80, 99, 100, 103];
+        for first in percents {
+            for second in percents.into_iter().filter(|second| *second <= first) {
+                for third in percents.into_iter().filter(|third| *third <= second) {
+                    for shift in [-0.004_9, 0.0, 0.004_9] {
+                        let shares = [first, second, third].map(|percent| f64::from(percent) / 100.0 + shift);
+                        let said = said_shares(&shares);
+                        let known: Vec<f64> = said
+                            .iter()
+                            .filter_map(|text| {
+                                text.split(' ').find_map(|word| word.strip_suffix('%')?.parse::<f64>().ok())
+                            })
+                            .collect();
+                        assert!(known.iter().sum::<f64>() <= 100.0, "{shares:?}: {said:?}");
+                        let places = known.iter().zip(shares);
+                        let is_near = |(known, share): (&f64, f64)| (known - 100.0 * share).abs() <= 0.501;
+                        assert!(
+                            places
+                                .clone()
+                                .all(|(known, share)| *known == 99.0 && share > 0.99 || is_near((known, share))),
+                            "{shares:?}: {said:?}"
+                        );
+                        assert!(known.len() >= 1 && said[known.len()..].iter().all(|text| text == "less"), "{said:?}");
+                        let fits = shares[0] + shares[1] <= 0.989;
+                        assert!(!fits || known.len() >= 2, "{shares:?}: {said:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Law: of fewer than 30 runs no share is said, and one driver at most, whatever was estimated; of more shares and drivers are said.
+    #[test]
+    fn few_runs_have_no_shares() {
+        let text = include_str!("../../campaigns/spin_sweep.toml");
+        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
+        for rows in [4, 6, 12, 29, 30, 300] {
+            for is_driver in [true, false] {
+                let input = |name: &str| InputSensitivity { input: name.to_owned(), rows, ..Default::default() };
+                let inputs = ["first_one", "second_one"].map(input);
+                let share = |value: f64| Estimate { value, lower: 0.1, upper: 1.0 };
+                let ranked =
+                    |place: usize| Ranked { input: &inputs[place], share: share([0.5, 0.3][place]), is_driver };
+                let ranking = Ranking { question: Question::Spread, inputs: vec![ranked(0), ranked(1)] };
+                let said = sentence(&plan, "y", &ranking);
+                let is_few = rows < 30;
+                assert_eq!(said.contains('%'), !is_few, "{said}");
+                assert_eq!(said.contains("second"), is_driver && !is_few, "{said}");
+                assert_eq!(said.contains("first"), is_driver, "{said}");
+                assert!(!is_few || said.contains(&format!("{rows} runs")), "{said}");
+            }
         }
     }
 }

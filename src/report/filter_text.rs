@@ -24,7 +24,7 @@ pub fn overconfident(statistics: &Statistics) -> Vec<String> {
 /// What a column with this `meaning` says by its `median`, whose interval begins at `lower`.
 fn sentence(meaning: &str, median: f64, lower: Option<f64>) -> Option<String> {
     (median.is_finite() && lower.unwrap_or(median) > MOST).then(|| {
-        format!("filter overconfident: final errors of {} are {} sigma", estimate(meaning), brief(libm::sqrt(median)))
+        format!("filter overconfident: {} typically end {} sigma off", estimate(meaning), brief(libm::sqrt(median)))
     })
 }
 
@@ -43,7 +43,7 @@ mod tests {
     #[test]
     fn errors_beyond_the_covariance_are_named() {
         let meaning = "Normalised square of the estimation error of position and velocity at the last tick, over its degrees of freedom.";
-        let text = "filter overconfident: final errors of position and velocity are 3 sigma";
+        let text = "filter overconfident: position and velocity typically end 3 sigma off";
         let said = |median, lower| sentence(meaning, median, lower);
         assert_eq!([said(9.0, Some(2.1)), said(9.0, None)], [Some(text.to_owned()), Some(text.to_owned())]);
         assert_eq!([said(9.0, Some(1.9)), said(1.9, None), said(f64::NAN, None)], [None, None, None]);

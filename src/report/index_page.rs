@@ -49,6 +49,11 @@ impl IndexEntry {
         if found.is_empty() { "-".to_owned() } else { found.join(", ") }
     }
 
+    /// Whether its folder has the name of its campaign, and says it.
+    fn is_named(&self) -> bool {
+        self.folder.file_name().is_some_and(|name| name == self.campaign.as_str())
+    }
+
     /// The runs that were computed, of all where some were not.
     fn runs(&self) -> String {
         let SummaryEnd { rows, failed, .. } = self.end;
@@ -67,9 +72,7 @@ pub fn text(entries: &[IndexEntry], unreadable: &[Unreadable], width: usize) -> 
         ("since the last run", Align::Sentence),
     ]);
     for one in entries {
-        // a folder that has the name of its campaign says it
-        let is_named = one.folder.file_name().is_some_and(|name| name == one.campaign.as_str());
-        let campaign = if is_named { String::new() } else { format!(" ({})", one.campaign) };
+        let campaign = if one.is_named() { String::new() } else { format!(" ({})", one.campaign) };
         let cells = [
             format!("{}{campaign}", one.folder.display()),
             one.verdicts(|count, word| format!("{count} {word}")),
@@ -106,7 +109,7 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
         let word = |count, word: &str| format!("<span class=\"{}\">{count} {word}</span>", word.to_lowercase());
         let cells = [
             name + &question,
-            words(&one.campaign),
+            if one.is_named() { String::new() } else { words(&one.campaign) },
             one.verdicts(word),
             escaped(&one.runs()),
             escaped(&one.day),
@@ -137,14 +140,16 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
 const HEADS: [&str; 7] =
     ["Result", "Campaign", "Verdicts", "Runs computed", "Day", "Version", "Changed since the last run"];
 
-/// Of the table of results alone: where it is narrow each row is a card.
+/// Of the table of results alone: campaigns have a column where one is not named by its folder; where the table is narrow each row is a card.
 const OWN_STYLE: &str = "\
 .pass { color: var(--pass); } .fail { color: var(--fail); font-weight: 600; } .undecided { color: var(--undecided); }
-#results th, #results td { text-align: left; white-space: normal; } #results td span:not(.quiet), #results td:nth-child(5) { white-space: nowrap; }
+#results th, #results td { text-align: left; white-space: normal; } @media (min-width: 700px) { #results th:nth-child(4), #results td:nth-child(4) { text-align: right; } } #results td span:not(.quiet), #results td:nth-child(5) { white-space: nowrap; }
+#results table:not(:has(td:nth-child(2):not(:empty))) :is(th, td):nth-child(2) { display: none; }
 #results td:last-child { overflow-wrap: anywhere; min-width: 9rem; }
 @media screen and (max-width: 699px) {
   #results thead { display: none; } #results table, #results tbody, #results tr, #results td { display: block; }
   #results tr { margin: 0.8rem 0; padding: 0.4rem 0.7rem; border: 1px solid var(--line); border-radius: 5px; background: var(--panel); }
+  #results td:empty { display: none; }
   #results td { border: 0; padding: 0.1rem 0; overflow-wrap: anywhere; } #results td + td::before { content: attr(data-head) \": \"; color: var(--quiet); }
 }
 ";

@@ -84,7 +84,7 @@ pub fn brief(missions: &Missions, is_stated: bool, is_said: bool) -> String {
     let good = missions.iter().find(is_good).filter(|_| !is_stated || *missing > 0 && !is_said);
     let good = good.map(|one| {
         let word = if one.end == "launched" { "launched" } else { "did not fail" };
-        format!("{} {word}", share(one))
+        format!("{} of {} {word}", share(one), one.runs)
     });
     let of_others = |one: &MissionShare| {
         let words = ended(one);

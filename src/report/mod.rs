@@ -26,6 +26,7 @@ pub mod histogram;
 pub mod image;
 pub mod index_page;
 mod legend;
+mod limit_names;
 pub mod marginal;
 mod marks;
 pub mod mission_text;

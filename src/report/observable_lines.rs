@@ -10,6 +10,7 @@ use crate::observables::Group;
 use crate::observables::headlines::headlines;
 use crate::report::audit_summary::Numerics;
 use crate::report::number::{brief, outward, short};
+use crate::report::share_text::with_interval;
 use crate::report::text_table::{Align, TextTable};
 use crate::statistics::quantile::percent;
 
@@ -113,9 +114,9 @@ impl ObservableLine {
         self.unit.is_empty() && self.min.is_some() && values.into_iter().all(is_whole)
     }
 
-    /// The share of runs with 1, where no run has another number than 0 and 1.
+    /// The share of runs with 1, where no run has another number than 0 and 1. What is the same in all runs may be a number, such as an error of zero; of few runs a quantile may lie between both.
     pub fn share_of_yes(&self) -> Option<f64> {
-        self.mean.filter(|_| self.is_yes_or_no())
+        self.mean.filter(|_| self.name == "launched" || self.is_yes_or_no() && self.min != self.max)
     }
 
     fn quantile(&self, p: f64) -> Option<&QuantileLine> {
@@ -178,6 +179,10 @@ pub fn table(lines: &[&ObservableLine], title: &str, width: usize) -> String {
         let quantiles: Vec<Option<&QuantileLine>> = ps.iter().map(|p| line.quantile(*p)).collect();
         let value = |value: Option<f64>| value.map_or("-".to_owned(), |value| short(line.shown.value(value)));
         let unit = if line.shown.unit.is_empty() { String::new() } else { format!(", {}", line.shown.unit) };
+        if let Some(share) = line.share_of_yes() {
+            table.row([line.name.clone(), format!("yes in {}", with_interval([share; 2], [f64::NAN; 2]))]);
+            continue;
+        }
         let values = quantiles.iter().map(|quantile| value(quantile.and_then(|one| one.value)));
         table.row([line.name.clone() + &unit].into_iter().chain(values).chain([value(line.max)]));
         if line.has_interval_of(&ps) {

@@ -121,19 +121,24 @@ impl Figure {
 }
 
 impl<'f> Panel<'f> {
-    /// Draws `figure` from the corner `at` on.
-    pub(super) fn draw(svg: &mut Svg, figure: &'f Figure, at: [f64; 2], [width, height]: [f64; 2], has_legend: bool) {
+    /// Where the axes of `figure` are, which is drawn from the corner `at` on.
+    pub(super) fn laid_out(
+        font: &Font,
+        figure: &'f Figure,
+        at: [f64; 2],
+        [width, height]: [f64; 2],
+        has_legend: bool,
+    ) -> Self {
         let [x, y] = figure.drawn_axes();
-        let legend = if has_legend { figure.legend(&svg.font, width) } else { Legend::default() };
-        let top = at[1] + HEAD + legend.height() + ABOVE;
+        let legend = if has_legend { figure.legend(font, width).height() } else { 0.0 };
+        let top = at[1] + HEAD + legend + ABOVE;
         let bottom = (at[1] + height - BELOW - figure.flight_height()).max(top + 20.0);
-        let rows = y.ticks(((bottom - top) / TICK_HEIGHT).clamp(2.0, MOST_TICKS as f64) as usize);
-        let title = y.title();
         let left = if figure.names().is_empty() {
-            let widest = rows.iter().map(|(_, text)| svg.font.width(text, LABEL)).fold(0.0, f64::max);
-            at[0] + widest + if title.is_empty() { 18.0 } else { 38.0 }
+            let rows = rows(&y, bottom - top);
+            let widest = rows.iter().map(|(_, text)| font.width(text, LABEL)).fold(0.0, f64::max);
+            at[0] + widest + if y.title().is_empty() { 18.0 } else { 38.0 }
         } else {
-            at[0] + figure.names_width(&svg.font, width)
+            at[0] + figure.names_width(font, width)
         };
         let right = (at[0] + width - BESIDE).max(left + 20.0);
         let mut panel = Panel { figure, x, y, edges: [left, top, right, bottom] };
@@ -142,6 +147,13 @@ impl<'f> Panel<'f> {
             let end = side.min(CELL) * figure.names().len() as f64;
             panel.edges = [left, top, left + end, top + end];
         }
+        panel
+    }
+
+    /// Draws `figure` from the corner `at` on.
+    pub(super) fn draw(svg: &mut Svg, figure: &'f Figure, at: [f64; 2], [width, height]: [f64; 2], has_legend: bool) {
+        let panel = Self::laid_out(&svg.font, figure, at, [width, height], has_legend);
+        let legend = if has_legend { figure.legend(&svg.font, width) } else { Legend::default() };
         let added = panel.y.start();
         let room = width - BESIDE - 14.0;
         // a long title is smaller before it is shorter
@@ -151,13 +163,17 @@ impl<'f> Panel<'f> {
         let head = format!("{}{added}", svg.font.fitted(&figure.title, room, size));
         svg.text(&head, [at[0] + 14.0, at[1] + 21.0], size, Anchor::Start, INK, false);
         legend.draw(svg, [at[0] + 16.0, at[1] + HEAD]);
-        panel.draw_axes(svg, at, &rows, &title);
+        panel.draw_axes(svg, at);
         let [left, top, right, bottom] = panel.edges;
         svg.clip([left - 1.0, top - 1.0], [right + 1.0, bottom + 1.0]);
         figure.marks.iter().for_each(|mark| panel.draw_mark(svg, mark));
         svg.end_of_clip();
         panel.draw_limits(svg);
         panel.draw_flight(svg);
+    }
+
+    pub(super) fn has_names(&self) -> bool {
+        !self.figure.names().is_empty()
     }
 
     pub(super) fn marks(&self) -> &'f [Mark] {
@@ -182,8 +198,9 @@ impl<'f> Panel<'f> {
     }
 
     /// Axes, grid, texts at ticks, titles.
-    fn draw_axes(&self, svg: &mut Svg, at: [f64; 2], rows: &[(f64, String)], title: &str) {
+    fn draw_axes(&self, svg: &mut Svg, at: [f64; 2]) {
         let [left, top, right, bottom] = self.edges;
+        let rows = rows(&self.y, bottom - top);
         let texts = bottom + self.figure.flight_height();
         let line = |color| Stroke { color, width: 1.0, dash: None };
         let columns = self.columns(&svg.font);
@@ -212,7 +229,7 @@ impl<'f> Panel<'f> {
         let below = format!("{}{}", self.x.title(), self.x.start());
         let below = svg.font.fitted(&below, right - left + 30.0, AXIS_TITLE);
         svg.text(&below, [middle, texts + 36.0], AXIS_TITLE, Anchor::Middle, INK, false);
-        let beside = svg.font.fitted(title, bottom - top + 20.0, AXIS_TITLE);
+        let beside = svg.font.fitted(&self.y.title(), bottom - top + 20.0, AXIS_TITLE);
         svg.text(&beside, [at[0] + 18.0, 0.5 * (top + bottom)], AXIS_TITLE, Anchor::Middle, INK, true);
     }
 
@@ -232,4 +249,9 @@ impl<'f> Panel<'f> {
         let mut choices = (2..=most).rev().map(|most| self.x.ticks(most));
         choices.find(has_space).unwrap_or_else(|| self.x.ticks(2).into_iter().take(1).collect())
     }
+}
+
+/// Ticks of a vertical axis that is so high, pixels.
+fn rows(axis: &DrawnAxis, height: f64) -> Vec<(f64, String)> {
+    axis.ticks((height / TICK_HEIGHT).clamp(2.0, MOST_TICKS as f64) as usize)
 }

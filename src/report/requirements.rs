@@ -138,8 +138,7 @@ pub fn statement(one: &Assessment) -> String {
         // yes or no
         ("launched", GateLimit::AtLeast(limit)) if limit > 0.0 => name,
         _ => {
-            let times = requirement.times().replace(".0 s", " s");
-            format!("{name} {side} {}{unit}{times}", limit.trim_end_matches(".0"))
+            format!("{name} {side} {}{unit}{}", limit.trim_end_matches(".0"), requirement.times())
         }
     };
     match requirement.statement {

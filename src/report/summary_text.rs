@@ -19,11 +19,12 @@ const MAIN: [&str; 4] =
     ["angular_momentum_error_max", "linear_momentum_error_max", "state_error_estimate", "dcm_orthonormality_max"];
 
 /// The errors in the sentence on numerics, each with what it is of.
-const ERRORS: [(&str, &str); 4] = [
+const ERRORS: [(&str, &str); 5] = [
     ("energy_error_max", "energy"),
     ("angular_momentum_error_max", "angular momentum"),
     ("linear_momentum_error_max", "linear momentum"),
-    ("state_error_estimate", "estimated error of the state"),
+    ("state_error_estimate", "estimated state error"),
+    ("debris_state_error_estimate", "that of the debris"),
 ];
 
 impl Summary {
@@ -124,10 +125,11 @@ impl Summary {
             text += &format!("  {}\n", self.treatment);
         }
         for line in shown.iter().filter(|line| line.without_value > 0) {
-            text += &format!(
-                "  {}: {} runs that were computed have no value and are left out\n",
-                line.name, line.without_value
-            );
+            let said = match line.without_value {
+                1 => "1 run that was computed has no value and is left out".to_owned(),
+                runs => format!("{runs} runs that were computed have no value and are left out"),
+            };
+            text += &format!("  {}: {said}\n", line.name);
         }
         if self.intervals.starts_with("none") {
             text += &format!("  intervals: {}\n", self.intervals);

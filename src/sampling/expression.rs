@@ -45,41 +45,45 @@ enum Binary {
     NotEqual,
 }
 
+/// A function of one or two numbers with its name, which alone tells it from others: one function may have several addresses, and one address several functions.
 #[derive(Clone, Copy, Debug)]
 enum Function {
-    One(fn(f64) -> f64),
-    Two(fn(f64, f64) -> f64),
+    One(&'static str, fn(f64) -> f64),
+    Two(&'static str, fn(f64, f64) -> f64),
     If,
 }
 
-impl PartialEq for Function {
-    fn eq(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Function::One(a), Function::One(b)) => std::ptr::fn_addr_eq(*a, *b),
-            (Function::Two(a), Function::Two(b)) => std::ptr::fn_addr_eq(*a, *b),
-            (Function::If, Function::If) => true,
-            _ => false,
+impl Function {
+    fn name(&self) -> &'static str {
+        match self {
+            Function::One(name, _) | Function::Two(name, _) => name,
+            Function::If => "if",
         }
     }
 }
 
-/// The functions: name, number of arguments is that of the variant.
-const FUNCTIONS: [(&str, Function); 15] = [
-    ("sqrt", Function::One(f64::sqrt)),
-    ("exp", Function::One(libm::exp)),
-    ("ln", Function::One(libm::log)),
-    ("log10", Function::One(libm::log10)),
-    ("sin", Function::One(libm::sin)),
-    ("cos", Function::One(libm::cos)),
-    ("tan", Function::One(libm::tan)),
-    ("asin", Function::One(libm::asin)),
-    ("acos", Function::One(libm::acos)),
-    ("atan", Function::One(libm::atan)),
-    ("atan2", Function::Two(libm::atan2)),
-    ("abs", Function::One(f64::abs)),
-    ("min", Function::Two(libm::fmin)),
-    ("max", Function::Two(libm::fmax)),
-    ("if", Function::If),
+impl PartialEq for Function {
+    fn eq(&self, other: &Self) -> bool {
+        self.name() == other.name()
+    }
+}
+
+const FUNCTIONS: [Function; 15] = [
+    Function::One("sqrt", f64::sqrt),
+    Function::One("exp", libm::exp),
+    Function::One("ln", libm::log),
+    Function::One("log10", libm::log10),
+    Function::One("sin", libm::sin),
+    Function::One("cos", libm::cos),
+    Function::One("tan", libm::tan),
+    Function::One("asin", libm::asin),
+    Function::One("acos", libm::acos),
+    Function::One("atan", libm::atan),
+    Function::Two("atan2", libm::atan2),
+    Function::One("abs", f64::abs),
+    Function::Two("min", libm::fmin),
+    Function::Two("max", libm::fmax),
+    Function::If,
 ];
 
 /// An expression, ready to be evaluated.
@@ -128,8 +132,8 @@ impl Expression {
                     top += 1;
                 }
                 Step::Negate => stack[top - 1] = -stack[top - 1],
-                Step::Function(Function::One(function)) => stack[top - 1] = function(stack[top - 1]),
-                Step::Function(Function::Two(function)) => {
+                Step::Function(Function::One(_, function)) => stack[top - 1] = function(stack[top - 1]),
+                Step::Function(Function::Two(_, function)) => {
                     top -= 1;
                     stack[top - 1] = function(stack[top - 1], stack[top]);
                 }
@@ -152,8 +156,8 @@ impl Expression {
         for step in &self.steps {
             match step {
                 Step::Number(_) | Step::Variable(_) => top += 1,
-                Step::Negate | Step::Function(Function::One(_)) => {}
-                Step::Binary(_) | Step::Function(Function::Two(_)) => top -= 1,
+                Step::Negate | Step::Function(Function::One(..)) => {}
+                Step::Binary(_) | Step::Function(Function::Two(..)) => top -= 1,
                 Step::Function(Function::If) => top -= 2,
             }
             most = most.max(top);
@@ -326,14 +330,14 @@ impl Parser<'_> {
             self.steps.push(Step::Variable(place));
             return Ok(());
         }
-        let Some((_, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) else {
+        let Some(function) = FUNCTIONS.iter().find(|known| known.name() == name) else {
             self.at = start;
-            let names = FUNCTIONS.map(|(known, _)| known).join(", ");
+            let names = FUNCTIONS.map(|known| known.name()).join(", ");
             return Err(self.expected(&format!("a function ({names}), not {name:?},")));
         };
         let arguments = match function {
-            Function::One(_) => 1,
-            Function::Two(_) => 2,
+            Function::One(..) => 1,
+            Function::Two(..) => 2,
             Function::If => 3,
         };
         for argument in 0..arguments {

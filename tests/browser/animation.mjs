@@ -13,6 +13,7 @@ import puppeteer from "puppeteer-core";
 const FRAMES = 42;
 const DELAY_MS = 200;
 const LAST_MS = 2500; // the last picture stays
+const STILL = Math.round(0.54 * (FRAMES - 1)); // the picture that is seen where nothing moves: on the way, not at the start
 const [file, picture] = process.argv.slice(2);
 
 function chunk(type, data) {
@@ -33,13 +34,14 @@ function chunksOf(png) {
   return chunks;
 }
 
-// Pictures of one size after each other.
-function animated(frames) {
+// Pictures of one size after each other; `still` is no part of the animation, and what a viewer shows that has none.
+function animated(frames, still) {
   let sequence = 0;
   const header = chunksOf(frames[0]).find((each) => each.type === "IHDR").data;
   const control = Buffer.alloc(8);
   control.writeUInt32BE(frames.length, 0);
-  const parts = [frames[0].subarray(0, 8), chunk("IHDR", header), chunk("acTL", control)];
+  const of = (frame) => chunksOf(frame).filter(({ type }) => type === "IDAT");
+  const parts = [frames[0].subarray(0, 8), chunk("IHDR", header), chunk("acTL", control), ...of(still).map(({ data }) => chunk("IDAT", data))];
   frames.forEach((frame, index) => {
     const about = Buffer.alloc(26);
     about.writeUInt32BE(sequence++, 0);
@@ -47,11 +49,10 @@ function animated(frames) {
     about.writeUInt16BE(index === frames.length - 1 ? LAST_MS : DELAY_MS, 20);
     about.writeUInt16BE(1000, 22);
     parts.push(chunk("fcTL", about));
-    for (const { type, data } of chunksOf(frame)) {
-      if (type !== "IDAT") continue;
+    for (const { data } of of(frame)) {
       const number = Buffer.alloc(4);
-      number.writeUInt32BE(index === 0 ? 0 : sequence++);
-      parts.push(index === 0 ? chunk("IDAT", data) : chunk("fdAT", Buffer.concat([number, data])));
+      number.writeUInt32BE(sequence++);
+      parts.push(chunk("fdAT", Buffer.concat([number, data])));
     }
   });
   return Buffer.concat([...parts, chunk("IEND", Buffer.alloc(0))]);
@@ -71,14 +72,18 @@ await page.evaluate(async () => {
   // the picture: what is seen, the numbers, the slider with its phases
   document.querySelectorAll(".replay > :not(.beside, .time, .marks, .clock)").forEach((element) => element.remove());
 });
-const box = await page.$(".replay");
+// pictures of one size: what is below moves where a number needs another line
+const clip = await page.$eval(".replay", (replay) => {
+  const { x, y, width, height } = replay.getBoundingClientRect();
+  return { x: x + scrollX, y: y + scrollY, width, height };
+});
 const frames = [];
 for (let frame = 0; frame < FRAMES; frame += 1) {
   await page.evaluate(async (part) => {
     const replay = await globalThis.spindriftPage.replay();
     replay.goTo(part * replay.motion.last);
   }, frame / (FRAMES - 1));
-  frames.push(Buffer.from(await box.screenshot()));
+  frames.push(Buffer.from(await page.screenshot({ clip, captureBeyondViewport: true })));
 }
 await browser.close();
-writeFileSync(picture, animated(frames));
+writeFileSync(picture, animated(frames, frames[STILL]));

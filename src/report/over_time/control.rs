@@ -92,7 +92,9 @@ impl Curves<'_> {
                 }
                 None => {
                     let values = self.nominal(series.of_wheel(index));
-                    marks.extend(lines(wheel.as_str(), (hue, Dash::Solid), &self.times(), &values));
+                    // wheels that do the same lie on each other
+                    let dash = if self.is_plot() { Dash::of_curve(index) } else { Dash::Solid };
+                    marks.extend(lines(wheel.as_str(), (hue, dash), &self.times(), &values));
                 }
             }
         }

@@ -10,6 +10,7 @@ use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
 use crate::report::over_time::envelope::{envelope, swing, turns};
 use crate::report::over_time::figure_list::{ListedFigure, Place, Shows, Traits, figures_of};
 use crate::report::over_time::limits;
+use crate::report::page::readable::grouped;
 use crate::scene::Name;
 
 /// Quantiles of a series over time, of the runs that are ok.
@@ -123,22 +124,23 @@ impl<'a> Curves<'a> {
 
     /// What the bands of a quantity mean.
     pub(super) fn caption(&self, name: &str) -> String {
+        let of = |series: &&(Series, Vec<f64>)| {
+            series.0.quantity(self.wheels).is_some_and(|quantity| quantity.name() == name)
+        };
+        let nominal = self.run.and_then(|run| run.series.iter().find(of)).map_or(&[][..], |(_, values)| values);
+        self.caption_of(name, nominal)
+    }
+
+    /// The same of a quantity with the values `nominal` in the nominal run.
+    pub(super) fn caption_of(&self, name: &str, nominal: &[f64]) -> String {
         let Some(bands) = self.band(name) else { return "The nominal run.".to_owned() };
         let points = self.run.map_or(0, |run| run.grid.points());
-        let swings = self.run.and_then(|run| {
-            let wheels = self.wheels;
-            let of = |series: &&(Series, Vec<f64>)| {
-                series.0.quantity(wheels).is_some_and(|quantity| quantity.name() == name)
-            };
-            run.series.iter().find(of).map(|(_, values)| (turns(values), swing(values)))
-        });
         let width =
             bands.quantiles[0].iter().zip(&bands.quantiles[4]).map(|(low, high)| high - low).fold(0.0, f64::max);
-        let is_seen =
-            swings.is_some_and(|(turns, swing)| is_coarse(turns, bands.times.len()) && swing > SEEN_SWING * width);
+        let is_seen = is_coarse(turns(nominal), bands.times.len()) && swing(nominal) > SEEN_SWING * width;
         let aliased = if is_seen && points > bands.times.len() {
             format!(
-                " These are fewer than {PER_TURN} in each oscillation of the nominal run, and do not show how the runs oscillate; more points in [bands] would.",
+                " Between these, fewer than {PER_TURN} in an oscillation, bands and median say nothing of how the runs oscillate: raise [bands] points.",
             )
         } else {
             String::new()
@@ -153,14 +155,14 @@ impl<'a> Curves<'a> {
             let error = |p: f64| 100.0 * libm::sqrt(p * (1.0 - p) / bands.counted as f64);
             format!(
                 "the first {} of {} dispersed runs that were computed (standard error of these shares {:.2} and {:.2}%, of the median {:.2}%; bands.runs counts more)",
-                bands.counted,
-                bands.runs,
+                grouped(bands.counted),
+                grouped(bands.runs),
                 error(0.05),
                 error(0.25),
                 error(0.5)
             )
         } else {
-            format!("{} dispersed runs that were computed", bands.runs)
+            format!("{} dispersed runs that were computed", grouped(bands.runs))
         };
         format!("Bands: 5 to 95% and 25 to 75% of {of}, at each of {} times.{aliased}{left}", bands.times.len())
     }
@@ -186,6 +188,10 @@ impl<'a> Curves<'a> {
 
     /// The same with the runs in flight, and an axis that ends where all but one in a hundred have ended, and the nominal run.
     pub(super) fn in_flight(&self, mut figure: Figure) -> Figure {
+        if let (true, [first, .., last]) = (self.is_plot() && figure.is_over_time, &self.times()[..]) {
+            // one time axis, also where a curve is not there at all times
+            figure.x = figure.x.within(*first, *last);
+        }
         let Some(bands) = self.bands.first().filter(|_| figure.is_over_time) else { return figure };
         let runs = bands.runs as f64;
         if bands.in_flight.last().is_none_or(|left| *left == bands.runs) {
@@ -261,7 +267,8 @@ impl<'a> Curves<'a> {
         }
         let axis = Axis::linear(listed.quantity, unit).showing(shown_as);
         let axis = match limits::range(&marks, self.traits.has_loop) {
-            Some([low, high]) => axis.within(low, high),
+            // a share ends at all
+            Some([low, high]) => axis.within(low, if listed.quantity == "share" { high.min(1.0) } else { high }),
             None => axis,
         };
         over_time(name, title, caption, axis, marks)
@@ -369,7 +376,7 @@ mod tests {
             (
                 400,
                 10_000,
-                "the first 400 of 10000 dispersed runs that were computed (standard error of these shares 1.09 and 2.17%, of the median 2.50%;",
+                "the first 400 of 10,000 dispersed runs that were computed (standard error of these shares 1.09 and 2.17%, of the median 2.50%;",
             ),
             (
                 100,

@@ -57,7 +57,7 @@ impl Curves<'_> {
             let of_step = tolerance.map_or(String::new(), |tolerance| format!("Tolerance of a step: {tolerance:e}; "));
             let caption = format!(
                 "{what}, relative to the largest. {} {of_step}rounding of a double: 1.1e-16.",
-                self.caption(&self.name(list[0].0).0)
+                self.caption_of(&self.name(list[0].0).0, &[])
             );
             let figure = over_time(name, title, caption, axis, marks);
             self.in_flight(Figure { section: FigureSection::Numerics, ..figure })

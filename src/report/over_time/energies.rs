@@ -50,9 +50,12 @@ impl Curves<'_> {
             let (name, unit) = self.name(series);
             let name = name.replace("energy_com_", "exchange_");
             self.band(&name)?;
-            let marks = self.marks(&name, changes(&self.nominal(series)), hue, "");
-            let caption =
-                format!("Change of kinetic energy about the spacecraft's centre of mass. {}", self.caption(&name));
+            let nominal = changes(&self.nominal(series));
+            let caption = format!(
+                "Change of kinetic energy about the spacecraft's centre of mass. {}",
+                self.caption_of(&name, &nominal)
+            );
+            let marks = self.marks(&name, nominal, hue, "");
             let axis = Axis::linear(listed.quantity, &unit);
             Some(over_time(&name, &format!("{} {of}", listed.title), caption, axis, marks))
         };

@@ -21,7 +21,7 @@ pub fn required(plan: &Plan, names: impl Iterator<Item = String>, unit: &str) ->
         let shown = plan.analysis.display.of(name, unit);
         let word = if matches!(requirement.limit, GateLimit::AtMost(_)) { "at most" } else { "at least" };
         let when = match name {
-            name if name.contains("_launch_") => " at the launch".to_owned(),
+            name if name.contains("_launch_") => " at launch".to_owned(),
             name if name.contains("_final_") => " at the end".to_owned(),
             _ => requirement.times(),
         };

@@ -37,7 +37,8 @@ pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
         figures.push(exceedance(outcome, has_intervals));
     }
     figures.extend(audits(survey));
-    let steps = survey.outcome("steps");
+    // as many in all runs, as a fixed step takes, have no distribution
+    let steps = survey.outcome("steps").filter(|(_, steps)| steps.sketch.min() != steps.sketch.max());
     figures.extend(steps.map(|steps| histogram(survey, steps, FigureSection::Numerics, &[])));
     figures.retain(Figure::is_visible);
     figures
@@ -50,6 +51,33 @@ pub fn of_runs(shown: usize, all: u64) -> String {
     } else {
         format!("{} of {} runs, chosen by sample number", grouped(shown as u64), grouped(all))
     }
+}
+
+/// How many dispersed runs have a value, `shown` of them in a figure, and how many were computed, where others have none.
+pub fn having(survey: &Survey, values: &Sketch, shown: usize) -> String {
+    let computed = computed(survey);
+    match values.count() {
+        count if count < computed => {
+            let of = format!("{} of {} runs have this value", grouped(count), grouped(computed));
+            if shown as u64 == count { of } else { format!("{of}, {} are shown", grouped(shown as u64)) }
+        }
+        count => of_runs(shown, count),
+    }
+}
+
+/// The runs that have a value, of those that were computed where others have none, in words that follow "of".
+pub fn all_having(survey: &Survey, values: &Sketch) -> String {
+    let (count, computed) = (values.count(), computed(survey));
+    match count < computed {
+        true => format!("the {} of {} runs that have this value,", grouped(count), grouped(computed)),
+        false => format!("{} runs", grouped(count)),
+    }
+}
+
+/// How many runs were computed that count: the dispersed ones, or the only one.
+fn computed(survey: &Survey) -> u64 {
+    let is_alone = survey.statuses.runs() == 1;
+    survey.statuses.ok() - u64::from(survey.statuses.has_nominal() && !is_alone)
 }
 
 /// The dispersed runs of the thinned table that are ok: their rows.
@@ -88,17 +116,14 @@ pub fn histogram(
         marks.push(Mark::Limit { label: "nominal".to_owned(), at: nominal, vertical: true });
     }
     let axis = if is_log { Axis::log } else { Axis::linear };
-    let what = if outcome.is_error {
-        format!("|{}|", names::of_quantity(&outcome.quantity))
-    } else {
-        names::of_quantity(&outcome.quantity)
-    };
-    let all = outcome.sketch.count();
+    let what = magnitude(outcome);
     // the meaning of a column that the file defines is in its own names, which the glossary has
     let meaning = outcome.quantity.meaning();
     let is_name = |word: &str| word.contains('_') && word.len() > "(F_e).".len();
     let meaning = if meaning.split_whitespace().any(is_name) { "" } else { meaning };
-    let caption = format!("{}. {meaning}", of_runs(values.len(), all)).trim_end().to_owned();
+    // how many runs have no value is a number here, not a clause
+    let meaning = meaning.split_once("; null if").map_or(meaning.to_owned(), |(meaning, _)| format!("{meaning}."));
+    let caption = format!("{}. {meaning}", having(survey, &outcome.sketch, values.len())).trim_end().to_owned();
     Figure {
         name: format!("histogram_{}", outcome.quantity.name()),
         section,
@@ -110,6 +135,13 @@ pub fn histogram(
         y: Axis::linear("runs", ""),
         marks,
     }
+}
+
+/// What an axis of an outcome says: of errors that have a sign, that it shows their magnitudes.
+pub fn magnitude(outcome: &SurveyedOutcome) -> String {
+    let (column, name) = (outcome.quantity.name(), names::of_quantity(&outcome.quantity));
+    let has_sign = outcome.is_error && !["_max", "_estimate"].iter().any(|end| column.ends_with(end));
+    if has_sign { format!("|{name}|") } else { name }
 }
 
 /// What an interval of this confidence is called.
@@ -153,12 +185,11 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         title: format!("Tail of {}", names::of_quantity(&outcome.quantity)),
         caption: format!(
             "Fraction of {} runs with at least this value, at ranks spaced by decades.{interval}",
-            outcome.sketch.count()
+            grouped(outcome.sketch.count())
         ),
         columns: 6,
         is_over_time: false,
-        x: Axis::log(format!("|{}|", names::of_quantity(&outcome.quantity)), outcome.quantity.unit())
-            .showing(outcome.quantity.name()),
+        x: Axis::log(magnitude(outcome), outcome.quantity.unit()).showing(outcome.quantity.name()),
         y: Axis::log("fraction of runs", ""),
         marks,
     }

@@ -45,6 +45,14 @@ pub fn words(plan: &Plan) -> [&'static str; 3] {
     }
 }
 
+/// What the runs miss that miss a limit on the outcome `name`: the only one, or one of several.
+pub fn limit_word(plan: &Plan, name: &str) -> &'static str {
+    let limits = plan.analysis.requirements.iter().filter(|one| one.observable() == Some(name)).map(|one| one.limit);
+    let mut other = limits.clone().skip(1);
+    let is_one = limits.take(1).all(|first| other.all(|limit| limit == first));
+    if is_one { "its limit" } else { "a limit" }
+}
+
 /// The limits of the requirements that are wanted, each with the values of its observable.
 fn limits<'s>(
     plan: &Plan,

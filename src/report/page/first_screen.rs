@@ -121,7 +121,7 @@ pub fn warnings(warnings: &[String]) -> String {
 }
 
 /// What each status is called, in words.
-fn words(status: Status) -> &'static str {
+pub fn words(status: Status) -> &'static str {
     match status {
         Status::Done => "computed",
         Status::StepLimit => "computation failed: too many steps",
@@ -196,8 +196,8 @@ pub fn status(plan: &Plan, survey: &Survey) -> String {
     )
 }
 
-/// How the missions of a control loop ended: a bar for each way, with its interval; nothing without a loop.
-pub fn missions(missions: &Missions) -> String {
+/// How the missions of a control loop ended: a bar for each way, with its interval; nothing without a loop. `nominal` is how that of the nominal run did, in words.
+pub fn missions(missions: &Missions, nominal: Option<&str>) -> String {
     let mut lines = String::new();
     if let [only] = &missions[..]
         && only.end == "not_failed"
@@ -232,8 +232,9 @@ pub fn missions(missions: &Missions) -> String {
         return lines;
     }
     format!(
-        "<section id=\"missions\"><h2>How did the missions end?</h2><table class=\"missions\"><thead><tr><th>end</th><th>runs</th><th>share</th><th></th></tr></thead><tbody>{lines}</tbody></table><p class=\"caption\">Of the dispersed runs{}. The nominal run has no sensor noise.</p></section>\n",
-        mission_text::missing(missions).map_or_else(String::new, |note| format!("; {}", escaped(&note)))
+        "<section id=\"missions\"><h2>How did the missions end?</h2><table class=\"missions\"><thead><tr><th>end</th><th>runs</th><th>share</th><th></th></tr></thead><tbody>{lines}</tbody></table><p class=\"caption\">Of the dispersed runs{}. The nominal run has no sensor noise; its {}.</p></section>\n",
+        mission_text::missing(missions).map_or_else(String::new, |note| format!("; {}", escaped(&note))),
+        escaped(nominal.unwrap_or("mission did not end before the run did"))
     )
 }
 

@@ -20,7 +20,7 @@ use crate::report::names::sentence;
 use crate::report::over_time::curves::{FEWEST, TimeBands};
 use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
-use crate::report::page::influence::Influence;
+use crate::report::page::influence::{Influence, counted_list};
 use crate::report::page::readable::{grouped, number, with_unit};
 use crate::report::page::tables::StatisticsRow;
 use crate::report::requirements::{assumed, decided_by, runs_needed, together};
@@ -153,9 +153,9 @@ fn influence(
     let is_total = first.total.is_some();
     let drivers = ranking.drivers().count();
     let driven = match drivers {
-        0 => "no input is shown to drive it".to_owned(),
-        1 => "the first input is shown to drive it".to_owned(),
-        count => format!("the first {count} inputs are shown to drive it"),
+        0 => "no input is a significant driver".to_owned(),
+        1 => "the first input is a significant driver".to_owned(),
+        count => format!("the first {count} inputs are significant drivers"),
     };
     let (event, measure, meaning) = match &ranking.question {
         Question::Spread if is_total => (None, "total Sobol index", meaning(plan, first, all, &driven) + noise),
@@ -190,7 +190,10 @@ fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity], driv
     let of_observable = || all.iter().filter(|one| one.observable == first.observable);
     let mut text = format!("Of {} runs; {driven}.", grouped(first.rows));
     if let Some(share) = first.r_squared.filter(|share| share.value >= LEAST_REGRESSION) {
-        text += &format!(" A regression on all inputs explains {}%.", number(libm::round(1000.0 * share.value) / 10.0));
+        text += &format!(
+            " A linear regression on all inputs explains {}%.",
+            number(libm::round(1000.0 * share.value) / 10.0)
+        );
     }
     let correlated: Vec<String> = of_observable()
         .filter_map(|one| {
@@ -198,10 +201,9 @@ fn meaning(plan: &Plan, first: &InputSensitivity, all: &[InputSensitivity], driv
             let [name, other] = [&one.input, other].map(|column| names::of_input_column(plan, column));
             Some(format!("{name} with {other} ({r:.2})"))
         })
-        .take(3)
         .collect();
     if !correlated.is_empty() {
-        text += &format!(" Correlated inputs share what they explain together: {}.", correlated.join(", "));
+        text += &format!(" Correlated inputs share what they explain together: {}.", counted_list(&correlated));
     } else if !plan.correlated.is_empty() {
         text += " Some inputs are correlated and share what they explain together.";
     }

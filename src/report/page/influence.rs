@@ -7,7 +7,7 @@ use crate::report::escaped::escaped;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::names;
 use crate::report::names::sentence;
-use crate::report::page::errors::shown_rows;
+use crate::report::page::errors::{having, magnitude, shown_rows};
 use crate::report::page::fates::{self, Fate};
 use crate::run::Quantity;
 use crate::sampling::Design;
@@ -129,7 +129,7 @@ fn tornado(
     let mut note =
         if inputs.len() < all { format!(" The strongest {} of {all} inputs.", inputs.len()) } else { String::new() };
     if !same.is_empty() {
-        note += &format!(" The same runs miss: {}.", same.join(", "));
+        note += &format!(" The same runs miss: {}.", counted_list(same));
     }
     let name = outcome.quantity.name();
     let (name, title) = match &influence.event {
@@ -161,6 +161,16 @@ fn tornado(
     }
 }
 
+/// The first of `names`, and how many others there are.
+pub fn counted_list(names: &[String]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => one.clone(),
+        [one, other] => format!("{one}, {other}"),
+        [one, others @ ..] => format!("{one} and {} others", others.len()),
+    }
+}
+
 /// An outcome against an input.
 fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &SurveyedOutcome) -> Figure {
     let column = &plan.dispersions.columns()[input];
@@ -188,10 +198,12 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
     let fates = fates::of_outcome(plan, survey, outcome.quantity.name());
     let (missed, met): (Vec<usize>, Vec<usize>) = kept.iter().partition(|row| fates[**row] == Fate::Missed);
     let value = |rows: &[usize]| rows.iter().map(|row| ordinates[*row]).collect::<Vec<f64>>();
-    let word = if missed.is_empty() { "computed" } else { "meets its limit" };
-    let mut marks = vec![points(&met, word, Hue::Total, PointShape::Disc, value(&met))];
+    let limit = fates::limit_word(plan, outcome.quantity.name());
+    let all_limits = if limit == "its limit" { limit } else { "all limits" };
+    let word = if missed.is_empty() { "computed".to_owned() } else { format!("meets {all_limits}") };
+    let mut marks = vec![points(&met, &word, Hue::Total, PointShape::Disc, value(&met))];
     if !missed.is_empty() {
-        marks.push(points(&missed, "misses its limit", Hue::Failed, PointShape::Cross, value(&missed)));
+        marks.push(points(&missed, &format!("misses {limit}"), Hue::Failed, PointShape::Cross, value(&missed)));
     }
     let failed: Vec<usize> =
         (0..thinned.samples.len()).filter(|row| fates[*row] == Fate::NotComputed).take(SCATTER).collect();
@@ -201,18 +213,13 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
         let y = vec![edge; failed.len()];
         marks.push(points(&failed, "not computed (at the lower edge)", Hue::Reference, PointShape::Cross, y));
     }
-    let all = outcome.sketch.count();
-    let label = if outcome.is_error {
-        format!("|{}|", names::of_quantity(&outcome.quantity))
-    } else {
-        names::of_quantity(&outcome.quantity)
-    };
+    let label = magnitude(outcome);
     let axis = if is_log { Axis::log } else { Axis::linear };
     Figure {
         name: format!("scatter_{}_{}", outcome.quantity.name(), column.parameter.column_name(column.component)),
         section: FigureSection::Influence,
         title: format!("{} against {name}", sentence(&names::of_quantity(&outcome.quantity))),
-        caption: format!("{}.", crate::report::page::errors::of_runs(kept.len(), all)),
+        caption: format!("{}.", having(survey, &outcome.sketch, kept.len())),
         columns: 4,
         is_over_time: false,
         x: Axis::linear(name, unit).showing(column.parameter.name()),
@@ -246,6 +253,7 @@ pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
             stacked: false,
         });
     }
+    let band = if marks.is_empty() { "" } else { "; where the band begins, N bounds the quantile from both sides" };
     marks.push(line("99% quantile", Hue::Wheel(0), 2));
     marks.push(line("median", Hue::Body, 1));
     let (quantity, unit): (&Quantity, &str) = (&outcome.quantity, outcome.quantity.unit());
@@ -253,9 +261,9 @@ pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         name: format!("convergence_{}", quantity.name()),
         section: FigureSection::Statistics,
         title: format!("Convergence of {}", names::of_quantity(quantity)),
-        caption: "Quantiles of the first N dispersed runs that were computed, in the order of their numbers; where the band begins, N bounds the \
-                  quantile from both sides."
-            .to_owned(),
+        caption: format!(
+            "Quantiles of the first N dispersed runs that were computed, in the order of their numbers{band}."
+        ),
         columns: 6,
         is_over_time: false,
         x: Axis::log("runs N", ""),

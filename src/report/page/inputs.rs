@@ -7,6 +7,7 @@ use crate::campaign::Plan;
 use crate::report::figure::{Axis, Figure, FigureSection};
 use crate::report::names;
 use crate::report::origin_text::origin;
+use crate::report::page::readable::grouped;
 use crate::report::{drawn_figure, histogram, marginal};
 use crate::sampling::correlation::{Measure, Numbers};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
@@ -46,10 +47,10 @@ fn input(plan: &Plan, survey: &Survey, index: usize) -> Figure {
     Figure {
         name: format!("input_{}", column.parameter.column_name(column.component)),
         section: FigureSection::Inputs,
+        title: names::sentence(&name),
         caption: format!(
-            "{} of {} dispersed samples; {}.{line}",
-            values.len(),
-            survey.statuses.runs().saturating_sub(1),
+            "{} dispersed samples; {}.{line}",
+            shown_of(values.len() as u64, survey.statuses.runs().saturating_sub(1)),
             origin(plan, index)
         ),
         columns: 4,
@@ -57,6 +58,11 @@ fn input(plan: &Plan, survey: &Survey, index: usize) -> Figure {
         y: Axis::linear("samples", ""),
         ..histogram
     }
+}
+
+/// A number, of how many where these are more.
+fn shown_of(shown: u64, all: u64) -> String {
+    if shown == all { grouped(all) } else { format!("{} of {}", grouped(shown), grouped(all)) }
 }
 
 fn correlations(plan: &Plan, survey: &Survey) -> Vec<Figure> {
@@ -97,7 +103,7 @@ fn correlations(plan: &Plan, survey: &Survey) -> Vec<Figure> {
     }
     let caption = format!(
         "Spearman's coefficient of {} dispersed samples; of independent inputs up to \u{b1}{chance:.2} by chance (95%).{note}",
-        rows.len()
+        grouped(rows.len() as u64)
     );
     figures.push(figure("correlation_achieved", "Rank correlation, achieved", caption, achieved));
     figures

@@ -44,6 +44,7 @@ use crate::campaign::Plan;
 use crate::campaign::event::Event;
 use crate::ensemble::Ensemble;
 use crate::report::figure::{Figure, FigureSection, Mark, Scale};
+use crate::report::mission_text;
 use crate::report::names;
 use crate::report::number::counted;
 use crate::report::over_time::curves::{Curves, TimeBands};
@@ -106,7 +107,9 @@ impl Page {
         let (plan, survey) = (ensemble.plan(), &contents.survey);
         let has_intervals = is_independent(plan) && !contents.loss.is_big();
         let shown = runs::shown_runs(plan, survey, ensemble.isa());
-        let nominal = shown.iter().find(|run| run.sample == SampleId(0)).and_then(|run| run.run.as_ref());
+        let first = shown.iter().find(|run| run.sample == SampleId(0));
+        let nominal_end = first.and_then(|run| mission_text::of_run(&run.row));
+        let nominal = first.and_then(|run| run.run.as_ref());
         let wheels = ensemble.request().wheels.to_vec();
         let curves = Curves::of_page(plan, nominal, &contents.bands, &wheels);
         let mut figures = outcomes::figures(plan, survey, &contents.statistics, has_intervals);
@@ -150,7 +153,7 @@ impl Page {
         let first = [
             first_screen::header(plan, &contents.verdicts, survey, has_brackets(contents, &cards)),
             first_screen::warnings(&contents.warnings),
-            first_screen::missions(&contents.missions),
+            first_screen::missions(&contents.missions, nominal_end.as_deref()),
             first_screen::verdicts(&cards, !contents.verdicts.is_empty(), &contents.said),
             first_screen::drivers(&cards, &contents.missions),
             first_screen::notes(&contents.notes),

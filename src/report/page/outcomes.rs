@@ -7,7 +7,7 @@ use crate::report::histogram::counts;
 use crate::report::names;
 use crate::report::names::sentence;
 use crate::report::page::NO_INTERVAL;
-use crate::report::page::errors::{histogram, interval_label, shown_rows};
+use crate::report::page::errors::{all_having, histogram, interval_label, magnitude, shown_rows};
 use crate::report::page::fates::{self, Fate};
 use crate::report::page::readable::{number, with_unit};
 use crate::report::page::tables::StatisticsRow;
@@ -17,6 +17,10 @@ use crate::statistics::sketch::{Sketch, middle};
 
 /// Points of a cumulative curve, at most.
 const MOST_POINTS: u64 = 400;
+/// Values up to which the curve is drawn in steps; of more none is seen.
+const MOST_STEPS: usize = 100;
+/// Values, fractions, and the ends of their intervals.
+type Curve = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>);
 /// Fewer runs than this have no distribution to be seen.
 const FEWEST_RUNS: u64 = 8;
 /// Most outcomes whose cumulative curves stand beside their distributions.
@@ -29,7 +33,7 @@ pub fn figures(plan: &Plan, survey: &Survey, statistics: &[StatisticsRow], has_i
     let (mut distributions, mut curves) = (Vec::new(), Vec::new());
     for (index, outcome) in shown {
         if outcome.is_yes_or_no(&survey.thinned.outcomes[index]) {
-            distributions.push(share(outcome, has_intervals));
+            distributions.push(share(plan, outcome, has_intervals));
             continue;
         }
         let row = statistics.iter().find(|row| row.name == outcome.quantity.name());
@@ -40,7 +44,7 @@ pub fn figures(plan: &Plan, survey: &Survey, statistics: &[StatisticsRow], has_i
         let missed = missed(plan, survey, index, outcome, &distribution.marks);
         distribution.marks.extend(missed);
         distribution.marks.extend(limits);
-        let mut curve = cumulative(plan, outcome, row, has_intervals);
+        let mut curve = cumulative(plan, survey, outcome, row, has_intervals);
         // both on one kind of axis, where the values allow it
         if distribution.x.scale == Scale::Log && outcome.sketch.min().is_some_and(|min| min > 0.0) {
             curve.x.scale = Scale::Log;
@@ -86,13 +90,13 @@ fn missed(plan: &Plan, survey: &Survey, index: usize, outcome: &SurveyedOutcome,
     let values = rows.map(|row| survey.thinned.outcomes[index][row]);
     let values: Vec<f64> = values.map(|value| if outcome.is_error { value.abs() } else { value }).collect();
     let heights = counts(&values, edges);
-    let label = "of these, miss its limit".to_owned();
+    let label = format!("of these, miss {}", fates::limit_word(plan, outcome.quantity.name()));
     let any = heights.iter().any(|height| *height > 0.0);
     any.then(|| Mark::Bars { label, hue: Hue::Failed, heights, edges: edges.clone() })
 }
 
 /// The share of the first N runs in which an outcome is 1, against N, with its interval.
-fn share(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
+fn share(plan: &Plan, outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     let growth = &outcome.growth;
     let x: Vec<f64> = growth.iter().map(|row| row[0]).collect();
     let y: Vec<f64> = growth.iter().map(|row| row[5] / row[0]).collect();
@@ -104,6 +108,16 @@ fn share(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         marks.push(Mark::Band { label, hue: Hue::Total, opacity: 0.15, x: x.clone(), low, high, stacked: false });
     }
     marks.push(Mark::line("share of runs", Hue::Total, Dash::Solid, x, y));
+    let asked = plan.analysis.requirements.iter().filter(|one| one.observable() == Some(outcome.quantity.name()));
+    marks.extend(asked.filter_map(|one| match (one.statement, one.limit) {
+        (Statement::Fraction(at), GateLimit::AtLeast(least)) if 0.0 < least && least <= 1.0 => {
+            Some(Mark::Limit { label: format!("at least {}%", number(100.0 * at)), at, vertical: false })
+        }
+        _ => None,
+    }));
+    let lowest = marks.iter().map(lowest).fold(1.0, f64::min);
+    // shares that are all near 1 are seen from the tenth below them
+    let from = if lowest > 0.5 { (libm::floor(10.0 * lowest - 0.2) / 10.0).max(0.0) } else { 0.0 };
     let name = names::of_quantity(&outcome.quantity);
     Figure {
         name: format!("share_{}", outcome.quantity.name()),
@@ -116,8 +130,17 @@ fn share(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         columns: 4,
         is_over_time: false,
         x: Axis::log("runs N", ""),
-        y: Axis::linear("share of runs", "").within(0.0, 1.0),
+        y: Axis::linear("share of runs", "").within(from, 1.0),
         marks,
+    }
+}
+
+/// The lowest ordinate of a mark of shares.
+fn lowest(mark: &Mark) -> f64 {
+    match mark {
+        Mark::Line { y: values, .. } | Mark::Band { low: values, .. } => values.iter().copied().fold(1.0, f64::min),
+        Mark::Limit { at, .. } => *at,
+        _ => 1.0,
     }
 }
 
@@ -185,8 +208,14 @@ fn marked(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow>) -
     median.into_iter().chain(high).copied().collect()
 }
 
-fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, has_intervals: bool) -> Figure {
-    let (x, y, low, high) = curve(&outcome.sketch, outcome.confidence);
+fn cumulative(
+    plan: &Plan,
+    survey: &Survey,
+    outcome: &SurveyedOutcome,
+    row: Option<&StatisticsRow>,
+    has_intervals: bool,
+) -> Figure {
+    let (x, y, low, high) = stepped(curve(&outcome.sketch, outcome.confidence));
     let mut marks = Vec::new();
     if has_intervals {
         let label = interval_label(outcome.confidence);
@@ -203,11 +232,7 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
         marks.push(Mark::Points { label, hue, shape: PointShape::Disc, x, y, samples });
     }
     marks.extend(limits(plan, outcome));
-    let what = if outcome.is_error {
-        format!("|{}|", names::of_quantity(&outcome.quantity))
-    } else {
-        names::of_quantity(&outcome.quantity)
-    };
+    let what = magnitude(outcome);
     let is_log = outcome.is_error && outcome.sketch.min().is_some_and(|min| min > 0.0);
     let axis = if is_log { Axis::log } else { Axis::linear };
     let interval = if has_intervals { "Band: Clopper-Pearson." } else { NO_INTERVAL };
@@ -215,7 +240,7 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
         name: format!("{CUMULATIVE}{}", outcome.quantity.name()),
         section: FigureSection::Outcome,
         title: format!("{}: cumulative distribution", sentence(&names::of_quantity(&outcome.quantity))),
-        caption: format!("Fraction of {} runs with at most this value. {interval}", outcome.sketch.count()),
+        caption: format!("Fraction of {} with at most this value. {interval}", all_having(survey, &outcome.sketch)),
         columns: 6,
         is_over_time: false,
         x: axis(what, outcome.quantity.unit()).showing(outcome.quantity.name()),
@@ -224,8 +249,22 @@ fn cumulative(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow
     }
 }
 
+/// The same in steps where the values are few: the fraction rises at a value, and not on the way to it.
+fn stepped(curve: Curve) -> Curve {
+    let (x, y, low, high) = &curve;
+    if 1 + x.windows(2).filter(|pair| pair[0] < pair[1]).count() > MOST_STEPS {
+        return curve;
+    }
+    let places = 0..x.len();
+    // where it stands, and before a higher value where it stood
+    let rows = places.flat_map(|k| (k > 0 && x[k - 1] < x[k]).then(|| (k, k - 1)).into_iter().chain([(k, k)]));
+    let rows: Vec<(usize, usize)> = rows.collect();
+    let of = |values: &[f64]| rows.iter().map(|(_, k)| values[*k]).collect();
+    (rows.iter().map(|(k, _)| x[*k]).collect(), of(y), of(low), of(high))
+}
+
 /// Values of ascending size, the fraction of runs up to each, and the ends of its interval.
-fn curve(sketch: &Sketch, confidence: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
+fn curve(sketch: &Sketch, confidence: f64) -> Curve {
     let count = sketch.count();
     let (steps, ranks) = (count.min(MOST_POINTS), sketch.ranks());
     let mut found = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -258,6 +297,24 @@ mod tests {
         assert_eq!(figure(&[1000.0]), Some([9.96, 11.04]));
         let [low, high] = figure(&[-5.0, 12.0]).expect("a range");
         assert!((low - 9.92).abs() < 1e-12 && (high - 12.08).abs() < 1e-12, "{low} {high}");
+    }
+
+    /// Law: of few values the curve rises at each of them and is level between; of many it is the same as before.
+    #[test]
+    fn few_values_make_steps() {
+        let of = |values: &[f64]| {
+            let mut sketch = Sketch::default();
+            values.iter().for_each(|value| sketch.add(*value));
+            curve(&sketch, 0.95)
+        };
+        let (x, y, low, high) = stepped(of(&[1.0, 1.0, 2.0, 4.0]));
+        assert_eq!(y, [0.25, 0.5, 0.5, 0.75, 0.75, 1.0]);
+        assert!(
+            x[1] < x[2] && x[2] == x[3] && x[3] < x[4] && x[4] == x[5] && [low.len(), high.len()] == [6, 6],
+            "{x:?}"
+        );
+        let many = of(&(1..300).map(f64::from).collect::<Vec<f64>>());
+        assert_eq!(stepped(many.clone()), many);
     }
 
     /// Law: the curve rises from one run to all of them; a fraction is that of the runs up to its value, within the width of a bucket, and lies

@@ -3,7 +3,7 @@
 use crate::report::axis::superscript;
 use crate::report::number::outward;
 
-/// A number with three or four digits: 0.01234, 1.235 x 10^-13 with superscripts, 4,096.
+/// A number with three or four digits, below ten million with those before its point: 0.01234, 1.235 x 10^-13 with superscripts, 4,096, 6,971,002.
 pub fn number(value: f64) -> String {
     let size = value.abs();
     if value.is_nan() {
@@ -15,13 +15,13 @@ pub fn number(value: f64) -> String {
     } else if size == libm::floor(size) && size < 1e7 {
         let text = grouped(size as u64);
         if value < 0.0 { format!("-{text}") } else { text }
-    } else if (1e-3..1e5).contains(&size) {
+    } else if (1e-3..1e7).contains(&size) {
         let before = libm::floor(libm::log10(size)) as i32;
         let text = format!("{value:.*}", (3 - before).max(0) as usize);
         if !text.contains('.') {
             return number(libm::round(value));
         }
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
         let text = format!("{value:.2e}");
         let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
@@ -45,8 +45,13 @@ pub fn with_unit(value: f64, unit: &str) -> String {
     match unit {
         _ if unit.is_empty() || value.is_nan() => number(value),
         "%" => format!("{}%", number(value)),
-        _ => format!("{}\u{a0}{unit}", number(value)),
+        _ => format!("{}\u{a0}{}", number(value), raised(unit)),
     }
+}
+
+/// A unit whose powers are raised.
+fn raised(unit: &str) -> String {
+    unit.replace("^2", "\u{b2}").replace("^3", "\u{b3}")
 }
 
 /// A whole number with its thousands apart.
@@ -83,6 +88,8 @@ mod tests {
             (1.5, "1.5"),
             (70.123_4, "70.12"),
             (3_097.4, "3,097"),
+            (6_971_002.3, "6,971,002"),
+            (9_999_999.7, "1\u{202f}\u{d7}\u{202f}10⁷"),
             (1.234e-13, "1.23\u{202f}\u{d7}\u{202f}10⁻¹³"),
             (2e9, "2\u{202f}\u{d7}\u{202f}10⁹"),
             (f64::NAN, "-"),

@@ -8,6 +8,7 @@ use crate::math::Isa;
 use crate::observables::Group;
 use crate::report::failure_text::readable;
 use crate::report::names;
+use crate::report::page::first_screen;
 use crate::report::page::readable::with_unit;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
@@ -95,7 +96,13 @@ fn inputs(plan: &Plan, sample: SampleId) -> Vec<f64> {
 
 fn shown(plan: &Plan, sample: SampleId, why: String, grid: &Grid, isa: Isa) -> ShownRun {
     let inputs = inputs(plan, sample);
-    match SingleRun::with_series(plan, sample, grid.clone(), isa, &GROUPS) {
+    let on = |grid: Grid| SingleRun::with_series(plan, sample, grid, isa, &GROUPS);
+    // a mission ends between two times of the grid: where it ends is shown too
+    let to_its_end = |run: SingleRun| {
+        let end = run.arcs.last().filter(|arc| arc.applied.ends_run).and_then(|arc| with_time(grid, arc.start));
+        end.and_then(|grid| on(grid).ok()).unwrap_or(run)
+    };
+    match on(grid.clone()).map(to_its_end) {
         Ok(run) => {
             let (status, reason) = (run.outcome.status, readable(&run.reason));
             let row = row(plan, &run, &inputs, isa, sample);
@@ -130,10 +137,8 @@ fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
     let mut first: Vec<(usize, SampleId, String)> = Vec::new();
     for ended in survey.statuses.failed() {
         let of_kind = ended.first.iter().enumerate();
-        first.extend(
-            of_kind
-                .map(|(place, (sample, _))| (place, *sample, format!("computation failed: {}", ended.status.name()))),
-        );
+        first
+            .extend(of_kind.map(|(place, (sample, _))| (place, *sample, first_screen::words(ended.status).to_owned())));
     }
     first.sort_by_key(|(place, sample, _)| (*place, *sample));
     let mut list: Vec<(SampleId, String)> =
@@ -206,9 +211,34 @@ fn grid(plan: &Plan, isa: Isa) -> Grid {
     Grid::uniform(plan.grid.duration(), intervals + 1)
 }
 
+/// `grid` with one more time; `None` where it has this one, or ends before it.
+fn with_time(grid: &Grid, time: f64) -> Option<Grid> {
+    let place = grid.times().partition_point(|other| *other < time);
+    if grid.times().get(place).is_none_or(|other| *other == time) {
+        return None;
+    }
+    let mut times = grid.times().to_vec();
+    times.insert(place, time);
+    Some(Grid::at(times))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::campaign::Overrides;
+
+    /// Law: what is shown of a mission ends when the mission does, and not at the last time of the grid before it.
+    #[test]
+    fn a_mission_is_shown_to_its_end() {
+        let text = include_str!("../../../campaigns/net_launch.toml");
+        let plan = Plan::from_text("net_launch", text, Overrides::default()).expect("valid");
+        let run = shown(&plan, SampleId(0), String::new(), &Grid::uniform(plan.grid.duration(), 31), Isa::best());
+        let end = run.row.iter().find(|(name, _)| name == "end_time_s").expect("a column").1;
+        let flown = run.run.expect("physical");
+        assert_eq!(flown.grid.times()[flown.outcome.points - 1], end);
+        assert_eq!(with_time(&flown.grid, end), None);
+        assert_eq!(with_time(&flown.grid, 1e9), None);
+    }
 
     /// Law: equal runs have the place of the first of them and say how many they are, at least where more than are kept may be equal; a run that is alone says nothing.
     #[test]

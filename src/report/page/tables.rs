@@ -134,7 +134,7 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
                     Some(Transform::Scalar(distribution)) if distribution.steps().is_some() => values
                         .strip_suffix(", ")
                         .map_or(values.trim_end_matches(" (").to_owned(), |of| format!("{of})")),
-                    _ => format!("{values}{} \u{3c3})", number(libm::round(10.0 * sigmas) / 10.0)),
+                    _ => format!("{values}{}\u{a0}\u{3c3})", number(libm::round(10.0 * sigmas) / 10.0)),
                 };
                 (sigmas, format!("{name} {text}"))
             })

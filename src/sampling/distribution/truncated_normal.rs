@@ -187,6 +187,6 @@ impl Quantile for TruncatedNormalQuantile {
 
     fn text(&self, words: NumberWords<'_>) -> String {
         let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| (words.amount)(self.quantile(u)));
-        format!("truncated normal, {low} to {high}")
+        format!("truncated normal, std {}, {low} to {high}", (words.amount)(self.std.abs()))
     }
 }

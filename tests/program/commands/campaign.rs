@@ -25,7 +25,10 @@ fn printed_commands_are_quoted() {
 fn a_campaign_runs_once_and_then_says_so() {
     let scratch = folder("once");
     let said = scratch.prints("campaign small.toml", 0);
-    assert!(said.contains("small: 600 runs computed in ") && said.contains("maximum energy error"), "{said}");
+    assert!(
+        said.contains("small: 600 runs (1 nominal) computed in ") && said.contains("maximum energy error"),
+        "{said}"
+    );
     let parts = scratch.parts("results/small");
     let names: Vec<&str> = parts.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["part-000000.parquet", "part-000001.parquet", "part-000002.parquet"]);

@@ -100,9 +100,9 @@ fn a_campaign_counts_what_it_has() {
     let (ok, invalid, inaccurate) = (count("ok"), count("invalid_sample"), count("inaccurate"));
     assert!(ok + invalid + inaccurate == 600.0 && invalid > 100.0 && inaccurate > 20.0);
 
-    let headline = numbers(&said, "small: # of # runs computed, # of them now, in # s (#/s), seed #");
-    let [computed, samples, now, seconds, rate, seed] = headline[..] else { panic!("{headline:?}") };
-    assert_eq!([computed, samples, now, seed], [ok, 600.0, made as f64, 7.0]);
+    let headline = numbers(&said, "small: # of # runs (# nominal) computed, # of them now, in # s (#/s), seed #");
+    let [computed, samples, nominal, now, seconds, rate, seed] = headline[..] else { panic!("{headline:?}") };
+    assert_eq!([computed, samples, nominal, now, seed], [ok, 600.0, 1.0, made as f64, 7.0]);
     assert!((1..600).contains(&made), "continued");
     // seconds have two decimals, and the rate none
     let rounded = 0.0051 + 0.51 * seconds / rate;
@@ -167,7 +167,7 @@ fn a_campaign_counts_what_it_has() {
         list.iter().find(|one| one["name"] == name).unwrap_or_else(|| panic!("no {name}"))
     };
     let largest = ["energy_error_max", "angular_momentum_error_max", "state_error_estimate"];
-    let sentence = "largest errors, relative: energy #, angular momentum #, estimated error of the state #";
+    let sentence = "largest errors, relative: energy #, angular momentum #, estimated state error #";
     says(&said, sentence, &largest.map(|name| number(&line(name)["max"])));
     let audit = &summary["audit"];
     let audited = number(&audit["audited"]);
@@ -282,7 +282,11 @@ fn samples_and_points_are_counted() {
         let shown = rows.len();
         let heads: Vec<&str> =
             said.lines().next().expect("heads").split_whitespace().filter(|word| *word != "rate").collect();
-        says(&said, "(# of # points;", &[shown as f64, f64::from(points)]);
+        let (shown, points_there) = (shown as f64, f64::from(points));
+        match shown == points_there {
+            true => says(&said, "(all # points;", &[points_there]),
+            false => says(&said, "(# of # points;", &[shown, points_there]),
+        }
         let below: Vec<&str> = said.lines().nth(1).expect("units").split_whitespace().collect();
         let count = |unit: &str| below.iter().filter(|word| **word == unit).count();
         let wheels = heads.iter().filter(|head| head.starts_with('w')).count();
@@ -355,7 +359,7 @@ fn other_commands_count_what_is_there() {
         ("campaign c.toml --out r", 1, "already complete in r (# samples, # of them failed)", vec![all, failed]),
         ("campaign c.toml --out s --shard 1/2", 0, "shard #/# is complete", vec![1.0, 2.0]),
         ("campaign c.toml --out s --shard 2/2", 0, "shard #/# is complete", vec![2.0, 2.0]),
-        ("finish s", 1, "small: # of # runs computed", vec![all - failed, all]),
+        ("finish s", 1, "small: # of # runs (# nominal) computed", vec![all - failed, all, 1.0]),
     ] {
         says(&scratch.prints(command, code), pattern, &known);
     }

@@ -110,9 +110,9 @@ fn limits_are_those_of_the_file() {
     near(&of("thrust"), &[("limit of p2, p3 10\u{a0}N", 10.0), ("limit of p1 20\u{a0}N", 20.0)]);
     near(&of("debris_distance_m"), &[("keep-out 5\u{a0}m", 5.0), ("station 10\u{a0}m", 10.0)]);
     near(&of("impulse_n_s"), &[("at most 4,000\u{a0}N s", 4000.0)]);
-    near(&of("debris_relative_speed_m_s"), &[("at most 5\u{a0}cm/s at the launch", 5.0)]);
-    near(&of("spin_axis_debris_angle_rad"), &[("at most 2\u{a0}deg at the launch", 2.0)]);
-    near(&of("angular_rate_rad_s"), &[("at most 0.2\u{a0}deg/s at the launch", 0.2)]);
+    near(&of("debris_relative_speed_m_s"), &[("at most 5\u{a0}cm/s at launch", 5.0)]);
+    near(&of("spin_axis_debris_angle_rad"), &[("at most 2\u{a0}deg at launch", 2.0)]);
+    near(&of("angular_rate_rad_s"), &[("at most 0.2\u{a0}deg/s at launch", 0.2)]);
     let found = page("limits-of-slew", SLEW_CLOSED);
     let figure = found.figure("pointing_error_rad");
     near(&limits(figure), &[("at most 0.1\u{a0}deg at the end", 0.1)]);
@@ -263,7 +263,7 @@ fn filters_that_do_not_know_their_errors_are_named() {
         let shown = [found.said.contains("overconfident"), html.contains("overconfident")];
         assert_eq!(shown, [is_named; 2], "{}", found.said);
         if is_named {
-            let factor = "final errors of attitude and gyro bias are # sigma";
+            let factor = "attitude and gyro bias typically end # sigma off";
             assert!(median > 2.0, "{median}");
             for said in [notes[0].as_str().expect("a note"), &found.said, &html] {
                 let of = screen_numbers::numbers(said, factor);

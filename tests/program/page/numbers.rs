@@ -277,7 +277,7 @@ fn screen_and_junit_say_what_the_summary_has() {
         assert_eq!([case.contains("<failure"), case.contains("<error")], *expected, "{case}");
         // the unit that was written, and the limit as it was
         if sentence.contains("p95") {
-            assert!(sentence.contains("at most 2100.0 deg/s"), "{sentence}");
+            assert!(sentence.contains("at most 2100 deg/s"), "{sentence}");
         }
     }
 }

@@ -213,7 +213,8 @@ fn bars_of_influence_descend() {
         let line = found.said.lines().find(|line| line.trim_start().starts_with(outcome) && line.contains("with it"));
         let line = line.unwrap_or_else(|| panic!("{outcome}: {}", found.said));
         // what the numbers are, in the same words in both places
-        let said = format!("{first} explains {:.0}% of the variance (", 100.0 * shares[0]);
+        let share = if shares[0] >= 0.995 { "over 99".to_owned() } else { format!("{:.0}", 100.0 * shares[0]) };
+        let said = format!("{first} explains {share}% of the variance (");
         assert!(line.contains(&said), "{said}: {line}");
         assert_eq!(found.figure(&figure)["x"]["quantity"], "share of the variance");
         // what a regression explains, in percent, and of how many runs
@@ -223,7 +224,7 @@ fn bars_of_influence_descend() {
         let known = [299.0, 100.0 * floats(&table, "r_squared")[row]];
         let meaning = found.figure(&figure)["caption"].as_str().expect("a caption");
         says(meaning, "Of # runs", &known[..1]);
-        let share = numbers(meaning, "A regression on all inputs explains #%.")[0];
+        let share = numbers(meaning, "A linear regression on all inputs explains #%.")[0];
         assert!((share - known[1]).abs() < 0.051, "{share}% for {known:?}");
     }
 }
@@ -243,7 +244,10 @@ fn two_statuses_are_told_apart() {
     let rows: Vec<&str> = worst.split("<tr>").collect();
     // the bars are side by side
     let mut end = summary["statuses"]["ok"].as_f64().expect("a count") / 3.0;
-    for (status, words) in [("invalid_sample", "invalid: not physical"), ("inaccurate", "inaccurate")] {
+    for (status, words, said) in [
+        ("invalid_sample", "invalid: not physical", "Invalid: not physical"),
+        ("inaccurate", "inaccurate", "Inaccurate"),
+    ] {
         let count = summary["statuses"][status].as_u64().expect("a count");
         let share =
             visible.split("<li>").skip(1).find(|item| item.contains(words) && item.contains("<b>")).expect(status);
@@ -256,7 +260,7 @@ fn two_statuses_are_told_apart() {
         let reasons = summary["failure_reasons"].as_array().unwrap();
         let of = reasons.iter().filter(|one| one["status"] == status);
         let sample = of.map(|one| one["sample"].as_u64().expect("a sample")).min().expect("a reason");
-        let row = rows.iter().find(|row| row.contains(&format!("Computation failed: {status}"))).expect("a row");
+        let row = rows.iter().find(|row| row.contains(&format!("<td class=\"text\">{said}<"))).expect("a row");
         assert!(row.contains(&format!("<b>{status}</b>: ")), "{row}");
         assert!(row.starts_with(&format!("<th scope=\"row\">{sample}</th>")), "{sample}: {row}");
         let first = format!("first in sample {sample}: ");

@@ -312,7 +312,7 @@ fn every_series_is_of_its_label() {
             }
             if let Some(column) = name.strip_prefix("input_") {
                 let mut values = found.all(&[column]).swap_remove(0).split_off(1);
-                let counted = format!("{0} of {0} dispersed samples", values.len());
+                let counted = format!("{} dispersed samples; ", values.len());
                 assert!(text(figure, "caption").starts_with(&counted), "{figure}");
                 values.iter_mut().for_each(|value| *value *= scale(&figure["x"]));
                 bars_are(&found, &marks[0], &values, name);

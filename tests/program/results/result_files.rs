@@ -48,7 +48,7 @@ fn run(folder: &ScratchFolder, text: &str, arguments: &str, code: i32) -> String
 fn the_summary_is_that_of_the_files() {
     let folder = ScratchFolder::new("statistics");
     let said = run(&folder, &campaign(), "--out r --verbose", 1);
-    assert!(said.contains(" of 1500 runs computed in "), "{said}");
+    assert!(said.contains(" of 1500 runs (1 nominal) computed in "), "{said}");
     let (summary, rows) = (folder.summary("r"), folder.rows("r"));
     let ended = ended(&rows);
     let failed: Vec<u64> = ended.iter().filter(|(_, status)| status == "step_limit").map(|(id, _)| *id).collect();
