@@ -12,12 +12,13 @@ static ECHARTS: &[u8] = include_bytes!("../../../assets/report/vendor/echarts.js
 static THREE: &[u8] = include_bytes!("../../../assets/report/vendor/three.js.gz");
 
 /// The modules of the page, each after those that it imports: they are put into one script, without their imports and exports.
-const MODULES: [(&str, &str); 17] = [
+const MODULES: [(&str, &str); 18] = [
     ("numbers.js", include_str!("../../../assets/report/numbers.js")),
     ("theme.js", include_str!("../../../assets/report/theme.js")),
     ("payload.js", include_str!("../../../assets/report/payload.js")),
     ("hover.js", include_str!("../../../assets/report/hover.js")),
     ("select.js", include_str!("../../../assets/report/select.js")),
+    ("axes.js", include_str!("../../../assets/report/axes.js")),
     ("chart.js", include_str!("../../../assets/report/chart.js")),
     ("save.js", include_str!("../../../assets/report/save.js")),
     ("figure.js", include_str!("../../../assets/report/figure.js")),
