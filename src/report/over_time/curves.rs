@@ -243,12 +243,18 @@ impl<'a> Curves<'a> {
         }
         let axis = self.run.map(|run| run.request.nutation_axis).filter(|_| series == Series::Nutation);
         let title = match axis {
-            Some(NutationAxis::Principal) => "Nutation angle: the principal axis nearest s3 from the angular momentum",
-            Some(NutationAxis::Along(_)) => "Nutation angle: observe.nutation_axis from the angular momentum",
-            _ => listed.title,
+            Some(NutationAxis::Principal) => {
+                "Nutation angle: the principal axis nearest s3 from the angular momentum".to_owned()
+            }
+            Some(NutationAxis::Along(axis)) => {
+                let name = axis.iter().position(|component| *component == 1.0);
+                let name = name.map_or("the axis of the file".to_owned(), |component| format!("s{}", component + 1));
+                format!("Nutation angle: {name} from the angular momentum")
+            }
+            _ => listed.title.to_owned(),
         };
         let caption = self.caption(&name);
-        Some(self.judged(listed, (&name, &unit), (title, caption), marks))
+        Some(self.judged(listed, (&name, &unit), (&title, caption), marks))
     }
 
     /// A figure called `name`, with the limits of the requirements on what it shows and an axis that has what matters.
