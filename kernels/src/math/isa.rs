@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 
 use fearless_simd::{Level, Simd};
 
-use super::{Lanes, Pair, Real};
+use super::{Lanes, Real};
 
 /// The environment variable that forces a path (`avx512`, `avx2`, `plain`); for tests and for comparing paths.
 pub const VARIABLE: &str = "SPINDRIFT_ISA";
@@ -141,7 +141,7 @@ impl Isa {
                 "avx512" => {
                     if let Some(simd) = self.level.as_avx512() {
                         let zero = Lanes::broadcast(simd, 0.0);
-                        return work.run(simd, Pair(zero, zero));
+                        return work.run(simd, super::Pair(zero, zero));
                     }
                 }
                 "avx2" => {
