@@ -45,6 +45,19 @@ pub fn text(groups: &[&FailureReason]) -> String {
     text
 }
 
+/// What each status is called, in words.
+pub fn status_words(status: Status) -> &'static str {
+    match status {
+        Status::Done => "computed",
+        Status::StepLimit => "computation failed: too many steps",
+        Status::StepFloor => "computation failed: step too small",
+        Status::NonFinite => "computation failed: not finite",
+        Status::InvalidSample => "invalid: not physical",
+        Status::Inaccurate => "inaccurate",
+        Status::InternalError => "internal error",
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,7 +4,7 @@ use crate::analysis::missions::Missions;
 use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
 use crate::report::escaped::escaped;
-use crate::report::failure_text::readable;
+use crate::report::failure_text::{readable, status_words};
 use crate::report::mission_text;
 use crate::report::names::sentence;
 use crate::report::page::cards::{Card, Judged, overall};
@@ -120,19 +120,6 @@ pub fn warnings(warnings: &[String]) -> String {
     if lines.is_empty() { lines } else { format!("<section id=\"warnings\" role=\"alert\">{lines}</section>\n") }
 }
 
-/// What each status is called, in words.
-pub fn words(status: Status) -> &'static str {
-    match status {
-        Status::Done => "computed",
-        Status::StepLimit => "computation failed: too many steps",
-        Status::StepFloor => "computation failed: step too small",
-        Status::NonFinite => "computation failed: not finite",
-        Status::InvalidSample => "invalid: not physical",
-        Status::Inaccurate => "inaccurate",
-        Status::InternalError => "internal error",
-    }
-}
-
 /// The stacked bar of statuses with their counts, the first reason, and the command that replays it.
 pub fn status(plan: &Plan, survey: &Survey) -> String {
     let (ok, all) = (survey.statuses.ok(), survey.statuses.runs());
@@ -144,7 +131,7 @@ pub fn status(plan: &Plan, survey: &Survey) -> String {
         let width = if ended.count > 0 { share.max(0.6) } else { 0.0 };
         bars += &format!(
             "<rect class=\"status {class}\" x=\"{x:.3}%\" y=\"0\" width=\"{width:.3}%\" height=\"22\"><title>{}: {}</title></rect>",
-            words(ended.status),
+            status_words(ended.status),
             grouped(ended.count)
         );
         x += width;
@@ -152,7 +139,7 @@ pub fn status(plan: &Plan, survey: &Survey) -> String {
         legend += &format!(
             "<li><svg class=\"key\" viewBox=\"0 0 14 14\" aria-hidden=\"true\"><rect class=\"status {class}\" width=\"14\" height=\"14\"/></svg><b>{}</b> {} <span class=\"quiet\">({percent})</span></li>",
             grouped(ended.count),
-            words(ended.status),
+            status_words(ended.status),
         );
     }
     let reasons: String = survey
@@ -162,7 +149,7 @@ pub fn status(plan: &Plan, survey: &Survey) -> String {
         .map(|(ended, (sample, reason))| {
             format!(
                 "<p class=\"reason\"><b>{}</b> first in sample {sample}: {}. Replay in this folder: <code>spindrift simulate plan.toml --sample {sample}</code></p>",
-                words(ended.status),
+                status_words(ended.status),
                 escaped(readable(reason).trim_end_matches('.')),
             )
         })

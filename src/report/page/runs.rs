@@ -6,9 +6,8 @@ use crate::campaign::Plan;
 use crate::ensemble::{DrawnScenes, SingleRun};
 use crate::math::Isa;
 use crate::observables::Group;
-use crate::report::failure_text::readable;
+use crate::report::failure_text::{readable, status_words};
 use crate::report::names;
-use crate::report::page::first_screen;
 use crate::report::page::readable::with_unit;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
@@ -137,8 +136,7 @@ fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
     let mut first: Vec<(usize, SampleId, String)> = Vec::new();
     for ended in survey.statuses.failed() {
         let of_kind = ended.first.iter().enumerate();
-        first
-            .extend(of_kind.map(|(place, (sample, _))| (place, *sample, first_screen::words(ended.status).to_owned())));
+        first.extend(of_kind.map(|(place, (sample, _))| (place, *sample, status_words(ended.status).to_owned())));
     }
     first.sort_by_key(|(place, sample, _)| (*place, *sample));
     let mut list: Vec<(SampleId, String)> =
