@@ -302,7 +302,7 @@ mod tests {
                                 .all(|(known, share)| *known == 99.0 && share > 0.99 || is_near((known, share))),
                             "{shares:?}: {said:?}"
                         );
-                        assert!(known.len() >= 1 && said[known.len()..].iter().all(|text| text == "less"), "{said:?}");
+                        assert!(!known.is_empty() && said[known.len()..].iter().all(|text| text == "less"), "{said:?}");
                         let fits = shares[0] + shares[1] <= 0.989;
                         assert!(!fits || known.len() >= 2, "{shares:?}: {said:?}");
                     }
