@@ -215,6 +215,7 @@ impl Conditioning {
         let scale = rate_scale(largest, self.times[count - 1]);
         // relative to that, as all errors are from here on
         let local = LocalErrors { truncation: local.truncation / scale, feedback: local.feedback / scale, ..*local };
+        // where the torque follows the attitude, a motion in a plane is none: what a step leaves out turns the body further and further
         let is_changed = acting.is_some_and(|acting| ForceModel::of(acting.scene()).changes_within_arcs());
         let curve = if widest <= STILL * largest && !is_changed {
             self.at_equilibrium(body, [count, stride, last], scale, table, &local)
