@@ -59,6 +59,8 @@ pub mod sampling;
 #[doc(hidden)]
 pub mod storage;
 #[doc(hidden)]
+pub mod table;
+#[doc(hidden)]
 pub mod workflow;
 
 #[doc(hidden)]

@@ -19,11 +19,11 @@ use pyo3::create_exception;
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 use spindrift::cli::argument_values;
-use spindrift::cli::columns::of_all_campaigns;
+use spindrift::cli::columns::{of_all_campaigns, table_of};
 use spindrift::cli::program;
 use spindrift::workflow::WorkflowError;
 
-use crate::table::Table;
+use crate::table::ArrowTable;
 
 create_exception!(
     spindrift,
@@ -51,8 +51,8 @@ fn main(py: Python<'_>, words: Vec<OsString>) -> u8 {
 
 /// Every column that a row can have.
 #[pyfunction]
-fn columns() -> PyResult<Table> {
-    Table::of_sections(&of_all_campaigns())
+fn columns() -> PyResult<ArrowTable> {
+    ArrowTable::of(table_of(&of_all_campaigns())).map_err(raised)
 }
 
 #[pymodule]
@@ -63,7 +63,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<plan::Plan>()?;
     module.add_class::<job::Job>()?;
     module.add_class::<results::Results>()?;
-    module.add_class::<Table>()?;
+    module.add_class::<ArrowTable>()?;
     module.add_function(wrap_pyfunction!(main, module)?)?;
     module.add_function(wrap_pyfunction!(columns, module)?)?;
     module.add_function(wrap_pyfunction!(results::compare, module)?)

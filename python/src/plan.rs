@@ -13,7 +13,7 @@ use spindrift::workflow::{Campaign, PreparedCampaign, Quiet, Session, WorkflowEr
 
 use crate::job::{Job, Run};
 use crate::law::Law;
-use crate::table::Table;
+use crate::table::ArrowTable;
 use crate::toml_values::{table, value};
 
 /// The name of a plan from a dict in messages.
@@ -118,8 +118,8 @@ impl Plan {
     }
 
     /// The dispersed parameters of so many samples.
-    fn sample(&self, py: Python<'_>, samples: Option<u64>) -> PyResult<Table> {
-        self.with(py, samples, None, |plan, _| Table::of_draws(plan))
+    fn sample(&self, py: Python<'_>, samples: Option<u64>) -> PyResult<ArrowTable> {
+        self.with(py, samples, None, |plan, _| ArrowTable::of_draws(plan))
     }
 
     /// A sample over time, and what to know of it.
@@ -129,13 +129,13 @@ impl Plan {
         sample: u64,
         times: Option<Vec<f64>>,
         control: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<(Table, Vec<String>)> {
+    ) -> PyResult<(ArrowTable, Vec<String>)> {
         self.with(py, None, control, |plan, isa| {
             let found = simulated(plan, sample, times.as_deref(), isa)?;
             let status = found.run.outcome.status;
             let early = (status != Status::Done)
                 .then(|| format!("sample {sample}: the run ended with {}: {}", status.name(), found.run.reason));
-            Ok((Table::of_series(&found.series)?, found.late.into_iter().chain(early).collect()))
+            Ok((ArrowTable::of(found.series)?, found.late.into_iter().chain(early).collect()))
         })
     }
 

@@ -16,7 +16,7 @@ use spindrift::workflow::{self, Quiet, Session, WorkflowError};
 
 use crate::law::Law;
 use crate::raised;
-use crate::table::Table;
+use crate::table::ArrowTable;
 
 /// A finished result.
 #[pyclass(module = "spindrift._native", frozen)]
@@ -90,22 +90,22 @@ impl Results {
     }
 
     /// All rows.
-    fn rows(&self, py: Python<'_>) -> PyResult<Table> {
-        self.with(py, None, Table::of_rows)
+    fn rows(&self, py: Python<'_>) -> PyResult<ArrowTable> {
+        self.with(py, None, ArrowTable::of_rows)
     }
 
     /// The statistics of every observable.
-    fn statistics(&self, py: Python<'_>) -> PyResult<Table> {
+    fn statistics(&self, py: Python<'_>) -> PyResult<ArrowTable> {
         self.with(py, None, |results| derived(results, STATISTICS))
     }
 
     /// What drives the main observables.
-    fn sensitivity(&self, py: Python<'_>) -> PyResult<Table> {
+    fn sensitivity(&self, py: Python<'_>) -> PyResult<ArrowTable> {
         self.with(py, None, |results| derived(results, SENSITIVITY))
     }
 
     /// Quantiles over time; `None` where the campaign has no bands.
-    fn bands(&self, py: Python<'_>) -> PyResult<Option<Table>> {
+    fn bands(&self, py: Python<'_>) -> PyResult<Option<ArrowTable>> {
         self.with(py, None, |results| {
             let there = results.root().join(BANDS).is_file();
             there.then(|| derived(results, BANDS)).transpose()
@@ -113,10 +113,10 @@ impl Results {
     }
 
     /// A sample over time.
-    fn series(&self, py: Python<'_>, sample: u64, control: Option<&Bound<'_, PyAny>>) -> PyResult<Table> {
+    fn series(&self, py: Python<'_>, sample: u64, control: Option<&Bound<'_, PyAny>>) -> PyResult<ArrowTable> {
         self.with(py, control, |results| {
             let found = simulated(results.plan(), sample, None, workflow::isa()?)?;
-            Table::of_series(&found.series)
+            ArrowTable::of(found.series)
         })
     }
 
@@ -134,23 +134,23 @@ impl Results {
 }
 
 /// The file `name` of a result as a table.
-fn derived(results: &workflow::Results<'_>, name: &str) -> Result<Table, WorkflowError> {
+fn derived(results: &workflow::Results<'_>, name: &str) -> Result<ArrowTable, WorkflowError> {
     let path = results.root().join(name);
     let part = PartReader::open(results.rows().storage(), &path).map_err(WorkflowError::files)?;
-    Table::of_part(&part)
+    ArrowTable::of_part(&part)
 }
 
 /// Compares two results: what the command line says, and the shift of every statistic.
 #[pyfunction]
-pub fn compare(py: Python<'_>, first: PathBuf, second: PathBuf) -> PyResult<(String, Table)> {
+pub fn compare(py: Python<'_>, first: PathBuf, second: PathBuf) -> PyResult<(String, ArrowTable)> {
     let found = py.detach(|| {
         let watch = Quiet::default();
         let session = Session::new(&watch)?;
         let options = CompareOptions { first, second, tolerance: None, out: None, verbose: false, threads: None };
         let (_, text) = compared(&session, &options)?;
         let [first, second] = [&options.first, &options.second].map(|root| workflow::Results::open(root, session));
-        let shifts = comparison_table::table(&first?.compare(&second?)?);
-        Ok::<_, WorkflowError>((text, Table::of_described(&shifts)?))
+        let found = first?.compare(&second?)?;
+        Ok::<_, WorkflowError>((text, ArrowTable::of(comparison_table::table(&found))?))
     });
     found.map_err(raised)
 }

@@ -1,11 +1,10 @@
-//! [`Table`]: columns with units and meanings, which Arrow's C interface hands over without a copy.
+//! [`ArrowTable`]: a table as Arrow's arrays: columns with units and meanings, which Arrow's C interface hands over without a copy.
 //!
 //! Apache Arrow, *The Arrow PyCapsule Interface*: polars, pyarrow, pandas, DuckDB and others take an object with `__arrow_c_stream__`.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use arrow_array::builder::{Float64Builder, Int64Builder, StringBuilder};
 use arrow_array::cast::AsArray;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::types::{Float64Type, Int64Type};
@@ -15,129 +14,70 @@ use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyList};
 use spindrift::campaign::Plan;
-use spindrift::cli::columns::ColumnSection;
 use spindrift::ensemble::{DrawnScenes, Ensemble};
-use spindrift::storage::columnar::{Cells, Heading};
-use spindrift::storage::described_table::DescribedColumn;
-use spindrift::storage::drawn_table;
-use spindrift::storage::rows_file;
-use spindrift::storage::rows_reader::{DecodedColumn, PartReader, RowsError};
-use spindrift::storage::timeseries::TimeSeries;
+use spindrift::run::Quantity;
+use spindrift::storage::rows_reader::{PartReader, RowsError};
+use spindrift::storage::{drawn_table, rows_file};
+use spindrift::table::{Column, Content, Table, Values};
 use spindrift::workflow::{Results, WorkflowError};
 
 use crate::SpindriftError;
 
 /// A table.
-#[pyclass(module = "spindrift._native", frozen)]
-pub struct Table {
+#[pyclass(name = "Table", module = "spindrift._native", frozen)]
+pub struct ArrowTable {
     schema: SchemaRef,
     batches: Vec<RecordBatch>,
 }
 
-/// A column as Arrow's; what is no finite number is null, as in files.
-fn array(cells: &Cells<'_>) -> ArrayRef {
-    match cells {
-        Cells::Real(values, mask) => {
-            let is_there = |row: usize| values[row].is_finite() && mask.is_none_or(|mask| mask[row]);
-            reals(values.to_vec(), (0..values.len()).map(is_there).collect())
+/// The values of a column as Arrow's; a number that is not finite is null, as in files.
+fn array(values: Values<'_>) -> ArrayRef {
+    match values {
+        Values::Real(values) if values.iter().all(|value| value.is_finite()) => {
+            Arc::new(Float64Array::from(values.into_owned()))
         }
-        Cells::Count(values, mask) => {
-            let values = values.iter().map(|value| value.cast_signed()).collect();
-            counts(values, mask.map(<[bool]>::to_vec))
+        Values::Real(values) => {
+            Arc::new(values.iter().map(|value| value.is_finite().then_some(*value)).collect::<Float64Array>())
         }
-        Cells::Word(words) => Arc::new(StringArray::from(words.clone())),
-        Cells::Text(texts) => Arc::new(StringArray::from(texts.clone())),
-    }
-}
-
-fn reals(values: Vec<f64>, there: Vec<bool>) -> ArrayRef {
-    if there.iter().all(|there| *there) {
-        return Arc::new(Float64Array::from(values));
-    }
-    let mut builder = Float64Builder::with_capacity(values.len());
-    builder.append_values(&values, &there);
-    Arc::new(builder.finish())
-}
-
-fn counts(values: Vec<i64>, there: Option<Vec<bool>>) -> ArrayRef {
-    let Some(there) = there else { return Arc::new(Int64Array::from(values)) };
-    let mut builder = Int64Builder::with_capacity(values.len());
-    builder.append_values(&values, &there);
-    Arc::new(builder.finish())
-}
-
-/// One value for each row: the next of `values` where there is one, else `absent`; and which rows have one.
-fn spread<T: Copy>(values: Vec<T>, present: &[i16], absent: T) -> (Vec<T>, Vec<bool>) {
-    let mut values = values.into_iter();
-    present
-        .iter()
-        .map(|level| if *level == 1 { (values.next().unwrap_or(absent), true) } else { (absent, false) })
-        .unzip()
-}
-
-/// A column of a file as Arrow's.
-fn decoded(column: DecodedColumn) -> ArrayRef {
-    match column {
-        DecodedColumn::Real(values, None) => Arc::new(Float64Array::from(values)),
-        DecodedColumn::Real(values, Some(present)) => {
-            let (values, there) = spread(values, &present, f64::NAN);
-            reals(values, there)
+        Values::Count(values) => Arc::new(Int64Array::from_iter_values(values.into_iter().map(u64::cast_signed))),
+        Values::Counted(values) => {
+            Arc::new(values.iter().map(|value| value.is_finite().then_some(*value as i64)).collect::<Int64Array>())
         }
-        DecodedColumn::Count(values, None) => counts(values, None),
-        DecodedColumn::Count(values, Some(present)) => {
-            let (values, there) = spread(values, &present, 0);
-            counts(values, Some(there))
-        }
-        DecodedColumn::Text(texts, present) => {
-            let mut builder = StringBuilder::new();
-            let mut texts = texts.iter().map(|text| String::from_utf8_lossy(text.data()));
-            match present {
-                None => texts.for_each(|text| builder.append_value(text)),
-                Some(present) => {
-                    present
-                        .iter()
-                        .for_each(|level| builder.append_option(if *level == 1 { texts.next() } else { None }));
-                }
-            }
-            Arc::new(builder.finish())
-        }
+        Values::Text(texts) => Arc::new(texts.iter().map(Option::as_deref).collect::<StringArray>()),
     }
 }
 
 /// A field with unit and meaning in its metadata.
-fn field(name: &str, of: DataType, unit: &str, meaning: &str) -> Field {
-    let metadata = [("unit", unit), ("meaning", meaning)].into_iter().filter(|(_, text)| !text.is_empty());
+fn field(column: &Column) -> Field {
+    let (quantity, of) = (
+        &column.quantity,
+        match column.content {
+            Content::Real => DataType::Float64,
+            Content::Count => DataType::Int64,
+            Content::Word => DataType::Utf8,
+        },
+    );
+    let metadata = [("unit", quantity.unit()), ("meaning", quantity.meaning())];
+    let metadata = metadata.into_iter().filter(|(_, text)| !text.is_empty());
     let metadata: HashMap<String, String> = metadata.map(|(key, text)| (key.to_owned(), text.to_owned())).collect();
-    Field::new(name, of, true).with_metadata(metadata)
+    Field::new(quantity.name(), of, true).with_metadata(metadata)
 }
 
-fn headed(heading: &Heading, array: &ArrayRef) -> Field {
-    let quantity = &heading.quantity;
-    field(quantity.name(), array.data_type().clone(), quantity.unit(), quantity.meaning())
-}
-
-fn broken(error: ArrowError) -> WorkflowError {
-    WorkflowError::files(error)
-}
-
-impl Table {
-    fn of_batches(schema: SchemaRef, batches: Vec<RecordBatch>) -> Self {
-        Table { schema, batches }
+impl ArrowTable {
+    /// Columns whose values come in batches.
+    fn of_batches(columns: &[Column], batches: impl IntoIterator<Item = Vec<ArrayRef>>) -> Result<Self, WorkflowError> {
+        let schema = Arc::new(Schema::new(columns.iter().map(field).collect::<Vec<_>>()));
+        let batches = batches.into_iter().map(|arrays| RecordBatch::try_new(schema.clone(), arrays));
+        let batches = batches.collect::<Result<_, ArrowError>>().map_err(WorkflowError::files)?;
+        Ok(ArrowTable { schema, batches })
     }
 
-    fn of_arrays(fields: Vec<Field>, arrays: Vec<ArrayRef>) -> Result<Self, WorkflowError> {
-        let schema = Arc::new(Schema::new(fields));
-        let batch = RecordBatch::try_new(schema.clone(), arrays).map_err(broken)?;
-        Ok(Table::of_batches(schema, vec![batch]))
-    }
-
-    fn of_cells<'a>(columns: impl Iterator<Item = (&'a Heading, Cells<'a>)>) -> Result<Self, WorkflowError> {
-        let columns = columns.map(|(heading, cells)| {
-            let array = array(&cells);
-            (headed(heading, &array), array)
-        });
-        let (fields, arrays) = columns.unzip();
-        Table::of_arrays(fields, arrays)
+    /// A table in memory.
+    ///
+    /// # Errors
+    /// Where its columns differ in length.
+    pub fn of(table: Table<'_>) -> Result<Self, WorkflowError> {
+        ArrowTable::of_batches(&table.columns, [table.values.into_iter().map(array).collect()])
     }
 
     /// The rows of a result.
@@ -145,52 +85,32 @@ impl Table {
     /// # Errors
     /// Where a file cannot be read.
     pub fn of_rows(results: &Results<'_>) -> Result<Self, WorkflowError> {
-        let headings = rows_file::headings(&Ensemble::new(results.plan(), spindrift::workflow::isa()?));
+        let columns = rows_file::columns(&Ensemble::new(results.plan(), spindrift::workflow::isa()?));
         let mut parts: Vec<Vec<ArrayRef>> = Vec::new();
         let read = |part: &mut PartReader| {
-            let columns = headings.iter().map(|heading| part.cells(heading.quantity.name()).map(decoded));
-            columns.collect::<Result<Vec<_>, RowsError>>()
+            let arrays = columns.iter().map(|column| part.values(column.quantity.name()).map(array));
+            arrays.collect::<Result<Vec<_>, RowsError>>()
         };
         let merge = |part| {
             parts.push(part);
             Ok(())
         };
         results.rows().visit(None, read, merge).map_err(WorkflowError::files)?;
-        let first = parts.first().map_or(&[][..], Vec::as_slice);
-        let fields: Vec<Field> = headings.iter().zip(first).map(|(heading, array)| headed(heading, array)).collect();
-        let schema = Arc::new(Schema::new(fields));
-        let batches = parts.into_iter().map(|part| RecordBatch::try_new(schema.clone(), part).map_err(broken));
-        Ok(Table::of_batches(schema.clone(), batches.collect::<Result<_, WorkflowError>>()?))
+        ArrowTable::of_batches(&columns, parts)
     }
 
-    /// A small file of a result, which says itself what its columns are.
+    /// A small file of a result, whose columns are explained by their names and by columns of their own.
     ///
     /// # Errors
     /// Where it cannot be read.
     pub fn of_part(part: &PartReader) -> Result<Self, WorkflowError> {
-        let columns = part.names().into_iter().map(|name| {
-            let array = decoded(part.cells(&name).map_err(WorkflowError::files)?);
-            Ok::<_, WorkflowError>((field(&name, array.data_type().clone(), "", ""), array))
-        });
-        let (fields, arrays) = columns.collect::<Result<Vec<_>, WorkflowError>>()?.into_iter().unzip();
-        Table::of_arrays(fields, arrays)
-    }
-
-    /// A table of the end of a campaign.
-    ///
-    /// # Errors
-    /// Where its columns differ in length.
-    pub fn of_described(columns: &[DescribedColumn]) -> Result<Self, WorkflowError> {
-        Table::of_cells(columns.iter().map(|column| (column.heading(), column.cells())))
-    }
-
-    /// A run over time.
-    ///
-    /// # Errors
-    /// Where its columns differ in length.
-    pub fn of_series(series: &TimeSeries) -> Result<Self, WorkflowError> {
-        let columns = series.headings().iter().zip(series.columns());
-        Table::of_cells(columns.map(|(heading, (_, values))| (heading, Cells::Real(values, None))))
+        let mut table = Table::default();
+        for name in part.names() {
+            let values = part.values(&name).map_err(WorkflowError::files)?;
+            let quantity = Quantity::named(name, String::new(), String::new());
+            table.push(Column::new(quantity, values.content()), values);
+        }
+        ArrowTable::of(table)
     }
 
     /// The dispersed parameters of all samples of `plan`.
@@ -198,38 +118,12 @@ impl Table {
     /// # Errors
     /// Where columns differ in length.
     pub fn of_draws(plan: &Plan) -> Result<Self, WorkflowError> {
-        let headings = drawn_table::headings(plan);
-        let (mut schema, mut batches) = (None, Vec::new());
+        let mut batches = Vec::new();
         DrawnScenes::visit(plan, true, |drawn| {
-            let table = Table::of_cells(headings.iter().zip(drawn_table::cells(drawn)))?;
-            batches.extend(table.batches);
-            schema.get_or_insert(table.schema);
+            batches.push(drawn_table::values(drawn).into_iter().map(array).collect());
             Ok::<(), WorkflowError>(())
         })?;
-        Ok(Table::of_batches(schema.unwrap_or_else(|| Arc::new(Schema::empty())), batches))
-    }
-
-    /// The columns of sections: group, name, unit, meaning, and in which scenes there are those.
-    ///
-    /// # Errors
-    /// Where columns differ in length.
-    pub fn of_sections(sections: &[ColumnSection]) -> PyResult<Self> {
-        let rows =
-            || sections.iter().flat_map(|one| one.columns.iter().map(move |column| (one.title.as_str(), column)));
-        let texts = |of: &dyn Fn(&str, &spindrift::run::Quantity, &str) -> String| {
-            let texts = rows().map(|(title, (quantity, needs))| Some(of(title, quantity, needs)));
-            Arc::new(texts.collect::<StringArray>()) as ArrayRef
-        };
-        let columns: [(&str, ArrayRef); 5] = [
-            ("group", texts(&|title, _, _| title.to_owned())),
-            ("name", texts(&|_, quantity, _| quantity.name().to_owned())),
-            ("unit", texts(&|_, quantity, _| quantity.unit().to_owned())),
-            ("meaning", texts(&|_, quantity, _| quantity.meaning().to_owned())),
-            ("only", texts(&|_, _, needs| needs.to_owned())),
-        ];
-        let (fields, arrays) =
-            columns.into_iter().map(|(name, array)| (field(name, DataType::Utf8, "", ""), array)).unzip();
-        Table::of_arrays(fields, arrays).map_err(crate::raised)
+        ArrowTable::of_batches(&drawn_table::columns(plan), batches)
     }
 
     /// What the metadata of each column say of `key`.
@@ -240,7 +134,7 @@ impl Table {
 }
 
 #[pymethods]
-impl Table {
+impl ArrowTable {
     /// Arrow's C stream of the table. Columns keep their types, whatever schema is requested.
     #[pyo3(signature = (requested_schema = None))]
     fn __arrow_c_stream__<'py>(

@@ -1,65 +1,57 @@
 //! A comparison of two results as a table, one row for each observable.
 
 use crate::analysis::comparison::{ColumnComparison, Comparison};
-use crate::storage::described_table::DescribedColumn;
+use crate::table::Table;
 
-/// The columns of the table, in the order of the comparison: the most significant observable first.
-pub fn table(comparison: &Comparison) -> Vec<DescribedColumn> {
+/// The table, in the order of the comparison: the most significant observable first.
+pub fn table(comparison: &Comparison) -> Table<'_> {
     let rows = &comparison.columns;
-    let text = |name: &str, meaning: &str, of: &dyn Fn(&ColumnComparison) -> Option<String>| {
-        DescribedColumn::texts(name, meaning, rows.iter().map(of))
-    };
-    let count = |name: &str, meaning: &str, of: &dyn Fn(&ColumnComparison) -> u64| {
-        DescribedColumn::counts(name, meaning, rows.iter().map(of))
-    };
-    let real = |name: &str, meaning: &str, of: &dyn Fn(&ColumnComparison) -> Option<f64>| {
-        DescribedColumn::numbers(name, meaning, rows.iter().map(of))
-    };
-    let mut table = vec![
-        text("observable", "Name of the observable.", &|row| Some(row.quantity.name().to_owned())),
-        text("unit", "Its unit; empty for a pure number.", &|row| Some(row.quantity.unit().to_owned())),
-        text("meaning", "What it is.", &|row| Some(row.quantity.meaning().to_owned())),
-        count("is_required", "1 if a requirement of either plan names it.", &|row| u64::from(row.is_required)),
-        count("is_shifted", "1 if chance does not explain the difference.", &|row| {
+    let mut table = Table::of(rows);
+    table
+        .text("observable", "Name of the observable.", |row| Some(row.quantity.name()))
+        .text("unit", "Its unit; empty for a pure number.", |row| Some(row.quantity.unit()))
+        .text("meaning", "What it is.", |row| Some(row.quantity.meaning()))
+        .count("is_required", "1 if a requirement of either plan names it.", |row| u64::from(row.is_required))
+        .count("is_shifted", "1 if chance does not explain the difference.", |row| {
             u64::from(comparison.is_shifted(row))
-        }),
-        count(
+        })
+        .count(
             "is_moved",
             "1 if it is not shifted, and chance does not explain how the values of the pairs differ.",
-            &|row| u64::from(comparison.is_moved(row)),
-        ),
-        real(
+            |row| u64::from(comparison.is_moved(row)),
+        )
+        .real(
             "adjusted_p_value",
             "What decides whether it is shifted, adjusted for the number of observables (Holm).",
-            &|row| row.adjusted_p_value,
-        ),
-        real(
+            |row| row.adjusted_p_value,
+        )
+        .real(
             "p_value",
-            "Of pairs the p-value of the test of distributions, of independent samples twice the smaller one of both tests.",
-            &|row| row.p_value,
-        ),
-        real("p_value_mean", "P-value of the test of means.", &|row| row.mean.map(|found| found.p_value)),
-        real("p_value_distribution", "P-value of the test of distributions.", &|row| row.distribution_p_value),
-        real("p_value_moved", "P-value of the signed ranks of the pairs' differences.", &|row| row.moved_p_value),
-        real("adjusted_p_value_moved", "The same, adjusted for the number of observables (Holm).", &|row| {
+            "Of pairs the p-value of the test of distributions, of independent samples twice the smaller one of both \
+             tests.",
+            |row| row.p_value,
+        )
+        .real("p_value_mean", "P-value of the test of means.", |row| row.mean.as_ref().map(|found| found.p_value))
+        .real("p_value_distribution", "P-value of the test of distributions.", |row| row.distribution_p_value)
+        .real("p_value_moved", "P-value of the signed ranks of the pairs' differences.", |row| row.moved_p_value)
+        .real("adjusted_p_value_moved", "The same, adjusted for the number of observables (Holm).", |row| {
             row.adjusted_moved_p_value
-        }),
-        real("mean_shift", "Shift of the mean, second minus first; of pairs, where there are any.", &|row| {
-            row.mean.map(|found| found.shift.value)
-        }),
-        real("mean_shift_lower", "Lower end of its interval.", &|row| row.mean.map(|found| found.shift.lower)),
-        real("mean_shift_upper", "Upper end of its interval.", &|row| row.mean.map(|found| found.shift.upper)),
-        count("differing_pairs", "Pairs whose values differ.", &|row| row.differing_pairs),
-        text("largest_shift_of", "The statistic with the largest shift.", &|row| {
-            row.largest().map(|shift| shift.statistic.clone())
-        }),
-        real("largest_shift", "Its shift, in units of scale.", &|row| row.largest().map(|shift| shift.relative)),
-        real(
+        })
+        .real("mean_shift", "Shift of the mean, second minus first; of pairs, where there are any.", |row| {
+            row.mean.as_ref().map(|found| found.shift.value)
+        })
+        .real("mean_shift_lower", "Lower end of its interval.", |row| row.mean.as_ref().map(|found| found.shift.lower))
+        .real("mean_shift_upper", "Upper end of its interval.", |row| row.mean.as_ref().map(|found| found.shift.upper))
+        .count("differing_pairs", "Pairs whose values differ.", |row| row.differing_pairs)
+        .text("largest_shift_of", "The statistic with the largest shift.", |row| {
+            row.largest().map(|shift| &*shift.statistic)
+        })
+        .real("largest_shift", "Its shift, in units of scale.", |row| row.largest().map(|shift| shift.relative))
+        .real(
             "scale",
             "Standard deviation in the first result; where that is 0 the magnitude of its mean, or 1.",
-            &|row| Some(row.scale),
-        ),
-    ];
+            |row| Some(row.scale),
+        );
     let mut statistics: Vec<&str> = Vec::new();
     for shift in rows.iter().flat_map(|row| &row.shifts) {
         if !statistics.contains(&shift.statistic.as_str()) {
@@ -69,12 +61,11 @@ pub fn table(comparison: &Comparison) -> Vec<DescribedColumn> {
     for statistic in statistics {
         let name = statistic.replace([' ', '.'], "_");
         let of = |row: &ColumnComparison| row.shifts.iter().find(|shift| shift.statistic == statistic).cloned();
-        table.extend([
-            real(&format!("{name}_first"), &format!("{statistic} in the first result."), &|row| Some(of(row)?.first)),
-            real(&format!("{name}_second"), &format!("{statistic} in the second result."), &|row| {
+        table
+            .real(&format!("{name}_first"), &format!("{statistic} in the first result."), |row| Some(of(row)?.first))
+            .real(&format!("{name}_second"), &format!("{statistic} in the second result."), |row| {
                 Some(of(row)?.second)
-            }),
-        ]);
+            });
     }
-    table
+    table.finish()
 }

@@ -5,10 +5,11 @@
 use crate::analysis::observed::Observed;
 use crate::campaign::Plan;
 use crate::run::{Quantity, Status};
-use crate::storage::columnar::{Cells, Content, EncodingError, Heading, Layout, Packing};
+use crate::storage::columnar::{EncodingError, Layout, Packing};
 use crate::storage::identity::provenance;
 use crate::storage::rows_file::{SAMPLE_ID, STATUS};
 use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::table::{Column, Content, Values};
 
 /// Why the table could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -35,23 +36,24 @@ pub fn encoded(plan: &Plan, reader: &RowsReader) -> Result<Option<Vec<u8>>, Deri
         (SAMPLE_ID, "Number of the sample within the campaign; 0 is the nominal scene.", Content::Count),
         (STATUS, "How the run ended, as in the rows.", Content::Word),
     ];
-    let fixed = fixed.map(|(name, meaning, content)| Heading::new(Quantity::new(name, "", meaning), content));
-    let of_derived = derived.iter().map(|one| Heading::new(one.quantity.clone(), Content::Real).nullable());
-    let headings: Vec<Heading> = fixed.into_iter().chain(of_derived).collect();
-    let layout = Layout::new(&headings, provenance(plan), Packing::Zstd)?;
+    let fixed = fixed.map(|(name, meaning, content)| Column::new(Quantity::new(name, "", meaning), content));
+    let of_derived = derived.iter().map(|one| Column::new(one.quantity.clone(), Content::Real));
+    let columns: Vec<Column> = fixed.into_iter().chain(of_derived).collect();
+    let layout = Layout::new(&columns, provenance(plan), Packing::Zstd)?;
     let mut bytes = Vec::new();
     let mut writer = layout.begin(&mut bytes, &[])?;
     for part in (0..).map_while(|index| reader.part(index)) {
         let part: PartReader = part?;
         let samples = part.samples()?.into_iter().map(|sample| sample.0).collect();
         let statuses: Vec<Status> = part.statuses()?;
-        let columns = derived.iter().map(|one| one.values(&part)).collect::<Result<Vec<_>, _>>()?;
-        let is_present = |column: &Vec<f64>| -> Vec<bool> {
-            column.iter().zip(&statuses).map(|(value, status)| value.is_finite() && *status == Status::Done).collect()
+        let fixed = [Values::Count(samples), Values::words(statuses.iter().map(|status| status.name()))];
+        let values = |one: &Observed| {
+            let mut values = one.values(&part)?;
+            let failed = values.iter_mut().zip(&statuses).filter(|(_, status)| **status != Status::Done);
+            failed.for_each(|(value, _)| *value = f64::NAN);
+            Ok::<_, RowsError>(Values::Real(values.into()))
         };
-        let present: Vec<Vec<bool>> = columns.iter().map(is_present).collect();
-        let fixed = [Cells::Count(samples, None), Cells::Word(statuses.iter().map(|status| status.name()).collect())];
-        let values = columns.iter().zip(&present).map(|(column, present)| Cells::Real(column, Some(present)));
+        let values = derived.iter().map(values).collect::<Result<Vec<_>, _>>()?;
         writer.group(fixed.into_iter().chain(values))?;
     }
     writer.finish()?;

@@ -22,6 +22,14 @@ pub struct QuantileStatistic {
     pub note: Option<String>,
 }
 
+impl QuantileStatistic {
+    /// Probability, quantile, and the ends of its interval; NaN for what there is none of.
+    pub fn numbers(&self) -> [f64; 4] {
+        let [value, low, high] = [self.value, self.interval[0], self.interval[1]].map(|end| end.unwrap_or(f64::NAN));
+        [self.p, value, low, high]
+    }
+}
+
 /// The order statistics of a group of values.
 pub enum Order {
     /// The values; those that quantiles ask for are at their places in ascending order.

@@ -1,12 +1,9 @@
 //! `sensitivity.parquet`: what each input means for each observable, one row for each pair.
 
-use crate::storage::columnar::EncodingError;
-
 use crate::analysis::effects::{Dependence, Direction, OnEvent};
 use crate::analysis::input_sensitivity::InputSensitivity;
-use crate::campaign::Plan;
 use crate::statistics::correlation::Estimate;
-use crate::storage::described_table::{self, DescribedColumn};
+use crate::table::Table;
 
 /// A measure of sensitivity: name of its column, meaning, value.
 type Measure = (&'static str, &'static str, fn(&InputSensitivity) -> Option<Estimate>);
@@ -57,80 +54,75 @@ const MEASURES: [Measure; 10] = [
     ),
 ];
 
-fn table(list: &[InputSensitivity]) -> Vec<DescribedColumn> {
-    let text = |name: &str, meaning: &str, of: &dyn Fn(&InputSensitivity) -> Option<String>| {
-        DescribedColumn::texts(name, meaning, list.iter().map(of))
-    };
-    let mut table = vec![
-        text("observable", "Name of the observable.", &|one| Some(one.observable.clone())),
-        text("input", "Column of the input; of a saltelli design what one distribution disperses.", &|one| {
-            Some(one.input.clone())
-        }),
-        DescribedColumn::counts("rows", "Number of rows: the first that are ok.", list.iter().map(|one| one.rows)),
-    ];
+/// The table of `list`.
+pub fn table(list: &[InputSensitivity]) -> Table<'_> {
+    let on_event = |one: &InputSensitivity, of: fn(&OnEvent) -> Option<f64>| one.on_event.as_ref().and_then(of);
+    let mut table = Table::of(list);
+    table
+        .text("observable", "Name of the observable.", |one| Some(&*one.observable))
+        .text("input", "Column of the input; of a saltelli design what one distribution disperses.", |one| {
+            Some(&*one.input)
+        })
+        .count("rows", "Number of rows: the first that are ok.", |one| one.rows);
     for (name, meaning, of) in MEASURES {
         for (suffix, what, part) in PARTS {
-            let values = list.iter().map(|one| of(one).map(part));
-            table.push(DescribedColumn::numbers(&format!("{name}{suffix}"), &format!("{meaning}{what}."), values));
+            table.real(&format!("{name}{suffix}"), &format!("{meaning}{what}."), |one| of(one).map(part));
         }
     }
-    let of_event = |of: fn(&OnEvent) -> Option<f64>| list.iter().map(move |one| one.on_event.as_ref().and_then(of));
-    table.extend([
-        DescribedColumn::numbers(
+    table
+        .real(
             "p_value",
-            "Probability of an influence on the spread as strong as this one where no input has any, of all inputs together (Holm).",
-            list.iter().map(|one| one.p_value),
-        ),
-        text("direction", "How the observable goes with the input, where it is a driver of the spread.", &|one| {
-            let word = match one.direction? {
+            "Probability of an influence on the spread as strong as this one where no input has any, of all inputs \
+             together (Holm).",
+            |one| one.p_value,
+        )
+        .text("direction", "How the observable goes with the input, where it is a driver of the spread.", |one| {
+            Some(match one.direction? {
                 Direction::Rises => "rises",
                 Direction::Falls => "falls",
                 Direction::NotMonotonic => "not_monotonic",
-            };
-            Some(word.to_owned())
-        }),
-        text("event", "What occurs in some runs: missed (a requirement), value, other_value, worst (the tail).", &|one| {
-            Some(one.on_event.as_ref()?.event.occurs.name().to_owned())
-        }),
-        DescribedColumn::numbers("event_runs", "In how many runs it occurs.", of_event(|on| Some(on.event.of.events as f64))),
-        DescribedColumn::numbers(
+            })
+        })
+        .text(
+            "event",
+            "What occurs in some runs: missed (a requirement), value, other_value, worst (the tail).",
+            |one| Some(one.on_event.as_ref()?.event.occurs.name()),
+        )
+        .real("event_runs", "In how many runs it occurs.", |one| on_event(one, |on| Some(on.event.of.events as f64)))
+        .real(
             "event_p_value",
-            "Probability of a dependence of the event as strong as this one where it depends on no input, of all inputs together (Holm).",
-            of_event(|on| Some(on.p_value)),
-        ),
-        DescribedColumn::numbers(
+            "Probability of a dependence of the event as strong as this one where it depends on no input, of all \
+             inputs together (Holm).",
+            |one| on_event(one, |on| Some(on.p_value)),
+        )
+        .real(
             "event_level",
-            "Value of an input with few values at which the event differs most from the other runs; null for all values but the most frequent one.",
-            of_event(|on| match &on.dependence {
-                Dependence::Levels { levels, most, .. } => levels[*most].value,
-                _ => None,
-            }),
-        ),
-        DescribedColumn::numbers(
+            "Value of an input with few values at which the event differs most from the other runs; null for all \
+             values but the most frequent one.",
+            |one| {
+                on_event(one, |on| match &on.dependence {
+                    Dependence::Levels { levels, most, .. } => levels[*most].value,
+                    _ => None,
+                })
+            },
+        )
+        .real(
             "event_chance",
-            "For an input with many values, the chance that a run with the event has the larger one; null if the event comes with distance from the median.",
-            of_event(|on| match on.dependence {
-                Dependence::Shift { chance, .. } => Some(chance),
-                _ => None,
-            }),
-        ),
-        text("correlated_with", "The input that this one is most correlated with, where that is notable.", &|one| {
-            one.correlated_with.as_ref().map(|(name, _)| name.clone())
-        }),
-        DescribedColumn::numbers(
-            "largest_correlation",
-            "Rank correlation of the two.",
-            list.iter().map(|one| one.correlated_with.as_ref().map(|(_, r)| *r)),
-        ),
-        text("note", "What to know about these numbers.", &|one| one.note.clone()),
-    ]);
-    table
-}
-
-/// `list` of `plan` as a file.
-///
-/// # Errors
-/// Where encoding fails.
-pub fn encoded(plan: &Plan, list: &[InputSensitivity]) -> Result<Vec<u8>, EncodingError> {
-    described_table::encoded(plan, &table(list))
+            "For an input with many values, the chance that a run with the event has the larger one; null if the event \
+             comes with distance from the median.",
+            |one| {
+                on_event(one, |on| match on.dependence {
+                    Dependence::Shift { chance, .. } => Some(chance),
+                    _ => None,
+                })
+            },
+        )
+        .text("correlated_with", "The input that this one is most correlated with, where that is notable.", |one| {
+            one.correlated_with.as_ref().map(|(name, _)| &**name)
+        })
+        .real("largest_correlation", "Rank correlation of the two.", |one| {
+            one.correlated_with.as_ref().map(|(_, r)| *r)
+        })
+        .text("note", "What to know about these numbers.", |one| one.note.as_deref())
+        .finish()
 }

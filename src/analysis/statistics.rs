@@ -56,6 +56,13 @@ pub struct ColumnStatistics {
     pub required: Vec<(Requirement, QuantileStatistic)>,
 }
 
+impl ColumnStatistics {
+    /// The quantiles of the plan as numbers, see [`QuantileStatistic::numbers`].
+    pub fn quantile_numbers(&self) -> Vec<[f64; 4]> {
+        self.quantiles.iter().map(QuantileStatistic::numbers).collect()
+    }
+}
+
 /// The quantiles between which the spread of an observable is.
 const SPREAD: [f64; 2] = [0.05, 0.95];
 

@@ -7,7 +7,6 @@ use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use crate::storage::columnar::EncodingError;
 use thiserror::Error;
 
 use crate::analysis::accumulator::Accumulator;
@@ -20,10 +19,12 @@ use crate::math::Isa;
 use crate::run::Status;
 use crate::sampling::design::latin::Permutation;
 use crate::sampling::{SampleId, Stream};
+use crate::storage::columnar::{EncodingError, Packing, encoded};
 use crate::storage::disk::StorageError;
+use crate::storage::identity::provenance;
 use crate::storage::names::TRAJECTORIES;
 use crate::storage::rows_reader::RowsError;
-use crate::storage::timeseries::TimeSeries;
+use crate::storage::timeseries::time_series;
 
 /// The stream that chooses the runs of `sample:N`: no other draw depends on it.
 const STREAM: &str = "retain";
@@ -154,7 +155,7 @@ pub fn save(
         // a sample without a run has no file
         let Ok(run) = runs.run(sample) else { return Ok(()) };
         let name = format!("{TRAJECTORIES}/{}", file_name(sample));
-        let encoded = TimeSeries::new(plan, sample, &run, |_| true).encoded();
+        let encoded = encoded(&time_series(sample, &run, |_| true), provenance(plan), Packing::Lz4);
         let bytes = encoded.map_err(|source| TrajectoryError::Encoding { path: PathBuf::from(&name), source })?;
         Ok(take(&name, &bytes)?)
     })

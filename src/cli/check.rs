@@ -19,10 +19,10 @@ use crate::observables::{Group, Request};
 use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::report::failure_text;
 use crate::report::number::{brief, bytes, counted, short, trimmed};
-use crate::report::wrapped::wrapped;
 use crate::run::{StateField, Status};
 use crate::scene::{Scene, WheelMode};
-use crate::storage::rows_file::headings;
+use crate::storage::rows_file;
+use crate::table::wrapped::wrapped;
 use crate::workflow::isa;
 use crate::workflow::source::plan;
 
@@ -283,7 +283,7 @@ fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
         counted(plan.rows(), "sample"),
         counted(cores, "core"),
         brief(probe.seconds * plan.rows() as f64 / cores as f64),
-        counted(headings(ensemble).len(), "column"),
+        counted(rows_file::columns(ensemble).len(), "column"),
         counted(parts, "file"),
         bytes(work.disk as u64),
         bytes(work.memory as u64),

@@ -11,27 +11,43 @@ use crate::control::outcome::columns::OutcomeColumns;
 use crate::ensemble::Ensemble;
 use crate::observables::{Group, table};
 use crate::report::shell_word::quoted_path;
-use crate::report::text_table::{Align, TextTable};
 use crate::run::Quantity;
-use crate::storage::rows_file::headings;
+use crate::storage::rows_file;
+use crate::table::text::Align;
+use crate::table::{Column, Table};
 use crate::workflow::isa;
 use crate::workflow::source::plan;
+
+/// A column that a row may have.
+#[derive(Clone, Debug)]
+pub struct ListedColumn {
+    /// Its group, or what else it has in common with those beside it.
+    pub group: String,
+    pub quantity: Quantity,
+    /// The scenes that have it; empty for all.
+    pub only: &'static str,
+}
+
+/// The columns of a group, in their order.
+fn by_group(all: &[ListedColumn]) -> impl Iterator<Item = &[ListedColumn]> {
+    all.chunk_by(|one, next| one.group == next.group)
+}
 
 /// Runs the command.
 ///
 /// # Errors
 /// Where the campaign file is wrong, or does not observe the group.
 pub fn run(options: &ColumnsOptions) -> Result<CommandOutcome, Failure> {
-    let sections = match &options.campaign {
+    let all = match &options.campaign {
         None => of_all_campaigns(),
         Some(file) => of_campaign(&plan(file, Overrides::default())?)?,
     };
     let shown = match &options.word {
-        None if options.verbose => text(&sections),
-        None => groups(&sections, options.campaign.as_deref()),
-        Some(word) => text(&found(&sections, word).ok_or_else(|| {
-            let groups: Vec<&str> = sections.iter().map(|section| section.title.as_str()).collect();
-            let words = sections.iter().flat_map(|section| section.columns.iter().map(|(quantity, _)| quantity.name()));
+        None if options.verbose => text(&all),
+        None => groups(&all, options.campaign.as_deref()),
+        Some(word) => text(&found(&all, word).ok_or_else(|| {
+            let groups: Vec<&str> = by_group(&all).map(|columns| columns[0].group.as_str()).collect();
+            let words = all.iter().map(|column| column.quantity.name());
             let meant = nearest(word, words.chain(groups.iter().copied()));
             let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
             Failure::Input(format!(
@@ -45,18 +61,18 @@ pub fn run(options: &ColumnsOptions) -> Result<CommandOutcome, Failure> {
 }
 
 /// The groups: how many columns each has, what they are about, and what they need.
-fn groups(sections: &[ColumnSection], campaign: Option<&Path>) -> String {
+fn groups(all: &[ListedColumn], campaign: Option<&Path>) -> String {
     let heads = [("group", Align::Left), ("columns", Align::Right), ("what they are about", Align::Sentence)];
-    let mut table = TextTable::new(heads);
-    for ColumnSection { title, columns } in sections {
+    let mut table = Table::with(heads);
+    for columns in by_group(all) {
+        let title = &columns[0].group;
         let (about, needs) = about(title);
         // a campaign has what its columns need
         let needs = if needs.is_empty() || campaign.is_some() { String::new() } else { format!(" ({needs})") };
         table.row([title.clone(), columns.len().to_string(), about.to_owned() + &needs]);
     }
     let of = campaign.map_or(String::new(), |file| format!(" --campaign {}", quoted_path(file)));
-    let all: usize = sections.iter().map(|section| section.columns.len()).sum();
-    let mut examples = TextTable::new([("", Align::Title), ("", Align::Sentence)]);
+    let mut examples = Table::with([("", Align::Title), ("", Align::Sentence)]);
     for (word, says) in [
         ("momentum_conservation", "that group: names, units, meanings"),
         ("pointing", "every column with that word"),
@@ -64,7 +80,7 @@ fn groups(sections: &[ColumnSection], campaign: Option<&Path>) -> String {
     ] {
         examples.row([format!("spindrift columns {word}{of}"), says.to_owned()]);
     }
-    format!("{}{all} columns in all\n\n{}", table.text(screen::width()), examples.text(screen::width()))
+    format!("{}{} columns in all\n\n{}", table.text(screen::width()), all.len(), examples.text(screen::width()))
 }
 
 /// What the columns of a section are about, and what a campaign needs for them.
@@ -101,71 +117,62 @@ fn about(title: &str) -> (&'static str, &'static str) {
 const NAMED: &str = "in observe.groups";
 
 /// The group called `word`; or of all groups the columns with the word in their name, their unit or their meaning. `None` where there is none.
-fn found(sections: &[ColumnSection], word: &str) -> Option<Vec<ColumnSection>> {
-    if let Some(group) = sections.iter().find(|section| section.title == word) {
-        return Some(vec![group.clone()]);
-    }
-    if Group::from_name(word).is_some() {
-        return None; // it is not observed
-    }
-    let word = word.to_lowercase();
-    let has = |(quantity, _): &&(Quantity, &'static str)| {
-        [quantity.name(), quantity.unit(), quantity.meaning()].iter().any(|text| text.to_lowercase().contains(&word))
+fn found(all: &[ListedColumn], word: &str) -> Option<Vec<ListedColumn>> {
+    let lower = word.to_lowercase();
+    let has = |column: &&ListedColumn| {
+        let quantity = &column.quantity;
+        let texts = [quantity.name(), quantity.unit(), quantity.meaning()];
+        texts.iter().any(|text| text.to_lowercase().contains(&lower))
     };
-    let columns = |section: &ColumnSection| ColumnSection {
-        title: section.title.clone(),
-        columns: section.columns.iter().filter(has).cloned().collect(),
-    };
-    let found: Vec<ColumnSection> =
-        sections.iter().map(columns).filter(|section| !section.columns.is_empty()).collect();
-    (!found.is_empty()).then_some(found)
-}
-
-#[derive(Clone)]
-pub struct ColumnSection {
-    /// The group, or what else they have in common.
-    pub title: String,
-    /// The columns, and in which scenes there are those.
-    pub columns: Vec<(Quantity, &'static str)>,
+    let group: Vec<ListedColumn> = all.iter().filter(|column| column.group == word).cloned().collect();
+    match group.is_empty() {
+        false => Some(group),
+        // a group that is not observed
+        true if Group::from_name(word).is_some() => None,
+        true => Some(all.iter().filter(has).cloned().collect()).filter(|found: &Vec<_>| !found.is_empty()),
+    }
 }
 
 /// The columns of every group; those of wheels once, with the place of the name.
-pub fn of_all_campaigns() -> Vec<ColumnSection> {
-    let section = |group: Group| ColumnSection {
-        title: group.name().to_owned(),
-        columns: table::all()
-            .filter(|column| column.group == group)
-            .map(|column| (column.quantity.clone(), column.scenes()))
-            .collect(),
+pub fn of_all_campaigns() -> Vec<ListedColumn> {
+    let column = |group: &str, quantity: &Quantity, only| ListedColumn {
+        group: group.to_owned(),
+        quantity: quantity.clone(),
+        only,
     };
+    let of_group = |group: Group| table::all().filter(move |column| column.group == group);
+    let of_groups = Group::ALL.into_iter().flat_map(of_group);
+    let of_groups = of_groups.map(|one| column(one.group.name(), &one.quantity, one.scenes()));
     let of_loops = OutcomeColumns::of_all_loops();
-    Group::ALL
-        .into_iter()
-        .map(section)
-        .chain([ColumnSection { title: CONTROL.to_owned(), columns: of_loops }])
-        .collect()
+    of_groups.chain(of_loops.iter().map(|(quantity, only)| column(CONTROL, quantity, only))).collect()
 }
 
 /// The columns of the rows of `plan`: what is of the sample, its groups, and audits.
 ///
 /// # Errors
 /// Where the environment names an instruction set that is not available.
-pub fn of_campaign(plan: &Plan) -> Result<Vec<ColumnSection>, Failure> {
+pub fn of_campaign(plan: &Plan) -> Result<Vec<ListedColumn>, Failure> {
     let ensemble = Ensemble::new(plan, isa()?);
     let observed = ensemble.request().columns();
-    let title = |quantity: &Quantity| {
-        observed.iter().find(|column| column.quantity.name() == quantity.name()).map(|column| column.group.name())
-    };
-    let mut sections: Vec<ColumnSection> = Vec::new();
-    for heading in headings(&ensemble) {
-        let is_first = sections.iter().all(|section| section.title == SAMPLE);
-        let title = title(&heading.quantity).unwrap_or(if is_first { SAMPLE } else { AUDIT });
-        match sections.last_mut().filter(|section| section.title == title) {
-            Some(section) => section.columns.push((heading.quantity, "")),
-            None => sections.push(ColumnSection { title: title.to_owned(), columns: vec![(heading.quantity, "")] }),
-        }
+    let group = |name: &str| observed.iter().find(|one| one.quantity.name() == name).map(|one| one.group.name());
+    let mut all: Vec<ListedColumn> = Vec::new();
+    for Column { quantity, .. } in rows_file::columns(&ensemble) {
+        let other = if all.last().is_none_or(|last| last.group == SAMPLE) { SAMPLE } else { AUDIT };
+        let group = group(quantity.name()).unwrap_or(other).to_owned();
+        all.push(ListedColumn { group, quantity, only: "" });
     }
-    Ok(sections)
+    Ok(all)
+}
+
+/// The columns as a table of their own.
+pub fn table_of(all: &[ListedColumn]) -> Table<'_> {
+    Table::of(all)
+        .word("group", "", |column| &*column.group)
+        .word("name", "", |column| column.quantity.name())
+        .word("unit", "", |column| column.quantity.unit())
+        .word("meaning", "", |column| column.quantity.meaning())
+        .word("only", "", |column| column.only)
+        .finish()
 }
 
 /// Title of the columns before the observables.
@@ -175,19 +182,14 @@ const CONTROL: &str = "control loop";
 /// Title of the columns after them.
 const AUDIT: &str = "audit";
 
-fn text(sections: &[ColumnSection]) -> String {
-    let mut text = String::new();
-    for section in sections {
-        if !text.is_empty() {
-            text.push('\n');
-        }
-        text += &format!("{}\n", section.title);
-        let mut table = TextTable::new([("", Align::Left), ("", Align::Left), ("", Align::Sentence)]);
-        for (quantity, needs) in &section.columns {
-            let needs = if needs.is_empty() { String::new() } else { format!(" ({needs})") };
+fn text(all: &[ListedColumn]) -> String {
+    let section = |columns: &[ListedColumn]| {
+        let mut table = Table::with([("", Align::Left), ("", Align::Left), ("", Align::Sentence)]);
+        for ListedColumn { quantity, only, .. } in columns {
+            let needs = if only.is_empty() { String::new() } else { format!(" ({only})") };
             table.row([quantity.name(), quantity.unit(), &(quantity.meaning().to_owned() + &needs)]);
         }
-        text += &table.text(screen::width());
-    }
-    text
+        format!("{}\n{}", columns[0].group, table.text(screen::width()))
+    };
+    by_group(all).map(section).collect::<Vec<_>>().join("\n")
 }

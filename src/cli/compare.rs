@@ -14,7 +14,9 @@ use crate::cli::terminal::Terminal;
 use crate::report::compared::{Compared, ComparedVerdict};
 use crate::report::summary::EndVerdict;
 use crate::report::{comparison_json, comparison_text};
-use crate::storage::{atomic, described_table};
+use crate::storage::atomic;
+use crate::storage::columnar::{Packing, encoded};
+use crate::storage::identity::provenance;
 use crate::workflow::{Results, Session};
 
 /// Runs the command.
@@ -94,9 +96,8 @@ impl Format {
     fn bytes(self, plan: &Plan, found: &Comparison, json: impl Fn() -> String) -> Result<Vec<u8>, String> {
         match self {
             Format::Json => Ok(json().into_bytes()),
-            Format::Parquet => {
-                described_table::encoded(plan, &comparison_table::table(found)).map_err(|error| error.to_string())
-            }
+            Format::Parquet => encoded(&comparison_table::table(found), provenance(plan), Packing::Zstd)
+                .map_err(|error| error.to_string()),
         }
     }
 }

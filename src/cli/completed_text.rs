@@ -7,9 +7,9 @@ use crate::report::audit_summary::cost;
 use crate::report::number::{bytes, counted};
 use crate::report::summary::{EndVerdict, SummaryEnd};
 use crate::report::verdict_table::{self, VerdictRow};
-use crate::report::wrapped::wrapped;
 use crate::report::{brief_text, drivers_text};
 use crate::storage::names::REPORT;
+use crate::table::wrapped::wrapped;
 use crate::workflow::Completed;
 
 /// Lines of a screen without `--verbose`.

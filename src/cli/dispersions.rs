@@ -9,9 +9,10 @@ use crate::ensemble::magnitude::Magnitude;
 use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::report::number::{counted, short, trimmed};
 use crate::report::origin_text::{origin, unit_of};
-use crate::report::text_table::{Align, TextTable};
-use crate::report::wrapped::wrapped;
 use crate::sampling::{Design, Replaced, SampleId};
+use crate::table::Table;
+use crate::table::text::{Align, Text};
+use crate::table::wrapped::wrapped;
 
 /// Draws behind the percentiles: the 1% and 99% lie within a tenth of the distribution's width of their true places.
 const DRAWS: u64 = 10_000;
@@ -28,7 +29,7 @@ pub fn list(text: &mut String, plan: &Plan) -> std::fmt::Result {
     if columns.is_empty() {
         return writeln!(text, "{NONE}");
     }
-    let mut table = TextTable::new([("", Align::Title), ("", Align::Sentence)]);
+    let mut table = Table::with([("", Align::Title), ("", Align::Sentence)]);
     let (mut first, mut lines) = (0, String::new());
     while first < columns.len() {
         let (parameter, said) = (columns[first].parameter, origin(plan, first));
@@ -57,7 +58,7 @@ pub fn list(text: &mut String, plan: &Plan) -> std::fmt::Result {
         first += count;
     }
     // rather close to each other than in several lines each
-    text.push_str(&if table.width() > width() { lines } else { table.text(width()) });
+    text.push_str(&if Text::of(&table).width() > width() { lines } else { table.text(width()) });
     correlations(text, plan)
 }
 
@@ -110,7 +111,7 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
     let ends = [("parameter", Align::Title), ("unit", Align::Left), ("nominal", Align::Right)].into_iter();
     let heads =
         ends.chain(heads.into_iter().map(|head| (head, Align::Right))).chain([("distribution", Align::Sentence)]);
-    let mut table = TextTable::new(heads);
+    let mut table = Table::with(heads);
     let percentiles = drawn.quantiles(&ps);
     for row in order(plan, &magnitudes) {
         let shown = &units[row];
@@ -164,7 +165,7 @@ pub fn shown(plan: &Plan, sample: SampleId) -> String {
     let mut draws = SceneDraws::new(plan);
     // a sample that is not physical applies its numbers too
     let _ = draws.scene(sample);
-    let mut table = TextTable::new(["", "", ""].map(|head| (head, Align::Left))).spaced(0, 2);
+    let mut table = Table::with([Align::Left, Align::Whole, Align::Whole].map(|align| ("", align)));
     for (index, (column, value)) in plan.dispersions.columns().iter().zip(draws.applied()).enumerate() {
         let shown = unit_of(plan, index);
         let number =
@@ -172,7 +173,7 @@ pub fn shown(plan: &Plan, sample: SampleId) -> String {
         let nominal = format!("nominal {}", number(column.nominal));
         table.row([column.parameter.component_name(column.component), number(*value), nominal]);
     }
-    table.text(width())
+    Text::of(&table).spaced(0, 2).lines(width())
 }
 
 /// Digits of a number that a sample applies: what is measured has no more.
@@ -184,7 +185,7 @@ pub fn applied(plan: &Plan, sample: SampleId) -> String {
     let columns = plan.dispersions.columns();
     let mut draws = SceneDraws::new(plan);
     let scene = draws.scene(sample);
-    let mut table = TextTable::new([("", Align::Left), ("", Align::Right), ("", Align::Left)]).spaced(0, 2);
+    let mut table = Table::with([("", Align::Left), ("", Align::Right), ("", Align::Whole)]);
     for (column, value) in columns.iter().zip(draws.applied()) {
         let nominal = format!("nominal {:?}", column.nominal);
         table.row([column.parameter.component_name(column.component), format!("{value:?}"), nominal]);
@@ -196,19 +197,19 @@ pub fn applied(plan: &Plan, sample: SampleId) -> String {
             .zip(values)
             .for_each(|([name, ..], value)| table.row([(*name).to_owned(), format!("{value:?}")]));
     }
-    table.text(usize::MAX)
+    Text::of(&table).spaced(0, 2).lines(usize::MAX)
 }
 
 /// The matrix that is used in place of one that no numbers have.
 pub fn nearest(replaced: &Replaced) -> String {
     let change = replaced.asked.iter().flatten().zip(replaced.used.iter().flatten());
     let largest = change.fold(0.0f64, |most, (asked, used)| most.max((asked - used).abs()));
-    let mut table = TextTable::new(replaced.names.iter().map(|_| ("", Align::Right))).spaced(2, 1);
+    let mut table = Table::with(replaced.names.iter().map(|_| ("", Align::Right)));
     replaced.used.iter().for_each(|row| table.row(row.iter().map(|r| format!("{r:.6}"))));
     format!(
         "nearest_psd: correlations of the normal scores changed by up to {}; used for {}:\n{}",
         short(largest),
         replaced.names.join(", "),
-        table.text(usize::MAX).trim_end()
+        Text::of(&table).spaced(2, 1).lines(usize::MAX).trim_end()
     )
 }

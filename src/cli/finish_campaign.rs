@@ -6,8 +6,8 @@ use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::terminal::Terminal;
 use crate::cli::{completed_text, screen};
 use crate::report::shell_word::quoted_path;
-use crate::report::wrapped::wrapped;
 use crate::storage::names::PLAN;
+use crate::table::wrapped::wrapped;
 use crate::workflow::finishing::finish;
 use crate::workflow::{Finished, Outputs, Session};
 

@@ -17,7 +17,8 @@ use crate::propagation::Method;
 use crate::report::number::counted;
 use crate::report::precision_figure::precision_figure;
 use crate::report::precision_text;
-use crate::storage::{atomic, precision_table};
+use crate::storage::precision_table::precision_table;
+use crate::storage::{atomic, table_file};
 use crate::workflow::isa;
 use crate::workflow::source::plan_and_files;
 
@@ -66,14 +67,14 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
         counted(plan.grid.points(), "point"),
         if options.observed { "observed" } else { "all" },
         isa.name(),
-        precision_text::headline(),
+        precision_text::headline(screen::width()),
     ))?;
     let (mut measured, mut omitted) = (Vec::new(), Vec::new());
     for method in methods {
         let settings = precision.settings(method, &tolerances);
         let mut heard = Ok(());
         let skipped = precision.sweep(method, &settings, limits, &mut |measurement| {
-            let printed = screen::print(&precision_text::line(&measurement));
+            let printed = screen::print(&precision_text::line(&measurement, screen::width()));
             heard = std::mem::replace(&mut heard, Ok(())).and(printed);
             measured.push(measurement);
         });
@@ -82,7 +83,8 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
     }
     screen::print(&precision_text::omissions(&omitted, limits.limit))?;
 
-    save(&folder, "parquet", |path| precision_table::save(&measured, &plan, isa.name(), path).map_err(Failure::files))?;
+    let table = precision_table(&measured, isa.name());
+    save(&folder, "parquet", |path| table_file::save(&plan, &table, path).map_err(Failure::files))?;
     let title = format!("{}: {}, {:?} s", plan.name, counted(precision.samples(), "sample"), plan.grid.duration());
     let figure = precision_figure(title, &measured);
     for format in ["svg", "png"] {

@@ -13,9 +13,9 @@ use crate::cli::terminal::Terminal;
 use crate::cli::workload::Workload;
 use crate::report::number::counted;
 use crate::report::shell_word::quoted_path;
-use crate::report::wrapped::wrapped;
 use crate::storage::claim::Shard;
 use crate::storage::names::PLAN;
+use crate::table::wrapped::wrapped;
 use crate::workflow::failed_samples::FailedRun;
 use crate::workflow::{Campaign, CampaignOutcome, Made, Outputs, PreparedCampaign, Session};
 

@@ -15,7 +15,7 @@ use crate::report::image::{PlotError, PlotFormat};
 use crate::report::number::counted;
 use crate::sampling::SampleId;
 use crate::storage::drawn_table;
-use crate::storage::table::{TableError, TableFormat};
+use crate::storage::table_file::{TableError, TableFormat};
 use crate::workflow::source::plan_and_files;
 
 /// Runs the command.
@@ -110,7 +110,7 @@ fn save(path: &Path, plan: &Plan, percentiles: &mut Percentiles) -> Result<(), F
         TableError::Format(_) => Failure::Input(error.to_string()),
         _ => Failure::Files(format!("{}: {error}", path.display())),
     })?;
-    let (samples, columns) = (counted(plan.samples, "sample"), counted(drawn_table::headings(plan).len(), "column"));
+    let (samples, columns) = (counted(plan.samples, "sample"), counted(drawn_table::columns(plan).len(), "column"));
     screen::note(&format!("{}: {samples}, {columns}", path.display()));
     Ok(())
 }

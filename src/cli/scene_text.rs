@@ -6,9 +6,10 @@ use crate::campaign::Display;
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{cross, difference, norm, product, scaled, sum};
 use crate::report::number::trimmed;
-use crate::report::text_table::{Align, TextTable};
 use crate::scene::mass::{Body, Wheel};
 use crate::scene::{MassProperties, Scene, SceneInput};
+use crate::table::Table;
+use crate::table::text::{Align, Text};
 
 /// The share of the largest entry of a matrix below which another is rounding: some hundred roundings.
 const ROUNDING: f64 = 1e-14;
@@ -44,9 +45,9 @@ pub fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> R
     let debris = mass.debris.as_ref().map(|debris| ("debris".to_owned(), debris.mass));
     let body = [("body".to_owned(), mass.body.mass)];
     let all = body.into_iter().chain(wheels).chain([("spacecraft".to_owned(), mass.total)]).chain(debris);
-    let mut table = TextTable::new([("", Align::Left), ("", Align::Right)]).spaced(0, 2);
+    let mut table = Table::with([("", Align::Left), ("", Align::Right)]);
     all.for_each(|(body, mass)| table.row([body, format!("{} kg", six(mass))]));
-    text.push_str(&table.text(usize::MAX));
+    text.push_str(&Text::of(&table).spaced(0, 2).lines(usize::MAX));
     writeln!(text, "centre of mass of the spacecraft, from p in F_s: {} m", vector(mass.center))?;
     let locked = if input.wheels.is_empty() { "" } else { ", wheels locked," };
     tensor(text, &format!("inertia of the spacecraft{locked} about its centre of mass"), mass.inertia)?;
@@ -118,7 +119,7 @@ fn rows(text: &mut String, rows: [[f64; 3]; 3]) {
     // what is left of a turn and back is not shown as a number
     let largest = rows.iter().flatten().fold(0.0, |most: f64, entry| most.max(entry.abs()));
     let shown = |entry: f64| if entry.abs() < ROUNDING * largest { "0".to_owned() } else { six(entry) };
-    let mut table = TextTable::new([("", Align::Right); 3]);
+    let mut table = Table::with([("", Align::Right); 3]);
     rows.iter().for_each(|row| table.row(row.map(shown)));
     text.push_str(&table.text(usize::MAX));
 }

@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal, Write};
 use crate::campaign::excerpt::printable;
 use crate::cli::colour::{self, Kind, coloured};
 use crate::cli::machine::{Stream, terminal_width};
-use crate::report::wrapped::message;
+use crate::table::wrapped::message;
 
 /// Prints a result on standard output.
 ///

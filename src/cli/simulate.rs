@@ -16,12 +16,12 @@ use crate::report::mission_text;
 use crate::report::number::{counted, short};
 use crate::report::page::runs::GROUPS;
 use crate::report::simulation_figure::{left_out, simulation_figure};
-use crate::report::text_table::{Align, TextTable};
-use crate::report::time_table::TimeTable;
+use crate::report::time_table::time_table;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
-use crate::storage::table::{TableError, TableFormat};
-use crate::storage::timeseries::TimeSeries;
+use crate::storage::table_file::{self, TableError, TableFormat};
+use crate::table::Table;
+use crate::table::text::{Align, Text};
 use crate::workflow::isa;
 use crate::workflow::simulated::{Simulated, not_physical, simulated};
 use crate::workflow::source::plan_and_files;
@@ -50,7 +50,7 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
         audit(options, &plan, &run, isa)?;
     }
     if let Some(path) = &options.out {
-        save(path, &series)?;
+        save(path, &plan, &series)?;
     }
     if let Some(path) = &options.plot {
         let grid = if options.times.is_some() { run.grid.clone() } else { refined(&plan.grid) };
@@ -61,17 +61,18 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
         if options.sample > 0 {
             screen::print(&dispersions::shown(&plan, SampleId(options.sample)))?;
         }
-        let (table, points) = (TimeTable::new(&plan, &series, screen::width()), series.points());
-        screen::print(&table.text)?;
-        let shown = match points - table.points {
+        let (table, left_out) = time_table(&plan, &run.request.wheels, &series, screen::width());
+        screen::print(&Text::of(&table).spaced(0, 1).lines(screen::width()))?;
+        let points = series.rows();
+        let shown = match points - table.rows() {
             0 => format!("all {}", counted(points, "point")),
-            _ => format!("{} of {}", table.points, counted(points, "point")),
+            _ => format!("{} of {}", table.rows(), counted(points, "point")),
         };
         screen::note(&format!(
             "({shown}; --out X.csv or X.parquet writes all points, columns and digits; --plot X.svg draws them)"
         ));
-        if !table.left_out.is_empty() {
-            screen::note(&format!("(too wide for {} columns: {})", screen::width(), table.left_out));
+        if !left_out.is_empty() {
+            screen::note(&format!("(too wide for {} columns: {})", screen::width(), left_out));
         }
     }
     let names = run.request.columns().into_iter().map(|column| column.quantity.name().to_owned());
@@ -114,7 +115,7 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
     let observed = columns.iter().zip(&found.observables).filter(|(_, error)| !error.is_nan());
     let errors = observed.map(|(column, error)| (column.quantity.name(), *error));
     let numbers = |lines: &mut dyn Iterator<Item = (&str, f64)>| {
-        let mut table = TextTable::new([("", Align::Left), ("", Align::Right)]);
+        let mut table = Table::with([("", Align::Left), ("", Align::Right)]);
         lines.for_each(|(name, value)| table.row([name.to_owned(), short(value)]));
         table.text(screen::width())
     };
@@ -125,12 +126,12 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
     Ok(())
 }
 
-fn save(path: &Path, series: &TimeSeries) -> Result<(), Failure> {
-    series.save(path).map_err(|error| match error {
+fn save(path: &Path, plan: &Plan, series: &Table<'_>) -> Result<(), Failure> {
+    table_file::save(plan, series, path).map_err(|error| match error {
         TableError::Format(_) => Failure::Input(error.to_string()),
         _ => Failure::Files(format!("{}: {error}", path.display())),
     })?;
-    let (points, columns) = (counted(series.points(), "point"), counted(series.headings().len(), "column"));
+    let (points, columns) = (counted(series.rows(), "point"), counted(series.columns.len(), "column"));
     screen::note(&format!("{}: {points}, {columns}", path.display()));
     Ok(())
 }

@@ -5,8 +5,8 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::terminal::Terminal;
 use crate::cli::{completed_text, screen};
 use crate::report::number::counted;
-use crate::report::wrapped::wrapped;
 use crate::storage::names::PLAN;
+use crate::table::wrapped::wrapped;
 use crate::workflow::{Session, Verification, Verified, verify};
 
 /// Runs the command.

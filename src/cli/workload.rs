@@ -19,7 +19,7 @@ use crate::sampling::SampleId;
 use crate::storage::claim::Shard;
 use crate::storage::disk::Disk;
 use crate::storage::found::{FolderContents, contents};
-use crate::storage::rows_file::headings;
+use crate::storage::rows_file;
 
 /// CPU time beyond which a command asks for `--yes`, s.
 const LONG_S: f64 = 24.0 * 3600.0;
@@ -86,7 +86,7 @@ impl Workload {
         let run_seconds = run_seconds(plan, ensemble.isa());
         let whole = parts_of_runs(plan, run_seconds).with_samples(samples);
         let parts = whole.count() as f64 * runs / samples as f64;
-        let (columns, points) = (headings(ensemble).len() as f64, plan.grid.points() as f64);
+        let (columns, points) = (rows_file::columns(ensemble).len() as f64, plan.grid.points() as f64);
         let bands = (band_series(ensemble.request()).len() * plan.band_points) as f64;
         let series = points * SERIES * NUMBER;
         let retained = match plan.retention {

@@ -8,9 +8,10 @@ use crate::analysis::audit_tally::{AuditTally, Coverage, PROMISED_COVERAGE};
 use crate::ensemble::audit::AuditValue;
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use crate::report::number::{counted, short};
-use crate::report::text_table::{Align, TextTable};
 use crate::statistics::quantile::percent;
 use crate::statistics::spread::Spread;
+use crate::table::Table;
+use crate::table::text::Align;
 
 /// The numerical errors of an observable over the audited runs, beside the spread of its values over the campaign.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -207,7 +208,7 @@ impl AuditSummary {
             return head;
         }
         let heads = ["median", "p95", "p99", "max"].map(|head| (head, Align::Right));
-        let mut table = TextTable::new([("true error of the rotation", Align::Title)].into_iter().chain(heads));
+        let mut table = Table::with([("true error of the rotation", Align::Title)].into_iter().chain(heads));
         let spacecraft = [
             (AuditValue::State, self.state_error),
             (AuditValue::Omega, self.omega_error),

@@ -9,13 +9,14 @@ use crate::report::number::{brief, counted, outward, significant};
 use crate::report::observable_lines::{ObservableLine, QuantileLine};
 use crate::report::share_text::with_interval;
 use crate::report::summary::Summary;
-use crate::report::text_table::{Align, TextTable};
 use crate::report::verdict_table::{self, VerdictRow};
-use crate::report::wrapped::wrapped;
 use crate::report::{drivers_text, mission_text, names, requirements, summary_text, warnings};
 use crate::run::Status;
 use crate::statistics::binomial::Decision;
 use crate::statistics::quantile::percent;
+use crate::table::Table;
+use crate::table::text::{Align, Text};
+use crate::table::wrapped::wrapped;
 
 /// Outcomes whose drivers are named where nothing is required.
 const DRIVEN: usize = 3;
@@ -132,12 +133,12 @@ fn outcomes(summary: &Summary, most: usize, width: usize) -> String {
         ps.extend(known.iter().find(|p| **p == 0.95).or(known.last()));
     }
     let mut table = outcome_table(summary, &shown, &ps, true);
-    while table.width() > width && ps.len() > 1 {
+    while Text::of(&table).width() > width && ps.len() > 1 {
         ps.pop();
         table = outcome_table(summary, &shown, &ps, true);
     }
     // names that are cut may be alike: rather no intervals
-    if table.width() > width {
+    if Text::of(&table).width() > width {
         table = outcome_table(summary, &shown, &ps, false);
     }
     let notes = shown.iter().flat_map(|line| &line.quantiles).filter(|one| ps.contains(&one.p));
@@ -158,7 +159,7 @@ fn outcomes(summary: &Summary, most: usize, width: usize) -> String {
 }
 
 /// A row for each of `shown`, with the quantiles `ps` beside the median, and their intervals where these are wanted.
-fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64], with_intervals: bool) -> TextTable {
+fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64], with_intervals: bool) -> Table<'static> {
     let has_counts = shown.iter().any(|line| line.without_value > 0);
     if !summary.without_nominal {
         return nominal_table(shown);
@@ -172,7 +173,7 @@ fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64], with_
     let interval = if has_intervals { format!(" {}", in_brackets(summary)) } else { String::new() };
     heads.extend(ps.iter().map(|p| (format!("p{}{interval}", percent(*p)), Align::Right)));
     heads.push(("max".to_owned(), Align::Right));
-    let mut table = TextTable::new(heads);
+    let mut table = Table::with(heads);
     for line in shown {
         let mut cells = vec![name(line)];
         if has_counts {
@@ -214,8 +215,8 @@ fn name(line: &ObservableLine) -> String {
 }
 
 /// The outcomes of a nominal run alone, which has one value of each.
-fn nominal_table(shown: &[&ObservableLine]) -> TextTable {
-    let mut table = TextTable::new([("outcome of the nominal run", Align::Left), ("value", Align::Right)]);
+fn nominal_table(shown: &[&ObservableLine]) -> Table<'static> {
+    let mut table = Table::with([("outcome of the nominal run", Align::Left), ("value", Align::Right)]);
     for line in shown {
         table.row([name(line), line.max.map_or("-".to_owned(), |value| brief(line.shown.value(value)))]);
     }

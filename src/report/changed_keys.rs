@@ -4,8 +4,9 @@ use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, said};
 use crate::report::compared::Compared;
 use crate::report::number::counted;
-use crate::report::text_table::{Align, TextTable};
-use crate::report::wrapped::fitted;
+use crate::table::Table;
+use crate::table::text::Align;
+use crate::table::wrapped::fitted;
 
 /// Most letters of a value where not every key is shown.
 const LONGEST_VALUE: usize = 24;
@@ -29,8 +30,8 @@ pub fn text(compared: Compared<'_>, most: usize, width: usize) -> String {
     if all.is_empty() {
         return "  the plans are the same\n".to_owned();
     }
-    let heads = [("changed in the file", Align::Title), ("before", Align::Left), ("after", Align::Left)];
-    let mut table = TextTable::new(heads);
+    let heads = [("changed in the file", Align::Title), ("before", Align::Whole), ("after", Align::Whole)];
+    let mut table = Table::with(heads);
     // both values beside each other below their key
     let longest = if most < all.len().max(FEW) { LONGEST_VALUE } else { width.saturating_sub(10) / 2 };
     for Line { key, count, values } in all.iter().take(most) {

@@ -9,9 +9,10 @@ use crate::report::names;
 use crate::report::number::counted;
 use crate::report::number::{brief, outward, trimmed};
 use crate::report::share_text;
-use crate::report::text_table::{Align, TextTable};
-use crate::report::wrapped::wrapped;
 use crate::statistics::quantile::percent;
+use crate::table::Table;
+use crate::table::text::{Align, Text};
+use crate::table::wrapped::wrapped;
 
 /// Most observables in a table.
 const MOST_LINES: usize = 40;
@@ -104,14 +105,14 @@ pub fn short(
     let table = |rows: &[[String; 4]]| {
         let heads = ["outcome, mean of the runs", "before", "after", &format!("shift [{confidence}%]")];
         let aligns = [Align::Title, Align::Right, Align::Right, Align::Right];
-        let mut table = TextTable::new(heads.map(str::to_owned).into_iter().zip(aligns));
+        let mut table = Table::with(heads.map(str::to_owned).into_iter().zip(aligns));
         rows.iter().for_each(|row| table.row(row.clone()));
         table
     };
     let mut rows: Vec<[String; 4]> = Vec::new();
     for (column, shift) in all {
         rows.push(cells(compared, column, shift));
-        if rows.len() > most || table(&rows).width() > width {
+        if rows.len() > most || Text::of(&table(&rows)).width() > width {
             rows.pop();
         }
     }
@@ -201,7 +202,7 @@ fn table(compared: Compared<'_>, title: &str, columns: &[&ColumnComparison], wid
         return String::new();
     }
     let confidence = percent(compared.comparison.statistics[0].confidence);
-    let mut table = TextTable::new([
+    let mut table = Table::with([
         (counted(columns.len(), "column"), Align::Title),
         ("mean".to_owned(), Align::Right),
         (format!("its shift [{confidence}%]"), Align::Right),

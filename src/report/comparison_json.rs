@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::analysis::comparison_table;
 use crate::campaign::difference::KeyDifference;
 use crate::report::compared::{Compared, ComparedVerdict};
-use crate::storage::described_table;
+use crate::table::json::objects;
 
 /// The text of the file: everything that is compared.
 pub fn text(compared: Compared<'_>) -> String {
@@ -30,7 +30,7 @@ pub fn text(compared: Compared<'_>) -> String {
         "tolerance": tolerance,
         "beyond_tolerance": tolerance.map(|tolerance| comparison.is_beyond(tolerance)),
         "requirements": verdicts.iter().map(verdict).collect::<Vec<Value>>(),
-        "observables": described_table::json(&comparison_table::table(comparison)),
+        "observables": objects(&comparison_table::table(comparison)),
     });
     format!("{value:#}\n")
 }

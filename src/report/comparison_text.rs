@@ -6,9 +6,10 @@ use crate::analysis::comparison::ColumnComparison;
 use crate::analysis::population::Population;
 use crate::report::compared::{Compared, ComparedVerdict};
 use crate::report::number::counted;
-use crate::report::text_table::{Align, TextTable};
-use crate::report::wrapped::wrapped;
 use crate::report::{changed_keys, compared_outcomes};
+use crate::table::Table;
+use crate::table::text::{Align, Text};
+use crate::table::wrapped::wrapped;
 
 /// Lines of a screen without `--verbose`.
 const SCREEN: usize = 24;
@@ -67,8 +68,8 @@ fn requirements(compared: Compared<'_>, most: usize, as_sentences: bool, width: 
     };
     let [name, before, after, mark] = ["requirement", "before", "after", ""];
     let table = |has_found: bool| {
-        let heads = [(name, Align::Title), (before, Align::Left), (after, Align::Left), (mark, Align::Left)];
-        let mut table = TextTable::new(heads);
+        let heads = [(name, Align::Title), (before, Align::Whole), (after, Align::Whole), (mark, Align::Whole)];
+        let mut table = Table::with(heads);
         for one in shown {
             let [first, second] = [0, 1].map(|which| cell(one, which, has_found));
             table.row([one.statement(), &first, &second, one.mark().1]);
@@ -76,8 +77,8 @@ fn requirements(compared: Compared<'_>, most: usize, as_sentences: bool, width: 
         table
     };
     let mut text = if as_sentences {
-        let heads = [(before, Align::Left), (after, Align::Left), (mark, Align::Left), (name, Align::Sentence)];
-        let mut table = TextTable::new(heads);
+        let heads = [(before, Align::Whole), (after, Align::Whole), (mark, Align::Whole), (name, Align::Sentence)];
+        let mut table = Table::with(heads);
         for one in shown {
             let [first, second] = [0, 1].map(|which| cell(one, which, true));
             table.row([&first, &second, one.mark().1, &one.requirement]);
@@ -86,7 +87,8 @@ fn requirements(compared: Compared<'_>, most: usize, as_sentences: bool, width: 
     } else {
         // rather no numbers than requirements on lines of their own
         let (full, bare) = (table(true), table(false));
-        if full.width() > width && bare.width() <= width { bare.text(width) } else { full.text(width) }
+        let (full, bare) = (Text::of(&full), Text::of(&bare));
+        if full.width() > width && bare.width() <= width { bare.lines(width) } else { full.lines(width) }
     };
     if !left.is_empty() {
         let is_same = left.iter().all(|one| one.change() == Some(Ordering::Equal));

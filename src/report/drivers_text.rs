@@ -8,9 +8,10 @@ use crate::campaign::{Plan, ShownUnit};
 use crate::report::names;
 use crate::report::number::{brief, counted, outward, short};
 use crate::report::origin_text::unit_of;
-use crate::report::text_table::{Align, TextTable};
 use crate::sampling::Design;
 use crate::statistics::quantile::percent;
+use crate::table::Table;
+use crate::table::text::Align;
 
 const NAMED: usize = 2;
 /// Runs from which on a share of the variance is said, and more than one driver of it is named: of 30 runs a share of 50% is known to within 26%, of 6 not at all.
@@ -219,7 +220,7 @@ pub fn driven_by(plan: &Plan, all: &[InputSensitivity], outcome: &str) -> Vec<St
 
 /// Lines of `width` characters for each outcome; nothing where no influence was estimated.
 pub fn text(plan: &Plan, all: &[InputSensitivity], width: usize) -> String {
-    let mut table = TextTable::new([("", Align::Left), ("", Align::Sentence)]);
+    let mut table = Table::with([("", Align::Left), ("", Align::Sentence)]);
     let mut has_rest = false;
     for outcome in outcomes(plan, all) {
         for ranking in &ranked(plan, all, outcome) {

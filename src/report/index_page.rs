@@ -6,7 +6,8 @@ use crate::report::escaped::escaped;
 use crate::report::names::sentence;
 use crate::report::number::counted;
 use crate::report::summary::SummaryEnd;
-use crate::report::text_table::{Align, TextTable};
+use crate::table::Table;
+use crate::table::text::Align;
 
 /// The style of every page.
 const STYLE: &str = include_str!("../../assets/report/page.css");
@@ -63,7 +64,7 @@ impl IndexEntry {
 
 /// The table as text for lines of `width` characters.
 pub fn text(entries: &[IndexEntry], unreadable: &[Unreadable], width: usize) -> String {
-    let mut table = TextTable::new([
+    let mut table = Table::with([
         ("result", Align::Title),
         ("verdicts", Align::Whole),
         ("runs", Align::Right),
@@ -85,7 +86,7 @@ pub fn text(entries: &[IndexEntry], unreadable: &[Unreadable], width: usize) -> 
     let mut text = if entries.is_empty() { String::new() } else { table.text(width) };
     if !unreadable.is_empty() {
         text += "\n  not in the table\n";
-        let mut table = TextTable::new([("", Align::Left), ("", Align::Sentence)]);
+        let mut table = Table::with([("", Align::Left), ("", Align::Sentence)]);
         unreadable.iter().for_each(|one| table.row([one.folder.display().to_string(), one.reason.clone()]));
         text += &table.text(width);
     }

@@ -4,7 +4,7 @@
 //! - [`figure`]: what a figure shows. - [`sheet`]: figures on one picture, drawn with `panel`, `axis`, `legend`, `marks`, `shapes` as `svg`; [`image`]: its files. - `escaped`: text within markup.
 //! - [`simulation_figure`], [`drawn_figure`] (of [`drawn_columns`], in [`histogram`]s, with [`expected_counts`], of numbers drawn together by [`marginal`]; [`origin_text`]: in words), [`precision_figure`]: the figures of the commands; [`over_time`]: those over time, of the page too.
 //! - `surroundings`: Sun, shadow, field and the place below on an orbit. - [`compared`], [`comparison_text`] (with [`changed_keys`], `compared_outcomes`), [`comparison_json`]: two results compared. - [`stopping_text`]: looks of a campaign with `[stop]`.
-//! - [`text_table`]: rows of cells that fit a terminal. - [`time_table`]: one run over time on a terminal. - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file. [`index_page`]: all results of a folder.
+//! - [`time_table`]: one run over time on a terminal. - [`number`]: numbers in text. - [`page`]: the report of a campaign as one HTML file. [`index_page`]: all results of a folder.
 
 pub mod audit_summary;
 mod axis;
@@ -50,8 +50,6 @@ pub mod summary;
 mod summary_text;
 mod surroundings;
 mod svg;
-pub mod text_table;
 pub mod time_table;
 pub mod verdict_table;
 pub mod warnings;
-pub mod wrapped;

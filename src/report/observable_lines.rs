@@ -11,8 +11,9 @@ use crate::observables::headlines::headlines;
 use crate::report::audit_summary::Numerics;
 use crate::report::number::{brief, outward, short};
 use crate::report::share_text::with_interval;
-use crate::report::text_table::{Align, TextTable};
 use crate::statistics::quantile::percent;
+use crate::table::Table;
+use crate::table::text::Align;
 
 /// A quantile of an observable.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -174,7 +175,7 @@ pub fn table(lines: &[&ObservableLine], title: &str, width: usize) -> String {
     let ps = shown(lines);
     let of_p = |p: &f64| if *p == 0.5 { "median".to_owned() } else { format!("p{}", percent(*p)) };
     let heads = ps.iter().map(of_p).chain(["max".to_owned()]).map(|head| (head, Align::Right));
-    let mut table = TextTable::new([(title.to_owned(), Align::Title)].into_iter().chain(heads));
+    let mut table = Table::with([(title.to_owned(), Align::Title)].into_iter().chain(heads));
     for line in lines {
         let quantiles: Vec<Option<&QuantileLine>> = ps.iter().map(|p| line.quantile(*p)).collect();
         let value = |value: Option<f64>| value.map_or("-".to_owned(), |value| short(line.shown.value(value)));

@@ -5,11 +5,12 @@ use std::fmt::Write as _;
 use crate::ensemble::precision::{Deviation, Measurement, Setting, Skipped};
 use crate::report::number::counted;
 use crate::report::number::{brief, significant};
-use crate::report::text_table::{Align, TextTable};
+use crate::table::Table;
+use crate::table::text::{Align, Text};
 
 /// The columns of [`line()`], with the widths of their numbers.
 const COLUMNS: [(&str, Align, usize); 10] = [
-    ("method", Align::Left, 17),
+    ("method", Align::Whole, 17),
     ("setting", Align::Right, 9),
     ("us/run", Align::Right, 10),
     ("runs/s", Align::Right, 11),
@@ -18,22 +19,25 @@ const COLUMNS: [(&str, Align, usize); 10] = [
     ("attitude", Align::Right, 9),
     ("energy", Align::Right, 9),
     ("momentum", Align::Right, 9),
-    ("notes", Align::Left, 0),
+    ("notes", Align::Sentence, 0),
 ];
 
-/// A table of which lines are shown one by one, as long as they are.
-fn table() -> TextTable {
-    let columns = COLUMNS.map(|(name, align, _)| (name, align));
-    TextTable::new(columns).at_least(&COLUMNS.map(|(.., width)| width)).spaced(0, 1)
+/// A table whose rows are shown one by one.
+fn table() -> Table<'static> {
+    Table::with(COLUMNS.map(|(name, align, _)| (name, align)))
 }
 
-/// The names of the columns of [`line()`].
-pub fn headline() -> String {
-    table().last(usize::MAX)
+fn as_text<'t>(table: &'t Table<'_>) -> Text<'t> {
+    Text::of(table).at_least(&COLUMNS.map(|(.., width)| width)).spaced(0, 1)
 }
 
-/// A measurement as a line, with its maximum errors.
-pub fn line(m: &Measurement) -> String {
+/// The names of the columns of [`line()`], for lines of `width` characters.
+pub fn headline(width: usize) -> String {
+    as_text(&table()).head(width)
+}
+
+/// A measurement as a line of `width` characters, or several where it is longer, with its maximum errors.
+pub fn line(m: &Measurement, width: usize) -> String {
     let error = |of: Option<Deviation>| of.map_or("-".to_owned(), |error| significant(error.max, 2));
     let failed = (m.runs[1] > 0).then(|| format!("{} of {} failed", m.runs[1], counted(m.runs[0], "run")));
     let few = (m.repeats < 3).then(|| counted(m.repeats, "repetition"));
@@ -50,7 +54,7 @@ pub fn line(m: &Measurement) -> String {
         error(m.momentum),
         failed.into_iter().chain(few).collect::<Vec<_>>().join(", "),
     ]);
-    table.last(usize::MAX)
+    as_text(&table).body(width)
 }
 
 /// The settings that were not measured, with the reason; empty where all were.

@@ -3,7 +3,8 @@
 use crate::analysis::noise_share::NoiseShare;
 use crate::report::number::short;
 use crate::report::number::{brief, outward};
-use crate::report::text_table::{Align, TextTable};
+use crate::table::Table;
+use crate::table::text::Align;
 
 /// Digits of a share in per cent, and of what is left to 100 where it is less than one.
 const DIGITS: i32 = 3;
@@ -89,7 +90,7 @@ pub fn of_noise(one: &NoiseShare) -> String {
 
 /// A line for each outcome.
 pub fn noise_lines(all: &[NoiseShare]) -> String {
-    let mut table = TextTable::new([("", Align::Left), ("", Align::Sentence)]);
+    let mut table = Table::with([("", Align::Left), ("", Align::Sentence)]);
     all.iter().for_each(|one| table.row([one.observable.clone(), of_noise(one)]));
     table.text(usize::MAX)
 }

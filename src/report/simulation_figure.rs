@@ -41,7 +41,7 @@ mod tests {
     use crate::report::page::runs::GROUPS;
     use crate::run::Grid;
     use crate::sampling::SampleId;
-    use crate::storage::timeseries::TimeSeries;
+    use crate::storage::timeseries::time_series;
 
     /// A satellite on a circle of 7000 km with a date, at the times `grid`.
     fn on_orbit(grid: Grid) -> (Plan, SingleRun) {
@@ -58,7 +58,7 @@ mod tests {
     #[test]
     fn curves_of_an_orbit_are_their_columns() {
         let (plan, run) = on_orbit(Grid::uniform(9000.0, 301));
-        let series = TimeSeries::new(&plan, SampleId(0), &run, |_| true);
+        let series = time_series(SampleId(0), &run, |_| true);
         let panels = simulation_figure("x".to_owned(), &plan, &run).panels;
         let panel =
             |title: &str| panels.iter().find(|panel| panel.title == title).unwrap_or_else(|| panic!("no {title}"));
@@ -68,7 +68,7 @@ mod tests {
             ("Magnetic field at the spacecraft", "magnetic_field_t"),
             ("Share of the Sun that the Earth hides", "sun_hidden_fraction"),
         ] {
-            let (_, column) = series.columns().find(|(quantity, _)| quantity.name() == name).expect(name);
+            let (_, column) = series.numbers(name).expect(name);
             let [Mark::Line { y, .. }] = &panel(title).marks[..] else { panic!("{title}") };
             assert_eq!(y, column, "{title}");
         }
@@ -151,20 +151,20 @@ mod tests {
         let text = include_str!("../../campaigns/spin_sweep.toml");
         let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
         let run = SingleRun::with_series(&plan, SampleId(0), plan.grid.clone(), Isa::best(), &GROUPS).expect("a run");
-        let series = TimeSeries::new(&plan, SampleId(0), &run, |_| true);
+        let series = time_series(SampleId(0), &run, |_| true);
         let column = |name: String| -> Vec<f64> {
-            let found = series.columns().find(|(quantity, _)| quantity.name() == name);
+            let found = series.numbers(&name);
             found.unwrap_or_else(|| panic!("no column {name}")).1.to_vec()
         };
         let sum = |names: &[String]| -> Vec<f64> {
             let columns: Vec<Vec<f64>> = names.iter().cloned().map(column).collect();
-            (0..series.points()).map(|point| columns.iter().map(|values| values[point]).sum()).collect()
+            (0..series.rows()).map(|point| columns.iter().map(|values| values[point]).sum()).collect()
         };
         let bodies = ["body", "w1", "w2", "debris"].map(|body| format!("energy_{body}_j"));
         let mut seen = 0;
         for panel in simulation_figure("x".to_owned(), &plan, &run).panels {
             let title = panel.title.split(" (").next().expect("a title").to_owned();
-            let mut balance = vec![0.0; series.points()];
+            let mut balance = vec![0.0; series.rows()];
             for mark in &panel.marks {
                 let Mark::Line { label, x, y, .. } = mark else { continue };
                 assert_eq!(*x, column("time_s".to_owned()), "{title}");

@@ -4,12 +4,13 @@ use super::audit_summary::{Numerics, shorts};
 use super::number::short;
 use super::observable_lines::{ObservableLine, table};
 use super::summary::{LISTED, Summary};
-use super::text_table::{Align, TextTable};
-use super::wrapped::{message, wrapped};
 use super::{failure_text, mission_text, requirements, warnings};
 use crate::analysis::assessment::Assessment;
 use crate::analysis::outcomes::OF_MOTION;
 use crate::analysis::statuses::Ended;
+use crate::table::Table;
+use crate::table::text::Align;
+use crate::table::wrapped::{message, wrapped};
 
 /// Most observables in the table beside those that the file names.
 const MOST_MAIN: usize = 6;
@@ -172,7 +173,7 @@ impl Summary {
         }
         text += "\n  numerical error, and how much of the spread (p95 - p5) it is\n";
         let heads = ["unit", "median", "p95", "max", "share"].map(|head| (head, Align::Right));
-        let mut table = TextTable::new([("", Align::Title)].into_iter().chain(heads));
+        let mut table = Table::with([("", Align::Title)].into_iter().chain(heads));
         for (line, numerics) in audited {
             let unit = if line.unit.is_empty() { "-" } else { &line.unit };
             let values = shorts([numerics.median, numerics.p95, numerics.max, numerics.share_of_spread]);

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 use crate::report::escaped::escaped;
-use crate::report::wrapped::fitted;
+use crate::table::wrapped::fitted;
 
 static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
 

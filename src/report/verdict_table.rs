@@ -1,7 +1,8 @@
 //! [`text`]: verdicts as a table: word, requirement, what was found, notes. Where that is too wide, what was found is below what is required.
 
-use crate::report::text_table::{Align, TextTable};
-use crate::report::wrapped::wrapped;
+use crate::table::Table;
+use crate::table::text::{Align, Text};
+use crate::table::wrapped::wrapped;
 
 /// A requirement with its verdict, in words.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -16,7 +17,7 @@ pub struct VerdictRow {
 /// The lines of `rows`, below the heads of what is required and what was found where there are any.
 pub fn text([required, found]: [&str; 2], rows: &[VerdictRow], width: usize) -> String {
     let heads = [("", Align::Left), (required, Align::Left), (found, Align::Left), ("", Align::Sentence)];
-    let mut table = TextTable::new(heads);
+    let mut table = Table::with(heads);
     let longest = rows.iter().map(|one| one.word.len()).max().unwrap_or(0);
     let mut lines = match required {
         "" => String::new(),
@@ -30,7 +31,7 @@ pub fn text([required, found]: [&str; 2], rows: &[VerdictRow], width: usize) -> 
             lines += &wrapped(&format!("  {:longest$}    {said}\n", ""), width);
         }
     }
-    if table.width_of(3) > width { lines } else { table.text(width) }
+    if Text::of(&table).width_of(3) > width { lines } else { table.text(width) }
 }
 
 #[cfg(test)]

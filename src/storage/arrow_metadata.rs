@@ -8,7 +8,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use parquet::file::metadata::KeyValue;
 
-use crate::storage::heading::{Content, Heading};
+use crate::table::{Column, Content};
 
 const KEY: &str = "ARROW:schema";
 
@@ -22,7 +22,7 @@ const VERSION: i16 = 4;
 const SCHEMA: u8 = 1;
 
 /// The entry of the metadata that contains the columns, each with its unit and meaning.
-pub fn of(columns: &[Heading]) -> KeyValue {
+pub fn of(columns: &[Column]) -> KeyValue {
     let mut message = message(columns);
     message.resize(message.len().next_multiple_of(8), 0);
     let length = u32::try_from(message.len()).expect("a schema is smaller than 4 GB");
@@ -31,7 +31,7 @@ pub fn of(columns: &[Heading]) -> KeyValue {
 }
 
 /// The tables `Message` and `Schema`.
-fn message(columns: &[Heading]) -> Vec<u8> {
+fn message(columns: &[Column]) -> Vec<u8> {
     let mut buffer = FlatBuffer(vec![0; 4]);
     let message = buffer.table(0, &[Slot::Short(VERSION), Slot::Byte(SCHEMA), Slot::Reference]);
     // Schema: endianness (little by default), fields
@@ -110,7 +110,7 @@ impl FlatBuffer {
     }
 
     /// The tables `Field`, its type and its `KeyValue`s.
-    fn field(&mut self, referring: usize, column: &Heading) {
+    fn field(&mut self, referring: usize, column: &Column) {
         // members of the union `Type`: Int (bits, signed), FloatingPoint (precision: 2 is double), Utf8
         let (member, slots): (u8, &[Slot]) = match column.content {
             Content::Count => (2, &[Slot::Int(64), Slot::Byte(1)]),
@@ -160,7 +160,7 @@ mod tests {
         let types =
             [(Content::Real, DataType::Float64), (Content::Count, DataType::Int64), (Content::Word, DataType::Utf8)];
         for count in [0, 1, 30] {
-            let (columns, fields): (Vec<Heading>, Vec<Field>) = (0..count)
+            let (columns, fields): (Vec<Column>, Vec<Field>) = (0..count)
                 .map(|index: usize| {
                     let (content, of) = types[index % 3].clone();
                     let (name, unit, meaning) = ("n".repeat(index + 1), "m".repeat(index % 5), "µ".repeat(index % 7));
@@ -168,7 +168,7 @@ mod tests {
                     let metadata: HashMap<_, _> = metadata.map(|(key, value)| (key.to_owned(), value.clone())).into();
                     let field = Field::new(&name, of, index.is_multiple_of(2)).with_metadata(metadata);
                     let quantity = Quantity::named(name, unit, meaning);
-                    (Heading { quantity, content, nullable: index.is_multiple_of(2) }, field)
+                    (Column { nullable: index.is_multiple_of(2), ..Column::new(quantity, content) }, field)
                 })
                 .unzip();
             let entry = of(&columns);

@@ -2,7 +2,7 @@
 //!
 //! The metadata have what the bands are of, so that a file says by itself what its buckets mean.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::{num::NonZeroUsize, path::Path};
@@ -13,11 +13,12 @@ use crate::ensemble::{BandLayout, Bands, Part, PartBands, RunsOfColumn};
 use crate::observables::band_series::Form;
 use crate::run::Quantity;
 use crate::statistics::deviation::{Code, NOT_A_NUMBER};
-use crate::storage::columnar::{Cells, Content, EncodingError, Heading, Layout, Packing};
+use crate::storage::columnar::{EncodingError, Layout, Packing};
 use crate::storage::disk::Storage;
 use crate::storage::identity::{PART_KEY, part_metadata};
 use crate::storage::parallel::in_order;
 use crate::storage::rows_reader::{PartReader, RowsError};
+use crate::table::{Column, Content, Values};
 
 /// Key of the metadata: what the bands are of.
 const LAYOUT_KEY: &str = "spindrift.bands";
@@ -100,12 +101,10 @@ impl BandsFile {
     /// # Errors
     /// None: its columns have different names.
     pub fn new(layout: &BandLayout) -> Result<Self, EncodingError> {
-        let heading = |(name, meaning): (&'static str, &'static str), content| {
-            Heading::new(Quantity::new(name, "", meaning), content)
-        };
-        let headings = [BUCKET, COUNT].map(|column| heading(column, Content::Count));
-        let metadata = HashMap::from([(LAYOUT_KEY.to_owned(), text_of(layout))]);
-        Ok(BandsFile(Layout::new(&headings, metadata, Packing::Lz4)?.without_statistics()))
+        let columns =
+            [BUCKET, COUNT].map(|(name, meaning)| Column::new(Quantity::new(name, "", meaning), Content::Count));
+        let metadata = BTreeMap::from([(LAYOUT_KEY.to_owned(), text_of(layout))]);
+        Ok(BandsFile(Layout::new(&columns, metadata, Packing::Lz4)?.without_statistics()))
     }
 
     /// Appends to `out` the file of the `bands` of `part`: a function of the part alone.
@@ -131,7 +130,7 @@ impl BandsFile {
         own.extend([(ROWS_KEY, lengths.join(" ")), (WITHOUT_KEY, without.join(" "))]);
         own.extend(EXTREMES_KEYS.into_iter().zip(ends.map(|ends| text(&ends))));
         own.extend(part_metadata(part, part.first));
-        self.0.write(out, &own, [buckets, counts].map(|column| Cells::Count(column, None)).into_iter())
+        self.0.write(out, &own, [buckets, counts].map(Values::Count).into_iter())
     }
 }
 
@@ -263,7 +262,7 @@ mod tests {
 
     /// A file of runs of part `part` with these rows and extremes.
     fn file(folder: &Path, part: u64, nominal: f64, rows: &[[u64; 2]], lengths: &str, extremes: [&str; 2]) -> PathBuf {
-        let column = |index: usize| Cells::Count(rows.iter().map(|row| row[index]).collect(), None);
+        let column = |index: usize| Values::Count(rows.iter().map(|row| row[index]).collect());
         let part = Part { id: PartId(part), first: crate::sampling::SampleId(0), count: 9 };
         let mut own = vec![(RUNS_KEY, "11".to_owned()), (COUNTED_KEY, "9".to_owned())];
         own.extend([(ROWS_KEY, lengths), (WITHOUT_KEY, "0 11 11 9")].map(|(key, text)| (key, text.to_owned())));

@@ -1,15 +1,16 @@
-//! [`Layout`]: named columns with unit and meaning as a Parquet file.
+//! Tables as Parquet: [`Layout`] is that of all files of one kind.
 //!
 //! Arrow's schema (which carries unit and meaning as field metadata) beside Parquet's, with Parquet's typed column writer: columns are passed
 //! from the memory of the rows to the encoder without a copy. The Arrow writer was rejected: it writes a third slower.
 //! Floats have no dictionary (with one the file is a quarter larger and takes five times as long). The encoding
 //! BYTE_STREAM_SPLIT makes their exponents compress.
 
-use std::collections::{BTreeMap, HashMap};
+use std::borrow::Borrow;
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::sync::Arc;
 
-use parquet::basic::{Compression, Encoding, ZstdLevel};
+use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::KeyValue;
@@ -18,24 +19,10 @@ use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{ColumnPath, Type, TypePtr};
 
 use crate::storage::arrow_metadata;
+use crate::table::{Column, Content, Table, Values};
 
 /// Why columns could not be encoded.
 pub use parquet::errors::ParquetError as EncodingError;
-
-pub use crate::storage::heading::{Content, Heading};
-
-/// The values of a column.
-#[derive(Clone, Debug)]
-pub enum Cells<'a> {
-    /// Real numbers; those that the mask calls absent are null, and so is what is no finite number: the maximum or the mean of a column is
-    /// a number for every reader.
-    Real(&'a [f64], Option<&'a [bool]>),
-    /// Counts, with the same mask.
-    Count(Vec<u64>, Option<&'a [bool]>),
-    Word(Vec<&'static str>),
-    /// Texts; absent ones are null.
-    Text(Vec<Option<&'a str>>),
-}
 
 /// How a file is packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +41,7 @@ const ROOT: &str = "arrow_schema";
 /// What all files of one kind have in common.
 #[derive(Clone, Debug)]
 pub struct Layout {
-    columns: Vec<Heading>,
+    columns: Vec<Column>,
     /// What every file says of itself, in order of the keys: that of a hash map changes from run to run, and files must not.
     metadata: BTreeMap<String, String>,
     root: TypePtr,
@@ -69,17 +56,16 @@ impl Layout {
     ///
     /// # Errors
     /// Where two columns have the same name.
-    pub fn new(headings: &[Heading], metadata: HashMap<String, String>, packing: Packing) -> Result<Self> {
-        let mut names: Vec<&str> = headings.iter().map(|heading| heading.quantity.name()).collect();
+    pub fn new(columns: &[Column], metadata: BTreeMap<String, String>, packing: Packing) -> Result<Self> {
+        let mut names: Vec<&str> = columns.iter().map(|column| column.quantity.name()).collect();
         names.sort_unstable();
         if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
             return Err(ParquetError::General(format!("two columns have the name `{}`", twice[0])));
         }
-        let columns = headings.iter().map(Heading::column).collect::<Result<Vec<TypePtr>>>()?;
-        let root = Arc::new(Type::group_type_builder(ROOT).with_fields(columns).build()?);
-        let properties = properties(headings, packing);
-        let (arrow_schema, metadata) = (arrow_metadata::of(headings), metadata.into_iter().collect());
-        Ok(Layout { columns: headings.to_vec(), metadata, root, properties, arrow_schema })
+        let fields = columns.iter().map(field).collect::<Result<Vec<TypePtr>>>()?;
+        let root = Arc::new(Type::group_type_builder(ROOT).with_fields(fields).build()?);
+        let (properties, arrow_schema) = (properties(columns, packing), arrow_metadata::of(columns));
+        Ok(Layout { columns: columns.to_vec(), metadata, root, properties, arrow_schema })
     }
 
     /// The same without the extremes of columns, which readers of the whole file need not know.
@@ -89,26 +75,26 @@ impl Layout {
         Layout { properties, ..self }
     }
 
-    pub fn columns(&self) -> &[Heading] {
+    pub fn columns(&self) -> &[Column] {
         &self.columns
     }
 
-    /// Writes one file: a row group of `cells`, column by column in the order of the headings, all of the same length.
+    /// Writes one file: a row group of `values`, column by column, all of the same length.
     /// `own` is the metadata of this file only.
     ///
     /// # Errors
     /// Where writing fails.
     ///
     /// # Panics
-    /// Where the type of the cells differs from the heading's.
+    /// Where the type of the values differs from the column's.
     pub fn write<'a, W: Write + Send>(
         &self,
         out: W,
         own: &[(&str, String)],
-        cells: impl Iterator<Item = Cells<'a>>,
+        values: impl Iterator<Item = impl Borrow<Values<'a>>>,
     ) -> Result<()> {
         let mut writer = self.begin(out, own)?;
-        writer.group(cells)?;
+        writer.group(values)?;
         writer.finish()
     }
 
@@ -140,19 +126,19 @@ pub struct GroupWriter<'l, W: Write + Send> {
 }
 
 impl<W: Write + Send> GroupWriter<'_, W> {
-    /// Writes a row group: `cells`, column by column in the order of the headings, all of the same length.
+    /// Writes a row group: `values`, column by column, all of the same length.
     ///
     /// # Errors
     /// Where writing fails.
     ///
     /// # Panics
-    /// Where the type of the cells differs from the heading's.
-    pub fn group<'a>(&mut self, cells: impl Iterator<Item = Cells<'a>>) -> Result<()> {
+    /// Where the type of the values differs from the column's.
+    pub fn group<'a>(&mut self, values: impl Iterator<Item = impl Borrow<Values<'a>>>) -> Result<()> {
         let mut group = self.writer.next_row_group()?;
-        for (heading, cells) in self.layout.columns.iter().zip(cells) {
-            let Some(mut column) = group.next_column()? else { break };
-            self.scratch.write(&mut column, cells, heading.nullable)?;
-            column.close()?;
+        for (column, values) in self.layout.columns.iter().zip(values) {
+            let Some(mut writer) = group.next_column()? else { break };
+            self.scratch.write(&mut writer, values.borrow(), column.nullable)?;
+            writer.close()?;
         }
         group.close()?;
         Ok(())
@@ -168,8 +154,32 @@ impl<W: Write + Send> GroupWriter<'_, W> {
     }
 }
 
+/// `table`, with its notes and `metadata`, as a file.
+///
+/// # Errors
+/// Where two columns have the same name, or encoding fails.
+pub fn encoded(table: &Table<'_>, mut metadata: BTreeMap<String, String>, packing: Packing) -> Result<Vec<u8>> {
+    metadata.extend(table.notes.clone());
+    let mut bytes = Vec::new();
+    Layout::new(&table.columns, metadata, packing)?.write(&mut bytes, &[], table.values.iter())?;
+    Ok(bytes)
+}
+
+/// A column in Parquet's schema.
+fn field(column: &Column) -> Result<TypePtr> {
+    let (physical, logical) = match column.content {
+        Content::Real => (Physical::DOUBLE, None),
+        // table engines have no unsigned integers (Delta Lake, Spark, Trino); no count comes near 2^63
+        Content::Count => (Physical::INT64, None),
+        Content::Word => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+    };
+    let repetition = if column.nullable { Repetition::OPTIONAL } else { Repetition::REQUIRED };
+    let field = Type::primitive_type_builder(column.quantity.name(), physical);
+    field.with_repetition(repetition).with_logical_type(logical).build().map(Arc::new)
+}
+
 /// Encodings and compression of the columns.
-fn properties(columns: &[Heading], packing: Packing) -> WriterProperties {
+fn properties(columns: &[Column], packing: Packing) -> WriterProperties {
     let (compression, reals) = match packing {
         Packing::Lz4 => (Compression::LZ4_RAW, Encoding::BYTE_STREAM_SPLIT),
         Packing::Zstd => (Compression::ZSTD(ZstdLevel::default()), Encoding::BYTE_STREAM_SPLIT),
@@ -200,135 +210,122 @@ struct ColumnBuffers {
 }
 
 impl ColumnBuffers {
-    fn write(&mut self, column: &mut SerializedColumnWriter<'_>, cells: Cells<'_>, nullable: bool) -> Result<()> {
-        match cells {
-            Cells::Real(values, mask) => {
-                let levels = self.levels(values.len(), mask, nullable);
-                let is_whole = !mask.is_some_and(|mask| mask.contains(&false)) && values.iter().all(|x| x.is_finite());
+    fn write(&mut self, column: &mut SerializedColumnWriter<'_>, values: &Values<'_>, nullable: bool) -> Result<()> {
+        match values {
+            Values::Real(values) => {
+                let is_whole = values.iter().all(|value| value.is_finite());
+                self.set_levels(nullable, values.iter().map(|value| is_whole || value.is_finite()));
                 let values = if is_whole {
                     values
                 } else {
-                    self.levels.iter_mut().zip(values).for_each(|(level, x)| *level &= i16::from(x.is_finite()));
                     self.reals.clear();
-                    self.reals
-                        .extend(values.iter().zip(&self.levels).filter(|(_, level)| **level == 1).map(|(x, _)| *x));
-                    &self.reals
+                    self.reals.extend(values.iter().filter(|value| value.is_finite()));
+                    &self.reals[..]
                 };
-                column.typed::<DoubleType>().write_batch(values, levels.then_some(&self.levels[..]), None)?;
+                column.typed::<DoubleType>().write_batch(values, nullable.then_some(&self.levels[..]), None)?;
             }
-            Cells::Count(values, mask) => {
-                let levels = self.levels(values.len(), mask, nullable);
-                self.counts.clear();
-                match mask {
-                    Some(mask) => self.counts.extend(present(&values, mask).map(u64::cast_signed)),
-                    None => self.counts.extend(values.iter().map(|value| value.cast_signed())),
-                }
-                column.typed::<Int64Type>().write_batch(&self.counts, levels.then_some(&self.levels[..]), None)?;
+            Values::Counted(values) => {
+                self.set_levels(nullable, values.iter().map(|value| value.is_finite()));
+                let present = values.iter().filter(|value| value.is_finite());
+                self.write_counts(column, nullable, present.map(|value| *value as u64))?;
             }
-            Cells::Word(words) => {
-                let levels = self.levels(words.len(), None, nullable);
-                // the same word again shares its memory
+            Values::Count(values) => {
+                self.set_levels(nullable, values.iter().map(|_| true));
+                self.write_counts(column, nullable, values.iter().copied())?;
+            }
+            Values::Text(texts) => {
+                self.set_levels(nullable, texts.iter().map(Option::is_some));
+                // the same text again shares its memory
                 let mut last = ("", ByteArray::from(""));
-                let shared = |word| {
-                    if last.0 != word {
-                        last = (word, ByteArray::from(word));
+                let shared = |text| {
+                    if last.0 != text {
+                        last = (text, ByteArray::from(text));
                     }
                     last.1.clone()
                 };
-                let words: Vec<ByteArray> = words.into_iter().map(shared).collect();
-                column.typed::<ByteArrayType>().write_batch(&words, levels.then_some(&self.levels[..]), None)?;
-            }
-            Cells::Text(texts) => {
-                let mask: Vec<bool> = texts.iter().map(Option::is_some).collect();
-                let levels = self.levels(texts.len(), Some(&mask), nullable);
-                let texts: Vec<ByteArray> = texts.into_iter().flatten().map(ByteArray::from).collect();
-                column.typed::<ByteArrayType>().write_batch(&texts, levels.then_some(&self.levels[..]), None)?;
+                let texts: Vec<ByteArray> = texts.iter().filter_map(Option::as_deref).map(shared).collect();
+                column.typed::<ByteArrayType>().write_batch(&texts, nullable.then_some(&self.levels[..]), None)?;
             }
         }
         Ok(())
     }
 
-    /// Sets the definition levels (1 = present); false for a column that has none.
-    fn levels(&mut self, length: usize, mask: Option<&[bool]>, nullable: bool) -> bool {
+    fn write_counts(
+        &mut self,
+        column: &mut SerializedColumnWriter<'_>,
+        nullable: bool,
+        counts: impl Iterator<Item = u64>,
+    ) -> Result<()> {
+        self.counts.clear();
+        self.counts.extend(counts.map(u64::cast_signed));
+        column.typed::<Int64Type>().write_batch(&self.counts, nullable.then_some(&self.levels[..]), None)?;
+        Ok(())
+    }
+
+    /// Sets the definition levels (1 = present) of a nullable column.
+    fn set_levels(&mut self, nullable: bool, present: impl Iterator<Item = bool>) {
         self.levels.clear();
         if nullable {
-            match mask {
-                Some(mask) => self.levels.extend(mask.iter().map(|present| i16::from(*present))),
-                None => self.levels.resize(length, 1),
-            }
+            self.levels.extend(present.map(i16::from));
         }
-        nullable
     }
-}
-
-fn present<'a, T: Copy>(values: &'a [T], mask: &'a [bool]) -> impl Iterator<Item = T> + 'a {
-    values.iter().zip(mask).filter(|(_, present)| **present).map(|(value, _)| *value)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::run::Quantity;
+    use crate::table::{Cell, tests::every_kind};
     use parquet::file::reader::{FileReader, SerializedFileReader};
-    use parquet::record::Field as Cell;
-
-    fn heading(name: &str, content: Content, nullable: bool) -> Heading {
-        Heading { quantity: Quantity::named(name.into(), "m".to_owned(), format!("The {name}.")), content, nullable }
-    }
+    use parquet::record::Field;
 
     fn written(packing: Packing) -> Vec<u8> {
-        let headings = [
-            heading("id", Content::Count, false),
-            heading("word", Content::Word, false),
-            heading("x", Content::Real, true),
-            heading("y", Content::Real, true),
-        ];
-        let layout = Layout::new(&headings, HashMap::from([("seed".into(), "7".into())]), packing).unwrap();
-        let mut bytes = Vec::new();
-        let cells = [
-            Cells::Count(vec![0, 1, i64::MAX.unsigned_abs()], None),
-            Cells::Word(vec!["ok", "ok", "bad"]),
-            Cells::Real(&[1.5, f64::NAN, 2.5], Some(&[true, true, false])),
-            Cells::Real(&[f64::INFINITY, -0.0, f64::NEG_INFINITY], None),
-        ];
-        layout.write(&mut bytes, &[("part", "3".into())], cells.into_iter()).unwrap();
-        bytes
+        let table = Table { notes: BTreeMap::from([("part".into(), "3".into())]), ..every_kind() };
+        encoded(&table, BTreeMap::from([("seed".into(), "7".into())]), packing).unwrap()
     }
 
     fn read(bytes: Vec<u8>) -> SerializedFileReader<bytes::Bytes> {
         SerializedFileReader::new(bytes::Bytes::from(bytes)).unwrap()
     }
 
-    /// Law: what is written is read back, in every packing; absent is null, and so is what is no finite number, with a mask and without.
+    /// Law: the cells of a table with every kind of value come back from Parquet bit for bit, in every packing; those that are absent or not finite
+    /// are null.
     #[test]
-    fn values_come_back() {
+    fn parquet_comes_back() {
+        let table = every_kind();
         for packing in [Packing::Lz4, Packing::Zstd, Packing::Plain] {
             let file = read(written(packing));
-            let rows = file.get_row_iter(None).unwrap();
-            let rows = rows.map(|row| row.unwrap().into_columns().into_iter().map(|(_, cell)| cell).collect());
-            let rows: Vec<Vec<Cell>> = rows.collect();
-            let text = |text: &str| Cell::Str(text.to_owned());
-            assert_eq!(rows[0], [Cell::Long(0), text("ok"), Cell::Double(1.5), Cell::Null]);
-            assert_eq!(rows[1], [Cell::Long(1), text("ok"), Cell::Null, Cell::Double(-0.0)]);
-            assert_eq!(rows[2], [Cell::Long(i64::MAX), text("bad"), Cell::Null, Cell::Null]);
-            assert_eq!(rows.len(), 3);
+            let lines: Vec<_> = file.get_row_iter(None).unwrap().map(|row| row.unwrap().into_columns()).collect();
+            assert_eq!(lines.len(), table.rows());
+            for (row, line) in lines.into_iter().enumerate() {
+                for ((column, values), (name, found)) in table.columns.iter().zip(&table.values).zip(line) {
+                    assert_eq!(name, column.quantity.name());
+                    match (values.cell(row), found) {
+                        (Cell::Null, Field::Null) => {}
+                        (Cell::Real(number), Field::Double(found)) => assert_eq!(found.to_bits(), number.to_bits()),
+                        (Cell::Count(count), Field::Long(found)) => assert_eq!(found.cast_unsigned(), count),
+                        (Cell::Text(text), Field::Str(found)) => assert_eq!(found, text),
+                        (cell, found) => panic!("{name}, row {row}: {cell:?} came back as {found:?}"),
+                    }
+                }
+            }
         }
     }
 
-    /// Law: the file says what it is told to say, and floats have no dictionary.
+    /// Law: the file has the notes of its table and its metadata, and floats have no dictionary.
     #[test]
     fn a_file_explains_itself() {
         let file = read(written(Packing::Zstd));
         let pairs = file.metadata().file_metadata().key_value_metadata().unwrap();
         let value = |key: &str| pairs.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.clone());
         assert_eq!((value("seed"), value("part")), (Some("7".to_owned()), Some("3".to_owned())));
-        let floats = file.metadata().row_group(0).column(2);
+        let floats = file.metadata().row_group(0).column(1);
         assert!(floats.dictionary_page_offset().is_none());
         assert!(floats.encodings().any(|encoding| encoding == Encoding::BYTE_STREAM_SPLIT));
         assert!(matches!(floats.compression(), Compression::ZSTD(_)));
     }
 
-    /// Law: the same cells give the same bytes.
+    /// Law: the same table gives the same bytes.
     #[test]
     fn files_are_reproducible() {
         assert_eq!(written(Packing::Zstd), written(Packing::Zstd));
@@ -338,8 +335,8 @@ mod tests {
 
     #[test]
     fn two_columns_of_one_name_are_refused() {
-        let headings = [heading("x", Content::Real, false), heading("x", Content::Real, false)];
-        let refused = Layout::new(&headings, HashMap::new(), Packing::Plain).unwrap_err();
+        let column = Column::new(Quantity::new("x", "", ""), Content::Real);
+        let refused = Layout::new(&[column.clone(), column], BTreeMap::new(), Packing::Plain).unwrap_err();
         assert!(refused.to_string().contains("two columns have the name `x`"), "{refused}");
     }
 }

@@ -3,13 +3,13 @@
 use bytes::Bytes;
 use parquet::file::metadata::ParquetMetaDataReader;
 use sha2::{Digest, Sha256};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use crate::campaign::Plan;
 use crate::ensemble::{Part, PartId};
 use crate::sampling::SampleId;
-use crate::storage::columnar::Heading;
 use crate::storage::manifest::{ARITHMETIC, FORMAT, Identity};
+use crate::table::Column;
 
 /// What an [`Identity`] calls itself.
 const MARK: &str = "dataset";
@@ -30,18 +30,16 @@ pub fn sha256(bytes: &[u8]) -> String {
 }
 
 /// The identity of rows of `plan` with these columns.
-pub fn of(plan: &Plan, headings: &[Heading]) -> Identity {
-    let columns: Vec<String> = headings
-        .iter()
-        .map(|heading| format!("{} {:?} {}\n", heading.quantity.name(), heading.content, heading.nullable))
-        .collect();
+pub fn of(plan: &Plan, columns: &[Column]) -> Identity {
+    let line = |column: &Column| format!("{} {:?} {}\n", column.quantity.name(), column.content, column.nullable);
+    let columns: String = columns.iter().map(line).collect();
     Identity {
         spindrift: MARK.to_owned(),
         format: FORMAT,
         arithmetic: ARITHMETIC,
         row_hash: plan.row_hash(),
         seed: plan.seed,
-        columns: sha256(columns.concat().as_bytes()),
+        columns: sha256(columns.as_bytes()),
     }
 }
 
@@ -80,7 +78,7 @@ pub fn in_rows(bytes: Bytes) -> Option<(Identity, PartId, usize)> {
 
 /// Identity of the rows and the row plan, for files of rows: all that changes them, and nothing else. The name of the campaign, the version of
 /// the program and the instruction set are not part of it: no bit of a row depends on them.
-pub fn row_provenance(plan: &Plan, identity: &Identity) -> HashMap<String, String> {
+pub fn row_provenance(plan: &Plan, identity: &Identity) -> BTreeMap<String, String> {
     let plan = ("spindrift.row_plan", plan.row_text());
     let pairs = metadata(identity).into_iter().chain([plan]);
     pairs.map(|(key, value)| (key.to_owned(), value)).collect()
@@ -88,7 +86,7 @@ pub fn row_provenance(plan: &Plan, identity: &Identity) -> HashMap<String, Strin
 
 /// Version of the program, campaign, seed, and the plan with its hash. The instruction set is not part of it: no bit of a
 /// row depends on it.
-pub fn provenance(plan: &Plan) -> HashMap<String, String> {
+pub fn provenance(plan: &Plan) -> BTreeMap<String, String> {
     let pairs = [
         ("spindrift.version", env!("CARGO_PKG_VERSION").to_owned()),
         ("spindrift.campaign", plan.name.clone()),

@@ -7,8 +7,8 @@
 //! - [`verify`]: whether files are what was written, [`recovery`]: the manifest of a result that has lost it.
 //! - [`disk`]: file operations, [`stored_file`]: of open files. - [`atomic`]: files that are whole or absent.
 //! - [`rows_file`]: the files of rows, which [`part_sink`] writes and [`rows_reader`] reads, through [`parquet_source`]; [`bands_file`]: of bands.
-//! - [`columnar`]: columns ([`heading`]) to Parquet, with [`arrow_metadata`]. - [`table`]: tables in a single file: [`timeseries`], [`bands_table`],
-//!   [`drawn_table`], [`precision_table`], [`described_table`]. - [`parallel`]: threads. - [`remote`]: results in an object store.
+//! - [`columnar`]: tables to Parquet, with [`arrow_metadata`]. - [`table_file`]: tables in a single file: [`timeseries`], [`bands_table`],
+//!   [`drawn_table`], [`precision_table`]. - [`parallel`]: threads. - [`remote`]: results in an object store.
 //!
 //! Not here: what the rows say (`analysis`), text and figures for people (`report`), and reading tables for a campaign (`campaign`).
 
@@ -18,13 +18,11 @@ pub mod bands_file;
 pub mod bands_table;
 pub mod claim;
 pub mod columnar;
-pub mod described_table;
 pub mod disk;
 pub mod drawn_table;
 pub mod folder;
 pub mod folder_error;
 pub mod found;
-pub mod heading;
 pub mod identity;
 pub mod manifest;
 pub mod names;
@@ -38,7 +36,7 @@ pub mod replacement;
 pub mod rows_file;
 pub mod rows_reader;
 pub mod stored_file;
-pub mod table;
+pub mod table_file;
 pub mod table_log;
 pub mod timeseries;
 pub mod verify;

@@ -1,96 +1,52 @@
-//! [`save`]: measurements of run time against error as a Parquet file.
+//! Measurements of run time against error as a table.
 
-use std::path::Path;
-
-use parquet::errors::ParquetError;
-
-use crate::campaign::Plan;
 use crate::ensemble::precision::{Deviation, Measurement, Setting};
-use crate::run::Quantity;
-use crate::storage::atomic;
-use crate::storage::columnar::{Cells, Content, Heading, Layout, Packing};
-use crate::storage::identity::provenance;
+use crate::table::Table;
 
-/// A column of numbers: what it is, and its value.
-type NumberColumn = (Quantity, fn(&Measurement) -> Option<f64>);
-
-static COLUMNS: [NumberColumn; 17] = [
-    (Quantity::new("tolerance", "", "Relative and absolute tolerance; absent for a fixed step."), |m| {
-        tolerance(m.setting)
-    }),
-    (Quantity::new("step_s", "s", "Fixed step; absent for a tolerance."), |m| step(m.setting)),
-    (Quantity::new("cpu_s", "s", "CPU time of a run, median of the repetitions."), |m| Some(m.cpu[0])),
-    (Quantity::new("cpu_least_s", "s", "CPU time of a run, minimum of the repetitions."), |m| Some(m.cpu[1])),
-    (Quantity::new("repeats", "", "Number of timed repetitions."), |m| Some(m.repeats as f64)),
-    (Quantity::new("runs", "", "Number of samples."), |m| Some(m.runs[0] as f64)),
-    (Quantity::new("failed", "", "Samples that did not reach their end; they have no error."), |m| {
-        Some(m.runs[1] as f64)
-    }),
-    (Quantity::new("steps_mean", "", "Accepted steps of a run, mean."), |m| Some(m.steps)),
-    (Quantity::new("runs_per_s", "1/s", "One over the median CPU time."), |m| Some(1.0 / m.cpu[0])),
-    (
-        Quantity::new("rate_error_max", "", "Maximum |omega - reference solution| over the run's maximum |omega|."),
-        |m| maximum(m.rate),
-    ),
-    (Quantity::new("rate_error_rms", "", "The same, root mean square over samples and points."), |m| mean(m.rate)),
-    (
-        Quantity::new(
-            "attitude_error_max_rad",
-            "rad",
-            "Maximum angle between the attitude and the reference solution, as 2 |q - q_ref|.",
-        ),
-        |m| maximum(m.attitude),
-    ),
-    (Quantity::new("attitude_error_rms_rad", "rad", "The same, root mean square over samples and points."), |m| {
-        mean(m.attitude)
-    }),
-    (Quantity::new("energy_error_max", "", "Maximum relative error of the energy balance."), |m| maximum(m.energy)),
-    (Quantity::new("energy_error_rms", "", "The same, root mean square over samples and points."), |m| mean(m.energy)),
-    (
-        Quantity::new("angular_momentum_error_max", "", "Maximum relative error of the balance of angular momentum."),
-        |m| maximum(m.momentum),
-    ),
-    (Quantity::new("angular_momentum_error_rms", "", "The same, root mean square over samples and points."), |m| {
-        mean(m.momentum)
-    }),
-];
-
-fn tolerance(setting: Setting) -> Option<f64> {
-    if let Setting::Tolerance(tolerance) = setting { Some(tolerance) } else { None }
-}
-
-fn step(setting: Setting) -> Option<f64> {
-    if let Setting::Step(step) = setting { Some(step) } else { None }
-}
-
-fn maximum(of: Option<Deviation>) -> Option<f64> {
-    of.map(|deviation| deviation.max)
-}
-
-fn mean(of: Option<Deviation>) -> Option<f64> {
-    of.map(|deviation| deviation.rms)
-}
-
-/// Writes `measured` as Parquet; the file is whole or absent.
-///
-/// # Errors
-/// Where writing fails.
-pub fn save(measured: &[Measurement], plan: &Plan, isa: &str, path: &Path) -> Result<(), ParquetError> {
-    let method = Heading::new(Quantity::new("method", "", "Method, as in campaign files."), Content::Word);
-    let numbers = COLUMNS.iter().map(|(quantity, _)| Heading::new(quantity.clone(), Content::Real).nullable());
-    let headings: Vec<Heading> = std::iter::once(method).chain(numbers).collect();
-    let mut origin = provenance(plan);
-    origin.insert("spindrift.isa".to_owned(), isa.to_owned()); // times depend on it, unlike rows
-    let layout = Layout::new(&headings, origin, Packing::Lz4)?;
-    let columns: Vec<(Vec<f64>, Vec<bool>)> = COLUMNS
-        .iter()
-        .map(|(_, value)| {
-            let values: Vec<Option<f64>> = measured.iter().map(value).collect();
-            let there = values.iter().map(Option::is_some).collect();
-            (values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect(), there)
+/// The table of `measured`, one row for each setting, on the instruction set `isa`.
+pub fn precision_table<'m>(measured: &'m [Measurement], isa: &str) -> Table<'m> {
+    let most = |of: Option<Deviation>| of.map(|deviation| deviation.max);
+    let rms = |of: Option<Deviation>| of.map(|deviation| deviation.rms);
+    let same = "The same, root mean square over samples and points.";
+    Table::of(measured)
+        .word("method", "Method, as in campaign files.", |m| m.method.name())
+        .real("tolerance", "Relative and absolute tolerance; absent for a fixed step.", |m| match m.setting {
+            Setting::Tolerance(tolerance) => Some(tolerance),
+            Setting::Step(_) => None,
         })
-        .collect();
-    let words = Cells::Word(measured.iter().map(|measurement| measurement.method.name()).collect());
-    let numbers = columns.iter().map(|(values, there)| Cells::Real(values, Some(there)));
-    atomic::write(path, |file| layout.write(file, &[], std::iter::once(words).chain(numbers)))
+        .real("step_s", "Fixed step; absent for a tolerance.", |m| match m.setting {
+            Setting::Step(step) => Some(step),
+            Setting::Tolerance(_) => None,
+        })
+        .unit("s")
+        .real("cpu_s", "CPU time of a run, median of the repetitions.", |m| Some(m.cpu[0]))
+        .unit("s")
+        .real("cpu_least_s", "CPU time of a run, minimum of the repetitions.", |m| Some(m.cpu[1]))
+        .unit("s")
+        .real("repeats", "Number of timed repetitions.", |m| Some(m.repeats as f64))
+        .real("runs", "Number of samples.", |m| Some(m.runs[0] as f64))
+        .real("failed", "Samples that did not reach their end; they have no error.", |m| Some(m.runs[1] as f64))
+        .real("steps_mean", "Accepted steps of a run, mean.", |m| Some(m.steps))
+        .real("runs_per_s", "One over the median CPU time.", |m| Some(1.0 / m.cpu[0]))
+        .unit("1/s")
+        .real("rate_error_max", "Maximum |omega - reference solution| over the run's maximum |omega|.", |m| {
+            most(m.rate)
+        })
+        .real("rate_error_rms", same, |m| rms(m.rate))
+        .real(
+            "attitude_error_max_rad",
+            "Maximum angle between the attitude and the reference solution, as 2 |q - q_ref|.",
+            |m| most(m.attitude),
+        )
+        .unit("rad")
+        .real("attitude_error_rms_rad", same, |m| rms(m.attitude))
+        .unit("rad")
+        .real("energy_error_max", "Maximum relative error of the energy balance.", |m| most(m.energy))
+        .real("energy_error_rms", same, |m| rms(m.energy))
+        .real("angular_momentum_error_max", "Maximum relative error of the balance of angular momentum.", |m| {
+            most(m.momentum)
+        })
+        .real("angular_momentum_error_rms", same, |m| rms(m.momentum))
+        .note("spindrift.isa", isa) // times depend on it, unlike rows
+        .finish()
 }

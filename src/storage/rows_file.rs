@@ -1,6 +1,5 @@
 //! [`RowsFile`]: the files of rows: dispersed parameters, observables, audits.
 
-use std::collections::BTreeMap;
 use std::io::Write;
 
 use parquet::errors::ParquetError;
@@ -12,10 +11,10 @@ use crate::ensemble::{Ensemble, Rows};
 use crate::observables::ColumnKind;
 use crate::observables::headlines::headlines;
 use crate::run::Quantity;
-use crate::storage::columnar::{Cells, Content, Heading, Layout, Packing};
-use crate::storage::identity::row_provenance;
-use crate::storage::identity::{self, part_metadata};
+use crate::storage::columnar::{Layout, Packing};
+use crate::storage::identity::{self, part_metadata, row_provenance};
 use crate::storage::manifest::Identity;
+use crate::table::{Column, Content, Values};
 
 /// Name of the column that numbers the samples.
 pub const SAMPLE_ID: &str = "sample_id";
@@ -45,18 +44,16 @@ pub fn audit_error_name(name: &str) -> String {
 }
 
 /// The columns of numerical errors of the observables `indices`.
-fn error_headings(ensemble: &Ensemble<'_>, indices: Vec<usize>) -> Vec<Heading> {
+fn error_columns(ensemble: &Ensemble<'_>, indices: Vec<usize>) -> Vec<Column> {
     let columns = ensemble.request().columns();
-    let heading = |index: usize| {
+    let column = |index: usize| {
         let quantity = &columns[index].quantity;
         let meaning =
             format!("True numerical error of {} in an audited run: |observed - reference solution|.", quantity.name());
-        Heading::new(
-            Quantity::named(audit_error_name(quantity.name()), quantity.unit().to_owned(), meaning),
-            Content::Real,
-        )
+        let name = audit_error_name(quantity.name());
+        Column::new(Quantity::named(name, quantity.unit().to_owned(), meaning), Content::Real)
     };
-    indices.into_iter().map(|index| heading(index).nullable()).collect()
+    indices.into_iter().map(column).collect()
 }
 
 /// The observables whose numerical errors are columns: those with statistics in the summary, where the campaign has audits.
@@ -65,29 +62,29 @@ pub fn audited_observables(ensemble: &Ensemble<'_>) -> Vec<usize> {
 }
 
 /// The columns of a row.
-pub fn headings(ensemble: &Ensemble<'_>) -> Vec<Heading> {
+pub fn columns(ensemble: &Ensemble<'_>) -> Vec<Column> {
     let number = "Number of the sample within the campaign; 0 is the nominal scene.";
     let status =
         "How the run ended: ok, step_limit, step_floor, non_finite, invalid_sample, inaccurate, internal_error.";
     let reason = "Why the run is not ok.";
     let fixed = [(SAMPLE_ID, number, Content::Count), (STATUS, status, Content::Word), (REASON, reason, Content::Word)]
-        .map(|(name, meaning, content)| Heading::new(Quantity::new(name, "", meaning), content))
-        .map(|heading| if heading.quantity.name() == REASON { heading.nullable() } else { heading });
+        .map(|(name, meaning, content)| Column::new(Quantity::new(name, "", meaning), content))
+        .map(|column| if column.quantity.name() == REASON { column.nullable() } else { column });
     let observables = ensemble
         .request()
         .columns()
         .into_iter()
-        .map(|column| Heading::new(column.quantity.clone(), content(column.kind)).nullable());
+        .map(|column| Column::new(column.quantity.clone(), content(column.kind)).nullable());
     let audited = ensemble.plan().audit_fraction > 0.0;
     let audits = AuditValue::of_scenes(ensemble.request().debris)
         .filter(|_| audited)
-        .map(|value| Heading::new(value.quantity().clone(), Content::Real).nullable());
-    let errors = error_headings(ensemble, audited_observables(ensemble));
+        .map(|value| Column::new(value.quantity().clone(), Content::Real));
+    let errors = error_columns(ensemble, audited_observables(ensemble));
     let without = "Why a run that was selected for an audit has none; null in other rows.";
-    let reason = audited.then(|| Heading::new(Quantity::new(AUDIT_REASON, "", without), Content::Word).nullable());
+    let reason = audited.then(|| Column::new(Quantity::new(AUDIT_REASON, "", without), Content::Word).nullable());
     fixed
         .into_iter()
-        .chain(parameter_headings(ensemble.plan()))
+        .chain(parameter_columns(ensemble.plan()))
         .chain(observables)
         .chain(audits)
         .chain(errors)
@@ -97,13 +94,13 @@ pub fn headings(ensemble: &Ensemble<'_>) -> Vec<Heading> {
 
 /// The identity of the rows of `ensemble`. Rows with the same identity are the same, sample by sample.
 pub fn identity(ensemble: &Ensemble<'_>) -> Identity {
-    identity::of(ensemble.plan(), &headings(ensemble))
+    identity::of(ensemble.plan(), &columns(ensemble))
 }
 
 /// The columns of dispersed values.
-pub fn parameter_headings(plan: &Plan) -> impl Iterator<Item = Heading> {
+pub fn parameter_columns(plan: &Plan) -> impl Iterator<Item = Column> {
     let columns = plan.dispersions.columns().iter();
-    columns.map(|column| Heading::new(parameter_quantity(column.parameter, column.component), Content::Real))
+    columns.map(|column| Column::new(parameter_quantity(column.parameter, column.component), Content::Real))
 }
 
 fn content(kind: ColumnKind) -> Content {
@@ -128,17 +125,13 @@ impl RowsFile {
     /// # Errors
     /// Where two columns have the same name.
     pub fn new(ensemble: &Ensemble<'_>) -> Result<Self, ParquetError> {
-        let (plan, headings) = (ensemble.plan(), headings(ensemble));
-        let origin = row_provenance(plan, &identity::of(plan, &headings));
-        let layout = Layout::new(&headings, origin, packing(plan))?;
+        let (plan, columns) = (ensemble.plan(), columns(ensemble));
+        let origin = row_provenance(plan, &identity::of(plan, &columns));
+        let layout = Layout::new(&columns, origin, packing(plan))?;
         let contents = ensemble.request().columns().into_iter().map(|column| content(column.kind)).collect();
         let is_audited = ensemble.plan().audit_fraction > 0.0;
         let audits = AuditValue::of_scenes(ensemble.request().debris).filter(|_| is_audited).collect();
         Ok(RowsFile { layout, contents, audits, audited: audited_observables(ensemble) })
-    }
-
-    pub fn columns(&self) -> usize {
-        self.layout.columns().len()
     }
 
     /// Writes `rows` to `out`.
@@ -150,42 +143,39 @@ impl RowsFile {
     pub fn write<W: Write + Send>(&self, rows: &Rows, out: W) -> Result<(), ParquetError> {
         let own = part_metadata(rows.part(), rows.samples().first().copied().unwrap_or(rows.part().first));
         let shape = rows.shape();
-        let masks = self.masks(rows);
-        let mut reasons = vec![None; rows.part().count];
-        rows.reasons().iter().for_each(|(row, reason)| reasons[*row] = Some(reason.as_str()));
         let fixed = [
-            Cells::Count(rows.samples().iter().map(|sample| sample.0).collect(), None),
-            Cells::Word(rows.statuses().iter().map(|status| status.name()).collect()),
-            Cells::Text(reasons),
+            Values::Count(rows.samples().iter().map(|sample| sample.0).collect()),
+            Values::words(rows.statuses().iter().map(|status| status.name())),
+            reasons(rows, rows.reasons()),
         ];
-        let parameters = (0..shape.parameters).map(|index| Cells::Real(rows.parameter(index), None));
-        let observables = (0..shape.observables).map(|index| {
-            let values = rows.observable(index);
-            match self.contents[index] {
-                Content::Count => Cells::Count(
-                    values.iter().map(|value| *value as u64).collect(),
-                    masks.get(&index).map(Vec::as_slice),
-                ),
-                _ => Cells::Real(values, None),
-            }
+        let parameters = (0..shape.parameters).map(|index| Values::Real(rows.parameter(index).into()));
+        let observables = self.contents.iter().enumerate().map(|(index, content)| match content {
+            Content::Count => Values::Counted(rows.observable(index).into()),
+            _ => Values::Real(rows.observable(index).into()),
         });
-        let (audited, audits) = audit_columns(rows, &self.audits, &self.audited);
-        let audits = audits.iter().map(|column| Cells::Real(column, Some(&audited)));
-        let mut without = vec![None; rows.part().count];
-        rows.audit_reasons().iter().for_each(|(row, reason)| without[*row] = Some(reason.as_str()));
-        let without = (!self.audits.is_empty()).then_some(Cells::Text(without));
-        let cells = fixed.into_iter().chain(parameters).chain(observables).chain(audits).chain(without);
-        self.layout.write(out, &own, cells)
+        let audits =
+            audit_columns(rows, &self.audits, &self.audited).into_iter().map(|column| Values::Real(column.into()));
+        let without = (!self.audits.is_empty()).then(|| reasons(rows, rows.audit_reasons()));
+        self.layout.write(
+            out,
+            &own,
+            fixed.into_iter().chain(parameters).chain(observables).chain(audits).chain(without),
+        )
     }
 }
 
-/// Which rows were audited, and the columns `values` of the audits with the errors of the observables `indices`.
-fn audit_columns(rows: &Rows, values: &[AuditValue], indices: &[usize]) -> (Vec<bool>, Vec<Vec<f64>>) {
-    let mut audited = vec![false; rows.part().count];
+/// The reasons in `list`, each for its row.
+fn reasons<'r>(rows: &Rows, list: &'r [(usize, String)]) -> Values<'r> {
+    let mut texts = vec![None; rows.part().count];
+    list.iter().for_each(|(row, reason)| texts[*row] = Some(reason.into()));
+    Values::Text(texts)
+}
+
+/// The columns `values` of the audits, then the errors of the observables `indices`; NaN in rows that were not audited.
+fn audit_columns(rows: &Rows, values: &[AuditValue], indices: &[usize]) -> Vec<Vec<f64>> {
     let mut columns = vec![vec![f64::NAN; rows.part().count]; values.len() + indices.len()];
     for (row, audit) in rows.audits() {
         let Some(audit) = audit else { continue };
-        audited[*row] = true;
         for (column, value) in columns.iter_mut().zip(values) {
             column[*row] = audit.value(*value);
         }
@@ -193,14 +183,5 @@ fn audit_columns(rows: &Rows, values: &[AuditValue], indices: &[usize]) -> (Vec<
             column[*row] = audit.observables[*index];
         }
     }
-    (audited, columns)
-}
-
-impl RowsFile {
-    /// Which counts are present, by the index of the observable; columns in which all are have no entry. Real numbers need no mask.
-    fn masks(&self, rows: &Rows) -> BTreeMap<usize, Vec<bool>> {
-        let counts = (0..self.contents.len()).filter(|index| self.contents[*index] == Content::Count);
-        let mask = |index: usize| rows.observable(index).iter().map(|value| value.is_finite()).collect();
-        counts.map(|index| (index, mask(index))).filter(|(_, mask): &(_, Vec<bool>)| mask.contains(&false)).collect()
-    }
+    columns
 }

@@ -4,6 +4,7 @@
 //! that of the parts under way and does not depend on the number of rows. The Parquet reader panics on some damaged files; here
 //! that is an error that names the file. A file that cannot be read is told apart from one that is damaged.
 
+use std::borrow::Cow;
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -21,6 +22,7 @@ use crate::storage::disk::Storage;
 use crate::storage::parallel::in_order;
 use crate::storage::parquet_source::ParquetSource;
 use crate::storage::rows_file::{REASON, SAMPLE_ID, STATUS};
+use crate::table::Values;
 
 /// Why rows could not be read.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -163,11 +165,8 @@ impl PartReader {
     /// # Errors
     /// Where the column is missing or damaged.
     pub fn samples(&self) -> Result<Vec<SampleId>, RowsError> {
-        let cells = self.cells(SAMPLE_ID)?;
-        match cells {
-            DecodedColumn::Count(values, None) => {
-                Ok(values.into_iter().map(|id| SampleId(id.cast_unsigned())).collect())
-            }
+        match self.values(SAMPLE_ID)? {
+            Values::Count(values) => Ok(values.into_iter().map(SampleId).collect()),
             _ => Err(self.failed(format!("`{SAMPLE_ID}` is not a column of whole numbers without gaps"))),
         }
     }
@@ -192,15 +191,9 @@ impl PartReader {
     /// # Errors
     /// Where the column is missing or damaged.
     pub fn reasons(&self) -> Result<Vec<Option<String>>, RowsError> {
-        let DecodedColumn::Text(texts, present) = self.cells(REASON)? else {
-            return Err(self.failed(format!("`{REASON}` is not a column of texts")));
-        };
-        let mut texts = texts.iter().map(|text| String::from_utf8_lossy(text.data()).into_owned());
-        match present {
-            None => Ok(texts.map(Some).collect()),
-            Some(present) => {
-                Ok(present.into_iter().map(|present| if present == 1 { texts.next() } else { None }).collect())
-            }
+        match self.values(REASON)? {
+            Values::Text(texts) => Ok(texts.into_iter().map(|text| text.map(Cow::into_owned)).collect()),
+            _ => Err(self.failed(format!("`{REASON}` is not a column of texts"))),
         }
     }
 
@@ -209,18 +202,33 @@ impl PartReader {
     /// # Errors
     /// Where the column is missing, damaged, or has no numbers.
     pub fn numbers(&self, name: &str) -> Result<Vec<f64>, RowsError> {
-        match self.cells(name)? {
-            DecodedColumn::Real(values, None) => Ok(values),
-            DecodedColumn::Real(values, Some(present)) => Ok(spread(values.into_iter(), &present)),
-            DecodedColumn::Count(values, present) => {
-                let values = values.into_iter().map(|value| value.cast_unsigned() as f64);
-                Ok(match present {
-                    None => values.collect(),
-                    Some(present) => spread(values, &present),
-                })
-            }
-            DecodedColumn::Text(..) => Err(self.failed(format!("`{name}` is not a column of numbers"))),
+        match self.values(name)? {
+            Values::Real(values) | Values::Counted(values) => Ok(values.into_owned()),
+            Values::Count(values) => Ok(values.into_iter().map(|value| value as f64).collect()),
+            Values::Text(_) => Err(self.failed(format!("`{name}` is not a column of numbers"))),
         }
+    }
+
+    /// The values of the column `name`, row by row.
+    ///
+    /// # Errors
+    /// Where the column is missing or damaged.
+    pub fn values(&self, name: &str) -> Result<Values<'static>, RowsError> {
+        Ok(match self.cells(name)? {
+            DecodedColumn::Real(values, None) => Values::Real(values.into()),
+            DecodedColumn::Real(values, Some(present)) => Values::Real(spread(values.into_iter(), &present)),
+            DecodedColumn::Count(values, None) => Values::Count(values.into_iter().map(i64::cast_unsigned).collect()),
+            DecodedColumn::Count(values, Some(present)) => {
+                let values = values.into_iter().map(|value| value.cast_unsigned() as f64);
+                Values::Counted(spread(values, &present))
+            }
+            DecodedColumn::Text(texts, present) => {
+                let mut texts = texts.iter().map(|text| String::from_utf8_lossy(text.data()).into_owned().into());
+                let of_level = |level: i16| if level == 1 { texts.next() } else { None };
+                let present = present.unwrap_or_else(|| vec![1; self.rows]);
+                Values::Text(present.into_iter().map(of_level).collect())
+            }
+        })
     }
 
     fn failed(&self, what: String) -> RowsError {
@@ -231,7 +239,7 @@ impl PartReader {
     ///
     /// # Errors
     /// Where the column is missing or damaged.
-    pub fn cells(&self, name: &str) -> Result<DecodedColumn, RowsError> {
+    fn cells(&self, name: &str) -> Result<DecodedColumn, RowsError> {
         caught(&self.path, &self.source, || {
             let schema = self.reader.metadata().file_metadata().schema_descr_ptr();
             let index = schema.columns().iter().position(|column| column.name() == name);
@@ -273,7 +281,7 @@ impl PartReader {
 
 /// The values of a column without gaps, and which rows have one (1); `None` where all have.
 #[derive(Clone, Debug)]
-pub enum DecodedColumn {
+enum DecodedColumn {
     Real(Vec<f64>, Option<Vec<i16>>),
     Count(Vec<i64>, Option<Vec<i16>>),
     /// Texts, as their bytes.
@@ -310,7 +318,7 @@ fn column_values<T: DataType>(
 }
 
 /// One number for each row: the next of `values` where there is one, else NaN.
-fn spread(mut values: impl Iterator<Item = f64>, present: &[i16]) -> Vec<f64> {
+fn spread(mut values: impl Iterator<Item = f64>, present: &[i16]) -> Cow<'static, [f64]> {
     present.iter().map(|present| if *present == 1 { values.next().unwrap_or(f64::NAN) } else { f64::NAN }).collect()
 }
 
@@ -318,9 +326,10 @@ fn spread(mut values: impl Iterator<Item = f64>, present: &[i16]) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::run::Quantity;
-    use crate::storage::columnar::{Cells, Content, Heading, Layout, Packing};
+    use crate::storage::columnar::{Layout, Packing};
     use crate::storage::disk::Disk;
-    use std::collections::HashMap;
+    use crate::table::{Column, Content};
+    use std::collections::BTreeMap;
 
     struct Folder(PathBuf);
 
@@ -339,8 +348,8 @@ mod tests {
         }
     }
 
-    fn heading(name: &'static str, content: Content) -> Heading {
-        Heading::new(Quantity::new(name, "", "A column."), content)
+    fn heading(name: &'static str, content: Content) -> Column {
+        Column::new(Quantity::new(name, "", "A column."), content)
     }
 
     /// A file of three rows from sample `first` on, in two row groups.
@@ -352,25 +361,25 @@ mod tests {
             heading("x", Content::Real).nullable(),
             heading("steps", Content::Count).nullable(),
         ];
-        let layout = Layout::new(&headings, HashMap::new(), Packing::Lz4).expect("a layout");
+        let layout = Layout::new(&headings, BTreeMap::new(), Packing::Lz4).expect("a layout");
         let path = folder.0.join(format!("part-{first:06}.parquet"));
         let out = std::fs::File::create(&path).expect("a file");
         let mut writer = layout.begin(out, &[]).expect("begun");
         let x = [first as f64 + 0.5, f64::NAN];
         let of_two = [
-            Cells::Count(vec![first, first + 1], None),
-            Cells::Word(vec!["ok", "step_limit"]),
-            Cells::Text(vec![None, Some("too long")]),
-            Cells::Real(&x, Some(&[true, false])),
-            Cells::Count(vec![7, 0], Some(&[true, false])),
+            Values::Count(vec![first, first + 1]),
+            Values::words(["ok", "step_limit"]),
+            Values::Text(vec![None, Some("too long".into())]),
+            Values::Real((&x).into()),
+            Values::Counted(vec![7.0, f64::NAN].into()),
         ];
         writer.group(of_two.into_iter()).expect("written");
         let of_one = [
-            Cells::Count(vec![first + 2], None),
-            Cells::Word(vec!["ok"]),
-            Cells::Text(vec![None]),
-            Cells::Real(&[41.5], None),
-            Cells::Count(vec![9], None),
+            Values::Count(vec![first + 2]),
+            Values::words(["ok"]),
+            Values::Text(vec![None]),
+            Values::Real((&[41.5]).into()),
+            Values::Count(vec![9]),
         ];
         writer.group(of_one.into_iter()).expect("written");
         writer.finish().expect("finished");

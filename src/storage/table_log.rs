@@ -14,7 +14,6 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::ensemble::PartId;
-use crate::storage::columnar::{Content, Heading};
 use crate::storage::disk::{Storage, StorageError, at, entries_in};
 use crate::storage::folder::Folder;
 use crate::storage::identity::sha256;
@@ -22,6 +21,7 @@ use crate::storage::manifest::{FileRecord, Identity, PartRecord};
 use crate::storage::names::{RUNS, TABLE_LOG, VERSIONS, is_ours, version_of};
 use crate::storage::stored_file::is_unfit;
 use crate::storage::verify::derived_damage;
+use crate::table::{Column, Content};
 
 /// Most bytes of a commit: a file of rows takes some 400.
 const MOST_COMMIT: u64 = 1 << 36;
@@ -84,20 +84,20 @@ fn added(action: &Value) -> Option<(String, Listed)> {
 }
 
 /// The columns as the log has them: a schema of Delta Lake, as text.
-fn columns(headings: &[Heading]) -> String {
-    let field = |heading: &Heading| {
-        let (unit, meaning) = (heading.quantity.unit(), heading.quantity.meaning());
+fn schema(columns: &[Column]) -> String {
+    let field = |column: &Column| {
+        let (unit, meaning) = (column.quantity.unit(), column.quantity.meaning());
         let comment = if unit.is_empty() { meaning.to_owned() } else { format!("{meaning} [{unit}]") };
         // there are no unsigned integers
-        let kind = match heading.content {
+        let kind = match column.content {
             Content::Real => "double",
             Content::Count => "long",
             Content::Word => "string",
         };
         let metadata = json!({"comment": comment, "unit": unit, "meaning": meaning});
-        json!({"name": heading.quantity.name(), "type": kind, "nullable": heading.nullable, "metadata": metadata})
+        json!({"name": column.quantity.name(), "type": kind, "nullable": column.nullable, "metadata": metadata})
     };
-    json!({"type": "struct", "fields": headings.iter().map(field).collect::<Vec<_>>()}).to_string()
+    json!({"type": "struct", "fields": columns.iter().map(field).collect::<Vec<_>>()}).to_string()
 }
 
 /// The id of the table of these rows: a UUID of version 8 (RFC 9562) from the row hash.
@@ -213,18 +213,18 @@ fn is_earlier(before: &Files, now: &Files) -> bool {
     })
 }
 
-/// Whether the log in `root` is one that this program has written for the rows of `parts`, under these `headings`; `growing` as for [`update`].
+/// Whether the log in `root` is one that this program has written for the rows of `parts`, with these `columns`; `growing` as for [`update`].
 ///
 /// # Errors
 /// Where it cannot be read.
 pub fn is_of(
     (storage, root): (&dyn Storage, &Path),
     identity: &Identity,
-    headings: &[Heading],
+    columns: &[Column],
     (parts, growing): (&[PartRecord], Option<PartId>),
 ) -> Result<bool, StorageError> {
     let log = read(storage, root, identity)?;
-    Ok(log.is_some_and(|log| log.columns == columns(headings) && log.files == files(parts, growing)))
+    Ok(log.is_some_and(|log| log.columns == schema(columns) && log.files == files(parts, growing)))
 }
 
 /// Brings the log of a dataset whose parts are all there up to date: nothing where it is, one more commit where files were added, and a new
@@ -232,10 +232,10 @@ pub fn is_of(
 ///
 /// # Errors
 /// Where a file operation fails.
-pub fn update(folder: &Folder, headings: &[Heading], growing: Option<PartId>) -> Result<(), StorageError> {
+pub fn update(folder: &Folder, columns: &[Column], growing: Option<PartId>) -> Result<(), StorageError> {
     let parts = folder.parts();
     let files = files(&parts, growing);
-    let columns = columns(headings);
+    let columns = schema(columns);
     let log = read(folder.storage(), folder.root(), folder.identity())?
         .filter(|log| log.columns == columns && is_earlier(&log.files, &files));
     let is_new = log.is_none();
@@ -286,9 +286,9 @@ mod tests {
         }
     }
 
-    fn headings() -> [Heading; 3] {
+    fn headings() -> [Column; 3] {
         [("sample_id", "", Content::Count), ("status", "", Content::Word), ("energy_j", "J", Content::Real)]
-            .map(|(name, unit, content)| Heading::new(Quantity::new(name, unit, "What it \"means\"."), content))
+            .map(|(name, unit, content)| Column::new(Quantity::new(name, unit, "What it \"means\"."), content))
     }
 
     fn dataset(name: &str) -> (Root, Folder) {

@@ -10,11 +10,14 @@ use crate::report::page::Page;
 use crate::report::summary::Summary;
 use crate::sampling::SampleId;
 use crate::storage::bands_table;
+use crate::storage::columnar::{self, Packing};
 use crate::storage::disk::StorageError;
 use crate::storage::folder::Folder;
+use crate::storage::identity::provenance;
 use crate::storage::manifest::PartRecord;
 use crate::storage::names::{BANDS, OBSERVABLES, REPORT, SENSITIVITY, STATISTICS, SUMMARY};
 use crate::storage::rows_reader::RowsReader;
+use crate::table::Table;
 use crate::workflow::analysed::{Analysed, computed};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::page::made_page;
@@ -77,10 +80,11 @@ pub(super) fn derive(
 ) -> Result<Derived, WorkflowError> {
     let (plan, threads) = (job.ensemble.plan(), job.session.threads);
     let analysed = computed(plan, job.reader, gathered, threads)?;
-    take(files, STATISTICS, Some(statistics_table::encoded(plan, &analysed.statistics)))?;
-    take(files, SENSITIVITY, Some(sensitivity_table::encoded(plan, &analysed.sensitivities)))?;
+    let encoded = |table: Table<'_>| Some(columnar::encoded(&table, provenance(plan), Packing::Zstd));
+    take(files, STATISTICS, encoded(statistics_table::table(&analysed.statistics)))?;
+    take(files, SENSITIVITY, encoded(sensitivity_table::table(&analysed.sensitivities)))?;
     take(files, OBSERVABLES, derived_table::encoded(plan, job.reader).transpose())?;
-    take(files, BANDS, analysed.bands.as_ref().map(|bands| bands_table::encoded(plan, bands)))?;
+    take(files, BANDS, analysed.bands.as_ref().map(|bands| bands_table::file(plan, bands)))?;
     trajectories::save(plan, job.retained, (job.ensemble.isa(), threads), &|name, bytes| files.take(name, bytes))
         .map_err(WorkflowError::files)?;
     let page = match job.page {

@@ -15,7 +15,7 @@ use crate::storage::found::Found;
 use crate::storage::manifest::PartsRead;
 use crate::storage::manifest::{FileRecord, PartRecord};
 use crate::storage::names::{DATA, PLAN, REPORT, SUMMARY, TABLE_LOG, TRAJECTORIES, VERSIONS};
-use crate::storage::rows_file::{headings, identity};
+use crate::storage::rows_file::{columns, identity};
 use crate::storage::rows_reader::RowsReader;
 use crate::storage::table_log;
 use crate::workflow::derived::{Derivation, Destination, PageKind, derive};
@@ -118,7 +118,7 @@ pub(super) fn derived_problems(
     let is_log = table_log::is_of(
         (storage, root),
         &identity(ensemble),
-        &headings(ensemble),
+        &columns(ensemble),
         (records, growing(ensemble, records)),
     );
     if !is_log.map_err(WorkflowError::files)? {

@@ -20,7 +20,7 @@ use crate::storage::manifest::PartRecord;
 use crate::storage::manifest::PartsRead;
 use crate::storage::names::{PLAN, TRAJECTORIES};
 use crate::storage::replacement::replace;
-use crate::storage::rows_file::{headings, identity};
+use crate::storage::rows_file::{columns, identity};
 use crate::storage::rows_reader::RowsReader;
 use crate::storage::table_log;
 use crate::workflow::analysed::write_junit;
@@ -115,7 +115,7 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
     write_junit(plan, &analysed, job.outputs.junit.as_deref())?;
     let end = analysed.end();
     let growing = growing(job.ensemble, &records);
-    table_log::update(folder, &headings(job.ensemble), growing).map_err(WorkflowError::files)?;
+    table_log::update(folder, &columns(job.ensemble), growing).map_err(WorkflowError::files)?;
     folder.finish().map_err(WorkflowError::files)?;
     if let Some(old) = &job.ready.replaces {
         replace(folder.storage(), folder.root(), old).map_err(WorkflowError::files)?;

@@ -7,7 +7,8 @@ use crate::math::Isa;
 use crate::run::Grid;
 use crate::sampling::SampleId;
 use crate::scene::SceneError;
-use crate::storage::timeseries::TimeSeries;
+use crate::storage::timeseries::time_series;
+use crate::table::Table;
 use crate::workflow::error::WorkflowError;
 
 /// A run, and its table over time.
@@ -15,7 +16,7 @@ use crate::workflow::error::WorkflowError;
 pub struct Simulated {
     pub run: SingleRun,
     /// Its states and what is observed of them, at the points that were asked for.
-    pub series: TimeSeries,
+    pub series: Table<'static>,
     /// What to know of the times, where the last is after the end of the campaign's runs.
     pub late: Option<String>,
 }
@@ -38,7 +39,7 @@ pub fn simulated(plan: &Plan, sample: u64, times: Option<&[f64]>, isa: Isa) -> R
     let grid = times.as_deref().map_or_else(|| plan.grid.clone(), |times| grid(times, plan));
     let run = SingleRun::new(plan, SampleId(sample), grid, isa).map_err(|errors| not_physical(sample, &errors))?;
     let shown = |time: f64| times.as_deref().is_none_or(|times| times.contains(&time));
-    let series = TimeSeries::new(plan, SampleId(sample), &run, shown);
+    let series = time_series(SampleId(sample), &run, shown);
     Ok(Simulated { run, series, late })
 }
 

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Layers: a module imports only from layers below its own (and from itself).
-const LAYERS: [(&str, u32); 18] = [
+const LAYERS: [(&str, u32); 19] = [
     ("math", 0),
     ("scene", 1),
     ("run", 1),
@@ -14,6 +14,7 @@ const LAYERS: [(&str, u32); 18] = [
     ("dynamics", 2),
     ("sampling", 2),
     ("statistics", 2),
+    ("table", 2),
     ("propagation", 3),
     ("observables", 3),
     ("control", 4),

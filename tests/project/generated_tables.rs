@@ -18,8 +18,9 @@ use spindrift::sampling::{Design, DistributionKind, SampleId};
 use spindrift::scene::schema;
 use spindrift::scene::table::Table;
 use spindrift::scene::{Actuated, LawParameter, SceneInput};
-use spindrift::storage::rows_file::{headings, parameter_headings};
-use spindrift::storage::timeseries::TimeSeries;
+use spindrift::storage::rows_file::{columns, parameter_columns};
+use spindrift::storage::timeseries::time_series;
+use spindrift::table::Column;
 
 /// If this variable is set, the tables are written and not compared.
 const WRITE: &str = "SPINDRIFT_WRITE_DOCS";
@@ -53,13 +54,13 @@ fn columns_of_rows() -> String {
         let _ = writeln!(table, "\n</details>\n");
     };
     let plan = plan("spin_sweep.toml");
-    let all = headings(&Ensemble::new(&plan, Isa::best()));
-    let row = |heading: &spindrift::storage::columnar::Heading| {
-        let quantity = &heading.quantity;
+    let all = columns(&Ensemble::new(&plan, Isa::best()));
+    let row = |column: &Column| {
+        let quantity = &column.quantity;
         [quantity.name(), quantity.unit(), quantity.meaning(), ""].map(str::to_owned)
     };
     // the dispersed values follow the columns of the sample
-    let dispersed: Vec<[String; 4]> = parameter_headings(&plan).map(|heading| row(&heading)).collect();
+    let dispersed: Vec<[String; 4]> = parameter_columns(&plan).map(|column| row(&column)).collect();
     let own: Vec<[String; 4]> = all.iter().map(row).take_while(|row| dispersed.first() != Some(row)).collect();
     section("the sample", &own);
     section("dispersed values, here those of <code>spin_sweep.toml</code>", &dispersed);
@@ -81,8 +82,8 @@ fn columns_of_series() -> String {
     let plan = plan("burn.toml");
     let isa = Isa::best();
     let run = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), isa).expect("the nominal scene is physical");
-    let series = TimeSeries::new(&plan, SampleId(0), &run, |_| true);
-    let names: Vec<String> = series.headings().iter().map(|heading| format!("`{}`", heading.quantity.name())).collect();
+    let series = time_series(SampleId(0), &run, |_| true);
+    let names: Vec<String> = series.columns.iter().map(|column| format!("`{}`", column.quantity.name())).collect();
     format!("{}.\n", names.join(", "))
 }
 

@@ -1,5 +1,6 @@
 //! [`Card`]: what the first screen says about one requirement, or, without requirements, about one outcome.
 
+use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::campaign::{Display, ShownUnit};
 use crate::report::escaped::escaped;
@@ -8,7 +9,6 @@ use crate::report::names::sentence as sentence_case;
 use crate::report::page::NO_INTERVAL;
 use crate::report::page::influence::Influence;
 use crate::report::page::readable::{in_brackets, number, with_unit};
-use crate::report::page::tables::StatisticsRow;
 use crate::report::share_text::{percent, with_interval};
 
 /// How a requirement was judged.
@@ -89,7 +89,7 @@ pub struct Card {
 /// Cards of a campaign without requirements, of its first outcomes; with the quantiles of the table `statistics` at the bottom of the page.
 pub fn findings(
     survey: &Survey,
-    statistics: &[StatisticsRow],
+    (statistics, confidence): (&[ColumnStatistics], Option<f64>),
     influences: &[Influence],
     display: &Display,
 ) -> Vec<Card> {
@@ -97,18 +97,23 @@ pub fn findings(
     let outcomes = survey.outcomes.iter().filter(|outcome| outcome.is_outcome && outcome.sketch.count() > 0);
     let card = |outcome: &SurveyedOutcome| {
         let name = outcome.quantity.name();
-        let row = statistics.iter().find(|row| row.name == name);
+        let row = statistics.iter().find(|row| row.quantity.name() == name);
         let shown = display.of(name, outcome.quantity.unit());
-        finding(outcome, row, &shown, driven_by(name, influences))
+        finding(outcome, (row, confidence), &shown, driven_by(name, influences))
     };
     outcomes.take(MOST).map(card).collect()
 }
 
-fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &ShownUnit, drivers: String) -> Card {
+fn finding(
+    outcome: &SurveyedOutcome,
+    (row, confidence): (Option<&ColumnStatistics>, Option<f64>),
+    shown: &ShownUnit,
+    drivers: String,
+) -> Card {
     const P: f64 = 0.99;
     let runs = outcome.sketch.count();
     // the plan may have other quantiles: the highest of them that is not above
-    let quantiles = row.map_or(&[][..], |row| &row.quantiles);
+    let quantiles = row.map_or(Vec::new(), ColumnStatistics::quantile_numbers);
     let quantile = quantiles.iter().rfind(|quantile| quantile[0] <= P).or(quantiles.first());
     let [p, estimate, low, high] = quantile.copied().unwrap_or([P, f64::NAN, f64::NAN, f64::NAN]);
     let percent = number(100.0 * p);
@@ -134,14 +139,13 @@ fn finding(outcome: &SurveyedOutcome, row: Option<&StatisticsRow>, shown: &Shown
                 text(max)
             ),
         };
-        let confidence = row.map_or(f64::NAN, |row| row.confidence);
-        let note = match confidence.is_nan() {
-            true => NO_INTERVAL.to_owned(),
-            false if !high.is_finite() => format!(
+        let note = match confidence.filter(|_| row.is_some()) {
+            None => NO_INTERVAL.to_owned(),
+            Some(confidence) if !high.is_finite() => format!(
                 "{runs} runs do not bound the {statistic} from above with {}% confidence.",
                 number(100.0 * confidence)
             ),
-            false => String::new(),
+            Some(_) => String::new(),
         };
         (sentence, note)
     };

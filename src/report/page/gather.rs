@@ -5,9 +5,8 @@ use crate::analysis::drivers::{Question, Ranking};
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::missions::Missions;
 use crate::analysis::noise_share::NoiseShare;
-use crate::analysis::order_statistics::QuantileStatistic;
 use crate::analysis::order_statistics::without_value;
-use crate::analysis::statistics::{ColumnStatistics, Statistics};
+use crate::analysis::statistics::Statistics;
 use crate::analysis::stopping::Stopping;
 use crate::analysis::survey::Survey;
 use crate::analysis::verdicts::Verdicts;
@@ -22,7 +21,6 @@ use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
 use crate::report::page::influence::{Influence, counted_list};
 use crate::report::page::readable::{grouped, number, with_unit};
-use crate::report::page::tables::StatisticsRow;
 use crate::report::requirements::{assumed, decided_by, runs_needed, together};
 use crate::report::share_text;
 use crate::report::stopping_text;
@@ -65,12 +63,13 @@ impl Contents {
             notes: filter_text::overconfident(analysis.statistics),
             loss: analysis.statistics.loss(),
             bands: analysis.bands.map_or_else(Vec::new, time_bands),
+            confidence: analysis.statistics.population.has_intervals().then_some(analysis.statistics.confidence),
             statistics: analysis
                 .statistics
                 .columns
                 .iter()
                 .filter(|column| column.moments.count() > 0)
-                .map(|column| row(column, analysis.statistics))
+                .cloned()
                 .collect(),
             verdicts: verdicts.iter().map(|one| card(one, &survey, analysis.statistics, &influences)).collect(),
             survey,
@@ -107,24 +106,6 @@ fn time_bands(bands: &Bands) -> Vec<TimeBands> {
     };
     let series = all.clone().map(of_series);
     series.filter(|series| series.quantiles[2].iter().any(|value| value.is_finite())).collect()
-}
-
-fn row(column: &ColumnStatistics, statistics: &Statistics) -> StatisticsRow {
-    let or_nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
-    let quantile =
-        |one: &QuantileStatistic| [one.p, or_nan(one.value), or_nan(one.interval[0]), or_nan(one.interval[1])];
-    StatisticsRow {
-        name: column.quantity.name().to_owned(),
-        unit: column.quantity.unit().to_owned(),
-        meaning: column.quantity.meaning().to_owned(),
-        count: column.moments.count(),
-        mean: or_nan(column.moments.mean()),
-        deviation: or_nan(column.moments.standard_deviation()),
-        min: or_nan(column.moments.min()),
-        max: or_nan(column.moments.max()),
-        confidence: if statistics.population.has_intervals() { statistics.confidence } else { f64::NAN },
-        quantiles: column.quantiles.iter().map(quantile).collect(),
-    }
 }
 
 /// The influences on each outcome, the strongest first.

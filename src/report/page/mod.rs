@@ -36,9 +36,9 @@ use self::fates::Fate;
 use self::figure_json::json_of;
 use self::influence::Influence;
 use self::payload::Payload;
-use self::tables::StatisticsRow;
 use crate::analysis::missions::Missions;
 use crate::analysis::population::Loss;
+use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::{self, Survey};
 use crate::campaign::Plan;
 use crate::campaign::event::Event;
@@ -59,7 +59,10 @@ pub struct Contents {
     pub missions: Missions,
     /// Quantiles over time; empty where they were not made.
     pub bands: Vec<TimeBands>,
-    pub statistics: Vec<StatisticsRow>,
+    /// Of the observables that a run has.
+    pub statistics: Vec<ColumnStatistics>,
+    /// Confidence of their intervals; `None` where the design has none.
+    pub confidence: Option<f64>,
     pub influences: Vec<Influence>,
     /// What comes before every number; mostly nothing.
     pub warnings: Vec<String>,
@@ -90,12 +93,12 @@ pub fn is_independent(plan: &Plan) -> bool {
 }
 
 /// When the events of the file happen: the median of each over the runs in which it does, and how many these are.
-fn event_times(plan: &Plan, statistics: &[StatisticsRow]) -> Vec<Mark> {
+fn event_times(plan: &Plan, statistics: &[ColumnStatistics]) -> Vec<Mark> {
     let of = |event: &Event| {
         let name = format!("{}_time_s", event.name);
-        let row = statistics.iter().find(|row| row.name == name)?;
-        let at = row.quantiles.iter().find(|[p, ..]| *p == 0.5).map(|[_, time, ..]| *time)?;
-        let label = format!("{}, median of {}", event.name.replace('_', " "), counted(row.count, "run"));
+        let row = statistics.iter().find(|row| row.quantity.name() == name)?;
+        let at = row.quantiles.iter().find(|one| one.p == 0.5)?.value?;
+        let label = format!("{}, median of {}", event.name.replace('_', " "), counted(row.moments.count(), "run"));
         at.is_finite().then_some(Mark::Limit { label, at, vertical: true })
     };
     plan.events.iter().filter_map(of).collect()
@@ -146,7 +149,12 @@ impl Page {
             "pairs": pairs(plan, survey, &mut payload),
         });
         let cards = if contents.verdicts.is_empty() {
-            cards::findings(survey, &contents.statistics, &contents.influences, &plan.analysis.display)
+            cards::findings(
+                survey,
+                (&contents.statistics, contents.confidence),
+                &contents.influences,
+                &plan.analysis.display,
+            )
         } else {
             contents.verdicts.clone()
         };
@@ -172,7 +180,8 @@ impl Page {
 /// Whether the page has intervals, which stand in brackets.
 fn has_brackets(contents: &Contents, cards: &[Card]) -> bool {
     let ends = contents.missions.iter().map(|one| one.interval).chain(cards.iter().map(|card| card.interval));
-    let quantiles = contents.statistics.iter().flat_map(|row| &row.quantiles).map(|of| [of[2], of[3]]);
+    let quantiles =
+        contents.statistics.iter().flat_map(|row| row.quantile_numbers()).map(|[.., low, high]| [low, high]);
     ends.chain(quantiles).flatten().any(f64::is_finite)
 }
 
@@ -203,7 +212,7 @@ fn sections(
     let pairs = "<details id=\"pairs\"><summary>Plot any two columns against each other</summary><div></div></details>";
     let still = shown.iter().find_map(|run| run.run.as_ref()).map_or_else(String::new, |run| still::still(plan, run));
     let replay = format!("<div class=\"replay\">{still}<p>The replay needs JavaScript and WebGL.</p></div>");
-    let table = tables::statistics(&contents.statistics, &plan.analysis.display);
+    let table = tables::statistics(&contents.statistics, contents.confidence.is_some(), &plan.analysis.display);
     let folded = |section: PageSection, is_open: bool| PageSection { fold: Some(is_open), ..section };
     let inputs = input_rows + "<div class=\"figures\"></div>";
     let influence = PageSection {

@@ -1,5 +1,6 @@
 //! Figures of the outcomes: how each is distributed, and how many runs stay below a value, with limits, quantiles and their intervals.
 
+use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape, Scale};
@@ -10,7 +11,6 @@ use crate::report::page::NO_INTERVAL;
 use crate::report::page::errors::{all_having, histogram, interval_label, magnitude, shown_rows};
 use crate::report::page::fates::{self, Fate};
 use crate::report::page::readable::{number, with_unit};
-use crate::report::page::tables::StatisticsRow;
 use crate::statistics::binomial::interval;
 use crate::statistics::gate::GateLimit;
 use crate::statistics::sketch::{Sketch, middle};
@@ -27,7 +27,7 @@ const FEWEST_RUNS: u64 = 8;
 const BESIDE: usize = 2;
 
 /// Distribution and cumulative curve of each outcome.
-pub fn figures(plan: &Plan, survey: &Survey, statistics: &[StatisticsRow], has_intervals: bool) -> Vec<Figure> {
+pub fn figures(plan: &Plan, survey: &Survey, statistics: &[ColumnStatistics], has_intervals: bool) -> Vec<Figure> {
     let outcomes = survey.outcomes.iter().enumerate().filter(|(_, outcome)| outcome.is_outcome);
     let shown = outcomes.filter(|(_, outcome)| outcome.sketch.count() >= FEWEST_RUNS);
     let (mut distributions, mut curves) = (Vec::new(), Vec::new());
@@ -36,7 +36,7 @@ pub fn figures(plan: &Plan, survey: &Survey, statistics: &[StatisticsRow], has_i
             distributions.push(share(plan, outcome, has_intervals));
             continue;
         }
-        let row = statistics.iter().find(|row| row.name == outcome.quantity.name());
+        let row = statistics.iter().find(|row| row.quantity.name() == outcome.quantity.name());
         let limits = limits(plan, outcome);
         let at = |mark: &Mark| if let Mark::Limit { at, .. } = mark { Some(*at) } else { None };
         let edges: Vec<f64> = limits.iter().filter_map(at).collect();
@@ -194,8 +194,8 @@ fn near_limits(mut figure: Figure) -> Figure {
 }
 
 /// The quantiles that are marked: those that the file requires, else the median and the highest up to 99%.
-fn marked(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&StatisticsRow>) -> Vec<[f64; 4]> {
-    let all = row.map_or(&[][..], |row| &row.quantiles);
+fn marked(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&ColumnStatistics>) -> Vec<[f64; 4]> {
+    let all = row.map_or(Vec::new(), ColumnStatistics::quantile_numbers);
     let required = plan.analysis.requirements.iter().filter(|one| one.observable() == Some(outcome.quantity.name()));
     let required: Vec<f64> =
         required.filter_map(|one| if let Statement::Quantile(p) = one.statement { Some(p) } else { None }).collect();
@@ -212,7 +212,7 @@ fn cumulative(
     plan: &Plan,
     survey: &Survey,
     outcome: &SurveyedOutcome,
-    row: Option<&StatisticsRow>,
+    row: Option<&ColumnStatistics>,
     has_intervals: bool,
 ) -> Figure {
     let (x, y, low, high) = stepped(curve(&outcome.sketch, outcome.confidence));

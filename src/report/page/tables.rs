@@ -1,5 +1,7 @@
 //! The tables of the page: worst runs, statistics, files, glossary. Static HTML; a script sorts and searches them.
 
+use crate::analysis::order_statistics::QuantileStatistic;
+use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::Survey;
 use crate::campaign::{Display, Plan};
 use crate::control::ControlLaw;
@@ -18,24 +20,6 @@ use crate::sampling::distribution::traits::Quantile;
 /// Inputs of a run that are listed; those farthest from nominal first, as multiples of their spread.
 const MOST_INPUTS: usize = 3;
 
-#[derive(Clone, Debug, PartialEq)]
-pub struct StatisticsRow {
-    pub name: String,
-    pub unit: String,
-    pub meaning: String,
-    pub count: u64,
-    /// Mean; NaN where there is none.
-    pub mean: f64,
-    /// Standard deviation; NaN where there is none.
-    pub deviation: f64,
-    pub min: f64,
-    pub max: f64,
-    /// Confidence of the intervals; NaN where the design has none.
-    pub confidence: f64,
-    /// Probability, quantile, lower and upper end of its interval (NaN where N does not bound it).
-    pub quantiles: Vec<[f64; 4]>,
-}
-
 /// A cell that sorts by its number.
 fn cell(value: f64) -> String {
     if value.is_finite() {
@@ -45,26 +29,27 @@ fn cell(value: f64) -> String {
     }
 }
 
-/// The statistics of every observable.
-pub fn statistics(rows: &[StatisticsRow], display: &Display) -> String {
+/// The statistics of every observable; intervals where the design has them.
+pub fn statistics(rows: &[ColumnStatistics], has_intervals: bool, display: &Display) -> String {
     let Some(first) = rows.first() else { return "<p>No run was computed: there are no statistics.</p>".to_owned() };
-    let heads: String =
-        first.quantiles.iter().map(|quantile| format!("<th>{}%</th>", number(100.0 * quantile[0]))).collect();
-    let caption = if first.confidence.is_nan() {
+    let heads: String = first.quantiles.iter().map(|one| format!("<th>{}%</th>", number(100.0 * one.p))).collect();
+    let caption = if !has_intervals {
         "The design has no intervals".to_owned()
     } else {
         "These runs do not bound this quantile from both sides; the interval of others appears on hover".to_owned()
     };
     let mut body = String::new();
     for row in rows {
-        let shown = display.of(&row.name, &row.unit);
-        let cell = |value: f64| cell(shown.value(value));
-        let quantile = |[_, value, low, high]: &[f64; 4]| {
+        let (quantity, moments) = (&row.quantity, &row.moments);
+        let shown = display.of(quantity.name(), quantity.unit());
+        let cell = |value: Option<f64>| cell(shown.value(value.unwrap_or(f64::NAN)));
+        let quantile = |one: &QuantileStatistic| {
+            let [_, value, low, high] = one.numbers();
             if !value.is_finite() {
                 return "<td>-</td>".to_owned();
             }
-            let value = shown.value(*value);
-            let interval = in_brackets([low, high].map(|end| shown.value(*end)));
+            let value = shown.value(value);
+            let interval = in_brackets([low, high].map(|end| shown.value(end)));
             let interval = match interval.is_empty() {
                 true => interval,
                 false => format!(" title=\"{}{interval}\"", number(value)),
@@ -75,15 +60,15 @@ pub fn statistics(rows: &[StatisticsRow], display: &Display) -> String {
         let quantiles: String = row.quantiles.iter().map(quantile).collect();
         body += &format!(
             "<tr><th scope=\"row\" title=\"{}: {}\">{}</th><td class=\"unit\">{}</td>{}{}{}{}{quantiles}{}</tr>\n",
-            escaped(&row.name),
-            escaped(&row.meaning),
-            escaped(&names::of_column(&row.name, &row.unit)),
+            escaped(quantity.name()),
+            escaped(quantity.meaning()),
+            escaped(&names::of_quantity(quantity)),
             escaped(&shown.unit),
-            self::cell(row.count as f64),
-            cell(row.mean),
-            cell(row.deviation),
-            cell(row.min),
-            cell(row.max),
+            self::cell(moments.count() as f64),
+            cell(moments.mean()),
+            cell(moments.standard_deviation()),
+            cell(moments.min()),
+            cell(moments.max()),
         );
     }
     format!(

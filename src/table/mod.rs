@@ -1,0 +1,235 @@
+//! Layer 2: tables: columns with name, unit, meaning and values.
+//!
+//! A kind of table is made in one place, and each format is written in one file: [`csv`], [`json`], aligned [`text`] of [`mod@wrapped`] lines; Parquet in `storage::columnar`, Arrow's arrays
+//! for Python in the Python package.
+//!
+//! Rows of a campaign are not gathered in a table: their block (`ensemble::Rows`) hands its slices to the writer as [`Values`].
+
+pub mod csv;
+pub mod json;
+#[cfg(test)]
+pub(crate) mod tests;
+pub mod text;
+pub mod wrapped;
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use crate::run::Quantity;
+use crate::table::text::{Align, Text};
+
+/// The kind of the values of a column. The names of the variants are hashed into the identity of rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    Real,
+    Count,
+    /// Texts, few of them distinct.
+    Word,
+}
+
+/// The description of a column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Name, unit and meaning.
+    pub quantity: Quantity,
+    pub content: Content,
+    /// Whether a value may be absent.
+    pub nullable: bool,
+    /// The place of its text.
+    pub align: Align,
+}
+
+impl Column {
+    /// A column without absent values; those of real numbers may always be absent, since a number that is not finite is null.
+    pub fn new(quantity: Quantity, content: Content) -> Self {
+        Column { quantity, content, nullable: content == Content::Real, align: content.into() }
+    }
+
+    /// The same column, whose values may be absent.
+    #[must_use]
+    pub fn nullable(self) -> Self {
+        Column { nullable: true, ..self }
+    }
+}
+
+/// The values of a column.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values<'a> {
+    /// Real numbers; one that is not finite is null: the maximum or the mean of a column is a number for every reader.
+    Real(Cow<'a, [f64]>),
+    Count(Vec<u64>),
+    /// Counts as rows in memory have them; one that is not finite is null.
+    Counted(Cow<'a, [f64]>),
+    /// Texts; absent ones are null.
+    Text(Vec<Option<Cow<'a, str>>>),
+}
+
+/// One value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell<'a> {
+    Null,
+    Real(f64),
+    Count(u64),
+    Text(&'a str),
+}
+
+impl<'a> Values<'a> {
+    /// Texts without absent ones.
+    pub fn words<T: Into<Cow<'a, str>>>(words: impl IntoIterator<Item = T>) -> Self {
+        Values::Text(words.into_iter().map(|word| Some(word.into())).collect())
+    }
+
+    /// The content of their column.
+    pub fn content(&self) -> Content {
+        match self {
+            Values::Real(_) => Content::Real,
+            Values::Count(_) | Values::Counted(_) => Content::Count,
+            Values::Text(_) => Content::Word,
+        }
+    }
+
+    /// The number of rows.
+    pub fn count(&self) -> usize {
+        match self {
+            Values::Real(values) | Values::Counted(values) => values.len(),
+            Values::Count(values) => values.len(),
+            Values::Text(values) => values.len(),
+        }
+    }
+
+    /// The value in row `row`.
+    pub fn cell(&self, row: usize) -> Cell<'_> {
+        match self {
+            Values::Real(values) if values[row].is_finite() => Cell::Real(values[row]),
+            Values::Counted(values) if values[row].is_finite() => Cell::Count(values[row] as u64),
+            Values::Real(_) | Values::Counted(_) => Cell::Null,
+            Values::Count(values) => Cell::Count(values[row]),
+            Values::Text(values) => values[row].as_deref().map_or(Cell::Null, Cell::Text),
+        }
+    }
+}
+
+/// Columns with their values, all of one length.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table<'a> {
+    pub columns: Vec<Column>,
+    /// The values of each column.
+    pub values: Vec<Values<'a>>,
+    /// Notes on the table as a whole that its file carries beside those of its plan.
+    pub notes: BTreeMap<String, String>,
+}
+
+impl<'a> Table<'a> {
+    /// A table with a row for each of `rows`, to which columns are added one by one.
+    pub fn of<R>(rows: &'a [R]) -> TableOf<'a, R> {
+        TableOf { rows, table: Table::default() }
+    }
+
+    /// A table of texts with these heads, to which rows are added one by one.
+    pub fn with<H: Into<String>>(columns: impl IntoIterator<Item = (H, Align)>) -> Self {
+        let mut table = Table::default();
+        for (head, align) in columns {
+            let quantity = Quantity::named(head.into(), String::new(), String::new());
+            table.push(Column { align, ..Column::new(quantity, Content::Word) }, Values::Text(Vec::new()));
+        }
+        table
+    }
+
+    /// Adds a row of texts; cells that are not given are empty.
+    pub fn row<C: Into<String>>(&mut self, cells: impl IntoIterator<Item = C>) {
+        let mut cells = cells.into_iter();
+        for values in &mut self.values {
+            let cell: String = cells.next().map(Into::into).unwrap_or_default();
+            if let Values::Text(texts) = values {
+                texts.push(Some(cell.into()));
+            }
+        }
+    }
+
+    /// The table as lines of at most `width` characters.
+    pub fn text(&self, width: usize) -> String {
+        Text::of(self).lines(width)
+    }
+
+    /// Adds a column.
+    pub fn push(&mut self, column: Column, values: Values<'a>) {
+        self.columns.push(column);
+        self.values.push(values);
+    }
+
+    /// The number of rows.
+    pub fn rows(&self) -> usize {
+        self.values.first().map_or(0, Values::count)
+    }
+
+    /// The numbers of the column `name`, and its description; `None` if there is no such column of real numbers.
+    pub fn numbers(&self, name: &str) -> Option<(&Quantity, &[f64])> {
+        let index = self.columns.iter().position(|column| column.quantity.name() == name)?;
+        match &self.values[index] {
+            Values::Real(values) => Some((&self.columns[index].quantity, values)),
+            _ => None,
+        }
+    }
+}
+
+/// A table that is being made, column by column, with a row for each of `rows`.
+#[derive(Debug)]
+pub struct TableOf<'a, R> {
+    rows: &'a [R],
+    table: Table<'a>,
+}
+
+impl<'a, R> TableOf<'a, R> {
+    fn push(&mut self, name: &str, meaning: &str, content: Content, nullable: bool, values: Values<'a>) -> &mut Self {
+        let quantity = Quantity::named(name.to_owned(), String::new(), meaning.to_owned());
+        self.table.push(Column { nullable, ..Column::new(quantity, content) }, values);
+        self
+    }
+
+    /// Adds a column of numbers, which may be absent.
+    pub fn real(&mut self, name: &str, meaning: &str, value: impl Fn(&'a R) -> Option<f64>) -> &mut Self {
+        let values = self.rows.iter().map(|row| value(row).unwrap_or(f64::NAN)).collect();
+        self.push(name, meaning, Content::Real, true, Values::Real(values))
+    }
+
+    pub fn count(&mut self, name: &str, meaning: &str, value: impl Fn(&'a R) -> u64) -> &mut Self {
+        let values = self.rows.iter().map(value).collect();
+        self.push(name, meaning, Content::Count, false, Values::Count(values))
+    }
+
+    /// Adds a column of texts, which may be absent.
+    pub fn text<T: Into<Cow<'a, str>>>(
+        &mut self,
+        name: &str,
+        meaning: &str,
+        value: impl Fn(&'a R) -> Option<T>,
+    ) -> &mut Self {
+        let values = self.rows.iter().map(|row| value(row).map(Into::into)).collect();
+        self.push(name, meaning, Content::Word, true, Values::Text(values))
+    }
+
+    /// Adds a column of texts without absent ones.
+    pub fn word<T: Into<Cow<'a, str>>>(&mut self, name: &str, meaning: &str, value: impl Fn(&'a R) -> T) -> &mut Self {
+        self.push(name, meaning, Content::Word, false, Values::words(self.rows.iter().map(value)))
+    }
+
+    /// Gives the last column a unit.
+    pub fn unit(&mut self, unit: &str) -> &mut Self {
+        if let Some(Column { quantity, .. }) = self.table.columns.last_mut() {
+            let [name, meaning] = [quantity.name(), quantity.meaning()].map(str::to_owned);
+            *quantity = Quantity::named(name, unit.to_owned(), meaning);
+        }
+        self
+    }
+
+    /// Adds a note on the table as a whole.
+    pub fn note(&mut self, key: &str, text: impl Into<String>) -> &mut Self {
+        self.table.notes.insert(key.to_owned(), text.into());
+        self
+    }
+
+    /// The finished table.
+    pub fn finish(&mut self) -> Table<'a> {
+        std::mem::take(&mut self.table)
+    }
+}

@@ -1,0 +1,352 @@
+//! Tables as aligned text: lines that fit a terminal. Every table on a screen is written here.
+//!
+//! A cell is never broken: a number stays whole and beside its unit. Where the lines are too narrow, names are shortened, then the columns at the right go to
+//! lines of their own below the row.
+
+use std::borrow::Cow;
+
+use crate::table::wrapped::{fitted, wrapped};
+use crate::table::{Cell, Content, Table};
+
+/// The place of the text of a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Align {
+    /// At the left: names. Shortened in their middle where the lines are too narrow.
+    Left,
+    /// At the left, the first column: names, on lines of their own above the other cells where the lines are too narrow.
+    Title,
+    /// At the left, never shortened: verdicts, texts with numbers.
+    Whole,
+    Right,
+    /// At the left, the last column: sentences, broken into lines in their column, or below the other cells where that is too narrow.
+    Sentence,
+}
+
+impl From<Content> for Align {
+    fn from(content: Content) -> Self {
+        if content == Content::Word { Align::Left } else { Align::Right }
+    }
+}
+
+/// Blank characters before each line, and between columns.
+const GAP: usize = 2;
+/// Least width of a column of sentences; narrower ones stand below their rows.
+const LEAST_SENTENCE: usize = 24;
+/// Indentation of sentences below their rows.
+const BELOW: usize = 6;
+/// Indentation of the columns that go to lines below their row, beside the gap before each line.
+const CONTINUED: usize = 4;
+/// A name is not shortened to less.
+const LEAST_NAME: usize = 12;
+
+/// A table as text.
+#[derive(Clone, Debug)]
+pub struct Text<'t> {
+    aligns: Vec<Align>,
+    /// Lines of heads, of units where there are any, then of the rows.
+    rows: Vec<Vec<Cow<'t, str>>>,
+    /// The number of lines of heads.
+    heads: usize,
+    /// The least width of each column.
+    least: Vec<usize>,
+    /// Blank characters before each line, and between columns.
+    gaps: [usize; 2],
+}
+
+impl<'t> Text<'t> {
+    /// The text of `table`. Names of columns are heads, with their units below; a line in which all are empty is left out.
+    pub fn of(table: &'t Table<'_>) -> Self {
+        let quantities = || table.columns.iter().map(|column| &column.quantity);
+        let heads: [Vec<Cow<'t, str>>; 2] = [
+            quantities().map(|quantity| quantity.name().into()).collect(),
+            quantities().map(|quantity| quantity.unit().into()).collect(),
+        ];
+        let mut rows: Vec<_> = heads.into_iter().filter(|line| line.iter().any(|head| !head.is_empty())).collect();
+        let heads = rows.len();
+        let text = |cell| match cell {
+            Cell::Null => "-".into(),
+            Cell::Real(number) => format!("{number:?}").into(),
+            Cell::Count(count) => count.to_string().into(),
+            Cell::Text(text) => text.into(),
+        };
+        rows.extend((0..table.rows()).map(|row| table.values.iter().map(|of| text(of.cell(row))).collect::<Vec<_>>()));
+        let aligns: Vec<Align> = table.columns.iter().map(|column| column.align).collect();
+        Text { least: vec![0; aligns.len()], aligns, rows, heads, gaps: [GAP; 2] }
+    }
+
+    /// The same with these blank characters before each line and between columns.
+    #[must_use]
+    pub fn spaced(self, before: usize, between: usize) -> Self {
+        Text { gaps: [before, between], ..self }
+    }
+
+    /// The same, whose columns are this wide at least: of lines that are shown one by one.
+    #[must_use]
+    pub fn at_least(self, widths: &[usize]) -> Self {
+        Text { least: widths.to_vec(), ..self }
+    }
+
+    /// The width of a column where nothing is shortened.
+    fn widest(&self, column: usize) -> usize {
+        self.rows.iter().map(|row| letters(&row[column])).fold(self.least[column], usize::max)
+    }
+
+    /// Number of characters of lines with columns of these widths.
+    fn used(&self, widths: &[usize]) -> usize {
+        let [before, between] = self.gaps;
+        before + widths.iter().sum::<usize>() + between * widths.len().saturating_sub(1)
+    }
+
+    /// Number of characters of its lines where nothing is shortened or broken.
+    pub fn width(&self) -> usize {
+        self.width_of(self.aligns.len())
+    }
+
+    /// The same of its first `count` columns.
+    pub fn width_of(&self, count: usize) -> usize {
+        self.used(&(0..count).map(|column| self.widest(column)).collect::<Vec<_>>())
+    }
+
+    /// The lines, none longer than `width` characters unless a single cell is.
+    pub fn lines(&self, width: usize) -> String {
+        self.blocks(width).concat()
+    }
+
+    /// The lines of the heads.
+    pub fn head(&self, width: usize) -> String {
+        self.blocks(width)[..self.heads].concat()
+    }
+
+    /// The lines of the rows.
+    pub fn body(&self, width: usize) -> String {
+        self.blocks(width)[self.heads..].concat()
+    }
+
+    /// The first column of each line of a row: greedily as many columns as fit, of those from `first` on.
+    fn starts(&self, widths: &[usize], first: usize, width: usize) -> Vec<usize> {
+        let [before, between] = self.gaps;
+        let (mut starts, mut used) = (vec![first], before);
+        for column in first..widths.len() {
+            let is_first = starts.last() == Some(&column);
+            let wider = used + if is_first { 0 } else { between } + widths[column];
+            used = if wider > width && !is_first {
+                starts.push(column);
+                before + CONTINUED + widths[column]
+            } else {
+                wider
+            };
+        }
+        starts
+    }
+
+    /// The lines of each row.
+    fn blocks(&self, width: usize) -> Vec<String> {
+        let [before, between] = self.gaps;
+        let has_sentences = self.aligns.last() == Some(&Align::Sentence);
+        let count = self.aligns.len() - usize::from(has_sentences);
+        let mut widths: Vec<usize> = (0..count).map(|column| self.widest(column)).collect();
+        let is_above = self.aligns.first() == Some(&Align::Title) && self.used(&widths) > width;
+        if is_above {
+            widths[0] = 0;
+        }
+        let sentences = self.rows.iter().map(|row| row.last().map_or(0, |cell| letters(cell))).max().unwrap_or(0);
+        let room = width.saturating_sub(self.used(&widths) + between);
+        let is_below = has_sentences && room < sentences.min(LEAST_SENTENCE);
+        let excess = self.used(&widths).saturating_sub(width);
+        let widest =
+            (0..count).filter(|column| self.aligns[*column] == Align::Left).max_by_key(|column| widths[*column]);
+        if let Some(widest) = widest {
+            widths[widest] = widths[widest].min(widths[widest].saturating_sub(excess).max(LEAST_NAME));
+        }
+        // a title above leaves its gap, so that the columns stand where they would beside it
+        let starts = self.starts(&widths, 0, width);
+        let mut blocks = Vec::with_capacity(self.rows.len());
+        for (index, row) in self.rows.iter().enumerate() {
+            let is_head = index < self.heads;
+            let (mut text, mut line) = (String::new(), " ".repeat(before));
+            for (column, ((cell, cell_width), align)) in row.iter().zip(&widths).zip(&self.aligns).enumerate() {
+                if column == 0 && is_above {
+                    if !cell.is_empty() {
+                        text += &wrapped(&format!("{line}{cell}\n"), width);
+                    }
+                    continue;
+                }
+                let is_start = starts.contains(&column);
+                if is_start && column > 0 {
+                    push_line(&mut text, &line);
+                    line = " ".repeat(before + CONTINUED);
+                }
+                let cell = fitted(cell, *cell_width, letters);
+                let space = " ".repeat(cell_width - letters(&cell));
+                line += &" ".repeat(if is_start { 0 } else { between });
+                line += &if *align == Align::Right { space + &cell } else { cell + &space };
+            }
+            let sentence = row.last().filter(|_| has_sentences).map_or("", |sentence| sentence);
+            if is_below || starts.len() > 1 {
+                push_line(&mut text, &line);
+                // rows that say the same say it once
+                let is_said_later = self.rows.get(index + 1).is_some_and(|next| next.last() == row.last());
+                if !sentence.is_empty() && !is_head && !is_said_later {
+                    text += &wrapped(&format!("{:BELOW$}{sentence}\n", ""), width);
+                }
+            } else {
+                let begin = letters(&line) + between;
+                let said = wrapped(sentence, width.saturating_sub(begin).max(LEAST_SENTENCE));
+                let hanging = format!("\n{:begin$}", "");
+                let said = said.split("\n  ").collect::<Vec<_>>().join(&hanging);
+                push_line(&mut text, &format!("{line}{:between$}{said}", ""));
+            }
+            blocks.push(text);
+        }
+        blocks
+    }
+}
+
+/// Adds a line without blank characters at its end.
+fn push_line(text: &mut String, line: &str) {
+    *text += line.trim_end();
+    text.push('\n');
+}
+
+fn letters(text: &str) -> usize {
+    text.chars().count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::tests::every_kind;
+
+    fn table() -> Table<'static> {
+        let heads = [("name", Align::Left), ("value", Align::Right), ("meaning", Align::Sentence)];
+        let mut table = Table::with(heads);
+        table.row(["initial.position_m.x", "12.5", "normal about the nominal value, with the same deviation"]);
+        table.row(["initial.position_m.y", "-3", "normal about the nominal value, with the same deviation"]);
+        table.row(["b", "4e-9", "uniform"]);
+        table
+    }
+
+    /// Law: at every width that a terminal has no line is longer, each number stands whole, and every word of a sentence is there, in its order.
+    #[test]
+    fn a_table_fits_and_says_all() {
+        for width in 30..140 {
+            let text = table().text(width);
+            assert!(text.lines().all(|line| letters(line) <= width), "{width}:\n{text}");
+            for number in ["12.5", "-3", "4e-9", "uniform", "deviation"] {
+                assert!(text.split_whitespace().any(|word| word == number), "{width}: {number}\n{text}");
+            }
+            let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            let is_whole = words.contains("normal about the nominal value, with the same deviation");
+            assert!(is_whole || width > 60, "{width}:\n{text}");
+        }
+    }
+
+    /// Law: numbers end and names begin in one column; a wide table has a line for each row; below their rows equal sentences stand once.
+    #[test]
+    fn columns_stand_below_each_other() {
+        let text = table().text(120);
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines.len(), 4, "{text}");
+        let end = lines[0].find("value").map(|at| at + 5);
+        assert!(lines[1].find("12.5").map(|at| at + 4) == end && lines[2].find("-3").map(|at| at + 2) == end, "{text}");
+        assert!(lines[3].starts_with("  b  ") && lines[1].starts_with("  initial.position_m.x  "), "{text}");
+        let narrow = table().text(40);
+        assert_eq!(narrow.matches("normal about").count(), 1, "{narrow}");
+        assert!(narrow.lines().any(|line| line.trim() == "uniform"), "{narrow}");
+    }
+
+    /// Law: a title stands beside its numbers, and above them where the lines are too narrow; rows without one have no such line.
+    #[test]
+    fn titles_stand_above_where_lines_are_narrow() {
+        let mut table = Table::with([("outcome", Align::Title), ("median", Align::Right)]);
+        table.row(["angular_rate_final_rad_s", "1.5"]);
+        table.row(["", "[1.4, 1.6]"]);
+        assert_eq!(
+            table.text(38).lines().collect::<Vec<_>>(),
+            [
+                "  outcome                       median",
+                "  angular_rate_final_rad_s         1.5",
+                "                            [1.4, 1.6]",
+            ]
+        );
+        let narrow = table.text(37);
+        let lines: Vec<&str> = narrow.lines().map(str::trim_start).collect();
+        assert_eq!(lines, ["outcome", "median", "angular_rate_final_rad_s", "1.5", "[1.4, 1.6]"], "{narrow}");
+        assert!(narrow.lines().all(|line| letters(line) <= 28), "{narrow}");
+    }
+
+    /// Law: lines that are shown one by one stand below each other as those of the whole table do.
+    #[test]
+    fn single_lines_are_those_of_the_table() {
+        let new = || Table::with([("a", Align::Left), ("b", Align::Right)]);
+        let text = |table: &Table<'_>| Text::of(table).at_least(&[6, 8]).spaced(0, 1).lines(80);
+        let (mut all, mut shown) = (new(), Text::of(&new()).at_least(&[6, 8]).spaced(0, 1).head(80));
+        for cells in [["one", "1"], ["three", "-12.5"]] {
+            all.row(cells);
+            let mut one = new();
+            one.row(cells);
+            shown += &Text::of(&one).at_least(&[6, 8]).spaced(0, 1).body(80);
+        }
+        assert_eq!((text(&all), shown.lines().last()), (shown.clone(), Some("three     -12.5")));
+    }
+
+    /// Law: at every width of a terminal, whatever the aligns of the columns are, each number stands whole with its unit, in the order of the columns, and no line is
+    /// longer; a table that fits has a line for each row. With a table of a hundred columns, so that every width is too narrow for it.
+    #[test]
+    fn numbers_are_never_broken() {
+        let number = |row: usize, column: usize| format!("{}.{}e-{} km/s", 7 * row + column, column * column, row + 1);
+        for first in [Align::Left, Align::Title, Align::Whole] {
+            for count in [2, 5, 10, 100] {
+                let heads =
+                    (1..count).map(|column| (format!("p{column} [m/s]"), [Align::Right, Align::Whole][column % 2]));
+                let mut table = Table::with([("name".to_owned(), first)].into_iter().chain(heads));
+                for row in 0..3 {
+                    table.row(["wheel_1".to_owned()].into_iter().chain((1..count).map(|column| number(row, column))));
+                }
+                for width in 40..=200 {
+                    let text = table.text(width);
+                    assert!(text.lines().all(|line| letters(line) <= width), "{width}:\n{text}");
+                    let mut rest = text.as_str();
+                    for row in 0..3 {
+                        for column in 1..count {
+                            let number = number(row, column);
+                            let at = rest.find(&number).unwrap_or_else(|| panic!("{width}: {number} in\n{text}"));
+                            rest = &rest[at + number.len()..];
+                        }
+                    }
+                    let is_whole = Text::of(&table).width() <= width;
+                    assert_eq!(text.lines().count() == 4, is_whole, "{width}:\n{text}");
+                }
+            }
+        }
+    }
+
+    /// Law: a table with every kind of value has each of its numbers and texts; what is absent is a dash, and units stand below the heads.
+    #[test]
+    fn every_kind_of_value_is_shown() {
+        let table = every_kind();
+        let text = table.text(usize::MAX);
+        for (column, values) in table.columns.iter().zip(&table.values) {
+            assert!(text.contains(column.quantity.name()));
+            for row in 0..table.rows() {
+                assert!(match values.cell(row) {
+                    Cell::Null => text.contains(" - "),
+                    Cell::Real(number) => text.contains(&format!("{number:?}")),
+                    Cell::Count(count) => text.contains(&count.to_string()),
+                    Cell::Text(words) => text.contains(words),
+                });
+            }
+        }
+        assert_eq!(text.lines().nth(1).map(|units| units.matches("m/s").count()), Some(5));
+    }
+
+    /// Law: a name is cut in its middle; a table without heads has no line for them.
+    #[test]
+    fn names_are_cut_in_the_middle() {
+        let mut table = Table::with([("", Align::Left), ("", Align::Right)]);
+        table.row(["initial.debris_angular_velocity_rad_s.x", "1.000"]);
+        let text = table.text(40);
+        assert!(text.starts_with("  initial.debris") && text.ends_with("_rad_s.x  1.000\n"), "{text}");
+        assert!(text.contains("...") && text.lines().count() == 1, "{text}");
+    }
+}
