@@ -27,13 +27,19 @@ pub(super) fn read_sensor(
     let kind = section.name("kind", &seen, |name| names.iter().position(|known| *known == name));
     let own_period = section.number("period_s", POSITIVE).or(period);
     let latency = section.number("latency_s", NOT_NEGATIVE).unwrap_or(0.0);
-    scene.control.sensors.push(DeclaredTable::of(name, kind.map_or(&[], |kind| sensors::KINDS[kind].parameters)));
+    let declared = kind.map_or(&[][..], |kind| sensors::KINDS[kind].parameters_in(scene));
+    scene.control.sensors.push(DeclaredTable::of(name, declared));
     let Some(kind) = kind else {
         // its keys are not known
         return None;
     };
     let place = scene.control.sensors.len() - 1;
     read_keys(section, Table::Sensors, place, scene);
+    if let Some(key) = sensors::KINDS[kind].replaced(scene).filter(|key| section.has(key)) {
+        section.know(key);
+        let allowed = "left out where [orbit] has an epoch: the Sun of the date is measured";
+        section.refuse(key, allowed, "delete this line, or orbit.epoch");
+    }
     section.finish();
     if latency > 0.0 && !sensors::KINDS[kind].observes.has_latency() {
         section.refuse("latency_s", "left out: this sensor delivers at once", "delete this line");

@@ -417,7 +417,8 @@ fn each_sensor_that_is_used_changes_the_estimate() {
                 let mut at = truth(0.0, quaternion_of(*turn), [0.03, -0.02, 0.01]);
                 at.wheel_rates = [12.0; MAX_WHEELS];
                 at.r_cp_s = [4.0, 5.0, 6.0];
-                at.body.r_co_e = [6.8e6, 1e6, 2e6];
+                // on the day side
+                at.body.r_co_e = [-6.8e6, -1e6, -2e6];
                 let debris = DebrisState {
                     r_gdo_e: [20.0, 3.0, 1.0],
                     v_gdo_e: [0.0, 0.1, 0.0],

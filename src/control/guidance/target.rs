@@ -3,10 +3,10 @@
 use crate::control::net_launch::geometry::LaunchGeometry;
 use crate::control::rotation::quaternion_of;
 use crate::control::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilton, norm, scaled, transposed_product};
-use crate::dynamics::environment::sun::sun;
+use crate::dynamics::environment::sun::sun_after;
 use crate::dynamics::gravity::Gravity;
 use crate::math::vector::quaternion_from_dcm;
-use crate::scene::{Epoch, Orbit};
+use crate::scene::Orbit;
 
 /// The attitude that a phase wants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,12 +75,11 @@ pub struct OrbitMotion {
 impl OrbitMotion {
     /// That at the position `r_e` and the velocity `v_e` on `orbit` at `time`, s.
     pub fn of(orbit: &Orbit, time: f64, r_e: [f64; 3], v_e: [f64; 3]) -> Self {
-        let days = |epoch: Epoch| epoch.days_since_j2000() + time / 86_400.0;
         OrbitMotion {
             r_e,
             v_e,
             a_e: Gravity::of(orbit).acceleration(r_e, norm(r_e)),
-            sun_e: orbit.epoch.map_or([0.0; 3], |epoch| sun(days(epoch)).direction),
+            sun_e: orbit.epoch.map_or([0.0; 3], |epoch| sun_after(epoch, time).direction),
         }
     }
 
@@ -210,6 +209,7 @@ mod tests {
     use super::*;
     use crate::control::rotation::vector_of;
     use crate::control::vector::{difference, product, sum};
+    use crate::scene::Epoch;
 
     fn geometry(to_debris: [f64; 3], relative_velocity: [f64; 3]) -> LaunchGeometry {
         LaunchGeometry { axis: [0.0, 0.0, 1.0], to_debris, from_station: [0.0; 3], relative_velocity, frame: None }

@@ -20,6 +20,7 @@ pub(super) const KIND: SensorKind = SensorKind {
         [position, velocity]
     }),
     needs: None,
+    replaced_by_epoch: None,
     make: |context| Box::new(GroundRadar::new(context)),
 };
 

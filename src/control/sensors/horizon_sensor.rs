@@ -14,7 +14,7 @@ use crate::control::truth::Truth;
 use crate::control::vector::{norm, scaled};
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::scene::schema::Limit;
-use crate::scene::{DeclaredTable, Scene};
+use crate::scene::{DeclaredTable, LawParameter, Scene};
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "horizon_sensor",
@@ -27,6 +27,7 @@ pub(super) const KIND: SensorKind = SensorKind {
     )],
     observes: Observes::Direction(|table, nominal| Arc::new(Geometry::of(table, nominal))),
     needs: Some(Need::Orbit),
+    replaced_by_epoch: None,
     make: |context| Box::new(HorizonSensor::new(context)),
 };
 
@@ -40,7 +41,7 @@ declared! {
         "rad",
         "Angle from the boresight beyond which it does not find nadir; 0: it covers everything in front of it",
     );
-    bias: f64 = optional("bias_rad", "rad", "Constant error of both angles");
+    bias: f64 = LawParameter::number("bias_rad", "rad", "Constant error of both angles", Limit::Finite).or(&[0.0]);
     }
 }
 

@@ -29,6 +29,7 @@ pub(super) const KIND: SensorKind = SensorKind {
     )],
     observes: Observes::Field(|table, nominal| Arc::new(Believed::of(table, nominal))),
     needs: Some(Need::MagneticField),
+    replaced_by_epoch: None,
     make: |context| Box::new(Magnetometer::new(context)),
 };
 

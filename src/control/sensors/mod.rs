@@ -27,6 +27,7 @@ use super::measurement::{Observes, Values};
 use super::truth::Truth;
 use crate::sampling::{Noise, SampleId};
 use crate::scene::schema::Limit;
+use crate::scene::schema::control::kept;
 use crate::scene::{DeclaredTable, LawParameter, MAX_WHEELS, Scene, SceneInput};
 
 /// A model of a sensor in one run.
@@ -99,8 +100,26 @@ pub struct SensorKind {
     pub observes: Observes,
     /// What must be there beside the spacecraft for it to measure anything; debris apart ([`Observes::needs_debris`]).
     pub needs: Option<Need>,
+    /// The key that an orbit with an epoch replaces.
+    pub replaced_by_epoch: Option<&'static str>,
     /// The sensor of a run.
     pub make: fn(&SensorContext<'_>) -> Box<dyn Sensor>,
+}
+
+impl SensorKind {
+    /// The key that `scene` replaces.
+    pub fn replaced(&self, scene: &SceneInput) -> Option<&'static str> {
+        self.replaced_by_epoch.filter(|_| scene.orbit.is_some_and(|orbit| orbit.epoch.is_some()))
+    }
+
+    /// The keys of its table in `scene`.
+    pub fn parameters_in(&self, scene: &SceneInput) -> &'static [LawParameter] {
+        let is_replaced = |parameter: &LawParameter| self.replaced(scene) == Some(parameter.facts.key);
+        match self.parameters.iter().position(is_replaced) {
+            Some(place) => kept(&[&self.parameters[..place], &self.parameters[place + 1..]]),
+            None => self.parameters,
+        }
+    }
 }
 
 /// What a sensor needs.
@@ -234,9 +253,20 @@ pub(super) mod bench {
 
     /// The sensor of the kind called `kind` in the run of `sample`.
     pub fn sensor(kind: &str, values: &[(&str, &[f64])], period: f64, sample: u64) -> Box<dyn Sensor> {
+        sensor_in(&on_orbit(), kind, values, period, sample)
+    }
+
+    /// The same in the scene `drawn`.
+    pub fn sensor_in(
+        drawn: &Scene,
+        kind: &str,
+        values: &[(&str, &[f64])],
+        period: f64,
+        sample: u64,
+    ) -> Box<dyn Sensor> {
         let kind = super::kind(kind).expect("a kind");
         let parameters = &table("unit", kind.parameters, values);
-        (kind.make)(&SensorContext { parameters, drawn: &on_orbit(), period, sample: SampleId(sample), seed: 5 })
+        (kind.make)(&SensorContext { parameters, drawn, period, sample: SampleId(sample), seed: 5 })
     }
 
     /// A scene with a magnetic field.

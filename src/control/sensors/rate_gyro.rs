@@ -28,6 +28,7 @@ pub(super) const KIND: SensorKind = SensorKind {
     }],
     observes: Observes::Rotation(GyroNoise::of),
     needs: None,
+    replaced_by_epoch: None,
     make: |context| Box::new(RateGyro::new(context)),
 };
 

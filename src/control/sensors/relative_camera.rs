@@ -29,6 +29,7 @@ pub(super) const KIND: SensorKind = SensorKind {
         [attitude_noise, rate_noise]
     }),
     needs: None,
+    replaced_by_epoch: None,
     make: |context| Box::new(RelativeCamera::new(context)),
 };
 

@@ -27,6 +27,7 @@ pub(super) const KIND: SensorKind = SensorKind {
     )],
     observes: Observes::Attitude(|table| Arc::new(WholeAttitude(covariance_s(table)))),
     needs: None,
+    replaced_by_epoch: None,
     make: |context| Box::new(StarTracker::new(context)),
 };
 

@@ -18,6 +18,7 @@ pub(super) const KIND: SensorKind = SensorKind {
     )],
     observes: Observes::WheelRates,
     needs: None,
+    replaced_by_epoch: None,
     make: |context| Box::new(Tachometers::new(context)),
 };
 

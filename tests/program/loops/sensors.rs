@@ -4,7 +4,7 @@
 use spindrift::control::sensors::KINDS;
 use spindrift::dynamics::magnetic_field::MagneticField;
 use spindrift::math::vector::{
-    conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, product, scaled, sum, transposed_product,
+    conjugate, cross, dcm_from_quaternion, difference, dot, hamilton, norm, product, scaled, sum, transposed_product,
 };
 use spindrift::scene::Scene;
 
@@ -340,4 +340,54 @@ fn raw_estimates_are_the_last_measurements() {
         }
     }
     assert!(relative.is_some() && of_debris.is_some());
+}
+
+/// Law: over a revolution of an orbit with an epoch, a Sun sensor that looks along s3 of a body that points s3 at the
+/// Sun measures angles near zero at all ticks in the light, and nothing at those in the Earth's shadow: behind the
+/// Earth, within its radius of the line through its centre. With 10 s between ticks one tick at either edge may be
+/// either.
+#[test]
+fn a_sun_sensor_sees_the_sun_of_the_date_and_no_sun_in_the_shadow() {
+    let text = file_on_orbit();
+    let (start, end) = (text.find("[initial]").expect("a state"), text.find("[orbit]").expect("an orbit"));
+    let tail = text.find("[control]").expect("a loop");
+    let sun_e = spindrift::dynamics::environment::sun::sun(9823.5).direction;
+    // s3 turned to the Sun
+    let (half, across) = (0.5 * sun_e[2].acos(), scaled(1.0 / sun_e[0].hypot(sun_e[1]), [-sun_e[1], sun_e[0], 0.0]));
+    let attitude = [half.cos(), half.sin() * across[0], half.sin() * across[1], 0.0];
+    let text = format!(
+        "{}[initial]\nattitude = {attitude:?}\n{}[control]\nperiod_s = 10.0\nestimator = \"perfect\"\nwheels = [\"w1\"]\n\
+         [[sensors]]\nname = \"sun\"\nkind = \"sun_sensor\"\nbias_rad = -1e-3\n\
+         [[guidance]]\nphase = \"a\"\ntarget = \"sun\"\n",
+        changed(&text[..start], &[("duration_s = 300.2", "duration_s = 6000")]),
+        &text[end..tail]
+    );
+    let flown = FlownLoop::new(&text, 0);
+    let [a, b] = ["x", "y"].map(|axis| flown.told(&format!("measured_sun_angle_{axis}_rad")));
+    let error = flown.told("estimated_pointing_error_rad");
+    let radius = flown.run.scene.orbit.expect("an orbit").body_radius;
+    let (mut dark, mut edges) = (0, 0);
+    for (tick, state) in flown.ticks.iter().enumerate() {
+        let along = dot(state.r_co_e, sun_e);
+        let beside = norm(cross(state.r_co_e, sun_e));
+        // the penumbra is 30 km wide there, and the Sun moves by 1e-3 rad in the run: 7 km; across it the craft moves
+        // by less than 80 km in a period
+        if along < 0.0 && (beside - radius).abs() < 40e3 {
+            edges += 1;
+            continue;
+        }
+        let is_dark = along < 0.0 && beside < radius;
+        dark += usize::from(is_dark);
+        let sun_s = state.to_s(sun_e);
+        let is_seen = !is_dark && sun_s[2] > 0.0;
+        assert_eq!(a[tick].is_nan(), !is_seen, "{} s: {along} {beside}", state.time);
+        if is_seen {
+            for (found, side) in [(a[tick], sun_s[0]), (b[tick], sun_s[1])] {
+                // the turn of the Sun since the start
+                assert!((found + 1e-3 - side.atan2(sun_s[2])).abs() < 2e-3, "{} s: {found}", state.time);
+            }
+        }
+        assert!((error[tick] - sun_s[2].min(1.0).acos()).abs() < 2e-3);
+    }
+    assert!(dark > 100 && edges < 20, "{dark} {edges}");
 }

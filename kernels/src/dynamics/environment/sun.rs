@@ -11,6 +11,7 @@
 
 use crate::math::Real;
 use crate::math::sine::sin_cos_turns;
+use crate::scene::Epoch;
 
 /// An astronomical unit, m (IAU 2012).
 pub const ASTRONOMICAL_UNIT: f64 = 149_597_870_700.0;
@@ -39,6 +40,11 @@ pub fn sun<R: Real>(days: R) -> Sun<R> {
         direction: [cos_l, cos_e * sin_l, sin_e * sin_l],
         distance: cos_2g.mul_add(number(-0.000_14), cos_g.mul_add(number(-0.016_71), number(1.000_14))),
     }
+}
+
+/// The Sun `time` seconds after `epoch`.
+pub fn sun_after(epoch: Epoch, time: f64) -> Sun<f64> {
+    sun(epoch.days_since_j2000() + time / 86_400.0)
 }
 
 /// An angle of `start` degrees that grows by `rate` degrees a day, in turns: whole ones are taken away before they cost digits.
