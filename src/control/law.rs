@@ -105,7 +105,7 @@ impl ControlLaw {
 
     /// Memory for the laws of the runs of one worker.
     pub fn runs(&self) -> LawRuns {
-        LawRuns::new(self.make.clone())
+        LawRuns::new(self.make.clone(), self.spec.is_some())
     }
 }
 

@@ -13,7 +13,7 @@ use super::sensors::SampledSensor;
 use super::spec::LoopSpec;
 use super::truth::{DebrisMotion, Truth};
 use super::vector::{scaled, sum};
-use crate::dynamics::actuation::{Actuation, BodyState, WheelState};
+use crate::dynamics::actuation::{Actuation, BodyState, OpenLoop, WheelState};
 use crate::scene::{Device, FailureInput, MAX_THRUSTERS, Scene, WheelMode};
 
 /// What flight software is told at a tick.
@@ -40,6 +40,8 @@ pub struct Applied {
     pub torque_excess: f64,
     /// Whether a limit of a rod cut what was wanted.
     pub is_rod_saturated: bool,
+    /// The thrusts of the schedule over the arc, those of thrusters that are stuck on among them, N.
+    pub scheduled_thrust: [f64; MAX_THRUSTERS],
 }
 
 /// The truth of one run.
@@ -133,8 +135,9 @@ impl Plant {
         thrust
     }
 
-    /// What the actuators make of `commands` from `time` on: their torques and thrusts, and the end of the arc, are written to `actuation`, in which nothing acts. The schedule of the
-    /// scene has the thrusts of thrusters that are stuck on.
+    /// What the actuators make of `commands` from `time` on: their torques and thrusts, and the end of the arc, are
+    /// written to `actuation`, in which nothing acts. The torques that the schedule of the scene commands add to those
+    /// of the motors; its thrusts are returned.
     pub fn apply(
         &self,
         time: f64,
@@ -143,7 +146,8 @@ impl Plant {
         actuation: &mut Actuation,
     ) -> Applied {
         let same = SAME_TIME * self.spec.period;
-        let mut until = commands.until;
+        let scheduled = OpenLoop { schedule: &self.drawn.schedule }.at(time + same);
+        let mut until = commands.until.min(scheduled.until);
         // an actuator that fails ends the arc, unless it is one time with its end
         let of_actuators = self.drawn.failures.iter().filter(|failure| !matches!(failure.device, Device::Sensor(_)));
         for failure in of_actuators.filter(|failure| time + same < failure.at_s) {
@@ -182,7 +186,10 @@ impl Plant {
             if self.drawn.mass.wheels[i].mode != WheelMode::Free {
                 continue;
             }
-            let (commanded, rate) = (commands.motor_torque[i], wheels.rates[i]);
+            let (mut commanded, rate) = (commands.motor_torque[i], wheels.rates[i]);
+            if scheduled.motor_torque[i] != 0.0 {
+                commanded += scheduled.motor_torque[i];
+            }
             let driven = match self.failure(Device::Wheel(i), time + same) {
                 Some(failure) => drive.failed(failure).over(commanded, rate, held),
                 None => drive.over(commanded, rate, held),
@@ -199,6 +206,6 @@ impl Plant {
             actuation.dipole = sum(actuation.dipole, scaled(dipole, rod.axis));
         }
         let is_rod_saturated = commands.rods.is_limited;
-        Applied { fires, length, saturated, torque_excess, is_rod_saturated }
+        Applied { fires, length, saturated, torque_excess, is_rod_saturated, scheduled_thrust: scheduled.thrust }
     }
 }

@@ -1,4 +1,5 @@
-//! [`LawRuns`]: the laws of the runs that an engine propagates together, each beside the schedule of its scene.
+//! [`LawRuns`]: the laws of the runs that an engine propagates together, each beside the schedule of its scene, which a
+//! control loop applies itself.
 
 use std::sync::{Arc as Shared, Mutex, MutexGuard, PoisonError};
 
@@ -13,6 +14,8 @@ pub type LawMaker = dyn Fn(&LawContext<'_>) -> Box<dyn ActuationLaw + Send> + Se
 /// The laws of the runs of a worker, by the index of the run; what an earlier run has left in a place is replaced.
 pub struct LawRuns {
     make: Shared<LawMaker>,
+    /// Whether the laws apply the schedule themselves.
+    take_schedule: bool,
     laws: Vec<SharedLaw>,
 }
 
@@ -37,8 +40,8 @@ impl ActuationLaw for SharedLaw {
 }
 
 impl LawRuns {
-    pub(super) fn new(make: Shared<LawMaker>) -> Self {
-        LawRuns { make, laws: Vec::new() }
+    pub(super) fn new(make: Shared<LawMaker>, take_schedule: bool) -> Self {
+        LawRuns { make, take_schedule, laws: Vec::new() }
     }
 
     /// Makes the law of run `run`, which starts. Indices are given from zero on, without a gap.
@@ -46,7 +49,8 @@ impl LawRuns {
         let law = (self.make)(context);
         // both are asked at the first arc
         let answers = [Actuation::none(f64::NEG_INFINITY); 2];
-        let begun = BesideSchedule { schedule: context.drawn.schedule.clone(), law, answers };
+        let schedule = if self.take_schedule { Vec::new() } else { context.drawn.schedule.clone() };
+        let begun = BesideSchedule { schedule, law, answers };
         match self.laws.get(run) {
             Some(place) => *place.lock() = begun,
             None => self.laws.push(SharedLaw(Shared::new(Mutex::new(begun)))),

@@ -3,10 +3,12 @@
 use super::schedule::{Actuation, Arc};
 use super::schema::failure::{Device, FailureInput};
 
-/// Lets `failures` act on `schedule`: arcs end at the time of a failure, and a thruster that is stuck on pushes between the arcs, too.
-pub(super) fn apply(failures: &[FailureInput], schedule: &mut Vec<Arc>) {
+/// Lets `failures` act on `schedule`: arcs end at the time of a failure, and a thruster that is stuck on pushes between
+/// the arcs, too. Under a control loop, `has_loop`, its models of the motors know the failures of wheels.
+pub(super) fn apply(failures: &[FailureInput], has_loop: bool, schedule: &mut Vec<Arc>) {
     for failure in failures {
         match failure.device {
+            Device::Wheel(_) if has_loop => continue,
             Device::Wheel(_) => split(schedule, failure.at_s),
             Device::Thruster(_) => {
                 split(schedule, failure.at_s);
@@ -79,7 +81,7 @@ mod tests {
                 FailureInput { at_s, thrust_n: Some(7.0), ..thruster },
             ] {
                 let (before, mut after) = (schedule(), schedule());
-                apply(&[failure], &mut after);
+                apply(&[failure], false, &mut after);
                 assert!(after.iter().all(|arc| arc.start < arc.end()));
                 assert!(after.windows(2).all(|pair| pair[0].end() <= pair[1].start));
                 for step in 0..100 {

@@ -89,7 +89,7 @@ impl Scene {
         self.commands_torque = input.actuation.iter().any(|arc| arc.torque_n_m.iter().any(|torque| *torque != 0.0));
         self.actuators = ActuatorModels::of(input);
         self.failures.clone_from(&input.failures);
-        failures::apply(&self.failures, &mut self.schedule);
+        failures::apply(&self.failures, input.control.has_loop(), &mut self.schedule);
         self.commands_thrust |= self.failures.iter().any(|failure| matches!(failure.device, Device::Thruster(_)));
     }
 }

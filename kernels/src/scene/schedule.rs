@@ -36,7 +36,8 @@ fn meets_next(input: &SceneInput, index: usize) -> bool {
     input.actuation.get(index + 1).is_some_and(|next| next.start_s == input.actuation[index].end_s)
 }
 
-/// The arc that command `index` of `input` becomes: scales, bias, delays. With ideal actuators, the command itself.
+/// The arc that command `index` of `input` becomes: scales, bias, delays (motors of a control loop: [`motor_torques`]).
+/// With ideal actuators, the command itself.
 ///
 /// [`super::check`] checks that the result is a schedule (every arc starts before it ends, no negative thrust).
 pub fn applied(input: &SceneInput, index: usize) -> Arc {
@@ -79,13 +80,15 @@ fn thrusts(input: &SceneInput, index: usize) -> [f64; MAX_THRUSTERS] {
     thrust
 }
 
-/// The motor torques of command `index` on the wheels that turn, in their order, N m.
+/// The motor torques of command `index` on the wheels that turn, in their order, N m: under a control loop those that
+/// are commanded, of which the loop's model of the motor makes a torque together with its own.
 fn motor_torques(input: &SceneInput, index: usize) -> [f64; MAX_WHEELS] {
     let (mut torques, command) = ([0.0; MAX_WHEELS], &input.actuation[index]);
     let turning = input.wheels.iter().enumerate().filter(|(_, wheel)| wheel.mode != WheelMode::Locked);
     for (place, (i, wheel)) in turning.enumerate() {
         let torque = command.errors.torque_scale * command.torque_n_m[i];
-        torques[place] = if torque == 0.0 { 0.0 } else { wheel.torque_scale * torque + wheel.torque_bias_n_m };
+        let is_applied = torque != 0.0 && !input.control.has_loop();
+        torques[place] = if is_applied { wheel.torque_scale * torque + wheel.torque_bias_n_m } else { torque };
     }
     torques
 }

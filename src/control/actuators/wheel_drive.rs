@@ -60,13 +60,19 @@ impl WheelDrive {
         }
     }
 
-    /// The same after `failure`.
+    /// The same after `failure`, whose factor is on what the motor would give: on its limit too.
     #[must_use]
     pub fn failed(self, failure: &FailureInput) -> Self {
         let scale = failure.torque_scale.unwrap_or(1.0);
         WheelDrive {
             torque_scale: scale * self.torque_scale,
             torque_bias: scale * self.torque_bias,
+            // an infinite limit stays: zero times infinity is no number
+            torque_limit: if self.torque_limit.is_finite() {
+                scale.abs() * self.torque_limit
+            } else {
+                self.torque_limit
+            },
             coulomb: failure.coulomb_friction_n_m.unwrap_or(self.coulomb),
             viscous: failure.viscous_friction_n_m_s.unwrap_or(self.viscous),
             ..self
@@ -213,6 +219,25 @@ mod tests {
         let wheel = WheelDrive { torque_scale: 0.9, torque_bias: 0.01, ..WHEEL };
         assert_eq!([1.0, 0.0].map(|commanded| wheel.over(commanded, 0.0, 0.1).torque), [0.91, 0.0]);
         assert_eq!(WheelDrive { torque_scale: 0.0, torque_bias: 0.0, ..wheel }.over(1.0, 0.0, 0.1).torque, 0.0);
+    }
+
+    /// Law: a failed motor gives its factor of what it would give within its limit, of either sign, with or without a
+    /// limit and a bias; a dead one nothing.
+    #[test]
+    fn a_failed_motor_gives_its_share() {
+        for torque_limit in [0.3, f64::INFINITY] {
+            let wheel = WheelDrive { torque_limit, torque_scale: 0.9, torque_bias: 0.01, ..WHEEL };
+            for scale in [0.5, 0.0, -0.25, 1.5] {
+                let failed = wheel.failed(&FailureInput { torque_scale: Some(scale), ..FailureInput::DEFAULT });
+                for commanded in [0.0, 0.1, -0.2, 0.33, 4.0, -4.0] {
+                    let [whole, share] = [wheel, failed].map(|wheel| wheel.over(commanded, 0.0, 0.1));
+                    // an ulp of 4 N m is 9e-16
+                    assert!((share.motor - scale * whole.motor).abs() < 1e-15, "{scale} {commanded}: {share:?}");
+                    let is_cut = scale != 0.0 && whole.is_torque_limited;
+                    assert_eq!(share.is_torque_limited, is_cut, "{scale} {commanded}");
+                }
+            }
+        }
     }
 
     /// Law: the torque that stops a wheel on a body stops it: its rate relative to the body, which takes the opposite torque.

@@ -126,6 +126,10 @@ impl ControlLoop {
         let applied = self.plant.apply(time, &commands, wheels, &mut actuation);
         self.flight_software.count(time, applied.length);
         self.mission.arc(time, &mut self.plant, (&actuation, &applied), (body, wheels));
+        // what the schedule fires is not counted as the loop's
+        for (thrust, scheduled) in actuation.thrust.iter_mut().zip(applied.scheduled_thrust) {
+            *thrust += scheduled;
+        }
         actuation
     }
 }

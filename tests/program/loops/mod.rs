@@ -13,6 +13,7 @@ pub mod ignorance;
 pub mod laws;
 pub mod maneuvers;
 pub mod missions;
+pub mod motors;
 pub mod noise;
 pub mod own_laws;
 pub mod phases;

@@ -170,6 +170,12 @@ impl ControlInput {
         ControlInput { law: DeclaredTable::of(Name::NONE, declared), ..Self::NONE }
     }
 
+    /// Whether this is the loop of a campaign file, which has phases and models of its motors; the law of a program has
+    /// neither.
+    pub fn has_loop(&self) -> bool {
+        !self.guidance.is_empty()
+    }
+
     /// All tables with their headers.
     pub fn tables(&self) -> impl Iterator<Item = (&'static str, &DeclaredTable)> {
         let sensors = self.sensors.iter().map(|table| ("sensors", table));

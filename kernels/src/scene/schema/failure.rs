@@ -11,7 +11,8 @@ rows! {
     pub struct FailureInput in FailureInput [table => table] {
     at_s: f64 = 0.0, "s", "Time at which the device fails; after the end of the run it has no effect", SCALAR, Plain, Limit::NotNegative,
         (required "100.0");
-    torque_scale: Option<f64> = None, "1", "For a wheel: factor on its motor torque from then on; 0 for a dead motor", SCALAR,
+    torque_scale: Option<f64> = None, "1",
+        "For a wheel: factor on the torque that its motor gives within its limit, from then on; 0 for a dead motor", SCALAR,
         Plain, Limit::Finite, (optional);
     coulomb_friction_n_m: Option<f64> = None, "N m", "For a wheel under a control loop: its bearing friction from then on, independent of the rate",
         SCALAR, Plain, Limit::NotNegative, (optional);
