@@ -170,12 +170,6 @@ impl FlightSoftware {
         if !self.spec.thrusters.is_empty() {
             let (acting, next) = self.under_way.thrust.at(time + same);
             (pulses, until) = (Some(acting), until.min(next));
-            for &i in &self.spec.thrusters {
-                let end = acting.begin + acting.on_time[i];
-                if acting.thrust[i] > 0.0 && end > time + same {
-                    until = until.min(end);
-                }
-            }
         }
         let mut rods = &NO_DIPOLES;
         if self.rods.is_some() {
@@ -197,8 +191,10 @@ impl FlightSoftware {
             let (pulses, _) = self.under_way.thrust.all();
             let mut thrust = [0.0; MAX_THRUSTERS];
             for &i in &self.spec.thrusters {
-                if pulses.begin + pulses.on_time[i] > time + same {
-                    thrust[i] = pulses.thrust[i];
+                // a valve that is slower than it is believed fires on when its pulse should have ended
+                let left = pulses.begin + pulses.on_time[i] - time;
+                if left > same {
+                    thrust[i] = pulses.thrust[i] * if left < length - same { left / length } else { 1.0 };
                 }
             }
             if thrust != [0.0; MAX_THRUSTERS] {

@@ -171,6 +171,31 @@ fn assert_fired(flown: &FlownLoop, is_on_off: bool) -> usize {
     pulses
 }
 
+/// Every arc of `flown` begins at a tick, when a command begins to act, or when a thruster as drawn ends its pulse: not
+/// where flight software believes that it does. How many of the believed ends no arc begins at.
+fn assert_begun(flown: &FlownLoop, is_on_off: bool) -> usize {
+    let spec = flown.spec();
+    let (period, delay) = (spec.period, flown.control("delay_s"));
+    let mut instants: Vec<f64> = flown.ticks.iter().flat_map(|tick| [tick.time, tick.time + delay]).collect();
+    let mut believed_ends = Vec::new();
+    for thruster in spec.thrusters.iter().copied() {
+        let commands = flown.told(&format!("commanded_thrust_{}_n", spec.thruster_names[thruster]));
+        let believed = flown.plan.nominal.thrusters[thruster].max_thrust_n.unwrap_or(f64::INFINITY);
+        let least = if is_on_off { flown.run.scene.actuators.thrusters[thruster].min_on_time } else { 0.0 };
+        for (mean, tick) in commands.iter().zip(&flown.ticks).filter(|(mean, _)| **mean > 0.0) {
+            let on_time = if is_on_off { mean / believed * period } else { period };
+            instants.push(tick.time + delay + on_time.max(least));
+            believed_ends.push(tick.time + delay + on_time);
+        }
+    }
+    let is_among = |list: &[f64], time: f64| list.iter().any(|other| (other - time).abs() < SAME_TIME);
+    let starts: Vec<f64> = flown.arcs.iter().map(|(arc, _)| arc.start).collect();
+    for start in &starts {
+        assert!(is_among(&instants, *start), "an arc begins at {start}");
+    }
+    believed_ends.into_iter().filter(|end| !is_among(&starts, *end)).count()
+}
+
 /// Law: a thruster fires `delay_s` after its command: at the thrust that was commanded, or at its own for as long as makes the mean; a valve that is slower
 /// or weaker than flight software knows fires longer or less. In every modulation.
 #[test]
@@ -189,6 +214,8 @@ fn thrusters_give_what_their_valves_make_of_the_commands() {
             let is_on_off = modulation != "throttled";
             let ended = assert_fired(&flown, is_on_off);
             assert!(ended > 3, "{modulation}, delay {delay}: {ended} pulses");
+            let prolonged = assert_begun(&flown, is_on_off);
+            assert!(!is_on_off || prolonged > 3, "{modulation}, delay {delay}: {prolonged}");
         }
     }
 }
