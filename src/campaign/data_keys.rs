@@ -1,7 +1,7 @@
 //! The keys that name a file of numbers: `file`, `sha256`, `column`, `parameters`, `columns`.
 
 use super::data::{COPIES, DataFile, MOST_FILES, MOST_NUMBERS, Unused, copy_name};
-use super::parameter::{named, unknown_parameter};
+use super::parameter::{named, unknown_parameter, without_effect};
 use super::problem::nearest;
 use super::section::Section;
 use crate::sampling::DataColumn;
@@ -154,6 +154,7 @@ pub(super) fn columns(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
 /// The numbers that a name means, each with a name as it was written: those of a parameter as a whole, or one.
 fn components(table: &mut Section<'_, '_>, name: &str) -> Option<Vec<(String, (Parameter, usize))>> {
     if let Some((parameter, None)) = Parameter::find(&table.document.scene, name) {
+        refuse_without_effect(table, name, parameter);
         return Some((0..parameter.width()).map(|k| (parameter.component_name(k), (parameter, k))).collect());
     }
     let Some(component) = named(&table.document.scene, name) else {
@@ -164,7 +165,16 @@ fn components(table: &mut Section<'_, '_>, name: &str) -> Option<Vec<(String, (P
         }
         return None;
     };
+    refuse_without_effect(table, name, component.0);
     Some(vec![(name.to_owned(), component)])
+}
+
+/// Notes that the numbers `name` of `parameter` change no run.
+fn refuse_without_effect(table: &mut Section<'_, '_>, name: &str, parameter: Parameter) {
+    if let Some((allowed, remedy)) = without_effect(table, parameter) {
+        let key = if table.has("parameters") { "parameters" } else { "file" };
+        table.refuse_value(key, format!("{name:?}"), format!("made of names, each {allowed}"), remedy);
+    }
 }
 
 /// The names that columns of a parameter, or of a component, may have.

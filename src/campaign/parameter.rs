@@ -2,7 +2,7 @@
 
 use super::problem::nearest;
 use super::section::Section;
-use crate::scene::{Parameter, SceneInput};
+use crate::scene::{LawParameter, Parameter, SceneInput};
 
 /// The parameter, and the component if one is meant, that `key` names.
 pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Option<(Parameter, Option<usize>)> {
@@ -13,7 +13,25 @@ pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Optio
         let (allowed, remedy) = unknown_parameter(&table.document.scene, name);
         table.refuse(key, allowed, remedy);
     }
+    if let Some((allowed, remedy)) = found.and_then(|(parameter, _)| without_effect(table, parameter)) {
+        table.refuse(key, allowed, remedy);
+    }
     found
+}
+
+/// Why no draw of `parameter` would change a run, and what to do instead: it is a number that a filter takes from the
+/// file.
+pub(super) fn without_effect(table: &Section<'_, '_>, parameter: Parameter) -> Option<(String, &'static str)> {
+    let kind = table.document.law.as_ref()?.spec()?.estimator_kind();
+    let is_own = |own: &LawParameter| parameter.name().strip_prefix("control.") == Some(own.facts.key);
+    kind.parameters.iter().any(is_own).then(|| {
+        let name = kind.name;
+        let allowed = format!(
+            "a parameter that acts: the filter of control.estimator = {name:?} believes the numbers of the file in every \
+             run"
+        );
+        (allowed, "delete this table, and fly the campaign once for each value, by --set")
+    })
 }
 
 /// What is said of a name that is no parameter: what is allowed, and what was probably meant.

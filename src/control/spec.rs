@@ -1,5 +1,6 @@
 //! [`LoopSpec`]: what a control loop consists of, as a campaign file says it; its numbers, which can be dispersed, are parameters of the scene.
 
+use super::estimators::EstimatorKind;
 use super::flight_code::FlightCode;
 use super::guidance::condition::Condition;
 use super::guidance::phase::{Maneuver, Next};
@@ -170,6 +171,11 @@ pub struct ModelSpec {
 }
 
 impl LoopSpec {
+    /// Ticks of sensors in a control period.
+    pub fn ticks_per_period(&self) -> u64 {
+        ticks_per_period(self.period, self.sensors.iter().map(|sensor| sensor.period)).unwrap_or(1)
+    }
+
     /// The module that phases name as their law.
     pub fn code(&self) -> Option<&'static FlightCode> {
         self.module.as_ref().map(|module| module.code)
@@ -206,14 +212,19 @@ impl LoopSpec {
         self.phases.iter().any(|phase| phase.target != Target::None)
     }
 
+    /// The kind of the estimator.
+    pub fn estimator_kind(&self) -> &'static EstimatorKind {
+        &super::estimators::KINDS[self.estimator]
+    }
+
     /// Whether the estimator has filters.
     pub fn has_filter(&self) -> bool {
-        super::estimators::KINDS[self.estimator].has_filter
+        self.estimator_kind().has_filter
     }
 
     /// Whether the state is known without sensors.
     pub fn knows_the_truth(&self) -> bool {
-        super::estimators::KINDS[self.estimator].knows_the_truth
+        self.estimator_kind().knows_the_truth
     }
 
     /// Whether a camera sees the debris.

@@ -89,7 +89,7 @@ parameter = "control.delay_s"
 distribution = "normal"
 std = 0.01
 [[disperse]]
-parameter = "control.initial_attitude_sigma_rad"
+parameter = "control.settling_band_rad"
 distribution = "uniform"
 min = 0.1
 max = 0.2
@@ -512,4 +512,51 @@ fn phases_and_sensors_have_names() {
         .expect("a plan");
     assert_eq!(variant.hash(), same.hash());
     assert_eq!(variant.nominal.control.guidance.len(), 3);
+}
+
+/// Law: what a filter takes from the file in every run is refused as a dispersion, as a derived parameter and in a file
+/// of draws, with the reason; the same key of an estimator without filters is no parameter; what laws and sensors draw
+/// is not refused.
+#[test]
+fn numbers_of_a_filter_are_not_dispersed() {
+    let sigma = "control.initial_attitude_sigma_rad";
+    let drawn = |name: &str| {
+        let text = LOOP.replacen("samples = 1\n", "samples = 10\n", 1);
+        format!("{text}[[disperse]]\nparameter = \"{name}\"\ndistribution = \"uniform\"\nmin = 0.01\nmax = 0.02\n")
+    };
+    for name in [sigma, "control.initial_bias_sigma_rad_s", "control.rate_random_walk_rad_s_sqrt_s"] {
+        let error = refused(&drawn(name));
+        assert_eq!(error.problems.len(), 1, "{error}");
+        let said = error.to_string();
+        for part in ["disperse[0].parameter", name, "believes the numbers of the file in every run", "--set"] {
+            assert!(said.contains(part), "{part}: {said}");
+        }
+    }
+    for name in ["control.delay_s", "control.settling_band_rad", "guidance.hold.damping"] {
+        plan(&drawn(name));
+    }
+    let derived =
+        format!("{}[[derive]]\nparameter = \"{sigma}\"\nexpression = \"control.delay_s\"\n", drawn("control.delay_s"));
+    let said = refused(&derived).to_string();
+    assert!(said.contains("derive[0].parameter") && said.contains("believes the numbers"), "{said}");
+}
+
+/// Law: on an orbit with an epoch a Sun sensor has the Sun of the date, and a direction beside it is refused; elsewhere
+/// it is a key, and the bias has any sign.
+#[test]
+fn a_dated_orbit_has_one_sun() {
+    let orbit = "[orbit]\nsemi_major_axis_m = 7e6\n";
+    let sensor = "[[sensors]]\nname = \"sun\"\nkind = \"sun_sensor\"\nbias_rad = -0.01\n";
+    let file = |sensor: &str, orbit: &str| LOOP.replacen("[[guidance]]", &format!("{sensor}{orbit}[[guidance]]"), 1);
+    let dated = format!("{orbit}epoch = \"2026-06-21T00:00:00Z\"\n");
+    let given = format!("{sensor}sun_direction = [0, 1, 0]\n");
+    for (sensor, orbit) in [(sensor, &dated[..]), (sensor, orbit), (&given, orbit), (&given, "")] {
+        let plan = plan(&file(sensor, orbit));
+        assert_eq!(plan.text().contains("sun_direction"), !orbit.contains("epoch"));
+        assert_eq!(self::plan(&plan.text()).text(), plan.text());
+    }
+    let error = refused(&file(&given, &dated));
+    assert_eq!(error.problems.len(), 1, "{error}");
+    let said = error.to_string();
+    assert!(said.contains("sensors.sun.sun_direction") && said.contains("delete this line, or orbit.epoch"), "{said}");
 }
