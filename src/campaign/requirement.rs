@@ -4,6 +4,7 @@ use super::numbers::{CONFIDENCE, PROBABILITY};
 use super::section::Section;
 use super::units;
 use crate::observables::window::Window;
+use crate::run::{points_before, points_to};
 use crate::sampling::keys::{Condition, Kind, ListLimit, Presence, Row, Rule, Value};
 use crate::statistics::gate::GateLimit;
 
@@ -50,7 +51,8 @@ pub struct BandSubject {
 impl BandSubject {
     /// Whether the interval has the time `time`, s.
     pub fn contains(&self, time: f64) -> bool {
-        self.from_s.is_none_or(|from| from <= time) && self.to_s.is_none_or(|to| time <= to)
+        self.from_s.is_none_or(|from| points_before(&[time], from) == 0)
+            && self.to_s.is_none_or(|to| points_to(&[time], to) == 1)
     }
 }
 

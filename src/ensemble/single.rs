@@ -17,7 +17,7 @@ use crate::ensemble::runner::RunError;
 use crate::ensemble::settings::propagator;
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, Series};
-use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry};
+use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry, points_to};
 use crate::sampling::SampleId;
 use crate::scene::{Arc, Scene, SceneError};
 
@@ -190,7 +190,7 @@ impl<'p> SingleRuns<'p> {
         });
         let (table, arcs, mut outcome) = result.expect("the propagator finishes every scene that it is given");
         if let Some(end) = arcs.last().filter(|arc| arc.applied.ends_run).map(|arc| arc.start) {
-            outcome.points = outcome.points.min(self.grid.times().partition_point(|time| *time <= end));
+            outcome.points = outcome.points.min(points_to(self.grid.times(), end));
         }
         if matches!(outcome.status, Status::Done | Status::Inaccurate) {
             self.flights.report(0, &mut row[self.request.places_of_law()]);

@@ -28,7 +28,7 @@ use crate::dynamics::effects::magnetic_torque;
 use crate::dynamics::magnetic_field::MagneticField;
 use crate::math::Isa;
 use crate::math::isa::Work;
-use crate::run::{Grid, Outcome, StateTable, Status};
+use crate::run::{Grid, Outcome, StateTable, Status, points_to};
 use crate::scene::Scene;
 
 /// Observes runs on one grid; one per worker, reused from run to run without allocating.
@@ -151,7 +151,7 @@ impl Observer {
         let has_debris = acting.scene().mass.debris.is_some();
         assert!(has_debris || !self.request.debris, "a scene whose debris is observed has one");
         let end = acting.end();
-        let observed = end.map_or(self.times.len(), |end| self.times.partition_point(|time| *time <= end));
+        let observed = end.map_or(self.times.len(), |end| points_to(&self.times, end));
         self.filled = outcome.points.min(observed);
         let is_ended = self.filled == observed && observed < self.times.len();
         self.ended_weights = is_ended.then(|| Weights::at(&self.times[..observed]));

@@ -9,7 +9,7 @@ use super::reduction::Stored;
 use super::rows::{ColumnKind, Scenes};
 use super::table::{Column, ColumnId, Series, Value};
 use crate::math::list::List;
-use crate::run::Quantity;
+use crate::run::{Quantity, points_before, points_to};
 use crate::scene::Name;
 
 /// Most of them in a campaign.
@@ -85,8 +85,8 @@ impl Window {
 
     /// The observation points that it has, of those at `times`.
     pub fn points(&self, times: &[f64]) -> Range<usize> {
-        let start = self.from_s.map_or(0, |from| times.partition_point(|time| *time < from));
-        let end = self.to_s.map_or(times.len(), |to| times.partition_point(|time| *time <= to));
+        let start = self.from_s.map_or(0, |from| points_before(times, from));
+        let end = self.to_s.map_or(times.len(), |to| points_to(times, to));
         start..end.max(start)
     }
 

@@ -1,5 +1,19 @@
 //! [`Grid`]: the times at which a run is observed.
 
+/// Times that differ by less, relative to their size, are one: a tick k T and a grid point D (k/n) of the same decimal
+/// time have five roundings of half an ulp together, 5.6e-16.
+const SAME: f64 = 4.0 * f64::EPSILON;
+
+/// How many of `times`, ascending, are not after `end`.
+pub fn points_to(times: &[f64], end: f64) -> usize {
+    times.partition_point(|time| *time <= end + SAME * end.abs())
+}
+
+/// How many of `times`, ascending, are before `start`.
+pub fn points_before(times: &[f64], start: f64) -> usize {
+    times.partition_point(|time| *time < start - SAME * start.abs())
+}
+
 /// The times at which a run is observed, s: ascending, the first is zero, the last the duration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
@@ -53,6 +67,35 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Law: the point at the decimal time of a tick is one of the points up to that tick and from it on, on every grid
+    /// that has this time; the points beside it are not.
+    #[test]
+    fn a_point_at_a_tick_is_at_the_tick() {
+        let mut rounded = [0; 2];
+        for (period, per_unit) in [(0.1, 10), (0.7, 10), (0.25, 4), (0.05, 20), (1.0 / 3.0, 3)] {
+            for points in [2, 11, 36, 101, 601] {
+                for duration in [7_u64, 70, 350] {
+                    let grid = Grid::uniform(duration as f64, points);
+                    for (k, time) in grid.times().iter().enumerate() {
+                        // duration k/(points - 1) = tick/per_unit, or seven times that, in whole numbers
+                        let step = if period == 0.7 { 7 } else { 1 };
+                        let (whole, over) = (duration * per_unit * k as u64, step * (points as u64 - 1));
+                        if whole % over != 0 {
+                            continue;
+                        }
+                        let tick = (whole / over) as f64 * period;
+                        assert_eq!(points_to(grid.times(), tick), k + 1, "{period} {points} {duration} {k}");
+                        assert_eq!(points_before(grid.times(), tick), k);
+                        rounded[0] += usize::from(tick < *time);
+                        rounded[1] += usize::from(tick > *time);
+                    }
+                }
+            }
+        }
+        // comparisons of the numbers themselves lose points at both ends
+        assert!(rounded.iter().all(|count| *count > 20), "{rounded:?}");
+    }
 
     #[test]
     fn points_are_evenly_distributed() {

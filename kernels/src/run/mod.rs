@@ -15,7 +15,7 @@ mod state_table;
 mod telemetry;
 mod trajectory;
 
-pub use grid::Grid;
+pub use grid::{Grid, points_before, points_to};
 pub use outcome::{LocalErrors, Outcome, Status, StepStatistics, rate_scale};
 pub use quantity::Quantity;
 pub use state_field::{StateField, StateFields};

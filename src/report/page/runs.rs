@@ -9,7 +9,7 @@ use crate::observables::Group;
 use crate::report::failure_text::{readable, status_words};
 use crate::report::names;
 use crate::report::page::readable::with_unit;
-use crate::run::{Grid, Status};
+use crate::run::{Grid, Status, points_before, points_to};
 use crate::sampling::SampleId;
 
 /// Places of a list of worst runs after the first, in words.
@@ -211,8 +211,8 @@ fn grid(plan: &Plan, isa: Isa) -> Grid {
 
 /// `grid` with one more time; `None` where it has this one, or ends before it.
 fn with_time(grid: &Grid, time: f64) -> Option<Grid> {
-    let place = grid.times().partition_point(|other| *other < time);
-    if grid.times().get(place).is_none_or(|other| *other == time) {
+    let place = points_before(grid.times(), time);
+    if place == grid.points() || points_to(grid.times(), time) > place {
         return None;
     }
     let mut times = grid.times().to_vec();
