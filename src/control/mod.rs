@@ -6,7 +6,8 @@
 //! - [`spec`]: what a loop of a campaign file consists of; [`parameters`]: its numbers (`declared`: how a part says its own). [`control_loop`]: it in a run, where the truth ([`plant`]) and what flies it ([`flight_software`])
 //!   meet. [`outcome`]: what comes of a run;
 //!   [`recorder`]: its telemetry; [`loop_record`]: quantities over time at the observation points.
-//! - [`truth`]: the true state at a tick. [`sensors`]: what is measured of it ([`measurement`]).
+//! - [`tick_times`]: the times of ticks. [`truth`]: the true state at a tick. [`sensors`]: what is measured of it
+//! ([`measurement`]).
 //! - [`estimators`]: from measurements to an [`estimate`].
 //! - [`guidance`]: which phase a run is in, and the attitude and the maneuver that it wants.
 //! - [`laws`]: from an estimate to a wanted torque. [`flight_code`]: WebAssembly modules as such a law.
@@ -45,6 +46,7 @@ pub mod sensors;
 pub mod small_matrix;
 pub mod spec;
 pub mod stability;
+pub mod tick_times;
 pub mod truth;
 pub mod vector;
 

@@ -27,7 +27,7 @@ use crate::control::recorder::Recorder;
 use crate::control::sensors::failing::FailingSensor;
 use crate::control::sensors::{KINDS as SENSORS, SampledSensor, Sensor, SensorContext};
 use crate::control::small_matrix::inverse;
-use crate::control::spec::{LoopSpec, PhaseSpec, SensorSpec, ticks_per_period};
+use crate::control::spec::{LoopSpec, PhaseSpec, SensorSpec};
 use crate::scene::{DeclaredTable, Device, Scene};
 
 /// The motors and bearings of the wheels of `scene`.
@@ -163,8 +163,7 @@ fn mission(spec: &Arc<LoopSpec>, context: &LawContext<'_>) -> Mission {
 impl ControlLoop {
     /// The loop of the run of `context`, which reports `columns`.
     pub fn new(spec: &Arc<LoopSpec>, columns: &Arc<OutcomeColumns>, context: &LawContext<'_>) -> Self {
-        let ticks_per_period =
-            ticks_per_period(spec.period, spec.sensors.iter().map(|sensor| sensor.period)).unwrap_or(1);
+        let ticks_per_period = spec.ticks_per_period();
         let tick_period = spec.period / ticks_per_period as f64;
         let parts = (sensors(spec, context, tick_period), wheel_drives(context.drawn));
         ControlLoop {

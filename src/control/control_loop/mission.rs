@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::SAME_TIME;
 use crate::control::estimate::EstimateErrors;
 use crate::control::flight_software::{FlightSoftware, Guided};
 use crate::control::guidance::target::{OrbitMotion, Target, TargetInput};
@@ -66,7 +67,8 @@ impl Mission {
 
     /// Whether a wheel has been at its limit of speed for too long.
     pub fn saturation(&self, time: f64) -> Option<Failure> {
-        (time - self.saturated_since > self.saturation_timeout).then_some(Failure::WheelSaturated)
+        let longest = self.saturation_timeout + SAME_TIME * self.criteria.period;
+        (time - self.saturated_since > longest).then_some(Failure::WheelSaturated)
     }
 
     /// Takes the truth of a control tick into the quantities over time, and into the outcome where the tick is judged.

@@ -13,7 +13,6 @@ use super::actuators::{PulseState, ThrusterDrive};
 use super::allocation::rods::RodAllocation;
 use super::allocation::thrust::ThrustAllocation;
 use super::allocation::wheel_torque::WheelTorque;
-use super::control_loop::SAME_TIME;
 use super::estimate::Estimate;
 use super::estimators::{Consistency, Estimator, Update};
 use super::guidance::condition::GuidanceInput;
@@ -28,6 +27,7 @@ use super::net_launch::geometry::{LaunchGeometry, LaunchState};
 use super::net_launch::maneuver::geometry_of;
 use super::plant::Measurements;
 use super::spec::LoopSpec;
+use super::tick_times::TickTimes;
 use super::truth::Truth;
 use crate::control::vector::{dcm_from_quaternion, norm, product, scaled, sum};
 use crate::dynamics::orbit_path::OrbitPath;
@@ -70,6 +70,7 @@ const NO_IMPULSE: CommandedImpulse =
 /// The flight software of one run.
 pub struct FlightSoftware {
     pub(in crate::control) spec: Arc<LoopSpec>,
+    pub(in crate::control) ticks: TickTimes,
     pub(in crate::control) believed: Scene,
     body: KnownBody,
     estimator: Box<dyn Estimator>,
@@ -177,6 +178,7 @@ impl FlightSoftware {
             started: false,
             last_update: 0.0,
             believed,
+            ticks: TickTimes::new(spec.period, spec.ticks_per_period()),
             spec: spec.clone(),
         }
     }
@@ -242,7 +244,7 @@ impl FlightSoftware {
             None => {
                 let asks = self.phase().until.is_some();
                 let input = asks.then(|| self.guidance_input(time, error, velocity_to_go));
-                self.guidance.decide(&self.phases, time, input.as_ref(), SAME_TIME * self.spec.period)
+                self.guidance.decide(&self.phases, time, input.as_ref(), &self.ticks)
             }
         };
         // a phase begins with the run, or where guidance has changed it
@@ -269,16 +271,17 @@ impl FlightSoftware {
         if self.spec.needs_axis() && !self.geometry.is_some_and(|geometry| geometry.has_axis()) {
             return Some(Failure::NoAxis);
         }
-        (self.spec.has_debris && time - self.debris_seen > self.lost_target_timeout).then_some(Failure::LostTarget)
+        let is_lost = time - self.debris_seen > self.lost_target_timeout + self.ticks.same();
+        (self.spec.has_debris && is_lost).then_some(Failure::LostTarget)
     }
 
     /// What the conditions of phases can ask for, where the attitude relative to the target and the velocity to go are these.
     fn guidance_input(&self, time: f64, error: AttitudeError, velocity_to_go: [f64; 3]) -> GuidanceInput {
-        let estimate = &self.estimate;
+        let (estimate, ticks) = (&self.estimate, &self.ticks);
         let rates = &estimate.wheel_rates[..self.believed.mass.wheels.len()];
         GuidanceInput {
-            time,
-            time_in_phase: time - self.guidance.since,
+            time: ticks.exact(time),
+            time_in_phase: ticks.exact(time - self.guidance.since),
             body_rate: norm(estimate.omega_se_s),
             error,
             wheel_speed: rates.iter().fold(0.0, |most, rate| most.max(rate.abs())),
@@ -286,8 +289,8 @@ impl FlightSoftware {
             geometry: self.geometry,
             velocity_to_go,
             s3_e: product(dcm_from_quaternion(estimate.q_es), [0.0, 0.0, 1.0]),
-            time_to_station: self.guidance.arrival - time,
-            debris_age: if self.spec.has_debris { time - self.debris_seen } else { f64::NAN },
+            time_to_station: ticks.exact(self.guidance.arrival - time),
+            debris_age: if self.spec.has_debris { ticks.exact(time - self.debris_seen) } else { f64::NAN },
             debris_rate: estimate.debris.map_or(f64::NAN, |debris| norm(debris.omega_de_d)),
         }
     }

@@ -11,6 +11,8 @@ pub mod target;
 use condition::GuidanceInput;
 use phase::{Maneuver, Next, Phase};
 
+use super::tick_times::TickTimes;
+
 /// Why a mission has failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -112,9 +114,16 @@ impl Guidance {
         }
     }
 
-    /// Decides at the tick at `time` (s) whether the phase goes on. `input` is what its condition asks, and may be `None` where it has none; `same` is a time below
-    /// which ticks are one, s. At most one change a tick, so that a phase lasts at least one, and no list of phases makes a circle within a tick.
-    pub fn decide(&mut self, phases: &[Phase], time: f64, input: Option<&GuidanceInput>, same: f64) -> Progress {
+    /// Decides at the tick at `time` (s), one of `ticks`, whether the phase goes on. `input` is what its condition
+    /// asks, and may be `None` where it has none. At most one change a tick, so that a phase lasts at least one, and no
+    /// list of phases makes a circle within a tick.
+    pub fn decide(
+        &mut self,
+        phases: &[Phase],
+        time: f64,
+        input: Option<&GuidanceInput>,
+        ticks: &TickTimes,
+    ) -> Progress {
         self.has_changed = false;
         let phase = &phases[self.phase];
         let is_met = phase.until.as_ref().zip(input).is_some_and(|(condition, input)| condition.is_met(input));
@@ -124,7 +133,8 @@ impl Guidance {
             self.met_since = f64::NAN;
         }
         // a hold that ends at a tick ends there in spite of rounding
-        if is_met && time - self.met_since >= phase.hold - same {
+        let has_lasted = |since: f64, long: f64| ticks.exact(time - since) >= long - ticks.same();
+        if is_met && has_lasted(self.met_since, phase.hold) {
             return match phase.next {
                 Next::Launch => Progress::Launches,
                 Next::Phase(next) => {
@@ -138,7 +148,7 @@ impl Guidance {
             self.begin(phases, other, time);
             return Progress::Flies;
         }
-        if time - self.since >= phase.timeout - same {
+        if has_lasted(self.since, phase.timeout) {
             return Progress::Fails(Failure::Timeout);
         }
         Progress::Flies
@@ -150,6 +160,8 @@ mod tests {
     use super::*;
     use condition::Condition;
     use target::Target;
+
+    const TICKS: fn() -> TickTimes = || TickTimes::new(0.1, 1);
 
     fn input(time: f64, body_rate: f64) -> GuidanceInput {
         GuidanceInput {
@@ -194,7 +206,7 @@ mod tests {
         let rates = [2.0, 0.5, 0.5, 2.0, 0.5, 0.5, 0.5, 0.5, 0.5];
         for (tick, rate) in rates.into_iter().enumerate() {
             let time = 0.1 * tick as f64;
-            assert_eq!(guidance.decide(&phases, time, Some(&input(time, rate)), 1e-9), Progress::Flies);
+            assert_eq!(guidance.decide(&phases, time, Some(&input(time, rate)), &TICKS()), Progress::Flies);
             assert_eq!(guidance.phase, usize::from(tick >= 7), "tick {tick}");
             assert_eq!(guidance.has_changed, tick == 7);
         }
@@ -212,16 +224,16 @@ mod tests {
         (again.thrust, again.transfer_time) = (Maneuver::Transfer, 30.0);
         let phases = [check, again];
         let mut guidance = Guidance::new(&phases);
-        assert_eq!(guidance.decide(&phases, 0.0, Some(&input(0.0, 2.0)), 1e-9), Progress::Flies);
+        assert_eq!(guidance.decide(&phases, 0.0, Some(&input(0.0, 2.0)), &TICKS()), Progress::Flies);
         assert_eq!((guidance.phase, guidance.arrival), (1, 30.0));
-        assert_eq!(guidance.decide(&phases, 1.0, Some(&input(1.0, 2.0)), 1e-9), Progress::Flies);
+        assert_eq!(guidance.decide(&phases, 1.0, Some(&input(1.0, 2.0)), &TICKS()), Progress::Flies);
         assert_eq!(guidance.phase, 1);
-        assert_eq!(guidance.clone().decide(&phases, 6.0, Some(&input(6.0, 2.0)), 1e-9), Progress::Flies);
+        assert_eq!(guidance.clone().decide(&phases, 6.0, Some(&input(6.0, 2.0)), &TICKS()), Progress::Flies);
         let mut late = guidance.clone();
         late.since = -5.0;
-        assert_eq!(late.decide(&phases, 5.0, Some(&input(5.0, 2.0)), 1e-9), Progress::Fails(Failure::Timeout));
-        guidance.decide(&phases, 6.0, Some(&input(6.0, 2.0)), 1e-9);
-        assert_eq!(guidance.decide(&phases, 6.1, Some(&input(6.1, 0.5)), 1e-9), Progress::Launches);
+        assert_eq!(late.decide(&phases, 5.0, Some(&input(5.0, 2.0)), &TICKS()), Progress::Fails(Failure::Timeout));
+        guidance.decide(&phases, 6.0, Some(&input(6.0, 2.0)), &TICKS());
+        assert_eq!(guidance.decide(&phases, 6.1, Some(&input(6.1, 0.5)), &TICKS()), Progress::Launches);
         assert_eq!(Failure::NAMES[Failure::KeepOut as usize], "keep_out");
     }
 

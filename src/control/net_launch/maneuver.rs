@@ -31,7 +31,7 @@ impl FlightSoftware {
             // within the burn what is left of the time of the transfer is ahead, and the impulse keeps its direction
             Maneuver::Transfer if phase.thrust == Maneuver::Transfer => {
                 let left = self.guidance.arrival - time;
-                if left < self.spec.period {
+                if left < self.spec.period - self.ticks.same() {
                     // the time of the transfer is over: what is left is for the stop
                     return VelocityToGo::default();
                 }

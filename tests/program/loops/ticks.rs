@@ -154,3 +154,65 @@ fn the_noted_limit_is_where_a_run_diverges() {
         assert_eq!(late > early, grows, "{gain}: {early:e} {late:e}");
     }
 }
+
+/// Law: a phase that lasts until a multiple of the period lasts so many ticks whenever it begins, and so does a hold: 3
+/// of 0.1 s are 0.3 s, 3 of 0.7 s are 2.1 s, 7 of 0.05 s are 0.35 s, also with a sensor that ticks ten times as fast;
+/// and `time_s` is met at its tick. Differences of k T in binary are too small at some ticks and not at others.
+#[test]
+fn phases_last_whole_ticks() {
+    let fast = "estimator = \"mekf\"\n[[sensors]]\nname = \"gyro\"\nkind = \"rate_gyro\"\nperiod_s = PERIOD\n\
+        [[sensors]]\nname = \"tracker\"\nkind = \"star_tracker\"\n";
+    let mut is_ambiguous = false;
+    for (period, lasting, ticks) in [("0.1", "0.3", 3), ("0.7", "2.1", 3), ("0.05", "0.35", 7)] {
+        let number: f64 = period.parse().expect("a number");
+        for sensors in [String::new(), fast.replace("PERIOD", &format!("{:?}", number / 10.0))] {
+            let control = format!(
+                "[control]\nperiod_s = {period}\nwheels = [\"w1\", \"w2\", \"w3\"]\n{sensors}\
+                 [[guidance]]\nphase = \"wait\"\nuntil = \"time_s >= {lasting}\"\n\
+                 [[guidance]]\nphase = \"a\"\nuntil = \"time_in_phase_s >= {lasting}\"\n\
+                 [[guidance]]\nphase = \"b\"\nuntil = \"body_rate_rad_s > 0\"\nhold_s = {lasting}\nnext = \"a\"\n"
+            );
+            let duration = 150.5 * number;
+            let text = small_craft(&control, "angular_velocity_rad_s = [0.01, 0, 0]")
+                .replace("duration_s = 100", &format!("duration_s = {duration:?}"))
+                .replace("points = 401", "points = 2");
+            let run = run(&plan(&text), 0);
+            let phases: Vec<f64> = run.telemetry.rows.iter().map(|row| row[0]).collect();
+            assert_eq!(run.telemetry.quantities[0].name(), "phase");
+            let changes: Vec<usize> = (1..phases.len()).filter(|tick| phases[*tick] != phases[tick - 1]).collect();
+            // a hold begins at the tick after that at which its phase does
+            let lasted: Vec<usize> = changes.windows(2).map(|pair| pair[1] - pair[0]).collect();
+            let expected: Vec<usize> = (0..lasted.len()).map(|place| ticks + place % 2).collect();
+            assert_eq!((changes[0], &lasted), (ticks, &expected), "{period}");
+            assert!(lasted.len() > 15);
+            let at = |tick: usize| tick as f64 * number;
+            let limit: f64 = lasting.parse().expect("a number");
+            let short = changes.iter().filter(|tick| at(**tick + ticks) - at(**tick) < limit).count();
+            is_ambiguous |= short > 3 && short + 3 < changes.len();
+        }
+    }
+    assert!(is_ambiguous);
+}
+
+/// Law: a run that fails at 3.1 s is observed at 3.1 s on every grid that has this time, whichever way it rounds, and
+/// not after.
+#[test]
+fn the_end_of_a_run_is_observed_on_every_grid() {
+    let text = holding(200.0, 1e3, "timeout_s = 3.1\n");
+    let plan = plan(&text);
+    let mut beside = [0; 3];
+    // 3.1 s is point `place` of so many intervals of a run that lasts intervals/place as long
+    let of_parts = |part: u32| [1, 2, 4, 5, 8, 10, 20].map(|place| (part, place));
+    for (part, place) in (1..=40).flat_map(of_parts).filter(|(part, place)| part > place) {
+        let (duration, intervals, place) =
+            (f64::from(31 * part) / f64::from(10 * place), part as usize, place as usize);
+        let grid = Grid::uniform(duration, intervals + 1);
+        let time = grid.times()[place];
+        assert!((time - 3.1).abs() < 1e-14);
+        let run = SingleRun::new(&plan, SampleId(0), grid, Isa::best()).expect("a physical scene");
+        assert_eq!(value(&run, "end_time_s"), 31.0 * 0.1);
+        assert_eq!(run.outcome.points, place + 1, "{duration} s in {intervals} intervals");
+        beside[if time < 31.0 * 0.1 { 0 } else { 1 + usize::from(time > 31.0 * 0.1) }] += 1;
+    }
+    assert!(beside.iter().all(|count| *count > 5), "{beside:?}");
+}

@@ -1,0 +1,88 @@
+//! [`TickTimes`]: the times of ticks as a person writes them. A tick at k T, in binary, may be an ulp beside the
+//! decimal number, and so may the difference of two such times: what compares them with numbers of a file takes the
+//! whole number of ticks instead.
+
+use super::control_loop::SAME_TIME;
+
+/// A time that is nearer to a tick than this share of the time between two is that of the tick: the difference of two
+/// times has a rounding of 2e-16 of them, so that this suffices for 4e9 ticks.
+const NEAR_TICK: f64 = 1e-6;
+
+/// Powers of ten with which a period is tried as a decimal number: more than nine places are a rounding.
+const SCALES: [f64; 10] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
+
+/// The times of the ticks of a loop, as quotients of whole numbers where its period is a decimal number: rounded once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TickTimes {
+    /// The control period, s.
+    period: f64,
+    /// From tick to tick, s.
+    tick: f64,
+    /// Tick k is at k `numerator`/`denominator`.
+    numerator: f64,
+    denominator: f64,
+}
+
+impl TickTimes {
+    /// Of a loop with the period `period`, s, and `ticks` ticks in it.
+    pub fn new(period: f64, ticks: u64) -> Self {
+        // the nearest decimal number is the period, bit for bit
+        let decimal = SCALES.map(|scale| ((period * scale).round(), scale));
+        let decimal = decimal.into_iter().find(|(whole, scale)| whole / scale == period);
+        let (numerator, denominator) = decimal.unwrap_or((period, 1.0));
+        let ticks = ticks as f64;
+        TickTimes { period, tick: period / ticks, numerator, denominator: denominator * ticks }
+    }
+
+    /// The difference below which two times are one, s.
+    pub fn same(&self) -> f64 {
+        SAME_TIME * self.period
+    }
+
+    /// `time`, a time or a difference of two, s: where it is that of a tick, rounded once.
+    pub fn exact(&self, time: f64) -> f64 {
+        let tick = (time / self.tick).round();
+        if (time - tick * self.tick).abs() < NEAR_TICK * self.tick {
+            tick * self.numerator / self.denominator
+        } else {
+            time
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: n ticks last what a file calls n periods, whenever they begin, for every decimal period; times between
+    /// ticks are as they were. By differences of k T alone some are longer and some are shorter.
+    #[test]
+    fn times_of_ticks_are_those_that_are_written() {
+        let mut beside = [0; 2];
+        for (text, per_unit, unit) in [("0.1", 1, 1), ("0.7", 7, 1), ("0.05", 5, 2), ("0.25", 25, 2), ("1.5", 15, 1)] {
+            let period: f64 = text.parse().expect("a number");
+            for ticks in [1_u64, 4, 10] {
+                let times = TickTimes::new(period, ticks);
+                let at = |tick: u64| tick as f64 * (period / ticks as f64);
+                for first in [0, 1, 3, 17, 864_000, 6_048_000] {
+                    for count in 1..60 {
+                        let [start, end] = [first, first + count * ticks].map(at);
+                        // the digits of the whole number, with the point where the period has it
+                        let written: f64 = format!("{}e-{unit}", count * per_unit).parse().expect("a number");
+                        assert_eq!(times.exact(end - start), written, "{text} {ticks} {first} {count}");
+                        beside[0] += usize::from(end - start < written);
+                        beside[1] += usize::from(end - start > written);
+                    }
+                }
+                assert_eq!(times.exact(0.5 * at(1)), 0.5 * at(1));
+                assert_eq!(times.exact(-3.0 * at(ticks)), -times.exact(3.0 * at(ticks)));
+            }
+        }
+        assert!(beside.iter().all(|count| *count > 100), "{beside:?}");
+        assert!(TickTimes::new(0.1, 1).exact(f64::NAN).is_nan());
+        assert_eq!(TickTimes::new(0.1, 1).exact(f64::INFINITY), f64::INFINITY);
+        // a period that is no decimal number is as it is
+        let third = 1.0 / 3.0;
+        assert_eq!(TickTimes::new(third, 1).exact(6.0 * third), 2.0);
+    }
+}
