@@ -76,6 +76,7 @@ pub fn text(plan: &Plan, isa: Isa, is_verbose: bool) -> Result<(String, CommandO
             section(&mut text, "Nominal scene")?;
             writeln!(text, "{}", scene_text::in_short(&scene))?;
         }
+        writeln!(text, "{}", scene_text::attitude(&plan.nominal.initial))?;
         if let Some(spec) = plan.law.as_ref().and_then(|law| law.spec()) {
             if is_verbose {
                 section(&mut text, "Torque of the control loop")?;
@@ -276,7 +277,7 @@ fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
     format!(
         "\n== Estimate, from {}\n\
          {} ms per run on one core; {}{looks} on {}: about {} s\n\
-         {}; {} of rows: about {}; memory: at most {}\n\
+         {}; {} of rows, page and tables: about {}; memory: at most {}\n\
          {failed}",
         counted(count, "run"),
         brief(probe.seconds * 1e3),

@@ -7,6 +7,7 @@ use crate::math::symmetric::principal_axes;
 use crate::math::vector::{cross, difference, norm, product, scaled, sum};
 use crate::report::number::trimmed;
 use crate::scene::mass::{Body, Wheel};
+use crate::scene::schema::InitialInput;
 use crate::scene::{MassProperties, Scene, SceneInput};
 use crate::table::Table;
 use crate::table::text::{Align, Text};
@@ -28,6 +29,22 @@ fn vector(v: [f64; 3]) -> String {
 pub fn in_short(scene: &Scene) -> String {
     let (moments, _) = principal_axes(scene.mass.inertia);
     format!("spacecraft: {} kg, principal moments {} kg m^2", six(scene.mass.total), vector(moments))
+}
+
+/// The attitude at the start as a turn, as it is written: its angle, 0 to 180 deg, and its axis.
+pub fn attitude(initial: &InitialInput) -> String {
+    let (frame, [w, x, y, z]) = match initial.attitude_orbital {
+        Some(q_os) => ("the local orbital frame F_o", q_os),
+        None => ("F_e", initial.attitude),
+    };
+    let turned = if w < 0.0 { [-x, -y, -z] } else { [x, y, z] };
+    let sine = norm(turned);
+    if sine == 0.0 {
+        return format!("initial attitude: that of {frame}");
+    }
+    let angle = (2.0 * libm::atan2(sine, w.abs())).to_degrees();
+    let axis = vector(scaled(1.0 / sine, turned));
+    format!("initial attitude: {} deg from {frame}, about {axis}", six(angle))
 }
 
 /// The angular momentum of the spacecraft about its centre of mass at the start, in F_s.
@@ -156,6 +173,20 @@ mod tests {
             )),
             "{text}"
         );
+    }
+
+    /// Law: an attitude is shown as the turn that it is, by at most half a turn, whichever sign its quaternion has.
+    #[test]
+    fn an_attitude_is_an_axis_and_an_angle() {
+        let shown = |attitude| super::attitude(&InitialInput { attitude, ..SceneInput::report().initial });
+        let (s, c) = (15.0_f64.to_radians().sin(), 15.0_f64.to_radians().cos());
+        for q_es in [[c, 0.0, 0.6 * s, 0.8 * s], [-c, 0.0, -0.6 * s, -0.8 * s]] {
+            assert_eq!(shown(q_es), "initial attitude: 30 deg from F_e, about [0, 0.6, 0.8]");
+        }
+        assert!(shown([0.0, 0.0, 0.0, 1.0]).ends_with("180 deg from F_e, about [0, 0, 1]"));
+        assert_eq!(shown([1.0, 0.0, 0.0, 0.0]), "initial attitude: that of F_e");
+        let orbital = InitialInput { attitude_orbital: Some([0.0, 2.0, 0.0, 0.0]), ..SceneInput::report().initial };
+        assert!(super::attitude(&orbital).contains("180 deg from the local orbital frame F_o, about [1, 0, 0]"));
     }
 
     /// Law: an entry that is rounding is 0, and a small one that is not stays.

@@ -1,6 +1,4 @@
-//! [`notes`]: what is allowed in a control loop and looks like a mistake.
-
-use std::f64::consts::{PI, TAU};
+//! [`notes`]: what is allowed in a control loop and looks like a mistake, its numbers apart (`ensemble::plausibility`).
 
 use super::actuators::modulation;
 use super::allocation::{ThrustAllocation, WheelTorque};
@@ -17,22 +15,8 @@ use crate::dynamics::effects::{Effect, ForceModel, Form};
 use crate::sampling::SampleId;
 use crate::scene::{ControlInput, DeclaredTable, Scene};
 
-/// Angles that look like degrees from here on, rad: what is an error or a band. Others from a turn on.
-const ANGLES: [(&str, f64); 6] = [
-    ("noise_rad", 1.0),
-    ("attitude_noise_rad", 1.0),
-    ("bias_rad", 1.0),
-    ("misalignment_rad", 1.0),
-    ("settling_band_rad", 1.0),
-    ("plume_half_angle_rad", PI),
-];
-/// A rate of a body or of a slew that looks like degrees a second from here on, rad/s.
-const FAST: f64 = 1.0;
 /// Times that differ by less, relative to the duration, are one: a sum of two of them has an error of 1e-16.
 const SAME: f64 = 1e-12;
-/// How far a scale may be from one without a note.
-const SCALE: f64 = 0.5;
-
 /// What about the loop `spec` looks like a mistake, a sentence each: with its nominal numbers `numbers`, in the nominal scene `scene`, over `duration`
 /// seconds.
 pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f64) -> Vec<String> {
@@ -43,12 +27,6 @@ pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f
         notes.extend(slew(spec, numbers, (phase, table)));
         notes.extend(stability(spec, numbers, scene, (phase, table)));
     }
-    notes.extend(sizes(&numbers.law, "control"));
-    for table in &numbers.sensors {
-        notes.extend(sizes(table, "sensors"));
-        notes.extend(scale(table));
-    }
-    phases.iter().for_each(|(_, table)| notes.extend(sizes(table, "guidance")));
     notes.extend(fast_wheels(spec, scene));
     notes.extend(window(&numbers.law, duration));
     notes.extend(unknown_effects(scene));
@@ -187,16 +165,10 @@ fn condition(phase: &PhaseSpec, table: &DeclaredTable, duration: f64) -> Vec<Str
     notes
 }
 
-/// A slew that is faster than a star tracker can measure, and one whose rate looks like degrees.
+/// A slew that is faster than a star tracker can measure.
 fn slew(spec: &LoopSpec, numbers: &ControlInput, (phase, table): (&PhaseSpec, &DeclaredTable)) -> Vec<String> {
     let (name, rate) = (phase.name, number(table, "max_rate_rad_s"));
     let mut notes = Vec::new();
-    if rate >= FAST {
-        notes.push(format!(
-            "guidance.{name}.max_rate_rad_s = {rate:?} is {} deg/s; degrees are written with their unit, \"{rate} deg/s\"",
-            digits(rate * 360.0 / TAU)
-        ));
-    }
     let trackers = spec.sensors.iter().zip(&numbers.sensors);
     let trackers =
         trackers.filter(|(sensor, _)| matches!(sensor.observes(), Observes::Attitude(_)) && !spec.knows_the_truth());
@@ -254,34 +226,6 @@ fn stability(
     Some(format!(
         "guidance.{}: small errors grow under {} with control.period_s = {period:?} and delay_s = {delay:?}: {most}",
         phase.name, law.name
-    ))
-}
-
-/// Angles of a table that look like degrees.
-fn sizes(table: &DeclaredTable, header: &str) -> Vec<String> {
-    let note = |(index, parameter): (usize, &crate::scene::LawParameter)| {
-        let facts = &parameter.facts;
-        let largest = table.numbers(index)?.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let limit = ANGLES.iter().find(|(key, _)| *key == facts.key).map_or(TAU, |(_, limit)| *limit);
-        let path =
-            if table.name == crate::scene::Name::NONE { header.to_owned() } else { format!("{header}.{}", table.name) };
-        (facts.unit == "rad" && largest > limit).then(|| {
-            format!(
-                "{path}.{}: {largest:?} rad is {} deg; degrees are written with their unit, \"{largest} deg\"",
-                facts.key,
-                digits(largest * 360.0 / TAU)
-            )
-        })
-    };
-    table.declared.0.iter().enumerate().filter_map(note).collect()
-}
-
-/// A scale of a sensor that turns its sign, or is not near one.
-fn scale(table: &DeclaredTable) -> Option<String> {
-    let wrong = table.named("scale")?.iter().find(|scale| (**scale - 1.0).abs() > SCALE)?;
-    Some(format!(
-        "sensors.{}.scale: {wrong:?} is measured over true; a sensor without error has 1, one with an error of 1% has 1.01",
-        table.name
     ))
 }
 

@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 
 use spindrift::campaign::{Overrides, Plan, settings};
 use spindrift::dynamics::effects::{Effect, ForceModel};
+use spindrift::ensemble::plausibility::looked::digits;
+use spindrift::ensemble::plausibility::rules::{Limit, RULES};
 use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
 use spindrift::observables::band_series::band_series;
@@ -104,6 +106,24 @@ fn quantities_over_time() -> String {
     for band in band_series(&request) {
         let quantity = &band.quantity;
         let _ = writeln!(table, "| `{}` | {} | {} |", quantity.name(), quantity.unit(), cell(quantity.meaning()));
+    }
+    table
+}
+
+/// What `check` notes, rule by rule.
+fn rules() -> String {
+    let mut table = String::from("| looked at | noted | because | usual |\n| --- | --- | --- | --- |\n");
+    for rule in RULES {
+        let (sign, limit) = match rule.limit {
+            Limit::From(limit) => (">=", limit),
+            Limit::Below(limit) => ("<", limit),
+        };
+        let (unit, factor) = if rule.known.0.is_empty() { (rule.unit, 1.0) } else { rule.known };
+        let unit = if unit == "1" { "" } else { unit };
+        let noted =
+            if limit == 0.0 { "always".to_owned() } else { format!("{sign} {} {unit}", digits(limit * factor)) };
+        let cells = [rule.subject, noted.trim_end(), rule.source, rule.usual].map(cell);
+        let _ = writeln!(table, "| {} |", cells.join(" | "));
     }
     table
 }
@@ -347,6 +367,7 @@ fn the_generated_tables_are_up_to_date() {
         ("columns of loops", columns_of_loops()),
     ];
     for (file, tables) in [
+        ("docs/campaign-files.md", &[("rules", rules())][..]),
         ("docs/control.md", &loops[..]),
         ("docs/columns.md", &columns[..]),
         ("ARCHITECTURE.md", &dependencies[..]),

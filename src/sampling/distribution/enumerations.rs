@@ -22,6 +22,14 @@ macro_rules! distributions {
             pub const NAMES: &'static [&'static str] =
                 &[$(<$Scalar as Scalar>::NAME,)* $(<$Together as Together>::NAME,)*];
 
+            /// Whether each component of a parameter has it by itself.
+            pub const fn is_of_one_number(self) -> bool {
+                match self {
+                    $( Self::$Scalar => true, )*
+                    $( Self::$Name => false, )*
+                }
+            }
+
             pub const fn keys(self) -> &'static [Row] {
                 match self {
                     $( Self::$Scalar => <$Scalar as Scalar>::KEYS, )*

@@ -1,0 +1,311 @@
+//! The sizes that rules look at and that are no parameter of their own: each from the nominal scene, from draws, or from what is written.
+
+use std::f64::consts::{PI, TAU};
+
+use super::looked::{Found, Looked, digits, most_of};
+use crate::campaign::SceneDraws;
+use crate::control::guidance::target::Target;
+use crate::control::sensors;
+use crate::control::spec::SensorSpec;
+use crate::ensemble::drawn::magnitudes;
+use crate::math::symmetric::principal_axes;
+use crate::math::vector::{conjugate, dot, hamilton, norm};
+use crate::observables::Group;
+use crate::observables::request::{NutationAxis, nearest_principal_axis};
+use crate::sampling::keys::{Value, Written};
+use crate::sampling::{Dispersion, SampleId};
+use crate::scene::parameter::Shape;
+use crate::scene::{DeclaredTable, LocalFrame, Name, Orbit, OrbitInput, Parameter, WheelInput, WheelMode};
+
+/// A year of 365.25 days, s.
+const YEAR: f64 = 365.25 * 86_400.0;
+/// More observation points than these nobody asks for.
+const MANY_POINTS: f64 = 1e7;
+/// With fewer draws the range of a distribution is not known.
+const RANGE_DRAWS: usize = 30;
+/// Draws of orbits, each of which is a scene to be resolved.
+const ORBITS: u64 = 200;
+
+fn found(size: f64, what: String) -> Vec<Found> {
+    vec![Found { size, what }]
+}
+
+pub fn duration(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let duration = looked.plan.grid.duration();
+    found(duration, format!("campaign.duration_s = {}: that is {} years", digits(duration), digits(duration / YEAR)))
+}
+
+/// Quaternions by the size of their third component, which is the scalar of other programs.
+pub fn scalar_last(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let scene = &looked.plan.nominal;
+    let quaternions = looked.parameters().filter(|parameter| parameter.shape() == Shape::Quaternion);
+    let note = |parameter: Parameter| {
+        let values: Vec<f64> = (0..4).filter_map(|component| parameter.value(scene, component)).collect();
+        let turn = 2.0 * libm::atan2(norm([values[1], values[2], values[3]]), values[0].abs()).to_degrees();
+        let shown: Vec<String> = values.iter().map(|value| digits(*value)).collect();
+        let what = format!("{} = [{}]: a turn of {} deg", parameter.name(), shown.join(", "), digits(turn));
+        Found { size: values[3].abs() / values.iter().fold(0.0, |size, value| libm::hypot(size, *value)), what }
+    };
+    quaternions.map(note).collect()
+}
+
+/// How far one draw in a hundred is turned, rad, of quaternions with a distribution of one number for each component.
+pub fn drawn_by_components(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let by_components = looked.plan.dispersed.iter().filter(|dispersion| {
+        dispersion.parameter.shape() == Shape::Quaternion && dispersion.distribution.kind.is_of_one_number()
+    });
+    let turns: Vec<_> = magnitudes(looked.plan).into_iter().zip(&looked.drawn.magnitudes).collect();
+    let note = |dispersion: &Dispersion| {
+        let (_, turns) = turns.iter().find(|(magnitude, _)| magnitude.parameter == dispersion.parameter)?;
+        let (size, kind) = (most_of((*turns).clone())?, dispersion.distribution.kind.name());
+        let (name, angle) = (dispersion.parameter.name(), digits(size.to_degrees()));
+        let what =
+            format!("{name}: distribution = {kind:?} draws each component by itself, {angle} deg off in 1 draw of 100");
+        Some(Found { size, what })
+    };
+    by_components.filter_map(note).collect()
+}
+
+/// Standard deviations of attitude errors, rad.
+pub fn attitude_error(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let note = |dispersion: &Dispersion| {
+        let std = dispersion.distribution.written.numbers("std_rad")?;
+        let size = std.iter().fold(0.0_f64, |most, std| most.max(std.abs()));
+        let (name, degrees) = (dispersion.parameter.name(), digits(size * 360.0 / TAU));
+        Some(Found { size, what: format!("{name}: std_rad = {} is {degrees} deg", digits(size)) })
+    };
+    looked.plan.dispersed.iter().filter_map(note).collect()
+}
+
+/// How far the scales of sensors are from one.
+pub fn sensor_scale(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let note = |table: &DeclaredTable| {
+        let off = |scale: &&f64| (**scale - 1.0).abs();
+        let scale = table.named("scale")?.iter().max_by(|a, b| off(a).total_cmp(&off(b)))?;
+        Some(Found { size: off(&scale), what: format!("sensors.{}.scale: {scale:?}", table.name) })
+    };
+    looked.plan.nominal.control.sensors.iter().filter_map(note).collect()
+}
+
+/// The times of a control loop, s.
+pub fn periods(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let Some(spec) = looked.spec() else { return Vec::new() };
+    let of_loop = [("control.period_s".to_owned(), spec.period)];
+    let of_sensors = spec.sensors.iter().flat_map(|sensor| {
+        // a sensor without a period of its own has that of the loop
+        let own = if sensor.period == spec.period { 0.0 } else { sensor.period };
+        [("period_s", own), ("latency_s", sensor.latency)]
+            .map(|(key, time)| (format!("sensors.{}.{key}", sensor.name), time))
+    });
+    let delay = looked.plan.nominal.control.named("delay_s").map(|delay| ("control.delay_s".to_owned(), delay[0]));
+    let times = of_loop.into_iter().chain(delay).chain(of_sensors);
+    times
+        .map(|(name, time)| Found {
+            size: time,
+            what: format!("{name} = {time:?}: that is {} min", digits(time / 60.0)),
+        })
+        .collect()
+}
+
+/// The rates to which the torques of the schedule bring wheels that are below `limit` at the start, rad/s.
+pub fn driven_wheels(looked: &Looked<'_>, limit: f64) -> Vec<Found> {
+    let Ok(scene) = &looked.scene else { return Vec::new() };
+    let turning = looked.plan.nominal.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked).enumerate();
+    let slow = turning.filter(|(_, wheel)| wheel.rate_rad_s.abs() < limit);
+    let note = |(place, wheel): (usize, &WheelInput)| {
+        let (mut rate, mut most) = (wheel.rate_rad_s, 0.0_f64);
+        for arc in &scene.schedule {
+            rate += arc.applied.motor_torque[place] * (arc.end() - arc.start) / scene.mass.wheels[place].axial;
+            most = most.max(rate.abs());
+        }
+        let rpm = digits(most * 60.0 / TAU);
+        Found {
+            size: most,
+            what: format!("wheels.{}: the torques of [[actuation]] bring it to about {rpm} rpm", wheel.name),
+        }
+    };
+    slow.map(note).collect()
+}
+
+/// Mass, kg, and principal moments of the spacecraft, ascending, kg m^2.
+fn inertia(looked: &Looked<'_>) -> Option<(f64, [f64; 3])> {
+    let mass = &looked.scene.as_ref().ok()?.mass;
+    let (mut moments, _) = principal_axes(mass.inertia);
+    moments.sort_by(f64::total_cmp);
+    Some((mass.total, moments))
+}
+
+pub fn mass(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let note = |(mass, _)| found(mass, format!("the spacecraft has a mass of {} kg", digits(mass)));
+    inertia(looked).map(note).unwrap_or_default()
+}
+
+/// The radius of gyration about the axis of the largest moment, over the cube root of the mass, m/kg^(1/3).
+pub fn radius_of_gyration(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let note = |(mass, [_, _, largest]): (f64, [f64; 3])| {
+        let radius = libm::sqrt(largest / mass);
+        let (kilograms, moment, metres) = (digits(mass), digits(largest), digits(radius));
+        found(
+            radius / libm::cbrt(mass),
+            format!(
+                "the spacecraft has {kilograms} kg and a principal moment of {moment} kg m^2: its radius of gyration is {metres} m"
+            ),
+        )
+    };
+    inertia(looked).map(note).unwrap_or_default()
+}
+
+/// How much the smaller principal moments together exceed the largest, relative to it.
+pub fn flatness(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let note = |(_, moments @ [a, b, c]): (f64, [f64; 3])| {
+        let shown = moments.map(digits).join(", ");
+        found(
+            (a + b - c) / c,
+            format!("principal moments [{shown}] kg m^2: the largest is almost the sum of the others"),
+        )
+    };
+    inertia(looked).map(note).unwrap_or_default()
+}
+
+/// Areas of all plates together over the mass, m^2/kg.
+pub fn area(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let area: f64 = looked.plan.nominal.plates.iter().map(|plate| plate.area_m2).sum();
+    let note = |(mass, _)| found(area / mass, format!("[[plates]] have {} m^2 for {} kg", digits(area), digits(mass)));
+    inertia(looked).map(note).unwrap_or_default()
+}
+
+/// The torque limit of each wheel over the smallest principal moment, rad/s^2.
+pub fn wheel_torque(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let Some((_, [smallest, ..])) = inertia(looked) else { return Vec::new() };
+    let limited = looked.plan.nominal.wheels.iter().filter_map(|wheel| Some((wheel.name, wheel.torque_limit_n_m?)));
+    let note = |(name, torque): (Name, f64)| {
+        let (size, turned) = (torque / smallest, digits(torque / smallest));
+        Found {
+            size,
+            what: format!("wheels.{name}.torque_limit_n_m = {torque:?} turns the spacecraft by {turned} rad/s^2"),
+        }
+    };
+    limited.map(note).collect()
+}
+
+/// Spreads relative to the nominal value, of distributions within others too.
+pub fn wide_spreads(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    fn of(name: &str, written: &Written) -> Vec<Found> {
+        let wide = |(key, value): (&str, &Value)| match value {
+            Value::Distribution(_, within) => of(name, within),
+            Value::Numbers(values) if key.starts_with("relative_") => {
+                let size = values.numbers().iter().fold(0.0_f64, |most, number| most.max(number.abs()));
+                found(size, format!("{name}, {key} = {}", values.text()))
+            }
+            _ => Vec::new(),
+        };
+        written.entries().flat_map(wide).collect()
+    }
+    let dispersed = looked.plan.dispersed.iter();
+    dispersed.flat_map(|dispersion| of(&dispersion.parameter.name(), &dispersion.distribution.written)).collect()
+}
+
+/// How far nominal values are from the range of their draws, over that range: of each parameter the component that is farthest.
+pub fn nominal_outside(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let mut notes: Vec<(Parameter, Found)> = Vec::new();
+    if looked.drawn.count() < RANGE_DRAWS {
+        return Vec::new();
+    }
+    let written: Vec<_> = looked.plan.dispersed.iter().flat_map(|dispersion| dispersion.components()).collect();
+    for (column, values) in looked.plan.dispersions.columns().iter().zip(&looked.drawn.columns) {
+        let ends = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(*x), b.max(*x)]);
+        let ([low, high], nominal) = (ends, column.nominal);
+        let beyond = (low - nominal).max(nominal - high);
+        if beyond <= 0.0 || !written.contains(&(column.parameter, column.component)) {
+            continue;
+        }
+        let name = column.parameter.component_name(column.component);
+        let what = format!(
+            "{name}: its nominal value {} is outside of its draws, {} to {}",
+            digits(nominal),
+            digits(low),
+            digits(high)
+        );
+        let note = Found { size: beyond / (high - low), what };
+        match notes.iter_mut().find(|(parameter, _)| *parameter == column.parameter) {
+            Some((_, other)) if other.size < note.size => *other = note,
+            Some(_) => {}
+            None => notes.push((column.parameter, note)),
+        }
+    }
+    notes.into_iter().map(|(_, note)| note).collect()
+}
+
+/// The angle between the local orbital frames of drawn orbits and of the nominal one, with that by which their mean motions part until the end, where
+/// flight software uses the nominal one; rad.
+pub fn unknown_orbit(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let plan = looked.plan;
+    let columns = plan.dispersions.columns().iter().map(|column| column.parameter.name());
+    let mut dispersed: Vec<String> = columns.filter(|name| name.starts_with("orbit.")).collect();
+    dispersed.dedup();
+    let is_used = looked.spec().is_some_and(|spec| {
+        let is_orbital = |target| matches!(target, Target::Orbital(_) | Target::Nadir | Target::OrbitalVelocity);
+        // what such a sensor measures is compared with what it would be at the place that is believed
+        let is_of_place = |sensor: &SensorSpec| sensors::KINDS[sensor.kind].needs.is_some();
+        let is_measured = spec.has_filter() && spec.sensors.iter().any(is_of_place);
+        !spec.knows_the_truth() && (is_measured || spec.phases.iter().any(|phase| is_orbital(phase.target)))
+    });
+    let (Some(nominal), false, true) = (plan.nominal.orbit.as_ref().map(flown), dispersed.is_empty(), is_used) else {
+        return Vec::new();
+    };
+    let mut draws = SceneDraws::new(plan);
+    let angle = |sample: u64| {
+        let (q_eo, motion) = flown(draws.input(SampleId(sample)).orbit.as_ref()?);
+        let [w, x, y, z] = hamilton(conjugate(nominal.0), q_eo);
+        let turn = 2.0 * libm::atan2(norm([x, y, z]), w.abs());
+        let parted = (motion - nominal.1).abs() * plan.grid.duration();
+        Some((turn + parted).min(PI)).filter(|angle| angle.is_finite())
+    };
+    let size = most_of((1..plan.samples.min(ORBITS + 1)).filter_map(angle).collect()).unwrap_or(0.0);
+    let what = format!(
+        "{}: drawn orbits are off the nominal one by {} deg in 1 draw of 100",
+        dispersed.join(", "),
+        digits(size.to_degrees())
+    );
+    found(size, what)
+}
+
+/// The attitude of the local orbital frame at the start, and the mean motion, rad/s.
+fn flown(orbit: &OrbitInput) -> ([f64; 4], f64) {
+    let Orbit { mu, position, velocity, .. } = Orbit::of(orbit);
+    let inverse_axis = 2.0 / norm(position) - dot(velocity, velocity) / mu;
+    (LocalFrame::at(position, velocity).q_eo, libm::sqrt(mu * inverse_axis.powi(3)))
+}
+
+/// How far the principal axis is off s3, where nutation is measured from s3, deg: that part of it is no motion.
+pub fn nutation(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let plan = looked.plan;
+    let is_asked = plan.groups.contains(&Group::Motion) && plan.nutation_axis == NutationAxis::SpinAxis;
+    let Some(scene) = looked.scene.as_ref().ok().filter(|_| is_asked) else { return Vec::new() };
+    let [x, y, z] = nearest_principal_axis(scene.mass.inertia);
+    let angle = libm::atan2(libm::hypot(x, y), z).to_degrees();
+    found(angle, format!("the principal axis is {} deg off s3", digits(angle)))
+}
+
+/// The turn of the body from one observation point to the next, rad.
+pub fn coarse_grid(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let (grid, initial) = (&looked.plan.grid, &looked.plan.nominal.initial);
+    let step = grid.duration() / (grid.points().max(2) - 1) as f64;
+    let rate = norm(initial.angular_velocity_rad_s);
+    let turn = rate * step;
+    let enough = libm::ceil(rate * grid.duration() / PI * 4.0) + 1.0;
+    let enough = if enough < MANY_POINTS { format!(" ({enough} points are eight to a turn)") } else { String::new() };
+    let (points, turns) = (grid.points(), digits(turn / TAU));
+    found(turn, format!("observe.points = {points}: the body makes {turns} turns from one point to the next{enough}"))
+}
+
+/// How long after the end of the run arcs start, s: the first of them.
+pub fn late_arcs(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let duration = looked.plan.grid.duration();
+    let late = looked.plan.nominal.actuation.iter().position(|arc| arc.start_s >= duration);
+    let note = |place: usize| {
+        let start = looked.plan.nominal.actuation[place].start_s;
+        found(start - duration, format!("actuation[{place}].start_s = {start:?} (campaign.duration_s = {duration:?})"))
+    };
+    late.map(note).unwrap_or_default()
+}
