@@ -31,6 +31,9 @@ const NUMBER: f64 = 8.5;
 /// Bytes of a part that do not depend on its rows: of each column (`spin_sweep` with one row: 180), and of each point of a quantity with bands
 /// (at most 961 of `spin_sweep`; of a part of few runs a byte for each).
 const PART: [f64; 2] = [200.0, 1000.0];
+/// Bytes of the page and of the tables of the end, and of each column in them: 1.09 MB of 64 columns (`single_wheel`), 1.87 MB of 88 with a control loop
+/// (`nadir_pointing`) and of 141 (`spin_sweep`), of 50 runs; of 400 runs a tenth more.
+const END: [f64; 2] = [5.5e5, 1e4];
 /// Bytes of two extremes as text, and what is said of runs without a value.
 const EXTREMES: f64 = 50.0;
 /// Memory of the program itself, bytes, and of each part: its samples, its record, and its line of the manifest.
@@ -98,13 +101,15 @@ impl Workload {
         let counted = (plan.last_counted().0 as f64 / samples as f64).min(1.0);
         let of_bands = bands * (counted * PART[1].min(runs / parts.max(1.0)) + (1.0 - counted) * EXTREMES);
         let of_part = PART[0] * columns + of_bands;
+        // a shard makes neither
+        let of_end = if shard.is_some() { 0.0 } else { END[0] + END[1] * columns };
         let rows = whole.largest().min(samples) as f64 * columns * NUMBER;
         let point = POINT[0] + if plan.audit_fraction > 0.0 { POINT[1] } else { 0.0 };
         let threads = threads(asked, usize::try_from(whole.count()).unwrap_or(usize::MAX)) as f64;
         let stopping = if plan.analysis.stop.is_some() { 8.0 * samples as f64 } else { 0.0 };
         Workload {
             what: format!("{} of {}", count(runs, "run"), plan.name),
-            disk: runs * columns * NUMBER + parts * of_part + retained * series,
+            disk: runs * columns * NUMBER + parts * of_part + retained * series + of_end,
             memory: PROGRAM[0] + PROGRAM[1] * whole.count() as f64 + threads * (points * point + 2.0 * rows) + stopping,
             seconds: runs * run_seconds,
             run_seconds,
@@ -127,6 +132,14 @@ impl Workload {
             run_seconds: 0.0,
             too_long: None,
         }
+    }
+
+    /// The same to a table in memory.
+    pub fn of_drawn_table(plan: &Plan) -> Self {
+        let work = Self::of_samples(plan, false, false);
+        // number, status and masses of each, beside the values; a status takes ten bytes
+        let numbers = plan.samples as f64 * (plan.dispersions.columns().len() as f64 + 9.5);
+        Workload { memory: work.memory + numbers * 8.0, ..work }
     }
 
     /// Reference solutions of `samples` samples of the plan of `ensemble`, and the runs that are compared with them.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde_json::Value;
 
 use crate::page::numbers::{failing, quantile};
+use crate::reliability::faulty_storage::contents;
 use crate::small_campaign::mixed_failures;
 use crate::support::scratch_folder::{ScratchFolder, batches, column, ended};
 use spindrift::statistics::binomial::interval;
@@ -231,11 +232,10 @@ fn a_check_estimates_what_is_made() {
     let said = scratch.prints_wide("check c.toml", 0);
     scratch.prints("campaign c.toml --out r", 3);
     let columns = scratch.rows("r")[0].num_columns() as f64;
-    let sizes: Vec<u64> = scratch.parts("r").iter().map(|(_, bytes)| bytes.len() as u64).collect();
-    let found = numbers(&said, "# columns; # files of rows: about # kB; memory: at most # MB");
-    assert_eq!(found[..2], [columns, sizes.len() as f64]);
-    let written = sizes.iter().sum::<u64>() as f64 / 1e3;
-    assert!((0.67..1.5).contains(&(found[2] / written)), "{} kB for {written}", found[2]);
+    let found = numbers(&said, "# columns; # files of rows, page and tables: about # MB; memory: at most # MB");
+    assert_eq!(found[..2], [columns, scratch.parts("r").len() as f64]);
+    let written = contents(&scratch.path("r")).values().map(Vec::len).sum::<usize>() as f64 / 1e6;
+    assert!((0.67..1.5).contains(&(found[2] / written)), "{} MB for {written}", found[2]);
     // the program itself has 30 MB
     assert!((30.0..300.0).contains(&found[3]), "{said}");
     let [milliseconds, samples, cores, seconds] =
