@@ -1,11 +1,12 @@
 //! [`Plan`]: a campaign file and what is changed of it. It is read whenever it is used, as the command line reads it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use spindrift::campaign;
 use spindrift::cli::check;
+use spindrift::cli::workload::Workload;
 use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::workflow::simulated::simulated;
@@ -119,7 +120,16 @@ impl Plan {
 
     /// The dispersed parameters of so many samples.
     fn sample(&self, py: Python<'_>, samples: Option<u64>) -> PyResult<ArrowTable> {
-        self.with(py, samples, None, |plan, _| ArrowTable::of_draws(plan))
+        let mut signal = None;
+        let drawn = self.with(py, samples, None, |plan, _| {
+            // what takes long is stopped by Ctrl-C; what does not fit is refused
+            Workload::of_drawn_table(plan).check(Path::new(""), true, false)?;
+            ArrowTable::of_draws(plan, || {
+                signal = Python::attach(|py| py.check_signals()).err();
+                signal.is_none()
+            })
+        });
+        signal.map_or(drawn, Err)
     }
 
     /// A sample over time, and what to know of it.

@@ -113,13 +113,16 @@ impl ArrowTable {
         ArrowTable::of(table)
     }
 
-    /// The dispersed parameters of all samples of `plan`.
+    /// The dispersed parameters of all samples of `plan`, as long as `goes_on`, which is called now and then.
     ///
     /// # Errors
-    /// Where columns differ in length.
-    pub fn of_draws(plan: &Plan) -> Result<Self, WorkflowError> {
+    /// Where columns differ in length, or it does not go on.
+    pub fn of_draws(plan: &Plan, mut goes_on: impl FnMut() -> bool) -> Result<Self, WorkflowError> {
         let mut batches = Vec::new();
         DrawnScenes::visit(plan, true, |drawn| {
+            if !goes_on() {
+                return Err(WorkflowError::Input("stopped".to_owned()));
+            }
             batches.push(drawn_table::values(drawn).into_iter().map(array).collect());
             Ok::<(), WorkflowError>(())
         })?;

@@ -6,11 +6,25 @@ use toml::{Table, Value};
 
 use crate::SpindriftError;
 
+/// Most lists and dicts within each other: a campaign file has six, and the parser of TOML takes 80.
+const MOST_NESTED: usize = 64;
+
 /// `object` as TOML: numbers, texts, truth values, lists and dicts of them, and what NumPy makes of these. `key` names it in messages.
 ///
 /// # Errors
 /// Where it is something else.
 pub fn value(key: &str, object: &Bound<'_, PyAny>) -> PyResult<Value> {
+    nested(key, object, 0)
+}
+
+/// The same of what is within so many lists and dicts.
+fn nested(key: &str, object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
+    if depth > MOST_NESTED {
+        let top = key.split(['.', '[']).next().unwrap_or_default();
+        return Err(SpindriftError::new_err(format!(
+            "{top}: must be at most {MOST_NESTED} lists and dicts within each other; this one is deeper, or contains itself"
+        )));
+    }
     // a truth value is an int of Python too
     if let Ok(found) = object.cast::<PyBool>() {
         return Ok(Value::Boolean(found.is_true()));
@@ -26,16 +40,24 @@ pub fn value(key: &str, object: &Bound<'_, PyAny>) -> PyResult<Value> {
         return Ok(Value::String(object.extract()?));
     }
     if let Ok(found) = object.cast::<PyDict>() {
-        return table(key, found).map(Value::Table);
+        return entries(key, found, depth).map(Value::Table);
     }
     if object.is_instance_of::<PyList>() || object.is_instance_of::<PyTuple>() {
         let items = object.try_iter()?.enumerate();
-        let items = items.map(|(index, item)| value(&format!("{key}[{index}]"), &item?));
+        let items = items.map(|(index, item)| nested(&format!("{key}[{index}]"), &item?, depth + 1));
         return items.collect::<PyResult<Vec<Value>>>().map(Value::Array);
     }
-    match object.getattr("tolist") {
-        Ok(list) => value(key, &list.call0()?),
-        Err(_) => Err(refused(key, object, "a number, a text, True, False, or a list or dict of them")),
+    let refused = || refused(key, object, "a number, a text, True, False, or a list or dict of them");
+    let list = object.getattr("tolist").map_err(|_| refused())?.call0()?;
+    if !list.get_type().is(object.get_type()) {
+        return nested(key, &list, depth + 1);
+    }
+    // what NumPy has no number of Python for, as a long double, is its own list
+    let kind = object.getattr("dtype").and_then(|dtype| dtype.getattr("kind")?.extract::<String>());
+    if kind.is_ok_and(|kind| kind == "f") {
+        Ok(Value::Float(object.call_method0("__float__")?.extract()?))
+    } else {
+        Err(refused())
     }
 }
 
@@ -44,10 +66,14 @@ pub fn value(key: &str, object: &Bound<'_, PyAny>) -> PyResult<Value> {
 /// # Errors
 /// Where a key is no text, or a value is none of TOML.
 pub fn table(key: &str, object: &Bound<'_, PyDict>) -> PyResult<Table> {
+    entries(key, object, 0)
+}
+
+fn entries(key: &str, object: &Bound<'_, PyDict>, depth: usize) -> PyResult<Table> {
     let entry = |(name, item): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let Ok(name) = name.extract::<String>() else { return Err(refused(key, &name, "texts as keys")) };
         let path = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
-        Ok((name, value(&path, &item)?))
+        Ok((name, nested(&path, &item, depth + 1)?))
     };
     object.iter().map(entry).collect()
 }

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import _thread
 import logging
 import re
+import threading
+import time
 import tomllib
 from pathlib import Path
 
@@ -79,6 +82,51 @@ def test_a_wrong_dict_is_refused(tables: dict[str, object], words: list[str]) ->
         sd.Plan(tables)
     for word in words:
         assert word in str(raised.value), str(raised.value)
+
+
+def nest(depth: int, inner: object, as_list: bool) -> object:
+    for _ in range(depth):
+        inner = [inner] if as_list else {"a": inner}
+    return inner
+
+
+def test_values_without_an_end_are_refused() -> None:
+    """Law: a list or dict that contains itself, or has thousands within it, is refused with the key and the limit; one of few is read."""
+    own_list: list[object] = [1.0]
+    own_list.append(own_list)
+    own_dict: dict[str, object] = {}
+    own_dict["a"] = own_dict
+    plan = sd.load(START)
+    for value in (own_list, own_dict, nest(20_000, 1, True), nest(20_000, 1, False), nest(70, 1, True)):
+        for call in (lambda: sd.Plan({"campaign": value}), lambda: plan.set({"campaign.duration_s": value})):
+            with pytest.raises(sd.SpindriftError, match="campaign: must be at most 64 lists and dicts within each other"):
+                call()
+    with pytest.raises(sd.SpindriftError, match="duration_s"):
+        plan.set({"campaign.duration_s": nest(20, 1, True)})
+
+
+def test_numbers_of_numpy_that_python_has_not() -> None:
+    """Law: a long double is the nearest double, alone and in arrays; a complex one is refused, and so are dates."""
+    plan = sd.load(START)
+    for value in (np.longdouble("20.5"), np.array(20.5, dtype=np.longdouble)):
+        assert "duration_s = 20.5" in plan.set({"campaign.duration_s": value}).text
+    rate = np.array([0.0, 0.25, 0.5], dtype=np.longdouble)
+    assert "= [0.0, 0.25, 0.5]" in plan.set({"initial.angular_velocity_rad_s": rate}).text
+    for value in (np.clongdouble(1 + 2j), np.complex128(1), np.datetime64("2026-01-01"), np.array([object()])):
+        with pytest.raises(sd.SpindriftError, match="must be a number"):
+            plan.set({"campaign.duration_s": value})
+
+
+def test_more_samples_than_memory_are_refused_and_others_stop() -> None:
+    """Law: what does not fit is refused with both sizes before anything is drawn; what takes long ends at Ctrl-C."""
+    plan = sd.load(START)
+    with pytest.raises(sd.SpindriftError, match=r"1000000000000 samples of start: .* of memory: the machine has .* left"):
+        plan.sample(10**12)
+    threading.Timer(0.2, _thread.interrupt_main).start()
+    begun = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        plan.sample(2_000_000)
+    assert time.monotonic() - begun < 5
 
 
 def test_what_is_not_there_is_refused(tmp_path: Path) -> None:
