@@ -22,7 +22,8 @@ fn nested(key: &str, object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value>
     if depth > MOST_NESTED {
         let top = key.split(['.', '[']).next().unwrap_or_default();
         return Err(SpindriftError::new_err(format!(
-            "{top}: must be at most {MOST_NESTED} lists and dicts within each other; this one is deeper, or contains itself"
+            "{top}: must be at most {MOST_NESTED} lists and dicts within each other; this one is deeper, or \
+                     contains itself"
         )));
     }
     // a truth value is an int of Python too

@@ -20,13 +20,18 @@ pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
     let Some(verified) = verify(&session, &options.folder, wanted)? else {
         return Ok(CommandOutcome::Stopped(watch.signal().unwrap_or_default()));
     };
-    let Verified { checked, problems, is_finished, unchecked, completed } = &verified;
+    let Verified { checked, problems, is_finished, missing, unchecked, completed } = &verified;
     let replayed = options.folder.join(PLAN).display().to_string();
     let completed = completed.as_ref().map(|completed| completed_text::text(completed, &replayed, false));
     let end = match (&completed, is_finished, problems) {
         (Some(_), _, 0) => "sound, and finished now".to_owned(),
         (Some(_), ..) => format!("{}, repaired", counted(*problems, "problem")),
         (None, true, _) => "sound".to_owned(),
+        (None, false, _) if *missing > 0 => {
+            let parts = counted(*missing, "part");
+            format!("what was compared is sound, and the result is not finished: {parts} not made yet; the \
+                     campaign's command makes the rest")
+        }
         (None, false, _) if unchecked.is_empty() => {
             "what was compared is sound, and the result is not finished: _SUCCESS is missing, or not empty; the campaign's command finishes it".to_owned()
         }

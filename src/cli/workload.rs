@@ -31,8 +31,9 @@ const NUMBER: f64 = 8.5;
 /// Bytes of a part that do not depend on its rows: of each column (`spin_sweep` with one row: 180), and of each point of a quantity with bands
 /// (at most 961 of `spin_sweep`; of a part of few runs a byte for each).
 const PART: [f64; 2] = [200.0, 1000.0];
-/// Bytes of the page and of the tables of the end, and of each column in them: 1.09 MB of 64 columns (`single_wheel`), 1.87 MB of 88 with a control loop
-/// (`nadir_pointing`) and of 141 (`spin_sweep`), of 50 runs; of 400 runs a tenth more.
+/// Bytes of the page and of the tables of the end, and of each column in them: 1.09 MB of 64 columns
+/// (`single_wheel`), 1.87 MB of 88 with a control loop (`nadir_pointing`) and of 141 (`spin_sweep`), of 50 runs; of
+/// 400 runs a tenth more.
 const END: [f64; 2] = [5.5e5, 1e4];
 /// Bytes of two extremes as text, and what is said of runs without a value.
 const EXTREMES: f64 = 50.0;

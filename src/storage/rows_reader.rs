@@ -131,9 +131,14 @@ impl PartReader {
             .map_err(|error| RowsError { path: shown.clone(), what: error.to_string() })?;
         let (reader, rows) = caught(&shown, &source, || {
             let reader = SerializedFileReader::new(source.clone())?;
-            let groups = reader.metadata().row_groups().iter().map(|group| group.num_rows());
-            let rows = groups.map(|rows| usize::try_from(rows).map_err(|_| general("a negative number of rows")));
-            let rows = rows.sum::<Result<usize, ParquetError>>()?;
+            // thousands of groups of a few rows would take minutes to read
+            let rows = match reader.metadata().row_groups() {
+                [] => 0,
+                [group] => usize::try_from(group.num_rows()).map_err(|_| general("a negative number of rows"))?,
+                groups => {
+                    return Err(general(format!("has {} row groups, and a file of a result has one", groups.len())));
+                }
+            };
             Ok((reader, rows))
         })?;
         Ok(PartReader { path: shown, source, reader, rows })
@@ -258,8 +263,7 @@ impl PartReader {
             };
             let mut levels = is_optional.then(|| Vec::with_capacity(self.rows));
             for group in 0..self.reader.metadata().num_row_groups() {
-                let group = self.reader.get_row_group(group)?;
-                let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+                let (group, rows) = (self.reader.get_row_group(group)?, self.rows);
                 match (group.get_column_reader(index)?, &mut cells) {
                     (ColumnReader::DoubleColumnReader(reader), DecodedColumn::Real(values, _)) => {
                         column_values(reader, rows, &mut levels, values)
@@ -270,7 +274,7 @@ impl PartReader {
                     (ColumnReader::ByteArrayColumnReader(reader), DecodedColumn::Text(values, _)) => {
                         column_values(reader, rows, &mut levels, values)
                     }
-                    _ => Err(general(format!("`{name}` changes its type within the file"))),
+                    _ => Err(general(format!("`{name}` has another type than the file says"))),
                 }?;
             }
             cells.set_levels(levels);
@@ -352,7 +356,7 @@ mod tests {
         Column::new(Quantity::new(name, "", "A column."), content)
     }
 
-    /// A file of three rows from sample `first` on, in two row groups.
+    /// A file of three rows from sample `first` on.
     fn file(folder: &Folder, first: u64) -> PathBuf {
         let headings = [
             heading(SAMPLE_ID, Content::Count),
@@ -364,25 +368,15 @@ mod tests {
         let layout = Layout::new(&headings, BTreeMap::new(), Packing::Lz4).expect("a layout");
         let path = folder.0.join(format!("part-{first:06}.parquet"));
         let out = std::fs::File::create(&path).expect("a file");
-        let mut writer = layout.begin(out, &[]).expect("begun");
-        let x = [first as f64 + 0.5, f64::NAN];
-        let of_two = [
-            Values::Count(vec![first, first + 1]),
-            Values::words(["ok", "step_limit"]),
-            Values::Text(vec![None, Some("too long".into())]),
+        let x = [first as f64 + 0.5, f64::NAN, 41.5];
+        let values = [
+            Values::Count((first..first + 3).collect()),
+            Values::words(["ok", "step_limit", "ok"]),
+            Values::Text(vec![None, Some("too long".into()), None]),
             Values::Real((&x).into()),
-            Values::Counted(vec![7.0, f64::NAN].into()),
+            Values::Counted(vec![7.0, f64::NAN, 9.0].into()),
         ];
-        writer.group(of_two.into_iter()).expect("written");
-        let of_one = [
-            Values::Count(vec![first + 2]),
-            Values::words(["ok"]),
-            Values::Text(vec![None]),
-            Values::Real((&[41.5]).into()),
-            Values::Count(vec![9]),
-        ];
-        writer.group(of_one.into_iter()).expect("written");
-        writer.finish().expect("finished");
+        layout.write(out, &[], values.into_iter()).expect("written");
         path
     }
 
@@ -402,6 +396,27 @@ mod tests {
         assert!(part.numbers("y").expect_err("no such column").to_string().ends_with("there is no column `y`"));
         assert!(part.numbers(STATUS).expect_err("words").what.contains("not a column of numbers"));
         assert!(reader.part(1).is_none());
+    }
+
+    /// Law: a file with more row groups than one, however many, is refused for their number before a row is read.
+    #[test]
+    fn files_of_many_groups_are_refused() {
+        let folder = Folder::new("groups");
+        let layout =
+            Layout::new(&[heading(SAMPLE_ID, Content::Count)], BTreeMap::new(), Packing::Lz4).expect("a layout");
+        let opened = |groups: u64| {
+            let path = folder.0.join(format!("{groups}.parquet"));
+            let mut writer = layout.begin(std::fs::File::create(&path).expect("a file"), &[]).expect("begun");
+            for group in 0..groups {
+                writer.group(std::iter::once(Values::Count(vec![group]))).expect("written");
+            }
+            writer.finish().expect("finished");
+            PartReader::open(&Disk, &path).map(|part| part.rows())
+        };
+        assert_eq!([opened(0), opened(1)], [Ok(0), Ok(1)]);
+        for groups in [2, 6000] {
+            assert!(opened(groups).is_err_and(|error| error.what.contains(&format!("has {groups} row groups"))));
+        }
     }
 
     /// Law: the parts with the first n rows are as few as have so many, also where a part ends with row n.

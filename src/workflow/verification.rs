@@ -33,6 +33,8 @@ pub struct Verified {
     pub problems: usize,
     /// Whether the result is finished.
     pub is_finished: bool,
+    /// How many parts of a result that is not finished are not made yet.
+    pub missing: usize,
     /// Of a result that is not finished: files that were not compared, since nothing says what should be in them.
     pub unchecked: Vec<String>,
     /// The result, where a repair has finished it.
@@ -83,8 +85,10 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     problems.extend(broken.iter().map(|(_, what)| what.clone()));
     problems.extend(derived_damage(storage, root, found.written()).map_err(WorkflowError::files)?);
     let missing = missing_parts(&found, &ensemble);
+    // parts that no manifest lists are not made yet, unless it says that all are there
+    let is_claimed = found.manifests.get(MANIFEST).is_some_and(|manifest| manifest.is_finished);
     problems.extend(
-        (!missing.is_empty())
+        (is_claimed && !missing.is_empty())
             .then(|| format!("{} missing, the first is part {}", counted(missing.len(), "part"), missing[0].id.0)),
     );
     let sound: Vec<Part> =
@@ -115,7 +119,8 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     // a repair that was interrupted has left what is sound and not finished
     if problems.is_empty() && (found.is_finished || !wanted.repair) {
         let (is_finished, unchecked) = (found.is_finished, found.unchecked);
-        return Ok(Some(Verified { checked, problems: 0, is_finished, unchecked, completed: None }));
+        let missing = missing.len();
+        return Ok(Some(Verified { checked, problems: 0, is_finished, missing, unchecked, completed: None }));
     }
     problems.iter().for_each(|problem| note(problem));
     if !wanted.repair {
@@ -132,7 +137,7 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     match repair(session, root, &ensemble, (&found, &differing))? {
         Repair::Done(completed) => {
             let (problems, completed) = (problems.len(), Some(completed));
-            Ok(Some(Verified { checked, problems, is_finished: true, unchecked: Vec::new(), completed }))
+            Ok(Some(Verified { checked, problems, is_finished: true, missing: 0, unchecked: Vec::new(), completed }))
         }
         Repair::Stopped(left) => {
             note(&format!(

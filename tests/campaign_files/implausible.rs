@@ -1,4 +1,5 @@
-//! Numbers that look like a mistake are noted, not refused: each rule of the list has a file that breaks it, and usual files break none.
+//! Numbers that look like a mistake are noted, not refused: each rule of the list has a file that breaks it, and
+//! usual files break none.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -361,7 +362,8 @@ fn changed(base: &str, from: &str, to: &str) -> Vec<(&'static str, String)> {
     noted(&plan(&base.replace(from, to))).into_iter().map(|(rule, note)| (rule.subject, note)).collect()
 }
 
-/// Law: usual files break no rule; each case breaks one, whose note begins with key and value; each rule has a case. All are accepted.
+/// Law: usual files break no rule; each case breaks one, whose note begins with key and value; each rule has a case.
+/// All are accepted.
 #[test]
 fn each_rule_has_a_file_that_breaks_it() {
     for base in [REST, USUAL, LOOP, ORBIT] {
@@ -392,8 +394,8 @@ fn shipped_campaigns_have_the_notes_that_are_true() {
         if path.extension().is_some_and(|extension| extension == "toml") {
             let found = implausible(&Plan::load(&path, Overrides::default()).unwrap_or_else(|error| panic!("{error}")));
             (files, clean) = (files + 1, clean + usize::from(found.is_empty()));
-            // the shapes of one campaign make 63 tons, are up to 80 m long, and weigh up to 990 g/cm^3; what turns so fast turns between the points;
-            // and Berdoz's thrusters have torque about s1 alone
+            // the shapes of one campaign make 63 tons, are up to 80 m long, and weigh up to 990 g/cm^3; what turns so
+            // fast turns between the points; and Berdoz's thrusters have torque about s1 alone
             let keys = [
                 "angular_velocity_rad_s: ",
                 "rate_rad_s: ",

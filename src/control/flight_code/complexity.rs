@@ -3,7 +3,7 @@
 //! A compiler's time and memory grow faster than the code: with the product of a function's blocks and locals, each of which may have another value in each
 //! block, and with the square of its blocks. What compilers make of flight code is below these limits.
 
-use wasmparser::{FunctionBody, Operator, Parser, Payload};
+use wasmparser::{CompositeInnerType, FunctionBody, Operator, Parser, Payload, SubType};
 use wasmtime::{Result, bail};
 
 /// Most bytes of the bodies of all functions.
@@ -17,6 +17,9 @@ const MOST_NESTED: u64 = 1_000;
 const MOST_TARGETS: u64 = 20_000;
 /// Most segments of data and of elements, each of which is code that an instance begins with: 45,000 of data take half a minute and more than a gigabyte.
 const MOST_SEGMENTS: u32 = 2_000;
+/// Most parameters and results of all types and, once more, of all functions: the compiler makes code for each type
+/// that passes them on, and for each function. 4,000 types of 990 took 103 s and 618 MB.
+const MOST_PASSED: u64 = 100_000;
 /// Largest sum, over the functions, of the square of their blocks, that of one with 5,000: some seconds; a function of 10,000 loops takes nine.
 const MOST_SQUARES: u64 = 25_000_000;
 /// Largest sum, over the functions, of blocks times locals: some seconds.
@@ -27,9 +30,21 @@ const MOST_VALUES: u64 = 3_000_000;
 /// # Errors
 /// Which limit it exceeds.
 pub fn check(bytes: &[u8]) -> Result<()> {
-    let (mut targets, mut values, mut squares, mut segments) = (0, 0, 0, 0);
+    let (mut targets, mut values, mut squares, mut segments, mut passed) = (0, 0, 0, 0, 0);
+    let mut types = Vec::new();
     for payload in Parser::new(0).parse_all(bytes) {
         match payload? {
+            Payload::TypeSection(groups) => {
+                for group in groups {
+                    types.extend(group?.types().map(passed_by));
+                }
+                passed += types.iter().sum::<u64>();
+            }
+            Payload::FunctionSection(functions) => {
+                for function in functions {
+                    passed += types.get(function? as usize).copied().unwrap_or(0);
+                }
+            }
             Payload::CodeSectionStart { count, .. } if count > MOST_FUNCTIONS => {
                 bail!("{count} functions are more than {MOST_FUNCTIONS}")
             }
@@ -47,6 +62,9 @@ pub fn check(bytes: &[u8]) -> Result<()> {
             _ => {}
         }
     }
+    if passed > MOST_PASSED {
+        bail!("its types and functions have {passed} parameters and results in all, which are more than {MOST_PASSED}");
+    }
     if segments > MOST_SEGMENTS {
         bail!("{segments} segments of data and elements are more than {MOST_SEGMENTS}");
     }
@@ -60,6 +78,14 @@ pub fn check(bytes: &[u8]) -> Result<()> {
         bail!("{targets} targets in tables of branches are more than {MOST_TARGETS}");
     }
     Ok(())
+}
+
+/// How many parameters and results a function of the type `of` has; of another type one.
+fn passed_by(of: &SubType) -> u64 {
+    match &of.composite_type.inner {
+        CompositeInnerType::Func(function) => (function.params().len() + function.results().len()) as u64,
+        _ => 1,
+    }
 }
 
 /// The number of targets in the tables of branches of a function, that of its blocks times locals, and the square of that of its blocks; locals are within their own limit.
@@ -87,4 +113,58 @@ fn counts(body: &FunctionBody<'_>) -> Result<[u64; 3]> {
         }
     }
     Ok([targets, blocks * (1 + locals), blocks * blocks])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A number as WebAssembly has it: seven bits a byte, the lowest first.
+    fn leb(mut value: usize) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        while value > 127 {
+            bytes.push((value & 127) as u8 | 128);
+            value >>= 7;
+        }
+        bytes.push(value as u8);
+        bytes
+    }
+
+    fn section(id: u8, count: usize, items: Vec<u8>) -> Vec<u8> {
+        let body = [leb(count), items].concat();
+        [vec![id], leb(body.len()), body].concat()
+    }
+
+    /// A module of `types` types with `parameters` parameters each, and of `functions` empty functions of the first
+    /// of them.
+    fn module([types, parameters, functions]: [usize; 3]) -> Vec<u8> {
+        let one = [vec![0x60], leb(parameters), vec![0x7c; parameters], leb(0)].concat();
+        [
+            b"\0asm\x01\0\0\0".to_vec(),
+            section(1, types, one.repeat(types)),
+            section(3, functions, vec![0; functions]),
+            section(10, functions, [2, 0, 0x0b].repeat(functions)),
+        ]
+        .concat()
+    }
+
+    /// Law: the parameters of all types and functions are counted before anything is compiled: at the limit a module
+    /// passes, above it is refused.
+    #[test]
+    fn parameters_are_counted() {
+        for (sizes, passes) in [
+            ([10, 10, 10], true),
+            ([100, 999, 1], true),
+            ([101, 991, 0], false),
+            ([4_000, 990, 1], false),
+            ([1, 100, 999], true),
+            ([1, 100, 1_000], false),
+            ([1, 990, 5_000], false),
+        ] {
+            let found = check(&module(sizes));
+            let is_said =
+                found.as_ref().err().is_some_and(|error| error.to_string().contains("parameters and results"));
+            assert!(found.is_ok() == passes && is_said != passes, "{sizes:?}: {found:?}");
+        }
+    }
 }

@@ -47,7 +47,8 @@ impl<'p> Looked<'p> {
         values.fold(0.0, libm::hypot)
     }
 
-    /// How far one draw in a hundred is from the nominal value of `parameter`; `None` where it is not dispersed, or is an attitude.
+    /// How far one draw in a hundred is from the nominal value of `parameter`; `None` where it is not dispersed, or
+    /// is an attitude.
     pub fn spread(&self, parameter: Parameter) -> Option<f64> {
         let columns = self.plan.dispersions.columns().iter().zip(&self.drawn.columns);
         let own: Vec<_> = columns.filter(|(column, _)| column.parameter == parameter).collect();

@@ -1,4 +1,5 @@
-//! The sizes that rules look at and that are no parameter of their own: each from the nominal scene, from draws, or from what is written.
+//! The sizes that rules look at and that are no parameter of their own: each from the nominal scene, from draws, or
+//! from what is written.
 
 use std::f64::consts::{PI, TAU};
 
@@ -148,7 +149,8 @@ pub fn radius_of_gyration(looked: &Looked<'_>, _: f64) -> Vec<Found> {
         found(
             radius / libm::cbrt(mass),
             format!(
-                "the spacecraft has {kilograms} kg and a principal moment of {moment} kg m^2: its radius of gyration is {metres} m"
+                "the spacecraft has {kilograms} kg and a principal moment of {moment} kg m^2: its radius of \
+                         gyration is {metres} m"
             ),
         )
     };
@@ -205,7 +207,8 @@ pub fn wide_spreads(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     dispersed.flat_map(|dispersion| of(&dispersion.parameter.name(), &dispersion.distribution.written)).collect()
 }
 
-/// How far nominal values are from the range of their draws, over that range: of each parameter the component that is farthest.
+/// How far nominal values are from the range of their draws, over that range: of each parameter the component that is
+/// farthest.
 pub fn nominal_outside(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let mut notes: Vec<(Parameter, Found)> = Vec::new();
     if looked.drawn.count() < RANGE_DRAWS {
@@ -236,8 +239,8 @@ pub fn nominal_outside(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     notes.into_iter().map(|(_, note)| note).collect()
 }
 
-/// The angle between the local orbital frames of drawn orbits and of the nominal one, with that by which their mean motions part until the end, where
-/// flight software uses the nominal one; rad.
+/// The angle between the local orbital frames of drawn orbits and of the nominal one, with that by which their mean
+/// motions part until the end, where flight software uses the nominal one; rad.
 pub fn unknown_orbit(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let plan = looked.plan;
     let columns = plan.dispersions.columns().iter().map(|column| column.parameter.name());

@@ -1,7 +1,9 @@
-//! [`noted`], [`implausible`]: numbers that can be computed with, and look like a mistake: degrees for radians, revolutions per minute for radians
-//! per second, millimetres for metres, the scalar of a quaternion in the last place.
+//! [`noted`], [`implausible`]: numbers that can be computed with, and look like a mistake: degrees for radians,
+//! revolutions per minute for radians per second, millimetres for metres, the scalar of a quaternion in the last
+//! place.
 //!
-//! [`rules::RULES`] is the list of what is noted; [`measures`] are the sizes that are no parameter of their own. Nothing is refused.
+//! [`rules::RULES`] is the list of what is noted; [`measures`] are the sizes that are no parameter of their own.
+//! Nothing is refused.
 
 pub mod looked;
 mod measures;

@@ -1,7 +1,8 @@
-//! [`RULES`]: what is noted, one row each: what is looked at, the size from which on it is noted with the source of that number, what is usual, and
-//! the remedy.
+//! [`RULES`]: what is noted, one row each: what is looked at, the size from which on it is noted with the source of
+//! that number, what is usual, and the remedy.
 //!
-//! A limit is beyond what real spacecraft have, so that a note is rarely false; it is below what the wrong unit makes of a usual value.
+//! A limit is beyond what real spacecraft have, so that a note is rarely false; it is below what the wrong unit makes
+//! of a usual value.
 
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
@@ -12,8 +13,8 @@ use crate::scene::Parameter;
 
 /// What a rule looks at.
 pub enum Look {
-    /// The numbers of these keys, `table.key`; `table.*` has all keys of the table in the unit of the rule. Nominal values are judged, and how far
-    /// one draw in a hundred is from them.
+    /// The numbers of these keys, `table.key`; `table.*` has all keys of the table in the unit of the rule. Nominal
+    /// values are judged, and how far one draw in a hundred is from them.
     Keys(&'static [&'static str]),
     /// Sizes that follow from several numbers, where the limit is this.
     Sizes(fn(&Looked<'_>, f64) -> Vec<Found>),
@@ -196,7 +197,8 @@ pub const RULES: &[Rule] = &[
         known: SAME,
         source: "a turn of less than 36 deg whose scalar is in the last place; the identity has 1",
         usual: "quaternions have their scalar first, and no rotation is [1, 0, 0, 0]",
-        remedy: "of a quaternion with the scalar last, as in 42 and GMAT, write the last number first; leave it if this turn is meant",
+        remedy: "of a quaternion with the scalar last, as in 42 and GMAT, write the last number first; leave it \
+                 if this turn is meant",
     },
     Rule {
         subject: "turn in 1 draw of 100 of a quaternion whose components have distributions of their own",
@@ -216,7 +218,8 @@ pub const RULES: &[Rule] = &[
         known: DEG,
         source: "with 1 rad about each axis, 2% of the rotation vectors are longer than half a turn",
         usual: "usual values are below 0.2 rad",
-        remedy: "degrees are written with their unit, \"5 deg\"; for any attitude write distribution = \"uniform_attitude\"",
+        remedy: "degrees are written with their unit, \"5 deg\"; for any attitude write distribution = \
+                 \"uniform_attitude\"",
     },
     Rule {
         subject: "noise and bias of a magnetometer",
@@ -455,14 +458,18 @@ pub const RULES: &[Rule] = &[
         remedy: "write a nominal value within its distribution, or check the unit of the distribution",
     },
     Rule {
-        subject: "angle between the local orbital frames of the true orbit and of the nominal one, until the end of a run, in 1 draw of 100",
+        subject: "angle between the local orbital frames of the true orbit and of the nominal one, until the \
+                 end of a run, in 1 draw of 100",
         look: Look::Sizes(measures::unknown_orbit),
         limit: Limit::From(0.5 * TAU / 360.0),
         unit: "rad",
         known: DEG,
         source: "above the errors of star trackers and most requirements on pointing",
-        usual: "flight software knows the nominal orbit alone, so that targets and filters that use it are wrong by as much",
-        remedy: "disperse the orbit by the error of its navigation, and fly other orbits as campaigns of their own, for instance with --set orbit.ascending_node_rad=\"40 deg\"; estimator = \"perfect\" knows the true orbit",
+        usual: "flight software knows the nominal orbit alone, so that targets and filters that use it are \
+                 wrong by as much",
+        remedy: "disperse the orbit by the error of its navigation, and fly other orbits as campaigns of their \
+                 own, for instance with --set orbit.ascending_node_rad=\"40 deg\"; estimator = \"perfect\" \
+                 knows the true orbit",
     },
     Rule {
         subject: "angle of the principal axis from s3, where nutation is measured from s3",

@@ -72,16 +72,19 @@ impl Address {
     /// # Errors
     /// What is wrong with it; in a build without object stores, how to get one with them.
     pub fn of(path: &Path) -> Result<Option<Address>, String> {
-        let Some((scheme, rest)) = path.to_str().and_then(|text| text.split_once("://")) else { return Ok(None) };
-        if scheme.is_empty() || !scheme.bytes().all(|byte| byte.is_ascii_alphanumeric()) {
+        let Some((scheme, rest)) = path.to_str().and_then(|text| text.split_once(':')) else { return Ok(None) };
+        // a letter is a disk of Windows
+        let is_scheme = scheme.len() > 1 && scheme.bytes().all(|byte| byte.is_ascii_alphanumeric());
+        if !is_scheme || !(rest.starts_with('/') || scheme.eq_ignore_ascii_case("s3")) {
             return Ok(None);
         }
         let shown = path.display();
-        if scheme != "s3" {
+        let Some(rest) = rest.strip_prefix("//").filter(|_| scheme == "s3") else {
             return Err(format!(
-                "{shown}: must be a folder, or an address in a store that has S3's interface: s3://bucket/name"
+                "{shown}: must be a folder, or an address in a store that has S3's interface: s3://bucket/name; \
+                         a folder with this name is ./{shown}"
             ));
-        }
+        };
         if connect().is_none() {
             return Err(format!(
                 "{shown}: this build of spindrift has no object stores; build one that has them: cargo build --release --features cloud"

@@ -170,6 +170,39 @@ fn what_is_not_compared_is_named() {
     assert!(contents(&scratch.path("r")) == whole);
 }
 
+/// Law: a result whose campaign was stopped before its first part, or before its last one, is sound and not finished,
+/// and `verify` ends with 5; a part that is listed and not there is damage. The campaign's command makes the rest.
+#[test]
+fn what_is_not_made_yet_is_no_damage() {
+    let scratch = folder("altered-early");
+    everything(&scratch, "short", 7);
+    let command = "campaign all.toml --seed 7 --samples 300 --out r";
+    scratch.prints(command, 3);
+    let whole = contents(&scratch.path("r"));
+    let all = lines(&scratch);
+    let first = all.iter().position(|line| line.contains("part-000000")).expect("a part");
+    // two parts at least, of which the first is whole
+    let parts = all.iter().filter(|line| line.contains("runs/part-")).count();
+    for made in [0, 1] {
+        for name in whole.keys().filter(|name| !["plan.toml", "manifest.jsonl"].contains(&name.as_str())) {
+            if made == 0 || !name.ends_with("part-000000.parquet") {
+                fs::remove_file(scratch.path("r").join(name)).unwrap();
+            }
+        }
+        scratch.file("r/manifest.jsonl", &(all[..first + made].join("\n") + "\n"));
+        let said = scratch.prints_wide("verify r --fraction 1", 5);
+        let left = parts - made;
+        let left = if left == 1 { "1 part".to_owned() } else { format!("{left} parts") };
+        assert!(said.contains(&format!("{left} not made yet; the campaign's command makes the rest")), "{said}");
+        if made == 1 {
+            fs::remove_file(scratch.path("r/runs/part-000000.parquet")).unwrap();
+            assert!(scratch.prints("verify r", 4).contains("part-000000"));
+        }
+        scratch.prints(command, 3);
+        assert!(contents(&scratch.path("r")) == whole, "{made}");
+    }
+}
+
 /// Law: a result that was made longer has the log and the copies of both versions, and is sound.
 #[test]
 fn a_longer_result_is_sound() {

@@ -50,6 +50,20 @@ fn what_no_machine_can_do_is_refused() {
     assert!(entries.iter().all(|name| name.ends_with(".toml") || name == "campaigns"), "{entries:?}");
 }
 
+/// Law: an address of a store with a slip in it is refused with the right form, and makes no folder; a folder of that
+/// name is still to be had.
+#[test]
+fn a_slip_in_an_address_makes_no_folder() {
+    let scratch = folder("addresses");
+    for out in ["s3:/bucket/x", "s3:bucket/x", "S3://bucket/x", "gs:/bucket/x", "s3:"] {
+        let said = scratch.prints(&format!("campaign small.toml --samples 2 --out {out}"), 2);
+        assert!(said.contains("s3://bucket/name"), "{out}: {said}");
+    }
+    assert!(fs::read_dir(&scratch.0).unwrap().all(|entry| !entry.unwrap().file_name().to_string_lossy().contains(':')));
+    scratch.prints("campaign small.toml --samples 2 --no-report --out ./s3:/x", 0);
+    assert!(scratch.path("s3:/x/manifest.jsonl").exists());
+}
+
 /// Law: a long campaign starts with `--yes` only; a shard of it, and what is left of one that is nearly there, without.
 #[test]
 fn what_is_long_is_asked_for() {
