@@ -1,28 +1,40 @@
 //! What drives an outcome: the ranking of its inputs, for its spread and for an event of it. What screen, cards and charts say follows from
 //! [`rankings`] alone.
 
-use crate::analysis::effects::Dependence;
+use crate::analysis::effects::{Dependence, OnEvent};
 use crate::analysis::event::{Event, Occurs};
-use crate::analysis::input_sensitivity::{InputSensitivity, LEAST_SHARE};
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::statistics::correlation::Estimate;
 
+/// Least share of the variance, or squared rank correlation, of an input that is called a driver of the spread: a share without which the standard deviation is 5%
+/// smaller.
+const LEAST_SHARE: f64 = 0.1;
+/// An interval of a share that is wider says so little that the share is not said.
+const MOST_WIDTH: f64 = 0.8;
+
 impl InputSensitivity {
-    /// How strongly the input acts on the observable, as a share of its variance: the total index, where the design gives it; else the larger
-    /// one of the first-order index and of the squared rank correlation, of those whose interval is above zero where one is.
-    ///
-    /// The first-order index alone sees that |x| matters where positive and negative x do the same, the rank correlation weak monotone influences.
-    pub fn influence(&self) -> Option<Estimate> {
-        let squared = self.spearman.map(|r| {
-            let [lower, upper] = [r.lower * r.lower, r.upper * r.upper];
-            let least = if r.lower * r.upper < 0.0 { 0.0 } else { lower.min(upper) };
-            let ends = if lower.is_nan() { [f64::NAN; 2] } else { [least, lower.max(upper)] };
-            Estimate { value: r.value * r.value, lower: ends[0], upper: ends[1] }
-        });
-        let rank = |one: &Estimate, other: &Estimate| {
-            (one.lower > 0.0).cmp(&(other.lower > 0.0)).then(one.value.total_cmp(&other.value))
-        };
-        self.total.or_else(|| [self.first_order, squared].into_iter().flatten().max_by(rank))
+    /// The share of the variance that the input explains: the total index, where the design gives it; else the first-order index.
+    pub fn share(&self) -> Option<Estimate> {
+        self.total.or(self.first_order)
     }
+
+    /// Whether the rows show, at the level `alpha`, that it acts on the spread, and that it matters. A design without a population has neither tests nor
+    /// intervals: the shares decide.
+    pub fn drives_spread(&self, alpha: f64) -> bool {
+        let rank = self.spearman.map_or(0.0, |r| r.value * r.value);
+        let is_shown = match (self.p_value, self.share()) {
+            (Some(p_value), _) => p_value <= alpha,
+            (None, share) => share.is_none_or(|share| share.lower > 0.0 || share.lower.is_nan()),
+        };
+        // what a test shows in few rows is not small
+        let is_known = self.p_value.is_none() || self.share().is_some();
+        is_shown && (!is_known || self.share().map_or(rank, |share| share.value.max(rank)) >= LEAST_SHARE)
+    }
+}
+
+/// Whether the interval of a share says something of it.
+pub fn is_known(share: &Estimate) -> bool {
+    share.upper - share.lower <= MOST_WIDTH
 }
 
 /// Least risk ratio, or its inverse, of a value that is called a driver of an event: of many runs small ratios are certain, and matter to nobody.
@@ -43,13 +55,29 @@ pub enum Question {
 #[derive(Clone, Copy, Debug)]
 pub struct Ranked<'a> {
     pub input: &'a InputSensitivity,
-    /// Its share of the variance: of the outcome, or of whether the event occurs.
-    pub share: Estimate,
+    /// What it means for the event; `None` of a spread.
+    pub effect: Option<&'a OnEvent>,
+    /// Its share of the variance, of the outcome or of whether the event occurs; `None` if the rows are too few for one.
+    pub share: Option<Estimate>,
     /// Whether the rows show that it acts, and that it matters.
     pub is_driver: bool,
 }
 
-/// The inputs of an outcome: first its drivers, then the others, each the greatest share first.
+impl Ranked<'_> {
+    /// The name of the input that may act in place of this one.
+    pub fn instead(&self) -> Option<&str> {
+        self.effect.map_or(&self.input.instead, |effect| &effect.instead).as_deref()
+    }
+
+    /// What inputs are ranked by: their shares; without shares their tests, then their rank correlations.
+    fn strength(&self) -> [f64; 2] {
+        let p_value = self.effect.map_or(self.input.p_value, |effect| Some(effect.p_value));
+        let rank = self.input.spearman.map_or(0.0, |r| r.value * r.value);
+        [self.share.map_or_else(|| -p_value.unwrap_or(1.0), |share| share.value), rank]
+    }
+}
+
+/// The inputs of an outcome: first its drivers, then the others, each the strongest first.
 #[derive(Clone, Debug)]
 pub struct Ranking<'a> {
     pub question: Question,
@@ -62,37 +90,44 @@ impl<'a> Ranking<'a> {
     }
 }
 
-/// The rankings of an outcome: of an event, where it has one, and of its spread, unless it has few values and the event is its spread. The tail is
-/// asked only where something drives it that does not drive the spread. `alpha`: the probability that an outcome without any influence has a driver.
+/// The rankings of an outcome: of each of its events, and of its spread, unless it has few values and the event is its spread. The tail is
+/// asked only if something drives it that does not drive the spread. `alpha`: the probability that an outcome without any influence has a driver.
 pub fn rankings<'a>(all: &'a [InputSensitivity], outcome: &str, alpha: f64) -> Vec<Ranking<'a>> {
     let of = || all.iter().filter(|one| one.observable == outcome);
-    let on_event = |input: &'a InputSensitivity| {
-        let effect = input.on_event.as_ref()?;
+    let on_event = |input: &'a InputSensitivity, event: Event| {
+        let effect = input.on_events.iter().find(|effect| effect.event == event)?;
         let matters = match &effect.dependence {
             Dependence::Levels { ratio, .. } => !(1.0 / LEAST_RATIO..LEAST_RATIO).contains(&ratio.value),
             Dependence::Shift { chance, .. } | Dependence::Distance { chance } => (chance - 0.5).abs() >= LEAST_CHANCE,
         };
-        Some(Ranked { input, share: effect.share, is_driver: matters && effect.p_value <= alpha })
+        let is_driver = matters && effect.p_value <= alpha;
+        Some(Ranked { input, effect: Some(effect), share: effect.share, is_driver })
     };
-    let on_spread = |input: &'a InputSensitivity| {
-        let share = input.influence()?;
-        // a design without a population has neither tests nor intervals: the shares decide
-        let is_shown = match input.p_value {
-            Some(p_value) => p_value <= alpha,
-            None => share.lower > 0.0 || share.lower.is_nan() && share.upper.is_nan(),
-        };
-        Some(Ranked { input, share, is_driver: is_shown && share.value >= LEAST_SHARE })
+    let on_spread = |input: &'a InputSensitivity| Ranked {
+        input,
+        effect: None,
+        share: input.share(),
+        is_driver: input.drives_spread(alpha),
     };
     let sorted = |mut inputs: Vec<Ranked<'a>>| {
-        inputs.sort_by(|a, b| b.is_driver.cmp(&a.is_driver).then(b.share.value.total_cmp(&a.share.value)));
+        let key = |one: &Ranked<'_>| (one.is_driver, one.strength());
+        inputs.sort_by(|a, b| {
+            let ((a, [strength, rank]), (b, [other, other_rank])) = (key(a), key(b));
+            b.cmp(&a).then(other.total_cmp(&strength)).then(other_rank.total_cmp(&rank))
+        });
         inputs
     };
-    let event = of().find_map(|one| one.on_event.as_ref()).map(|effect| effect.event);
-    let has_spread = event.is_none_or(|event| !event.has_few_values);
-    let spread = sorted(if has_spread { of().filter_map(on_spread).collect() } else { Vec::new() });
+    let mut events: Vec<Event> = Vec::new();
+    for effect in of().flat_map(|one| &one.on_events) {
+        if !events.contains(&effect.event) {
+            events.push(effect.event);
+        }
+    }
+    let has_spread = events.iter().all(|event| !event.has_few_values);
+    let spread = sorted(if has_spread { of().map(on_spread).collect() } else { Vec::new() });
     let mut found = Vec::new();
-    if let Some(event) = event {
-        let inputs = sorted(of().filter_map(on_event).collect());
+    for event in events {
+        let inputs = sorted(of().filter_map(|input| on_event(input, event)).collect());
         let drives_spread = |name: &str| spread.iter().any(|ranked| ranked.is_driver && ranked.input.input == name);
         let is_new = |ranked: &Ranked<'_>| ranked.is_driver && !drives_spread(&ranked.input.input);
         if !matches!(event.occurs, Occurs::Worst(_)) || inputs.iter().any(is_new) {

@@ -9,7 +9,7 @@ use crate::analysis::sensitivity::Prepared;
 use crate::analysis::small_plan::small_plan;
 use crate::campaign::Plan;
 use crate::statistics::contingency::Occurrence;
-use crate::statistics::correlation::{Estimate, ascending_order};
+use crate::statistics::correlation::ascending_order;
 
 /// SplitMix64: uniform in [0, 1).
 struct Uniform(u64);
@@ -25,6 +25,7 @@ impl Uniform {
 }
 
 const ALPHA: f64 = 0.05;
+const MISSED: Occurs = Occurs::Missed { requirement: 0, is_only: true };
 
 /// The observable of the tests: the first of the plan, with a limit of 1 in 95% of the runs where there is to be one.
 fn plan(has_limit: bool) -> (Plan, String) {
@@ -116,7 +117,7 @@ fn levels_are_counts() {
     let (all, name) = explained(&inputs, &y, false);
     let ranking = rankings(&all, &name, ALPHA).remove(0);
     let first = ranking.inputs[0].input;
-    let effect = first.on_event.as_ref().expect("an effect");
+    let effect = first.on_events.first().expect("an effect");
     let Dependence::Levels { levels, most, ratio } = &effect.dependence else { panic!("{effect:?}") };
     let count = |value: f64, failed: bool| {
         (0..1000).filter(|row| inputs[5][*row] == value && (!failed || y[*row] == 0.0)).count() as u64
@@ -154,7 +155,8 @@ fn few_values_have_a_share_and_a_direction() {
             let first = &spread.inputs[0];
             assert_eq!(first.input.direction, Some(direction));
             // four standard errors of 0.01
-            assert!(share.is_none_or(|share| (first.share.value - share).abs() < 0.04), "{:?} {share:?}", first.share);
+            let found = first.share.expect("a share");
+            assert!(share.is_none_or(|share| (found.value - share).abs() < 0.04), "{found:?} {share:?}");
         }
     }
 }
@@ -215,9 +217,9 @@ fn effects_on_an_event_are_seldom_false() {
             let marked: Vec<bool> = (0..ROWS).map(|_| random.next() < 0.2).collect();
             let events = marked.iter().filter(|is_marked| **is_marked).count() as u64;
             let of = Occurrence { events, runs: ROWS as u64 };
-            let event = Event { occurs: Occurs::Missed, of, has_few_values: false };
+            let event = Event { occurs: MISSED, of, has_few_values: false };
             let inputs = [TestedInput::new(&values, &ascending_order(&values))];
-            let share = |_| Some(Estimate { value: 0.0, lower: 0.0, upper: 0.0 });
+            let share = |_| None;
             let effects = on_event(&inputs, (event, &marked), share, 1, 0.95);
             found += usize::from(effects[0].as_ref().is_some_and(|effect| effect.p_value <= ALPHA));
         }
@@ -238,8 +240,8 @@ fn shifts_are_medians_and_chances() {
             values.iter().map(|x| random.next() < 0.1 + 0.6 * if is_large { *x } else { 1.0 - x }).collect();
         let events = marked.iter().filter(|is_marked| **is_marked).count() as u64;
         let of = Occurrence { events, runs: 301 };
-        let event = Event { occurs: Occurs::Missed, of, has_few_values: false };
-        let share = |_| Some(Estimate { value: 0.0, lower: 0.0, upper: 0.0 });
+        let event = Event { occurs: MISSED, of, has_few_values: false };
+        let share = |_| None;
         let inputs = [TestedInput::new(&values, &ascending_order(&values))];
         let effects = on_event(&inputs, (event, &marked), share, 1, 0.95);
         let found = &effects[0].as_ref().expect("an effect").dependence;
@@ -268,8 +270,8 @@ fn questions_are_counted() {
     let y: Vec<f64> = values.iter().map(|x| 0.25 * x + random.next()).collect();
     let marked: Vec<bool> = y.iter().map(|y| *y > 0.9).collect();
     let of = Occurrence { events: marked.iter().filter(|is_marked| **is_marked).count() as u64, runs: 200 };
-    let event = Event { occurs: Occurs::Missed, of, has_few_values: false };
-    let share = |_| Some(Estimate { value: 0.0, lower: 0.0, upper: 0.0 });
+    let event = Event { occurs: MISSED, of, has_few_values: false };
+    let share = |_| None;
     let inputs = [TestedInput::new(&values, &ascending_order(&values))];
     let found = |asked: usize| {
         let of_event = on_event(&inputs, (event, &marked), share, asked, 0.95)[0].as_ref().expect("an effect").p_value;
@@ -284,17 +286,33 @@ fn questions_are_counted() {
     }
 }
 
-/// Law: an outcome with limits on both sides is missed where it is beyond either.
+/// Law: each requirement has the event that some runs miss it, by the rows that its verdict counts: NaN misses, unless it is said to meet. Requirements that are
+/// missed by the same runs have one event.
 #[test]
-fn either_limit_is_missed() {
+fn events_are_the_violations_of_requirements() {
     let name = Observed::all(&small_plan(7, ""))[0].quantity.name().to_owned();
-    let limit = |words: &str| format!("{{ observable = \"{name}\", {words}, fraction = 0.5 }}");
-    let plan = small_plan(7, &format!("require = [{}, {}]", limit("at_most = 0.75"), limit("at_least = 0.2")));
+    let limit = |words: &str| format!("{{ observable = \"{name}\", {words} }}");
+    let list = [
+        limit("at_most = 0.75, fraction = 0.5"),
+        limit("at_least = 0.2, fraction = 0.5"),
+        limit("at_least = 0.2, fraction = 0.9, never = \"meets\""),
+        limit("at_least = 0.2, quantile = 0.5"),
+        limit("at_most = 0.5, mean = true"),
+    ];
+    let plan = small_plan(7, &format!("require = [{}]", list.join(", ")));
     let mut random = Uniform(4);
-    let y: Vec<f64> = (0..300).map(|_| random.next()).collect();
-    let (event, marked) = Event::of(&plan, &name, &y).expect("an event");
-    let expected: Vec<bool> = y.iter().map(|y| *y > 0.75 || *y < 0.2).collect();
-    assert_eq!((event.occurs, marked), (Occurs::Missed, expected));
+    let y: Vec<f64> = (0..300).map(|_| random.next()).map(|y| if y < 0.1 { f64::NAN } else { y }).collect();
+    let found = Event::all(&plan, &name, &y);
+    let is_missed: [fn(f64) -> bool; 3] =
+        [|y| y.is_nan() || y > 0.75, |y| y.is_nan() || y < 0.2, |y| !y.is_nan() && y < 0.2];
+    assert_eq!(found.len(), 3);
+    for (place, ((event, marked), is_missed)) in found.into_iter().zip(is_missed).enumerate() {
+        assert_eq!(event.occurs, Occurs::Missed { requirement: place, is_only: false });
+        let expected: Vec<bool> = y.iter().map(|y| is_missed(*y)).collect();
+        assert_eq!((event.of.events as usize, marked), (expected.iter().filter(|is| **is).count(), expected));
+    }
+    let one = small_plan(7, &format!("require = [{}]", list[2]));
+    assert_eq!(Event::all(&one, &name, &y)[0].0.occurs, MISSED);
 }
 
 /// Law: where no limit is missed, the worst runs are the twentieth with the largest values of an outcome that has to stay below a limit, with the smallest of
@@ -311,7 +329,7 @@ fn the_worst_runs_are_on_the_side_of_the_limit() {
         ("at_least = -5.0", |y, sorted| y <= sorted[19]),
     ] {
         let plan = small_plan(7, &format!("require = [{{ observable = \"{name}\", {words}, fraction = 0.95 }}]"));
-        let (event, marked) = Event::of(&plan, &name, &y).expect("an event");
+        let (event, marked) = Event::all(&plan, &name, &y).remove(0);
         assert!(matches!(event.occurs, Occurs::Worst(share) if (share - 0.05).abs() < 1e-12), "{event:?}");
         assert!(y.iter().zip(marked).all(|(y, is_marked)| is_worst(*y, &sorted) == is_marked), "{words}");
     }

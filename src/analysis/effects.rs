@@ -2,6 +2,7 @@
 //! distribution; p-values are those of all inputs together (Holm).
 
 use crate::analysis::event::{Event, are_few, distinct};
+use crate::statistics::conditional::conditional_test;
 use crate::statistics::contingency::{Occurrence, fisher, risk_ratio};
 use crate::statistics::correlation::{Estimate, ascending_order, mid_ranks, mid_ranks_in_order};
 use crate::statistics::rank_tests::{kruskal_wallis, mann_whitney, spearman_test, turns};
@@ -61,12 +62,14 @@ pub enum Dependence {
 #[derive(Clone, Debug, PartialEq)]
 pub struct OnEvent {
     pub event: Event,
-    /// Share of the variance of whether it occurs.
-    pub share: Estimate,
+    /// Share of the variance of whether it occurs; `None` if the rows are too few for one.
+    pub share: Option<Estimate>,
     /// Probability of a dependence as strong as this one where no input has any, of all inputs together.
     pub p_value: f64,
     /// How it depends on the input.
     pub dependence: Dependence,
+    /// The correlated input that may act in place of this one: the rows do not tell the two apart.
+    pub instead: Option<String>,
 }
 
 /// An input in the forms that the tests need.
@@ -156,6 +159,12 @@ impl TestedInput {
         Some((dependence, p_value))
     }
 
+    /// The p-value of an influence on an observable with these ranks beside that of `others`, with which the input is correlated.
+    fn p_beside(&self, others: &[&TestedInput], y_ranks: &[f64]) -> f64 {
+        let given: Vec<_> = others.iter().map(|one| (one.order.as_slice(), one.ranks.as_slice())).collect();
+        conditional_test(y_ranks, &[&self.ranks, &self.distances], &given)
+    }
+
     /// How the observable with these values goes with the input; `None` where the rows do not show it at the level `alpha`.
     pub fn direction(&self, y: &[f64], alpha: f64) -> Option<Direction> {
         if turns(&self.order, &self.values, y, alpha) {
@@ -240,7 +249,38 @@ pub fn on_event(
     let p_values = of_all(&found.iter().map(|one| one.as_ref().map(|(_, p)| *p)).collect::<Vec<_>>(), asked);
     let dependences = found.into_iter().map(|one| one.map(|(dependence, _)| dependence));
     let effects = dependences.zip(p_values).enumerate().map(|(input, (dependence, p_value))| {
-        Some(OnEvent { event, share: share(input)?, p_value: p_value?, dependence: dependence? })
+        Some(OnEvent { event, share: share(input), p_value: p_value?, dependence: dependence?, instead: None })
     });
     effects.collect()
+}
+
+/// Raises the p-values of inputs that are correlated with others (`related`) and add nothing to those that the rows show, at the level `alpha`, so that only those
+/// are left that act of their own. Returns, for each input that is left, the one that the rows do not tell apart from it. `y`: the observable; `tests`:
+/// how many p-values there are.
+pub fn beside_others(
+    inputs: &[Option<TestedInput>],
+    y: &[f64],
+    related: impl Fn(usize, usize) -> bool,
+    p_values: &mut [Option<f64>],
+    (tests, alpha): (usize, f64),
+) -> Vec<Option<usize>> {
+    let (ranks, mut instead) = (mid_ranks(y), vec![None; inputs.len()]);
+    let p_beside = |one: usize, others: &[usize]| {
+        let others: Vec<&TestedInput> = others.iter().filter_map(|other| inputs[*other].as_ref()).collect();
+        tests as f64 * inputs[one].as_ref().map_or(1.0, |input| input.p_beside(&others, &ranks))
+    };
+    loop {
+        let shown: Vec<usize> = (0..inputs.len()).filter(|one| p_values[*one].is_some_and(|p| p <= alpha)).collect();
+        let beside = |one: &usize| {
+            let others: Vec<usize> =
+                shown.iter().copied().filter(|other| other != one && related(*one, *other)).collect();
+            (!others.is_empty()).then(|| (*one, p_beside(*one, &others), others))
+        };
+        let weakest = shown.iter().filter_map(beside).max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((one, p_value, others)) = weakest.filter(|(_, p_value, _)| *p_value > alpha) else { return instead };
+        p_values[one] = Some(p_value.min(1.0));
+        for other in others.into_iter().filter(|other| p_beside(*other, &[one]) > alpha) {
+            instead[other] = Some(one);
+        }
+    }
 }

@@ -18,8 +18,8 @@ const TAIL: f64 = 0.05;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Occurs {
-    /// A limit on the outcome is missed, as runs without a value do.
-    Missed,
+    /// A requirement is missed, by the runs that its verdict counts: which of the plan's, and whether all others on the outcome are missed by the same runs.
+    Missed { requirement: usize, is_only: bool },
     /// An outcome of few values has another one than the most frequent, which is this.
     OtherThan(f64),
     /// An outcome of two values has the less frequent one, which is this.
@@ -31,7 +31,7 @@ pub enum Occurs {
 impl Occurs {
     pub const fn name(self) -> &'static str {
         match self {
-            Occurs::Missed => "missed",
+            Occurs::Missed { .. } => "missed",
             Occurs::OtherThan(_) => "other_value",
             Occurs::Value(_) => "value",
             Occurs::Worst(_) => "worst",
@@ -67,33 +67,44 @@ pub fn are_few(distinct: usize, rows: usize) -> bool {
 }
 
 impl Event {
-    /// The event of the outcome `name` of `plan` with these values, row by row, and in which rows it occurs; `None` where there is none to ask.
-    pub fn of(plan: &Plan, name: &str, values: &[f64]) -> Option<(Event, Vec<bool>)> {
+    /// The events of the outcome `name` of `plan` with these values, row by row, and in which rows each occurs; none if there is none to ask.
+    pub fn all(plan: &Plan, name: &str, values: &[f64]) -> Vec<(Event, Vec<bool>)> {
         let known = distinct(values, &ascending_order(values));
         let has_few_values = are_few(known.len(), values.len()) || known.len() == 1;
-        let requirements = || plan.analysis.requirements.iter().filter(|one| one.observable() == Some(name));
-        let limits: Vec<_> =
-            requirements().filter(|one| one.statement != Statement::Mean).map(|one| one.limit).collect();
+        let requirements =
+            || plan.analysis.requirements.iter().enumerate().filter(|(_, one)| one.observable() == Some(name));
         let event = |occurs: Occurs, marked: Vec<bool>| {
             let events = marked.iter().filter(|is_marked| **is_marked).count() as u64;
             (Event { occurs, of: Occurrence { events, runs: marked.len() as u64 }, has_few_values }, marked)
         };
-        if !limits.is_empty() {
-            let is_missed = |value: &f64| limits.iter().any(|limit| !limit.is_met(*value));
-            let found = event(Occurs::Missed, values.iter().map(is_missed).collect());
-            let Occurrence { events, runs } = found.0.of;
-            let least = if has_few_values { 1 } else { FEWEST as u64 };
-            if events >= least && runs - events >= least {
-                return Some(found);
+        let mut missed: Vec<(usize, Vec<bool>)> = Vec::new();
+        for (requirement, one) in requirements().filter(|(_, one)| one.statement != Statement::Mean) {
+            let marked: Vec<bool> = values.iter().map(|value| !one.is_met(*value)).collect();
+            if !missed.iter().any(|(_, other)| *other == marked) {
+                missed.push((requirement, marked));
             }
         }
-        if has_few_values {
-            let frequent = known.iter().max_by_key(|(_, count)| *count)?.0;
-            let other = known.iter().find(|(value, _)| *value != frequent)?.0;
-            let occurs = if known.len() == 2 { Occurs::Value(other) } else { Occurs::OtherThan(frequent) };
-            return Some(event(occurs, values.iter().map(|value| *value != frequent && !value.is_nan()).collect()));
+        let is_only = missed.len() == 1;
+        let missed =
+            missed.into_iter().map(|(place, marked)| event(Occurs::Missed { requirement: place, is_only }, marked));
+        let least = if has_few_values { 1 } else { FEWEST as u64 };
+        let is_asked = |found: &(Event, Vec<bool>)| {
+            let Occurrence { events, runs } = found.0.of;
+            events >= least && runs - events >= least
+        };
+        let missed: Vec<_> = missed.filter(is_asked).collect();
+        if !missed.is_empty() {
+            return missed;
         }
-        let share = requirements().find_map(|one| match one.statement {
+        if has_few_values {
+            let frequent = known.iter().max_by_key(|(_, count)| *count).map_or(f64::NAN, |(value, _)| *value);
+            let Some((other, _)) = known.iter().copied().find(|(value, _)| *value != frequent) else {
+                return Vec::new();
+            };
+            let occurs = if known.len() == 2 { Occurs::Value(other) } else { Occurs::OtherThan(frequent) };
+            return vec![event(occurs, values.iter().map(|value| *value != frequent && !value.is_nan()).collect())];
+        }
+        let share = requirements().find_map(|(_, one)| match one.statement {
             Statement::Quantile(p) => Some(1.0 - one.limit.fraction(p)),
             Statement::Fraction(fraction) => Some(1.0 - fraction),
             Statement::Mean => None,
@@ -103,13 +114,13 @@ impl Event {
         let badness = |value: &f64| if is_low { -value } else { value.abs() };
         let mut sizes: Vec<f64> = values.iter().map(badness).filter(|size| !size.is_nan()).collect();
         if sizes.len() < ROWS_OF_TAIL[0] {
-            return None;
+            return Vec::new();
         }
         sizes.sort_by(|a, b| b.total_cmp(a));
         let count = (libm::round(share * sizes.len() as f64) as usize).max(ROWS_OF_TAIL[1]);
         let found =
             event(Occurs::Worst(share), values.iter().map(|value| badness(value) >= sizes[count - 1]).collect());
         // many equal values have no tail
-        (found.0.of.events <= 2 * count as u64).then_some(found)
+        if found.0.of.events <= 2 * count as u64 { vec![found] } else { Vec::new() }
     }
 }

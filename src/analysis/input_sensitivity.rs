@@ -6,9 +6,6 @@ use crate::statistics::correlation::Estimate;
 /// The name of the outcome whether a run is computed: 1 where it is `ok`, else 0.
 pub const COMPUTED: &str = "computed";
 
-/// Least share of the variance of an input that is called a driver of the spread: without the input the standard deviation is 5% smaller.
-pub const LEAST_SHARE: f64 = 0.1;
-
 /// What one input means for one observable. What does not apply is `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InputSensitivity {
@@ -31,8 +28,10 @@ pub struct InputSensitivity {
     pub p_value: Option<f64>,
     /// How the observable goes with the input, where it is a driver of the spread and the rows show it.
     pub direction: Option<Direction>,
-    /// What the input means for an event of the observable.
-    pub on_event: Option<OnEvent>,
+    /// What the input means for the events of the observable.
+    pub on_events: Vec<OnEvent>,
+    /// The correlated input that may drive the spread in place of this one: the rows do not tell the two apart.
+    pub instead: Option<String>,
     /// The input that it is most correlated with, and their rank correlation, where that is notable.
     pub correlated_with: Option<(String, f64)>,
     /// What to know about these numbers.

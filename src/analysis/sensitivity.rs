@@ -6,10 +6,10 @@
 use std::num::NonZeroUsize;
 
 use crate::analysis::block_indices::of_blocks;
-use crate::analysis::effects::{OnEvent, TestedInput, on_event, on_spread};
+use crate::analysis::effects::{OnEvent, TestedInput, beside_others, on_event, on_spread};
 use crate::analysis::event::Event;
 use crate::analysis::first_rows::{FirstRows, RowTable, inputs};
-use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity, LEAST_SHARE};
+use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
 use crate::analysis::population::{LISTED, Population};
 use crate::campaign::Plan;
 use crate::sampling::Design;
@@ -50,7 +50,7 @@ fn of_table(plan: &Plan, names: &[&str], table: &RowTable, threads: Option<NonZe
 }
 
 /// Inputs in all forms that are needed.
-pub(super) struct Prepared {
+pub struct Prepared {
     rows: usize,
     /// Which inputs vary and are no linear combination of those before them, as values and as ranks.
     kept: [Vec<bool>; 2],
@@ -83,7 +83,7 @@ impl Forms {
 
 impl Prepared {
     /// Of inputs with these values.
-    pub(super) fn new(values: Vec<Vec<f64>>, threads: Option<NonZeroUsize>) -> Self {
+    pub fn new(values: Vec<Vec<f64>>, threads: Option<NonZeroUsize>) -> Self {
         let forms = in_parallel(values.iter().collect(), threads, |input| Forms::of(input));
         let (mut scaled, mut ranks, mut orders, mut tested) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for form in forms {
@@ -114,26 +114,54 @@ impl Prepared {
         }
     }
 
-    /// The notable correlation of input `index` with another.
-    fn correlated_with(&self, index: usize, names: &[String]) -> Option<(String, f64)> {
-        let others = self.correlations[index].iter().enumerate().filter(|(other, _)| *other != index);
-        let (other, r) = others.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-        let chance = CHANCE / libm::sqrt(self.rows as f64);
-        (r.abs() > chance.max(NOTABLE_CORRELATION)).then(|| (names[other].clone(), *r))
+    /// Whether two inputs have a notable correlation: one that `[[correlate]]` asks for, or one beyond chance.
+    fn is_notable(&self, plan: &Plan, names: &[String], [one, other]: [usize; 2]) -> bool {
+        let is_asked = || {
+            plan.correlated.iter().any(|table| {
+                let columns: Vec<String> = table.components().iter().map(|(of, at)| of.column_name(*at)).collect();
+                [one, other].iter().all(|input| columns.contains(&names[*input]))
+            })
+        };
+        let r = self.correlations[one][other].abs();
+        one != other && r > NOTABLE_CORRELATION && (r > CHANCE / libm::sqrt(self.rows as f64) || is_asked())
+    }
+
+    /// The greatest notable correlation of input `index` with another.
+    fn correlated_with(&self, plan: &Plan, names: &[String], index: usize) -> Option<(String, f64)> {
+        let others = (0..names.len()).filter(|other| self.is_notable(plan, names, [index, *other]));
+        let r = |other: &usize| self.correlations[index][*other];
+        let other = others.max_by(|a, b| r(a).abs().total_cmp(&r(b).abs()))?;
+        Some((names[other].clone(), r(&other)))
+    }
+
+    /// The first-order index of input `index`. Of an input that does not vary in these rows nothing is known, and so of no share.
+    fn first_order(&self, plan: &Plan, index: usize, y: &[f64]) -> Option<Estimate> {
+        let (order, x) = (&self.orders[index], &self.values[index]);
+        let found = first_order_index_in_order(order, x, y, samples(plan), plan.analysis.confidence)?;
+        let all_vary = self.tested.iter().all(Option::is_some);
+        Some(if all_vary { found } else { Estimate { lower: 0.0, upper: 1.0, ..found } })
+    }
+
+    /// Tests of inputs that are correlated, one beside the others; and the names of those that the rows do not tell apart from each.
+    fn beside_others(
+        &self,
+        (plan, names): (&Plan, &[String]),
+        y: &[f64],
+        p_values: &mut [Option<f64>],
+        asked: usize,
+    ) -> Vec<Option<String>> {
+        let related = |one: usize, other: usize| self.is_notable(plan, names, [one, other]);
+        let level = (asked * names.len(), 1.0 - plan.analysis.confidence);
+        let instead = beside_others(&self.tested, y, related, p_values, level);
+        instead.into_iter().map(|other| other.map(|other| names[other].clone())).collect()
     }
 
     /// What every input means for an observable with the values `y`, NaN where a row has none: for its spread, and for the event of it.
-    pub(super) fn explained(
-        &self,
-        plan: &Plan,
-        names: &[String],
-        observable: &str,
-        y: &[f64],
-    ) -> Vec<InputSensitivity> {
+    pub fn explained(&self, plan: &Plan, names: &[String], observable: &str, y: &[f64]) -> Vec<InputSensitivity> {
         let has_tests = !matches!(Population::of(plan), Population::Chosen(_) | Population::Nominal);
-        let event = if has_tests { Event::of(plan, observable, y) } else { None };
-        // the spread, and the event
-        let asked = 1 + usize::from(event.as_ref().is_some_and(|(event, _)| !event.has_few_values));
+        let events = if has_tests { Event::all(plan, observable, y) } else { Vec::new() };
+        // the spread, and the events
+        let asked = events.len() + usize::from(events.iter().all(|(event, _)| !event.has_few_values));
         let tests = has_tests.then_some(asked);
         let mut found = if y.iter().all(|value| value.is_finite()) {
             self.sensitivities(plan, names, observable, y, tests)
@@ -145,25 +173,31 @@ impl Prepared {
             let finite = Prepared::new(self.values.iter().map(of_rows).collect(), NonZeroUsize::new(1));
             finite.sensitivities(plan, names, observable, &y, tests)
         };
-        if let Some((event, marked)) = event {
-            let effects = self.on_event(plan, (event, &marked), asked);
-            found.iter_mut().zip(effects).for_each(|(one, effect)| one.on_event = effect);
+        for (event, marked) in events {
+            let effects = self.on_event((plan, names), (event, &marked), asked);
+            found.iter_mut().zip(effects).for_each(|(one, effect)| one.on_events.extend(effect));
         }
         found
     }
 
     /// The effects on an event that occurs in the rows that are marked, one of `asked` questions.
-    fn on_event(&self, plan: &Plan, (event, marked): (Event, &[bool]), asked: usize) -> Vec<Option<OnEvent>> {
-        let confidence = plan.analysis.confidence;
+    fn on_event(
+        &self,
+        (plan, names): (&Plan, &[String]),
+        (event, marked): (Event, &[bool]),
+        asked: usize,
+    ) -> Vec<Option<OnEvent>> {
         let indicator: Vec<f64> = marked.iter().map(|is_marked| f64::from(*is_marked)).collect();
-        let scaled = standardised(&indicator);
-        let share = |input: usize| {
-            let (order, x) = (&self.orders[input], &self.values[input]);
-            let first_order = first_order_index_in_order(order, x, &indicator, samples(plan), confidence);
-            let spearman = (self.rows > 3).then(|| correlation(&self.ranks[input], &scaled, 0, confidence));
-            InputSensitivity { first_order, spearman, ..InputSensitivity::default() }.influence()
-        };
-        on_event(&self.tested, (event, marked), share, asked, confidence)
+        let share = |input: usize| self.first_order(plan, input, &indicator);
+        let mut effects = on_event(&self.tested, (event, marked), share, asked, plan.analysis.confidence);
+        let mut p_values: Vec<Option<f64>> = effects.iter().map(|one| one.as_ref().map(|one| one.p_value)).collect();
+        let instead = self.beside_others((plan, names), &indicator, &mut p_values, asked);
+        for (effect, (p_value, instead)) in effects.iter_mut().zip(p_values.into_iter().zip(instead)) {
+            if let Some((effect, p_value)) = effect.as_mut().zip(p_value) {
+                (effect.p_value, effect.instead) = (p_value, instead);
+            }
+        }
+        effects
     }
 
     /// What every input means for an observable with the values `y`, one of `asked` questions; without tests where that is `None`.
@@ -177,7 +211,8 @@ impl Prepared {
     ) -> Vec<InputSensitivity> {
         let confidence = plan.analysis.confidence;
         let population = Population::of(plan);
-        let p_values = asked.map_or_else(|| vec![None; names.len()], |asked| on_spread(&self.tested, y, asked));
+        let mut p_values = asked.map_or_else(|| vec![None; names.len()], |asked| on_spread(&self.tested, y, asked));
+        let instead = self.beside_others((plan, names), y, &mut p_values, asked.unwrap_or(1));
         let (scaled, ranked) = (standardised(y), standardised(&mid_ranks(y)));
         let varies = scaled.iter().any(|value| *value != 0.0);
         let regressor = |which: usize| self.regressors[which].as_ref().filter(|_| varies);
@@ -198,8 +233,7 @@ impl Prepared {
             let correlated = |x: &[f64], y: &[f64]| is_asked.then(|| with_interval(correlation(x, y, 0, confidence)));
             let partial = rank.as_ref().zip(place(1, index)).map(|(of, at)| of.partial(at, confidence));
             let coefficient = linear.as_ref().zip(place(0, index)).map(|(of, at)| of.coefficient(at, confidence));
-            let (order, x) = (&self.orders[index], &self.values[index]);
-            let correlated_with = self.correlated_with(index, names);
+            let correlated_with = self.correlated_with(plan, names, index);
             let mut found = InputSensitivity {
                 observable: observable.to_owned(),
                 input: name.clone(),
@@ -213,19 +247,18 @@ impl Prepared {
                     Estimate { lower, upper, ..of }
                 }),
                 r_squared: r_squared.map(with_interval),
-                first_order: first_order_index_in_order(order, x, y, samples(plan), confidence).map(with_interval),
+                first_order: self.first_order(plan, index, y).map(with_interval),
                 total: None,
                 note: note(population, varies, input_varies, self.kept[0][index], correlated_with.as_ref()),
                 correlated_with,
                 p_value: p_values[index],
                 direction: None,
-                on_event: None,
+                on_events: Vec::new(),
+                instead: instead[index].clone(),
             };
             let alpha = 1.0 - confidence;
-            let is_driver = found.p_value.is_some_and(|p| p <= alpha)
-                && found.influence().is_some_and(|influence| influence.value >= LEAST_SHARE);
-            if is_driver && let Some(input) = &self.tested[index] {
-                found.direction = input.direction(y, alpha);
+            if found.p_value.is_some() && found.drives_spread(alpha) {
+                found.direction = self.tested[index].as_ref().and_then(|input| input.direction(y, alpha));
             }
             found
         };

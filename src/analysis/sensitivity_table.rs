@@ -18,12 +18,7 @@ const PARTS: [EstimatePart; 3] = [
     ("_upper", ": upper end of its interval", |estimate| estimate.upper),
 ];
 
-const MEASURES: [Measure; 10] = [
-    (
-        "influence",
-        "How strongly the input acts, as a share of the variance: the total index, or the larger one of first-order index and squared rank correlation",
-        InputSensitivity::influence,
-    ),
+const MEASURES: [Measure; 9] = [
     ("pearson", "Pearson's correlation coefficient", |one| one.pearson),
     ("spearman", "Spearman's rank correlation coefficient", |one| one.spearman),
     ("partial_rank", "Partial rank correlation coefficient, the other inputs held fixed", |one| one.partial_rank),
@@ -33,17 +28,19 @@ const MEASURES: [Measure; 10] = [
         "Share of the variance that the regression on all inputs explains, corrected for their number",
         |one| one.r_squared,
     ),
-    ("first_order", "First-order sensitivity index, the share of the variance of this input alone", |one| {
-        one.first_order
-    }),
+    (
+        "first_order",
+        "First-order sensitivity index, the share of the variance of this input alone; an interval from 0 to 1 means that it is unknown",
+        |one| one.first_order,
+    ),
     ("total", "Total sensitivity index, with the interactions of this input", |one| one.total),
     ("event_share", "Share of the variance of whether the event of the observable occurs", |one| {
-        one.on_event.as_ref().map(|effect| effect.share)
+        one.on_events.first().and_then(|effect| effect.share)
     }),
     (
         "event_ratio",
         "Risk ratio of the event at event_level against the other runs, by Koopman's score test; null if the input has many values, if the event occurs in no other run, and at an end without a bound",
-        |one| match one.on_event.as_ref()?.dependence {
+        |one| match one.on_events.first()?.dependence {
             Dependence::Levels { ratio, .. } => {
                 let [value, lower, upper] =
                     [ratio.value, ratio.lower, ratio.upper].map(|end| if end.is_finite() { end } else { f64::NAN });
@@ -56,7 +53,7 @@ const MEASURES: [Measure; 10] = [
 
 /// The table of `list`.
 pub fn table(list: &[InputSensitivity]) -> Table<'_> {
-    let on_event = |one: &InputSensitivity, of: fn(&OnEvent) -> Option<f64>| one.on_event.as_ref().and_then(of);
+    let on_event = |one: &InputSensitivity, of: fn(&OnEvent) -> Option<f64>| one.on_events.first().and_then(of);
     let mut table = Table::of(list);
     table
         .text("observable", "Name of the observable.", |one| Some(&*one.observable))
@@ -85,8 +82,8 @@ pub fn table(list: &[InputSensitivity]) -> Table<'_> {
         })
         .text(
             "event",
-            "What occurs in some runs: missed (a requirement), value, other_value, worst (the tail).",
-            |one| Some(one.on_event.as_ref()?.event.occurs.name()),
+            "What occurs in some runs: missed (the first requirement that some miss), value, other_value, worst (the tail).",
+            |one| Some(one.on_events.first()?.event.occurs.name()),
         )
         .real("event_runs", "In how many runs it occurs.", |one| on_event(one, |on| Some(on.event.of.events as f64)))
         .real(

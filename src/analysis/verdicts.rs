@@ -114,10 +114,9 @@ impl Accumulator for RequirementCounter {
                 let group = self.population.group(samples[*row]);
                 let is_ok = statuses[*row] == Status::Done;
                 counts.groups[group].runs += 1;
-                let never_meets = is_ok && value.is_nan() && requirement.never_meets;
-                let is_met = is_ok && requirement.limit.is_met(value) || never_meets;
+                let is_met = is_ok && requirement.is_met(value);
                 counts.groups[group].within += u64::from(is_met);
-                counts.missing += u64::from((!is_ok || value.is_nan()) && !never_meets);
+                counts.missing += u64::from(!is_ok || value.is_nan() && !is_met);
                 if is_ok && has_mean && !value.is_nan() {
                     kept[group].push(value);
                 }

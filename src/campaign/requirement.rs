@@ -163,6 +163,11 @@ impl Requirement {
         })
     }
 
+    /// Whether a run whose observable has this value meets it; NaN is none.
+    pub fn is_met(&self, value: f64) -> bool {
+        self.limit.is_met(value) || self.never_meets && value.is_nan()
+    }
+
     /// The observable that must keep the limit; `None` where it is about a quantity at each time.
     pub fn observable(&self) -> Option<&str> {
         match &self.subject {

@@ -2,6 +2,7 @@
 
 use crate::analysis::assessment::Assessment;
 use crate::analysis::drivers::Question;
+use crate::analysis::event::{Event, Occurs};
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::campaign::{Plan, Statement};
 use crate::report::drivers_text::{ranked, sentence};
@@ -258,7 +259,14 @@ fn drivers(plan: &Plan, summary: &Summary, all: &[InputSensitivity]) -> String {
     let said = outcomes.into_iter().filter_map(|outcome| {
         let mut rankings = ranked(plan, all, outcome);
         rankings.retain(|ranking| ranking.drivers().next().is_some());
-        rankings.sort_by_key(|ranking| ranking.question == Question::Spread);
+        // the event of a requirement that is not met first, the spread last
+        rankings.sort_by_key(|ranking| match ranking.question {
+            Question::Event(Event { occurs: Occurs::Missed { requirement, .. }, .. }) => {
+                summary.verdicts.list.get(requirement).is_some_and(|one| one.gate.decision == Decision::Pass)
+            }
+            Question::Event(_) => false,
+            Question::Spread => true,
+        });
         let name = names::of_column(outcome, unit(outcome));
         Some(format!("  what drives {name}: {}\n", sentence(plan, outcome, rankings.first()?)))
     });

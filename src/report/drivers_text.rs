@@ -1,21 +1,22 @@
 //! What drives an outcome, in words: on the screen, on the cards and at the charts of the page.
 
-use crate::analysis::drivers::{Question, Ranked, Ranking, rankings};
+use crate::analysis::drivers::{Question, Ranked, Ranking, is_known, rankings};
 use crate::analysis::effects::{Dependence, Direction, Level};
 use crate::analysis::event::{Event, Occurs};
 use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
+use crate::analysis::observed::Observed;
 use crate::campaign::{Plan, ShownUnit};
 use crate::report::names;
 use crate::report::number::{brief, counted, outward, short};
 use crate::report::origin_text::unit_of;
+use crate::report::share_text::with_interval;
 use crate::sampling::Design;
+use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
 use crate::table::Table;
 use crate::table::text::Align;
 
 const NAMED: usize = 2;
-/// Runs from which on a share of the variance is said, and more than one driver of it is named: of 30 runs a share of 50% is known to within 26%, of 6 not at all.
-const RUNS_OF_SHARES: u64 = 30;
 
 /// How a campaign shows interactions.
 pub const SEE_INTERACTIONS: &str =
@@ -38,11 +39,14 @@ pub fn ranked<'a>(plan: &Plan, all: &'a [InputSensitivity], outcome: &str) -> Ve
 }
 
 /// What happens in a run in which the event of `outcome` occurs: "fail".
-pub fn verb(outcome: &str, event: &Event, runs: u64) -> String {
+pub fn verb(plan: &Plan, outcome: &str, event: &Event, runs: u64) -> String {
     let of = |one: &'static str, several: &'static str| if runs == 1 { one } else { several };
     match event.occurs {
-        Occurs::Missed if ["launched", "failure"].contains(&outcome) => of("fails", "fail").to_owned(),
-        Occurs::Missed => format!("{} the limit", of("misses", "miss")),
+        Occurs::Missed { is_only: true, .. } if ["launched", "failure"].contains(&outcome) => {
+            of("fails", "fail").to_owned()
+        }
+        Occurs::Missed { is_only: true, .. } => format!("{} the limit", of("misses", "miss")),
+        Occurs::Missed { requirement, .. } => format!("{} {}", of("misses", "miss"), limit(plan, requirement)),
         Occurs::Value(value) if outcome == COMPUTED => {
             format!("{} {}computed", of("was", "were"), if value == 1.0 { "" } else { "not " })
         }
@@ -54,19 +58,54 @@ pub fn verb(outcome: &str, event: &Event, runs: u64) -> String {
     }
 }
 
+/// The limit of a requirement: "at least 6 s"; what a run without a value does is said if the event never happens in some.
+fn limit(plan: &Plan, requirement: usize) -> String {
+    let one = &plan.analysis.requirements[requirement];
+    let observed = Observed::named(plan, one.observable().into_iter());
+    let unit = observed.first().map_or("", |observed| observed.quantity.unit());
+    let shown = plan.analysis.display.of(one.name(), if unit == "1" { "" } else { unit });
+    let (word, value) = match one.limit {
+        GateLimit::AtMost(value) => ("at most", value),
+        GateLimit::AtLeast(value) => ("at least", value),
+    };
+    let never = if one.never_meets { " (no value meets it)" } else { "" };
+    format!("{word} {}{never}", format!("{} {}", short(shown.value(value)), shown.unit).trim_end())
+}
+
 /// The runs in which the event of `outcome` occurs: "the runs that fail", "the worst 5% of runs".
-fn such_runs(outcome: &str, event: &Event) -> String {
+fn such_runs(plan: &Plan, outcome: &str, event: &Event) -> String {
     match event.occurs {
         Occurs::Worst(share) => format!("the worst {}% of runs", short(libm::round(1e9 * share) / 1e7)),
-        _ => format!("the runs that {}", verb(outcome, event, u64::MAX)),
+        _ => format!("the runs that {}", verb(plan, outcome, event, u64::MAX)),
     }
 }
 
 pub fn sentence(plan: &Plan, outcome: &str, ranking: &Ranking<'_>) -> String {
-    match &ranking.question {
-        Question::Event(event) => of_event(plan, [outcome, &such_runs(outcome, event)], event, ranking),
+    let said = match &ranking.question {
+        Question::Event(event) => of_event(plan, [outcome, &such_runs(plan, outcome, event)], event, ranking),
         Question::Spread => of_spread(plan, ranking),
+    };
+    said + &correlations(plan, ranking)
+}
+
+/// With which inputs the drivers that are named are correlated, and whether the rows tell them apart.
+fn correlations(plan: &Plan, ranking: &Ranking<'_>) -> String {
+    let mut pairs: Vec<[&str; 2]> = Vec::new();
+    let mut said = String::new();
+    for driver in ranking.drivers().take(NAMED) {
+        let one = driver.input.input.as_str();
+        let with = driver.input.correlated_with.as_ref();
+        let Some(other) = driver.instead().or(with.map(|(other, _)| other.as_str())) else { continue };
+        if pairs.contains(&[other, one]) {
+            continue;
+        }
+        pairs.push([one, other]);
+        let r = with.filter(|(name, _)| name == other).map_or_else(String::new, |(_, r)| format!(" ({r:.2})"));
+        let [one, other] = [one, other].map(|column| names::of_input_column(plan, column));
+        let apart = if driver.instead().is_some() { ", and these runs do not tell which of them acts" } else { "" };
+        said += &format!("; {one} and {other} are correlated{r}{apart}");
     }
+    said
 }
 
 fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ranking<'_>) -> String {
@@ -79,7 +118,7 @@ fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ra
         let name = names::of_input_column(plan, column);
         let shown = names::place_of(plan, column).map_or_else(|| ShownUnit::own(""), |place| unit_of(plan, place));
         let amount = |value: f64| format!("{} {}", short(shown.value(value)), shown.unit).trim_end().to_owned();
-        let dependence = ranked.input.on_event.as_ref().map(|effect| &effect.dependence)?;
+        let dependence = ranked.effect.map(|effect| &effect.dependence)?;
         Some(match dependence {
             Dependence::Levels { levels, most, ratio } => {
                 let level = |level: &Level| {
@@ -89,7 +128,7 @@ fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ra
                         "{value}: {} of {} {}",
                         level.of.events,
                         level.of.runs,
-                        verb(outcome, event, level.of.events)
+                        verb(plan, outcome, event, level.of.events)
                     )
                 };
                 let mut listed: Vec<&Level> = levels.iter().collect();
@@ -119,7 +158,7 @@ fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ra
     let named: Vec<String> = ranking.drivers().take(NAMED).filter_map(phrase).collect();
     if named.is_empty() {
         let of = event.of;
-        let verb = verb(outcome, event, of.events);
+        let verb = verb(plan, outcome, event, of.events);
         return format!("{} of {} runs {verb}; no input was found that explains which", of.events, of.runs);
     }
     named.join("; ")
@@ -127,7 +166,7 @@ fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ra
 
 /// The drivers where all that are named are farther from their medians, or all nearer to them, in one phrase; `None` where they are not, or are not several.
 fn at_a_distance(plan: &Plan, runs: &str, ranking: &Ranking<'_>) -> Option<String> {
-    let is_far = |ranked: &Ranked<'_>| match ranked.input.on_event.as_ref()?.dependence {
+    let is_far = |ranked: &Ranked<'_>| match ranked.effect?.dependence {
         Dependence::Distance { chance } => Some(chance > 0.5),
         _ => None,
     };
@@ -143,71 +182,62 @@ fn at_a_distance(plan: &Plan, runs: &str, ranking: &Ranking<'_>) -> Option<Strin
 
 fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     let Some(first) = ranking.inputs.first() else { return String::new() };
-    let is_total = first.input.total.is_some();
     let runs = counted(first.input.rows, "run");
-    let name = |ranked: &Ranked<'_>| names::of_input_column(plan, &ranked.input.input);
     let direction = |ranked: &Ranked<'_>| match ranked.input.direction {
         Some(Direction::Rises) => " (rises with it)",
         Some(Direction::Falls) => " (falls with it)",
         Some(Direction::NotMonotonic) => " (not monotonic)",
         None => "",
     };
+    let rest = rest(plan, ranking).map_or_else(String::new, |rest| format!("; {rest}"));
     let drivers: Vec<&Ranked<'_>> = ranking.drivers().take(NAMED).collect();
-    if !is_total && first.input.rows < RUNS_OF_SHARES {
-        return match drivers.first() {
-            Some(driver) => format!(
-                "{}{}; {runs} are too few to say how much of the variance it explains",
-                name(driver),
-                direction(driver)
-            ),
+    if drivers.is_empty() {
+        let most = ranking.inputs.iter().map(|ranked| ranked.share.filter(is_known).map(|share| share.upper));
+        return match most.collect::<Option<Vec<f64>>>() {
+            Some(ends) => {
+                let most = (100.0 * ends.into_iter().fold(0.0, f64::max)).ceil();
+                format!("no single input explains more than {most:.0}% of the variance{rest}")
+            }
             None => format!("no input was found to drive it in {runs}"),
         };
     }
-    let said: Vec<String> = if is_total {
-        let of = |driver: &&Ranked<'_>| format!("{} {:.2}{}", name(driver), driver.share.value, direction(driver));
-        drivers.iter().map(of).collect()
-    } else {
-        let shares = said_shares(&drivers.iter().map(|driver| driver.share.value).collect::<Vec<f64>>());
-        let of = |(driver, share): (&&Ranked<'_>, String)| format!("{} {share}{}", name(driver), direction(driver));
-        drivers.iter().zip(shares).map(of).collect()
-    };
-    let rest = rest(plan, ranking).map_or_else(String::new, |rest| format!("; {rest}"));
-    if !said.is_empty() {
-        let measure = if is_total { "total Sobol indices: " } else { "" };
-        return format!("{measure}{}{rest}", said.join(", "));
+    if first.input.total.is_some() {
+        let of = |driver: &&Ranked<'_>| {
+            let share = driver.share.map_or(f64::NAN, |share| share.value);
+            format!("{} {share:.2}{}", names::of_input_column(plan, &driver.input.input), direction(driver))
+        };
+        return format!("total Sobol indices: {}", drivers.iter().map(of).collect::<Vec<_>>().join(", "));
     }
-    let most = ranking.inputs.iter().map(|ranked| ranked.share.value).fold(0.0, f64::max);
-    format!("no single input was found to explain more than {:.0}% of the variance{rest}", (100.0 * most).ceil())
-}
-
-/// What is said of drivers with these shares of the variance, the largest first. Each share is that of one input alone, some by index and some by rank, so that
-/// they may overlap: of one that does not fit beside those before it only the order is said, and that of estimates near one is no more than "over 99%".
-fn said_shares(shares: &[f64]) -> Vec<String> {
-    let mut sum = 0.0;
-    let say = |(place, share): (usize, &f64)| {
-        let percent = libm::round(100.0 * share);
-        let fits = place == 0 || sum + percent <= 100.0;
-        sum = if fits { sum + percent } else { f64::INFINITY };
-        match (place, fits) {
-            (0, _) if percent >= 100.0 => "explains over 99% of the variance".to_owned(),
-            (0, _) => format!("explains {percent:.0}% of the variance"),
-            (_, true) => format!("{percent:.0}%"),
-            (_, false) => "less".to_owned(),
-        }
+    let mut is_said = false;
+    let of = |driver: &&Ranked<'_>| {
+        let share = driver.share.filter(|share| is_known(share) && !share.lower.is_nan());
+        let share = share.map(|share| with_interval([share.value.clamp(0.0, 1.0); 2], [share.lower, share.upper]));
+        let share = match share {
+            Some(share) if is_said => format!(" {share}"),
+            Some(share) => format!(" explains {share} of the variance"),
+            None => String::new(),
+        };
+        is_said |= !share.is_empty();
+        format!("{}{share}{}", names::of_input_column(plan, &driver.input.input), direction(driver))
     };
-    shares.iter().enumerate().map(say).collect()
+    let said = drivers.iter().map(of).collect::<Vec<_>>().join(", ");
+    if is_said {
+        return said + &rest;
+    }
+    if drivers.iter().any(|driver| driver.share.is_some_and(|share| share.lower.is_nan())) {
+        // chosen samples have no population
+        return said;
+    }
+    let it = if drivers.len() == 1 { "it explains" } else { "each explains" };
+    format!("{said}; {runs} are too few to say how much of the variance {it}")
 }
 
-/// What the rest of the variance is, where the drivers explain less than half of it.
+/// What the rest of the variance is, if the drivers explain less than half of it.
 fn rest(plan: &Plan, ranking: &Ranking<'_>) -> Option<String> {
-    let share: f64 = ranking.drivers().map(|ranked| ranked.share.value).sum();
-    let first = ranking.inputs.first()?.input;
-    if share >= 0.5 || first.total.is_some() {
+    let shares = ranking.drivers().map(|ranked| ranked.share.filter(is_known).map(|share| share.value));
+    let share: f64 = shares.collect::<Option<Vec<f64>>>()?.iter().sum();
+    if share >= 0.5 || ranking.inputs.first()?.input.total.is_some() {
         return None;
-    }
-    let together = first.r_squared.map_or(0.0, |of| of.value);
-    if together >= 0.5 {
-        return Some(format!("a linear regression on all inputs together explains {:.0}%", (100.0 * together).floor()));
     }
     let noise = if plan.law.is_some() { "noise in the loop, " } else { "" };
     Some(format!("the rest is {noise}interactions, or effects too small to show"))
@@ -269,68 +299,70 @@ mod tests {
             ),
         ] {
             let of = Occurrence { events: 5, runs: 100 };
-            let event = Event { occurs: Occurs::Missed, of, has_few_values: false };
-            let share = Estimate { value: 0.5, lower: 0.4, upper: 0.6 };
-            let on_event = Some(OnEvent { event, share, p_value: 1e-6, dependence });
-            let input = InputSensitivity { input: "x".to_owned(), on_event, ..InputSensitivity::default() };
-            let inputs = vec![Ranked { input: &input, share, is_driver: true }];
+            let occurs = Occurs::Missed { requirement: 0, is_only: true };
+            let event = Event { occurs, of, has_few_values: false };
+            let effect = OnEvent { event, share: None, p_value: 1e-6, dependence, instead: None };
+            let input = InputSensitivity { input: "x".to_owned(), ..InputSensitivity::default() };
+            let inputs = vec![Ranked { input: &input, effect: Some(&effect), share: None, is_driver: true }];
             let ranking = Ranking { question: Question::Event(event), inputs };
             assert_eq!(sentence(&plan, "y", &ranking), said);
         }
     }
-    /// Law: of any shares, as they are estimated, those that are said add up to no more than 100%, the first is always said, and of none that is said more is said than it is.
+    /// Law: a share is said with its interval, and only if that is known: not of too few runs for one, not if it is nearly everything from 0 to 1, and not of
+    /// chosen samples. That no input explains more than a share is said only if the upper ends of all are known. Drivers are named in any case.
     #[test]
-    fn shares_that_are_said_fit_in_the_whole() {
-        let percents = [0, 10, 20, 32, 33, 40, 49, 50, 51, 60, 76, 80, 99, 100, 103];
-        for first in percents {
-            for second in percents.into_iter().filter(|second| *second <= first) {
-                for third in percents.into_iter().filter(|third| *third <= second) {
-                    for shift in [-0.004_9, 0.0, 0.004_9] {
-                        let shares = [first, second, third].map(|percent| f64::from(percent) / 100.0 + shift);
-                        let said = said_shares(&shares);
-                        let known: Vec<f64> = said
-                            .iter()
-                            .filter_map(|text| {
-                                text.split(' ').find_map(|word| word.strip_suffix('%')?.parse::<f64>().ok())
-                            })
-                            .collect();
-                        assert!(known.iter().sum::<f64>() <= 100.0, "{shares:?}: {said:?}");
-                        let places = known.iter().zip(shares);
-                        let is_near = |(known, share): (&f64, f64)| (known - 100.0 * share).abs() <= 0.501;
-                        assert!(
-                            places
-                                .clone()
-                                .all(|(known, share)| *known == 99.0 && share > 0.99 || is_near((known, share))),
-                            "{shares:?}: {said:?}"
-                        );
-                        assert!(!known.is_empty() && said[known.len()..].iter().all(|text| text == "less"), "{said:?}");
-                        let fits = shares[0] + shares[1] <= 0.989;
-                        assert!(!fits || known.len() >= 2, "{shares:?}: {said:?}");
-                    }
-                }
+    fn shares_are_said_with_intervals_or_not_at_all() {
+        let text = include_str!("../../campaigns/spin_sweep.toml");
+        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
+        let known = Some(Estimate { value: 0.5, lower: 0.4, upper: 0.625 });
+        for (share, is_known) in [
+            (known, true),
+            (None, false),
+            (Some(Estimate { value: 0.99, lower: 0.0, upper: 1.0 }), false),
+            (Some(Estimate { value: 0.5, lower: 0.1, upper: 0.95 }), false),
+            (Some(Estimate { value: 0.5, lower: f64::NAN, upper: f64::NAN }), false),
+        ] {
+            for is_driver in [true, false] {
+                let input = |name: &str| InputSensitivity { input: name.to_owned(), rows: 77, ..Default::default() };
+                let inputs = ["first_one", "second_one"].map(input);
+                let of = |place: usize, share| Ranked { input: &inputs[place], effect: None, share, is_driver };
+                let ranking = Ranking { question: Question::Spread, inputs: vec![of(0, share), of(1, known)] };
+                let said = sentence(&plan, "y", &ranking);
+                assert_eq!(said.contains("first"), is_driver, "{said}");
+                assert_eq!(said.contains("more than 63% of the variance"), is_known && !is_driver, "{said}");
+                assert_eq!(said.contains("explains 50% [40, 62.5] of the variance"), is_driver, "{said}");
+                let alone = Ranking { question: Question::Spread, inputs: vec![of(0, share)] };
+                let said = sentence(&plan, "y", &alone);
+                assert_eq!(said.contains('%'), is_known, "{said}");
             }
         }
     }
 
-    /// Law: of fewer than 30 runs no share is said, and one driver at most, whatever was estimated; of more shares and drivers are said.
+    /// Law: that two inputs are correlated is said once, with whether the rows tell them apart.
     #[test]
-    fn few_runs_have_no_shares() {
+    fn correlated_inputs_are_told() {
         let text = include_str!("../../campaigns/spin_sweep.toml");
         let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        for rows in [4, 6, 12, 29, 30, 300] {
+        let input = |name: &str, other: &str, instead: bool| InputSensitivity {
+            input: name.to_owned(),
+            correlated_with: Some((other.to_owned(), 0.8)),
+            instead: instead.then(|| other.to_owned()),
+            ..Default::default()
+        };
+        for (instead, said) in [
+            (false, "; a and b are correlated (0.80)"),
+            (true, "; a and b are correlated (0.80), and these runs do not tell which of them acts"),
+        ] {
+            let inputs = [input("a", "b", instead), input("b", "a", false)];
             for is_driver in [true, false] {
-                let input = |name: &str| InputSensitivity { input: name.to_owned(), rows, ..Default::default() };
-                let inputs = ["first_one", "second_one"].map(input);
-                let share = |value: f64| Estimate { value, lower: 0.1, upper: 1.0 };
-                let ranked =
-                    |place: usize| Ranked { input: &inputs[place], share: share([0.5, 0.3][place]), is_driver };
-                let ranking = Ranking { question: Question::Spread, inputs: vec![ranked(0), ranked(1)] };
-                let said = sentence(&plan, "y", &ranking);
-                let is_few = rows < 30;
-                assert_eq!(said.contains('%'), !is_few, "{said}");
-                assert_eq!(said.contains("second"), is_driver && !is_few, "{said}");
-                assert_eq!(said.contains("first"), is_driver, "{said}");
-                assert!(!is_few || said.contains(&format!("{rows} runs")), "{said}");
+                let of = |place: usize| Ranked {
+                    input: &inputs[place],
+                    effect: None,
+                    share: None,
+                    is_driver: place == 0 || is_driver,
+                };
+                let ranking = Ranking { question: Question::Spread, inputs: vec![of(0), of(1)] };
+                assert!(sentence(&plan, "y", &ranking).ends_with(said));
             }
         }
     }

@@ -170,6 +170,11 @@ impl Pairs {
 }
 
 impl Correlation {
+    /// The components that it is about.
+    pub fn components(&self) -> Vec<(Parameter, usize)> {
+        self.parameters.iter().flat_map(components_of).collect()
+    }
+
     /// What table `index` says.
     fn pairs<'d>(
         &self,
@@ -180,7 +185,7 @@ impl Correlation {
         let refused = |value: String, allowed: String, remedy: &str| {
             Err(error_of(Table::Correlate(index), key, value, allowed, remedy))
         };
-        let components: Vec<(Parameter, usize)> = self.parameters.iter().flat_map(components_of).collect();
+        let components = self.components();
         let drawn = self.drawn(index, &components, drawn)?;
         let names: Vec<String> = components.iter().map(|(parameter, k)| parameter.component_name(*k)).collect();
         let n = components.len();

@@ -1,4 +1,5 @@
-//! Intervals of sensitivities cover as often as stated, over a list of models of known truth, numbers of runs and designs.
+//! Intervals of correlations, regressions and indices from blocks cover as often as stated, over a list of models of
+//! known truth and numbers of runs. First-order indices from plain samples: `drivers_of_structures`.
 //!
 //! H0 of each: a 95% interval covers in at least 0.93 of the campaigns (in less where few runs do not show the tail of the observable, as the lists say). Rejected where the
 //! count of covered campaigns is below what H0 gives in one case of 10,000 (alpha 1e-4 for each model). Fixed seeds. Power: intervals of half the
@@ -7,84 +8,15 @@
 //! The long versions (`cargo test --release --test sampling -- --ignored sensitivities`) have 2,000 campaigns of 100 runs, 1,000 of 1,000 and 300 of 8,000.
 
 use spindrift::math::normal::quantile;
-use spindrift::sampling::design::halton::Halton;
-use spindrift::sampling::design::latin::Permutation;
 use spindrift::sampling::design::sobol::Sobol;
 use spindrift::statistics::binomial;
 use spindrift::statistics::correlation::{Estimate, correlation, mid_ranks, standardised};
 use spindrift::statistics::regression::Regressors;
-use spindrift::statistics::sensitivity::{Block, Samples, first_order_index, saltelli_indices};
+use spindrift::statistics::sensitivity::{Block, saltelli_indices};
 
 use crate::support::scenes::Uniform;
 
 const PI: f64 = core::f64::consts::PI;
-/// Var e^x of a standard normal x.
-const LOGNORMAL: f64 = core::f64::consts::E * (core::f64::consts::E - 1.0);
-
-/// The input and the observable from three numbers uniform in (0, 1), the first-order index of the input, and the coverage of H0.
-struct Model {
-    name: &'static str,
-    of: fn([f64; 3]) -> [f64; 2],
-    index: f64,
-    coverage: f64,
-}
-
-const fn model(name: &'static str, index: f64, of: fn([f64; 3]) -> [f64; 2]) -> Model {
-    Model { name, of, index, coverage: 0.93 }
-}
-
-/// Ishigami's function (T. Ishigami & T. Homma 1990), a = 7, b = 0.1.
-fn ishigami(u: [f64; 3]) -> f64 {
-    let [x, y, z] = u.map(|u| PI * (2.0 * u - 1.0));
-    libm::sin(x) * (1.0 + 0.1 * libm::pow(z, 4.0)) + 7.0 * libm::sin(y) * libm::sin(y)
-}
-
-/// First-order indices of x and y of Ishigami's function: 1/2 (1 + b pi^4/5)^2 and a^2/8 over a^2/8 + b pi^4/5 + b^2 pi^8/18 + 1/2.
-fn ishigami_indices() -> [f64; 2] {
-    let fourth = libm::pow(PI, 4.0);
-    let variance = 49.0 / 8.0 + 0.1 * fourth / 5.0 + 0.01 * fourth * fourth / 18.0 + 0.5;
-    [0.5 * libm::pow(1.0 + 0.1 * fourth / 5.0, 2.0) / variance, 49.0 / 8.0 / variance]
-}
-
-/// Numbers are standard normal, uniform where the name says so.
-fn models() -> Vec<Model> {
-    let [first, second] = ishigami_indices();
-    // E^2 of |(x, y)| given x over the variance 2 - pi/2: by quadrature with 4001 points in (-8, 8)
-    let length = 0.486_643;
-    vec![
-        model("3x + y", 0.9, |u| [quantile(u[0]), 3.0 * quantile(u[0]) + quantile(u[1])]),
-        model("y of 3x + y", 0.1, |u| [quantile(u[1]), 3.0 * quantile(u[0]) + quantile(u[1])]),
-        model("x^3 + y", 15.0 / 16.0, |u| [quantile(u[0]), libm::pow(quantile(u[0]), 3.0) + quantile(u[1])]),
-        Model {
-            coverage: 0.9,
-            ..model("e^x + y", LOGNORMAL / (LOGNORMAL + 1.0), |u| {
-                [quantile(u[0]), libm::exp(quantile(u[0])) + quantile(u[1])]
-            })
-        },
-        model("x of Ishigami's", first, |u| [u[0], ishigami(u)]),
-        model("y of Ishigami's", second, |u| [u[1], ishigami(u)]),
-        model("z of Ishigami's", 0.0, |u| [u[2], ishigami(u)]),
-        model("x y", 0.0, |u| [quantile(u[0]), quantile(u[0]) * quantile(u[1])]),
-        // x (1 + y), uniform: (3/2)^2/12 over 1/3 * 7/3 - (3/4)^2
-        model("x + x y, uniform", 0.1875 / (7.0 / 9.0 - 0.5625), |u| [u[0], u[0] * (1.0 + u[1])]),
-        model("nothing, of normal numbers", 0.0, |u| [quantile(u[0]), quantile(u[1])]),
-        model("nothing, of lognormal numbers", 0.0, |u| [u[0], libm::exp(quantile(u[1]))]),
-        Model {
-            coverage: 0.87,
-            ..model("x^2 + y^2", 0.5, |u| {
-                [quantile(u[0]), libm::pow(quantile(u[0]), 2.0) + libm::pow(quantile(u[1]), 2.0)]
-            })
-        },
-        model("|(x, y)|", length, |u| [quantile(u[0]), libm::hypot(quantile(u[0]), quantile(u[1]))]),
-        // bernoulli: 2^2 p (1 - p) = 0.64 and 1
-        model("2 (x < 0.2) + y", 0.64 / 1.64, |u| {
-            let x = if u[0] < 0.2 { 1.0 } else { 0.0 };
-            [x, 2.0 * x + quantile(u[1])]
-        }),
-        // five levels, of variance 2
-        model("five levels + y", 2.0 / 3.0, |u| [(5.0 * u[0]).floor(), (5.0 * u[0]).floor() + quantile(u[1])]),
-    ]
-}
 
 /// The count of covered campaigns below which H0 is rejected.
 fn fewest(campaigns: u64, coverage: f64) -> u64 {
@@ -94,111 +26,6 @@ fn fewest(campaigns: u64, coverage: f64) -> u64 {
 fn covers(found: &Estimate, truth: f64) -> bool {
     // an index of levels that nothing else acts on is 1 to rounding
     found.lower <= truth + 1e-9 && truth <= found.upper + 1e-9
-}
-
-/// How many first-order intervals of `campaigns` cover, and how many would with half the width.
-fn covered(model: &Model, campaigns: u64, samples: Samples, mut points: impl FnMut(u64) -> Vec<[f64; 3]>) -> [u64; 2] {
-    let mut counts = [0; 2];
-    for campaign in 0..campaigns {
-        let (x, y): (Vec<f64>, Vec<f64>) = points(campaign).into_iter().map(|u| (model.of)(u).into()).unzip();
-        let found = first_order_index(&x, &y, samples, 0.95).expect("both vary");
-        let half = |end: f64| found.value + 0.5 * (end - found.value);
-        let narrow = Estimate { lower: half(found.lower), upper: half(found.upper), ..found };
-        counts[0] += u64::from(covers(&found, model.index));
-        counts[1] += u64::from(covers(&narrow, model.index));
-    }
-    counts
-}
-
-fn independent(random: &mut Uniform, runs: u64) -> Vec<[f64; 3]> {
-    (0..runs).map(|_| [(); 3].map(|()| random.uniform())).collect()
-}
-
-fn first_order_indices_are_covered(sizes: &[(u64, u64)]) {
-    for (runs, campaigns) in sizes {
-        for (seed, model) in models().iter().enumerate() {
-            let mut random = Uniform::new(1000 * runs + seed as u64);
-            let [count, narrow] = covered(model, *campaigns, Samples::Independent, |_| independent(&mut random, *runs));
-            let fewest = fewest(*campaigns, model.coverage);
-            println!(
-                "{runs} runs, {}: {:.3}, half the width {:.3}",
-                model.name,
-                count as f64 / *campaigns as f64,
-                narrow as f64 / *campaigns as f64
-            );
-            assert!(count >= fewest, "{runs} runs, {}: {count} of {campaigns}, {fewest} wanted", model.name);
-            // the counter-test; where nothing acts intervals are wider than needed
-            let is_narrow = model.index == 0.0 || narrow < fewest;
-            assert!(is_narrow || *campaigns < 300, "{runs} runs, {}: {narrow} of {campaigns}", model.name);
-        }
-    }
-}
-
-/// Law: intervals of the first-order index of independent runs cover, whatever the model.
-#[test]
-fn first_order_indices_of_independent_runs_are_covered() {
-    first_order_indices_are_covered(&[(100, 300), (1000, 60)]);
-}
-
-#[test]
-#[ignore = "one minute"]
-fn first_order_indices_of_many_independent_runs_are_covered() {
-    first_order_indices_are_covered(&[(100, 2000), (1000, 1000), (8000, 300)]);
-}
-
-fn first_order_indices_of_designs_are_covered(sizes: &[(u64, u64)]) {
-    let names = ["x", "y", "z"].map(str::to_owned);
-    for (runs, campaigns) in sizes {
-        for (number, model) in models().iter().enumerate() {
-            let seed = |campaign: u64| 10_000 * runs + 100 * number as u64 + 1_000_003 * campaign;
-            let sobol = |campaign: u64| {
-                let sobol = Sobol::new(seed(campaign), &names);
-                (0..*runs).map(|point| [0, 1, 2].map(|dimension| sobol.number(dimension, point))).collect()
-            };
-            let halton = |campaign: u64| {
-                let halton = Halton::new(seed(campaign), &names);
-                (0..*runs).map(|point| [0, 1, 2].map(|dimension| halton.number(dimension, point))).collect()
-            };
-            let latin = |campaign: u64| {
-                let mut random = Uniform::new(seed(campaign));
-                let strata = [0, 1, 2].map(|dimension| Permutation::new(*runs, random.bits() ^ dimension));
-                (0..*runs)
-                    .map(|point| strata.each_ref().map(|of| (of.image(point) as f64 + random.uniform()) / *runs as f64))
-                    .collect()
-            };
-            let counts = [
-                covered(model, *campaigns, Samples::Even, sobol)[0],
-                covered(model, *campaigns, Samples::Even, halton)[0],
-                covered(model, *campaigns, Samples::Independent, latin)[0],
-            ];
-            println!("{runs} runs, {}: sobol, halton, latin hypercube {counts:?} of {campaigns}", model.name);
-            let fewest = fewest(*campaigns, model.coverage);
-            assert!(
-                counts.iter().all(|count| *count >= fewest),
-                "{runs} runs, {}: {counts:?} of {campaigns}",
-                model.name
-            );
-        }
-    }
-}
-
-/// Law: so do those of sequences and of a Latin hypercube, of inputs that do nothing too; taken for independent, a sequence's do not.
-#[test]
-fn first_order_indices_of_designs_are_covered_as_well() {
-    first_order_indices_of_designs_are_covered(&[(128, 60), (1024, 12)]);
-    let names = ["x", "y", "z"].map(str::to_owned);
-    let nothing = &models()[9];
-    let [count, _] = covered(nothing, 40, Samples::Independent, |campaign| {
-        let sobol = Sobol::new(campaign, &names);
-        (0..1024).map(|point| [0, 1, 2].map(|dimension| sobol.number(dimension, point))).collect()
-    });
-    assert!(count < 4, "the counter-test: {count} of 40");
-}
-
-#[test]
-#[ignore = "one minute"]
-fn first_order_indices_of_many_designs_are_covered() {
-    first_order_indices_of_designs_are_covered(&[(100, 600), (128, 600), (1024, 200), (4096, 60)]);
 }
 
 /// x and z standard normal; y, its correlation with x, the coefficients of x and z, R^2, and the coverage of H0, that of R^2 apart: the sixth power of

@@ -14,6 +14,7 @@ mod dependence;
 mod designs;
 mod dispersable;
 mod distributions;
+mod drivers_of_structures;
 mod effect;
 mod geometric;
 mod geometric_files;

@@ -20,7 +20,7 @@ pub struct RankShift {
 }
 
 /// Two-sided tail of a normal variable.
-fn two_sided(z: f64) -> f64 {
+pub(super) fn two_sided(z: f64) -> f64 {
     libm::erfc(z.abs() * core::f64::consts::FRAC_1_SQRT_2)
 }
 

@@ -5,13 +5,17 @@
 //! - From plain samples: what straight lines through cells of neighbouring inputs do not explain is the rest of the variance (the correlation
 //!   ratio of K. Pearson, *Drapers' Co. Res. Mem.* 2 (1905), with lines in place of means; cells as E. Plischke, E. Borgonovo & C. L. Smith,
 //!   *Eur. J. Oper. Res.* 226 (2013) 536). Ranks (F. Gamboa et al., *Bernoulli* 28 (2022) 2345) were rejected: of x^3 + y, 100 runs, their
-//!   bias is 0.13, its interval covers 0.15; here 0.02 and 0.97.
+//!   bias is 0.13, its interval covers 0.15.
 //!
-//! Intervals are those of the [`jackknife`](super::jackknife), for independent blocks or rows; for sequences see [`Samples`].
-//! Inputs must be independent: with correlated ones the shares overlap.
+//! Intervals are those of the [`jackknife`](super::jackknife), for independent blocks or rows; for sequences see [`Samples`]. Those from plain samples
+//! also allow for what the rows do not show: [`UNSEEN`] more rows like the largest, a curve that is steeper than the lines ([`ALMOST_ALL`],
+//! [`Rest::noise`]), and tails ([`MOST_KURTOSIS`]). An interval from 0 to 1 means that the share is unknown.
+//! Of correlated inputs the shares overlap.
 
 use super::correlation::{Estimate, ascending_order};
-use super::jackknife::{explained_share, of_whole, ratio, spaced_rows};
+use super::jackknife::{ends, of_whole, ratio, spaced_rows};
+use super::mean::one_sided;
+use super::moments::Moments;
 
 /// Values of one block of a Saltelli design for one input.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,42 +77,59 @@ pub fn first_order_index_in_order(
     if total <= 0.0 || !total.is_finite() {
         return None;
     }
-    // squares of what the lines leave: as they are, and for the freedom that each line takes
-    let (mut left, mut corrected, mut steps) = (Vec::with_capacity(rows), Vec::with_capacity(rows), 0.0);
-    let mut start = 0;
-    while start < rows {
-        let end = cell_end(order, x, start);
-        let rest = Rest::of(&order[start..end], x, y);
-        steps += rest.values.windows(2).map(|pair| (pair[1] - pair[0]) * (pair[1] - pair[0])).sum::<f64>();
+    // squares of what the lines leave, and the noise of each cell, with and without the freedom that a line takes
+    let (mut left, mut noise, mut freedom) = (Vec::with_capacity(rows), Vec::new(), Vec::with_capacity(rows));
+    for cell in cells(order, x) {
+        let rest = Rest::of(cell, x, y);
+        let factor = if samples == Samples::Even { 1.0 } else { rest.correction };
+        noise.push(rest.noise(factor));
         left.extend(rest.values.iter().map(|value| value * value));
-        corrected.extend(rest.values.iter().map(|value| value * value * rest.correction));
-        start = end;
+        freedom.extend(core::iter::repeat_n(rest.correction, rest.values.len()));
     }
-    let share = |left: &[f64], scale: f64| {
+    let corrected: Vec<f64> = left.iter().zip(freedom).map(|(left, correction)| left * correction).collect();
+    let [least, most] = [&corrected, if samples == Samples::Even { &left } else { &corrected }];
+    let scale = (n - 1.0) / n;
+    // the share that is left, and the factor of the end of its interval: of the lower one if `is_low`
+    let of = |left: &[f64], is_low: bool| {
         let sum = left.iter().sum::<f64>();
-        let parts = spaced_rows(rows).map(|row| [left[row] / sum, whole[row] / total]);
-        explained_share(scale * sum / total, rows, parts, confidence)
+        let influences = spaced_rows(rows).map(|row| n * (left[row] / sum - whole[row] / total));
+        let risk = (1.0 - confidence) * if is_low { RISKS[1] } else { RISKS[0] };
+        let ends = if sum > 0.0 { ends(0.0, rows, influences, 1.0 - 2.0 * risk) } else { [0.0; 2] };
+        [scale * sum / total, libm::exp(ends[usize::from(!is_low)])]
     };
-    let mut found = share(&corrected, (n - 1.0) / n);
-    if samples == Samples::Even {
-        let most = share(&left, 1.0);
-        found = Estimate { value: 0.5 * (found.value + most.value), upper: most.upper, ..found };
-    }
-    // neighbours that are alike are the error of the lines: nothing may be left of the variance
-    if steps < SMOOTH * left.iter().sum::<f64>() {
-        found.upper = 1.0;
-    }
-    Some(found)
+    let unseen = UNSEEN * whole.iter().fold(0.0, |most: f64, one| most.max(*one)) / total;
+    let ([share, up], [other, down]) = (of(least, false), of(most, true));
+    let value = 1.0 - 0.5 * (share + other);
+    let lower = 1.0 - up * (share + unseen) / (1.0 + unseen);
+    let is_tailed = [x, y].iter().any(|of| Moments::of_block(of).kurtosis().is_none_or(|found| found > MOST_KURTOSIS));
+    let upper = if share < ALMOST_ALL || is_tailed {
+        1.0
+    } else {
+        // cells that differ in their noise say how well it is known
+        let (count, cells) = (noise.len() as f64, Moments::of_block(&noise));
+        let t = one_sided(1.0 - RISKS[1] * (1.0 - confidence), count - 1.0);
+        let sum =
+            cells.mean().unwrap_or(0.0) * count - t * cells.standard_deviation().unwrap_or(0.0) * libm::sqrt(count);
+        1.0 - (other * down).min(scale * sum.max(0.0) / total) / (1.0 + unseen)
+    };
+    Some(Estimate { value, lower: lower.max(0.0).min(value), upper: upper.min(1.0).max(value) })
 }
+
+/// The parts of the risk of an interval, 1 - confidence, of a lower end above the share and of an upper one below it. The estimates that are said are the larger
+/// ones, those of drivers: the lower end misses more often among them. Measured over a list of structures (`drivers_and_their_truth`): at most 5% together.
+const RISKS: [f64; 2] = [0.1, 0.6];
+/// Rows as far from the mean as the farthest, that the interval allows for beside it: of 4.7 expected rows one and no more is seen in 5% of all cases.
+/// The lower end takes them for rows that the input does not explain, the upper one for rows that it does.
+const UNSEEN: f64 = 3.0;
+/// Below this share lines leave no more than curves and jumps do: nothing may be left of the variance.
+const ALMOST_ALL: f64 = 0.06;
+/// Above this kurtosis of input or observable (3 for normal numbers, 6 for an exponential tail on both sides), rows that are not seen may raise the share to 1.
+const MOST_KURTOSIS: f64 = 4.5;
 
 /// Fewer rows do not show a line in a few cells.
 pub const MIN_ROWS: usize = 64;
 /// The cells at both ends have so many rows, where the input has its tails and the observable is steep.
 const FEWEST: usize = 5;
-/// Neighbours that are independent differ by more than twice the mean square of what a line leaves, by 2.3 times with 10 rows; the parabola that
-/// it leaves of a curve, by 1.4 times with 5 rows, by less with more.
-const SMOOTH: f64 = 1.5;
-
 /// The end of the cell that begins at `start`: cells grow by half from both ends to the root of the number of rows. Smaller ones have more noise, larger
 /// ones more error of the line: at 1,000 rows, cells of 20 to 45 have the same error.
 fn cell_end(order: &[usize], x: &[f64], start: usize) -> usize {
@@ -122,11 +143,32 @@ fn cell_end(order: &[usize], x: &[f64], start: usize) -> usize {
     if rows - end < FEWEST { rows } else { end }
 }
 
+/// The rows of each cell, in ascending order of `x`.
+pub(super) fn cells<'a>(order: &'a [usize], x: &'a [f64]) -> impl Iterator<Item = &'a [usize]> {
+    let mut start = 0;
+    core::iter::from_fn(move || {
+        let begin = start;
+        start = if begin < order.len() { cell_end(order, x, begin) } else { begin };
+        (begin < start).then(|| &order[begin..start])
+    })
+}
+
+/// What straight lines through the cells of `x` leave of `y`, row by row; `order` is the [`ascending_order`] of `x`.
+pub(super) fn left_by_lines(order: &[usize], x: &[f64], y: &[f64]) -> Vec<f64> {
+    let mut left = vec![0.0; y.len()];
+    for cell in cells(order, x) {
+        cell.iter().zip(Rest::of(cell, x, y).values).for_each(|(row, value)| left[*row] = value);
+    }
+    left
+}
+
 /// What a straight line through the rows of a cell leaves.
 struct Rest {
     values: Vec<f64>,
     /// Rows over their number without the one or two that the line takes.
     correction: f64,
+    /// Whether the input varies in the cell.
+    varies: bool,
 }
 
 impl Rest {
@@ -143,7 +185,18 @@ impl Rest {
         }
         let slope = if varies && square > 0.0 { product / square } else { 0.0 };
         let values = members.iter().map(|row| y[*row] - height - slope * (x[*row] - middle)).collect();
-        Rest { values, correction: n / (n - if varies { 2.0 } else { 1.0 }) }
+        Rest { values, correction: n / (n - if varies { 2.0 } else { 1.0 }), varies }
+    }
+
+    /// The sum of squares that is noise, at least: half the squares of the differences of neighbours, which the curve of the observable leaves small, or
+    /// all squares times `factor`, if that is less.
+    fn noise(&self, factor: f64) -> f64 {
+        let all = factor * self.values.iter().map(|value| value * value).sum::<f64>();
+        if !self.varies {
+            return all;
+        }
+        let steps: f64 = self.values.windows(2).map(|pair| (pair[1] - pair[0]) * (pair[1] - pair[0])).sum();
+        all.min(0.5 * steps * self.values.len() as f64 / (self.values.len() - 1) as f64)
     }
 }
 
@@ -240,7 +293,7 @@ mod tests {
         for (input, [expected, _]) in exact().into_iter().enumerate() {
             let x: Vec<f64> = points.iter().map(|point| point[input]).collect();
             let found = first_order_index(&x, &y, Samples::Independent, 0.99).expect("it varies");
-            assert!((found.value - expected).abs() < 0.04 && found.upper - found.lower < 0.08, "{input}: {found:?}");
+            assert!((found.value - expected).abs() < 0.04 && found.upper - found.lower < 0.3, "{input}: {found:?}");
             assert!(found.lower <= expected && expected <= found.upper, "{input}: {found:?} {expected}");
         }
     }

@@ -173,8 +173,11 @@ pub fn overall(verdicts: &[Card]) -> Option<Judged> {
 
 /// The strongest inputs of an outcome in words; empty where that is not known.
 pub fn driven_by(outcome: &str, influences: &[Influence]) -> String {
-    let of = influences.iter().filter(|one| one.outcome == outcome).map(|one| one.drivers.as_str());
-    of.collect::<Vec<_>>().join(". Spread: ")
+    let of = |is_event: bool| {
+        let of = influences.iter().filter(|one| one.outcome == outcome && one.event.is_some() == is_event);
+        of.map(|one| one.drivers.as_str()).collect::<Vec<_>>().join(". ")
+    };
+    [of(true), of(false)].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(". Spread: ")
 }
 
 impl Card {

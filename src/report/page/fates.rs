@@ -3,7 +3,6 @@
 use crate::analysis::survey::{FAILURE, Survey};
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::run::Status;
-use crate::statistics::gate::GateLimit;
 
 /// What became of a run, by the limits that a figure is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,34 +46,35 @@ pub fn words(plan: &Plan) -> [&'static str; 3] {
 
 /// What the runs miss that miss a limit on the outcome `name`: the only one, or one of several.
 pub fn limit_word(plan: &Plan, name: &str) -> &'static str {
-    let limits = plan.analysis.requirements.iter().filter(|one| one.observable() == Some(name)).map(|one| one.limit);
+    let all = plan.analysis.requirements.iter().filter(|one| one.observable() == Some(name));
+    let limits = all.map(|one| (one.limit, one.never_meets));
     let mut other = limits.clone().skip(1);
     let is_one = limits.take(1).all(|first| other.all(|limit| limit == first));
     if is_one { "its limit" } else { "a limit" }
 }
 
 /// The limits of the requirements that are wanted, each with the values of its observable.
-fn limits<'s>(
-    plan: &Plan,
+fn limits<'s, 'p>(
+    plan: &'p Plan,
     survey: &'s Survey,
     is_wanted: impl Fn(&Requirement) -> bool,
-) -> Vec<(&'s [f64], GateLimit)> {
+) -> Vec<(&'s [f64], &'p Requirement)> {
     // a mean is no limit of single runs, and a band is at one time
     let is_of_runs = |one: &&Requirement| one.statement != Statement::Mean && one.band().is_none() && is_wanted(one);
-    let of_column = |one: &Requirement| {
+    let of_column = |one: &'p Requirement| {
         let (index, _) = survey.outcome(one.observable()?)?;
-        Some((&survey.thinned.outcomes[index][..], one.limit))
+        Some((&survey.thinned.outcomes[index][..], one))
     };
     plan.analysis.requirements.iter().filter(is_of_runs).filter_map(of_column).collect()
 }
 
-fn judged(survey: &Survey, limits: &[(&[f64], GateLimit)], failure: Option<&[f64]>) -> Vec<Fate> {
+fn judged(survey: &Survey, limits: &[(&[f64], &Requirement)], failure: Option<&[f64]>) -> Vec<Fate> {
     let thinned = &survey.thinned;
     let fate = |row: usize| {
         if thinned.statuses[row] != Status::Done {
             return Fate::NotComputed;
         }
-        let is_missed = limits.iter().any(|(values, limit)| !limit.is_met(values[row]));
+        let is_missed = limits.iter().any(|(values, one)| !one.is_met(values[row]));
         if is_missed || failure.is_some_and(|codes| codes[row] >= 1.0) { Fate::Missed } else { Fate::Met }
     };
     (0..thinned.samples.len()).map(fate).collect()

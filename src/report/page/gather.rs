@@ -2,6 +2,7 @@
 
 use crate::analysis::assessment::Assessment;
 use crate::analysis::drivers::{Question, Ranking};
+use crate::analysis::event::Occurs;
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::missions::Missions;
 use crate::analysis::noise_share::NoiseShare;
@@ -138,29 +139,39 @@ fn influence(
         1 => "the first input is a significant driver".to_owned(),
         count => format!("the first {count} inputs are significant drivers"),
     };
-    let (event, measure, meaning) = match &ranking.question {
-        Question::Spread if is_total => (None, "total Sobol index", meaning(plan, first, all, &driven) + noise),
-        Question::Spread => (None, "share of the variance", meaning(plan, first, all, &driven) + noise),
+    let measure = if is_total { "total Sobol index" } else { "share of the variance" };
+    let (event, meaning) = match &ranking.question {
+        Question::Spread => (None, meaning(plan, first, all, &driven) + noise),
         Question::Event(event) => {
             let of = event.of;
             let meaning = format!(
                 "{} of {} runs {}; {driven}.",
                 grouped(of.events),
                 grouped(of.runs),
-                verb(name, event, of.events)
+                verb(plan, name, event, of.events)
             );
-            (Some(*event), "share of the variance", meaning)
+            (Some(*event), meaning)
         }
     };
     Some(Influence {
         outcome: name.to_owned(),
-        event: event.map(|event| (verb(name, &event, u64::MAX), !event.has_few_values)),
+        event: event.map(|event| {
+            let part = match event.occurs {
+                Occurs::Missed { requirement, is_only: false } => format!("_event_{}", requirement + 1),
+                _ if event.has_few_values => String::new(),
+                _ => "_event".to_owned(),
+            };
+            (verb(plan, name, &event, u64::MAX), part)
+        }),
         measure: measure.to_owned(),
         meaning,
         inputs: ranking
             .inputs
             .iter()
-            .map(|one| (one.input.input.clone(), [one.share.value, one.share.lower, one.share.upper]))
+            .map(|one| {
+                let share = one.share.map_or([f64::NAN; 3], |share| [share.value, share.lower, share.upper]);
+                (one.input.input.clone(), share)
+            })
             .collect(),
         shown: drivers,
         drivers: drivers_text::sentence(plan, name, ranking),

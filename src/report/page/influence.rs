@@ -22,13 +22,13 @@ const PLOTTED: usize = 2;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Influence {
     pub outcome: String,
-    /// Of a ranking for an event: what the runs do in which it occurs, and whether the outcome has a spread besides; `None` of its spread.
-    pub event: Option<(String, bool)>,
+    /// Of a ranking for an event: what the runs do in which it occurs, and what its figures are called beside those of the spread; `None` of the spread.
+    pub event: Option<(String, String)>,
     /// What the numbers are, as an axis says it.
     pub measure: String,
     /// What they mean, in a sentence or two.
     pub meaning: String,
-    /// Input column, value, lower and upper end of its interval (NaN where there is none), in the order of the ranking: its drivers come first.
+    /// Input column, share, lower and upper end of its interval (NaN if there is none), in the order of the ranking: its drivers come first.
     pub inputs: Vec<(String, [f64; 3])>,
     /// How many of them are drivers.
     pub shown: usize,
@@ -53,7 +53,10 @@ pub fn figures(plan: &Plan, survey: &Survey, influences: &[Influence]) -> Vec<Fi
         let strongest: Vec<usize> = drivers.filter_map(|(name, _)| names::place_of(plan, name)).collect();
         let mut inputs = influence.inputs.clone();
         inputs.truncate((influence.shown + 2).clamp(FEWEST_INPUTS, MOST_INPUTS));
-        figures.push(tornado(plan, influence, (outcome, &same), &inputs, survey.thinned.inputs.len()));
+        // too few runs have no shares
+        if inputs.iter().any(|(_, share)| share[0].is_finite()) {
+            figures.push(tornado(plan, influence, (outcome, &same), &inputs, survey.thinned.inputs.len()));
+        }
         // yes or no against a number says less than the counts in the sentence
         let is_plotted = !outcome.is_yes_or_no(&survey.thinned.outcomes[index]);
         for input in strongest.into_iter().filter(|_| is_plotted) {
@@ -74,7 +77,7 @@ pub fn lead(plan: &Plan, survey: &Survey, influences: &[Influence]) -> String {
             "Bars show how much of the variance each input explains together with its interactions.".to_owned()
         }
         _ => format!(
-            "Bars show how much of the variance each input explains: the larger of its first-order index and its squared rank correlation; {SEE_INTERACTIONS}."
+            "Bars show how much of the variance each input explains alone, its first-order index; a bar from 0 to 1 means that the runs do not show it; {SEE_INTERACTIONS}."
         ),
     };
     let noise = match plan.law {
@@ -134,13 +137,10 @@ fn tornado(
     let name = outcome.quantity.name();
     let (name, title) = match &influence.event {
         None => (format!("influence_{name}"), format!("What drives {}", names::of_quantity(&outcome.quantity))),
-        Some((verb, has_spread)) => {
-            let part = if *has_spread { "_event" } else { "" };
-            (
-                format!("influence_{name}{part}"),
-                format!("{}: which runs {verb}", sentence(&names::of_quantity(&outcome.quantity))),
-            )
-        }
+        Some((verb, part)) => (
+            format!("influence_{name}{part}"),
+            format!("{}: which runs {verb}", sentence(&names::of_quantity(&outcome.quantity))),
+        ),
     };
     Figure {
         name,

@@ -130,9 +130,11 @@ fn every_named_driver_has_its_direction() {
             dispersed(&found, outcome)
         };
         for driver in drivers.split("), ").filter(|driver| driver.contains("with it")) {
-            // "y explains 80% of the variance (rises with it", then "z 12% (falls with it"
+            // "y explains 80% [70, 90] of the variance (rises with it", then "z 12% [5, 20] (falls with it"
             let (input, _) = driver.trim_start().split_once(" (").expect("an input");
-            let input = input.split_once(" explains ").or_else(|| input.rsplit_once(' ')).expect("a share").0;
+            let input = input
+                .split_once("% [")
+                .map_or(input, |(before, _)| before.rsplit_once(' ').expect("a share").0.trim_end_matches(" explains"));
             let rises = spearman(&dispersed(&found, &found.column_called(input)), &ordinates) > 0.0;
             assert!(driver.contains(if rises { "rises with it" } else { "falls with it" }), "{line}");
             seen[usize::from(rises)] += 1;

@@ -213,8 +213,7 @@ fn bars_of_influence_descend() {
         let line = found.said.lines().find(|line| line.trim_start().starts_with(outcome) && line.contains("with it"));
         let line = line.unwrap_or_else(|| panic!("{outcome}: {}", found.said));
         // what the numbers are, in the same words in both places
-        let share = if shares[0] >= 0.995 { "over 99".to_owned() } else { format!("{:.0}", 100.0 * shares[0]) };
-        let said = format!("{first} explains {share}% of the variance (");
+        let said = format!("{first} explains {}% [", spindrift::report::share_text::percent(shares[0]));
         assert!(line.contains(&said), "{said}: {line}");
         assert_eq!(found.figure(&figure)["x"]["quantity"], "share of the variance");
         // what a regression explains, in percent, and of how many runs

@@ -180,20 +180,20 @@ quantile = 0.9
         inputs.column_by_name(column).expect(column).as_string::<i32>().value(row).to_owned()
     };
     let rows: Vec<usize> = (0..inputs.num_rows()).filter(|row| name("observable", *row) == "cross_spin").collect();
-    let drives = |row: usize| number(&inputs, "influence_lower", row).expect("an interval") > 0.0;
+    let drives = |row: usize| number(&inputs, "first_order_lower", row).expect("an interval") > 0.0;
     let mut drivers: Vec<usize> = rows.into_iter().filter(|row| drives(*row)).collect();
     drivers.sort_by(|a, b| {
-        let influence = |row: &usize| number(&inputs, "influence", *row).expect("a share");
+        let influence = |row: &usize| number(&inputs, "first_order", *row).expect("a share");
         influence(b).total_cmp(&influence(a))
     });
     let names: Vec<String> = drivers.iter().map(|row| name("input", *row)).collect();
     for axis in ["x", "y"] {
         assert!(names.contains(&format!("initial_angular_velocity_{axis}_rad_s")), "{names:?}");
     }
-    let influence = number(&inputs, "influence", drivers[0]).expect("a share");
+    let share = number(&inputs, "first_order", drivers[0]).expect("a share");
     // "initial_angular_velocity_y_rad_s", as people say it
     let said = |name: &str| name.strip_suffix("_rad_s").unwrap_or(name).replace('_', " ");
-    let words = format!("{} explains {:.0}% of the variance", said(&names[0]), 100.0 * influence);
+    let words = format!("{} explains {}% [", said(&names[0]), spindrift::report::share_text::percent(share));
     let page = scratch.text("r/report.html");
     let line = screen.lines().find(|line| line.contains(&words)).unwrap_or_else(|| panic!("{words}: {screen}"));
     let drivers = line.trim_start().trim_start_matches("cross_spin").trim();
