@@ -43,10 +43,25 @@ fn of_table(plan: &Plan, names: &[&str], table: &RowTable, threads: Option<NonZe
         return of_blocks(plan, names, table);
     }
     let inputs = inputs(plan);
+    if let Some(note) = plan.bound_inputs(table.samples.len() as u64) {
+        return untold(names, &inputs, table.samples.len() as u64, &note);
+    }
     let prepared = Prepared::new(table.inputs.clone(), threads);
     let of_observable = |(name, y): (&&str, &Vec<f64>)| prepared.explained(plan, &inputs, name, y);
     let work: Vec<_> = names.iter().zip(&table.observables).collect();
     in_parallel(work, threads, of_observable).into_iter().flatten().collect()
+}
+
+/// Inputs of which nothing is estimated, and why.
+fn untold(names: &[&str], inputs: &[String], rows: u64, note: &str) -> Vec<InputSensitivity> {
+    let of = |name: &&str, input: &String| InputSensitivity {
+        observable: (*name).to_owned(),
+        input: input.clone(),
+        rows,
+        note: Some(note.to_owned()),
+        ..InputSensitivity::default()
+    };
+    names.iter().flat_map(|name| inputs.iter().map(move |input| of(name, input))).collect()
 }
 
 /// Inputs in all forms that are needed.

@@ -16,6 +16,7 @@ impl Plan {
             notes.push(format!("nothing is dispersed: all {} samples are the nominal scene", self.samples));
         }
         notes.extend(self.part_of_a_design());
+        notes.extend(self.bound_inputs(self.samples - 1));
         for replaced in self.dispersions.replaced_correlations() {
             notes.push(format!(
                 "nearest_psd: the correlations of {} cannot be had; `check`, plan.toml and summary.json state those used",
@@ -48,6 +49,20 @@ impl Plan {
             notes.extend(review::notes(spec, &self.nominal.control, &scene, self.grid.duration()));
         }
         notes
+    }
+
+    /// Why no drivers are told from so many `runs`: the design binds inputs to each other ([`Design::bound`]). `None`
+    /// where it does not.
+    ///
+    /// [`Design::bound`]: crate::sampling::Design::bound
+    pub fn bound_inputs(&self, runs: u64) -> Option<String> {
+        let names = self.dispersions.dimensions();
+        let [first, second, third] = self.design.bound(names.len(), runs)?.map(|dimension| names[dimension].as_str());
+        let others = if second == third { second.to_owned() } else { format!("{second} and {third} together") };
+        Some(format!(
+            "design \"{}\": in {runs} runs {first} varies as {others}, so that drivers cannot be told; design \"random\" or \"latin_hypercube\" tells them",
+            self.design.name()
+        ))
     }
 
     /// That there are fewer samples than the design has points.

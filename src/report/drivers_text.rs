@@ -15,6 +15,7 @@ use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
 use crate::table::Table;
 use crate::table::text::Align;
+use crate::table::wrapped::wrapped;
 
 const NAMED: usize = 2;
 
@@ -261,6 +262,9 @@ pub fn text(plan: &Plan, all: &[InputSensitivity], width: usize) -> String {
     let mut text = table.text(width);
     if has_rest && !matches!(plan.design, Design::Saltelli(_)) {
         text += &format!("  shares of the variance: {SEE_INTERACTIONS}\n");
+    }
+    if let Some(note) = all.first().and_then(|one| plan.bound_inputs(one.rows)) {
+        text = wrapped(&format!("  {note}\n"), width);
     }
     if text.is_empty() { text } else { format!("\n  drivers\n{text}") }
 }

@@ -1,4 +1,4 @@
-"""Numbers of the designs by a second implementation, for `numbers_are_pinned` in tests/sampling_designs.rs.
+"""Numbers of the designs by a second implementation, for `numbers_are_pinned` in tests/sampling/designs.rs.
 
 python3 tests/golden/designs.py      (no packages; prints the rows of the table as bits)
 """
@@ -59,17 +59,20 @@ def random(name, sample):
     return unit(word(name, b"sampling", sample))
 
 
-def latin(name, sample, n=4096):
-    key, half = word(name, b"latin   ", 0), 6
+def permuted(key, place, n):
+    half = max(((n - 1).bit_length() + 1) // 2, 4)
     keys = [keyed(key, r) for r in range(6)]
-    place = sample - 1
     while True:
         left, right = place >> half, place & (2**half - 1)
         for k in keys:
             left, right = right, left ^ (keyed(k, right) >> (64 - half))
         place = left << half | right
         if place < n:
-            return (place + random(name, sample)) / n
+            return place
+
+
+def latin(name, sample, n=4096):
+    return (permuted(word(name, b"latin   ", 0), sample - 1, n) + random(name, sample)) / n
 
 
 def directions(dimension):
@@ -117,7 +120,10 @@ def halton(name, dimension, point):
 def saltelli(dimension, point):
     block, member = divmod(point, 4)
     from_b = member in (3, dimension + 1)
-    return sobol(NAMES[dimension] + ("/B" if from_b else ""), dimension + 2 * from_b, block)
+    first = 1 << block.bit_length() >> 1
+    level = keyed(word(NAMES[dimension], b"saltelli", 0), first.bit_length() - 1)
+    place = first + permuted(level, block - first, first) if block else 0
+    return sobol(NAMES[dimension] + ("/B" if from_b else ""), int(from_b), place)
 
 
 for design, number in {

@@ -306,7 +306,7 @@ const GOLDEN: [(&str, [[u64; 2]; 3]); 5] = [
         [
             [0x3fed_671f_7f7a_a305, 0x3fbd_0905_359f_de78],
             [0x3fe0_5829_c991_01ef, 0x3fe7_0ad6_68e9_59ab],
-            [0x3fe7_c98e_e0a6_a1bf, 0x3fe4_10e3_ebf8_5e63],
+            [0x3fed_1d8e_3037_a843, 0x3fea_f013_6017_586b],
         ],
     ),
 ];

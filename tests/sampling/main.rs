@@ -16,6 +16,7 @@ mod dispersable;
 mod distributions;
 mod drivers_of_structures;
 mod effect;
+mod false_names;
 mod geometric;
 mod geometric_files;
 mod means_with_tails;

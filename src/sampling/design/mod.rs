@@ -76,6 +76,15 @@ impl Design {
         }
     }
 
+    /// Three of so many `dimensions` whose effects no test tells apart in `points` points ([`sobol::bound`]), where
+    /// there are such.
+    pub fn bound(&self, dimensions: usize, points: u64) -> Option<[usize; 3]> {
+        match self {
+            Design::Sobol(_) => sobol::bound(dimensions, points / self.replicates()),
+            _ => None,
+        }
+    }
+
     /// The replicate in which `sample` is, from zero ([`replicates`]); `None` for the nominal sample, which is in none.
     pub fn replicate_of(&self, sample: SampleId) -> Option<u64> {
         sample.0.checked_sub(1).map(|point| point % self.replicates())

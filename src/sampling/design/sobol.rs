@@ -7,6 +7,8 @@
 //! of these for the bits below. Point 0 is used, as it must be (A. B. Owen, *On dropping the first Sobol' point*, 2020): the
 //! scrambled sequence is best in 2^m points, which are 2^m + 1 samples with the nominal one.
 
+use std::collections::HashMap;
+
 use super::hash::keyed;
 use super::replicates::{REPLICATES, Replicates, by_replicate};
 use super::traits::{BLOCK, Dimensions, Kind, PointSource};
@@ -76,6 +78,55 @@ fn directions(count: usize) -> Vec<[u64; 64]> {
         v
     });
     std::iter::once(first).chain(others).take(count).collect()
+}
+
+/// Leading bits of one dimension, and of each of the others, in [`bound`]: a test has at most nine cells of an input,
+/// and the bits below the second of two inputs make 4% of their product, for normal numbers.
+const BITS: [u32; 2] = [3, 2];
+/// Correlation of two functions of leading bits, from which on their dimensions are bound: a sixteenth of the variance.
+const BOUND: f64 = 0.25;
+
+/// Three of the first `dimensions` dimensions (the last two may be one) where, in the first `points` points, leading
+/// bits of the first are those of the product of the other two, or their opposites. Scrambling flips leading bits of
+/// all points alike, and so keeps this: an input that does nothing then seems to do what an interaction of two others
+/// does. `None` where there are none.
+pub fn bound(dimensions: usize, points: u64) -> Option<[usize; 3]> {
+    // the parity of some leading bits of a dimension is that of these bits of the point's number
+    let parities = |directions: &[u64; 64], bits: u32| -> Vec<u64> {
+        let of_bit = |bit: u32| (0..64).fold(0, |mask, k| mask | (directions[k] >> (63 - bit) & 1) << k);
+        let of_set = |set: u32| (0..bits).filter(|bit| set >> bit & 1 == 1).fold(0, |mask, bit| mask ^ of_bit(bit));
+        (1..1 << bits).map(of_set).collect()
+    };
+    let least = BOUND * points as f64;
+    // a sum of signs over all points is at most 2^m, m being the number of zeros at the end of the mask
+    let zeros = (1_u64 << least.max(1.0).log2().ceil() as u32) - 1;
+    let is_bound = |mask: u64| {
+        let period = (mask & mask.wrapping_neg()).saturating_mul(2);
+        let rest = if mask == 0 { points } else { points % period };
+        let sum = if mask == 0 { points } else { rest.min(period - rest) };
+        sum as f64 > least
+    };
+    let directions = directions(dimensions);
+    let mut first: HashMap<u64, Vec<(usize, u64)>> = HashMap::new();
+    for (dimension, of) in directions.iter().enumerate() {
+        for mask in parities(of, BITS[0]) {
+            first.entry(mask & zeros).or_default().push((dimension, mask));
+        }
+    }
+    let others: Vec<Vec<u64>> = directions.iter().map(|of| parities(of, BITS[1])).collect();
+    for (j, of_j) in others.iter().enumerate() {
+        for (k, of_k) in others[..=j].iter().enumerate() {
+            let products = of_j.iter().flat_map(|a| of_k.iter().map(move |b| if k == j { *a } else { a ^ b }));
+            for product in products {
+                let found = first.get(&(product & zeros)).into_iter().flatten();
+                let mut found = found.filter(|(i, mask)| *i != j && *i != k && is_bound(mask ^ product));
+                if let Some((i, _)) = found.next() {
+                    return Some([*i, k, j]);
+                }
+            }
+        }
+    }
+    None
 }
 
 /// Nested uniform scrambling of a binary fraction.
@@ -185,6 +236,31 @@ mod tests {
             let other = counts.iter().position(|count| *count != 1);
             assert_eq!(other, None, "a box of 2^{wide} columns without exactly one point: {counts:?}");
         }
+    }
+
+    /// Known, from another program: among so many points, this is the largest number of dimensions none of which is
+    /// bound. Law: the numbers that are bound go with each other, and those that are not do not: the mean product of
+    /// the signs of leading bits is 1, or 0.
+    #[test]
+    fn bound_dimensions_are_known() {
+        for (points, most) in [(32, 2), (64, 2), (128, 3), (256, 3), (512, 5), (1024, 6), (2048, 10), (4096, 13)] {
+            assert!(bound(most, points).is_none() && bound(most + 1, points).is_some(), "{points}");
+        }
+        assert!(bound(512, 64).is_some() && bound(1, 1).is_none());
+        let sobol = Sobol::new(3, &names(12));
+        let sign = |dimension: usize, point: u64| if sobol.number(dimension, point) < 0.5 { -1.0 } else { 1.0 };
+        let goes_with = |i: usize, [j, k]: [usize; 2]| {
+            // the sign of the first, and both signs of its second bit
+            let quarter = |point: u64| (sobol.number(i, point) * 4.0) as usize % 2;
+            let sum = |weight: &dyn Fn(u64) -> f64| {
+                (0..64).map(|point| weight(point) * sign(j, point) * sign(k, point)).sum::<f64>().abs()
+            };
+            sum(&|point| sign(i, point)).max(sum(&|point| 2.0 * quarter(point) as f64 - 1.0)) / 64.0
+        };
+        let triples = (0..12).flat_map(|i| (0..12).flat_map(move |j| (0..j).map(move |k| (i, [j, k]))));
+        let most = triples.filter(|(i, of)| !of.contains(i)).map(|(i, of)| goes_with(i, of)).fold(0.0, f64::max);
+        assert_eq!(most, 1.0, "twelve dimensions in 64 points");
+        assert!(goes_with(2, [0, 1]) < 1.0);
     }
 
     /// H0: a scrambled point is uniform over seeds. Point 5 of dimension 3 in 16 cells over 16,000 seeds: chi-square with 15

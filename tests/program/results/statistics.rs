@@ -118,7 +118,8 @@ fn statistics_are_those_of_the_files() {
     assert_eq!(checked, table.num_rows());
 }
 
-/// Law: under designs whose samples are not independent there is no interval, and the table says why; estimates are there.
+/// Law: under designs whose samples are not independent there is no interval, and the table says why; estimates are
+/// there. A design that binds its inputs to each other tells no drivers, and the screen says so.
 #[test]
 fn designs_without_independent_samples_have_no_intervals() {
     let scratch = folder("statistics-designs");
@@ -137,7 +138,7 @@ fn designs_without_independent_samples_have_no_intervals() {
         };
         let text = campaign().replace("samples = 600\n", samples);
         scratch.file("design.toml", &format!("{text}[design]\n{design}\n"));
-        scratch.prints("campaign design.toml --out r --overwrite", 0);
+        let said = scratch.prints_wide("campaign design.toml --out r --overwrite", 0);
         let table = scratch.table("r/statistics.parquet");
         let intervals = table.column_by_name("intervals").expect("intervals").as_string::<i32>();
         assert!(
@@ -154,6 +155,10 @@ fn designs_without_independent_samples_have_no_intervals() {
         let inputs = scratch.table("r/sensitivity.parquet");
         let total = inputs.column_by_name("total").expect("total");
         assert_eq!(total.null_count() == total.len(), !design.contains("saltelli"), "{design}");
+        // 64 points of one Sobol sequence bind five inputs to each other
+        let first = inputs.column_by_name("first_order").expect("first_order");
+        let is_bound = said.contains("so that drivers cannot be told") && first.null_count() == first.len();
+        assert_eq!(is_bound, design.contains("sobol"), "{design}: {said}");
     }
 }
 
