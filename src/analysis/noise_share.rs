@@ -13,7 +13,7 @@ use crate::math::Isa;
 use crate::run::Status;
 use crate::sampling::SampleId;
 use crate::statistics::jackknife::Estimate;
-use crate::statistics::share_within::share_within;
+use crate::statistics::share_within::{others, share_within};
 
 /// The share of an outcome.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +21,9 @@ pub struct NoiseShare {
     pub observable: String,
     /// Scenes of which both runs have a value.
     pub scenes: usize,
-    /// Noise as a share of the variance; `None` where these scenes do not vary.
+    /// Runs of these scenes that have another value than the most frequent one.
+    pub others: usize,
+    /// Noise as a share of the variance; `None` where these scenes do not vary, or too few of their runs do.
     pub share: Option<Estimate>,
 }
 
@@ -68,6 +70,7 @@ pub fn noise_shares(
         NoiseShare {
             observable: outcome.quantity.name().to_owned(),
             scenes: pairs.len(),
+            others: others(&pairs),
             share: share_within(&pairs, plan.analysis.confidence),
         }
     };

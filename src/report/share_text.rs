@@ -1,8 +1,8 @@
 //! Shares of runs in words: "98.4% [91.5, 99.96]".
 
 use crate::analysis::noise_share::NoiseShare;
-use crate::report::number::short;
 use crate::report::number::{brief, outward};
+use crate::statistics::share_within::FEWEST_OTHERS;
 use crate::table::Table;
 use crate::table::text::Align;
 
@@ -76,12 +76,14 @@ pub fn of_noise(one: &NoiseShare) -> String {
             format!("noise within the loop changes it in none of {scenes} scenes, each flown twice")
         }
         Some(share) => {
-            let [value, lower, upper] =
-                [share.value, share.lower, share.upper].map(|part| short(100.0 * part.clamp(0.0, 1.0)));
-            format!(
-                "noise within the loop is {value}% [{lower}, {upper}] of the variance ({scenes} scenes, each flown twice)"
-            )
+            let said = with_interval([share.value; 2], [share.lower, share.upper]);
+            format!("noise within the loop is {said} of the variance ({scenes} scenes, each flown twice)")
         }
+        None if one.others > 0 => format!(
+            "the share of noise within the loop is not known: {} of {} runs have another value than the others, and it takes {FEWEST_OTHERS} ({scenes} scenes, each flown twice)",
+            one.others,
+            2 * scenes
+        ),
         None => format!(
             "noise within the loop has no share of a variance ({scenes} scenes with a value, which do not vary)"
         ),
@@ -98,6 +100,17 @@ pub fn noise_lines(all: &[NoiseShare]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::statistics::jackknife::Estimate;
+
+    /// Law: a share is within the interval that is said of it, and of few events none is said.
+    #[test]
+    fn few_events_have_no_share_of_noise() {
+        let share = |share: Option<Estimate>| NoiseShare { observable: "y".to_owned(), scenes: 200, others: 9, share };
+        let said = of_noise(&share(Some(Estimate { value: 0.864, lower: 0.7213, upper: 0.9998 })));
+        assert_eq!(said, "noise within the loop is 86.4% [72.1, 99.98] of the variance (200 scenes, each flown twice)");
+        let said = of_noise(&share(None));
+        assert!(said.contains("9 of 400 runs have another value") && !said.contains('%'), "{said}");
+    }
 
     /// Law: a share that is not all is never shown as all; ends of the interval are in order.
     #[test]
