@@ -146,7 +146,8 @@ pub fn compare(py: Python<'_>, first: PathBuf, second: PathBuf) -> PyResult<(Str
     let found = py.detach(|| {
         let watch = Quiet::default();
         let session = Session::new(&watch)?;
-        let options = CompareOptions { first, second, tolerance: None, out: None, verbose: false, threads: None };
+        let (tolerance, strict, out, verbose, threads) = (None, false, None, false, None);
+        let options = CompareOptions { first, second, tolerance, strict, out, verbose, threads };
         let (_, text) = compared(&session, &options)?;
         let [first, second] = [&options.first, &options.second].map(|root| workflow::Results::open(root, session));
         let found = first?.compare(&second?)?;

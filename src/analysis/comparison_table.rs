@@ -20,6 +20,18 @@ pub fn table(comparison: &Comparison) -> Table<'_> {
             "1 if it is not shifted, and chance does not explain how the values of the pairs differ.",
             |row| u64::from(comparison.is_moved(row)),
         )
+        .count(
+            "is_absent",
+            "1 if chance does not explain the difference between the shares of runs without a value.",
+            |row| u64::from(comparison.is_changed(&row.absence)),
+        )
+        .real("absent_first", "Share of the ok runs of the first result that have no value.", |row| {
+            Some(row.absence.shares()[0])
+        })
+        .real("absent_second", "The same of the second result.", |row| Some(row.absence.shares()[1]))
+        .real("adjusted_p_value_absent", "P-value of these shares being the same, adjusted (Holm).", |row| {
+            Some(row.absence.adjusted_p_value)
+        })
         .real(
             "adjusted_p_value",
             "What decides whether it is shifted, adjusted for the number of observables (Holm).",
@@ -34,7 +46,10 @@ pub fn table(comparison: &Comparison) -> Table<'_> {
         .real("p_value_mean", "P-value of the test of means.", |row| row.mean.as_ref().map(|found| found.p_value))
         .real("p_value_distribution", "P-value of the test of distributions.", |row| row.distribution_p_value)
         .real("p_value_moved", "P-value of the signed ranks of the pairs' differences.", |row| row.moved_p_value)
-        .real("adjusted_p_value_moved", "The same, adjusted for the number of observables (Holm).", |row| {
+        .real("p_value_spread", "P-value of one result spreading more than the other in the pairs.", |row| {
+            row.spread_p_value
+        })
+        .real("adjusted_p_value_moved", "Twice the smaller one of these two, adjusted (Holm).", |row| {
             row.adjusted_moved_p_value
         })
         .real("mean_shift", "Shift of the mean, second minus first; of pairs, where there are any.", |row| {

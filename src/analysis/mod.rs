@@ -18,6 +18,8 @@ mod band_verdicts;
 mod block_indices;
 pub mod column_counts;
 pub mod comparison;
+#[cfg(test)]
+pub mod comparison_of_known_truth;
 pub mod comparison_table;
 pub mod derived_table;
 pub mod drivers;

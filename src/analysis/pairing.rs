@@ -1,4 +1,5 @@
-//! [`ResultRows`]: the rows of a result. [`pairs`]: those of two results that are of one sample, drawn alike in both.
+//! [`ResultRows`]: the rows of a result. [`pairs`]: those of two results that are of one sample, drawn from the same
+//! random numbers.
 
 use crate::analysis::column_counts::MOST_EXACT;
 use crate::campaign::Plan;
@@ -16,20 +17,22 @@ pub struct ResultRows<'r> {
     pub reader: &'r RowsReader,
 }
 
-/// The rows of the samples, among the first, that both results drew alike and that are `ok` in both; `None` where they did not draw alike: the
-/// plans draw from other random numbers, and the values that were drawn differ.
+/// The rows of the samples, among the first, that both results drew alike, of those with these `statuses`; none where
+/// they did not: the plans draw from other random numbers, and the values that were drawn differ.
 ///
 /// # Errors
 /// Where a file cannot be read.
-pub fn pairs(first: ResultRows<'_>, second: ResultRows<'_>) -> Result<Option<Vec<[usize; 2]>>, RowsError> {
+pub fn pairs(
+    first: ResultRows<'_>,
+    second: ResultRows<'_>,
+    statuses: [&[Status]; 2],
+) -> Result<Vec<[usize; 2]>, RowsError> {
     let mut shared = shared_rows(first.plan, second.plan);
-    let (ok, others) = (ok(first)?, ok(second)?);
-    shared.retain(|[row, other]| *row < ok.len() && *other < others.len());
+    shared.retain(|[row, other]| *row < statuses[0].len() && *other < statuses[1].len());
     if !(draw_alike(first.plan, second.plan) || drew_same_values(first, second, &shared)?) {
-        return Ok(None);
+        shared.clear();
     }
-    shared.retain(|[row, other]| ok[*row] && others[*other]);
-    Ok(Some(shared))
+    Ok(shared)
 }
 
 /// Whether all dispersed values of the rows `shared` have the same bits in both results: drawn by other plans, or from the same table.
@@ -59,14 +62,17 @@ fn drew_same_values(first: ResultRows<'_>, second: ResultRows<'_>, shared: &[[us
     Ok(true)
 }
 
-/// Which of the first rows are `ok`. There are fewer than in the plan where the campaign was stopped.
-fn ok(result: ResultRows<'_>) -> Result<Vec<bool>, RowsError> {
-    let mut ok = Vec::new();
+/// How the first rows ended. There are fewer than in the plan where the campaign was stopped.
+///
+/// # Errors
+/// Where a file cannot be read.
+pub fn statuses(result: ResultRows<'_>) -> Result<Vec<Status>, RowsError> {
+    let mut statuses = Vec::new();
     for part in result.reader.first_parts(MOST_ROWS) {
-        ok.extend(part?.statuses()?.into_iter().map(|status| status == Status::Done));
+        statuses.extend(part?.statuses()?);
     }
-    ok.truncate(MOST_ROWS);
-    Ok(ok)
+    statuses.truncate(MOST_ROWS);
+    Ok(statuses)
 }
 
 /// The first rows of each plan that are of the same dispersed sample.

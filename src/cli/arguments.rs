@@ -292,6 +292,9 @@ pub struct CompareOptions {
     /// allows no difference.
     #[arg(long, value_name = "F", value_parser = shift)]
     pub tolerance: Option<f64>,
+    /// Exit with code 3 for every verdict that is worse, also where the data differ by no more than chance makes.
+    #[arg(long)]
+    pub strict: bool,
     /// Write the whole comparison to this file (.json or .parquet); .json has the plans and verdicts too.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,

@@ -97,8 +97,7 @@ mod tests {
             verdicts: vec![EndVerdict {
                 requirement: "p95".to_owned(),
                 word: word.to_owned(),
-                statement: String::new(),
-                found: String::new(),
+                ..EndVerdict::default()
             }],
             is_reached,
         };

@@ -11,8 +11,7 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::refuse_within;
 use crate::cli::screen;
 use crate::cli::terminal::Terminal;
-use crate::report::compared::{Compared, ComparedVerdict};
-use crate::report::summary::EndVerdict;
+use crate::report::compared::{Compared, ComparedVerdict, verdicts};
 use crate::report::{comparison_json, comparison_text};
 use crate::storage::atomic;
 use crate::storage::columnar::{Packing, encoded};
@@ -43,33 +42,25 @@ pub fn compared(session: &Session<'_>, options: &CompareOptions) -> Result<(Comm
     let (first, second) = (open(&options.first)?, open(&options.second)?);
     let found = first.compare(&second)?;
     let keys = differences(first.plan(), second.plan());
-    let verdicts = verdicts([first.end()?.verdicts, second.end()?.verdicts]);
+    let verdicts = verdicts([first.end()?.verdicts, second.end()?.verdicts], &found);
     let names = &[&options.first, &options.second].map(|root| root.display().to_string());
     let tolerance = options.tolerance;
     let plans = [first.plan(), second.plan()];
-    let compared = Compared { names, plans, comparison: &found, keys: &keys, verdicts: &verdicts, tolerance };
+    let is_strict = options.strict;
+    let compared =
+        Compared { names, plans, comparison: &found, keys: &keys, verdicts: &verdicts, tolerance, is_strict };
     if let Some((path, format)) = options.out.as_deref().zip(format) {
         let bytes = format.bytes(first.plan(), &found, || comparison_json::text(compared));
         let written = bytes.and_then(|bytes| atomic::write_bytes(path, &bytes).map_err(|error| error.to_string()));
         written.map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
     }
-    let worse = verdicts.iter().filter(|one| one.is_worse()).count();
+    let counts = |one: &&ComparedVerdict| one.is_worse() && (is_strict || !one.is_within_chance);
+    let worse = verdicts.iter().filter(counts).count();
     let outcome = match worse + usize::from(tolerance.is_some_and(|tolerance| found.is_beyond(tolerance))) {
         0 => CommandOutcome::Done,
         failed => CommandOutcome::RequirementsFailed(failed),
     };
     Ok((outcome, comparison_text::text(compared, options.verbose, screen::width())))
-}
-
-/// The requirements of both results: those of the first in their order, then those that only the second has.
-fn verdicts([first, second]: [Vec<EndVerdict>; 2]) -> Vec<ComparedVerdict> {
-    let verdict = |list: &[EndVerdict], name: &str| list.iter().find(|one| one.requirement == name).cloned();
-    let both = first.iter().chain(second.iter().filter(|one| verdict(&first, &one.requirement).is_none()));
-    both.map(|one| ComparedVerdict {
-        requirement: one.requirement.clone(),
-        verdicts: [verdict(&first, &one.requirement), verdict(&second, &one.requirement)],
-    })
-    .collect()
 }
 
 /// The formats of the file of a comparison.

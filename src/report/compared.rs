@@ -6,18 +6,64 @@ use crate::analysis::comparison::Comparison;
 use crate::campaign::Plan;
 use crate::campaign::difference::KeyDifference;
 use crate::report::summary::EndVerdict;
+use crate::statistics::contingency::fisher;
+use crate::statistics::two_sample::holm;
 
 /// A requirement of either result with its verdict in each, where it has one.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ComparedVerdict {
     /// The requirement as a sentence.
     pub requirement: String,
     pub verdicts: [Option<EndVerdict>; 2],
+    /// The probability that data of one and the same campaign differ as much by chance, adjusted for the number of
+    /// requirements (Holm); `None` where no test applies.
+    pub p_value: Option<f64>,
+    /// Whether the verdicts differ, and the data by no more than chance makes.
+    pub is_within_chance: bool,
+}
+
+/// The requirements of both results: those of the first in their order, then those that only the second has.
+pub fn verdicts([first, second]: [Vec<EndVerdict>; 2], comparison: &Comparison) -> Vec<ComparedVerdict> {
+    let verdict = |list: &[EndVerdict], name: &str| list.iter().find(|one| one.requirement == name).cloned();
+    let both = first.iter().chain(second.iter().filter(|one| verdict(&first, &one.requirement).is_none()));
+    let mut all: Vec<ComparedVerdict> = both
+        .map(|one| {
+            let verdicts = [verdict(&first, &one.requirement), verdict(&second, &one.requirement)];
+            let p_value = verdicts[0].as_ref().zip(verdicts[1].as_ref()).and_then(|pair| p_of_change(pair, comparison));
+            ComparedVerdict { requirement: one.requirement.clone(), verdicts, p_value, is_within_chance: false }
+        })
+        .collect();
+    let tested: Vec<f64> = all.iter().filter_map(|one| one.p_value).collect();
+    let mut adjusted = holm(&tested).into_iter();
+    for one in &mut all {
+        one.p_value = one.p_value.and_then(|_| adjusted.next());
+        let differs = one.change().is_some_and(|change| change != Ordering::Equal);
+        one.is_within_chance = differs && one.p_value.is_some_and(|p| p > comparison.level());
+    }
+    all
+}
+
+/// The probability that the data behind two verdicts on one requirement differ as much by chance: that of the share of
+/// runs that violate it (Fisher), or of its mean; of pairs also that of their differences, and of the runs without a
+/// value. The smallest of k counts k-fold.
+fn p_of_change((first, second): (&EndVerdict, &EndVerdict), comparison: &Comparison) -> Option<f64> {
+    let is_its = |name: &str| first.observable.as_deref() == Some(name);
+    let column = comparison.columns.iter().find(|column| is_its(column.quantity.name()));
+    let of_share = first.violations.zip(second.violations).map(|(one, other)| fisher(one, other));
+    let of_mean = || column.and_then(|column| column.mean).map(|mean| mean.p_value);
+    let of_pairs = column.filter(|_| comparison.pairs > 0);
+    let tests = [
+        of_share.or_else(of_mean),
+        of_pairs.and_then(|column| column.p_of_pairs()),
+        of_pairs.map(|column| column.absence.p_value),
+    ];
+    let count = tests.iter().flatten().count() as f64;
+    tests.into_iter().flatten().reduce(f64::min).map(|smallest| (count * smallest).min(1.0))
 }
 
 impl ComparedVerdict {
     /// Whether the second verdict is worse than the first: FAIL is worse than UNDECIDED, which is worse than PASS. A requirement that only one result
-    /// has is not compared.
+    /// has is not compared. Whether chance explains it is another question.
     pub fn is_worse(&self) -> bool {
         self.change() == Some(Ordering::Less)
     }
@@ -36,6 +82,7 @@ impl ComparedVerdict {
     /// The change in a word; and its place among those that are listed.
     pub fn mark(&self) -> (usize, &'static str) {
         match (self.change(), &self.verdicts[0]) {
+            _ if self.is_within_chance => (1, "within chance"),
             (Some(Ordering::Less), _) => (0, "WORSE"),
             (Some(Ordering::Greater), _) => (1, "BETTER"),
             (None, None) => (2, "new"),
@@ -62,11 +109,77 @@ pub struct Compared<'c> {
     pub verdicts: &'c [ComparedVerdict],
     /// The shift that is allowed, where one is.
     pub tolerance: Option<f64>,
+    /// Whether a verdict that is worse counts although chance explains it.
+    pub is_strict: bool,
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::comparison_of_known_truth::{comparison, rows};
+    use crate::statistics::binomial::{Decision, decide};
+    use crate::statistics::contingency::Occurrence;
+
+    /// The verdicts of three requirements: that each observable is at most `limits` in 95% of the runs, as runs without
+    /// a value are not.
+    fn judged(rows: &[[f64; 3]], limits: [f64; 3]) -> Vec<EndVerdict> {
+        let verdict = |(place, limit): (usize, f64)| {
+            let within = rows.iter().filter(|row| row[place] <= limit).count() as u64;
+            let runs = rows.len() as u64;
+            let word = match decide(within, runs, 0.95, 0.95) {
+                Decision::Pass => "PASS",
+                Decision::Fail => "FAIL",
+                Decision::Undecided(_) => "UNDECIDED",
+            };
+            EndVerdict {
+                requirement: place.to_string(),
+                word: word.to_owned(),
+                observable: Some(["a", "b", "c"][place].to_owned()),
+                violations: Some(Occurrence { events: runs - within, runs }),
+                ..EndVerdict::default()
+            }
+        };
+        limits.into_iter().enumerate().map(verdict).collect()
+    }
+
+    /// The verdicts before and after a change, of 200 runs each.
+    fn changed(seeds: [u64; 2], noise: f64, change: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<ComparedVerdict> {
+        let of = |which: usize| rows(200, [seeds[which], 7000 + 2 * seeds[0] + which as u64], noise, 0.02);
+        let (first, second) = (of(0), of(1).into_iter().map(change).collect::<Vec<[f64; 3]>>());
+        // 97 to 98% of the runs keep each limit
+        let limits = [1.96, 6.5, 3.0];
+        let found = comparison([&first, &second], seeds[0] == seeds[1]);
+        verdicts([judged(&first, limits), judged(&second, limits)], &found)
+    }
+
+    /// H0: nothing changed but the seed, or noise that both draw alike; a verdict of three is called worse, and not by
+    /// chance, in at most 0.05: of 300 campaigns, seeds 1 to 300, at most 26 (alpha = 2e-3 for each of 3). The
+    /// counter-test: verdicts alone are worse in a fifth and more. Power: the same
+    /// runs a tenth of their spread higher, and other runs one spread higher, are told in nine of ten worse verdicts.
+    #[test]
+    fn verdicts_are_seldom_worse_by_chance() {
+        // in how many campaigns a verdict is worse, and one is that chance does not explain, of the first requirements
+        let part = |requirements: usize, noise: f64, is_same: bool, change: fn([f64; 3]) -> [f64; 3]| {
+            (1..=300).fold([0; 2], |[all, told], seed| {
+                let found = changed([seed, if is_same { seed } else { seed + 1000 }], noise, change);
+                let worse = || found[..requirements].iter().filter(|one| one.is_worse());
+                let is_told = worse().any(|one| !one.is_within_chance);
+                [all + u32::from(worse().count() > 0), told + u32::from(is_told)]
+            })
+        };
+        for (noise, is_same) in [(0.0, false), (0.3, true), (1.0, true)] {
+            let [worse, told] = part(3, noise, is_same, |row| row);
+            println!("noise {noise}, same seed {is_same}: {worse} of 300 worse, {told} told");
+            assert!(told <= 26 && worse > 60, "{noise} {is_same}: {worse} {told}");
+        }
+        let changes: [(bool, fn([f64; 3]) -> [f64; 3]); 2] =
+            [(true, |[a, b, c]| [a + 0.1, b, c]), (false, |[a, b, c]| [a + 1.0, b, c])];
+        for (is_same, change) in changes {
+            let [worse, told] = part(1, 0.0, is_same, change);
+            println!("changed, same seed {is_same}: {worse} of 300 worse, {told} told");
+            assert!(told * 10 > worse * 9 && told > 30, "{is_same}: {worse} {told}");
+        }
+    }
 
     /// Law: of every pair of verdicts those are worse that go down from PASS by UNDECIDED to FAIL; one that is in one result only is compared with nothing.
     #[test]
@@ -75,7 +188,11 @@ mod tests {
         let words = [Some("PASS"), Some("UNDECIDED"), Some("FAIL"), None].map(|word| word.map(verdict));
         for (place, first) in words.iter().enumerate() {
             for (other, second) in words.iter().enumerate() {
-                let one = ComparedVerdict { requirement: String::new(), verdicts: [first.clone(), second.clone()] };
+                let one = ComparedVerdict {
+                    requirement: String::new(),
+                    verdicts: [first.clone(), second.clone()],
+                    ..Default::default()
+                };
                 assert_eq!(one.is_worse(), place < other && other < 3, "{one:?}");
                 let is_better = one.change() == Some(Ordering::Greater);
                 assert_eq!(is_better, other < place && place < 3, "{one:?}");

@@ -1,6 +1,6 @@
 //! The outcomes of a comparison that are shifted: those that matter to a person, and all of them.
 
-use crate::analysis::comparison::{ColumnComparison, Comparison, Shift};
+use crate::analysis::comparison::{Absence, ColumnComparison, Comparison, Shift};
 use crate::analysis::outcomes::outcomes;
 use crate::campaign::{Plan, ShownUnit, Statement};
 use crate::observables::Group;
@@ -63,22 +63,24 @@ fn is_yes_or_no(compared: Compared<'_>, column: &ColumnComparison) -> bool {
             .all(|of| of.column(name).is_some_and(|of| is_of([of.moments.min(), of.moments.max()])))
 }
 
+/// Whether an observable keeps accounts of the integration, or is a state that a run happens to end with, or a code.
+fn is_account(compared: Compared<'_>, column: &ColumnComparison) -> bool {
+    let name = column.quantity.name();
+    let columns = compared.plans[0].request().columns();
+    let group = columns.iter().find(|one| one.quantity.name() == name).map(|one| one.group);
+    CODES.contains(&name) || group.is_some_and(|group| ACCOUNTS.contains(&group))
+}
+
 /// The shifts that matter, of observables that are outcomes: those that the first plan names, in its order, then the largest.
 pub fn shifted<'c>(compared: Compared<'c>) -> Vec<(&'c ColumnComparison, &'c Shift)> {
     let Compared { comparison, plans: [plan, _], tolerance, .. } = compared;
     let most = tolerance.unwrap_or(SMALL_EFFECT);
     let named = outcomes(plan);
     let place = |column: &ColumnComparison| named.iter().position(|name| name == column.quantity.name());
-    let columns = plan.request().columns();
-    let is_account = |column: &ColumnComparison| {
-        let name = column.quantity.name();
-        let group = columns.iter().find(|one| one.quantity.name() == name).map(|one| one.group);
-        CODES.contains(&name) || group.is_some_and(|group| ACCOUNTS.contains(&group))
-    };
     let is_outcome = |column: &&ColumnComparison| {
         // a verdict says it already
         let is_stated = column.is_required && is_yes_or_no(compared, column);
-        tolerance.is_some() || place(column).is_some() && !is_stated || !is_account(column) && !is_stated
+        tolerance.is_some() || place(column).is_some() && !is_stated || !is_account(compared, column) && !is_stated
     };
     let is_seen = |column: &&ColumnComparison| {
         comparison.is_shifted(column) || tolerance.is_some_and(|most| column.is_beyond(most))
@@ -157,12 +159,69 @@ fn shown(plan: &Plan, column: &ColumnComparison) -> ShownUnit {
     plan.analysis.display.of(column.quantity.name(), column.quantity.unit())
 }
 
+/// The observables of `all`, those first that the first plan names, and without accounts of the integration where there
+/// are others.
+fn outcomes_first<'c>(compared: Compared<'_>, all: Vec<&'c ColumnComparison>) -> Vec<&'c ColumnComparison> {
+    let named = outcomes(compared.plans[0]);
+    let place = |column: &&ColumnComparison| named.iter().position(|name| name == column.quantity.name());
+    let (mut first, rest): (Vec<_>, Vec<_>) = all.into_iter().partition(|column| place(column).is_some());
+    first.sort_by_key(place);
+    let (accounts, others): (Vec<_>, Vec<_>) = rest.into_iter().partition(|column| is_account(compared, column));
+    first.extend(others);
+    if first.is_empty() { accounts } else { first }
+}
+
+/// A line for each of the first `most` outcomes whose runs moved while no test of distributions sees it: how far, and
+/// in how many pairs.
+pub fn moved(compared: Compared<'_>, most: usize) -> String {
+    let Compared { comparison, .. } = compared;
+    let all = comparison.columns.iter().filter(|column| comparison.is_moved(column)).collect();
+    let line = |column: &&ColumnComparison| {
+        let shown = shown(compared.plans[0], column);
+        let name = names::of_quantity(&column.quantity);
+        let unit = if shown.unit.is_empty() { String::new() } else { format!(" {}", shown.unit) };
+        let pairs = format!("in {} of {} runs", column.differing_pairs, comparison.pairs);
+        let of = |statistic: &str| column.shifts.iter().find(|shift| shift.statistic == statistic);
+        if column.moves_apart() {
+            let ends = of("standard deviation").map(|shift| [shift.first, shift.second].map(|x| brief(shown.value(x))));
+            let [before, after] = ends.unwrap_or_else(|| ["-", "-"].map(str::to_owned));
+            return format!(
+                "  moved apart: {name}, standard deviation {before} before, {after} after{unit}, {pairs}\n"
+            );
+        }
+        let by = column.mean.map_or(String::new(), |found| {
+            let by = interval([found.shift.value, found.shift.lower, found.shift.upper].map(|x| shown.value(x)));
+            format!(" by {by}{unit} ({} of its spread)", brief(found.shift.value.abs() / column.scale))
+        });
+        format!("  moved: {name}{by}, {pairs}\n")
+    };
+    outcomes_first(compared, all).iter().take(most).map(line).collect()
+}
+
+/// A line for the runs that are not `ok`, and for each of the first `most` outcomes that fewer or more of the others
+/// have, where chance does not explain it.
+pub fn absent(compared: Compared<'_>, most: usize) -> String {
+    let Compared { comparison, .. } = compared;
+    let all = comparison.columns.iter().filter(|column| comparison.is_changed(&column.absence)).collect();
+    let line = |what: &str, absence: &Absence| {
+        let [before, after] = absence.shares().map(share_text::percent);
+        format!("  {what}: {before}% of the runs before, {after}% after, more than chance explains\n")
+    };
+    let failures = comparison.is_changed(&comparison.failures).then(|| line("not ok", &comparison.failures));
+    let of_column = |column: &&ColumnComparison| {
+        line(&format!("without {}", names::of_quantity(&column.quantity)), &column.absence)
+    };
+    failures.into_iter().chain(outcomes_first(compared, all).iter().take(most).map(of_column)).collect()
+}
+
 /// How shifts are found, a sentence each.
 pub fn methods(comparison: &Comparison) -> String {
     let tests = comparison.columns.iter().filter(|column| column.p_value.is_some()).count();
     let how = match comparison.pairs {
         0 => "Welch's test of means, Kolmogorov and Smirnov's of distributions",
-        _ => "distributions by McNemar's test, whether runs moved by signed ranks",
+        _ => {
+            "distributions by McNemar's test, whether runs moved by signed ranks of their differences and their spread"
+        }
     };
     format!("  {how}; p adjusted for {tests} tests (Holm) is at most {}\n", trimmed(comparison.level(), 3))
 }
@@ -185,7 +244,8 @@ pub fn long(compared: Compared<'_>, important: &[(&ColumnComparison, &Shift)], w
             of(&|column| comparison.is_shifted(column) && !is_important(column)),
         ),
         (
-            "moved: most runs differ one way, and the distribution is not shown to be shifted".to_owned(),
+            "moved run by run: most differ one way, or spread more; the test of distributions does not see it"
+                .to_owned(),
             of(&|column| comparison.is_moved(column)),
         ),
         (

@@ -15,8 +15,18 @@ pub fn text(compared: Compared<'_>) -> String {
         json!({ "result": name, "samples": statistics.samples(), "ok": statistics.ok(), "only_here": comparison.alone[which] })
     };
     let key = |key: &KeyDifference| json!({ "key": key.key, "first": key.first, "second": key.second });
-    let verdict = |one: &ComparedVerdict| json!({ "requirement": one.requirement, "first": one.word(0), "second": one.word(1), "is_worse": one.is_worse() });
+    let verdict = |one: &ComparedVerdict| {
+        json!({
+            "requirement": one.requirement,
+            "first": one.word(0),
+            "second": one.word(1),
+            "is_worse": one.is_worse(),
+            "is_within_chance": one.is_within_chance,
+            "adjusted_p_value": one.p_value,
+        })
+    };
     let [first, second] = compared.names.clone();
+    let failures = comparison.failures;
     let value = json!({
         "program": "spindrift",
         "version": env!("CARGO_PKG_VERSION"),
@@ -29,6 +39,8 @@ pub fn text(compared: Compared<'_>) -> String {
         "level": comparison.level(),
         "tolerance": tolerance,
         "beyond_tolerance": tolerance.map(|tolerance| comparison.is_beyond(tolerance)),
+        "share_not_ok": failures.shares(),
+        "adjusted_p_value_not_ok": failures.adjusted_p_value,
         "requirements": verdicts.iter().map(verdict).collect::<Vec<Value>>(),
         "observables": objects(&comparison_table::table(comparison)),
     });

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use crate::analysis::comparison::ColumnComparison;
 use crate::analysis::population::Population;
 use crate::report::compared::{Compared, ComparedVerdict};
-use crate::report::number::counted;
+use crate::report::number::{brief, counted};
 use crate::report::{changed_keys, compared_outcomes};
 use crate::table::Table;
 use crate::table::text::{Align, Text};
@@ -122,20 +122,22 @@ fn rest(compared: Compared<'_>, shown: Option<usize>) -> String {
             "  no column is compared: a result has no dispersed run with numbers".to_owned()
         }
         _ if same == all.len() => format!("  all {same} columns have the same statistics"),
-        _ if shifted == 0 => format!("  no shift is seen in any of {}", counted(all.len(), "column")),
+        _ if shifted == 0 => format!("  no distribution of {} is seen to shift", counted(all.len(), "column")),
         Some(shown) if shown > 0 => {
             format!("  {} more of {} columns are shifted", shifted.saturating_sub(shown), all.len())
         }
         _ => format!("  {shifted} of {} columns are shifted", all.len()),
     };
     if moved > 0 {
-        text += &format!(", {moved} moved and kept their distribution");
+        text += &format!(", {moved} moved run by run");
     }
     text += &format!("; {how}");
     text += if shifted + moved > 0 && shown.is_some() { "; --verbose lists all\n" } else { "\n" };
     if shown.is_none() {
         text += &compared_outcomes::methods(comparison);
     }
+    text += &compared_outcomes::moved(compared, if shown.is_some() { FEW[1] } else { usize::MAX });
+    text += &compared_outcomes::absent(compared, if shown.is_some() { FEW[1] } else { usize::MAX });
     for (names, which) in comparison.alone.iter().zip(["before", "after"]) {
         if !names.is_empty() {
             let listed = if shown.is_none() { names.join(", ") } else { counted(names.len(), "column") };
@@ -150,12 +152,25 @@ fn rest(compared: Compared<'_>, shown: Option<usize>) -> String {
 
 /// The last lines: what the exit code says.
 fn verdict(compared: Compared<'_>) -> String {
-    let Compared { comparison, verdicts, tolerance, .. } = compared;
-    let count = |mark: &str| verdicts.iter().filter(|one| one.mark().1 == mark).count();
+    let Compared { comparison, verdicts, tolerance, is_strict, .. } = compared;
+    let counts = |one: &&ComparedVerdict| is_strict || !one.is_within_chance;
+    let count = |change: Ordering| verdicts.iter().filter(counts).filter(|one| one.change() == Some(change)).count();
     let is_alone = verdicts.iter().all(|one| one.change().is_none());
     let is_are = |count: usize| if count == 1 { "verdict is" } else { "verdicts are" };
-    let mut text = match (count("WORSE"), count("BETTER"), is_alone) {
+    let by_chance: Vec<&ComparedVerdict> = verdicts.iter().filter(|one| one.is_within_chance).collect();
+    let of_chance = |one: &&ComparedVerdict| {
+        let [before, after] = [0, 1].map(|which| one.verdicts[which].as_ref().map_or("", |one| one.found.as_str()));
+        let p = one.p_value.map_or(String::new(), |p| format!(", p = {}", brief(p)));
+        format!("  {}: {before} before, {after} after, no more than chance makes{p}\n", one.statement())
+    };
+    let chances: String = by_chance.iter().take(FEW[1]).map(of_chance).collect();
+    let mut text = match (count(Ordering::Less), count(Ordering::Greater), is_alone) {
         (_, _, true) => String::new(),
+        (0, 0, _) if !by_chance.is_empty() => {
+            let worse = by_chance.iter().filter(|one| one.is_worse()).count();
+            let counts = if worse > 0 { "; --strict counts those that are worse" } else { "" };
+            format!("PASS: {} changed within chance, no other one{counts}\n", counted(by_chance.len(), "verdict"))
+        }
         (0, 0, _) => "PASS: no verdict has changed\n".to_owned(),
         (0, better, _) => format!("PASS: {better} {} better, none is worse\n", is_are(better)),
         (worse, 0, _) => format!("FAIL: {worse} {} worse than before\n", is_are(worse)),
@@ -167,6 +182,7 @@ fn verdict(compared: Compared<'_>) -> String {
             false => format!("PASS: no shift is beyond {tolerance:?} of the spread\n"),
         };
     }
+    text = chances + &text;
     if text.is_empty() {
         "no requirement is in both results: there is no verdict to compare\n".to_owned()
     } else {

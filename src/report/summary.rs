@@ -13,7 +13,7 @@ use crate::analysis::statuses::{Ended, Statuses};
 use crate::analysis::stopping::{LookFound, Stopping};
 use crate::analysis::tally::{Tally, Worst};
 use crate::analysis::verdicts::Verdicts;
-use crate::campaign::Plan;
+use crate::campaign::{Plan, Statement};
 use crate::ensemble::FailureReason;
 use crate::report::audit_summary::{AuditSummary, Numerics};
 use crate::report::number::counted;
@@ -21,6 +21,7 @@ use crate::report::observable_lines::{ObservableLine, lines};
 use crate::report::{filter_text, requirements, stopping_text};
 use crate::run::Status;
 use crate::sampling::Replaced;
+use crate::statistics::contingency::Occurrence;
 use crate::storage::folder::IS_FINISHED;
 
 /// How many failed samples of each status are listed by number.
@@ -192,6 +193,10 @@ pub struct EndVerdict {
     pub statement: String,
     /// What was found, with its interval: "97.7% [95.3, 99.1]".
     pub found: String,
+    /// The observable that it is about, where it is about one.
+    pub observable: Option<String>,
+    /// How many runs violate it, unless it is about a mean.
+    pub violations: Option<Occurrence>,
 }
 
 /// How a campaign ended, as its rows and its summary both say.
@@ -218,6 +223,9 @@ impl SummaryEnd {
             word: one.word().to_owned(),
             statement: requirements::statement(one),
             found: requirements::estimate(one),
+            observable: one.requirement.observable().map(str::to_owned),
+            violations: (one.requirement.statement != Statement::Mean)
+                .then_some(Occurrence { events: one.violations, runs: one.runs }),
         };
         SummaryEnd {
             rows: ending.rows,
@@ -255,7 +263,18 @@ impl SummaryEnd {
                     // summaries of earlier versions have the sentence alone
                     let statement = text(one, "in_short").unwrap_or_else(|| requirement.clone());
                     let found = text(one, "found").unwrap_or_default();
-                    Some(EndVerdict { requirement, word: text(one, "verdict")?, statement, found })
+                    let count = |key: &str| one.get(key)?.as_u64();
+                    let occurrence = |(events, runs)| Occurrence { events, runs };
+                    let violations = count("violations").zip(count("runs")).map(occurrence);
+                    let is_mean = text(one, "statement").as_deref() == Some("mean");
+                    Some(EndVerdict {
+                        requirement,
+                        word: text(one, "verdict")?,
+                        statement,
+                        found,
+                        observable: text(one, "observable"),
+                        violations: violations.filter(|_| !is_mean),
+                    })
                 })
                 .collect(),
             is_reached: value.pointer("/stop/reached").and_then(Value::as_bool) != Some(false),

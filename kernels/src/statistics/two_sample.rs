@@ -1,9 +1,12 @@
 //! Tests whether two campaigns differ: in their means, in their distributions, sample by sample.
 //!
-//! - Means: B. L. Welch, *Biometrika* 34 (1947) 28, which does not assume equal variances. - Distributions: Kolmogorov and Smirnov's largest
-//!   difference of the empirical distribution functions, with the tail of the limiting distribution as corrected by M. A. Stephens, *J. Roy.
-//!   Stat. Soc. B* 32 (1970) 115. - Distributions of pairs: Q. McNemar's exact test (*Psychometrika* 12 (1947) 153) at several limits. - Pairs: Student's
-//!   t of the differences, and F. Wilcoxon's signed ranks (*Biometrics* 1 (1945) 80) in the normal approximation, corrected for ties, without zeros.
+//! - Means: B. L. Welch, *Biometrika* 34 (1947) 28, which does not assume equal variances. - Distributions: Kolmogorov
+//!   and Smirnov's largest difference of the empirical distribution functions, with the tail of the limiting
+//!   distribution as corrected by M. A. Stephens, *J. Roy. Stat. Soc. B* 32 (1970) 115. - Distributions of pairs: Q.
+//!   McNemar's exact test (*Psychometrika* 12 (1947) 153) at several limits. - Pairs: Student's t of the differences,
+//!   and F. Wilcoxon's signed ranks (*Biometrics* 1 (1945) 80) in the normal approximation, corrected for ties, without
+//!   zeros; for their spread, the same with ranks that are signed by the sums of the pairs, as in E. J. G. Pitman,
+//!   *Biometrika* 31 (1939) 9.
 //!
 //! All are two-sided and for independent runs, or pairs. Of many tests: S. Holm, *Scand. J. Stat.* 6 (1979) 65, which assumes nothing of how they
 //! depend on each other.
@@ -97,16 +100,39 @@ pub fn signed_ranks(differences: &[f64]) -> Option<f64> {
     if differences.is_empty() {
         return None;
     }
-    let sizes: Vec<f64> = differences.iter().map(|difference| difference.abs()).collect();
-    let ranks = mid_ranks(&sizes);
-    // ranks from one; what is above zero against half of all
-    let positive: f64 = differences.iter().zip(&ranks).filter(|(d, _)| **d > 0.0).map(|(_, rank)| rank + 1.0).sum();
-    let n = differences.len() as f64;
-    let mean = n * (n + 1.0) / 4.0;
-    // the sum of squares of the ranks, over four: ties make it smaller
-    let variance: f64 = ranks.iter().map(|rank| (rank + 1.0) * (rank + 1.0)).sum::<f64>() / 4.0;
-    let z = (positive - mean).abs() / libm::sqrt(variance);
-    Some(libm::erfc(z / core::f64::consts::SQRT_2))
+    let ranks = mid_ranks(&differences.iter().map(|difference| difference.abs()).collect::<Vec<f64>>());
+    Some(signed_sum(differences.iter().zip(&ranks).map(|(difference, rank)| difference.signum() * (rank + 1.0))))
+}
+
+/// The p-value of the test whether the numbers of one place spread more than those of the other in `pairs`; `None`
+/// where none differs.
+///
+/// Of two numbers that may change places, the sign of their difference is a fair coin, whatever its magnitude and the
+/// sum of both. Where the second numbers spread more, differences are positive in pairs with a large sum and negative
+/// in those with a small one. Each difference counts with the rank of its magnitude and with the rank of its pair's sum
+/// about the middle one. No value is NaN.
+pub fn spread_of_pairs(pairs: &[[f64; 2]]) -> Option<f64> {
+    let differing: Vec<[f64; 2]> = pairs.iter().copied().filter(|[first, second]| first != second).collect();
+    if differing.is_empty() {
+        return None;
+    }
+    let ranks = |of: &dyn Fn(&[f64; 2]) -> f64| mid_ranks(&differing.iter().map(of).collect::<Vec<f64>>());
+    let sizes = ranks(&|[first, second]| (second - first).abs());
+    // infinite numbers of opposite signs have a sum in the middle
+    let sums = ranks(&|[first, second]| if (first + second).is_nan() { 0.0 } else { first + second });
+    let middle = 0.5 * (differing.len() - 1) as f64;
+    let terms = differing.iter().zip(sizes.iter().zip(&sums));
+    Some(signed_sum(terms.map(|([first, second], (size, sum))| {
+        let weight = (size + 1.0) * (sum - middle);
+        if second > first { weight } else { -weight }
+    })))
+}
+
+/// The two-sided p-value of a sum of `terms`, each with a sign that is a fair coin: normal, with the sum of their
+/// squares.
+fn signed_sum(terms: impl Iterator<Item = f64>) -> f64 {
+    let [sum, squares] = terms.fold([0.0; 2], |[sum, squares], term| [sum + term, squares + term * term]);
+    if squares == 0.0 { 1.0 } else { libm::erfc(sum.abs() / libm::sqrt(2.0 * squares)) }
 }
 
 /// At so many limits [`marginals`] compares: the sixteenths of all values.
@@ -129,10 +155,16 @@ pub fn marginals(pairs: &[[f64; 2]]) -> Option<f64> {
             counts[0] += u64::from(*first < limit && limit <= *second);
             counts[1] += u64::from(*second < limit && limit <= *first);
         }
-        2.0 * at_most(counts[0].min(counts[1]), counts[0] + counts[1], 0.5)
+        mcnemar(counts)
     };
     let smallest = limits.iter().map(|limit| through(*limit)).reduce(f64::min)?;
     Some((limits.len() as f64 * smallest).min(1.0))
+}
+
+/// McNemar's exact test: the p-value of so many pairs of which the first number alone has a property, and so many of
+/// which the second alone has it.
+pub fn mcnemar(alone: [u64; 2]) -> f64 {
+    (2.0 * at_most(alone[0].min(alone[1]), alone[0] + alone[1], 0.5)).min(1.0)
 }
 
 /// P-values adjusted for their number (Holm 1979): among the hypotheses that hold, whichever these are, the probability that any has an adjusted
@@ -227,6 +259,26 @@ mod tests {
         // ten of ten that leave the only value of the others
         let jumps: Vec<[f64; 2]> = (0..40).map(|k| [0.0, f64::from(u8::from(k < 10))]).collect();
         assert!(marginals(&jumps).is_some_and(|p| (0.001..0.02).contains(&p)), "{:?}", marginals(&jumps));
+    }
+
+    /// Known: of n pairs whose second numbers are twice the first, and of which ranks have no ties, all terms are
+    /// positive: z is their sum over the root of the sum of their squares. Law: the order of the places does not
+    /// matter, a step of all pairs is no spread, equal pairs have no test.
+    #[test]
+    fn spreads_of_pairs_are_seen() {
+        let pairs: Vec<[f64; 2]> = (-20..=20).map(|k| f64::from(k) + 0.1).map(|x| [x, 2.0 * x]).collect();
+        let turned: Vec<[f64; 2]> = pairs.iter().map(|[a, b]| [*b, *a]).collect();
+        let sizes = mid_ranks(&pairs.iter().map(|[a, _]| a.abs()).collect::<Vec<f64>>());
+        // the pair next to zero is beyond the middle one by none
+        let terms: Vec<f64> =
+            sizes.iter().zip(-20..=20).map(|(size, k)| (size + 1.0) * f64::from(i32::abs(k))).collect();
+        let z = terms.iter().sum::<f64>() / libm::sqrt(terms.iter().map(|term| term * term).sum());
+        let found = spread_of_pairs(&pairs).expect("differences");
+        assert!((found / libm::erfc(z / core::f64::consts::SQRT_2) - 1.0).abs() < 1e-12 && found < 1e-5, "{found} {z}");
+        assert_eq!(spread_of_pairs(&turned), Some(found));
+        let step: Vec<[f64; 2]> = pairs.iter().map(|[a, _]| [*a, a + 1024.0]).collect();
+        assert!(spread_of_pairs(&step).is_some_and(|p| p > 0.5), "{:?}", spread_of_pairs(&step));
+        assert_eq!((spread_of_pairs(&[[1.0, 1.0]; 9]), mcnemar([0, 0]), mcnemar([0, 5])), (None, 1.0, 0.0625));
     }
 
     /// Law: what is the same has no difference; what does not vary differs certainly or not at all.
