@@ -4,7 +4,6 @@
 use spindrift::analysis::effects::{TestedInput, on_spread};
 use spindrift::math::normal::quantile;
 use spindrift::sampling::Design;
-use spindrift::sampling::design::halton::HaltonDesign;
 use spindrift::sampling::design::latin::LatinHypercubeDesign;
 use spindrift::sampling::design::random::RandomDesign;
 use spindrift::sampling::design::replicates::Replicates;
@@ -50,17 +49,13 @@ fn named(design: &Design, dimensions: usize, points: u64) -> u64 {
 }
 
 /// H0: in each design an input that does nothing is named in at most 0.05 of the campaigns; n = 300, seeds 0 to 299, at
-/// most 26 (alpha = 2e-3 for each of 23). One Sobol sequence is taken where it binds no inputs; where it does, the
+/// most 26 (alpha = 2e-3 for each of 17). One Sobol sequence is taken where it binds no inputs; where it does, the
 /// counter-test, most campaigns name a wrong one.
 #[test]
 fn what_does_nothing_is_seldom_named() {
     let one = Replicates::ONE;
     let sobol = Design::Sobol(SobolDesign(one));
-    let others = [
-        Design::Random(RandomDesign),
-        Design::LatinHypercube(LatinHypercubeDesign(one)),
-        Design::Halton(HaltonDesign(one)),
-    ];
+    let others = [Design::Random(RandomDesign), Design::LatinHypercube(LatinHypercubeDesign(one))];
     let mut cases = Vec::new();
     for design in &others {
         cases.extend([(5, 64), (10, 256), (50, 64), (50, 256), (50, 1000), (6, 1024)].map(|case| (design, case)));
