@@ -6,20 +6,21 @@ use crate::analysis::event::{Event, Occurs};
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::statistics::correlation::Estimate;
 
-/// Least share of the variance, or squared rank correlation, of an input that is called a driver of the spread: a share without which the standard deviation is 5%
-/// smaller.
+/// Least share of the variance, or squared rank correlation, of an input that is called a driver of the spread: a share
+/// without which the standard deviation is 5% smaller.
 const LEAST_SHARE: f64 = 0.1;
 /// An interval of a share that is wider says so little that the share is not said.
 const MOST_WIDTH: f64 = 0.8;
 
 impl InputSensitivity {
-    /// The share of the variance that the input explains: the total index, where the design gives it; else the first-order index.
+    /// The share of the variance that the input explains: the total index, where the design gives it; else the
+    /// first-order index.
     pub fn share(&self) -> Option<Estimate> {
         self.total.or(self.first_order)
     }
 
-    /// Whether the rows show, at the level `alpha`, that it acts on the spread, and that it matters. A design without a population has neither tests nor
-    /// intervals: the shares decide.
+    /// Whether the rows show, at the level `alpha`, that it acts on the spread, and that it matters. A design without a
+    /// population has neither tests nor intervals: the shares decide.
     pub fn drives_spread(&self, alpha: f64) -> bool {
         let rank = self.spearman.map_or(0.0, |r| r.value * r.value);
         let is_shown = match (self.p_value, self.share()) {
@@ -57,7 +58,8 @@ pub struct Ranked<'a> {
     pub input: &'a InputSensitivity,
     /// What it means for the event; `None` of a spread.
     pub effect: Option<&'a OnEvent>,
-    /// Its share of the variance, of the outcome or of whether the event occurs; `None` if the rows are too few for one.
+    /// Its share of the variance, of the outcome or of whether the event occurs; `None` if the rows are too few for
+    /// one.
     pub share: Option<Estimate>,
     /// Whether the rows show that it acts, and that it matters.
     pub is_driver: bool,
@@ -90,8 +92,9 @@ impl<'a> Ranking<'a> {
     }
 }
 
-/// The rankings of an outcome: of each of its events, and of its spread, unless it has few values and the event is its spread. The tail is
-/// asked only if something drives it that does not drive the spread. `alpha`: the probability that an outcome without any influence has a driver.
+/// The rankings of an outcome: of each of its events, and of its spread, unless it has few values and the event is its
+/// spread. The tail is asked only if something drives it that does not drive the spread. `alpha`: the probability that
+/// an outcome without any influence has a driver.
 pub fn rankings<'a>(all: &'a [InputSensitivity], outcome: &str, alpha: f64) -> Vec<Ranking<'a>> {
     let of = || all.iter().filter(|one| one.observable == outcome);
     let on_event = |input: &'a InputSensitivity, event: Event| {

@@ -286,8 +286,8 @@ fn questions_are_counted() {
     }
 }
 
-/// Law: each requirement has the event that some runs miss it, by the rows that its verdict counts: NaN misses, unless it is said to meet. Requirements that are
-/// missed by the same runs have one event.
+/// Law: each requirement has the event that some runs miss it, by the rows that its verdict counts: NaN misses, unless
+/// it is said to meet. Requirements that are missed by the same runs have one event.
 #[test]
 fn events_are_the_violations_of_requirements() {
     let name = Observed::all(&small_plan(7, ""))[0].quantity.name().to_owned();

@@ -159,7 +159,8 @@ impl TestedInput {
         Some((dependence, p_value))
     }
 
-    /// The p-value of an influence on an observable with these ranks beside that of `others`, with which the input is correlated.
+    /// The p-value of an influence on an observable with these ranks beside that of `others`, with which the input is
+    /// correlated.
     fn p_beside(&self, others: &[&TestedInput], y_ranks: &[f64]) -> f64 {
         let given: Vec<_> = others.iter().map(|one| (one.order.as_slice(), one.ranks.as_slice())).collect();
         conditional_test(y_ranks, &[&self.ranks, &self.distances], &given)
@@ -254,9 +255,9 @@ pub fn on_event(
     effects.collect()
 }
 
-/// Raises the p-values of inputs that are correlated with others (`related`) and add nothing to those that the rows show, at the level `alpha`, so that only those
-/// are left that act of their own. Returns, for each input that is left, the one that the rows do not tell apart from it. `y`: the observable; `tests`:
-/// how many p-values there are.
+/// Raises the p-values of inputs that are correlated with others (`related`) and add nothing to those that the rows
+/// show, at the level `alpha`, so that only those are left that act of their own. Returns, for each input that is left,
+/// the one that the rows do not tell apart from it. `y`: the observable; `tests`: how many p-values there are.
 pub fn beside_others(
     inputs: &[Option<TestedInput>],
     y: &[f64],

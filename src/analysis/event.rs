@@ -18,7 +18,8 @@ const TAIL: f64 = 0.05;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Occurs {
-    /// A requirement is missed, by the runs that its verdict counts: which of the plan's, and whether all others on the outcome are missed by the same runs.
+    /// A requirement is missed, by the runs that its verdict counts: which of the plan's, and whether all others on the
+    /// outcome are missed by the same runs.
     Missed { requirement: usize, is_only: bool },
     /// An outcome of few values has another one than the most frequent, which is this.
     OtherThan(f64),
@@ -67,7 +68,8 @@ pub fn are_few(distinct: usize, rows: usize) -> bool {
 }
 
 impl Event {
-    /// The events of the outcome `name` of `plan` with these values, row by row, and in which rows each occurs; none if there is none to ask.
+    /// The events of the outcome `name` of `plan` with these values, row by row, and in which rows each occurs; none if
+    /// there is none to ask.
     pub fn all(plan: &Plan, name: &str, values: &[f64]) -> Vec<(Event, Vec<bool>)> {
         let known = distinct(values, &ascending_order(values));
         let has_few_values = are_few(known.len(), values.len()) || known.len() == 1;

@@ -149,7 +149,8 @@ impl Prepared {
         Some((names[other].clone(), r(&other)))
     }
 
-    /// The first-order index of input `index`. Of an input that does not vary in these rows nothing is known, and so of no share.
+    /// The first-order index of input `index`. Of an input that does not vary in these rows nothing is known, and so of
+    /// no share.
     fn first_order(&self, plan: &Plan, index: usize, y: &[f64]) -> Option<Estimate> {
         let (order, x) = (&self.orders[index], &self.values[index]);
         let found = first_order_index_in_order(order, x, y, samples(plan), plan.analysis.confidence)?;
@@ -157,7 +158,8 @@ impl Prepared {
         Some(if all_vary { found } else { Estimate { lower: 0.0, upper: 1.0, ..found } })
     }
 
-    /// Tests of inputs that are correlated, one beside the others; and the names of those that the rows do not tell apart from each.
+    /// Tests of inputs that are correlated, one beside the others; and the names of those that the rows do not tell
+    /// apart from each.
     fn beside_others(
         &self,
         (plan, names): (&Plan, &[String]),
@@ -171,7 +173,8 @@ impl Prepared {
         instead.into_iter().map(|other| other.map(|other| names[other].clone())).collect()
     }
 
-    /// What every input means for an observable with the values `y`, NaN where a row has none: for its spread, and for the event of it.
+    /// What every input means for an observable with the values `y`, NaN where a row has none: for its spread, and for
+    /// the event of it.
     pub fn explained(&self, plan: &Plan, names: &[String], observable: &str, y: &[f64]) -> Vec<InputSensitivity> {
         let has_tests = !matches!(Population::of(plan), Population::Chosen(_) | Population::Nominal);
         let events = if has_tests { Event::all(plan, observable, y) } else { Vec::new() };

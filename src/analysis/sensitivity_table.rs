@@ -30,7 +30,8 @@ const MEASURES: [Measure; 9] = [
     ),
     (
         "first_order",
-        "First-order sensitivity index, the share of the variance of this input alone; an interval from 0 to 1 means that it is unknown",
+        "First-order sensitivity index, the share of the variance of this input alone; an interval from 0 to 1 means \
+         that it is unknown",
         |one| one.first_order,
     ),
     ("total", "Total sensitivity index, with the interactions of this input", |one| one.total),
@@ -82,7 +83,8 @@ pub fn table(list: &[InputSensitivity]) -> Table<'_> {
         })
         .text(
             "event",
-            "What occurs in some runs: missed (the first requirement that some miss), value, other_value, worst (the tail).",
+            "What occurs in some runs: missed (the first requirement that some miss), value, other_value, worst (the \
+             tail).",
             |one| Some(one.on_events.first()?.event.occurs.name()),
         )
         .real("event_runs", "In how many runs it occurs.", |one| on_event(one, |on| Some(on.event.of.events as f64)))

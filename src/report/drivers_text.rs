@@ -59,7 +59,8 @@ pub fn verb(plan: &Plan, outcome: &str, event: &Event, runs: u64) -> String {
     }
 }
 
-/// The limit of a requirement: "at least 6 s"; what a run without a value does is said if the event never happens in some.
+/// The limit of a requirement: "at least 6 s"; what a run without a value does is said if the event never happens in
+/// some.
 fn limit(plan: &Plan, requirement: usize) -> String {
     let one = &plan.analysis.requirements[requirement];
     let observed = Observed::named(plan, one.observable().into_iter());
@@ -312,8 +313,9 @@ mod tests {
             assert_eq!(sentence(&plan, "y", &ranking), said);
         }
     }
-    /// Law: a share is said with its interval, and only if that is known: not of too few runs for one, not if it is nearly everything from 0 to 1, and not of
-    /// chosen samples. That no input explains more than a share is said only if the upper ends of all are known. Drivers are named in any case.
+    /// Law: a share is said with its interval, and only if that is known: not of too few runs for one, not if it is
+    /// nearly everything from 0 to 1, and not of chosen samples. That no input explains more than a share is said only
+    /// if the upper ends of all are known. Drivers are named in any case.
     #[test]
     fn shares_are_said_with_intervals_or_not_at_all() {
         let text = include_str!("../../campaigns/spin_sweep.toml");

@@ -1,9 +1,10 @@
 //! What is said of drivers, over a list of causal structures of known truth, designs and numbers of runs.
 //!
-//! Each campaign is put into words as on the screen. H0 of each structure, design and number of runs, at alpha 1e-3 by the binomial distribution: an interval of a
-//! share that is said covers the truth in 95%; what is not a cause is named in 5% of the campaigns; and a cause that explains more than
-//! half is named first in 95% of those in which a test at 1e-4 sees it. Shares are known in closed form, unless the structure says how. Seeds are fixed.
-//! `cargo test --release --test sampling -- --ignored drivers_of_all_structures` has all designs and 300 campaigns of each.
+//! Each campaign is put into words as on the screen. H0 of each structure, design and number of runs, at alpha 1e-3 by
+//! the binomial distribution: an interval of a share that is said covers the truth in 95%; what is not a cause is named
+//! in 5% of the campaigns; and a cause that explains more than half is named first in 95% of those in which a test at
+//! 1e-4 sees it. Shares are known in closed form, unless the structure says how. Seeds are fixed. `cargo test --release
+//! --test sampling -- --ignored drivers_of_all_structures` has all designs and 300 campaigns of each.
 
 use core::f64::consts::{E, PI};
 
@@ -36,7 +37,8 @@ struct Structure {
     others: &'static [(usize, f64)],
     /// Limit of a requirement on the outcome; the shares are those of whether it is missed.
     limit: Option<f64>,
-    /// Whether most campaigns do not see the tail that gives the main cause its share: in their rows another cause is the main one.
+    /// Whether most campaigns do not see the tail that gives the main cause its share: in their rows another cause is
+    /// the main one.
     is_hidden: bool,
 }
 
@@ -96,49 +98,294 @@ fn correlated(u: &mut [f64]) -> [f64; 2] {
     [x, u[1]]
 }
 
-#[rustfmt::skip]
 fn structures() -> Vec<Structure> {
     const LOG: f64 = E * (E - 1.0);
     // 3^2 p (1 - p) of P(x > 1.5)
     const STEP: f64 = 9.0 * 0.066_807_201_268_858_1 * 0.933_192_798_731_141_9;
     vec![
-        structure("x + rare jump", 2, |u| { let [x] = normal(u); x + jump(&mut u[1]) }, &[(0, 1.0 / 8.84), (1, 7.84 / 8.84)]),
-        structure("x + dead part", 2, |u| { let [x] = normal(u); u[1] = step(u[1] < 0.04); x + 3.0 * u[1] },
-            &[(0, 1.0 / 1.3456), (1, 0.3456 / 1.3456)]),
-        Structure { is_hidden: true, ..structure("x + Pareto 2.2", 2, |u| with_pareto(u, 2.2), &[(0, 1.0 / 8.638_888_9), (1, 7.638_888_9 / 8.638_888_9)]) },
-        Structure { is_hidden: true, ..structure("x + Pareto 2.5", 2, |u| with_pareto(u, 2.5), &[(0, 9.0 / 29.0), (1, 20.0 / 29.0)]) },
+        structure(
+            "x + rare jump",
+            2,
+            |u| {
+                let [x] = normal(u);
+                x + jump(&mut u[1])
+            },
+            &[(0, 1.0 / 8.84), (1, 7.84 / 8.84)],
+        ),
+        structure(
+            "x + dead part",
+            2,
+            |u| {
+                let [x] = normal(u);
+                u[1] = step(u[1] < 0.04);
+                x + 3.0 * u[1]
+            },
+            &[(0, 1.0 / 1.3456), (1, 0.3456 / 1.3456)],
+        ),
+        Structure {
+            is_hidden: true,
+            ..structure(
+                "x + Pareto 2.2",
+                2,
+                |u| with_pareto(u, 2.2),
+                &[(0, 1.0 / 8.638_888_9), (1, 7.638_888_9 / 8.638_888_9)],
+            )
+        },
+        Structure {
+            is_hidden: true,
+            ..structure("x + Pareto 2.5", 2, |u| with_pareto(u, 2.5), &[(0, 9.0 / 29.0), (1, 20.0 / 29.0)])
+        },
         structure("x + Pareto 4", 2, |u| with_pareto(u, 4.0), &[(0, 9.0 / 11.0), (1, 2.0 / 11.0)]),
-        structure("x + Student 3", 2, |u| { let [x] = normal(u); u[1] = student(u[1]); x + u[1] }, &[(0, 0.25), (1, 0.75)]),
-        structure("|x|", 2, |u| { let [x, _] = normal(u); x.abs() }, &[(0, 1.0)]),
-        structure("x^2", 2, |u| { let [x, _] = normal(u); x * x }, &[(0, 1.0)]),
-        structure("x^2 + z", 3, |u| { let [x, z, _] = normal(u); x * x + z }, &[(0, 2.0 / 3.0), (1, 1.0 / 3.0)]),
-        structure("none of 50", 51, |u| { normal::<50>(u); quantile(u[50]) }, &[(50, 1.0)]),
-        structure("one of 300", 300, |u| { normal::<300>(u); u[7] + u[11] }, &[(7, 0.5), (11, 0.5)]),
-        structure("XOR", 4, |u| { let [x, _, _, z] = normal(u); step((x > 0.0) != (z > 0.0)) }, &[(0, 0.0), (3, 0.0)]),
-        structure("x z", 3, |u| { let [x, z, _] = normal(u); x * z }, &[(0, 0.0), (1, 0.0)]),
-        structure("product of the third and fourth of five", 5, |u| { let [_, _, x, z, _] = normal(u); x * z }, &[(2, 0.0), (3, 0.0)]),
-        structure("x + x z", 3, |u| { let [x, z, _] = normal(u); x + x * z }, &[(0, 0.5), (1, 0.0)]),
-        structure("3x + z", 3, |u| { let [x, z, _] = normal(u); 3.0 * x + z }, &[(0, 0.9), (1, 0.1)]),
-        structure("x^3 + z", 3, |u| { let [x, z, _] = normal(u); x.powi(3) + z }, &[(0, 15.0 / 16.0), (1, 1.0 / 16.0)]),
-        structure("e^x + z", 3, |u| { let [x, z, _] = normal(u); x.exp() + z }, &[(0, LOG / (LOG + 1.0)), (1, 1.0 / (LOG + 1.0))]),
-        structure("e^(x + z)", 3, |u| { let [x, z, _] = normal(u); (x + z).exp() }, &[(0, 1.0 / (E + 1.0)), (1, 1.0 / (E + 1.0))]),
-        structure("x^2 + z^2", 3, |u| { let [x, z, _] = normal(u); x * x + z * z }, &[(0, 0.5), (1, 0.5)]),
-        structure("sum of five", 6, |u| normal::<6>(u)[..5].iter().sum(), &[(0, 0.2), (1, 0.2), (2, 0.2), (3, 0.2), (4, 0.2)]),
-        structure("five levels + z", 3, |u| { let level = (5.0 * u[2]).floor(); let [_, z] = normal(u); u[2] = level; level + z },
-            &[(2, 2.0 / 3.0), (1, 1.0 / 3.0)]),
+        structure(
+            "x + Student 3",
+            2,
+            |u| {
+                let [x] = normal(u);
+                u[1] = student(u[1]);
+                x + u[1]
+            },
+            &[(0, 0.25), (1, 0.75)],
+        ),
+        structure(
+            "|x|",
+            2,
+            |u| {
+                let [x, _] = normal(u);
+                x.abs()
+            },
+            &[(0, 1.0)],
+        ),
+        structure(
+            "x^2",
+            2,
+            |u| {
+                let [x, _] = normal(u);
+                x * x
+            },
+            &[(0, 1.0)],
+        ),
+        structure(
+            "x^2 + z",
+            3,
+            |u| {
+                let [x, z, _] = normal(u);
+                x * x + z
+            },
+            &[(0, 2.0 / 3.0), (1, 1.0 / 3.0)],
+        ),
+        structure(
+            "none of 50",
+            51,
+            |u| {
+                normal::<50>(u);
+                quantile(u[50])
+            },
+            &[(50, 1.0)],
+        ),
+        structure(
+            "one of 300",
+            300,
+            |u| {
+                normal::<300>(u);
+                u[7] + u[11]
+            },
+            &[(7, 0.5), (11, 0.5)],
+        ),
+        structure(
+            "XOR",
+            4,
+            |u| {
+                let [x, _, _, z] = normal(u);
+                step((x > 0.0) != (z > 0.0))
+            },
+            &[(0, 0.0), (3, 0.0)],
+        ),
+        structure(
+            "x z",
+            3,
+            |u| {
+                let [x, z, _] = normal(u);
+                x * z
+            },
+            &[(0, 0.0), (1, 0.0)],
+        ),
+        structure(
+            "product of the third and fourth of five",
+            5,
+            |u| {
+                let [_, _, x, z, _] = normal(u);
+                x * z
+            },
+            &[(2, 0.0), (3, 0.0)],
+        ),
+        structure(
+            "x + x z",
+            3,
+            |u| {
+                let [x, z, _] = normal(u);
+                x + x * z
+            },
+            &[(0, 0.5), (1, 0.0)],
+        ),
+        structure(
+            "3x + z",
+            3,
+            |u| {
+                let [x, z, _] = normal(u);
+                3.0 * x + z
+            },
+            &[(0, 0.9), (1, 0.1)],
+        ),
+        structure(
+            "x^3 + z",
+            3,
+            |u| {
+                let [x, z, _] = normal(u);
+                x.powi(3) + z
+            },
+            &[(0, 15.0 / 16.0), (1, 1.0 / 16.0)],
+        ),
+        structure(
+            "e^x + z",
+            3,
+            |u| {
+                let [x, z, _] = normal(u);
+                x.exp() + z
+            },
+            &[(0, LOG / (LOG + 1.0)), (1, 1.0 / (LOG + 1.0))],
+        ),
+        structure(
+            "e^(x + z)",
+            3,
+            |u| {
+                let [x, z, _] = normal(u);
+                (x + z).exp()
+            },
+            &[(0, 1.0 / (E + 1.0)), (1, 1.0 / (E + 1.0))],
+        ),
+        structure(
+            "x^2 + z^2",
+            3,
+            |u| {
+                let [x, z, _] = normal(u);
+                x * x + z * z
+            },
+            &[(0, 0.5), (1, 0.5)],
+        ),
+        structure(
+            "sum of five",
+            6,
+            |u| normal::<6>(u)[..5].iter().sum(),
+            &[(0, 0.2), (1, 0.2), (2, 0.2), (3, 0.2), (4, 0.2)],
+        ),
+        structure(
+            "five levels + z",
+            3,
+            |u| {
+                let level = (5.0 * u[2]).floor();
+                let [_, z] = normal(u);
+                u[2] = level;
+                level + z
+            },
+            &[(2, 2.0 / 3.0), (1, 1.0 / 3.0)],
+        ),
         structure("five steps", 2, |u| (5.0 * u[0]).floor(), &[(0, 1.0)]),
-        structure("a step + z", 2, |u| { let [x, z] = normal(u); 3.0 * step(x > 1.5) + z }, &[(0, STEP / (STEP + 1.0)), (1, 1.0 / (STEP + 1.0))]),
+        structure(
+            "a step + z",
+            2,
+            |u| {
+                let [x, z] = normal(u);
+                3.0 * step(x > 1.5) + z
+            },
+            &[(0, STEP / (STEP + 1.0)), (1, 1.0 / (STEP + 1.0))],
+        ),
         structure("two waves", 2, |u| (4.0 * PI * u[0]).sin(), &[(0, 1.0)]),
         structure("Ishigami", 4, ishigami, &[(0, 0.313_905_191_147_811_46), (1, 0.442_411_144_790_040_73), (2, 0.0)]),
-        structure("x + 2|x| z", 3, |u| { let [x, z, _] = normal(u); x + 2.0 * x.abs() * z }, &[(0, 0.2), (1, 1.6 / PI)]),
-        Structure { others: &[(1, 0.64)], ..structure("x, and z correlated", 3, |u| { let [x, _] = correlated(u); u[2] = quantile(u[2]); x }, &[(0, 1.0)]) },
-        Structure { others: &[(1, 0.512)], ..structure("x + e, and z correlated", 3, |u| { let [x, _] = correlated(u); u[2] = quantile(u[2]); x + 0.5 * u[2] },
-            &[(0, 0.8), (2, 0.2)]) },
-        Structure { others: &[(1, 0.409_6)], ..structure("x^2, and z correlated", 3, |u| { let [x, _] = correlated(u); x * x }, &[(0, 1.0)]) },
-        Structure { limit: Some(1.0), ..structure("x > 1", 2, |u| { let [x, _] = normal(u); x }, &[(0, 1.0)]) },
-        Structure { limit: Some(1.0), ..structure("|x| > 1", 2, |u| { let [x, _] = normal(u); x.abs() }, &[(0, 1.0)]) },
-        Structure { limit: Some(1.0), others: &[(1, f64::NAN)],
-            ..structure("x > 1, and z correlated", 3, |u| { let [x, _] = correlated(u); u[2] = quantile(u[2]); x }, &[(0, 1.0)]) },
+        structure(
+            "x + 2|x| z",
+            3,
+            |u| {
+                let [x, z, _] = normal(u);
+                x + 2.0 * x.abs() * z
+            },
+            &[(0, 0.2), (1, 1.6 / PI)],
+        ),
+        Structure {
+            others: &[(1, 0.64)],
+            ..structure(
+                "x, and z correlated",
+                3,
+                |u| {
+                    let [x, _] = correlated(u);
+                    u[2] = quantile(u[2]);
+                    x
+                },
+                &[(0, 1.0)],
+            )
+        },
+        Structure {
+            others: &[(1, 0.512)],
+            ..structure(
+                "x + e, and z correlated",
+                3,
+                |u| {
+                    let [x, _] = correlated(u);
+                    u[2] = quantile(u[2]);
+                    x + 0.5 * u[2]
+                },
+                &[(0, 0.8), (2, 0.2)],
+            )
+        },
+        Structure {
+            others: &[(1, 0.409_6)],
+            ..structure(
+                "x^2, and z correlated",
+                3,
+                |u| {
+                    let [x, _] = correlated(u);
+                    x * x
+                },
+                &[(0, 1.0)],
+            )
+        },
+        Structure {
+            limit: Some(1.0),
+            ..structure(
+                "x > 1",
+                2,
+                |u| {
+                    let [x, _] = normal(u);
+                    x
+                },
+                &[(0, 1.0)],
+            )
+        },
+        Structure {
+            limit: Some(1.0),
+            ..structure(
+                "|x| > 1",
+                2,
+                |u| {
+                    let [x, _] = normal(u);
+                    x.abs()
+                },
+                &[(0, 1.0)],
+            )
+        },
+        Structure {
+            limit: Some(1.0),
+            others: &[(1, f64::NAN)],
+            ..structure(
+                "x > 1, and z correlated",
+                3,
+                |u| {
+                    let [x, _] = correlated(u);
+                    u[2] = quantile(u[2]);
+                    x
+                },
+                &[(0, 1.0)],
+            )
+        },
     ]
 }
 
@@ -157,7 +404,8 @@ fn plan(structure: &Structure, design: &str, runs: u64) -> Plan {
     let text = format!(
         "[campaign]\nname = \"structure\"\nsamples = {}\nseed = 1\nduration_s = 0.001\n[design]\nkind = \"{design}\"\n\
          [observe]\npoints = 2\n[body]\nmass_kg = 100.0\ninertia_kg_m2 = [[10.0,0,0],[0,10.0,0],[0,0,20.0]]\n\
-         [initial]\nangular_velocity_rad_s = [0.0, 0.0, 0.1]\n{}{}{correlate}{require}\n[summary]\ncolumns = [\"{OUTCOME}\"]\n",
+         [initial]\nangular_velocity_rad_s = [0.0, 0.0, 0.1]\n{}{}{correlate}{require}\n\
+         [summary]\ncolumns = [\"{OUTCOME}\"]\n",
         runs + 1,
         disperse("x"),
         disperse("y")

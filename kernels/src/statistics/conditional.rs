@@ -1,9 +1,10 @@
-//! Whether an input acts on an observable beside others that it is correlated with: the generalised covariance measure of R. D. Shah & J. Peters,
-//! *Ann. Stat.* 48 (2020) 1514.
+//! Whether an input acts on an observable beside others that it is correlated with: the generalised covariance measure
+//! of R. D. Shah & J. Peters, *Ann. Stat.* 48 (2020) 1514.
 //!
-//! What straight lines through cells of the other inputs leave of both columns has no correlation where the input does nothing of its own. The test needs no
-//! model of the observable, and errs as stated as long as the lines follow it: the product of both errors counts, not one of them. Each line takes two
-//! degrees of freedom, without which 30 to 60 runs err twice as often.
+//! What straight lines through cells of the other inputs leave of both columns has no correlation where the input does
+//! nothing of its own. The test needs no model of the observable, and errs as stated as long as the lines follow it:
+//! the product of both errors counts, not one of them. Each line takes two degrees of freedom, without which 30 to 60
+//! runs err twice as often.
 
 use super::rank_tests::two_sided;
 use super::sensitivity::{cells, left_by_lines};
@@ -13,8 +14,9 @@ const ROUNDS: usize = 3;
 /// What lines leave of the sum of squares of a column that follows from the inputs, by rounding.
 const ROUNDING: f64 = 1e-20;
 
-/// The probability that `y` goes with one of `columns` (forms of one input) as much as here where it depends on `given` alone: inputs, each with its values and their
-/// [`super::correlation::ascending_order`]. Columns of ranks make it independent of all distributions.
+/// The probability that `y` goes with one of `columns` (forms of one input) as much as here where it depends on `given`
+/// alone: inputs, each with its values and their [`super::correlation::ascending_order`]. Columns of ranks make it
+/// independent of all distributions.
 pub fn conditional_test(y: &[f64], columns: &[&[f64]], given: &[(&[usize], &[f64])]) -> f64 {
     let left = |column: &[f64]| {
         let mean = column.iter().sum::<f64>() / column.len() as f64;
@@ -46,8 +48,9 @@ mod tests {
     use crate::math::normal::quantile;
     use crate::statistics::correlation::{ascending_order, mid_ranks};
 
-    /// H0: given x, an observable of x and noise does not depend on z, which is correlated with x by 0.8: at most 5% of 600 studies of each of a list say
-    /// so (6 standard deviations of the count are 32). The alternatives add a little of z, straight and in a V: 300 runs find them in nine of ten, 60 in half.
+    /// H0: given x, an observable of x and noise does not depend on z, which is correlated with x by 0.8: at most 5% of
+    /// 600 studies of each of a list say so (6 standard deviations of the count are 32). The alternatives add a little
+    /// of z, straight and in a V: 300 runs find them in nine of ten, 60 in half.
     #[test]
     fn what_an_input_adds_is_found_and_nothing_else() {
         let mut state = 5_u64;

@@ -2,7 +2,8 @@
 //!
 //! - [`moments`], [`quantile`], [`sketch`] (on [`carries`]), [`spread`]: what describes one column. - [`student`], [`mean`], [`jackknife`], [`binomial`], [`replicates`]: intervals; [`share_within`]: of repetition.
 //! - [`gate`]: requirements decided. - [`looks`]: when to stop. - [`two_sample`]: two campaigns compared.
-//! - [`correlation`], [`regression`], [`sensitivity`]: which input matters. - [`contingency`], [`rank_tests`], [`conditional`]: whether it does.
+//! - [`correlation`], [`regression`], [`sensitivity`]: which input matters. - [`contingency`], [`rank_tests`]: whether it
+//!   does; [`conditional`]: beside others.
 
 pub mod binomial;
 pub mod carries;

@@ -7,10 +7,10 @@
 //!   *Eur. J. Oper. Res.* 226 (2013) 536). Ranks (F. Gamboa et al., *Bernoulli* 28 (2022) 2345) were rejected: of x^3 + y, 100 runs, their
 //!   bias is 0.13, its interval covers 0.15.
 //!
-//! Intervals are those of the [`jackknife`](super::jackknife), for independent blocks or rows; for sequences see [`Samples`]. Those from plain samples
-//! also allow for what the rows do not show: [`UNSEEN`] more rows like the largest, a curve that is steeper than the lines ([`ALMOST_ALL`],
-//! [`Rest::noise`]), and tails ([`MOST_KURTOSIS`]). An interval from 0 to 1 means that the share is unknown.
-//! Of correlated inputs the shares overlap.
+//! Intervals are those of the [`jackknife`](super::jackknife), for independent blocks or rows; for sequences see
+//! [`Samples`]. Those from plain samples also allow for what the rows do not show: `UNSEEN` more rows like the
+//! largest, a curve that is steeper than the lines (`ALMOST_ALL`, `Rest::noise`), and tails (`MOST_KURTOSIS`). An
+//! interval from 0 to 1 means that the share is unknown. Of correlated inputs the shares overlap.
 
 use super::correlation::{Estimate, ascending_order};
 use super::jackknife::{ends, of_whole, ratio, spaced_rows};
@@ -115,15 +115,18 @@ pub fn first_order_index_in_order(
     Some(Estimate { value, lower: lower.max(0.0).min(value), upper: upper.min(1.0).max(value) })
 }
 
-/// The parts of the risk of an interval, 1 - confidence, of a lower end above the share and of an upper one below it. The estimates that are said are the larger
-/// ones, those of drivers: the lower end misses more often among them. Measured over a list of structures (`drivers_and_their_truth`): at most 5% together.
+/// The parts of the risk of an interval, 1 - confidence, of a lower end above the share and of an upper one below it.
+/// The estimates that are said are the larger ones, those of drivers: the lower end misses more often among them.
+/// Measured over a list of structures (`drivers_of_structures`): at most 5% together.
 const RISKS: [f64; 2] = [0.1, 0.6];
-/// Rows as far from the mean as the farthest, that the interval allows for beside it: of 4.7 expected rows one and no more is seen in 5% of all cases.
-/// The lower end takes them for rows that the input does not explain, the upper one for rows that it does.
+/// Rows as far from the mean as the farthest, that the interval allows for beside it: of 4.7 expected rows one and no
+/// more is seen in 5% of all cases. The lower end takes them for rows that the input does not explain, the upper one
+/// for rows that it does.
 const UNSEEN: f64 = 3.0;
 /// Below this share lines leave no more than curves and jumps do: nothing may be left of the variance.
 const ALMOST_ALL: f64 = 0.06;
-/// Above this kurtosis of input or observable (3 for normal numbers, 6 for an exponential tail on both sides), rows that are not seen may raise the share to 1.
+/// Above this kurtosis of input or observable (3 for normal numbers, 6 for an exponential tail on both sides), rows
+/// that are not seen may raise the share to 1.
 const MOST_KURTOSIS: f64 = 4.5;
 
 /// Fewer rows do not show a line in a few cells.
@@ -188,8 +191,8 @@ impl Rest {
         Rest { values, correction: n / (n - if varies { 2.0 } else { 1.0 }), varies }
     }
 
-    /// The sum of squares that is noise, at least: half the squares of the differences of neighbours, which the curve of the observable leaves small, or
-    /// all squares times `factor`, if that is less.
+    /// The sum of squares that is noise, at least: half the squares of the differences of neighbours, which the curve
+    /// of the observable leaves small, or all squares times `factor`, if that is less.
     fn noise(&self, factor: f64) -> f64 {
         let all = factor * self.values.iter().map(|value| value * value).sum::<f64>();
         if !self.varies {

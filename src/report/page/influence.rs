@@ -22,13 +22,15 @@ const PLOTTED: usize = 2;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Influence {
     pub outcome: String,
-    /// Of a ranking for an event: what the runs do in which it occurs, and what its figures are called beside those of the spread; `None` of the spread.
+    /// Of a ranking for an event: what the runs do in which it occurs, and what its figures are called beside those of
+    /// the spread; `None` of the spread.
     pub event: Option<(String, String)>,
     /// What the numbers are, as an axis says it.
     pub measure: String,
     /// What they mean, in a sentence or two.
     pub meaning: String,
-    /// Input column, share, lower and upper end of its interval (NaN if there is none), in the order of the ranking: its drivers come first.
+    /// Input column, share, lower and upper end of its interval (NaN if there is none), in the order of the ranking:
+    /// its drivers come first.
     pub inputs: Vec<(String, [f64; 3])>,
     /// How many of them are drivers.
     pub shown: usize,
@@ -77,7 +79,8 @@ pub fn lead(plan: &Plan, survey: &Survey, influences: &[Influence]) -> String {
             "Bars show how much of the variance each input explains together with its interactions.".to_owned()
         }
         _ => format!(
-            "Bars show how much of the variance each input explains alone, its first-order index; a bar from 0 to 1 means that the runs do not show it; {SEE_INTERACTIONS}."
+            "Bars show how much of the variance each input explains alone, its first-order index; a bar from 0 to 1 means that the \
+             runs do not show it; {SEE_INTERACTIONS}."
         ),
     };
     let noise = match plan.law {
