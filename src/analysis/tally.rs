@@ -12,6 +12,7 @@ use crate::analysis::part_columns::PartColumns;
 use crate::analysis::statuses::{StatusCounter, StatusPart, Statuses};
 use crate::analysis::worst_runs::WorstRuns;
 use crate::ensemble::audit::{AuditValue, Selection};
+use crate::ensemble::plausibility::ends_of_air;
 use crate::ensemble::{Audit, Ensemble};
 use crate::observables::ColumnId;
 use crate::observables::accuracy::{BALANCES, STATE_ERRORS};
@@ -43,6 +44,9 @@ pub struct Tally {
     pub worst: Vec<Worst>,
     /// The statistics of the audits, where the campaign has audits.
     pub audits: Option<AuditTally>,
+    /// How many runs have left the heights of the table of the air; `None` where there is no table of the file, or no
+    /// distance is observed.
+    pub beyond_air: Option<u64>,
     /// The observables whose numerical errors the audits measure, in the order of [`crate::observables::headlines`]: their names.
     pub headlines: Vec<String>,
 }
@@ -61,12 +65,19 @@ pub struct TallyColumns {
     audited: Vec<usize>,
     headlines: Vec<usize>,
     has_debris: bool,
+    /// The names of the least and the greatest distance from the centre, and those of the ends of the table of the air,
+    /// m.
+    air: Option<[(&'static str, f64); 2]>,
 }
+
+/// The columns of the least and the greatest distance from the centre of the central body.
+const DISTANCES: [&str; 2] = ["orbit_distance_min_m", "orbit_distance_max_m"];
 
 #[derive(Clone, Debug)]
 pub struct TallyPart {
     ended: StatusPart,
     values: BTreeMap<usize, Vec<f64>>,
+    beyond_air: u64,
     audits: Vec<(SampleId, Option<Audit>)>,
 }
 
@@ -85,10 +96,13 @@ impl TallyColumns {
             },
         );
         let statuses = StatusCounter::new(ensemble.plan());
+        let air = ends_of_air(ensemble.plan()).map(|[low, high]| [(DISTANCES[0], low), (DISTANCES[1], high)]);
+        let air = air.filter(|ends| ends.iter().all(|(name, _)| names.iter().any(|known| known == name)));
         let nothing = Tally {
             without_nominal: ensemble.plan().samples > 1,
             statuses: statuses.nothing(),
             audits: is_audited.then(|| AuditTally::new(headlines.len())),
+            beyond_air: air.map(|_| 0),
             headlines: headlines.iter().map(|index| names[*index].clone()).collect(),
             worst: worst.into_iter().filter(|worst| !worst.indices.is_empty()).collect(),
         };
@@ -104,6 +118,7 @@ impl TallyColumns {
             wanted,
             audited: audited_observables(ensemble),
             has_debris: ensemble.request().debris,
+            air,
         }
     }
 
@@ -158,7 +173,15 @@ impl Accumulator for TallyColumns {
     fn count(&self, part: &impl PartColumns) -> Result<TallyPart, RowsError> {
         let ended = self.statuses.count(part)?;
         let values = self.wanted.iter().map(|index| Ok((*index, part.numbers(&self.names[*index])?.into_owned())));
+        let beyond_air = match self.air {
+            None => 0,
+            Some([(least, low), (greatest, high)]) => {
+                let (least, greatest) = (part.numbers(least)?, part.numbers(greatest)?);
+                least.iter().zip(greatest.iter()).filter(|(least, greatest)| **least < low || **greatest > high).count()
+            }
+        };
         Ok(TallyPart {
+            beyond_air: beyond_air as u64,
             values: values.collect::<Result<_, RowsError>>()?,
             audits: self.audits(part, &ended.0, &ended.1)?,
             ended,
@@ -180,6 +203,7 @@ impl Accumulator for TallyColumns {
         if let Some(audits) = &mut whole.audits {
             audits.add(&part.audits, self.headlines.iter().copied(), is_nominal);
         }
+        whole.beyond_air.iter_mut().for_each(|count| *count += part.beyond_air);
         self.statuses.merge(&mut whole.statuses, part.ended);
     }
 }

@@ -12,7 +12,7 @@ use crate::control::laws::asked;
 use crate::ensemble::Ensemble;
 use crate::ensemble::influence;
 use crate::ensemble::plausibility::implausible;
-use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe};
+use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe, part_of_run};
 use crate::ensemble::run_cost::parts;
 use crate::math::Isa;
 use crate::observables::{Group, Request};
@@ -275,10 +275,11 @@ fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
         _ => String::new(),
     };
     format!(
-        "\n== Estimate, from {}\n\
+        "\n== Estimate, from {}{}\n\
          {} ms per run on one core; {}{looks} on {}: about {} s\n\
          {}; {} of rows, page and tables: about {}; memory: at most {}\n\
          {failed}",
+        part_of_run(plan).map_or(String::new(), |part| format!("the first {} s of ", trimmed(part, 6))),
         counted(count, "run"),
         brief(probe.seconds * 1e3),
         counted(plan.rows(), "sample"),

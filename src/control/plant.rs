@@ -87,6 +87,11 @@ impl Plant {
         &self.drawn
     }
 
+    /// Whether thrusters are on or off.
+    pub fn is_on_off(&self) -> bool {
+        self.is_on_off
+    }
+
     /// The true state at `time`, s, where the engine has this motion. Times do not descend.
     pub fn truth(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Truth {
         Truth::new(&self.drawn, time, body, wheels, self.debris.as_mut())

@@ -1,15 +1,11 @@
 //! [`notes`]: what is allowed in a control loop and looks like a mistake, its numbers apart (`ensemble::plausibility`).
 
-use super::actuators::modulation;
-use super::allocation::{ThrustAllocation, WheelTorque};
 use super::guidance::phase::Next;
-use super::guidance::target::Target;
-use super::laws::{KnownBody, LawSettings};
+use super::laws::LawSettings;
 use super::measurement::Observes;
 use super::parameters::{ConditionNumbers, LoopNumbers, PhaseNumbers};
-use super::small_matrix::added;
 use super::spec::{LoopSpec, PhaseSpec};
-use super::stability::{axis_gains, stable_share};
+use super::stability::beyond_limit;
 use crate::control::laws::asked;
 use crate::dynamics::effects::{Effect, ForceModel, Form};
 use crate::sampling::SampleId;
@@ -22,10 +18,10 @@ const SAME: f64 = 1e-12;
 pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f64) -> Vec<String> {
     let phases: Vec<(&PhaseSpec, &DeclaredTable)> = spec.phases.iter().zip(&numbers.guidance).collect();
     let mut notes = order(&spec.phases);
-    for (phase, table) in &phases {
+    for (place, (phase, table)) in phases.iter().enumerate() {
         notes.extend(condition(phase, table, duration));
         notes.extend(slew(spec, numbers, (phase, table)));
-        notes.extend(stability(spec, numbers, scene, (phase, table)));
+        notes.extend(stability(spec, numbers, scene, place));
     }
     notes.extend(fast_wheels(spec, scene));
     notes.extend(window(&numbers.law, duration));
@@ -90,11 +86,6 @@ fn window(table: &DeclaredTable, duration: f64) -> Option<String> {
 /// The first number of `key`, which tables of several kinds have; zero where this one does not.
 fn number(table: &DeclaredTable, key: &str) -> f64 {
     table.named(key).map_or(0.0, |numbers| numbers[0])
-}
-
-/// A number with four significant digits.
-fn digits(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 /// The phases that may follow a phase.
@@ -185,12 +176,8 @@ fn slew(spec: &LoopSpec, numbers: &ControlInput, (phase, table): (&PhaseSpec, &D
 }
 
 /// A law that is not stable for small errors at the period and the delay of the loop.
-fn stability(
-    spec: &LoopSpec,
-    numbers: &ControlInput,
-    scene: &Scene,
-    (phase, table): (&PhaseSpec, &DeclaredTable),
-) -> Option<String> {
+fn stability(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, place: usize) -> Option<String> {
+    let (phase, table) = (&spec.phases[place], &numbers.guidance[place]);
     let law = phase.law?;
     // a slew under a torque limit brakes on a curve that has no gain at its end; a law of measurements is not tried without them
     let has_no_estimate =
@@ -198,35 +185,16 @@ fn stability(
     if number(table, "max_torque_n_m") > 0.0 || has_no_estimate {
         return None;
     }
-    let believed = spec.believed(scene);
-    let axes: Vec<[f64; 3]> = spec.wheels.iter().map(|place| believed.mass.wheels[*place].axis).collect();
-    let by_wheels = WheelTorque::new(&axes).reachable;
-    let mut reach = by_wheels;
-    // pulses do not hold a torque over the period
-    if !spec.thrusters.is_empty() && !modulation::is_on_off(spec.modulation) {
-        let thrusters = ThrustAllocation::of_loop(&believed, &spec.thrusters, by_wheels);
-        let both = added(&reach, &thrusters.two_sided_torques(spec.holds_force));
-        reach = WheelTorque::new(&both).reachable;
-    }
-    let known = KnownBody::of(&believed.mass);
-    let (period, delay) = (spec.period, LoopNumbers::of(&numbers.law).delay);
-    let body = (scene.mass.inertia_rotating(), reach);
-    let settings =
-        LawSettings { table, gyroscopic: phase.gyroscopic, period, delay, sample: SampleId(0), code: spec.code() };
-    let gains = axis_gains(&(law.make)(&settings), &known, phase.target != Target::None, body, period);
-    let share = stable_share(&gains, period, delay)?;
-    let most = if share > 0.0 {
-        format!(
-            "at most {} of its torque would be stable; write lower gains, or a shorter period or delay",
-            digits(share)
-        )
-    } else {
-        "it has too little damping, whatever its gain".to_owned()
+    let settings = LawSettings {
+        table,
+        gyroscopic: phase.gyroscopic,
+        period: spec.period,
+        delay: LoopNumbers::of(&numbers.law).delay,
+        sample: SampleId(0),
+        code: spec.code(),
     };
-    Some(format!(
-        "guidance.{}: small errors grow under {} with control.period_s = {period:?} and delay_s = {delay:?}: {most}",
-        phase.name, law.name
-    ))
+    let beyond = beyond_limit((spec, place), (&spec.believed(scene), scene), &(law.make)(&settings), settings.delay)?;
+    Some(format!("guidance.{}: {beyond}", phase.name))
 }
 
 /// Wheels that are above their limit of speed at the start.

@@ -37,6 +37,10 @@ impl ActuationLaw for SharedLaw {
     fn end(&mut self, time: f64, body: &BodyState, wheels: &WheelState) {
         self.lock().law.end(time, body, wheels);
     }
+
+    fn divergence(&self) -> Option<String> {
+        self.lock().law.divergence()
+    }
 }
 
 impl LawRuns {

@@ -11,12 +11,17 @@
 //!
 //! Exact for small angles and where flight software believes the nominal inertia; limits, friction, and the lag of an estimator are not part of it.
 
+use super::actuators::modulation;
+use super::allocation::{ThrustAllocation, WheelTorque};
 use super::control_loop::SAME_TIME;
-use super::laws::{AttitudeLaw, KnownBody, LawInput};
+use super::guidance::target::Target;
+use super::laws::{AttitudeLaw, KnownBody, LawInput, digits};
 use super::rotation::quaternion_of;
-use super::small_matrix::{inverse, multiplied};
+use super::small_matrix::{added, inverse, multiplied};
+use super::spec::{LoopSpec, PhaseSpec};
 use super::vector::{dot, product, scaled};
 use crate::math::symmetric::principal_axes;
+use crate::scene::Scene;
 
 /// Most periods of delay that are judged: the test takes the square of their number.
 const MOST_DELAY: f64 = 200.0;
@@ -153,10 +158,10 @@ pub fn axis_gains(
     gains.collect()
 }
 
-/// The largest share of these gains at which small errors die away about every axis; `None` where all of them are stable as they are, zero where no share
-/// is.
-pub fn stable_share(gains: &[AxisGains], period: f64, delay: f64) -> Option<f64> {
-    let is_stable = |share: f64| gains.iter().all(|gains| gains.times(share).is_stable(period, delay));
+/// The largest share of its gains at which small errors die away about every axis under a law that has the gains
+/// `gains(1)`; `None` where they do as it is, zero where no share is enough.
+pub fn stable_share(gains: impl Fn(f64) -> Vec<AxisGains>, period: f64, delay: f64) -> Option<f64> {
+    let is_stable = |share: f64| gains(share).iter().all(|gains| gains.is_stable(period, delay));
     if delay / period > MOST_DELAY || is_stable(1.0) {
         return None;
     }
@@ -169,6 +174,52 @@ pub fn stable_share(gains: &[AxisGains], period: f64, delay: f64) -> Option<f64>
         if is_stable(middle) { low = middle } else { high = middle }
     }
     Some(low)
+}
+
+/// The projection onto the torques that the loop `spec` holds over a period with the actuators of `believed`: pulses do
+/// not.
+fn reach(spec: &LoopSpec, believed: &Scene) -> [[f64; 3]; 3] {
+    let axes: Vec<[f64; 3]> = spec.wheels.iter().map(|place| believed.mass.wheels[*place].axis).collect();
+    let by_wheels = WheelTorque::new(&axes).reachable;
+    if spec.thrusters.is_empty() || modulation::is_on_off(spec.modulation) {
+        return by_wheels;
+    }
+    let thrusters = ThrustAllocation::of_loop(believed, &spec.thrusters, by_wheels);
+    WheelTorque::new(&added(&by_wheels, &thrusters.two_sided_torques(spec.holds_force))).reachable
+}
+
+/// That small errors grow under `law`, and how far its gains are beyond their limit, in words, where that is so: `law`
+/// is that of phase number `phase` in a run,
+/// `scene` is what turns, and `believed` what flight software takes it for.
+pub fn beyond_limit(
+    (spec, phase): (&LoopSpec, usize),
+    (believed, scene): (&Scene, &Scene),
+    law: &AttitudeLaw,
+    delay: f64,
+) -> Option<String> {
+    let PhaseSpec { law: kind, target, .. } = &spec.phases[phase];
+    let has_target = *target != Target::None;
+    let known = KnownBody::of(&believed.mass);
+    let body = (scene.mass.inertia_rotating(), reach(spec, believed));
+    let period = spec.period;
+    let gains = |law: &AttitudeLaw| axis_gains(law, &known, has_target, body, period);
+    let scaled = |share: f64| match law.weaker(share) {
+        Some((weaker, _)) => gains(&weaker),
+        None => gains(law).into_iter().map(|gains| gains.times(share)).collect(),
+    };
+    let share = stable_share(scaled, period, delay)?;
+    let written = law.weaker(1.0).map_or_else(|| "its gains".to_owned(), |(_, gains)| gains);
+    let limit = match law.weaker(share) {
+        _ if share == 0.0 => "there is too little damping, whatever the gain".to_owned(),
+        Some((_, gains)) => format!("the limit is {gains}; write lower gains, or a shorter period or delay"),
+        None => {
+            format!("the limit is {} of its torque; write lower gains, or a shorter period or delay", digits(share))
+        }
+    };
+    let name = kind.map_or("", |kind| kind.name);
+    Some(format!(
+        "small errors grow under {name} with {written}, control.period_s = {period:?} and delay_s = {delay:?}: {limit}"
+    ))
 }
 
 #[cfg(test)]
@@ -237,7 +288,7 @@ mod tests {
                         rate_integral: j / period,
                     };
                     let large = shape.times(1e3);
-                    let share = match stable_share(&[large], period, delay * period) {
+                    let share = match stable_share(|share| vec![large.times(share)], period, delay * period) {
                         Some(share) if share > 0.0 => share,
                         // too little damping, whatever the gain
                         _ => continue,

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::campaign::Plan;
-use crate::ensemble::audit::Auditor;
+use crate::ensemble::audit::{Auditor, NoAudit};
 use crate::ensemble::event_finder::{self, EventFinder};
 use crate::ensemble::flights::{Flights, LawDraw, nominal_attitude, observe, replayed};
 use crate::ensemble::rows::Rows;
@@ -33,11 +33,7 @@ impl<'p> Means<'p> {
     /// Flights of runs that are observed on `grid`.
     pub fn flights(&self, grid: &Grid) -> Flights<'p> {
         let settings = propagator(self.plan, grid.clone(), self.request.fields());
-        let engine = match self.own_engines {
-            Some(new_engine) => new_engine(&settings, self.isa),
-            None => settings.engine(self.isa),
-        };
-        Flights::new(self.plan, engine, grid)
+        Flights::new(self.plan, &settings, (self.isa, self.own_engines))
     }
 
     /// An observer of runs on `grid`.
@@ -120,7 +116,10 @@ impl<'p> Batch<'p> {
         for (index, ((scene, row), _)) in scenes.filter(|(_, (_, selected))| **selected) {
             let mut of_end = self.ends[index].map(|end| Auditor::new(plan, isa, &end.grid(&self.grid).0));
             let auditor = of_end.as_mut().unwrap_or(auditor);
+            let status = rows.statuses()[*row];
             let audit = match self.flown.get(index) {
+                // found beside the engine, which an audit flies alone
+                _ if matches!(status, Status::Surface | Status::Diverged) => Err(NoAudit::Run(status)),
                 // what the law decided is part of the run: its arcs are judged, and not the law flown again
                 Some(arcs) => auditor.audit(&replayed(scene, arcs)),
                 None => auditor.audit(scene),
@@ -177,12 +176,12 @@ impl<'p> Batch<'p> {
     /// Writes what the laws of the runs that have just ended report: those of the scenes `which` of the batch, flown together.
     fn report_laws(&mut self, which: Range<usize>, rows: &mut Rows) {
         let place = self.places_of_law.clone();
-        if place.is_empty() {
-            return;
-        }
         for (run, scene) in which.enumerate().filter(|(_, scene)| self.is_done[*scene]) {
             let row = self.rows_of_scenes[scene];
-            if matches!(rows.statuses()[row], Status::Done | Status::Inaccurate) {
+            let status = rows.statuses()[row];
+            if status == Status::Diverged {
+                rows.set_reason(row, self.flights.divergence(run));
+            } else if !place.is_empty() && matches!(status, Status::Done | Status::Inaccurate) {
                 let values = &mut self.observed[place.clone()];
                 self.flights.report(run, values);
                 rows.set_observables(row, place.start, values);
@@ -225,7 +224,9 @@ impl<'p> Batch<'p> {
             if !is_audited {
                 report.add(outcome.effort.evaluations);
             }
-            if status != Status::Done {
+            if status == Status::Diverged {
+                // its law knows why, when all have been flown
+            } else if status != Status::Done {
                 rows.set_reason(row, observer.reason(status, outcome, observed));
             } else if sample > SampleId(0)
                 && let Some(bands) = rows.bands_mut()

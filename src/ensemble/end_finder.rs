@@ -29,11 +29,10 @@ impl<'p> EndFinder<'p> {
         }
         let (request, grid) = (plan.request(), &plan.grid);
         let settings = propagator(plan, grid.clone(), request.fields());
-        let engine = own_engines.map_or_else(|| settings.engine(isa), |new_engine| new_engine(&settings, isa));
         Some(EndFinder {
             plan,
             isa,
-            flights: Flights::new(plan, engine, grid),
+            flights: Flights::new(plan, &settings, (isa, own_engines)),
             observer: Observer::new(request, grid).with_nominal(nominal_attitude(plan, &request, grid, isa)),
             events: EventFinder::new(plan, grid, (isa, own_engines))?,
             ignored: vec![f64::NAN; request.columns().len()],

@@ -5,13 +5,15 @@ use crate::control::loop_record::SharedRecord;
 use crate::control::{LawContext, LawRuns};
 use crate::dynamics::actuation::{ActuationLaw, BodyState, Laws, WheelState};
 use crate::dynamics::effects::beside_arcs;
-use crate::ensemble::settings::{nominal, propagator};
+use crate::dynamics::orbit_path::OrbitPath;
+use crate::ensemble::settings::{EngineMaker, nominal, propagator};
+use crate::ensemble::surface;
 use crate::math::Isa;
 use crate::math::vector::dot;
 use crate::observables::nominal_attitude::NominalAttitude;
 use crate::observables::{Group, LawSeries, Observer, Request};
-use crate::propagation::{CompletedRun, Engine};
-use crate::run::{Grid, StateField, StateFields, StateTable, Status, Telemetry};
+use crate::propagation::{CompletedRun, Engine, PropagationSettings};
+use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry};
 use crate::sampling::SampleId;
 use crate::scene::{Arc, ControlInput, Scene};
 
@@ -41,22 +43,28 @@ pub struct Flights<'p> {
     times: Vec<f64>,
     end: f64,
     records: bool,
+    engines: (Isa, Option<EngineMaker>),
+    /// Whether runs end at the surface of the central body.
+    ends_at_surface: bool,
 }
 
 /// Receives a run that has ended, and what its law has recorded at the observation points ([`crate::observables::LawSeries`]).
 pub type FlightCallback<'a> = dyn FnMut(CompletedRun<'_>, &[f64]) + 'a;
 
 impl<'p> Flights<'p> {
-    /// Runs of `plan` by `engine`, which is for its settings, observed on `grid`.
-    pub fn new(plan: &'p Plan, engine: Box<dyn Engine>, grid: &Grid) -> Self {
+    /// Runs of `plan` with these settings, by engines of its method on an instruction set, or by those of the caller.
+    pub fn new(plan: &'p Plan, settings: &PropagationSettings, engines: (Isa, Option<EngineMaker>)) -> Self {
+        let (isa, own_engines) = engines;
         Flights {
             plan,
-            engine,
-            times: grid.times().to_vec(),
-            end: grid.duration(),
+            engine: own_engines.map_or_else(|| settings.engine(isa), |new_engine| new_engine(settings, isa)),
+            times: settings.grid.times().to_vec(),
+            end: settings.grid.duration(),
             laws: plan.law.as_ref().map(|law| (law.runs(), nominal(plan))),
             over_time: Vec::new(),
             records: false,
+            engines,
+            ends_at_surface: plan.nominal.orbit.is_some(),
         }
     }
 
@@ -72,8 +80,16 @@ impl<'p> Flights<'p> {
 
     /// Flies `scenes` and passes each to `finish`. `draws` are those of the laws, one for each scene, and nothing where the plan has no law.
     pub fn fly(&mut self, scenes: &[Scene], draws: &[LawDraw], finish: &mut FlightCallback<'_>) {
+        let (plan, times, engines, ends_at_surface) = (self.plan, &self.times, self.engines, self.ends_at_surface);
+        let at_surface = |run: &CompletedRun<'_>| {
+            let draw = draws.get(run.index).map_or(&[][..], std::slice::from_ref);
+            let outcome = ends_at_surface.then(|| at_surface(plan, (&scenes[run.index], draw), run, times, engines));
+            outcome.flatten().unwrap_or(*run.outcome)
+        };
         let Some((laws, nominal)) = &mut self.laws else {
-            return self.engine.propagate(scenes, &mut |run| finish(run, &[]));
+            return self.engine.propagate(scenes, &mut |run| {
+                finish(CompletedRun { outcome: &at_surface(&run), ..run }, &[]);
+            });
         };
         assert_eq!(scenes.len(), draws.len(), "each run has a law");
         let is_recorded = self.plan.law.as_ref().is_some_and(|law| law.columns().over_time != LawSeries::NONE);
@@ -103,6 +119,11 @@ impl<'p> Flights<'p> {
         let over_time = &self.over_time;
         let mut flown = laws.shared();
         self.engine.propagate_under(Laws::Feedback(laws), scenes, &mut |run| {
+            let mut outcome = at_surface(&run);
+            if outcome.status == Status::NonFinite && flown[run.index].divergence().is_some() {
+                outcome.status = Status::Diverged;
+            }
+            let run = CompletedRun { outcome: &outcome, ..run };
             // before the run is observed: what the loop knows at the end belongs to it
             if run.outcome.status == Status::Done {
                 let (body, wheels) = state_at_end(&scenes[run.index], run.table);
@@ -122,10 +143,52 @@ impl<'p> Flights<'p> {
         }
     }
 
+    /// Why the law of run `run` of the last flight has ended it as [`Status::Diverged`].
+    pub fn divergence(&self, run: usize) -> String {
+        self.laws.as_ref().and_then(|(laws, _)| laws.shared().get(run)?.divergence()).unwrap_or_default()
+    }
+
     pub fn fly_nominal(&mut self, finish: &mut FlightCallback<'_>) {
         let draw = LawDraw::nominal(self.plan);
         self.fly(&[nominal(self.plan)], draw.as_slice(), finish);
     }
+}
+
+/// The outcome of `run`, observed at `times`, that reaches the surface of the central body; `None` where it does not.
+fn at_surface(
+    plan: &Plan,
+    (scene, draw): (&Scene, &[LawDraw]),
+    run: &CompletedRun<'_>,
+    times: &[f64],
+    engines: (Isa, Option<EngineMaker>),
+) -> Option<Outcome> {
+    let last = times[times.len() - 1];
+    let fields = [StateField::ComPosition, StateField::ComVelocity];
+    let mut positions = |asked: &[f64]| -> Vec<[[f64; 3]; 2]> {
+        if let (Some(orbit), None) = (&scene.orbit, &scene.offsets) {
+            let path = OrbitPath::new(orbit);
+            return asked.iter().map(|time| path.state(*time)).map(|at| [at.position, at.velocity]).collect();
+        }
+        let mut all = [&[0.0], asked, &[last]].concat();
+        all.sort_unstable_by(f64::total_cmp);
+        all.dedup();
+        let observed = fields.into_iter().fold(StateFields::NONE, StateFields::with);
+        let settings = propagator(plan, Grid::at(all.clone()), observed);
+        let again = Flights::new(plan, &settings, engines);
+        let mut found = Vec::new();
+        Flights { ends_at_surface: false, ..again }.fly(std::slice::from_ref(scene), draw, &mut |run, _| {
+            let at = |time: &f64| all.partition_point(|other| other < time);
+            let state = |point: usize| fields.map(|field| run.table.at(field, point));
+            let known = |point: usize| if point < run.outcome.points { state(point) } else { [[f64::NAN; 3]; 2] };
+            found.extend(asked.iter().map(|time| known(at(time))));
+        });
+        found
+    };
+    let time = surface::contact(scene, run, (times, end_of(run)), &mut positions)?;
+    // an event that ends the run before is seen at the point after it
+    let after = usize::from(plan.events.iter().any(|event| event.ends_run));
+    let points = run.outcome.points.min(times.partition_point(|other| *other < time) + after);
+    Some(Outcome { status: Status::Surface, time, points, ..*run.outcome })
 }
 
 /// The motion of the body and of the wheels at the last point of `table`, of a run of `scene` under a law.
@@ -152,9 +215,8 @@ pub fn nominal_attitude(plan: &Plan, request: &Request, grid: &Grid, isa: Isa) -
         return None;
     }
     let mut found = None;
-    let attitude = StateFields::NONE.with(StateField::Attitude);
-    let engine = propagator(plan, grid.clone(), attitude).engine(isa);
-    Flights::new(plan, engine, grid).fly_nominal(&mut |run, _| {
+    let settings = propagator(plan, grid.clone(), StateFields::NONE.with(StateField::Attitude));
+    Flights::new(plan, &settings, (isa, None)).fly_nominal(&mut |run, _| {
         found = Some(NominalAttitude::of(run.table, run.outcome));
     });
     found

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use crate::campaign::Plan;
 use crate::ensemble::drawn::DrawnScenes;
-use crate::ensemble::probe::limited;
+use crate::ensemble::probe::{limited, part_of_run};
 use crate::ensemble::single::SingleRun;
 use crate::math::Isa;
 use crate::run::Status;
@@ -64,6 +64,10 @@ pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<
         .map(|(parameter, _)| parameter)
         .collect();
     parameters.retain(|parameter| !inputs.contains(parameter));
+    if part_of_run(plan).is_some() {
+        // what acts later would be said to have no effect
+        return None;
+    }
     let start = Instant::now();
     let plan = &limited(plan);
     let nominal = row_with(plan, isa, &[], &|_| false)?;

@@ -158,11 +158,7 @@ impl<'p> Lookup<'p> {
         times.dedup();
         let grid = Grid::at(times);
         let settings = propagator(self.plan, grid.clone(), self.fields);
-        let engine = match self.own_engines {
-            Some(new_engine) => new_engine(&settings, self.isa),
-            None => settings.engine(self.isa),
-        };
-        let mut flights = Flights::new(self.plan, engine, &grid);
+        let mut flights = Flights::new(self.plan, &settings, (self.isa, self.own_engines));
         let is_compared = self.sources.iter().any(BandSeries::is_from_nominal);
         let nominal = is_compared.then(|| nominal_attitude(self.plan, &self.request, &grid, self.isa)).flatten();
         let mut observer = Observer::new(self.request, &grid).with_nominal(nominal);

@@ -26,10 +26,21 @@ const MOST_SAMPLES: usize = 512;
 /// Most points of a run of a probe.
 const MOST_POINTS: usize = 20_001;
 
-/// `plan` with runs of no more steps and points than a probe has time for, and without audits.
+/// Most ticks of a control loop in a run of a probe, some half a second; a longer run is flown for its first
+/// [`FEW_TICKS`].
+const MOST_TICKS: f64 = 25_000.0;
+const FEW_TICKS: f64 = 2000.0;
+
+/// The duration of a run of a probe, s, where the run of `plan` has more ticks than there is time for.
+pub fn part_of_run(plan: &Plan) -> Option<f64> {
+    let period = plan.law.as_ref()?.spec()?.period;
+    (plan.grid.duration() > MOST_TICKS * period).then_some(FEW_TICKS * period)
+}
+
+/// `plan` with runs of no more steps, ticks and points than a probe has time for, and without audits.
 pub fn limited(plan: &Plan) -> Plan {
     let points = plan.grid.points().min(MOST_POINTS);
-    let grid = Grid::uniform(plan.grid.duration(), points);
+    let grid = Grid::uniform(part_of_run(plan).unwrap_or(plan.grid.duration()), points);
     Plan { max_steps: plan.max_steps.min(PACE_STEPS), grid, audit_fraction: 0.0, ..plan.clone() }
 }
 
@@ -62,6 +73,7 @@ impl RunProbe {
         let mut worker = ensemble.worker();
         // of more points than those that are tried the time is that of the points
         let points = whole.grid.points() as f64 / plan.grid.points() as f64;
+        let longer = whole.grid.duration() / plan.grid.duration();
         let (mut count, mut total) = (1, 0.0);
         loop {
             let start = Instant::now();
@@ -80,7 +92,7 @@ impl RunProbe {
             let affordable = (DURATION_S - total) / seconds.max(1e-7);
             let next = most.min(count * GROWTH).min(affordable as usize);
             if next <= count {
-                return RunProbe { seconds: seconds * points, rows, too_long: None };
+                return RunProbe { seconds: seconds * points * longer, rows, too_long: None };
             }
             count = next;
         }

@@ -55,12 +55,16 @@ pub fn parts_of_runs(plan: &Plan, seconds: f64) -> Parts {
 
 /// What a run of `plan` takes at most on one core, s: a function of the plan, not of the machine.
 pub fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
+    // a tick is a step, which no limit of steps ends
+    let counted =
+        plan.law.as_ref().and_then(ControlLaw::spec).map_or(f64::NAN, |spec| spec.period * COUNTED_STEPS as f64);
+    let duration = if plan.grid.duration() > 2.0 * counted { counted } else { plan.grid.duration() };
     // the work of a run is that of its steps; the points would only take memory
-    let grid = Grid::uniform(plan.grid.duration(), plan.grid.points().min(POINTS));
+    let grid = Grid::uniform(duration, plan.grid.points().min(POINTS));
     let mut settings = propagator(plan, grid, plan.request().fields());
     settings.control = Control { max_steps: plan.max_steps.min(COUNTED_STEPS), ..settings.control };
     let mut found: Option<Outcome> = None;
-    Flights::new(plan, settings.engine(isa), &plan.grid).fly_nominal(&mut |run, _| found = Some(*run.outcome));
+    Flights::new(plan, &settings, (isa, None)).fly_nominal(&mut |run, _| found = Some(*run.outcome));
     let evaluations = found.map_or(COUNTED_STEPS as f64, |outcome| {
         let share = (outcome.time / plan.grid.duration()).clamp(1e-9, 1.0);
         outcome.effort.evaluations as f64 / share

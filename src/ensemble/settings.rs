@@ -1,6 +1,7 @@
 //! What a plan means for its runs: the settings of the engine ([`propagator`]) and the nominal scene ([`nominal()`]).
 
 use crate::campaign::Plan;
+use crate::ensemble::surface::leaves_orbit;
 use crate::math::Isa;
 use crate::ode::Control;
 use crate::propagation::{Engine, PropagationSettings};
@@ -23,6 +24,9 @@ const SEEN_BY_LAWS: StateFields = StateFields::NONE
 pub fn propagator(plan: &Plan, grid: Grid, fields: StateFields) -> PropagationSettings {
     let control = Control { tolerance: plan.tolerance, step: plan.step_s, max_steps: plan.max_steps };
     let settings = |fields| PropagationSettings::new(plan.method, control, grid, fields, &nominal(plan));
+    // a run that leaves its orbit may end at the surface
+    let place = StateFields::NONE.with(StateField::ComPosition).with(StateField::ComVelocity);
+    let fields = if leaves_orbit(plan) { fields.union(place) } else { fields };
     match &plan.law {
         Some(law) => settings(fields.union(SEEN_BY_LAWS)).with_feedback(law.commands()),
         None => settings(fields),

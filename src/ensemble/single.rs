@@ -86,6 +86,9 @@ impl SingleRun {
     pub fn audit(&self, plan: &Plan, isa: Isa) -> Result<Audit, NoAudit> {
         let mut auditor = Auditor::new(plan, isa, &self.grid);
         match plan.law {
+            _ if matches!(self.outcome.status, Status::Surface | Status::Diverged) => {
+                Err(NoAudit::Run(self.outcome.status))
+            }
             None => auditor.audit(&self.scene),
             Some(_) => auditor.audit(&replayed(&self.scene, &self.arcs)),
         }
@@ -135,7 +138,7 @@ impl<'p> SingleRuns<'p> {
             request,
             shown,
             ends: None,
-            flights: Flights::new(plan, propagator(plan, grid.clone(), fields).engine(isa), &grid).recording(),
+            flights: Flights::new(plan, &propagator(plan, grid.clone(), fields), (isa, None)).recording(),
             observer: Observer::new(request, &grid).with_nominal(nominal(&request)),
             series_observer: Observer::new(shown, &grid).with_nominal(nominal(&shown)),
             events: EventFinder::new(plan, &grid, (isa, None)).map(|events| events.ended_by(None)),
@@ -199,6 +202,11 @@ impl<'p> SingleRuns<'p> {
                 let places = event_finder::places(plan, &self.request);
                 row[places].iter_mut().zip(events.values(0)).for_each(|(place, value)| *place = value);
             }
+        }
+        if outcome.status == Status::Surface {
+            outcome.points = outcome.points.min(self.grid.times().partition_point(|time| *time <= outcome.time));
+        } else if outcome.status == Status::Diverged {
+            reason = self.flights.divergence(0);
         }
         let telemetry = self.flights.telemetry(0).unwrap_or_default();
         let series = self.series_observer.series().map(|(series, values)| (series, values.collect())).collect();

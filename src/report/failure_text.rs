@@ -14,6 +14,9 @@ pub fn remedy(status: Status) -> Option<&'static str> {
         Status::StepLimit => Some("to fix: increase integrator.max_steps or integrator.tolerance"),
         Status::StepFloor => Some("to fix: increase integrator.tolerance"),
         Status::Inaccurate => Some("to fix: decrease integrator.tolerance or integrator.step_s"),
+        Status::Surface => {
+            Some("to fix: raise the orbit, or end such runs before by an [[event]] with ends_run = true")
+        }
         _ => None,
     }
 }
@@ -55,6 +58,8 @@ pub fn status_words(status: Status) -> &'static str {
         Status::InvalidSample => "invalid: not physical",
         Status::Inaccurate => "inaccurate",
         Status::InternalError => "internal error",
+        Status::Surface => "reached the surface",
+        Status::Diverged => "the control loop diverged",
     }
 }
 
@@ -113,6 +118,27 @@ mod tests {
             };
             assert_eq!(ways, expected, "{}: {said}", status.name());
             assert_eq!(said.contains("integrator.tolerance"), expected != [false, false], "{said}");
+        }
+    }
+
+    /// Law: every status has words of its own, a reason or a remedy that does not send a reader to the wrong key, a
+    /// colour on the page, and a line in the documents.
+    #[test]
+    fn every_status_is_explained() {
+        let (page, keys) = (include_str!("../../assets/report/page.css"), include_str!("../../docs/campaign-files.md"));
+        let columns = include_str!("../../docs/columns.md");
+        for (place, status) in Status::ALL.into_iter().enumerate() {
+            let name = status.name();
+            assert!(page.contains(&format!(".status.{name}")), "{name} has no colour");
+            assert!(keys.contains(&format!("\n| `{name}` |")), "{name} is not in campaign-files.md");
+            assert!(columns.contains(&format!(" {name},")) || columns.contains(&format!(" {name}. |")), "{name}");
+            let others = Status::ALL[..place].iter().map(|other| (other.name(), status_words(*other)));
+            assert!(others.into_iter().all(|(other, words)| other != name && words != status_words(status)), "{name}");
+            let of_run =
+                [Status::Done, Status::InvalidSample, Status::InternalError, Status::Inaccurate, Status::Diverged];
+            assert_eq!(status.reason(1.0).is_none(), of_run.contains(&status), "{name}");
+            let is_of_steps = remedy(status).is_some_and(|remedy| remedy.contains("max_steps"));
+            assert_eq!(is_of_steps, status == Status::StepLimit, "{name}");
         }
     }
 }

@@ -6,18 +6,27 @@ use crate::analysis::statistics::Statistics;
 use crate::campaign::Plan;
 use crate::report::audit_summary::AuditSummary;
 use crate::report::drivers_text::{ranked, sentence};
+use crate::report::number::counted;
 use crate::report::share_text::with_interval;
 use crate::run::Status;
 
 /// The warnings of a campaign with these `statistics` and the audits `audit`, each a sentence that begins with what it is about in capitals; mostly none.
-/// `failures`: what drives whether a run is computed.
+/// `failures`: what drives whether a run is computed; `beyond_air`: how many runs have left the table of the air.
 pub fn warnings(
     plan: &Plan,
     statistics: &Statistics,
     audit: Option<&AuditSummary>,
     failures: &[InputSensitivity],
+    beyond_air: Option<u64>,
 ) -> Vec<String> {
     let mut found: Vec<String> = not_computed(plan, statistics, failures).into_iter().collect();
+    found.extend(beyond_air.filter(|count| *count > 0).map(|count| {
+        format!(
+            "BEYOND THE AIR: {} left the heights of environment.air_heights_m, where the density is extrapolated: \
+             extend the table",
+            counted(count, "run")
+        )
+    }));
     found.extend(audit.map_or_else(Vec::new, AuditSummary::broken_promises));
     found
 }

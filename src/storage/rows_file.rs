@@ -64,8 +64,8 @@ pub fn audited_observables(ensemble: &Ensemble<'_>) -> Vec<usize> {
 /// The columns of a row.
 pub fn columns(ensemble: &Ensemble<'_>) -> Vec<Column> {
     let number = "Number of the sample within the campaign; 0 is the nominal scene.";
-    let status =
-        "How the run ended: ok, step_limit, step_floor, non_finite, invalid_sample, inaccurate, internal_error.";
+    let status = "How the run ended: ok, step_limit, step_floor, non_finite, invalid_sample, inaccurate, internal_error, \
+         surface, diverged.";
     let reason = "Why the run is not ok.";
     let fixed = [(SAMPLE_ID, number, Content::Count), (STATUS, status, Content::Word), (REASON, reason, Content::Word)]
         .map(|(name, meaning, content)| Column::new(Quantity::new(name, "", meaning), content))

@@ -78,7 +78,7 @@ pub fn computed(
         false => Vec::new(),
     };
     Ok(Analysed {
-        warnings: warnings(plan, &statistics, audit.as_ref(), &failures),
+        warnings: warnings(plan, &statistics, audit.as_ref(), &failures, gathered.tally.beyond_air),
         sensitivities: sensitivity::compute(plan, &gathered.first_rows, threads),
         stopping: stopping(plan, plan.samples, &gathered.stop_values, &verdicts),
         verdicts,

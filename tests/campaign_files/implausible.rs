@@ -331,6 +331,16 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
         "2 pi",
     ),
     (LOOP, "scale = [1, 1, 1]", "scale = [1, -1, 1]", "sensors.gyro.scale: -1.0", "measured over true"),
+    // omega L = 0.436 rad/s 5 s = 2.18 rad; and pi/2 over 0.436 rad/s
+    (
+        RODS,
+        "\"3 deg/s\"",
+        "\"25 deg/s\"",
+        "guidance.detumble: at 25 deg/s, the nominal initial rate, the body makes 0.3472 turns",
+        "sensors.field.period_s and control.period_s below 3.6 s",
+    ),
+    (RODS, "std = 0.01", "std = 0.2", "guidance.detumble: at", "the largest initial rate that was drawn"),
+    (RODS, "600e3", "540e3", "environment.air_heights_m: the nominal orbit is up to 9.863 km", "extend the table"),
     (
         LOOP,
         "max_rate_rad_s = \"1 deg/s\"",
@@ -357,6 +367,53 @@ const NEIGHBOURS: &[(&str, &str, &str)] = &[
     (LOOP, "noise_rad = [1e-4, 1e-4, 5e-4]", "noise_rad = [1e-4, 0.5, 5e-4]"),
 ];
 
+/// A satellite in thin air that torque rods brake.
+const RODS: &str = r#"[campaign]
+name = "x"
+samples = 50
+seed = 7
+duration_s = 60.0
+[observe]
+points = 121
+[body]
+mass_kg = 12.0
+principal_moments_kg_m2 = [0.12, 0.14, 0.09]
+[[torque_rods]]
+name = "mx"
+axis = [1, 0, 0]
+max_dipole_a_m2 = 0.3
+[[plates]]
+name = "px"
+area_m2 = 0.08
+normal = [1, 0, 0]
+center_m = [0.113, 0, 0]
+[initial]
+angular_velocity_rad_s = ["3 deg/s", 0, 0]
+[orbit]
+epoch = "2026-11-24T00:00:00Z"
+semi_major_axis_m = "6928 km"
+[environment]
+magnetic_field = "dipole"
+drag = true
+air_heights_m = [400e3, 600e3]
+air_densities_kg_m3 = [4e-12, 1e-13]
+[control]
+period_s = 5.0
+torque_rods = ["mx"]
+[[sensors]]
+name = "field"
+kind = "magnetometer"
+noise_t = ["50 nT", "50 nT", "50 nT"]
+[[guidance]]
+phase = "detumble"
+rods = "b_dot"
+b_dot_gain_a_m2_s_t = 4e5
+[[disperse]]
+parameter = "initial.angular_velocity_rad_s"
+distribution = "normal"
+std = 0.01
+"#;
+
 fn changed(base: &str, from: &str, to: &str) -> Vec<(&'static str, String)> {
     assert_eq!(base.matches(from).count(), 1, "{from}");
     noted(&plan(&base.replace(from, to))).into_iter().map(|(rule, note)| (rule.subject, note)).collect()
@@ -366,7 +423,7 @@ fn changed(base: &str, from: &str, to: &str) -> Vec<(&'static str, String)> {
 /// All are accepted.
 #[test]
 fn each_rule_has_a_file_that_breaks_it() {
-    for base in [REST, USUAL, LOOP, ORBIT] {
+    for base in [REST, USUAL, LOOP, ORBIT, RODS] {
         assert_eq!(implausible(&plan(base)), [""; 0]);
     }
     let (mut broken, mut wrong) = (BTreeSet::new(), Vec::new());

@@ -35,6 +35,7 @@ mod skipping;
 mod store_bench;
 #[cfg(feature = "cloud")]
 mod store_proxy;
+mod surface;
 mod threads_and_order;
 mod value_hashes;
 mod whole_rows;

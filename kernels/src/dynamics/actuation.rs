@@ -64,6 +64,11 @@ pub trait ActuationLaw {
     /// before, which is a value that the run does not have.
     fn report(&self, _values: &mut [f64]) {}
 
+    /// Why the law has ended its run as [`crate::run::Status::Diverged`], where it has.
+    fn divergence(&self) -> Option<String> {
+        None
+    }
+
     /// What the law has recorded of its run, where it was made to record.
     fn telemetry(&self) -> Option<&Telemetry> {
         None

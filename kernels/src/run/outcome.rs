@@ -19,11 +19,15 @@ pub enum Status {
     Inaccurate,
     /// The program failed in this run, which is a defect of spindrift: its other runs are not affected.
     InternalError,
+    /// Reached the surface of the central body of its orbit.
+    Surface,
+    /// Ended by its control loop, which is unstable: its commands have grown beyond what it can hold.
+    Diverged,
 }
 
 impl Status {
     /// All values, in the order of their codes.
-    pub const ALL: [Status; 7] = [
+    pub const ALL: [Status; 9] = [
         Status::Done,
         Status::StepLimit,
         Status::StepFloor,
@@ -31,6 +35,8 @@ impl Status {
         Status::InvalidSample,
         Status::Inaccurate,
         Status::InternalError,
+        Status::Surface,
+        Status::Diverged,
     ];
 
     /// The name in rows and summaries.
@@ -43,16 +49,21 @@ impl Status {
             Status::InvalidSample => "invalid_sample",
             Status::Inaccurate => "inaccurate",
             Status::InternalError => "internal_error",
+            Status::Surface => "surface",
+            Status::Diverged => "diverged",
         }
     }
 
     /// Why a run ended in this way after `time` seconds, in words; nothing where the run itself has to say it.
     pub fn reason(self, time: f64) -> Option<String> {
         Some(match self {
-            Status::Done | Status::InvalidSample | Status::Inaccurate | Status::InternalError => return None,
+            Status::Done | Status::InvalidSample | Status::Inaccurate | Status::InternalError | Status::Diverged => {
+                return None;
+            }
             Status::StepLimit => format!("integrator.max_steps does not suffice: the run reached {time:?} s"),
             Status::StepFloor => format!("the step fell below the resolution of time at {time:?} s"),
             Status::NonFinite => format!("a state became infinite or not a number after {time:?} s"),
+            Status::Surface => format!("the spacecraft reached the surface of the central body at {time:?} s"),
         })
     }
 }

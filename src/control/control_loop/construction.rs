@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::growth::Growth;
 use super::mission::Mission;
 use super::{Clock, ControlLoop};
 use crate::control::actuators::wheel_drive::relative_inertia;
@@ -173,6 +174,8 @@ impl ControlLoop {
             clock: Clock { tick: 0, ticks_per_period, tick_period, next: 0.0, period: spec.period, end: context.end },
             columns: columns.clone(),
             has_ended: false,
+            growth: Growth::new(context.drawn, spec.period),
+            divergence: None,
         }
     }
 }

@@ -6,18 +6,23 @@
 //! one: the run can launch or fail there, and nothing that it commands acts.
 //!
 //! The truth is [`super::plant`]'s, and flight software is [`super::flight_software`]: measurements go from one to the other and commands back, and here is
-//! the only place that knows both. `mission` judges the run by the truth.
+//! the only place that knows both. `mission` judges the run by the truth, and `growth` whether its commands hold the
+//! body.
 
 mod construction;
+mod growth;
 mod mission;
 
 use std::sync::Arc;
 
+use self::growth::Growth;
 use self::mission::Mission;
 use super::flight_software::FlightSoftware;
 use super::guidance::{Failure, Progress};
+use super::laws::{AttitudeLaw, digits};
 use super::outcome::columns::OutcomeColumns;
 use super::plant::Plant;
+use super::stability::beyond_limit;
 use super::truth::Truth;
 use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, WheelState};
 use crate::run::Telemetry;
@@ -66,6 +71,9 @@ pub struct ControlLoop {
     mission: Mission,
     clock: Clock,
     has_ended: bool,
+    growth: Growth,
+    /// Why the commands have grown beyond their bounds, where they have.
+    divergence: Option<String>,
 }
 
 impl ControlLoop {
@@ -124,6 +132,12 @@ impl ControlLoop {
         commands.until = commands.until.min(self.clock.next);
         let mut actuation = Actuation::none(commands.until);
         let applied = self.plant.apply(time, &commands, wheels, &mut actuation);
+        if let Some(change) = self.growth.beyond(&self.plant, (&actuation, &applied), self.flight_software.field_s()) {
+            self.has_ended = true;
+            self.divergence = Some(self.diverged(time, change));
+            // the state at once, since nobody asks for it any more
+            return Actuation { body_torque: [f64::NAN; 3], ..Actuation::end_of_run() };
+        }
         self.flight_software.count(time, applied.length);
         self.mission.arc(time, &mut self.plant, (&actuation, &applied), (body, wheels));
         // what the schedule fires is not counted as the loop's
@@ -131,6 +145,28 @@ impl ControlLoop {
             *thrust += scheduled;
         }
         actuation
+    }
+
+    /// That the commands of `time`, which change the rate by `change` rad/s in a control period, are those of a loop
+    /// that diverges.
+    fn diverged(&self, time: f64, change: f64) -> String {
+        let FlightSoftware { spec, believed, guidance, laws, delay, .. } = &self.flight_software;
+        let place = guidance.phase;
+        let known = match &laws[place] {
+            // one of a program answers in a run alone
+            AttitudeLaw::Own(_) => None,
+            law => beyond_limit((spec, place), (believed, self.plant.scene()), law, *delay),
+        };
+        let why = known.unwrap_or_else(|| {
+            "no limit of its gains is known to be exceeded: check their signs, and the noise and the lag of what \
+             the law is told"
+                .to_owned()
+        });
+        let (name, change) = (spec.phases[place].name, digits(change));
+        format!(
+            "guidance.{name}: the loop diverges; at {time:?} s its commands change the rate by {change} rad/s in a \
+             control period; {why}"
+        )
     }
 }
 
@@ -155,6 +191,10 @@ impl ActuationLaw for ControlLoop {
 
     fn report(&self, values: &mut [f64]) {
         self.mission.report(&self.columns, self.flight_software.guidance(), values);
+    }
+
+    fn divergence(&self) -> Option<String> {
+        self.divergence.clone()
     }
 
     fn telemetry(&self) -> Option<&Telemetry> {

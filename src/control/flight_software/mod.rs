@@ -78,7 +78,7 @@ pub struct FlightSoftware {
     pub(in crate::control) phases: Vec<Phase>,
     /// The law of the phase, and those of all phases as they begin.
     law: AttitudeLaw,
-    laws: Vec<AttitudeLaw>,
+    pub(in crate::control) laws: Vec<AttitudeLaw>,
     pub(in crate::control) guidance: Guidance,
     wheels: Option<WheelTorque>,
     thrusters: Option<ThrustAllocation>,
@@ -101,7 +101,7 @@ pub struct FlightSoftware {
     /// Whether somebody asks what was commanded.
     is_recorded: bool,
     /// From a command to its action, s.
-    delay: f64,
+    pub(in crate::control) delay: f64,
     pub(in crate::control) under_way: CommandsUnderWay,
     /// What was commanded at the last control tick.
     latest: Commanded,
@@ -318,6 +318,11 @@ impl FlightSoftware {
     /// The phase that the run is in.
     pub fn phase(&self) -> &Phase {
         &self.phases[self.guidance.phase]
+    }
+
+    /// The magnetic field as measured last, F_s, T.
+    pub fn field_s(&self) -> [f64; 3] {
+        self.field.field_s
     }
 
     /// What was commanded at the last control tick, of a run that is recorded.

@@ -163,6 +163,32 @@ impl AttitudeLaw {
         }
     }
 
+    /// The law with `share` of its gains, and these as a campaign file has them; `None` of one whose gains are its own
+    /// matter, or that has none at its target: under a limit of the torque a slew brakes on a curve.
+    pub fn weaker(&self, share: f64) -> Option<(Self, String)> {
+        let mut law = self.clone();
+        let gains = match &mut law {
+            AttitudeLaw::RateDamping(law) => {
+                law.gain *= share;
+                format!("gain_n_m_s = {}", digits(law.gain))
+            }
+            AttitudeLaw::MrpFeedback(law) => {
+                (law.stiffness, law.damping) = (share * law.stiffness, share * law.damping);
+                format!("stiffness_n_m = {}, damping_n_m_s = {}", digits(law.stiffness), digits(law.damping))
+            }
+            AttitudeLaw::QuaternionFeedback(law) => {
+                law.bandwidth *= share;
+                format!("bandwidth_rad_s = {}", digits(law.bandwidth))
+            }
+            AttitudeLaw::Eigenaxis(law) if law.largest_torque == f64::INFINITY => {
+                (law.stiffness, law.damping) = (share * share * law.stiffness, share * law.damping);
+                format!("bandwidth_rad_s = {}", digits((0.5 * law.stiffness).sqrt()))
+            }
+            AttitudeLaw::None | AttitudeLaw::Eigenaxis(_) | AttitudeLaw::Own(_) => return None,
+        };
+        Some((law, gains))
+    }
+
     /// Why the law cannot go on, where its torque is no finite number and that is not the reason itself.
     pub fn failure(&self) -> Option<Failure> {
         match self {
@@ -183,6 +209,11 @@ impl AttitudeLaw {
     pub fn own(law: impl PhaseLaw + Clone + fmt::Debug + Send + 'static) -> Self {
         AttitudeLaw::Own(OwnLaw(Box::new(law)))
     }
+}
+
+/// A number with four significant digits.
+pub(super) fn digits(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 /// What a law of attitude knows at a tick. F_t is the target's frame: the attitude that F_s is to have.

@@ -154,6 +154,40 @@ mod tests {
         assert!((power / expected - 1.0).abs() < 1e-9, "{power} {expected}");
     }
 
+    /// Law: the mean power of B-dot is that of its lag, -4 k |B|^2/(T_m T_h) sin(omega T_m/2) sin(omega T_h/2)
+    /// cos(omega L): below zero at omega L < pi/2, above it up to 3 pi/2. The field is across the axis; a turn is a
+    /// whole number of dipoles.
+    #[test]
+    fn a_late_dipole_speeds_the_body_up() {
+        let (gain, size, period) = (4e4, 3e-5, 5.0);
+        let field = |angle: f64| [size * angle.cos(), -size * angle.sin(), 0.0];
+        // several measurements within a dipole, or the other way round; and a delay
+        for (measured, held, late) in [(5.0, 5.0, 0.0), (1.0, 5.0, 0.0), (5.0, 5.0, 2.0), (10.0, 10.0, 0.0)] {
+            let mut signs = [0, 0];
+            for turns in 1..30 {
+                let omega = std::f64::consts::TAU * f64::from(turns) / (60.0 * period);
+                let lag = 0.5 * (measured + held) + late;
+                let (mut power, mut count) = (0.0, 0.0);
+                for dipole in 0..60 {
+                    let begin = f64::from(dipole) * held;
+                    let mut known = MeasuredField::NONE;
+                    [begin - measured, begin].into_iter().for_each(|time| known.take(time, field(omega * time)));
+                    let dipole = RodLaw::BDot { gain }.dipole(&known, [0.0; 3]);
+                    for step in 0..50 {
+                        let time = begin + late + (f64::from(step) + 0.5) / 50.0 * held;
+                        power += omega * cross(dipole, field(omega * time))[2];
+                        count += 1.0;
+                    }
+                }
+                let sines = (0.5 * omega * measured).sin() * (0.5 * omega * held).sin();
+                let expected = -4.0 * gain * size * size / (measured * held) * sines * (omega * lag).cos();
+                assert!((power / count - expected).abs() < 1e-2 * gain * size * size * omega * omega, "{omega} {lag}");
+                signs[usize::from(power > 0.0)] += 1;
+            }
+            assert!(signs[0] > 3 && signs[1] > 3, "{signs:?}");
+        }
+    }
+
     /// Law: the torque of unloading is -h/T for a momentum across the field, and nothing for one along it.
     #[test]
     fn unloading_is_against_the_momentum_across_the_field() {

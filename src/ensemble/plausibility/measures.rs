@@ -4,8 +4,11 @@
 use std::f64::consts::{PI, TAU};
 
 use super::looked::{Found, Looked, digits, most_of};
-use crate::campaign::SceneDraws;
+use crate::campaign::{Plan, SceneDraws};
 use crate::control::guidance::target::Target;
+use crate::control::laws::rod_law::RodUse;
+use crate::control::measurement::Observes;
+use crate::control::parameters::LoopNumbers;
 use crate::control::sensors;
 use crate::control::spec::SensorSpec;
 use crate::ensemble::drawn::magnitudes;
@@ -24,6 +27,8 @@ const YEAR: f64 = 365.25 * 86_400.0;
 const MANY_POINTS: f64 = 1e7;
 /// With fewer draws the range of a distribution is not known.
 const RANGE_DRAWS: usize = 30;
+/// Draws of initial rates.
+const RATES: u64 = 1000;
 /// Draws of orbits, each of which is a scene to be resolved.
 const ORBITS: u64 = 200;
 
@@ -300,6 +305,61 @@ pub fn coarse_grid(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let enough = if enough < MANY_POINTS { format!(" ({enough} points are eight to a turn)") } else { String::new() };
     let (points, turns) = (grid.points(), digits(turn / TAU));
     found(turn, format!("observe.points = {points}: the body makes {turns} turns from one point to the next{enough}"))
+}
+
+/// The turn of the body over the lag of B-dot, rad, at the largest initial rate: the dipole is against the change of the
+/// field half an interval of measurements before, and is held. The mean power is that of a prompt dipole times the cosine
+/// of the turn.
+pub fn late_rods(looked: &Looked<'_>, most: f64) -> Vec<Found> {
+    let rods = looked.spec().and_then(|spec| {
+        let phase = spec.phases.iter().find(|phase| phase.rods == RodUse::BDot)?;
+        let is_field = |sensor: &&SensorSpec| matches!(sensor.observes(), Observes::Field(_));
+        Some((spec, phase, spec.sensors.iter().find(is_field)?))
+    });
+    let Some((spec, phase, sensor)) = rods else { return Vec::new() };
+    let plan = looked.plan;
+    let delay = sensor.latency + LoopNumbers::of(&plan.nominal.control.law).delay;
+    let lag = 0.5 * (sensor.period + sensor.period.max(spec.period)) + delay;
+    let nominal = (norm(plan.nominal.initial.angular_velocity_rad_s), "the nominal initial rate");
+    let mut draws = SceneDraws::new(plan);
+    let drawn = (1..plan.samples.min(RATES + 1)).map(|sample| {
+        let rate = norm(draws.input(SampleId(sample)).initial.angular_velocity_rad_s);
+        (rate, "the largest initial rate that was drawn")
+    });
+    let (rate, whose) = drawn.fold(nominal, |largest, one| if one.0 > largest.0 { one } else { largest });
+    let (name, degrees, turns) = (sensor.name, digits(rate.to_degrees()), digits(rate * lag / TAU));
+    let enough = match most / rate - delay {
+        period if period > 0.0 => format!("sensors.{name}.period_s and control.period_s below {} s", digits(period)),
+        _ => "no period with this latency and delay".to_owned(),
+    };
+    let what = format!(
+        "guidance.{}: at {degrees} deg/s, {whose}, the body makes {turns} turns over the lag of B-dot, {} s ({enough} \
+         are short enough)",
+        phase.name,
+        digits(lag)
+    );
+    found(rate * lag, what)
+}
+
+/// The distances from the centre, m, between which the table of the air in the file of `plan` has heights.
+pub fn ends_of_air(plan: &Plan) -> Option<[f64; 2]> {
+    let heights = plan.nominal.environment.air_heights_m.filter(|_| plan.nominal.environment.drag)?;
+    let surface = plan.nominal.orbit.as_ref()?.body_radius_m;
+    Some([heights.first()?, heights.last()?].map(|height| surface + height))
+}
+
+/// How far the nominal orbit goes beyond the table of the air, m.
+pub fn beyond_air(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+    let ends = ends_of_air(looked.plan).zip(looked.plan.nominal.orbit.as_ref());
+    let Some(([low, high], orbit)) = ends else { return Vec::new() };
+    let shape = Orbit::of(orbit).shape();
+    let beyond = (low - shape.periapsis).max(shape.semi_major_axis * (1.0 + shape.eccentricity) - high);
+    if beyond > 0.0 {
+        let note = format!("environment.air_heights_m: the nominal orbit is up to {} km beyond", digits(beyond / 1e3));
+        found(beyond, note)
+    } else {
+        Vec::new()
+    }
 }
 
 /// How long after the end of the run arcs start, s: the first of them.

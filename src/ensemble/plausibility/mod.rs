@@ -15,6 +15,7 @@ use crate::campaign::Plan;
 use crate::control::capacity::Capacity;
 
 use self::looked::Looked;
+pub use self::measures::ends_of_air;
 use self::rules::{RULES, Rule};
 
 /// The rules that something in `plan` breaks, each with its note.

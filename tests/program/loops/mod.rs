@@ -6,6 +6,7 @@ pub mod cases;
 pub mod closed_loops;
 pub mod columns;
 pub mod control_laws;
+pub mod diverging;
 pub mod filters;
 pub mod flown_loop;
 pub mod fusion;

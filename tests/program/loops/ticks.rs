@@ -130,7 +130,8 @@ fn slow_sensors_measure_at_their_times() {
     assert!((0.76..1.29).contains(&mean), "{mean}");
 }
 
-/// Law: the share of a law's torque beyond which a note says that errors grow is where they begin to grow in a flown run, with a delay: 2% below it they
+/// Law: the gain beyond which a note says that errors grow is where they begin to grow in a flown run, with a delay: 2%
+/// below it they
 /// die away, 2% above it they grow.
 #[test]
 fn the_noted_limit_is_where_a_run_diverges() {
@@ -142,8 +143,9 @@ fn the_noted_limit_is_where_a_run_diverges() {
     };
     let noted = |gain: f64| plan(&text(gain)).notes().into_iter().find(|note| note.contains("small errors grow"));
     let note = noted(1000.0).expect("a note");
-    let share = note.split("at most ").nth(1).and_then(|rest| rest.split(' ').next()).expect("a share");
-    let limit = 1000.0 * share.parse::<f64>().expect("a number");
+    let limit =
+        note.split("the limit is gain_n_m_s = ").nth(1).and_then(|rest| rest.split(';').next()).expect("a limit");
+    let limit = limit.parse::<f64>().expect("a number");
     for (factor, grows) in [(0.98, false), (1.02, true)] {
         let gain = factor * limit;
         assert_eq!(noted(gain).is_some(), grows, "{gain}");

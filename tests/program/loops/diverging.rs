@@ -1,0 +1,100 @@
+//! Loops that are unstable end early, with their gains and the limit; loops that hold the body do not, however fast it
+//! turns.
+
+use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, PhaseLaw};
+use spindrift::run::Status;
+use spindrift::sampling::SampleId;
+use spindrift::workflow::{Campaign, Quiet, Session};
+
+use crate::loops::closed_loops::{plan, run, small_craft};
+use crate::support::scratch_folder::ScratchFolder;
+
+const PERIOD: f64 = 0.25;
+
+/// A loop of [`PERIOD`] with the law `law`.
+fn with_law(law: &str, initial: &str) -> String {
+    let target = if law.contains("rate_damping") || law.contains("brake") {
+        ""
+    } else {
+        "target = \"attitude\"\nattitude = [0, 0, 1, 0]\n"
+    };
+    let control = format!(
+        "[control]\nperiod_s = {PERIOD}\nwheels = [\"w1\", \"w2\", \"w3\"]\n\
+         [[guidance]]\nphase = \"p\"\n{target}{law}\n"
+    );
+    small_craft(&control, initial).replace("tolerance = 1e-14", "tolerance = 1e-8")
+}
+
+const SLOW: &str = "angular_velocity_rad_s = [0.01, -0.02, 0.03]";
+const FAST: &str = "angular_velocity_rad_s = [3.0, -2.0, 1.0]";
+
+/// The laws with gains at `share` of their limits: c T = 2 with the least inertia of 24 kg m^2; k T = 2 c.
+fn laws(share: f64) -> [(String, &'static str); 4] {
+    let gain = share * 2.0 * 24.0 / PERIOD;
+    // 2 zeta w T = 2 with zeta = 1, of which k T = 2 w^2 T/2 is less than 2 c
+    let bandwidth = share / PERIOD;
+    [
+        (format!("law = \"rate_damping\"\ngain_n_m_s = {gain:?}"), "gain_n_m_s"),
+        (
+            format!("law = \"mrp_feedback\"\nstiffness_n_m = {:?}\ndamping_n_m_s = {gain:?}", 0.1 * gain),
+            "damping_n_m_s",
+        ),
+        (format!("law = \"quaternion_feedback\"\nbandwidth_rad_s = {bandwidth:?}\ndamping = 1.0"), "bandwidth_rad_s"),
+        (format!("law = \"eigenaxis\"\nbandwidth_rad_s = {bandwidth:?}\ndamping = 1.0"), "bandwidth_rad_s"),
+    ]
+}
+
+/// Law: at two and at fifty times the limit a run ends as `diverged`, at a tenth of the work of a healthy one up to a
+/// handful of them, with the gain and the limit; at 0.8 of it none does, at a slow and at a fast start and in a slew of
+/// half a turn. By two methods.
+#[test]
+fn unstable_loops_end_early_and_others_do_not() {
+    for method in ["auto", "dop853"] {
+        let flown = |law: &str, initial: &str| {
+            let text = with_law(law, initial).replace("method = \"auto\"", &format!("method = \"{method}\""));
+            run(&plan(&text), 0)
+        };
+        for (index, (stable, _)) in laws(0.8).iter().enumerate() {
+            let healthy = flown(stable, SLOW);
+            assert_eq!(healthy.outcome.status, Status::Done, "{stable}: {}", healthy.reason);
+            assert_eq!(flown(stable, FAST).outcome.status, Status::Done, "{stable}");
+            for times in [2.0, 50.0] {
+                let (law, key) = &laws(times)[index];
+                let run = flown(law, SLOW);
+                let work = [&run, &healthy].map(|run| run.outcome.effort.evaluations as f64);
+                println!(
+                    "{method} {law}: {:?} at {} s, {:?}: {}",
+                    run.outcome.status, run.outcome.time, work, run.reason
+                );
+                assert_eq!(run.outcome.status, Status::Diverged, "{law}: {}", run.reason);
+                assert!(run.reason.contains(key) && run.reason.contains("the limit is"), "{}", run.reason);
+                assert!(!run.reason.contains("max_steps") && run.outcome.time < 60.0);
+                assert!(work[0] < 5.0 * work[1], "{law}: {work:?}");
+            }
+        }
+    }
+}
+
+/// u = -c omega.
+#[derive(Clone, Debug)]
+struct Brake;
+
+impl PhaseLaw for Brake {
+    fn torque(&mut self, _: &KnownBody, input: &LawInput<'_>, _: f64) -> [f64; 3] {
+        input.omega_se_s.map(|rate| -2.5 * 24.0 / PERIOD * rate)
+    }
+}
+
+static BRAKE: LawKind = LawKind { name: "brake", parameters: &[], make: |_| AttitudeLaw::own(Brake) };
+
+/// Law: a law of a program that diverges ends its run too; the row has the status and the reason.
+#[test]
+fn a_law_of_a_program_can_diverge() {
+    let (scratch, quiet) = (ScratchFolder::new("diverging"), Quiet::default());
+    let session = Session::new(&quiet).expect("a session").with_attitude_law(&BRAKE);
+    let text = with_law("law = \"brake\"", SLOW);
+    let results = Campaign::from_text("loop.toml", &text, session).store(scratch.path("r")).results().expect("results");
+    let replayed = results.replay(SampleId(1)).expect("a replay");
+    assert_eq!(replayed.outcome.status, Status::Diverged, "{}", replayed.reason);
+    assert!(replayed.reason.contains("guidance.p: the loop diverges"), "{}", replayed.reason);
+}
