@@ -62,6 +62,11 @@ pub fn list(text: &mut String, plan: &Plan) -> std::fmt::Result {
     correlations(text, plan)
 }
 
+/// Adds a sentence in lines of the screen's width.
+fn line(text: &mut String, sentence: &str) {
+    text.push_str(&wrapped(&format!("{sentence}\n"), width()));
+}
+
 /// What is said where nothing is dispersed.
 const NONE: &str = "none: every sample is the nominal scene";
 
@@ -87,7 +92,8 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
     }
     if *plan.dispersions.design() != Design::DEFAULT {
         let dimensions = plan.dispersions.dimensions().len();
-        writeln!(text, "design: {}, {} samples, {dimensions} random dimensions", plan.design.name(), plan.samples)?;
+        let (design, samples) = (plan.design.name(), plan.samples);
+        line(text, &format!("design: {design}, {samples} samples, {dimensions} random dimensions"));
     }
     let of_columns = columns.iter().map(|column| column.parameter.component_name(column.component));
     let magnitudes = magnitudes(plan);
@@ -102,7 +108,7 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
     // few draws have no percentiles of one in a hundred
     let is_few = drawn.count() < FEW;
     let what = if is_few { "range" } else { "percentiles" };
-    writeln!(text, "{what} of {} (sample 0 is nominal)", counted(drawn.count(), "draw"))?;
+    line(text, &format!("{what} of {} (sample 0 is nominal)", counted(drawn.count(), "draw")));
     let (heads, ps) = if is_few {
         (vec!["least", "largest"], vec![0.0, 1.0])
     } else {
@@ -126,7 +132,7 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
     }
     text.push_str(&table.text(width()));
     if !drawn.is_exact() {
-        writeln!(text, "percentiles of so many draws are within 0.05% of their distance from the nominal value")?;
+        line(text, "percentiles of so many draws are within 0.05% of their distance from the nominal value");
     }
     correlations(text, plan)
 }
@@ -139,7 +145,7 @@ fn correlations(text: &mut String, plan: &Plan) -> std::fmt::Result {
             None => parameter.name().to_owned(),
         };
         let names: Vec<String> = correlation.parameters.iter().map(name).collect();
-        writeln!(text, "correlated: {}", names.join(", "))?;
+        line(text, &format!("correlated: {}", names.join(", ")));
     }
     for replaced in plan.dispersions.replaced_correlations() {
         writeln!(text, "{}", nearest(replaced))?;

@@ -11,11 +11,11 @@ use crate::cli::{dispersions, screen};
 use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::report::drawn_columns::DrawnColumns;
 use crate::report::drawn_figure::drawn_figure;
-use crate::report::image::{PlotError, PlotFormat};
+use crate::report::image::PlotFormat;
 use crate::report::number::counted;
 use crate::sampling::SampleId;
 use crate::storage::drawn_table;
-use crate::storage::table_file::{TableError, TableFormat};
+use crate::storage::table_file::TableFormat;
 use crate::workflow::source::plan_and_files;
 
 /// Runs the command.
@@ -78,12 +78,10 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
             counted(dispersed.count(), "sample"),
             plan.design.name().replace('_', " ")
         );
-        drawn_figure(title, &shown).in_units(&plan.analysis.display).save(path, options.size.of()).map_err(
-            |error| match error {
-                PlotError::Format(_) => Failure::Input(error.to_string()),
-                _ => Failure::Files(format!("{}: {error}", path.display())),
-            },
-        )?;
+        drawn_figure(title, &shown)
+            .in_units(&plan.analysis.display)
+            .save(path, options.size.of())
+            .map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
         let (numbers, samples) = (columns.len(), dispersed.count());
         let (numbers, samples) = (counted(numbers, "number"), counted(samples, "sample"));
         screen::note(&format!("{}: {numbers} of {samples}", path.display()));
@@ -106,10 +104,8 @@ fn one(plan: &Plan, sample: u64) -> Result<CommandOutcome, Failure> {
 }
 
 fn save(path: &Path, plan: &Plan, percentiles: &mut Percentiles) -> Result<(), Failure> {
-    drawn_table::save(plan, path, |drawn| percentiles.add(drawn)).map_err(|error| match error {
-        TableError::Format(_) => Failure::Input(error.to_string()),
-        _ => Failure::Files(format!("{}: {error}", path.display())),
-    })?;
+    drawn_table::save(plan, path, |drawn| percentiles.add(drawn))
+        .map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
     let (samples, columns) = (counted(plan.samples, "sample"), counted(drawn_table::columns(plan).len(), "column"));
     screen::note(&format!("{}: {samples}, {columns}", path.display()));
     Ok(())

@@ -11,7 +11,7 @@ use crate::ensemble::SingleRun;
 use crate::ensemble::audit::AuditValue;
 use crate::math::Isa;
 use crate::report::failure_text::readable;
-use crate::report::image::{PlotError, PlotFormat};
+use crate::report::image::PlotFormat;
 use crate::report::mission_text;
 use crate::report::number::{counted, short};
 use crate::report::page::runs::GROUPS;
@@ -19,7 +19,7 @@ use crate::report::simulation_figure::{left_out, simulation_figure};
 use crate::report::time_table::time_table;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
-use crate::storage::table_file::{self, TableError, TableFormat};
+use crate::storage::table_file::{self, TableFormat};
 use crate::table::Table;
 use crate::table::text::{Align, Text};
 use crate::workflow::isa;
@@ -127,10 +127,7 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
 }
 
 fn save(path: &Path, plan: &Plan, series: &Table<'_>) -> Result<(), Failure> {
-    table_file::save(plan, series, path).map_err(|error| match error {
-        TableError::Format(_) => Failure::Input(error.to_string()),
-        _ => Failure::Files(format!("{}: {error}", path.display())),
-    })?;
+    table_file::save(plan, series, path).map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
     let (points, columns) = (counted(series.rows(), "point"), counted(series.columns.len(), "column"));
     screen::note(&format!("{}: {points}, {columns}", path.display()));
     Ok(())
@@ -142,10 +139,7 @@ fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, run: &SingleRun) ->
         sample => format!("{}, sample {sample}", plan.name),
     };
     let figure = simulation_figure(title, plan, run).in_units(&plan.analysis.display);
-    figure.save(path, options.size.of()).map_err(|error| match error {
-        PlotError::Format(_) => Failure::Input(error.to_string()),
-        _ => Failure::Files(format!("{}: {error}", path.display())),
-    })?;
+    figure.save(path, options.size.of()).map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
     let points = run.outcome.points.min(run.grid.points());
     let empty = left_out(plan, run);
     let without = if empty.is_empty() {

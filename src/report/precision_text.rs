@@ -100,4 +100,25 @@ mod tests {
         assert!(text.contains("null_space at 1e-11, 1e-12") && text.contains("take 44 s"), "{text}");
         assert_eq!(omissions(&[], 20.0), "");
     }
+
+    /// Law: at every width each number of a measurement stands whole in the order of the wide line, below its head.
+    #[test]
+    fn measurements_fit_every_width() {
+        let error = |max: f64| Some(Deviation { max, rms: 0.5 * max });
+        let [rate, attitude, energy, momentum] = [-1.5e-300, 0.043, 1.2e-10, 6.8e-8].map(error);
+        let (method, setting) = (Method::NullSpace, Setting::Step(0.5));
+        let (cpu, runs) = ([1.234_567e10, 1.0], [200, 17]);
+        let found =
+            Measurement { method, setting, cpu, repeats: 1, runs, steps: 1e7, rate, attitude, energy, momentum };
+        let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+        for width in 40..=200 {
+            let (head, text) = (headline(width), line(&found, width));
+            assert_eq!(words(&text), words(&line(&found, 1000)), "{width}:\n{text}");
+            assert!(head.lines().chain(text.lines()).all(|line| line.len() <= width), "{width}:\n{head}{text}");
+            for (heads, numbers) in head.lines().zip(text.lines()).filter(|(heads, _)| !heads.contains("notes")) {
+                assert_eq!(heads.split_whitespace().count(), numbers.split_whitespace().count(), "{width}:\n{text}");
+                assert!(heads.len() == numbers.len() || heads.starts_with("method"), "{width}:\n{head}{text}");
+            }
+        }
+    }
 }

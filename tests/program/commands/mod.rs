@@ -15,3 +15,4 @@ pub mod screen_numbers;
 pub mod simulate;
 pub mod slurm;
 pub mod tutorial;
+mod widths;

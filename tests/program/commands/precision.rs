@@ -23,7 +23,9 @@ fn errors_follow_the_settings() {
     // the screen has the numbers of the file, under their heads
     let head = said.lines().position(|line| line.starts_with("method ")).expect("heads");
     let heads: Vec<&str> = said.lines().nth(head).expect("heads").split_whitespace().collect();
-    for (row, line) in said.lines().skip(head + 1).take(table.num_rows()).enumerate() {
+    // notes stand below their row
+    let lines = said.lines().skip(head + 1).filter(|line| !line.starts_with(' '));
+    for (row, line) in lines.take(table.num_rows()).enumerate() {
         let words: Vec<&str> = line.split_whitespace().collect();
         let number = |name: &str| floats(&table, name)[row];
         for (head, known) in [
