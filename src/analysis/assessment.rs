@@ -24,9 +24,9 @@ pub struct Assessment {
     pub value: Option<f64>,
     /// Runs that count: dispersed and physical.
     pub runs: u64,
-    /// Runs of those that are not within the limit, or have no value.
+    /// Runs of those that are not within the limit, have no value, or one that is not a number.
     pub violations: u64,
-    /// Runs of those that have no value.
+    /// Runs of those that have no value, and violate the requirement.
     pub missing: u64,
     /// Runs of those that are not `ok`.
     pub failed: u64,

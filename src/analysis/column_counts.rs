@@ -41,12 +41,15 @@ pub struct GroupCounts {
 #[derive(Clone, Debug)]
 pub struct Collected {
     pub columns: Vec<ColumnCounts>,
+    /// Group by group, the physical runs that are not `ok`: their values could be anything.
+    pub lost: Vec<u64>,
 }
 
 /// What a part adds, apart from its sketches.
 #[derive(Clone, Debug)]
 pub struct PartCounts {
     columns: Vec<PartColumn>,
+    lost: Vec<u64>,
 }
 
 /// What a part adds to an observable: the runs without a value, and for each group its moments, and its values where they are kept.
@@ -164,7 +167,7 @@ impl Accumulator for Collector {
     fn nothing(&self) -> Collected {
         let groups = vec![GroupCounts::default(); self.population.groups()];
         let column = ColumnCounts { groups, ..ColumnCounts::default() };
-        Collected { columns: vec![column; self.observed.len()] }
+        Collected { columns: vec![column; self.observed.len()], lost: vec![0; self.population.groups()] }
     }
 
     fn count(&self, part: &impl PartColumns) -> Result<PartCounts, RowsError> {
@@ -174,6 +177,11 @@ impl Accumulator for Collector {
             is_counted.then(|| self.population.group(*sample))
         };
         let rows: Vec<Option<usize>> = samples.iter().zip(ended.iter()).map(group).collect();
+        let mut lost = vec![0; self.population.groups()];
+        for (sample, status) in samples.iter().zip(ended.iter()) {
+            let is_lost = !matches!(status, Status::Done | Status::InvalidSample) && self.population.contains(*sample);
+            lost[self.population.group(*sample)] += u64::from(is_lost);
+        }
         let are_all_of_one = self.population.groups() == 1 && !rows.contains(&None);
         let of_column = |(observed, sketches): (&Observed, &Mutex<Vec<Sketch>>)| {
             let values = observed.column(part)?;
@@ -196,10 +204,11 @@ impl Accumulator for Collector {
             Ok(PartColumn { without_value, groups: groups.collect() })
         };
         let columns = self.observed.iter().zip(&self.sketches).map(of_column).collect::<Result<_, RowsError>>()?;
-        Ok(PartCounts { columns })
+        Ok(PartCounts { columns, lost })
     }
 
     fn merge(&self, whole: &mut Collected, part: PartCounts) {
+        whole.lost.iter_mut().zip(&part.lost).for_each(|(lost, more)| *lost += more);
         for (column, of_part) in whole.columns.iter_mut().zip(part.columns) {
             column.without_value += of_part.without_value;
             let mut of_groups = Moments::default();

@@ -13,7 +13,7 @@ use crate::analysis::missions::{MissionCounter, Missions};
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::RowNames;
 use crate::analysis::population::Population;
-use crate::analysis::stopping::ObservedValues;
+use crate::analysis::stopping::{ObservedValues, StopValues};
 use crate::analysis::survey::{Survey, Surveyor};
 use crate::analysis::tally::{Tally, TallyColumns};
 use crate::analysis::trajectories::Retained;
@@ -44,7 +44,7 @@ pub struct Gathered {
     pub columns: Collected,
     pub requirements: RequirementCounts,
     /// Of the observable of `[stop]`, run by run; none without.
-    pub stop_values: Vec<f64>,
+    pub stop_values: StopValues,
     /// Inputs and main observables of the first rows.
     pub first_rows: RowTable,
     /// Inputs of the first physical rows, and whether each was computed.

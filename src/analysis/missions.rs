@@ -1,13 +1,13 @@
 //! [`Missions`]: how the missions of a campaign under a control loop ended: launched, failed for a reason, or neither, each a share of the runs with its interval.
 
 use crate::analysis::accumulator::Accumulator;
+use crate::analysis::order_statistics::share_interval;
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
 use crate::campaign::Plan;
 use crate::control::guidance::Failure;
 use crate::run::Status;
 use crate::scene::Name;
-use crate::statistics::binomial::interval;
 use crate::storage::rows_reader::RowsError;
 
 /// One way in which missions ended.
@@ -82,9 +82,7 @@ impl MissionCounter {
             runs,
             missing: *missing,
             interval: match has_intervals {
-                true => {
-                    [interval(*count, runs, self.confidence)[0], interval(count + missing, runs, self.confidence)[1]]
-                }
+                true => share_interval(*count, [runs - missing, *missing], self.confidence),
                 false => [f64::NAN; 2],
             },
         };

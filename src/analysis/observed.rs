@@ -1,4 +1,7 @@
 //! [`Observed`]: an observable of a campaign with the way to its values in the files of rows: a column, or an expression over columns.
+//!
+//! A run that is `ok` has no value of it where what it is about never happened, or where it is not a number
+//! ([`Observed::undefined`]).
 
 use std::borrow::Cow;
 
@@ -10,14 +13,87 @@ use crate::run::Quantity;
 use crate::sampling::expression::Expression;
 use crate::storage::rows_reader::RowsError;
 
+/// A column that an observable is computed from.
+#[derive(Clone, Debug, PartialEq)]
+struct Source {
+    column: String,
+    absence: Absence,
+}
+
+/// What it means that a run that is `ok` has no value in a column.
+#[derive(Clone, Debug, PartialEq)]
+enum Absence {
+    /// What the column is about never happened.
+    Never,
+    /// The same, unless this count of an event is absent too: then the quantity of the event is not a number.
+    Event { count: String },
+    /// Of an extreme from `delay_s` after `after` on, the columns of the time and the count of an event: not a number,
+    /// unless that event never happened, or the run ended before.
+    Extreme { after: Option<[String; 2]>, delay_s: f64, end: End },
+}
+
+/// When runs end.
+#[derive(Clone, Debug, PartialEq)]
+enum End {
+    At(f64),
+    /// In a column.
+    Column(&'static str),
+}
+
+impl Absence {
+    /// That of `column` of the rows of `plan`.
+    fn of(plan: &Plan, column: &str) -> Self {
+        let count = |event: &str| format!("{event}_count");
+        let time = |event: &str| format!("{event}_time_s");
+        let of_event =
+            plan.events.iter().map(|event| &event.name).find(|name| column == time(name) || column == count(name));
+        if let Some(name) = of_event {
+            return Absence::Event { count: count(name) };
+        }
+        let is_total = |text: &str| Expression::parse(text).is_ok_and(|expression| expression.is_total());
+        let extreme = plan.extremes.iter().find(|one| one.name == column && !is_total(&one.quantity));
+        let Some(extreme) = extreme else { return Absence::Never };
+        let after = extreme.after.as_ref().map(|name| [time(name), count(name)]);
+        let has_end = plan.request().columns().iter().any(|column| column.quantity.name() == TIME_REACHED);
+        let end = if has_end { End::Column(TIME_REACHED) } else { End::At(plan.grid.duration()) };
+        Absence::Extreme { after, delay_s: extreme.delay_s, end }
+    }
+
+    /// The rows of `part` in which an absent value of such a column is not a number.
+    fn undefined(&self, part: &impl PartColumns) -> Result<Vec<bool>, RowsError> {
+        let rows = part.rows();
+        Ok(match self {
+            Absence::Never => vec![false; rows],
+            Absence::Event { count } => part.numbers(count)?.iter().map(|count| count.is_nan()).collect(),
+            Absence::Extreme { after, delay_s, end } => {
+                let [times, counts] = match after {
+                    Some([time, count]) => [part.numbers(time)?, part.numbers(count)?],
+                    None => [Cow::Owned(vec![0.0; rows]), Cow::Owned(vec![0.0; rows])],
+                };
+                let ends = match end {
+                    End::At(end) => Cow::Owned(vec![*end; rows]),
+                    End::Column(name) => part.numbers(name)?,
+                };
+                // NaN is not before it
+                (0..rows).map(|row| counts[row].is_nan() || times[row] + delay_s <= ends[row]).collect()
+            }
+        })
+    }
+}
+
+/// The column that says when a run ended.
+const TIME_REACHED: &str = "time_reached_s";
+
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observed {
     /// Name, unit and meaning.
     pub quantity: Quantity,
     /// Whether its values are counts.
     pub is_count: bool,
-    /// What it is computed from, where no row has it.
-    derived: Option<(Expression, Vec<String>)>,
+    /// How it is computed from its sources, where no row has it.
+    derived: Option<Expression>,
+    /// The columns that are the variables of the expression; without one, its own column.
+    sources: Vec<Source>,
 }
 
 impl Observed {
@@ -25,16 +101,18 @@ impl Observed {
     pub fn all(plan: &Plan) -> Vec<Observed> {
         let request = plan.request();
         let known = KnownColumns::new(request);
+        let source = |column: String| Source { absence: Absence::of(plan, &column), column };
         let of_rows = request.columns().into_iter().map(|column| Observed {
             is_count: column.kind == ColumnKind::Count,
-            quantity: column.quantity,
             derived: None,
+            sources: vec![source(column.quantity.name().to_owned())],
+            quantity: column.quantity,
         });
         let derived = plan.analysis.derived.iter().map(|derived| {
             let (expression, variables) =
                 derived.parsed(&plan.nominal, &known).expect("a plan's expressions were parsed when the plan was made");
-            let columns = variables.iter().map(|variable| variable.column()).collect();
-            Observed { quantity: derived.quantity(), is_count: false, derived: Some((expression, columns)) }
+            let sources = variables.iter().map(|variable| source(variable.column())).collect();
+            Observed { quantity: derived.quantity(), is_count: false, derived: Some(expression), sources }
         });
         of_rows.chain(derived).collect()
     }
@@ -49,8 +127,7 @@ impl Observed {
 
     /// Whether no draw of `plan` enters it, so that every run has the same value.
     pub fn is_constant(&self, plan: &Plan) -> bool {
-        let has_no_column = self.derived.as_ref().is_some_and(|(_, columns)| columns.is_empty());
-        has_no_column || plan.dispersions.columns().is_empty()
+        self.sources.is_empty() || plan.dispersions.columns().is_empty()
     }
 
     /// Its values in a part, row by row; NaN where a row has none.
@@ -58,14 +135,38 @@ impl Observed {
     /// # Errors
     /// Where they cannot be read.
     pub fn column<'p>(&self, part: &'p impl PartColumns) -> Result<Cow<'p, [f64]>, RowsError> {
-        let Some((expression, columns)) = &self.derived else { return part.numbers(self.quantity.name()) };
-        let columns: Vec<Cow<'_, [f64]>> = columns.iter().map(|name| part.numbers(name)).collect::<Result<_, _>>()?;
-        // what is not known makes the value unknown, also behind `if` and in comparisons
-        let value = |row: usize| match columns.iter().any(|column| column[row].is_nan()) {
-            true => f64::NAN,
-            false => expression.value(|place| columns[place][row]),
-        };
+        let Some(expression) = &self.derived else { return part.numbers(self.quantity.name()) };
+        let columns = self.columns(part)?;
+        let value = |row: usize| known(expression, |place| columns[place][row]);
         Ok((0..part.rows()).map(value).collect())
+    }
+
+    /// The columns of its sources.
+    fn columns<'p>(&self, part: &'p impl PartColumns) -> Result<Vec<Cow<'p, [f64]>>, RowsError> {
+        self.sources.iter().map(|source| part.numbers(&source.column)).collect()
+    }
+
+    /// The rows of `part`, all of runs that are `ok`, in which it is not a number: the root of a negative number, or an
+    /// event whose quantity is none. In others that have no value, what it is about never happened.
+    ///
+    /// # Errors
+    /// Where its columns cannot be read.
+    pub fn undefined(&self, part: &impl PartColumns) -> Result<Vec<bool>, RowsError> {
+        let columns = self.columns(part)?;
+        let own = |row: usize| match &self.derived {
+            Some(expression) if columns.iter().all(|column| !column[row].is_nan()) => {
+                expression.value(|place| columns[place][row]).is_nan()
+            }
+            _ => false,
+        };
+        let mut found: Vec<bool> = (0..part.rows()).map(own).collect();
+        for (source, column) in self.sources.iter().zip(&columns).filter(|(source, _)| source.absence != Absence::Never)
+        {
+            let undefined = source.absence.undefined(part)?;
+            let rows = found.iter_mut().zip(undefined.into_iter().zip(column.iter()));
+            rows.for_each(|(found, (undefined, value))| *found |= undefined && value.is_nan());
+        }
+        Ok(found)
     }
 
     /// The same as a list.
@@ -78,8 +179,30 @@ impl Observed {
 
     /// Its value in a row whose column of a name has the value `of`; `None` where the row has no such column.
     pub fn value(&self, of: impl Fn(&str) -> Option<f64>) -> Option<f64> {
-        let Some((expression, columns)) = &self.derived else { return of(self.quantity.name()) };
-        let values: Vec<f64> = columns.iter().map(|name| of(name)).collect::<Option<_>>()?;
-        Some(if values.iter().any(|value| value.is_nan()) { f64::NAN } else { expression.value(|place| values[place]) })
+        let Some(expression) = &self.derived else { return of(self.quantity.name()) };
+        let values: Vec<f64> = self.sources.iter().map(|source| of(&source.column)).collect::<Option<_>>()?;
+        Some(known(expression, |place| values[place]))
+    }
+
+    /// The range in which all its values are, as far as the text of its expression and the `bounded` of requirements on
+    /// its mean say.
+    pub fn range(&self, plan: &Plan) -> [f64; 2] {
+        let not_negative = if self.is_count { 0.0 } else { f64::NEG_INFINITY };
+        let of_text = match &self.derived {
+            Some(expression) => expression.range(|_| [f64::NEG_INFINITY, f64::INFINITY]),
+            None => [not_negative, f64::INFINITY],
+        };
+        let own = plan.analysis.requirements.iter().filter(|one| one.observable() == Some(self.quantity.name()));
+        let declared = own.filter_map(|one| one.bounded);
+        declared.fold(of_text, |[low, high], [least, most]| [low.max(least), high.min(most)])
+    }
+}
+
+/// The value of `expression`; NaN where one of its variables is not known, also behind `if` and beside what decides a
+/// condition.
+fn known(expression: &Expression, value: impl Fn(usize) -> f64) -> f64 {
+    match (0..expression.variables().len()).any(|place| value(place).is_nan()) {
+        true => f64::NAN,
+        false => expression.value(value),
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::analysis::population::Population;
 use crate::campaign::Plan;
+use crate::statistics::binomial::interval;
 use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::{
     Ranks as IntervalRanks, interval_ranks, percent, quantile, runs_for_bound, runs_for_interval,
@@ -18,7 +19,8 @@ pub struct QuantileStatistic {
     pub value: Option<f64>,
     /// Ends of its interval, rounded outward; `None` where the runs do not bound it on that side, or no interval holds.
     pub interval: [Option<f64>; 2],
-    /// What it takes to bound it, where there are too few runs.
+    /// Why it is not bounded on some side: too few runs, or runs that were not computed. Of a requirement, that it
+    /// counts runs without a value.
     pub note: Option<String>,
 }
 
@@ -109,8 +111,10 @@ pub struct AskedQuantile {
     pub ranks: Option<IntervalRanks>,
     /// The quantile of the values that are there that it is; `None` where it is one of those that are missing.
     of_values: Option<f64>,
-    /// Runs without a value that count as values beyond every other one.
-    missing: u64,
+    /// Runs without a value that count as values beyond every other one, on the wrong side of a limit.
+    pub missing: u64,
+    /// Runs that were not computed, whose values may be on either side of all others.
+    lost: u64,
 }
 
 /// The probability of the quantile of `count` values, at least one, that is the `p`-quantile of these and of `missing` ones that violate `limit`, each more than any of
@@ -131,7 +135,20 @@ pub fn among_values(p: f64, count: u64, missing: u64, limit: GateLimit) -> Optio
 impl AskedQuantile {
     /// The `p`-quantile of all values.
     pub fn new(p: f64, confidence: f64, ranks: Option<IntervalRanks>) -> Self {
-        AskedQuantile { p, confidence, ranks, of_values: Some(p), missing: 0 }
+        AskedQuantile { p, confidence, ranks, of_values: Some(p), missing: 0, lost: 0 }
+    }
+
+    /// The same of `count` values where so many more runs are `lost`; `ranks` are those of all of them. The interval is
+    /// the hull of those of all runs, wherever the lost ones are: its lower end is as if they were all below, its upper
+    /// end as if they were all above.
+    #[must_use]
+    pub fn with_lost(self, count: u64, lost: u64) -> Self {
+        let kept = |rank: u64| Some(rank).filter(|rank| (1..=count).contains(rank));
+        let ranks = self.ranks.map(|ranks| IntervalRanks {
+            lower: ranks.lower.and_then(|rank| kept(rank.checked_sub(lost)?)),
+            upper: ranks.upper.and_then(kept),
+        });
+        AskedQuantile { ranks, lost, ..self }
     }
 
     /// The same of `count` values and of `missing` runs without one, which violate `limit`; `ranks` are those of all of them.
@@ -153,6 +170,12 @@ impl AskedQuantile {
     }
 }
 
+/// The interval of the share of runs of which `successes` of `count` are one, wherever `lost` others are.
+pub fn share_interval(successes: u64, [count, lost]: [u64; 2], confidence: f64) -> [f64; 2] {
+    let of = |successes: u64| interval(successes, count + lost, confidence);
+    if lost == 0 { of(successes) } else { [of(successes)[0], of(successes + lost)[1]] }
+}
+
 /// What `missing` runs without a value are to a requirement.
 pub fn without_value(missing: &str) -> String {
     match missing {
@@ -163,7 +186,7 @@ pub fn without_value(missing: &str) -> String {
 
 /// A quantile with the interval of independent samples, where they are.
 pub fn of_quantile(order: &Order, asked: &AskedQuantile) -> QuantileStatistic {
-    let AskedQuantile { p, confidence, ranks, of_values, missing } = *asked;
+    let AskedQuantile { p, confidence, ranks, of_values, missing, lost } = *asked;
     let value = of_values.and_then(|p| order.quantile(p));
     let mut found = QuantileStatistic { p, confidence, value, interval: [None; 2], note: None };
     if missing > 0 {
@@ -173,15 +196,23 @@ pub fn of_quantile(order: &Order, asked: &AskedQuantile) -> QuantileStatistic {
     let end = |rank: Option<u64>, which: usize| rank.and_then(|rank| order.bounds(rank)).map(|bounds| bounds[which]);
     found.interval = [end(ranks.lower, 0), end(ranks.upper, 1)];
     if found.note.is_none() && found.interval.contains(&None) {
-        found.note = Some(format!(
-            "p{} with {}% confidence needs {} runs ({} for a bound on one side)",
-            percent(p),
-            percent(confidence),
-            runs_for_interval(p, confidence),
-            runs_for_bound(p, confidence),
-        ));
+        found.note = Some(match lost {
+            0 => too_few(p, confidence),
+            _ => format!("p{} has no bound on a side where too many of {lost} lost runs may be", percent(p)),
+        });
     }
     found
+}
+
+/// How many runs it takes to bound the `p`-quantile.
+fn too_few(p: f64, confidence: f64) -> String {
+    format!(
+        "p{} with {}% confidence needs {} runs ({} for a bound on one side)",
+        percent(p),
+        percent(confidence),
+        runs_for_interval(p, confidence),
+        runs_for_bound(p, confidence),
+    )
 }
 
 #[cfg(test)]
@@ -217,5 +248,38 @@ mod tests {
             (among_values(0.5, 0, 3, GateLimit::AtMost(0.0)), among_values(0.5, 1, 0, GateLimit::AtMost(0.0))),
             (None, Some(0.5))
         );
+    }
+
+    /// Law: with lost runs the interval is the hull of the intervals of all values, the lost ones anywhere: below all,
+    /// above all, or between; it is open on a side where they reach the end. The counter-test: of the values alone it
+    /// is narrower.
+    #[test]
+    fn lost_runs_are_on_both_sides() {
+        let values: Vec<f64> = (1..=200).map(f64::from).collect();
+        for lost in [0, 1, 7, 40] {
+            for p in [0.01, 0.05, 0.5, 0.95, 0.99] {
+                let ranks = interval_ranks(200 + lost, p, 0.95);
+                let asked = AskedQuantile::new(p, 0.95, Some(ranks)).with_lost(200, lost);
+                let found = of_quantile(&Order::Exact(values.clone()), &asked);
+                assert_eq!(found.value, quantile(&values, p));
+                let ends = |place: f64| {
+                    let mut all: Vec<f64> = values.iter().copied().chain(vec![place; lost as usize]).collect();
+                    all.sort_by(f64::total_cmp);
+                    let end = |rank: Option<u64>, none: f64| rank.map_or(none, |rank| all[rank as usize - 1]);
+                    [end(ranks.lower, f64::NEG_INFINITY), end(ranks.upper, f64::INFINITY)]
+                };
+                let [low, high] = found.interval;
+                let hull = [low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY)];
+                assert_eq!(hull, [ends(f64::NEG_INFINITY)[0], ends(f64::INFINITY)[1]], "{lost} {p}");
+                for place in [-1.0, 100.5, 190.0, 1e9] {
+                    let [low, high] = ends(place);
+                    assert!(hull[0] <= low && high <= hull[1], "{lost} {p} {place}");
+                }
+                assert_eq!(found.note.is_some(), found.interval.contains(&None), "{found:?}");
+            }
+        }
+        let alone = interval_ranks(200, 0.95, 0.95);
+        let asked = AskedQuantile::new(0.95, 0.95, Some(interval_ranks(207, 0.95, 0.95))).with_lost(200, 7);
+        assert!(asked.ranks.is_some_and(|ranks| ranks.lower < alone.lower && ranks.upper.is_none()), "{alone:?}");
     }
 }

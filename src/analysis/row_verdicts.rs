@@ -16,6 +16,8 @@ use crate::statistics::moments::Moments;
 pub(super) struct GroupRuns {
     pub(super) runs: u64,
     pub(super) within: u64,
+    /// Runs whose value is not a number: nobody knows on which side of the limit they are.
+    pub(super) undefined: u64,
     pub(super) moments: Moments,
 }
 
@@ -23,7 +25,8 @@ pub(super) struct GroupRuns {
 #[derive(Clone, Debug)]
 pub(super) struct RequirementRuns {
     pub(super) groups: Vec<GroupRuns>,
-    /// Runs without a value: those, and others that have none.
+    /// Runs without a value, which violate it: those that are not `ok`, and those in which what it is about never
+    /// happened.
     pub(super) missing: u64,
 }
 
@@ -36,6 +39,7 @@ impl RequirementRuns {
         for (mine, theirs) in self.groups.iter_mut().zip(&other.groups) {
             mine.runs += theirs.runs;
             mine.within += theirs.within;
+            mine.undefined += theirs.undefined;
             mine.moments.merge(&theirs.moments);
         }
         self.missing += other.missing;
@@ -99,7 +103,8 @@ pub(super) fn assessment(
     let mut note = (is_tailed && whole.largest_share(2) > MOST_SHARE)
         .then(|| format!("heavy tail: one run makes {:.0}% of the variance", 100.0 * whole.largest_share(2)));
     // a mean over all runs is not known where a run has no value
-    let missing = if target.is_none() { runs - whole.count() } else { 0 };
+    let undefined = counts.sum(|group| group.undefined);
+    let missing = if target.is_none() { runs - whole.count() - undefined } else { 0 };
     let outside = requirement.bounded.and_then(|[low, high]| {
         let ends = [whole.min().filter(|min| *min < low), whole.max().filter(|max| *max > high)];
         ends.into_iter()
@@ -111,6 +116,23 @@ pub(super) fn assessment(
         gate.decision = Decision::Fail;
         reason = Some(format!("{}, which no run may be", outside.trim_end()));
         interval = [f64::NAN; 2];
+    }
+    if undefined > 0 {
+        let name = requirement.name();
+        let said = match undefined {
+            1 => format!("{name} is not a number in 1 run"),
+            _ => format!("{name} is not a number in {undefined} runs"),
+        };
+        if target.is_none() {
+            gate = Gate { decision: Decision::Undecided(None), bounds: [f64::NAN; 2], estimate: f64::NAN };
+            interval = [f64::NAN; 2];
+        }
+        if matches!(gate.decision, Decision::Undecided(_)) {
+            gate = Gate { decision: Decision::Undecided(None), estimate: f64::NAN, ..gate };
+            reason = Some(said);
+        } else {
+            note = Some(format!("{said}, counted as violations; the verdict is the same if they are not"));
+        }
     }
     if missing > 0 {
         gate.decision = Decision::Fail;
@@ -149,15 +171,29 @@ pub(super) fn assessment(
     }
 }
 
-/// The gate on the fraction of runs within the limit.
+/// The gate on the fraction of runs within the limit; where some are on no known side, one that decides wherever they
+/// are.
 fn of_fraction(counts: &RequirementRuns, target: f64, confidence: f64, population: Population) -> Gate {
-    let (runs, within) = (counts.sum(|group| group.runs), counts.sum(|group| group.within));
-    if let Population::Replicated(_) = population {
-        let groups = counts.groups.iter().filter(|group| group.runs > 0);
-        let fractions: Vec<f64> = groups.map(|group| group.within as f64 / group.runs as f64).collect();
-        return replicate_fraction_gate(&fractions, runs, target, confidence);
+    let runs = counts.sum(|group| group.runs);
+    let of = |within: &dyn Fn(&GroupRuns) -> u64| {
+        if let Population::Replicated(_) = population {
+            let groups = counts.groups.iter().filter(|group| group.runs > 0);
+            let fractions: Vec<f64> = groups.map(|group| within(group) as f64 / group.runs as f64).collect();
+            return replicate_fraction_gate(&fractions, runs, target, confidence);
+        }
+        fraction_gate(counts.sum(within), runs, target, confidence)
+    };
+    let least = of(&|group| group.within);
+    if counts.sum(|group| group.undefined) == 0 {
+        return least;
     }
-    fraction_gate(within, runs, target, confidence)
+    let most = of(&|group| group.within + group.undefined);
+    let decision = match (least.decision, most.decision) {
+        (Decision::Pass, _) => Decision::Pass,
+        (_, Decision::Fail) => Decision::Fail,
+        _ => Decision::Undecided(None),
+    };
+    Gate { decision, estimate: least.estimate, bounds: [least.bounds[0], most.bounds[1]] }
 }
 
 /// The gate on the mean.
@@ -208,7 +244,7 @@ mod tests {
         let mut counts = RequirementRuns::new(0);
         for (runs, within, values) in groups {
             let moments = Moments::of_block(values);
-            counts.groups.push(GroupRuns { runs: *runs, within: *within, moments });
+            counts.groups.push(GroupRuns { runs: *runs, within: *within, moments, ..GroupRuns::default() });
         }
         counts
     }
@@ -299,6 +335,34 @@ mod tests {
             let found = assessment(asked(&mean), String::new(), &equal, Population::Independent, is_constant);
             assert_eq!((found.word(), found.reason.is_some()), (word, !is_constant));
         }
+    }
+
+    /// Law: runs whose value is not a number decide nothing: the verdict is that of every number of them within the
+    /// limit, or UNDECIDED with the reason; a mean is UNDECIDED. The counter-test: as violations they would fail it, as
+    /// runs within the limit they would pass it.
+    #[test]
+    fn what_is_not_a_number_decides_nothing() {
+        let share = requirement(Statement::Fraction(0.9), GateLimit::AtMost(1.0));
+        let of = |within: u64, undefined: u64, population| {
+            let mut counts = counts(&[(100, within / 2, &[]), (100, within / 2, &[])]);
+            counts.groups.iter_mut().for_each(|group| group.undefined = undefined / 2);
+            assessment(asked(&share), String::new(), &counts, population, false)
+        };
+        for population in [Population::Independent, Population::Replicated(2)] {
+            let said = |within, undefined| of(within, undefined, population).word();
+            let all = of(0, 200, population);
+            assert_eq!((all.word(), all.reason.as_deref()), ("UNDECIDED", Some("x is not a number in 200 runs")));
+            assert!(all.gate.estimate.is_nan(), "{all:?}");
+            assert_eq!((said(0, 0), said(200, 0), said(60, 20), said(60, 140)), ("FAIL", "PASS", "FAIL", "UNDECIDED"));
+        }
+        let few = of(196, 2, Population::Independent);
+        assert_eq!((few.word(), few.reason.as_deref()), ("PASS", None));
+        assert!(few.note.is_some_and(|note| note.starts_with("x is not a number in 2 runs, counted as violations")));
+        let mean = requirement(Statement::Mean, GateLimit::AtMost(9.0));
+        let mut counts = counts(&[(31, 30, &[1.0, 2.0, 3.0].repeat(10))]);
+        counts.groups[0].undefined = 1;
+        let found = assessment(asked(&mean), String::new(), &counts, Population::Independent, false);
+        assert_eq!((found.word(), found.reason.as_deref()), ("UNDECIDED", Some("x is not a number in 1 run")));
     }
 
     /// Law: replicates decide by their spread, and by the least spread of counts where they agree.

@@ -5,8 +5,10 @@
 //! are those of the values themselves; beyond, those of sketches, with their bound. A few columns are read at a time: memory
 //! does not depend on the number of rows.
 //!
-//! The nominal sample 0 is no part of it where there are others. A run that is not `ok` is counted and has no part in any number, but in the quantiles of requirements,
-//! which it violates; where many are not ([`Loss`]), numbers have no intervals.
+//! The nominal sample 0 is no part of it where there are others. A run that is not `ok` is counted and has no part in
+//! any estimate, but in the quantiles of requirements, which it violates. Intervals hold whatever its value would have
+//! been: on either side of all others, and for a mean within the range of the observable, if it has one. Where many
+//! runs are not `ok` ([`Loss`]), numbers have no intervals.
 
 use std::num::NonZeroUsize;
 
@@ -24,7 +26,7 @@ use crate::statistics::gate::GateLimit;
 use crate::statistics::mean::{MOST_SHARE, deviation_bounds, mean_bounds};
 use crate::statistics::moments::Moments;
 use crate::statistics::quantile::place_order_statistics;
-use crate::statistics::replicates;
+use crate::statistics::replicates::{self, Step};
 use crate::statistics::sketch::{RELATIVE_ERROR, Sketch};
 use crate::storage::parallel::in_parallel;
 use crate::storage::rows_reader::{RowsError, RowsReader};
@@ -116,7 +118,13 @@ impl Statistics {
         match self.samples() - self.ok() {
             0 => "every run was computed".to_owned(),
             _ if self.population == Population::Nominal => "the nominal run was not computed".to_owned(),
-            failed => format!("{failed} of {} dispersed runs were not computed and are left out", self.samples()),
+            failed => {
+                let intervals = match self.population.has_intervals() && self.loss().missing > 0 {
+                    true => " of estimates; intervals hold whatever values they would have",
+                    false => "",
+                };
+                format!("{failed} of {} dispersed runs were not computed and are left out{intervals}", self.samples())
+            }
         }
     }
 }
@@ -140,8 +148,10 @@ pub fn compute(
     let left = population.after(loss);
     let mut columns = Vec::new();
     let mut describe = |observed: &[Observed], collected: Collected| {
-        let common = CommonRanks::new(plan, left, collected.columns.first().map_or(0, |column| column.moments.count()));
-        let describe = |(observed, counts)| described(plan, (left, loss), observed, counts, &common);
+        let with_value = collected.columns.first().map_or(0, |column| column.moments.count());
+        let common = CommonRanks::new(plan, left, with_value + loss.missing);
+        let lost = &collected.lost[..];
+        let describe = |(observed, counts)| described(plan, (left, loss, lost), observed, counts, &common);
         columns.extend(in_parallel(observed.iter().zip(collected.columns).collect(), threads, describe));
     };
     for batch in batches(plan) {
@@ -164,7 +174,7 @@ pub fn compute(
 
 fn described(
     plan: &Plan,
-    (population, loss): (Population, Loss),
+    (population, loss, lost): (Population, Loss, &[u64]),
     observed: &Observed,
     mut collected: ColumnCounts,
     common: &CommonRanks,
@@ -173,8 +183,9 @@ fn described(
     let mut whole = Sketch::default();
     let mut values = Vec::new();
     let groups = std::mem::take(&mut collected.groups);
-    let sizes: Vec<u64> = groups.iter().map(|group| group.moments.count()).collect();
-    let means: Vec<f64> = groups.iter().filter_map(|group| group.moments.mean()).collect();
+    let of_groups: Vec<Moments> = groups.iter().map(|group| group.moments).collect();
+    let sizes: Vec<u64> = of_groups.iter().zip(lost).map(|(group, lost)| group.count() + lost).collect();
+    let all_lost: u64 = lost.iter().sum();
     let mut steps = Vec::new();
     let is_sketched = groups.iter().any(|group| group.sketch.count() > 0);
     let ranks = |sketch: &Sketch| {
@@ -198,11 +209,11 @@ fn described(
     }
     steps.sort_by(|a, b| a.value.total_cmp(&b.value));
     let moments = collected.moments;
-    let asked = |p: f64| {
-        let ranks = population.has_intervals().then(|| common.of(moments.count(), p, confidence));
-        AskedQuantile::new(p, confidence, ranks)
-    };
     let count = moments.count();
+    let asked = |p: f64| {
+        let ranks = population.has_intervals().then(|| common.of(count + all_lost, p, confidence));
+        AskedQuantile::new(p, confidence, ranks).with_lost(count, all_lost)
+    };
     let with_missing = |p: f64, limit: GateLimit| {
         let runs = loss.runs.max(count);
         // violations are known, and so are intervals that count them
@@ -235,21 +246,57 @@ fn described(
         Order::Exact(values)
     };
     let one_sided = 0.5 + 0.5 * confidence;
-    let (mean, mean_error) = match population {
-        Population::Independent => (Some(mean_bounds(&moments, one_sided)), moments.mean_error()),
-        Population::Replicated(_) => (
-            Some(replicates::mean_bounds(&means, &moments, one_sided)),
-            Moments::of(means.iter().copied()).mean_error(),
-        ),
-        _ => (None, None),
+    let range = observed.range(plan);
+    let bounds = |end: f64| {
+        let filled = |moments: &Moments, lost: u64| {
+            let mut all = *moments;
+            all.merge(&Moments::of_block(&vec![end; lost as usize]));
+            all
+        };
+        let whole = filled(&moments, all_lost);
+        match population {
+            Population::Replicated(_) => {
+                let means = of_groups.iter().zip(lost).filter_map(|(group, lost)| filled(group, *lost).mean());
+                replicates::mean_bounds(&means.collect::<Vec<f64>>(), &whole, one_sided)
+            }
+            _ => mean_bounds(&whole, one_sided),
+        }
+    };
+    let is_in_range = moments.min() >= Some(range[0]) && moments.max() <= Some(range[1]);
+    let mean = match all_lost {
+        _ if !population.has_intervals() => [f64::NAN; 2],
+        0 => bounds(0.0),
+        _ => [0, 1].map(|end| if is_in_range && range[end].is_finite() { bounds(range[end])[end] } else { f64::NAN }),
+    };
+    let is_complete = population.has_intervals() && all_lost == 0;
+    let mean_error = match population {
+        Population::Replicated(_) => Moments::of(of_groups.iter().filter_map(Moments::mean)).mean_error(),
+        _ => moments.mean_error(),
     };
     let known = |bounds: [f64; 2]| bounds.map(|end| Some(end).filter(|end| end.is_finite()));
-    let mean_interval = mean.map_or([None; 2], known);
+    let mean_interval = known(mean);
     let deviation = deviation_bounds(&moments, one_sided);
+    let of_replicates = |p: f64| {
+        if all_lost == 0 {
+            return replicates::quantile_interval(&steps, &sizes, p, confidence);
+        }
+        let with_lost = |end: f64| {
+            let places = lost.iter().enumerate().filter(|(_, count)| **count > 0);
+            let lost = places.map(|(replicate, count)| Step { value: end, lower: end, replicate, count: *count });
+            let mut all: Vec<Step> = steps.iter().copied().chain(lost).collect();
+            all.sort_by(|a, b| a.value.total_cmp(&b.value));
+            replicates::quantile_interval(&all, &sizes, p, confidence)
+        };
+        let [low, high] = [with_lost(f64::NEG_INFINITY)[0], with_lost(f64::INFINITY)[1]];
+        [low, high].map(|end| end.filter(|end| end.is_finite()))
+    };
     let quantile = |asked: &AskedQuantile| {
         let mut found = of_quantile(&order, asked);
-        if matches!(population, Population::Replicated(_)) && found.note.is_none() {
-            found.interval = replicates::quantile_interval(&steps, &sizes, asked.p, asked.confidence);
+        let ranks = common.of(count + all_lost, asked.p, asked.confidence);
+        let is_bounded = asked.missing == 0 && ranks.lower.is_some() && ranks.upper.is_some();
+        if matches!(population, Population::Replicated(_)) && is_bounded {
+            found.interval = of_replicates(asked.p);
+            found.note = found.note.filter(|_| found.interval.contains(&None));
         }
         found
     };
@@ -259,12 +306,30 @@ fn described(
         without_value: collected.without_value,
         moments,
         mean_interval,
-        mean_error,
-        deviation_interval: mean.map_or([None; 2], |_| known(deviation)),
-        note: mean.and_then(|_| note(&moments, mean_interval)),
+        mean_error: mean_error.filter(|_| is_complete),
+        deviation_interval: if is_complete { known(deviation) } else { [None; 2] },
+        note: match all_lost {
+            _ if !population.has_intervals() => None,
+            0 => note(&moments, mean_interval),
+            _ => Some(with_lost_runs(all_lost, mean_interval)),
+        },
         quantiles: quantiles.iter().map(quantile).collect(),
         spread: order.quantile(SPREAD[1]).zip(order.quantile(SPREAD[0])).filter(|_| is_audited).map(|(b, a)| b - a),
         required: required.iter().map(|(one, asked)| ((*one).clone(), quantile(asked))).collect(),
+    }
+}
+
+/// What lost runs leave of a mean with the interval `mean_interval`.
+fn with_lost_runs(lost: u64, mean_interval: [Option<f64>; 2]) -> String {
+    let lost = match lost {
+        1 => "1 run was not computed".to_owned(),
+        _ => format!("{lost} runs were not computed"),
+    };
+    match mean_interval {
+        [Some(_), Some(_)] => {
+            format!("{lost}; the interval of the mean holds wherever in the range of the observable they are")
+        }
+        _ => format!("{lost}, and their values have no known bounds: the mean is not bounded on every side"),
     }
 }
 
@@ -285,6 +350,9 @@ fn note(moments: &Moments, mean_interval: [Option<f64>; 2]) -> Option<String> {
         _ => Some(format!("too few runs for their skewness of {skewness:.1}: the mean is not bounded on every side")),
     }
 }
+
+#[cfg(test)]
+mod lost_runs;
 
 #[cfg(test)]
 mod tests {
@@ -345,6 +413,7 @@ mod tests {
         assert_eq!((column.moments.count(), column.moments.mean(), column.moments.max()), (5, Some(4.0), Some(10.0)));
         let median = column.quantiles.iter().find(|quantile| quantile.p == 0.5).expect("the median");
         assert_eq!(median.value, Some(3.0));
+        // a sixth is lost: no intervals
         assert_eq!(found.treatment(), "1 of 6 dispersed runs were not computed and are left out");
     }
 
@@ -383,7 +452,7 @@ mod tests {
             counted.into_iter().for_each(|(_, part)| collector.merge(&mut collected, part));
             let mut columns = collector.finish(collected).columns;
             let common = CommonRanks::new(&plan, population, columns[0].moments.count());
-            described(&plan, (population, Loss::default()), &observed[0], columns.remove(0), &common)
+            described(&plan, (population, Loss::default(), &[0]), &observed[0], columns.remove(0), &common)
         };
         for offset in [0.0, 1.0, -1.0, 1e3, -1e5, 1e9, -1e9] {
             let value = |k: usize| offset + score(k);

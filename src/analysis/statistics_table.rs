@@ -74,7 +74,7 @@ pub fn table(statistics: &Statistics) -> Table<'_> {
             .real(&format!("{name}_upper"), &end("Upper"), |column| of(column, |one| one.interval[1]))
             .text(
                 &format!("{name}_note"),
-                &format!("What it takes to bound the {percent}% quantile, where there are too few runs."),
+                &format!("What keeps the runs from bounding the {percent}% quantile."),
                 |column| column.quantiles.get(index).and_then(|one| one.note.as_deref()),
             );
     }

@@ -11,7 +11,7 @@ use crate::analysis::verdicts::{RequirementCounter, Verdicts, assess};
 use crate::campaign::Plan;
 use crate::campaign::stop::{Stop, When};
 use crate::run::Status;
-use crate::statistics::looks::{Look, decision};
+use crate::statistics::looks::{Goal, Look, decision};
 use crate::storage::bands_file;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
@@ -49,7 +49,15 @@ impl Stopping {
     }
 }
 
-/// The values of one observable in the dispersed runs that are `ok`, in the order of the samples: one number for each run.
+/// The values of one observable in the dispersed runs that are `ok`, in the order of the samples: one number for each
+/// run; and how many others are lost.
+#[derive(Clone, Debug, Default)]
+pub struct StopValues {
+    pub values: Vec<f64>,
+    pub lost: usize,
+}
+
+/// Takes [`StopValues`].
 #[derive(Clone, Debug)]
 pub struct ObservedValues {
     observed: Vec<Observed>,
@@ -68,28 +76,32 @@ impl ObservedValues {
 }
 
 impl Accumulator for ObservedValues {
-    type Whole = Vec<f64>;
-    type OfPart = Vec<f64>;
+    type Whole = StopValues;
+    type OfPart = StopValues;
 
-    fn nothing(&self) -> Vec<f64> {
-        Vec::new()
+    fn nothing(&self) -> StopValues {
+        StopValues::default()
     }
 
-    fn count(&self, part: &impl PartColumns) -> Result<Vec<f64>, RowsError> {
-        let mut found = Vec::new();
+    fn count(&self, part: &impl PartColumns) -> Result<StopValues, RowsError> {
+        let mut found = StopValues::default();
         for observed in &self.observed {
             let (samples, statuses, values) = (part.samples()?, part.statuses()?, observed.column(part)?);
-            let is_counted = |row: &usize| {
-                let sample = samples[*row].0;
-                sample > 0 && sample < self.samples && statuses[*row] == Status::Done
-            };
-            found.extend((0..samples.len()).filter(is_counted).map(|row| values[row]));
+            let is_asked = |row: &usize| samples[*row].0 > 0 && samples[*row].0 < self.samples;
+            for row in (0..samples.len()).filter(is_asked) {
+                match statuses[row] {
+                    Status::Done => found.values.push(values[row]),
+                    Status::InvalidSample => {}
+                    _ => found.lost += 1,
+                }
+            }
         }
         Ok(found)
     }
 
-    fn merge(&self, whole: &mut Vec<f64>, part: Vec<f64>) {
-        whole.extend(part);
+    fn merge(&self, whole: &mut StopValues, part: StopValues) {
+        whole.values.extend(part.values);
+        whole.lost += part.lost;
     }
 }
 
@@ -113,26 +125,54 @@ pub fn look(
         Some(Stop { when: When::Decided, .. }) => {
             let bands = bands_file::read(rows.storage(), bands, threads)?;
             let (ended, counted) = of_files(&(StatusCounter::new(plan), RequirementCounter::new(plan)), rows, threads)?;
-            Ok(stopping(plan, samples, &[], &assess(plan, &ended, &counted, bands.as_ref())))
+            Ok(stopping(plan, samples, &StopValues::default(), &assess(plan, &ended, &counted, bands.as_ref())))
         }
     }
 }
 
 /// What a look at `samples` samples finds, of the `values` of the observable that `[stop]` is about, or of the `verdicts` on the requirements. `None`
 /// without `[stop]`.
-pub fn stopping(plan: &Plan, samples: u64, values: &[f64], verdicts: &Verdicts) -> Option<Stopping> {
+pub fn stopping(plan: &Plan, samples: u64, values: &StopValues, verdicts: &Verdicts) -> Option<Stopping> {
     let (stop, looks) = (plan.analysis.stop.as_ref()?, plan.looks());
     let found = match &stop.when {
-        When::Precise { goal, .. } => LookFound::Precision(decision(values, *goal, looks.len())),
+        When::Precise { goal, .. } => LookFound::Precision(precision(values, *goal, looks.len())),
         When::Decided => LookFound::Undecided(verdicts.undecided()),
     };
     let look = looks.iter().position(|target| *target >= samples).map_or(looks.len(), |index| index + 1);
     Some(Stopping { samples, look, looks: looks.len(), found })
 }
 
+/// What a look at values finds: the interval holds wherever the lost runs are, below all others or above.
+fn precision(StopValues { values, lost }: &StopValues, goal: Goal, looks: usize) -> Look {
+    let found = decision(values, goal, looks);
+    if *lost == 0 {
+        return found;
+    }
+    let with_lost = |at: f64| decision(&[&values[..], &vec![at; *lost]].concat(), goal, looks).interval;
+    let ends = [with_lost(f64::NEG_INFINITY)[0], with_lost(f64::INFINITY)[1]];
+    let interval = ends.map(|end| end.filter(|end| end.is_finite()));
+    let width = interval[1].zip(interval[0]).map(|(high, low)| high - low);
+    Look { interval, stops: width.is_some_and(|width| 0.5 * width <= goal.half_width), ..found }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Law: lost runs widen the interval to both sides, and never stop a campaign that would go on without them; so
+    /// many that they may be the quantile stop none.
+    #[test]
+    fn lost_runs_do_not_stop_a_campaign() {
+        let values: Vec<f64> = (0..1000).map(|k| f64::from((k * 617) % 1000)).collect();
+        let goal = Goal { quantile: 0.95, half_width: 18.0, confidence: 0.95 };
+        let of = |lost: usize| precision(&StopValues { values: values.clone(), lost }, goal, 1);
+        assert_eq!(of(0), decision(&values, goal, 1));
+        assert!(of(0).stops);
+        let widths =
+            [0, 2, 10].map(|lost| of(lost).interval[1].zip(of(lost).interval[0]).map(|(high, low)| high - low));
+        assert!(widths.is_sorted() && widths[2].is_some() && !of(10).stops, "{widths:?}");
+        assert_eq!((of(60).interval[1], of(60).stops), (None, false));
+    }
 
     /// Law: a campaign ends with the look that finds what it stops for, or with the last one.
     #[test]

@@ -6,6 +6,7 @@
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::first_rows::explained;
 use crate::analysis::observed::Observed;
+use crate::analysis::order_statistics::AskedQuantile;
 use crate::analysis::outcomes::{is_worst_when_low, outcomes};
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
@@ -49,8 +50,11 @@ pub struct SurveyedOutcome {
     pub nominal: f64,
     /// The confidence of its intervals, that of the statistics.
     pub confidence: f64,
-    /// Quantiles of the first runs: number of runs, median, 99%-quantile, and the ends of its interval; and how many of the runs are above a half.
-    pub growth: Vec<[f64; 6]>,
+    /// Quantiles of the first runs: number of runs, median, 99%-quantile, and the ends of its interval; how many of the
+    /// runs are above a half, and how many others were lost so far.
+    pub growth: Vec<[f64; 7]>,
+    /// Dispersed runs that are physical and were not computed.
+    pub lost: u64,
     /// The number of runs at which quantiles are noted next.
     next_growth: u64,
 }
@@ -88,13 +92,16 @@ fn is_error(name: &str) -> bool {
     is_largest || name.ends_with("error_estimate")
 }
 
-/// The distribution-free interval of the `p`-quantile of `count` numbers (order statistics); NaN where there are too few for an end.
-fn interval(count: u64, ranks: &Ranks, p: f64, confidence: f64) -> [f64; 2] {
+/// The distribution-free interval of the `p`-quantile of `count` numbers (order statistics), wherever `lost` others
+/// are; NaN where there are too few for an end.
+fn interval([count, lost]: [u64; 2], ranks: &Ranks, p: f64, confidence: f64) -> [f64; 2] {
     if count == 0 {
         return [f64::NAN; 2];
     }
-    let places = interval_ranks(count, p, confidence);
-    [places.lower, places.upper].map(|rank| rank.and_then(|rank| ranks.bounds(rank)).map_or(f64::NAN, middle))
+    let asked = AskedQuantile::new(p, confidence, Some(interval_ranks(count + lost, p, confidence)));
+    let places = asked.with_lost(count, lost).ranks;
+    let ends = places.map_or([None; 2], |places| [places.lower, places.upper]);
+    ends.map(|rank| rank.and_then(|rank| ranks.bounds(rank)).map_or(f64::NAN, middle))
 }
 
 /// The hash of a sample's number (the finaliser of SplitMix64, G. L. Steele, D. Lea & C. H. Flood, OOPSLA 2014).
@@ -156,6 +163,7 @@ pub struct Surveyor {
 #[derive(Clone, Debug)]
 pub struct SurveyedPart {
     counted: Vec<SampleId>,
+    lost: Vec<SampleId>,
     outcomes: Vec<Vec<f64>>,
     /// Those of the nominal run.
     nominal: Option<Vec<f64>>,
@@ -183,6 +191,7 @@ impl Surveyor {
             nominal: f64::NAN,
             confidence: plan.analysis.confidence,
             growth: Vec::new(),
+            lost: 0,
             next_growth: FIRST_GROWTH,
         };
         let estimate = STATE_ERROR_ESTIMATE.name();
@@ -220,8 +229,10 @@ impl Accumulator for Surveyor {
     fn count(&self, part: &impl PartColumns) -> Result<SurveyedPart, RowsError> {
         let (samples, statuses) = (part.samples()?, part.statuses()?);
         let done = |row: &usize| statuses[*row] == Status::Done;
-        let counted: Vec<usize> =
-            (0..samples.len()).filter(done).filter(|row| samples[*row].0 > 0 || !self.has_dispersed).collect();
+        let is_counted = |row: &usize| samples[*row].0 > 0 || !self.has_dispersed;
+        let counted: Vec<usize> = (0..samples.len()).filter(done).filter(is_counted).collect();
+        let is_lost = |row: &usize| !matches!(statuses[*row], Status::Done | Status::InvalidSample);
+        let lost = (0..samples.len()).filter(is_lost).filter(is_counted);
         let kept: Vec<usize> = (0..samples.len()).filter(|row| self.thinning.keeps(samples[*row])).collect();
         let taken = |column: &[f64], rows: &[usize]| rows.iter().map(|row| column[*row]).collect::<Vec<f64>>();
         let columns = self.observed.iter().map(|one| one.column(part)).collect::<Result<Vec<_>, RowsError>>()?;
@@ -238,6 +249,7 @@ impl Accumulator for Surveyor {
         Ok(SurveyedPart {
             outcomes: columns.iter().map(|column| taken(column, &counted)).collect(),
             counted: counted.iter().map(|row| samples[*row]).collect(),
+            lost: lost.map(|row| samples[row]).collect(),
             nominal: nominal.map(|row| columns.iter().map(|column| column[row]).collect()),
             thinned: Thinned {
                 samples: kept.iter().map(|row| samples[*row].0).collect(),
@@ -258,7 +270,7 @@ impl Accumulator for Surveyor {
             }
         }
         for (outcome, values) in whole.outcomes.iter_mut().zip(&part.outcomes) {
-            outcome.add(&part.counted, values);
+            outcome.add(&part.counted, values, &part.lost);
         }
         whole.thinned.extend(part.thinned);
         whole.audited += part.audits.len() as u64;
@@ -307,38 +319,40 @@ impl SurveyedOutcome {
         are_ends && values.iter().all(|value| value.is_nan() || *value == 0.0 || *value == 1.0)
     }
 
-    /// Adds the values of `samples`; NaN is none.
-    fn add(&mut self, samples: &[SampleId], values: &[f64]) {
+    /// Adds the values of `samples`, NaN is none, and runs that are `lost`.
+    fn add(&mut self, samples: &[SampleId], values: &[f64], lost: &[SampleId]) {
         samples.iter().zip(values).for_each(|(sample, value)| self.worst.add(*sample, *value));
-        let shown = |value: &f64| if self.is_error { value.abs() } else { *value };
-        let counted: Vec<f64> = values.iter().map(shown).filter(|value| !value.is_nan()).collect();
-        let mut left = &counted[..];
-        while !left.is_empty() {
-            let until = self.next_growth - self.sketch.count();
-            let (now, later) = left.split_at(left.len().min(until as usize));
-            self.sketch.add_all(now);
+        let shown = |value: f64| if self.is_error { value.abs() } else { value };
+        let known = samples.iter().zip(values).filter(|(_, value)| !value.is_nan());
+        let (of, counted): (Vec<&SampleId>, Vec<f64>) = known.map(|(sample, value)| (sample, shown(*value))).unzip();
+        let mut at = 0;
+        while at < counted.len() {
+            let end = counted.len().min(at + (self.next_growth - self.sketch.count()) as usize);
+            self.sketch.add_all(&counted[at..end]);
+            at = end;
             if self.sketch.count() == self.next_growth {
-                self.grow();
+                let before = of.get(at).map_or(lost.len(), |next| lost.partition_point(|sample| sample < next));
+                self.grow(self.lost + before as u64);
             }
-            left = later;
         }
+        self.lost += lost.len() as u64;
     }
 
     fn finish(&mut self) {
         let is_new = self.growth.last().is_none_or(|last| last[0] < self.sketch.count() as f64);
         if is_new && self.sketch.count() >= FIRST_GROWTH {
-            self.grow();
+            self.grow(self.lost);
         }
     }
 
-    /// Notes the quantiles of the runs so far.
-    fn grow(&mut self) {
+    /// Notes the quantiles of the runs so far, without those that are `lost`.
+    fn grow(&mut self, lost: u64) {
         const HIGH: f64 = 0.99;
         let (count, ranks) = (self.sketch.count(), self.sketch.ranks());
-        let [low, high] = interval(count, &ranks, HIGH, self.confidence);
+        let [low, high] = interval([count, lost], &ranks, HIGH, self.confidence);
         let of = |p: f64| ranks.quantile(p).unwrap_or(f64::NAN);
         let above = count - ranks.at_most(0.5)[1];
-        self.growth.push([count as f64, of(0.5), of(HIGH), low, high, above as f64]);
+        self.growth.push([count as f64, of(0.5), of(HIGH), low, high, above as f64, lost as f64]);
         // four steps to a doubling
         self.next_growth = (count as f64 * libm::pow(2.0, 0.25)) as u64 + 1;
     }
@@ -378,11 +392,11 @@ mod tests {
         let mut sketch = Sketch::default();
         (1..=1000).for_each(|value| sketch.add(f64::from(value)));
         let ranks = interval_ranks(1000, 0.9, 0.95);
-        let [low, high] = interval(1000, &sketch.ranks(), 0.9, 0.95);
+        let [low, high] = interval([1000, 0], &sketch.ranks(), 0.9, 0.95);
         // the sketch answers within 0.05%
         assert!((low - ranks.lower.unwrap() as f64).abs() < 0.5 && (high - ranks.upper.unwrap() as f64).abs() < 0.5);
         assert!(
-            interval(1000, &sketch.ranks(), 0.9999, 0.95)[1].is_nan(),
+            interval([1000, 0], &sketch.ranks(), 0.9999, 0.95)[1].is_nan(),
             "1000 runs do not bound that quantile from above"
         );
     }

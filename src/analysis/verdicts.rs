@@ -1,7 +1,9 @@
 //! [`Verdicts`]: what the runs of a campaign say of its requirements, from the files of its rows.
 //!
 //! Quantiles and fractions are decided by exact counts, never by a sketch. Outside of the population, and so of every count, are samples that are
-//! not physical; any other run that is not `ok` violates every requirement, and so does one without a value.
+//! not physical; any other run that is not `ok` violates every requirement, and so does one in which what it is about
+//! never happened, unless its `never` says that this meets it. A run whose value is not a number neither meets nor
+//! violates it.
 //!
 //! Each look of a campaign with `[stop]` has its share of the errors (Bonferroni), and so has each requirement of those of a failure ([`failing_together`]).
 //!
@@ -44,7 +46,9 @@ impl Verdicts {
     #[must_use]
     pub fn with_quantiles(mut self, statistics: &Statistics) -> Self {
         for one in &mut self.list {
-            if let (Statement::Quantile(_), Some(_)) = (one.requirement.statement, one.requirement.observable()) {
+            // without an estimate, values that are not numbers leave the quantile open
+            let is_known = one.gate.estimate.is_finite() && one.requirement.observable().is_some();
+            if let (Statement::Quantile(_), true) = (one.requirement.statement, is_known) {
                 one.value = statistics.required(&one.requirement).and_then(|quantile| quantile.value);
             }
         }
@@ -106,6 +110,12 @@ impl Accumulator for RequirementCounter {
         let (samples, statuses) = (part.samples()?, part.statuses()?);
         let dispersed: Vec<usize> = (0..samples.len()).filter(|row| self.population.contains(samples[*row])).collect();
         let is_physical = |row: &&usize| statuses[**row] != Status::InvalidSample;
+        let has_value = |index: usize, row: usize| statuses[row] != Status::Done || !columns[index][row].is_nan();
+        let mut undefined = Vec::with_capacity(columns.len());
+        for (index, observed) in self.observed.iter().enumerate() {
+            let is_complete = dispersed.iter().all(|row| has_value(index, *row));
+            undefined.push(if is_complete { Vec::new() } else { observed.undefined(part)? });
+        }
         for ((requirement, index), counts) in self.requirements.iter().zip(&self.of).zip(&mut found.list) {
             let mut kept = vec![Vec::new(); self.population.groups()];
             let has_mean = matches!(requirement.statement, Statement::Mean);
@@ -114,6 +124,12 @@ impl Accumulator for RequirementCounter {
                 let group = self.population.group(samples[*row]);
                 let is_ok = statuses[*row] == Status::Done;
                 counts.groups[group].runs += 1;
+                let is_undefined =
+                    is_ok && value.is_nan() && index.is_some_and(|index| undefined[index].get(*row) == Some(&true));
+                if is_undefined {
+                    counts.groups[group].undefined += 1;
+                    continue;
+                }
                 let is_met = is_ok && requirement.is_met(value);
                 counts.groups[group].within += u64::from(is_met);
                 counts.missing += u64::from(!is_ok || value.is_nan() && !is_met);

@@ -172,7 +172,8 @@ impl Event {
                 )
             }
         };
-        let count = format!("How often {says}, as seen at the observation points.");
+        let count =
+            format!("How often {says}, as seen at the observation points; null if it is not a number at one of them.");
         [
             Quantity::named(format!("{name}_time_s"), "s".to_owned(), time),
             Quantity::named(format!("{name}_count"), String::new(), count),

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use crate::analysis::observed::Observed;
+use crate::analysis::part_columns::RowNames;
 use crate::campaign::{Plan, failed_device};
 use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
@@ -14,6 +16,7 @@ use crate::ensemble::influence;
 use crate::ensemble::plausibility::implausible;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe, part_of_run};
 use crate::ensemble::run_cost::parts;
+use crate::ensemble::undefined;
 use crate::math::Isa;
 use crate::observables::{Group, Request};
 use crate::ode::{PACE_STEPS, is_out_of_reach};
@@ -57,7 +60,10 @@ pub fn text(plan: &Plan, isa: Isa, is_verbose: bool) -> Result<(String, CommandO
     }
     let written = (|| {
         let unseen = influence::notes(plan, ensemble.isa());
-        let notes: Vec<String> = plan.notes().into_iter().chain(implausible(plan)).chain(unseen).collect();
+        let undefined =
+            undefined::notes(plan, ensemble.isa()).into_iter().chain(undefined_observables(&ensemble, &probe));
+        let notes: Vec<String> =
+            plan.notes().into_iter().chain(implausible(plan)).chain(unseen).chain(undefined).collect();
         if !notes.is_empty() {
             section(&mut text, "Notes")?;
         }
@@ -95,6 +101,26 @@ pub fn text(plan: &Plan, isa: Isa, is_verbose: bool) -> Result<(String, CommandO
     let failed = probe.failed() as u64;
     let outcome = if probe.is_hopeless() { CommandOutcome::SomeFailed(failed) } else { CommandOutcome::Done };
     Ok((wrapped(&text, screen::width()), outcome))
+}
+
+/// The observables of the file that are not a number in runs that the probe has made, a sentence each.
+fn undefined_observables(ensemble: &Ensemble<'_>, probe: &RunProbe) -> Vec<String> {
+    let (plan, names, statuses) = (ensemble.plan(), RowNames::new(ensemble), probe.rows.statuses());
+    let own = plan.analysis.derived.iter().map(|derived| derived.name.as_str());
+    let note = |observed: Observed| {
+        let undefined = observed.undefined(&names.of(&probe.rows)).ok()?;
+        let rows = (0..undefined.len()).filter(|row| undefined[*row] && statuses[*row] == Status::Done);
+        let rows: Vec<usize> = rows.collect();
+        let first = probe.rows.samples()[*rows.first()?];
+        Some(format!(
+            "[[observable]] {}: it is not a number in {} of the first {} samples, first in sample {first}: it is null \
+             there, and leaves a requirement undecided",
+            observed.quantity.name(),
+            rows.len(),
+            probe.count(),
+        ))
+    };
+    Observed::named(plan, own).into_iter().filter_map(note).collect()
 }
 
 /// How to see what the screen leaves out.

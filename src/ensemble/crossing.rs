@@ -37,9 +37,10 @@ pub(super) struct Wanted {
 }
 
 impl Wanted {
-    /// Whether a quantity with these values at two neighbouring points crosses zero between them.
+    /// Whether a quantity with these values at two neighbouring points leaves zero between them, towards the side to
+    /// which it crosses.
     fn is_between(self, before: f64, after: f64) -> bool {
-        if self.is_rising { before <= 0.0 && after > 0.0 } else { before > 0.0 && after <= 0.0 }
+        if self.is_rising { before <= 0.0 && after > 0.0 } else { before >= 0.0 && after < 0.0 }
     }
 
     /// The place of the point before the crossing.

@@ -1,11 +1,12 @@
 //! [`EventFinder`]: the times at which quantities of runs cross values, and how often.
 //!
 //! A crossing shows in the values of a run at two neighbouring observation points. Where its time is asked for, values at times between these two are
-//! (`lookup`), and it is located among them (`crossing`): a run without a crossing costs nothing.
+//! (`lookup`), and it is located among them (`crossing`): a run without a crossing costs nothing. Where the quantity is
+//! not a number at some point, nobody knows what it crosses: its time and its count are null.
 
-use crate::campaign::event::Which;
+use crate::campaign::event::{Event, Which};
 use crate::campaign::{Plan, event_columns};
-use crate::ensemble::crossing::{Found, Wanted, nodes, of_curve, of_steps};
+use crate::ensemble::crossing::{Found, ROUNDING, Wanted, nodes, of_curve, of_steps};
 use crate::ensemble::extreme_finder::ExtremeFinder;
 use crate::ensemble::flights::LawDraw;
 use crate::ensemble::lookup::{Asked, Lookup, ticks};
@@ -28,11 +29,12 @@ const ERRORS: [f64; 2] = [1e-13, 1e-9];
 /// The shortest run that an event ends, over the duration of the campaign: of the order of the errors of times.
 const SHORTEST: f64 = 1e-12;
 
-/// What is known of an event in a run.
+/// What is known of an event in a run: its time, NaN where it never happens, and how often it does, NaN where its
+/// quantity is not a number.
 #[derive(Clone, Copy, Debug)]
 struct Occurrence {
     time: f64,
-    count: u32,
+    count: f64,
 }
 
 /// What is known of the events that end runs.
@@ -96,7 +98,7 @@ impl<'p> EventFinder<'p> {
 
     /// Forgets all runs; `runs` come.
     pub fn restart(&mut self, runs: usize) {
-        let none = Occurrence { time: f64::NAN, count: 0 };
+        let none = Occurrence { time: f64::NAN, count: 0.0 };
         self.found.clear();
         self.found.resize(runs * self.plan.events.len(), none);
         self.pending.clear();
@@ -111,30 +113,38 @@ impl<'p> EventFinder<'p> {
         let events = &self.plan.events;
         let values = self.lookup.read(observer, run.table);
         let seen = |index: usize| {
-            let event = &events[index];
-            Seen::of(values.all(index).map(|value| value - event.value), event.direction)
+            let Event { value, direction, .. } = events[index];
+            let rounding = |point| values.rounding(index, point) + ROUNDING * value.abs();
+            Seen::of(values.all(index).map(|known| known - value), direction, rounding)
         };
         let of_run = run.index * events.len();
         let mut ends = Vec::new();
-        match self.ends {
-            Ends::Sought => {
-                ends.extend((0..events.len()).filter(|index| events[*index].ends_run && seen(*index).first.is_some()));
-            }
-            Ends::Known(None) => {}
-            Ends::Known(Some(end)) => self.found[of_run + end.event] = Occurrence { time: end.time, count: 1 },
+        let known_end = if let Ends::Known(end) = self.ends { end } else { None };
+        if self.ends == Ends::Sought {
+            ends.extend((0..events.len()).filter(|index| events[*index].ends_run && seen(*index).first.is_some()));
+        }
+        if let Some(end) = known_end {
+            self.found[of_run + end.event] = Occurrence { time: end.time, count: 1.0 };
         }
         let is_ended = !ends.is_empty();
         let looked_at = if is_ended {
             ends
         } else if matches!(status, Status::Done | Status::Inaccurate) {
-            (0..events.len()).filter(|index| !events[*index].ends_run).collect()
+            (0..events.len()).filter(|index| known_end.is_none_or(|end| end.event != *index)).collect()
         } else {
             Vec::new()
         };
         for index in looked_at {
             let seen = seen(index);
             let found = &mut self.found[of_run + index];
-            found.count = seen.count;
+            if !is_ended && seen.has_gap && values.undefined(index).next().is_some() {
+                *found = Occurrence { time: f64::NAN, count: f64::NAN };
+                continue;
+            }
+            if events[index].ends_run && !is_ended {
+                continue;
+            }
+            found.count = f64::from(seen.count);
             let (place, is_last) = match events[index].which {
                 Which::First => (seen.first, false),
                 Which::Last => (seen.last, true),
@@ -231,7 +241,7 @@ impl<'p> EventFinder<'p> {
             _ => usize::from(self.ended_by_law[run]),
         };
         let ended_by = (before(events.len()) > 0).then_some(ended_by as f64);
-        let of_events = of_run.iter().flat_map(|found| [found.time, f64::from(found.count)]);
+        let of_events = of_run.iter().flat_map(|found| [found.time, found.count]);
         of_events.chain(ended_by).chain(self.extremes.values(run))
     }
 }

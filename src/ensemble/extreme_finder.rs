@@ -1,7 +1,9 @@
 //! [`ExtremeFinder`]: the largest and smallest values of quantities of runs, between observation points too.
 //!
 //! A largest value lies beside a point at which the quantity is larger than at its neighbours, or at the ends of the interval of time. There the same sample is
-//! flown again, with observation points between (`peak`); a quantity of a control loop is looked at at every tick.
+//! flown again, with observation points between (`peak`); a quantity of a control loop is looked at at every tick. An
+//! extreme is a value of the quantity itself. It is null where the quantity is not a number at a point from the start
+//! of its interval on.
 
 use crate::campaign::Plan;
 use crate::campaign::extreme::Extreme;
@@ -46,6 +48,8 @@ pub(super) struct ExtremeFinder<'p> {
     values: Vec<f64>,
     /// The largest ones that are known.
     found: Vec<f64>,
+    /// When the quantity is not a number for the last time, s; NaN where it always is one.
+    undefined: Vec<f64>,
 }
 
 /// One, or minus one where the smallest value is looked for.
@@ -65,6 +69,7 @@ impl<'p> ExtremeFinder<'p> {
             ends: Vec::new(),
             values: Vec::new(),
             found: Vec::new(),
+            undefined: Vec::new(),
         }
     }
 
@@ -75,6 +80,7 @@ impl<'p> ExtremeFinder<'p> {
             (&mut self.ends, runs),
             (&mut self.values, runs * extremes * self.times.len()),
             (&mut self.found, runs * extremes),
+            (&mut self.undefined, runs * extremes),
         ] {
             list.clear();
             list.resize(count, f64::NAN);
@@ -92,6 +98,11 @@ impl<'p> ExtremeFinder<'p> {
         let of_run = self.values[run.index * extremes.len() * points..].chunks_exact_mut(points);
         for (quantity, (extreme, values)) in extremes.iter().zip(of_run).enumerate() {
             values.iter_mut().zip(known.all(quantity)).for_each(|(value, known)| *value = sign(extreme) * known);
+            if values.iter().any(|value| value.is_nan()) {
+                let last = known.undefined(quantity).next_back();
+                self.undefined[run.index * extremes.len() + quantity] =
+                    last.map_or(f64::NAN, |point| self.times[point]);
+            }
         }
     }
 
@@ -104,8 +115,9 @@ impl<'p> ExtremeFinder<'p> {
                     extreme.after.as_ref().and_then(|name| self.plan.events.iter().position(|one| one.name == *name));
                 let start = event.map_or(0.0, |event| time_of(run, event)) + extreme.delay_s;
                 let end = self.ends[run];
+                let is_undefined = self.undefined[run * self.plan.extremes.len() + index] >= start;
                 // NaN is not before it
-                if start <= end {
+                if start <= end && !is_undefined {
                     let places = self.places(run, index, [start, end]);
                     pending.extend(places.into_iter().map(|between| Pending { run, extreme: index, between }));
                 }
@@ -154,6 +166,7 @@ impl<'p> ExtremeFinder<'p> {
         let ask = |Pending { run, extreme, between: [start, end] }: &Pending| {
             let times = match self.lookup.period(*extreme) {
                 Some(period) => ticks(period, *start, *end, f64::INFINITY),
+                None if start == end => vec![*start],
                 None => nodes(*start, *end).collect(),
             };
             Asked { run: *run, quantity: *extreme, times }

@@ -20,6 +20,10 @@ const TOGETHER: usize = 8;
 /// Most times at which they are looked at together, beyond those of one question.
 const MOST_TIMES: usize = 4096;
 
+/// Rounding of a quantity over time, over its size: that of the dozen products and sums by which it follows from the
+/// state.
+const ROUNDING_OF_VARIABLES: f64 = 16.0 * f64::EPSILON;
+
 /// An expression of quantities over time.
 struct WatchedQuantity {
     expression: Expression,
@@ -60,13 +64,43 @@ pub(super) struct PointValues<'a> {
 }
 
 impl PointValues<'_> {
+    /// That of source `place` at point `point`.
+    fn source(&self, place: usize, point: usize) -> f64 {
+        self.sources[place].form.shown(self.kept[place * self.points + point])
+    }
+
     /// That of quantity number `quantity` at point `point`; NaN where it is not known.
     pub fn at(&self, quantity: usize, point: usize) -> f64 {
         let WatchedQuantity { expression, variables, .. } = &self.quantities[quantity];
-        expression.value(|variable: usize| {
-            let place = variables[variable];
-            self.sources[place].form.shown(self.kept[place * self.points + point])
-        })
+        expression.value(|variable: usize| self.source(variables[variable], point))
+    }
+
+    /// The points at which quantity number `quantity` is not a number though all that it is computed from is known.
+    pub fn undefined(&self, quantity: usize) -> impl DoubleEndedIterator<Item = usize> + '_ {
+        let variables = &self.quantities[quantity].variables;
+        let is_known = move |point: usize| variables.iter().all(|place| !self.source(*place, point).is_nan());
+        (0..self.points).filter(move |point| self.at(quantity, *point).is_nan() && is_known(*point))
+    }
+
+    /// How far rounding may move quantity number `quantity` at point `point`: the sum over its variables of how far it
+    /// moves with each. A variable rounds as its largest value in the run does, an angle at least as the components of
+    /// unit vectors do, from which it is computed.
+    pub fn rounding(&self, quantity: usize, point: usize) -> f64 {
+        let WatchedQuantity { expression, variables, .. } = &self.quantities[quantity];
+        let value = self.at(quantity, point);
+        let moved = |which: usize| {
+            let place = variables[which];
+            let least = if self.sources[place].quantity.unit() == "rad" { 1.0 } else { 0.0 };
+            let size = (0..self.points).fold(least, |size: f64, point| size.max(self.source(place, point).abs()));
+            let change = |by: f64| {
+                let of = |variable: usize| if variable == which { by } else { 0.0 };
+                (expression.value(|variable| self.source(variables[variable], point) + of(variable)) - value).abs()
+            };
+            [change(ROUNDING_OF_VARIABLES * size), change(-ROUNDING_OF_VARIABLES * size)]
+        };
+        let changes = (0..variables.len()).map(moved).chain([[ROUNDING_OF_VARIABLES * value.abs(); 2]]);
+        // what is not finite, at an end of what the expression takes, tells nothing of rounding
+        changes.map(|both| both.into_iter().filter(|change| change.is_finite()).fold(0.0, f64::max)).sum()
     }
 
     /// Those of quantity number `quantity` at all points.

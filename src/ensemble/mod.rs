@@ -5,8 +5,11 @@
 //! - [`runner`]: distributes parts to threads; [`supervision`]: what it is told. - [`drawn`]: sampled parameters without runs; [`percentiles`]: theirs.
 //! - [`bands`]: quantiles over time, counted run by run (in `deviation_window`).
 //! - [`influence`]: which of them change no requested column. [`plausibility`]: numbers that look like a mistake. [`magnitude`]: lengths and angles.
-//! - [`single`]: one run with its states. [`flights`]: runs under the control law of the plan; `surface`: when they reach the central body.
-//! - [`event_finder`]: when quantities cross values: seen in `sightings`, located in `crossing`, by values at other times (`lookup`); `extreme_finder`: their largest values, located in `peak`. - [`run_end`]: the event that ends a run, found in `end_finder`.
+//! - [`single`]: one run with its states. [`flights`]: runs under the control law of the plan; `surface`: when they
+//!   reach the central body.
+//! - [`event_finder`]: when quantities cross values: seen in `sightings`, located in `crossing`, by values at other
+//!   times (`lookup`); `extreme_finder`: their largest values, located in `peak`. - [`run_end`]: the event that ends a
+//!   run, found in `end_finder`. - [`undefined`]: which of the quantities are not a number somewhere.
 //! - [`audit`]: runs compared with a reference solution. - [`precision`]: run time against error for every method.
 //! - [`settings`]: observables and engine of a plan. - [`probe`]: time of a run and of an audit.
 //!
@@ -42,6 +45,7 @@ mod sightings;
 pub mod single;
 pub mod supervision;
 mod surface;
+pub mod undefined;
 pub mod worker;
 
 pub use audit::{Audit, Auditor, NoAudit};

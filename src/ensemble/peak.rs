@@ -14,19 +14,30 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 pub(super) enum Peak {
     /// The value.
     Value(f64),
-    /// The largest one so far, and the times between which to look again, s.
+    /// The largest one so far, and the times between which to look again, s: one time, where a polynomial has its
+    /// largest value. The quantity itself is asked there, since a polynomial may be beyond all that the quantity takes.
     Between(f64, [f64; 2]),
 }
 
-/// The largest of a quantity with these `values` at the nodes `times`, to a share `error` of its size; NaN is a value that is not known.
+/// The largest of a quantity with these `values` at the nodes `times`, or at one time, to a share `error` of its size;
+/// NaN is a value that is not known.
 pub(super) fn of_curve(times: &[f64], values: &[f64], error: f64) -> Peak {
     let known = values.iter().enumerate().filter(|(_, value)| !value.is_nan());
     let Some((best, largest)) = known.max_by(|(_, a), (_, b)| a.total_cmp(b)) else { return Peak::Value(f64::NAN) };
+    if values.iter().all(|value| value == largest) {
+        return Peak::Value(*largest);
+    }
     let size = values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
     let series = Series::of(values);
     // NaN is not below it
     if series.tail() <= error.max(ROUNDING) * size {
-        return Peak::Value(largest.max(peak(&series)));
+        let place = peak(&series);
+        if series.value(place) <= largest + ROUNDING * size {
+            return Peak::Value(*largest);
+        }
+        let [first, last] = [times[0], times[times.len() - 1]];
+        let time = (0.5 * (first + last) + 0.5 * (last - first) * place).clamp(first, last);
+        return Peak::Between(*largest, [time; 2]);
     }
     let between = [best.saturating_sub(1), (best + 1).min(times.len() - 1)];
     let neighbours = between.map(|place| values[place]);
@@ -37,7 +48,7 @@ pub(super) fn of_curve(times: &[f64], values: &[f64], error: f64) -> Peak {
     if is_flat || is_narrow { Peak::Value(*largest) } else { Peak::Between(*largest, [start, end]) }
 }
 
-/// The largest value of the polynomial on [-1, 1].
+/// Where on [-1, 1] the polynomial is largest.
 fn peak(series: &Series) -> f64 {
     let at = |sample: usize| -1.0 + 2.0 * sample as f64 / SAMPLES as f64;
     let value = |x: f64| series.value(x);
@@ -47,7 +58,8 @@ fn peak(series: &Series) -> f64 {
         let part = GOLDEN * (high - low);
         if value(high - part) < value(low + part) { low = high - part } else { high = low + part }
     }
-    value(0.5 * (low + high)).max(value(at(best)))
+    let middle = 0.5 * (low + high);
+    if value(middle) > value(at(best)) { middle } else { at(best) }
 }
 
 #[cfg(test)]
@@ -59,7 +71,7 @@ mod tests {
     fn located(f: &dyn Fn(f64) -> f64, mut start: f64, mut end: f64) -> (f64, usize) {
         let mut most = f64::NAN;
         for passes in 1..100 {
-            let times: Vec<f64> = nodes(start, end).collect();
+            let times: Vec<f64> = if start == end { vec![start] } else { nodes(start, end).collect() };
             let values: Vec<f64> = times.iter().map(|time| f(*time)).collect();
             match of_curve(&times, &values, 1e-13) {
                 Peak::Value(value) => return (most.max(value), passes),
@@ -89,5 +101,29 @@ mod tests {
         let (found, passes) = located(&jump, 0.0, 6.0);
         assert!((found - 2.345).abs() < 1e-11 && passes < 25, "{found}, {passes}");
         assert!(of_curve(&[0.0; 17], &[f64::NAN; 17], 1e-13) != Peak::Value(0.0));
+    }
+
+    /// Law: a largest value is one that the quantity takes, to the bit: on a plateau, at a kink, at a step, at an end;
+    /// the polynomial through the nodes of the plateau is beyond it, which is the counter-test.
+    #[test]
+    fn a_peak_is_a_value_of_the_quantity() {
+        for level in [1.0, 0.1, 1.0 / 3.0, -0.7, 1e-9, 6.02e23_f64] {
+            let size = level.abs();
+            for (f, at) in [
+                (&(|_: f64| level) as &dyn Fn(f64) -> f64, 1.0),
+                (&|t: f64| if t > 1.2345 { level } else { level - size }, 2.0),
+                (&|t: f64| level.min(level - size * (1.5 - t)), 2.0),
+                (&|t: f64| level - size * (t - 1.5).abs(), 1.5),
+                (&|t: f64| level + size * t, 2.9),
+            ] {
+                let (found, passes) = located(f, 0.3, 2.9);
+                let most = f(at);
+                assert!(found <= most, "{found} beyond {most}");
+                assert!(most - found <= 1e-12 * size && passes < 25, "{found} for {most}, {passes}");
+            }
+        }
+        let beyond = (0..=SAMPLES)
+            .filter(|sample| Series::of(&[1.0; 17]).value(-1.0 + 2.0 * *sample as f64 / SAMPLES as f64) > 1.0);
+        assert!(beyond.count() > 0);
     }
 }

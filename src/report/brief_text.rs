@@ -148,7 +148,7 @@ fn outcomes(summary: &Summary, most: usize, width: usize) -> String {
     // a warning says it already
     let is_said = !summary.warnings.is_empty();
     let treatment = match summary.treatment.starts_with(|letter: char| letter.is_ascii_digit()) && !is_said {
-        true => format!("  {}\n", summary.treatment),
+        true => wrapped(&format!("  {}\n", summary.treatment), width),
         false => String::new(),
     };
     let more = match left {

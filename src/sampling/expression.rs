@@ -10,6 +10,10 @@
 //! | operators, weakest first | `or`, `and` (1 or 0; a number other than 0 counts as true), `< <= > >= == !=` (1 or 0), `+ -`, `* /`, unary `-`, `^` (from the right) |
 //! | functions | `sqrt exp ln log10 sin cos tan asin acos atan atan2 abs min max`, `if(condition, yes, no)` |
 //! | constants | `pi`, numbers such as `2`, `0.5`, `1e-3` |
+//!
+//! A number that is not known (NaN) makes what is computed from it unknown, comparisons too. Conditions follow Kleene's
+//! three-valued logic: an unknown part decides nothing, so that `0 and unknown` is 0 and `1 or unknown` is 1. `if` with
+//! an unknown condition is unknown; with a known one it is the part that it chooses, whatever the other part is.
 
 mod bounds;
 
@@ -135,11 +139,13 @@ impl Expression {
                 Step::Function(Function::One(_, function)) => stack[top - 1] = function(stack[top - 1]),
                 Step::Function(Function::Two(_, function)) => {
                     top -= 1;
-                    stack[top - 1] = function(stack[top - 1], stack[top]);
+                    stack[top - 1] = strict([stack[top - 1], stack[top]], function);
                 }
                 Step::Function(Function::If) => {
                     top -= 2;
-                    stack[top - 1] = if stack[top - 1] != 0.0 { stack[top] } else { stack[top + 1] };
+                    let condition = stack[top - 1];
+                    let chosen = if condition != 0.0 { stack[top] } else { stack[top + 1] };
+                    stack[top - 1] = if condition.is_nan() { condition } else { chosen };
                 }
                 Step::Binary(operator) => {
                     top -= 1;
@@ -166,23 +172,34 @@ impl Expression {
     }
 }
 
+/// The value of a function of two numbers, neither of which it may ignore: some functions of `libm` do (min(NaN, 1) is
+/// 1, NaN^0 is 1).
+fn strict([a, b]: [f64; 2], function: impl Fn(f64, f64) -> f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { function(a, b) }
+}
+
 impl Binary {
     fn value(self, a: f64, b: f64) -> f64 {
         let truth = |is: bool| if is { 1.0 } else { 0.0 };
+        let is_true = |number: f64| number != 0.0 && !number.is_nan();
         match self {
-            Binary::Or => truth(a != 0.0 || b != 0.0),
-            Binary::And => truth(a != 0.0 && b != 0.0),
-            Binary::Add => a + b,
-            Binary::Subtract => a - b,
-            Binary::Multiply => a * b,
-            Binary::Divide => a / b,
-            Binary::Power => libm::pow(a, b),
-            Binary::Less => truth(a < b),
-            Binary::LessOrEqual => truth(a <= b),
-            Binary::Greater => truth(a > b),
-            Binary::GreaterOrEqual => truth(a >= b),
-            Binary::Equal => truth(a == b),
-            Binary::NotEqual => truth(a != b),
+            Binary::Or if is_true(a) || is_true(b) => 1.0,
+            Binary::And if a == 0.0 || b == 0.0 => 0.0,
+            _ => strict([a, b], |a, b| match self {
+                Binary::Or => 0.0,
+                Binary::And => 1.0,
+                Binary::Add => a + b,
+                Binary::Subtract => a - b,
+                Binary::Multiply => a * b,
+                Binary::Divide => a / b,
+                Binary::Power => libm::pow(a, b),
+                Binary::Less => truth(a < b),
+                Binary::LessOrEqual => truth(a <= b),
+                Binary::Greater => truth(a > b),
+                Binary::GreaterOrEqual => truth(a >= b),
+                Binary::Equal => truth(a == b),
+                Binary::NotEqual => truth(a != b),
+            }),
         }
     }
 }
@@ -394,6 +411,61 @@ mod tests {
             assert!((value(text) - expected).abs() < 1e-15, "{text} = {}", value(text));
         }
         assert_eq!(Expression::parse("x.y + z[0] + x.y").map(|e| e.variables), Ok(vec!["x.y".into(), "z[0]".into()]));
+    }
+
+    /// Law: conditions are those of Kleene's three-valued logic, with `n` unknown, `t` true and `f` false; all else
+    /// that is computed from an unknown number is unknown. The counter-test: with `n` known no value is unknown.
+    #[test]
+    fn what_is_computed_from_an_unknown_number_is_unknown() {
+        let nan = f64::NAN;
+        let of = |text: &str, unknown: f64| {
+            let expression = Expression::parse(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+            let value = |name: &str| match name {
+                "n" => unknown,
+                "t" => 2.0,
+                _ => 0.0,
+            };
+            expression.value(|place| value(&expression.variables()[place]))
+        };
+        for (text, expected) in [
+            ("n and t", nan),
+            ("t and n", nan),
+            ("n and f", 0.0),
+            ("f and n", 0.0),
+            ("n and n", nan),
+            ("n or t", 1.0),
+            ("t or n", 1.0),
+            ("n or f", nan),
+            ("f or n", nan),
+            ("n or n", nan),
+            ("n < 1", nan),
+            ("1 <= n", nan),
+            ("n > 1", nan),
+            ("1 >= n", nan),
+            ("n == n", nan),
+            ("n != 1", nan),
+            ("n < 1 and t > 3", 0.0),
+            ("n < 1 or t > 1", 1.0),
+            ("if(n, 1, 0)", nan),
+            ("if(n < 1, 1, 1)", nan),
+            ("if(t, 5, n)", 5.0),
+            ("if(f, n, 5)", 5.0),
+            ("if(t, n, 5)", nan),
+            ("min(n, 1)", nan),
+            ("max(1, n)", nan),
+            ("n ^ 0", nan),
+            ("1 ^ n", nan),
+            ("0 * n", nan),
+            ("-n + 1", nan),
+            ("abs(n) / 2", nan),
+            ("atan2(n, 1)", nan),
+            ("if(sqrt(-1 - abs(n)) < 1, 1, 0)", nan),
+        ] {
+            let found = of(text, nan);
+            assert!(found == expected || found.is_nan() && expected.is_nan(), "{text}: {found}");
+            let is_never_known = text.contains("sqrt");
+            assert_eq!(of(text, 1.0).is_nan(), is_never_known, "{text}");
+        }
     }
 
     #[test]

@@ -96,6 +96,10 @@ fn a_rate_under_torque_crosses_where_it_must() {
         (0.7, "direction = \"falling\"\nwhich = \"stays\"", 0.0, 0.0),
         (0.25, "direction = \"falling\"\nwhich = \"stays\"", f64::NAN, 1.0),
         (0.59, "", 0.5, 2.0),
+        // where it starts and where it ends
+        (0.6, "", f64::NAN, 0.0),
+        (0.6, "direction = \"falling\"\nwhich = \"stays\"", 0.0, 0.0),
+        (0.6, "direction = \"rising\"\nwhich = \"stays\"", f64::NAN, 0.0),
     ] {
         let found = of(value, more);
         assert_eq!(found.1, count, "{value} {more}");
@@ -107,6 +111,59 @@ fn a_rate_under_torque_crosses_where_it_must() {
     }
     // nearer to the turn than two observation points: not seen, as the documents say
     assert_eq!(of(0.001, "").1, 0.0);
+}
+
+/// Law: an angle that starts at zero by rounding does not cross it, nor what it starts with; in steps of an expression
+/// a crossing is where the steps are left.
+#[test]
+fn a_start_at_the_value_is_no_crossing() {
+    let (rate, angle) = precession();
+    let up = 2.0 / rate * ((0.5 * 0.5_f64).sin() / angle.sin()).asin();
+    let turns = (60.0 * rate / (2.0 * PI)).floor();
+    let events = event("zero", "spin_axis_angle_rad", 0.0, "")
+        + &event("rounding", "spin_axis_angle_rad", 1e-16, "")
+        + &event("shifted", "2 - 3 * spin_axis_angle_rad", 2.0, "")
+        + &event("step", "if(spin_axis_angle_rad > 0.5, 1, 0)", 0.5, "direction = \"rising\"");
+    for method in Method::ALL {
+        let plan = free(&near_rounding(method), 121, &events);
+        let rows = rows(&plan, Isa::best(), 0, 1);
+        let found = |name: &str| column(&plan, &rows, name)[0];
+        for name in ["zero", "rounding", "shifted"] {
+            let found = (found(&format!("{name}_count")), found(&format!("{name}_time_s")).is_nan());
+            assert_eq!(found, (0.0, true), "{} {name}", method.name());
+        }
+        assert!((found("step_time_s") - up).abs() < 1e-8, "{}: {} for {up}", method.name(), found("step_time_s"));
+        assert!((found("step_count") - turns).abs() <= 1.0);
+    }
+}
+
+/// Law: where the quantity is not a number at an observation point, its event has neither time nor count; a run that it
+/// would end goes on. The counter-test: a quantity that is always a number has both.
+#[test]
+fn what_is_not_a_number_crosses_nothing() {
+    let events = event("never", "ln(-1 - spin_axis_angle_rad)", 0.0, "")
+        + &event("sometimes", "sqrt(0.5 - spin_axis_angle_rad)", 0.3, "")
+        + &event("number", "sqrt(0.5 + spin_axis_angle_rad)", 0.8, "");
+    let plan = free("method = \"auto\"", 121, &events);
+    let found = rows(&plan, Isa::best(), 0, 1);
+    for name in ["never", "sometimes"] {
+        for of in ["time_s", "count"] {
+            assert!(column(&plan, &found, &format!("{name}_{of}"))[0].is_nan(), "{name}_{of}");
+        }
+    }
+    assert!(column(&plan, &found, "number_count")[0] >= 1.0);
+    // a run that ends before its quantity is no number, and one that goes on to the end
+    let ends = |value| event("condition", "if(sqrt(0.5 - spin_axis_angle_rad) < 0.3, 1, 0)", value, "ends_run = true");
+    for (value, ended_by, count) in [(0.5, 1.0, 1.0), (1.5, 0.0, f64::NAN)] {
+        let plan = free("method = \"auto\"", 121, &ends(value));
+        let found = rows(&plan, Isa::best(), 0, 1);
+        let of = |name: &str| column(&plan, &found, name)[0];
+        assert_eq!((of("ended_by"), of("condition_count").to_bits()), (ended_by, f64::to_bits(count)));
+        let single = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), Isa::best()).expect("physical");
+        let bits: Vec<u64> = single.row.iter().map(|value| value.to_bits()).collect();
+        let row: Vec<u64> = (0..bits.len()).map(|index| found.observable(index)[0].to_bits()).collect();
+        assert_eq!(bits, row, "{value}");
+    }
 }
 
 /// Law: events are a row's own: the same bits alone, in any part, on every instruction set, and in a single run; and no other column changes.

@@ -5,6 +5,7 @@ use spindrift::campaign::Plan;
 use spindrift::ensemble::{Rows, SingleRun};
 use spindrift::math::Isa;
 use spindrift::propagation::Method;
+use spindrift::run::StateField;
 use spindrift::sampling::SampleId;
 
 /// A free body which turns at 0.3 rad/s across s3 and at 0.6 rad/s about it.
@@ -74,6 +75,36 @@ fn extremes_of_a_free_body_are_those_of_its_precession() {
         assert!(found("none_rad").is_nan() && found("beyond_rad").is_nan());
         // the points themselves do not see it
         assert!(found("spin_axis_angle_max_rad") < 2.0 * angle - 1e-5);
+    }
+}
+
+/// Law: an extreme is a value that the quantity takes, to the bit: of steps, of plateaus, at kinks, and at the end of a
+/// run. It is null where the quantity is not a number from the start of its interval on.
+#[test]
+fn extremes_are_values_of_the_quantity() {
+    let more = SPREAD.to_owned()
+        + &extreme("step", "if(spin_axis_angle_rad > 0.05, 1, 0)", "")
+        + &extreme("third", "if(spin_axis_angle_rad > 0.05, 1, 0) / 3", "")
+        + &extreme("lowest", "if(spin_axis_angle_rad > 0.05, 1, 0.7)", "which = \"min\"")
+        + &extreme("plateau", "min(spin_axis_angle_rad, 0.05)", "")
+        + &extreme("kink", "0.1 - abs(spin_axis_angle_rad - 0.1)", "")
+        + &extreme("end", "angular_rate_rad_s", "delay_s = 60")
+        + &extreme("root", "sqrt(0.05 - spin_axis_angle_rad)", "")
+        + &extreme("at_start", "sqrt(0.05 - spin_axis_angle_rad)", "which = \"min\"\ndelay_s = 61");
+    for method in ["method = \"auto\"", "method = \"dormand_prince\"\ntolerance = 1e-9"] {
+        let plan = free(method, 61, 26.0, &more);
+        let rows = rows(&plan, Isa::best(), 0, 40);
+        let of = |name: &str, row: usize| column(&plan, &rows, name)[row];
+        for row in 0..40 {
+            assert!(of("spin_axis_angle_max_rad", row) > 0.2, "sample {row} tumbles");
+            assert_eq!([of("step", row), of("third", row), of("lowest", row)], [1.0, 1.0 / 3.0, 0.7], "sample {row}");
+            assert_eq!(of("plateau", row), 0.05, "sample {row}");
+            assert!(of("kink", row) <= 0.1 && of("kink", row) > 0.1 - 1e-9, "sample {row}: {}", of("kink", row));
+            let run = SingleRun::new(&plan, SampleId(row as u64), plan.grid.clone(), Isa::best()).expect("physical");
+            let rate = run.table.at::<3>(StateField::Rate, 60).map(|rate| rate * rate).iter().sum::<f64>().sqrt();
+            assert!((of("end", row) - rate).abs() < 1e-15, "sample {row}: {} for {rate}", of("end", row));
+            assert!(of("root", row).is_nan() && of("at_start", row).is_nan(), "sample {row}");
+        }
     }
 }
 

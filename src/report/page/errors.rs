@@ -1,5 +1,6 @@
 //! Figures of the numerical errors: histograms, exceedance, estimate against audited error, work.
 
+use crate::analysis::order_statistics::share_interval;
 use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::histogram::{bins, counts};
@@ -7,7 +8,6 @@ use crate::report::names;
 use crate::report::page::NO_INTERVAL;
 use crate::report::page::readable::grouped;
 use crate::run::Status;
-use crate::statistics::binomial::interval;
 use crate::statistics::quantile::percent;
 use crate::statistics::sketch::{Sketch, middle};
 
@@ -151,7 +151,7 @@ pub fn interval_label(confidence: f64) -> String {
 
 /// The fraction of runs above a value, on logarithmic axes, at ranks spaced by decades.
 fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
-    let (x, y, low, high) = tail(&outcome.sketch, outcome.confidence);
+    let (x, y, low, high) = tail(&outcome.sketch, outcome.lost, outcome.confidence);
     let label = interval_label(outcome.confidence);
     let mut marks = Vec::new();
     if has_intervals {
@@ -195,8 +195,9 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     }
 }
 
-/// Values of ascending size, the fraction of runs that reach them, and the ends of its interval.
-fn tail(sketch: &Sketch, confidence: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
+/// Values of ascending size, the fraction of runs that reach them, and the ends of its interval wherever `lost` runs
+/// are.
+fn tail(sketch: &Sketch, lost: u64, confidence: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
     let count = sketch.count();
     let mut ranks: Vec<u64> = (0..)
         .map(|k| libm::pow(10.0, f64::from(k) / RANKS_PER_DECADE) as u64)
@@ -211,7 +212,7 @@ fn tail(sketch: &Sketch, confidence: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<
         let Some(value) = ranks_of.bounds(count + 1 - rank).map(middle).filter(|value| *value > smallest) else {
             continue;
         };
-        let [low, high] = interval(rank, count, confidence);
+        let [low, high] = share_interval(rank, [count, lost], confidence);
         found.0.push(value);
         found.1.push(rank as f64 / count as f64);
         found.2.push(low);
@@ -274,7 +275,7 @@ mod tests {
     fn the_tail_ends_at_the_largest() {
         let mut sketch = Sketch::default();
         (1..=5000).for_each(|k| sketch.add(f64::from(k)));
-        let (x, y, low, high) = tail(&sketch, 0.95);
+        let (x, y, low, high) = tail(&sketch, 0, 0.95);
         assert!(x.is_sorted() && y.iter().rev().is_sorted());
         assert_eq!((*x.last().unwrap(), y[0], *y.last().unwrap()), (5000.0, 1.0, 1.0 / 5000.0));
         for k in 0..x.len() {

@@ -243,7 +243,7 @@ pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
         y: column(place),
     };
     let mut marks = Vec::new();
-    let bounded: Vec<&[f64; 6]> = growth.iter().filter(|row| row[3].is_finite() && row[4].is_finite()).collect();
+    let bounded: Vec<&[f64; 7]> = growth.iter().filter(|row| row[3].is_finite() && row[4].is_finite()).collect();
     if has_intervals && !bounded.is_empty() {
         let of = |place: usize| bounded.iter().map(|row| row[place]).collect::<Vec<f64>>();
         marks.push(Mark::Band {

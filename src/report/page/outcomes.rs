@@ -1,5 +1,6 @@
 //! Figures of the outcomes: how each is distributed, and how many runs stay below a value, with limits, quantiles and their intervals.
 
+use crate::analysis::order_statistics::share_interval;
 use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::campaign::{Plan, Requirement, Statement};
@@ -11,7 +12,6 @@ use crate::report::page::NO_INTERVAL;
 use crate::report::page::errors::{all_having, histogram, interval_label, magnitude, shown_rows};
 use crate::report::page::fates::{self, Fate};
 use crate::report::page::readable::{number, with_unit};
-use crate::statistics::binomial::interval;
 use crate::statistics::gate::GateLimit;
 use crate::statistics::sketch::{Sketch, middle};
 
@@ -102,7 +102,9 @@ fn share(plan: &Plan, outcome: &SurveyedOutcome, has_intervals: bool) -> Figure 
     let y: Vec<f64> = growth.iter().map(|row| row[5] / row[0]).collect();
     let mut marks = Vec::new();
     if has_intervals {
-        let ends = growth.iter().map(|row| interval(row[5] as u64, row[0] as u64, outcome.confidence));
+        let of = |row: &[f64; 7]| [row[5], row[0], row[6]].map(|count| count as u64);
+        let ends = growth.iter().map(of);
+        let ends = ends.map(|[above, count, lost]| share_interval(above, [count, lost], outcome.confidence));
         let (low, high): (Vec<f64>, Vec<f64>) = ends.map(|[low, high]| (low, high)).unzip();
         let label = interval_label(outcome.confidence);
         marks.push(Mark::Band { label, hue: Hue::Total, opacity: 0.15, x: x.clone(), low, high, stacked: false });
@@ -215,7 +217,7 @@ fn cumulative(
     row: Option<&ColumnStatistics>,
     has_intervals: bool,
 ) -> Figure {
-    let (x, y, low, high) = stepped(curve(&outcome.sketch, outcome.confidence));
+    let (x, y, low, high) = stepped(curve(&outcome.sketch, outcome.lost, outcome.confidence));
     let mut marks = Vec::new();
     if has_intervals {
         let label = interval_label(outcome.confidence);
@@ -263,15 +265,15 @@ fn stepped(curve: Curve) -> Curve {
     (rows.iter().map(|(k, _)| x[*k]).collect(), of(y), of(low), of(high))
 }
 
-/// Values of ascending size, the fraction of runs up to each, and the ends of its interval.
-fn curve(sketch: &Sketch, confidence: f64) -> Curve {
+/// Values of ascending size, the fraction of runs up to each, and the ends of its interval wherever `lost` runs are.
+fn curve(sketch: &Sketch, lost: u64, confidence: f64) -> Curve {
     let count = sketch.count();
     let (steps, ranks) = (count.min(MOST_POINTS), sketch.ranks());
     let mut found = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for step in 1..=steps {
         let rank = (step * count).div_ceil(steps);
         let Some(value) = ranks.bounds(rank).map(middle) else { continue };
-        let [low, high] = interval(rank, count, confidence);
+        let [low, high] = share_interval(rank, [count, lost], confidence);
         found.0.push(value);
         found.1.push(rank as f64 / count as f64);
         found.2.push(low);
@@ -305,7 +307,7 @@ mod tests {
         let of = |values: &[f64]| {
             let mut sketch = Sketch::default();
             values.iter().for_each(|value| sketch.add(*value));
-            curve(&sketch, 0.95)
+            curve(&sketch, 0, 0.95)
         };
         let (x, y, low, high) = stepped(of(&[1.0, 1.0, 2.0, 4.0]));
         assert_eq!(y, [0.25, 0.5, 0.5, 0.75, 0.75, 1.0]);
@@ -323,7 +325,7 @@ mod tests {
     fn the_curve_is_the_distribution() {
         let mut sketch = Sketch::default();
         (1..=5000).for_each(|k| sketch.add(f64::from(k)));
-        let (x, y, low, high) = curve(&sketch, 0.95);
+        let (x, y, low, high) = curve(&sketch, 0, 0.95);
         assert_eq!((x.len(), *y.last().unwrap(), *x.last().unwrap()), (400, 1.0, 5000.0));
         for k in 0..x.len() {
             assert!((x[k] / 5000.0 / y[k] - 1.0).abs() < 0.02, "{} of runs up to {}", y[k], x[k]);
@@ -331,7 +333,7 @@ mod tests {
         }
         let mut few = Sketch::default();
         [3.0, 1.0, 2.0].into_iter().for_each(|value| few.add(value));
-        let (x, y, ..) = curve(&few, 0.95);
+        let (x, y, ..) = curve(&few, 0, 0.95);
         assert!(x.is_sorted() && y == [1.0 / 3.0, 2.0 / 3.0, 1.0], "{x:?} {y:?}");
     }
 }

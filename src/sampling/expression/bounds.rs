@@ -1,4 +1,5 @@
-//! What the text of an expression says of its values: whether it is a condition, and in which range they are.
+//! What the text of an expression says of its values: whether it is a condition, whether it always has one, and in
+//! which range they are.
 
 use super::{Binary, Expression, Function, Step};
 
@@ -30,6 +31,17 @@ impl Expression {
             stack.push(is_condition);
         }
         stack == [true]
+    }
+
+    /// Whether it is a number wherever its variables are (but for overflow): it has no quotient, power, root or
+    /// logarithm.
+    pub fn is_total(&self) -> bool {
+        const TOTAL: [&str; 5] = ["sin", "cos", "tan", "atan", "abs"];
+        self.steps.iter().all(|step| match step {
+            Step::Binary(operator) => !matches!(operator, Binary::Divide | Binary::Power),
+            Step::Function(Function::One(name, _)) => TOTAL.contains(name),
+            _ => true,
+        })
     }
 
     /// A range that holds every value, where `variable` gives the range of the variable at each place: that of interval arithmetic, which takes each
@@ -130,6 +142,19 @@ mod tests {
             ["a", "a and b < 1", "a < 1 or b", "-(a < 1)", "abs(a < 1)", "2", "if(a < 1, b, 1)", "(a < 1) + (b < 1)"]
         {
             assert!(!Expression::parse(text).expect(text).is_condition(), "{text}");
+        }
+    }
+
+    /// Law: what may have no value says so.
+    #[test]
+    fn what_is_total_has_a_value() {
+        for text in ["a", "-a + 2 * b", "if(a < b and b > 1, sin(a), atan2(a, b))", "min(abs(a), cos(b))"] {
+            assert!(Expression::parse(text).expect(text).is_total(), "{text}");
+        }
+        for text in
+            ["1 / a", "a ^ 0.5", "sqrt(a)", "ln(a)", "log10(a)", "asin(a)", "if(a < acos(b), 1, 0)", "exp(a) - exp(b)"]
+        {
+            assert!(!Expression::parse(text).expect(text).is_total(), "{text}");
         }
     }
 

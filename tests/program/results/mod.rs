@@ -9,6 +9,7 @@ pub mod ended_runs;
 pub mod failed_again;
 pub mod failed_runs;
 pub mod lost_runs;
+pub mod not_a_number;
 pub mod requirements;
 pub mod result_files;
 pub mod retained;
