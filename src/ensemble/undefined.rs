@@ -43,7 +43,7 @@ pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
     let (request, grid) = (plan.request(), &plan.grid);
     let mut lookup = Lookup::new(plan, grid, (isa, None), parsed.into_iter());
     let mut observer = Observer::new(request, grid).with_nominal(nominal_attitude(plan, &request, grid, isa));
-    let mut flights = Flights::new(plan, propagator(plan, grid.clone(), request.fields()).engine(isa), grid);
+    let mut flights = Flights::new(plan, &propagator(plan, grid.clone(), request.fields()), (isa, None));
     let mut ends = EndFinder::new(plan, (isa, None));
     let mut draws = SceneDraws::new(plan);
     let mut ignored = vec![f64::NAN; request.columns().len()];
