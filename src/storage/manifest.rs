@@ -26,7 +26,8 @@ pub const FORMAT: u32 = 5;
 /// Since 2 Taylor steps have more orders and integrals of thrust are those of the direction cosine matrix.
 /// Since 3 the Taylor series of the gravity gradient follow the orbit in the frame of the body; since 4 estimates count steps in part shadow in full.
 /// Since 5 what Taylor steps leave out under effects that change within an arc is added up as vectors, and their growth of errors is averaged.
-pub const ARITHMETIC: u32 = 5;
+/// Since 6 estimates follow errors through repeated periods, past separatrices, and from perigee to perigee.
+pub const ARITHMETIC: u32 = 6;
 
 /// What the rows of a dataset are. Rows of two datasets with the same identity can be mixed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -19,6 +19,7 @@ mod environment;
 mod error_estimate;
 mod feedback;
 mod golden_truth;
+mod hard_families;
 mod jeod;
 mod magnetic_torque;
 mod many_wheels;

@@ -20,7 +20,9 @@
 //!   method. The change of the second is |w| Y. mu_0 is mu where |w| is minimal: near a separatrix the second invariant is the
 //!   distance from it;
 //! - rounding of each component, which the states do not show;
-//! - for a kernel whose other states feed back into omega, the errors that are too small to show in the invariants;
+//! - for a kernel whose other states feed back into omega, and for truncation near a separatrix, the errors that are too
+//!   small to show in the invariants, and those along the curve;
+//! - rounding of the wheels' momentum, which turns omega about it;
 //! - where torque acts, and there are no invariants, the truncation that the method estimates, in proportion to |w|; |w| is taken
 //!   as at least what the torque makes of it within a radian of rotation.
 //!
@@ -37,7 +39,7 @@
 use fearless_simd::Simd;
 
 use super::acting::Acting;
-use super::error_sums::{Here, Sums};
+use super::error_sums::{Here, Sums, dip};
 use super::rotor::{Body, adjugate};
 use super::torque_growth;
 use crate::dynamics::effects::ForceModel;
@@ -49,6 +51,13 @@ use crate::run::{LocalErrors, StateField, StateTable, rate_scale};
 /// Maximum number of points of a run that are examined: enough to find the closest approach to a separatrix about as often as it
 /// occurs, few enough that the cost is negligible compared with the run.
 const POINTS: usize = 32;
+
+/// The same near a separatrix, where |w| is small for most of the time and grows or falls by orders of magnitude
+/// between the points.
+const MOST_POINTS: usize = 128;
+
+/// |w| varies by more than this factor near a separatrix.
+const NEAR: f64 = 0.1;
 
 /// A rate across H below this fraction of |omega| is rounding: the motion is an equilibrium.
 const STILL: f64 = 1e-12;
@@ -76,10 +85,10 @@ const HALF_ROUNDING: f64 = 0.5 * f64::EPSILON;
 const TURNED: f64 = 4.0;
 
 /// The exponent of the largest growth, ln 1e200; beyond it the growth counts as infinite.
-const LARGEST_EXPONENT: f64 = 460.5;
+pub(super) const LARGEST_EXPONENT: f64 = 460.5;
 
 /// The largest amplification; beyond it the amplification counts as infinite.
-const MOST: f64 = 1e200;
+pub(super) const MOST: f64 = 1e200;
 
 /// What is known of the errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,43 +108,49 @@ impl ErrorEstimate {
 /// The quantities that the sums use, at each examined point.
 #[derive(Clone, Debug)]
 pub(super) struct Conditioning {
-    times: [f64; POINTS],
+    times: [f64; MOST_POINTS],
+    /// The rate that errors of omega are relative to, rad/s.
+    scale: f64,
     /// |H|, N m s.
-    momentum: [f64; POINTS],
+    momentum: [f64; MOST_POINTS],
     /// mu = omega . H/|H|^2, 1/(kg m^2).
-    along: [f64; POINTS],
+    along: [f64; MOST_POINTS],
     /// |w|, rad/s.
-    across: [f64; POINTS],
+    across: [f64; MOST_POINTS],
     /// A_HH, 1/(kg m^2).
-    axial: [f64; POINTS],
+    axial: [f64; MOST_POINTS],
     /// |A_wH|.
-    twist: [f64; POINTS],
+    twist: [f64; MOST_POINTS],
     /// |A_ww - A_vv|.
-    shear: [f64; POINTS],
+    shear: [f64; MOST_POINTS],
+    /// |w|'/|w| without torque, 1/s.
+    widening: [f64; MOST_POINTS],
     /// |omega|, rad/s.
-    rate: [f64; POINTS],
+    rate: [f64; MOST_POINTS],
     /// |H|^2.
-    square: [f64; POINTS],
+    square: [f64; MOST_POINTS],
     /// omega . K omega/2, J.
-    energy: [f64; POINTS],
+    energy: [f64; MOST_POINTS],
     /// sum |J_i Omega_i| of the wheels, N m s.
-    wheels: [f64; POINTS],
+    wheels: [f64; MOST_POINTS],
     /// Magnitudes along H, w and v of the error of H that relative errors of omega's components cause, N m s.
-    digits: [[f64; POINTS]; 3],
+    digits: [[f64; MOST_POINTS]; 3],
 }
 
 impl Conditioning {
     /// Memory for a run.
     pub(super) fn new() -> Self {
-        let zero = [0.0; POINTS];
+        let zero = [0.0; MOST_POINTS];
         Conditioning {
             times: zero,
+            scale: 1.0,
             momentum: zero,
             along: zero,
             across: zero,
             axial: zero,
             twist: zero,
             shear: zero,
+            widening: zero,
             rate: zero,
             square: zero,
             energy: zero,
@@ -157,16 +172,20 @@ impl Conditioning {
         local: &LocalErrors,
     ) -> ErrorEstimate {
         let body = Body::of(acting, table, times[filled - 1]);
-        let found = self.estimate_of(simd, &body, Some(acting), table, times, filled, local);
-        let exponent = torque_growth::exponent(acting.scene(), table, times, filled);
-        if exponent == 0.0 {
-            return found;
-        }
-        let growth = if exponent < LARGEST_EXPONENT { libm::exp(exponent) } else { MOST };
-        ErrorEstimate {
-            error: lesser(found.error * growth, LOST),
-            amplification: lesser(found.amplification * growth, MOST),
-        }
+        let Some(growth) = torque_growth::growth(acting.scene(), table, times, filled) else {
+            return self.estimate_of(simd, &body, Some(acting), table, times, filled, local);
+        };
+        let stirred = HALF_ROUNDING * growth.stirred;
+        let local = LocalErrors { rounding: local.rounding + stirred, ..*local };
+        let found = self.estimate_of(simd, &body, Some(acting), table, times, filled, &local);
+        let Some(followed) = growth.followed else {
+            let error = lesser(found.error * growth.beside, LOST);
+            return ErrorEstimate { error, amplification: lesser(found.amplification * growth.beside, MOST) };
+        };
+        // a torque that pulls back is not relied upon
+        let amplification = followed.larger(found.amplification);
+        let made = local.truncation / self.scale + local.attitude + TURNED * local.rounding;
+        ErrorEstimate { error: lesser(followed * made, LOST).larger(found.error), amplification }
     }
 
     /// The estimate for the debris, whose inertia is `inertia`; the rest as in [`Conditioning::estimate`].
@@ -196,31 +215,32 @@ impl Conditioning {
         local: &LocalErrors,
     ) -> ErrorEstimate {
         let last = filled - 1;
-        let stride = last.div_ceil(POINTS - 1).max(1);
-        let count = last.div_ceil(stride) + 1;
-        for (k, time) in self.times[..count].iter_mut().enumerate() {
-            *time = times[(k * stride).min(last)];
-        }
-        for first in (0..count).step_by(WIDTH) {
-            self.fill(simd, body, table, [first, stride, last]);
-        }
-        let (mut largest, mut widest) = (0.0_f64, 0.0_f64);
+        let [mut stride, mut count] = self.examine(simd, body, (table, times), [POINTS, last]);
+        let (mut largest, mut widest, mut narrowest) = (0.0_f64, 0.0_f64, f64::INFINITY);
         for k in 0..count {
             largest = largest.larger(self.rate[k]);
             widest = widest.larger(self.across[k]);
+            narrowest = narrowest.smaller(self.across[k]);
+        }
+        let is_near = narrowest < NEAR * widest && widest > STILL * largest;
+        if is_near && stride > 1 {
+            [stride, count] = self.examine(simd, body, (table, times), [MOST_POINTS, last]);
         }
         if largest == 0.0 {
             return ErrorEstimate { error: SAFETY * (local.rounding + local.attitude), amplification: 1.0 };
         }
         let scale = rate_scale(largest, self.times[count - 1]);
+        self.scale = scale;
         // relative to that, as all errors are from here on
         let local = LocalErrors { truncation: local.truncation / scale, feedback: local.feedback / scale, ..*local };
         // where the torque follows the attitude, a motion in a plane is none: what a step leaves out turns the body further and further
         let is_changed = acting.is_some_and(|acting| ForceModel::of(acting.scene()).changes_within_arcs());
         let curve = if widest <= STILL * largest && !is_changed {
             self.at_equilibrium(body, [count, stride, last], scale, table, &local)
+        } else if is_near && body.offset.is_some() {
+            self.along_curve::<true>(body, count, scale, acting, &local)
         } else {
-            self.along_curve(body, count, scale, acting, &local)
+            self.along_curve::<false>(body, count, scale, acting, &local)
         };
         let bound = self.bound(body, count, scale, &local);
         let (error, amplification) = (lesser(curve.0, bound.0), lesser(curve.1, bound.1));
@@ -230,6 +250,26 @@ impl Conditioning {
             error: if error < LOST { error } else { LOST },
             amplification: if amplification < MOST { amplification.larger(1.0) } else { MOST },
         }
+    }
+
+    /// Fills entries for at most so many of the points up to `last`: the stride between them, and their number.
+    #[inline(always)]
+    fn examine<S: Simd>(
+        &mut self,
+        simd: S,
+        body: &Body<'_>,
+        (table, times): (&StateTable, &[f64]),
+        [most, last]: [usize; 2],
+    ) -> [usize; 2] {
+        let stride = last.div_ceil(most - 1).max(1);
+        let count = last.div_ceil(stride) + 1;
+        for (k, time) in self.times[..count].iter_mut().enumerate() {
+            *time = times[(k * stride).min(last)];
+        }
+        for first in (0..count).step_by(WIDTH) {
+            self.fill(simd, body, table, [first, stride, last]);
+        }
+        [stride, count]
     }
 
     /// Fills eight entries from entry `first` on; entry k is the point `stride` k, at most `last`.
@@ -276,7 +316,8 @@ impl Conditioning {
         let per_h = one / h;
         let per_w2 = one / w2;
         let ww = dot(w, product(inverse, w)) * per_w2;
-        let vv = dot(v, product(inverse, v)) * (per_w2 * (per_h * per_h));
+        let slope = product(inverse, v);
+        let vv = dot(v, slope) * (per_w2 * (per_h * per_h));
         h.store(&mut self.momentum[first..]);
         h2.store(&mut self.square[first..]);
         (Lanes::broadcast(simd, 0.5) * dot(omega, own)).store(&mut self.energy[first..]);
@@ -285,6 +326,7 @@ impl Conditioning {
         (dot(momentum, turned) * (per_h * per_h)).store(&mut self.axial[first..]);
         (dot(w, turned) * (per_h * (per_w2 * across))).abs().store(&mut self.twist[first..]);
         (ww - vv).abs().store(&mut self.shear[first..]);
+        (dot(w, slope) * per_w2).store(&mut self.widening[first..]);
         rate2.sqrt().store(&mut self.rate[first..]);
         wheels.larger(Lanes::broadcast(simd, body.wheels)).store(&mut self.wheels[first..]);
         // the effect of relative errors of the components on H: in the axes of integration, or of any component where these axes
@@ -303,7 +345,7 @@ impl Conditioning {
 
     /// Error and amplification of a motion along a curve.
     #[inline(always)]
-    fn along_curve(
+    fn along_curve<const NEAR: bool>(
         &self,
         body: &Body<'_>,
         count: usize,
@@ -311,7 +353,7 @@ impl Conditioning {
         acting: Option<Acting<'_>>,
         local: &LocalErrors,
     ) -> (f64, f64) {
-        let inertia = body.size;
+        let (inertia, duration) = (body.size, self.times[count - 1]);
         // errors are relative to omega: the momentum that corresponds to an error of one
         let unit = inertia * largest;
         let is_driven = body.offset.is_none();
@@ -340,8 +382,9 @@ impl Conditioning {
             low = low.smaller(mu * h);
             high = high.larger(mu * h);
             motion += w;
-            let here = Here {
-                step: if k == 0 { 0.0 } else { self.times[k] - self.times[k - 1] },
+            let step = if k == 0 { 0.0 } else { self.times[k] - self.times[k - 1] };
+            let point = Here {
+                step,
                 since: self.times[k],
                 h,
                 w,
@@ -353,30 +396,47 @@ impl Conditioning {
                 unit,
                 largest,
             };
-            even.advance(&here, [PER_AXIS; 3]);
-            digits.advance(&here, [self.digits[0][k], self.digits[1][k], self.digits[2][k]]);
-            if is_driven {
-                other.advance(&here, [PER_AXIS * w; 3]);
-            } else {
-                if local.feedback > 0.0 {
+            let (parts, used) = match if NEAR && k > 0 { self.dip(k, step) } else { None } {
+                Some([lasts, least]) => {
+                    let share = lasts / step;
+                    let bottom = Here { step: lasts, w: least, ..point };
+                    ([(bottom, share), (Here { step: step - lasts, ..point }, 1.0 - share)], 2)
+                }
+                None => ([(point, 1.0); 2], 1),
+            };
+            for (here, share) in &parts[..used] {
+                let share = *share;
+                even.advance(here, [share * PER_AXIS; 3]);
+                // a wheel's momentum turns omega by an angle that its rounding changes
+                let turned = 0.5 * self.wheels[k] * here.w * duration;
+                let made = [self.digits[0][k], self.digits[1][k], self.digits[2][k] + turned];
+                digits.advance(here, made.map(|made| share * made));
+                if is_driven {
+                    other.advance(here, [PER_AXIS * here.w; 3]);
+                    continue;
+                }
+                if NEAR || local.feedback > 0.0 {
                     // of errors across H only the part that the balance does not show
-                    let made = PER_AXIS * local.feedback / count as f64;
-                    let hidden = |size: f64| made.smaller(size / unit);
-                    other.advance(&here, [hidden(NOISE * h), hidden(noise / w), made]);
+                    let points = count as f64;
+                    let truncation = if NEAR { local.truncation } else { 0.0 };
+                    let [fed, cut] = [local.feedback, truncation].map(|error| share * PER_AXIS * error / points);
+                    let hidden = |size: f64| fed.smaller(size / unit) + cut.smaller(size / (unit * points));
+                    other.advance(here, [hidden(NOISE * h), hidden(noise / here.w), fed + cut]);
                 }
                 let along = ((self.square[k] - self.square[0]).abs() - NOISE * self.square[0]).larger(0.0) / (2.0 * h);
-                measured.set(&here, along, ((balance(k) - balance(0)).abs() - noise).larger(0.0));
+                measured.set(here, along, ((balance(k) - balance(0)).abs() - noise).larger(0.0));
             }
         }
-        let other = match (is_driven, local.feedback > 0.0) {
-            (true, _) => other.most / motion * local.truncation,
-            (false, true) => other.most,
-            (false, false) => 0.0,
-        };
+        let other = if is_driven { other.most / motion * local.truncation } else { other.most };
         // the drift of the wheels is part of the balance of redundant states
         let shown = measured.most / unit * if local.feedback > 0.0 { 0.5 } else { 1.0 };
         let rounded = digits.most / (count as f64 * unit) * local.rounding;
         (shown + rounded + other, even.most / count as f64)
+    }
+
+    /// The dip of |w| before the point `k`, which follows its predecessor by `step` seconds.
+    fn dip(&self, k: usize, step: f64) -> Option<[f64; 2]> {
+        dip([self.across[k - 1], self.across[k]], [self.widening[k - 1], self.widening[k]], step)
     }
 
     /// Bounds of error and amplification of any motion, from the growth of |eta|; of little use where H turns by many radians.

@@ -166,10 +166,12 @@ impl<R: Real> Truncation<R> {
 }
 
 impl TruncationSums {
-    /// The errors after `steps` steps, whose rotation is repeated `periods` times; the unit of time is `unit` seconds.
+    /// The errors after `steps` steps, whose motion is repeated `periods` times; the unit of time is `unit` seconds.
+    /// What a period leaves out shifts it, and with it the rate and the attitude, by as much again in every
+    /// repetition.
     pub(super) fn errors(&self, steps: u64, periods: f64, unit: f64) -> LocalErrors {
         let LocalErrors { rounding, attitude, .. } = rounding(steps);
-        let truncation = self.rate / unit;
+        let truncation = periods * self.rate / unit;
         LocalErrors { truncation, rounding, feedback: 0.0, attitude: periods * (attitude + self.turn) }
     }
 }
