@@ -79,12 +79,14 @@ pub fn first_order_index_in_order(
     }
     // squares of what the lines leave, and the noise of each cell, with and without the freedom that a line takes
     let (mut left, mut noise, mut freedom) = (Vec::with_capacity(rows), Vec::new(), Vec::with_capacity(rows));
+    let mut rests = Vec::with_capacity(rows);
     for cell in cells(order, x) {
         let rest = Rest::of(cell, x, y);
         let factor = if samples == Samples::Even { 1.0 } else { rest.correction };
         noise.push(rest.noise(factor));
         left.extend(rest.values.iter().map(|value| value * value));
         freedom.extend(core::iter::repeat_n(rest.correction, rest.values.len()));
+        rests.extend(rest.values);
     }
     let corrected: Vec<f64> = left.iter().zip(freedom).map(|(left, correction)| left * correction).collect();
     let [least, most] = [&corrected, if samples == Samples::Even { &left } else { &corrected }];
@@ -100,9 +102,16 @@ pub fn first_order_index_in_order(
     let unseen = UNSEEN * whole.iter().fold(0.0, |most: f64, one| most.max(*one)) / total;
     let ([share, up], [other, down]) = (of(least, false), of(most, true));
     let value = 1.0 - 0.5 * (share + other);
-    let lower = 1.0 - up * (share + unseen) / (1.0 + unseen);
-    let is_tailed = [x, y].iter().any(|of| Moments::of_block(of).kurtosis().is_none_or(|found| found > MOST_KURTOSIS));
-    let upper = if share < ALMOST_ALL || is_tailed {
+    let has_tails = |of: &[f64]| Moments::of_block(of).kurtosis().is_none_or(|found| found > MOST_KURTOSIS);
+    let [smallest, largest] = y.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], y| [a.min(*y), b.max(*y)]);
+    let is_yes_or_no = y.iter().all(|y| *y == smallest || *y == largest);
+    let is_almost_all = share < ALMOST_ALL;
+    let lower = if !is_almost_all && !is_yes_or_no && has_tails(&rests) {
+        0.0
+    } else {
+        1.0 - up * (share + unseen) / (1.0 + unseen)
+    };
+    let upper = if is_almost_all || has_tails(x) || has_tails(y) {
         1.0
     } else {
         // cells that differ in their noise say how well it is known
@@ -125,8 +134,9 @@ const RISKS: [f64; 2] = [0.1, 0.6];
 const UNSEEN: f64 = 3.0;
 /// Below this share lines leave no more than curves and jumps do: nothing may be left of the variance.
 const ALMOST_ALL: f64 = 0.06;
-/// Above this kurtosis of input or observable (3 for normal numbers, 6 for an exponential tail on both sides), rows
-/// that are not seen may raise the share to 1.
+/// Above this kurtosis (3 for normal numbers, 6 for an exponential tail on both sides), rows that are not seen may
+/// decide: tails of the input or the observable may raise the share to 1. Tails of the part that the input does not
+/// explain may lower the share to 0, unless the observable has two values.
 const MOST_KURTOSIS: f64 = 4.5;
 
 /// Fewer rows do not show a line in a few cells.
