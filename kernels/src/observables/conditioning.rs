@@ -41,7 +41,7 @@ use fearless_simd::Simd;
 use super::acting::Acting;
 use super::error_sums::{Here, Sums, dip};
 use super::rotor::{Body, adjugate};
-use super::torque_growth;
+use super::torque_growth::{self, LARGEST_EXPONENT, MOST};
 use crate::dynamics::effects::ForceModel;
 use crate::math::lanes::WIDTH;
 use crate::math::vector::{constant, constant_matrix, cross, difference, dot, product, scaled, sum};
@@ -83,12 +83,6 @@ const HALF_ROUNDING: f64 = 0.5 * f64::EPSILON;
 
 /// Factor on the rounding of a component where principal axes are computed first.
 const TURNED: f64 = 4.0;
-
-/// The exponent of the largest growth, ln 1e200; beyond it the growth counts as infinite.
-pub(super) const LARGEST_EXPONENT: f64 = 460.5;
-
-/// The largest amplification; beyond it the amplification counts as infinite.
-pub(super) const MOST: f64 = 1e200;
 
 /// What is known of the errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -76,6 +76,10 @@ impl Sums {
     }
 }
 
+/// Points that are more e-foldings of |w| apart do not follow the motion, and say nothing of a dip between them: a body at
+/// 1e4 rad/s, seen once a second, would have dips of thousands.
+const FOLLOWED: f64 = 16.0;
+
 /// The dip of |w| between two points `step` seconds apart, if it falls after the first and rises before the second: how
 /// long its bottom lasts, s, and |w| there. `across` is |w| at both, `widening` its relative slope, 1/s. Near an unstable
 /// equilibrium |w| is c cosh(lambda t), and the integral of its inverse square is 2/(lambda c^2).
@@ -85,6 +89,9 @@ pub(super) fn dip(across: [f64; 2], widening: [f64; 2], step: f64) -> Option<[f6
         return None;
     }
     let rate = falls.larger(rises);
+    if rate * step > FOLLOWED {
+        return None;
+    }
     let fall = 0.5 * (step + libm::log(across[0] / across[1]) / rate);
     let angles = [fall, step - fall].map(|time| rate * time.larger(0.0).smaller(step));
     let least = (across[0] / libm::cosh(angles[0])).smaller(across[1] / libm::cosh(angles[1]));

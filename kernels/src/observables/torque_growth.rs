@@ -12,7 +12,6 @@
 //! amplifies anything. There the growth is that of the free motion ([`super::conditioning`]) times the exponential of
 //! [`exponent`].
 
-use super::conditioning::{LARGEST_EXPONENT, MOST};
 use crate::dynamics::effects::within_arcs::Motion;
 use crate::dynamics::effects::{ChangingEffects, ForceModel};
 use crate::dynamics::orbit_path::OrbitPath;
@@ -21,6 +20,12 @@ use crate::math::symmetric::principal_axes;
 use crate::math::vector::{cross, difference, dot, hamilton, quaternion_from_dcm, scaled, sum, transposed_product};
 use crate::run::{StateField, StateTable, rate_scale};
 use crate::scene::Scene;
+
+/// The exponent of the largest growth, ln 1e200; beyond it the growth counts as infinite.
+pub(super) const LARGEST_EXPONENT: f64 = 460.5;
+
+/// The largest amplification; beyond it the amplification counts as infinite.
+pub(super) const MOST: f64 = 1e200;
 
 /// Points of a run that are examined, at most: several in each half of a libration up to some orbits, a fair sample beyond.
 const POINTS: usize = 128;

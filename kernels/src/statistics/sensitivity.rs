@@ -102,11 +102,13 @@ pub fn first_order_index_in_order(
     let unseen = UNSEEN * whole.iter().fold(0.0, |most: f64, one| most.max(*one)) / total;
     let ([share, up], [other, down]) = (of(least, false), of(most, true));
     let value = 1.0 - 0.5 * (share + other);
-    let has_tails = |of: &[f64]| Moments::of_block(of).kurtosis().is_none_or(|found| found > MOST_KURTOSIS);
+    let kurtosis = |of: &[f64]| Moments::of_block(of).kurtosis().unwrap_or(f64::INFINITY);
+    let has_tails = |of: &[f64]| kurtosis(of) > MOST_KURTOSIS;
+    let rest_has_tails = kurtosis(&rests) > MOST_KURTOSIS * libm::pow(n / MIN_ROWS as f64, 0.25);
     let [smallest, largest] = y.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], y| [a.min(*y), b.max(*y)]);
     let is_yes_or_no = y.iter().all(|y| *y == smallest || *y == largest);
     let is_almost_all = share < ALMOST_ALL;
-    let lower = if !is_almost_all && !is_yes_or_no && has_tails(&rests) {
+    let lower = if !is_almost_all && !is_yes_or_no && rest_has_tails {
         0.0
     } else {
         1.0 - up * (share + unseen) / (1.0 + unseen)
@@ -136,7 +138,8 @@ const UNSEEN: f64 = 3.0;
 const ALMOST_ALL: f64 = 0.06;
 /// Above this kurtosis (3 for normal numbers, 6 for an exponential tail on both sides), rows that are not seen may
 /// decide: tails of the input or the observable may raise the share to 1. Tails of the part that the input does not
-/// explain may lower the share to 0, unless the observable has two values.
+/// explain may lower the share to 0, unless the observable has two values; more rows than [`MIN_ROWS`] show more of
+/// these tails, and the limit for them rises with the fourth root of the number of rows.
 const MOST_KURTOSIS: f64 = 4.5;
 
 /// Fewer rows do not show a line in a few cells.

@@ -99,7 +99,7 @@ fn a_new_file_runs() {
     let across = "--set wheels.w1.axis=[0,1,0] --set require[0].at_most=4";
     let mut command = scratch.command(&format!("campaign mine.toml {across} --no-report --out across --verbose"));
     let said = scratch.outputs(command.env("COLUMNS", "200"), 0);
-    let drivers = said.lines().find(|line| line.contains("% of the variance (")).expect(&said);
+    let drivers = said.lines().find(|line| line.contains(" of the variance (")).expect(&said);
     let (of_spin, of_wheel) =
         drivers.split_once("initial angular velocity z ").unwrap().1.split_once("wheel w1 rate ").unwrap();
     assert!(of_spin.contains("falls with it") && of_wheel.contains("rises with it"), "{drivers}");

@@ -210,7 +210,7 @@ fn check_shows_magnitudes_and_implausible_numbers() {
     assert!(notes.lines().any(|note| note.starts_with("wheels.w1.tilt_rad, as dispersed")), "{notes}");
 }
 
-/// Law: of every shipped campaign `check` takes at most 45 lines of 80 characters, says every dispersed parameter once, and how to see the rest; the summary comes first.
+/// Law: of every shipped campaign `check` takes at most 48 lines of 80 characters, says every dispersed parameter once, and how to see the rest; the summary comes first.
 #[test]
 fn check_fits_a_screen() {
     let scratch = folder("check-screen");
@@ -219,7 +219,7 @@ fn check_fits_a_screen() {
         let file = shipped.join(format!("{name}.toml"));
         let mut command = scratch.command("check");
         let said = scratch.outputs(command.arg(&file).env("COLUMNS", "80"), 0);
-        assert!(said.lines().count() <= 45, "{name}: {}\n{said}", said.lines().count());
+        assert!(said.lines().count() <= 48, "{name}: {}\n{said}", said.lines().count());
         assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
         assert!(said.lines().take(4).any(|line| line.starts_with(&format!("{name}: "))), "{said}");
         assert!(said.lines().last().is_some_and(|line| line.starts_with("--verbose: ")), "{said}");
