@@ -45,7 +45,8 @@ const COVERAGE: f64 = 0.95;
 ///
 /// Near a separatrix the errors of all steps are added as if they had one direction: measured 120 times (`auto` at
 /// 1e-12). On eccentric orbits errors are taken to arise evenly along the run: measured 120 times (`auto`, `taylor`), 210
-/// (`runge_kutta_4`) and 350 (`gauss_legendre_6`).
+/// (`runge_kutta_4`) and 350 (`gauss_legendre_6`). `runge_kutta_4` has the largest excess, since its steps are fixed and its
+/// errors have every direction: measured 1,100 times near a separatrix and 1,300 times on any eccentric orbit.
 ///
 /// On an orbit `auto` and `taylor` add vectors, and are 110 times too large for a libration at 1e-10. The others add magnitudes, which count too much where a body
 /// turns many times in an orbit, so that errors have every direction, or evenly, so that they are alike: measured 130 times (`dormand_prince`), 250 (`dop853`),
@@ -61,7 +62,8 @@ fn too_large(method: Method, family: &str) -> f64 {
         ) => 3e3,
         (Method::Gyrostat(Integrator::GaussLegendre), "slew by thrusters") => 200.0,
         (Method::Taylor, "spin_sweep" | "no_debris") => 200.0,
-        (Method::Auto | Method::Taylor, LIBRATING | "separatrix" | "on the separatrix") => 200.0,
+        (Method::Auto | Method::Taylor, LIBRATING | SPINNING | "separatrix" | "on the separatrix") => 200.0,
+        (Method::Gyrostat(Integrator::RungeKutta4), "separatrix" | "eccentric, any") => 2e3,
         (_, "eccentric, flat" | "eccentric, any" | "eccentric, dipole" | "eccentric, in air") => 500.0,
         (Method::Gyrostat(Integrator::DormandPrince | Integrator::Dop853), TURNING_FAST | SPINNING) => 400.0,
         (Method::Gyrostat(Integrator::RungeKutta4), SPINNING) => 300.0,
