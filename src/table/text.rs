@@ -126,12 +126,12 @@ impl<'t> Text<'t> {
     fn starts(&self, widths: &[usize], first: usize, width: usize) -> Vec<usize> {
         let [before, between] = self.gaps;
         let (mut starts, mut used) = (vec![first], before);
-        for column in first..widths.len() {
+        for (column, needed) in widths.iter().enumerate().skip(first) {
             let is_first = starts.last() == Some(&column);
-            let wider = used + if is_first { 0 } else { between } + widths[column];
+            let wider = used + if is_first { 0 } else { between } + needed;
             used = if wider > width && !is_first {
                 starts.push(column);
-                before + CONTINUED + widths[column]
+                before + CONTINUED + needed
             } else {
                 wider
             };

@@ -190,7 +190,7 @@ fn covariance_growth(stations: &[Station], moments: [f64; 3], scale: f64) -> Opt
         before = after;
         let root = |m: &Matrix| (m[0][0] + m[1][1] + m[2][2]).max(0.0).sqrt();
         most = most.max(root(&covariance[0])).max(root(&covariance[2]) * unit / scale);
-        if !(most < MOST) {
+        if most.is_nan() || most >= MOST {
             return Some(MOST);
         }
     }

@@ -36,7 +36,7 @@ fn meets_next(input: &SceneInput, index: usize) -> bool {
     input.actuation.get(index + 1).is_some_and(|next| next.start_s == input.actuation[index].end_s)
 }
 
-/// The arc that command `index` of `input` becomes: scales, bias, delays (motors of a control loop: [`motor_torques`]).
+/// The arc that command `index` of `input` becomes: scales, bias, delays (motors of a control loop: `motor_torques`).
 /// With ideal actuators, the command itself.
 ///
 /// [`super::check`] checks that the result is a schedule (every arc starts before it ends, no negative thrust).

@@ -71,8 +71,10 @@ fn intervals_cover_whichever_runs_are_lost() {
             let kept = drawn.iter().filter(|[u, v]| *u >= slowest && *u <= 1.0 - fastest && *v >= any);
             let values: Vec<f64> = kept.map(|[u, _]| 2.0 * u).collect();
             let lost = (RUNS - values.len()) as u64;
-            let found = described_of(&bounded, &[values.clone()], &[lost]);
-            assert!(lost == 0 || described_of(&plain, &[values.clone()], &[lost]).mean_interval == [None; 2]);
+            let found = described_of(&bounded, std::slice::from_ref(&values), &[lost]);
+            assert!(
+                lost == 0 || described_of(&plain, std::slice::from_ref(&values), &[lost]).mean_interval == [None; 2]
+            );
             if !Population::of(&bounded).after(Loss { missing: lost, runs: RUNS as u64, outside: 0 }).has_intervals() {
                 continue;
             }

@@ -2,7 +2,7 @@
 //! revolutions per minute for radians per second, millimetres for metres, the scalar of a quaternion in the last
 //! place.
 //!
-//! [`rules::RULES`] is the list of what is noted; [`measures`] are the sizes that are no parameter of their own.
+//! [`rules::RULES`] is the list of what is noted; `measures` are the sizes that are no parameter of their own.
 //! Nothing is refused.
 
 pub mod looked;

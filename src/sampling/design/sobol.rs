@@ -99,7 +99,7 @@ pub fn bound(dimensions: usize, points: u64) -> Option<[usize; 3]> {
     };
     let least = BOUND * points as f64;
     // a sum of signs over all points is at most 2^m, m being the number of zeros at the end of the mask
-    let zeros = (1_u64 << least.max(1.0).log2().ceil() as u32) - 1;
+    let zeros = (1_u64 << libm::log2(least.max(1.0)).ceil() as u32) - 1;
     let is_bound = |mask: u64| {
         let period = (mask & mask.wrapping_neg()).saturating_mul(2);
         let rest = if mask == 0 { points } else { points % period };

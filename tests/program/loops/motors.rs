@@ -78,7 +78,7 @@ impl Case {
             let total = commanded + scheduled.map_or(0.0, |[.., torque]| torque);
             let asked = if total == 0.0 { 0.0 } else { self.scale * total + self.bias };
             let factor = self.failed.filter(|[time, _]| *time <= arc[0]).map_or(1.0, |[_, factor]| factor);
-            let motor = factor * asked.max(-LIMIT).min(LIMIT);
+            let motor = factor * asked.clamp(-LIMIT, LIMIT);
             let on_wheel = motor - self.coulomb;
             list.push((rate, on_wheel, asked.abs() > LIMIT));
             rate -= on_wheel * (arc[1] - arc[0]) / (INERTIA[0] - INERTIA[1]);
