@@ -212,8 +212,10 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     }
     let mut is_said = false;
     let of = |driver: &&Ranked<'_>| {
-        let share = driver.share.filter(|share| is_known(share) && !share.lower.is_nan());
-        let share = share.map(|share| with_interval([share.value.clamp(0.0, 1.0); 2], [share.lower, share.upper]));
+        // an estimate that is not above zero says nothing beside a test that found the input
+        let share = driver.share.filter(|share| is_known(share) && !share.lower.is_nan() && share.value > 0.0);
+        let within = |end: f64| end.clamp(0.0, 1.0);
+        let share = share.map(|share| with_interval([within(share.value); 2], [share.lower, share.upper].map(within)));
         let share = match share {
             Some(share) if is_said => format!(" {share}"),
             Some(share) => format!(" explains {share} of the variance"),
@@ -342,6 +344,21 @@ mod tests {
                 assert_eq!(said.contains('%'), is_known, "{said}");
             }
         }
+    }
+
+    /// Law: the ends of a share are between 0 and 1, and an estimate that is not above zero is no share.
+    #[test]
+    fn shares_are_not_negative() {
+        let text = include_str!("../../campaigns/spin_sweep.toml");
+        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
+        let input = InputSensitivity { input: "first_one".to_owned(), rows: 77, ..Default::default() };
+        let said = |value: f64| {
+            let share = Some(Estimate { value, lower: -0.05, upper: 0.4 });
+            let of = Ranked { input: &input, effect: None, share, is_driver: true };
+            sentence(&plan, "y", &Ranking { question: Question::Spread, inputs: vec![of] })
+        };
+        assert!(said(0.2).contains("explains 20% [0, 40] of the variance"), "{}", said(0.2));
+        assert!(said(-0.01).contains("first") && !said(-0.01).contains('%'), "{}", said(-0.01));
     }
 
     /// Law: that two inputs are correlated is said once, with whether the rows tell them apart.
