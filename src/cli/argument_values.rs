@@ -1,8 +1,7 @@
 //! The values of options that are more than a number or a path: each from its text, or what is allowed instead.
 
-use std::num::{NonZeroU64, NonZeroUsize};
+use std::num::NonZeroUsize;
 
-use crate::cli::slurm_script::TimeLimit;
 use crate::propagation::Method;
 use crate::storage::claim::Shard;
 
@@ -68,15 +67,6 @@ pub fn shard(text: &str) -> Result<Shard, String> {
     shard.filter(|shard| (1..=shard.of).contains(&shard.number) && shard.of <= MOST_SHARDS).ok_or_else(allowed)
 }
 
-/// A number of shards; otherwise the allowed range.
-///
-/// # Errors
-/// Where it is none.
-pub fn shards(text: &str) -> Result<NonZeroU64, String> {
-    let allowed = || format!("must be a whole number from 1 to {MOST_SHARDS}");
-    text.parse().ok().filter(|number: &NonZeroU64| number.get() <= MOST_SHARDS).ok_or_else(allowed)
-}
-
 /// Most threads for each core. More only wait for each other, and each has its own memory.
 const MOST_THREADS_OF_A_CORE: usize = 4;
 
@@ -93,25 +83,6 @@ pub fn threads(text: &str) -> Result<NonZeroUsize, String> {
         )
     };
     text.parse().ok().filter(|number: &NonZeroUsize| number.get() <= most).ok_or_else(allowed)
-}
-
-/// A time limit as Slurm reads it; otherwise the allowed forms.
-///
-/// # Errors
-/// Where it is none.
-pub fn time_limit(text: &str) -> Result<TimeLimit, String> {
-    TimeLimit::of(text)
-        .ok_or_else(|| "must be a time as Slurm reads it, for instance 90 (minutes), 2:00:00 or 1-12".to_owned())
-}
-
-/// An option of sbatch on one line; otherwise the allowed form.
-///
-/// # Errors
-/// Where it is none.
-pub fn sbatch_option(text: &str) -> Result<String, String> {
-    let is_option = text.starts_with('-') && !text.contains(char::is_control);
-    let allowed = || "must be an option of sbatch, for instance --sbatch=--partition=long".to_owned();
-    is_option.then(|| text.to_owned()).ok_or_else(allowed)
 }
 
 /// A shift, zero or above; otherwise the allowed range.
@@ -177,7 +148,6 @@ mod tests {
         for wrong in ["0/8", "9/8", "3", "3/8/2", "-1/8", "1/1000001"] {
             assert!(shard(wrong).is_err_and(|message| message.contains("1 <= K <= N")), "{wrong}");
         }
-        assert!(shards("1000000").is_ok() && shards("0").is_err() && shards("1000001").is_err());
     }
 
     #[test]
@@ -187,12 +157,5 @@ mod tests {
         for wrong in ["0", "-1", "1.5", "many", &(most + 1).to_string(), "100000", "99999999999999999999999"] {
             assert!(threads(wrong).is_err_and(|message| message.contains(&format!("from 1 to {most}"))), "{wrong}");
         }
-    }
-
-    /// Law: an option cannot add a line to a script.
-    #[test]
-    fn options_of_sbatch_stay_on_their_line() {
-        assert!(sbatch_option("--partition=long").is_ok());
-        assert!(sbatch_option("--comment=x\nrm -r /").is_err() && sbatch_option("long").is_err());
     }
 }

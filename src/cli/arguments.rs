@@ -1,18 +1,15 @@
 //! [`Arguments`]: commands and options of the program, with their help texts.
 
 use std::ffi::OsString;
-use std::num::NonZeroU64;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
 use crate::campaign::Overrides;
 use crate::cli::argument_values::{
-    count, fraction, method, sbatch_option, seconds, setting, shard, shards, shift, size, threads, time_limit,
-    tolerance,
+    count, fraction, method, seconds, setting, shard, shift, size, threads, tolerance,
 };
 use crate::cli::colour::Colour;
-use crate::cli::slurm_script::TimeLimit;
 use crate::cli::{help, screen};
 use crate::propagation::Method;
 use crate::report::image::{Letters, PlotSize};
@@ -39,9 +36,6 @@ pub enum Command {
     /// Merge shards into a finished result.
     #[command(name = "finish", after_help = help::FINISH)]
     CompleteResult(FinishOptions),
-    /// Write (and submit) the scripts that run a campaign on a Slurm cluster.
-    #[command(after_help = help::SLURM)]
-    Slurm(SlurmOptions),
     /// Check a result: checksums, recomputed rows, and every file derived from the rows.
     #[command(after_help = help::VERIFY)]
     Verify(VerifyOptions),
@@ -213,40 +207,6 @@ pub struct FinishOptions {
     /// Number of threads, at most four per core [default: one per core].
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
-}
-
-/// Arguments of `slurm`.
-#[derive(Debug, Args)]
-pub struct SlurmOptions {
-    /// The campaign file.
-    pub file: PathBuf,
-    /// Overrides.
-    #[command(flatten)]
-    pub changed: Changed,
-    /// Number of tasks; each runs one shard, on a node or a share of one.
-    #[arg(long, value_name = "N", value_parser = shards)]
-    pub nodes: NonZeroU64,
-    /// Cores per task.
-    #[arg(long, value_name = "C")]
-    pub cpus: NonZeroU64,
-    /// Time limit of a task, as Slurm reads it: minutes, H:MM:SS, D-HH. A task that reaches it is continued by another.
-    #[arg(long, value_name = "T", value_parser = time_limit)]
-    pub time: TimeLimit,
-    /// Submit the scripts with sbatch.
-    #[arg(long)]
-    pub submit: bool,
-    /// Result folder, visible to every node [default: results/NAME, the campaign's name].
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-    /// Number of samples; overrides the file.
-    #[arg(long, value_name = "N")]
-    pub samples: Option<u64>,
-    /// Seed; overrides the file.
-    #[arg(long, value_name = "S")]
-    pub seed: Option<u64>,
-    /// Another option for both jobs, such as --sbatch=--partition=long; may be repeated.
-    #[arg(long, value_name = "OPTION", value_parser = sbatch_option)]
-    pub sbatch: Vec<String>,
 }
 
 /// Arguments of `verify`.

@@ -32,12 +32,6 @@ Examples:
   spindrift finish results/spin_sweep
   spindrift finish results/spin_sweep --junit verdicts.xml";
 
-/// Of `slurm`.
-pub const SLURM: &str = "\
-Examples:
-  spindrift slurm spin_sweep.toml --nodes 8 --cpus 32 --time 1:00:00
-  spindrift slurm spin_sweep.toml --nodes 8 --cpus 32 --time 60 --submit";
-
 /// Of `verify`.
 pub const VERIFY: &str = "\
 Examples:

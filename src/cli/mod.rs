@@ -3,7 +3,7 @@
 //! - [`program`]: the program as a whole. - [`arguments`]: commands and options; [`argument_values`]: their values; [`help`]: what their help texts end with. - [`outputs`]: which files a command may write. - [`workload`]: what a command would
 //!   compute and write, refused where it cannot be done; [`machine`]: what is left of memory and disk.
 //! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`index`], [`new`], [`precision`], [`report`], [`sample`],
-//!   [`simulate`], [`slurm`]: one command each; [`completed_text`]: what is printed of a result. - [`slurm_script`]: the scripts of Slurm.
+//!   [`simulate`]: one command each; [`completed_text`]: what is printed of a result.
 //! - [`dispersions`]: the dispersions of a plan as text. - [`terminal`]: notes and the progress bar; [`screen`]: printing, [`colour`]: in colour; [`signals`].
 //! - [`command_outcome`]: how a command ends, and its exit code.
 //!
@@ -33,8 +33,6 @@ mod scene_text;
 pub mod screen;
 pub mod signals;
 pub mod simulate;
-pub mod slurm;
-pub mod slurm_script;
 pub mod terminal;
 pub mod verify;
 pub mod workload;

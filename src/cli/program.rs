@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use crate::cli::arguments::{Command, arguments};
 use crate::cli::{
     check, columns, command_outcome, compare, finish_campaign, index, new, precision, report, run_campaign, sample,
-    signals, simulate, slurm, verify,
+    signals, simulate, verify,
 };
 
 /// Does what `words` say, the name of the program first; the exit code.
@@ -24,7 +24,6 @@ pub fn run(words: impl Iterator<Item = OsString>) -> u8 {
         Command::Report(options) => report::run(&options),
         Command::Sample(options) => sample::run(&options),
         Command::Simulate(options) => simulate::run(&options),
-        Command::Slurm(options) => slurm::run(&options),
     };
     command_outcome::exit_code(ended)
 }

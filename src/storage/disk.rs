@@ -4,7 +4,7 @@
 //! interface, and a test repeats the same work with a fault at the first, second, third ... operation. [`Disk`] is the real one.
 //!
 //! On purpose not here, since they are no files of a dataset:
-//! - what a command is told to write elsewhere (`--junit`, `--figures`, `--out` of `simulate`, `sample`, `precision`; scripts of `slurm`):
+//! - what a command is told to write elsewhere (`--junit`, `--figures`, `--out` of `simulate`, `sample`, `precision`):
 //!   [`super::atomic`], and `create_dir_all` of the folders of figures;
 //! - what a campaign file names, and the file itself: [`crate::campaign::input_file`]. The copies of files of numbers in `data/` are read as
 //!   the originals are: by the plan's checksum, so that what cannot be read is an error of the plan;

@@ -113,7 +113,6 @@ fn program_problem(words: &[&str]) -> Option<String> {
         Command::Simulate(options) => &options.file,
         Command::Sample(options) => &options.file,
         Command::Precision(options) => &options.file,
-        Command::Slurm(options) => &options.file,
         // a folder that a campaign has made
         Command::Compare(_)
         | Command::CompleteResult(_)

@@ -13,6 +13,5 @@ pub mod recipes;
 pub mod sample_and_check;
 pub mod screen_numbers;
 pub mod simulate;
-pub mod slurm;
 pub mod tutorial;
 mod widths;

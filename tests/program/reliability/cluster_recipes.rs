@@ -1,9 +1,12 @@
 //! The commands of docs/cluster.md that a cluster runs with an index, as they stand there but for the path of the program and of the result.
 
-use std::process::Command;
+use std::fs;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
 
+use crate::reliability::interrupted::send;
 use crate::small_campaign::folder;
-use crate::support::scratch_folder::contents;
+use crate::support::scratch_folder::{ScratchFolder, contents};
 
 const DOCUMENT: &str = include_str!("../../../docs/cluster.md");
 const SHARDS: usize = 8;
@@ -49,5 +52,76 @@ fn indexed_jobs_make_the_bytes_of_one_process() {
         }
         scratch.prints(&format!("finish {variable}"), 0);
         assert!(contents(&scratch.path(variable)) == one, "{variable}");
+    }
+}
+
+/// The script of the array in the document, for `small.toml` with so many samples; `scontrol`, which it calls, writes its arguments to a file.
+fn slurm_script(scratch: &ScratchFolder, samples: u64) -> String {
+    let mut script = format!("scontrol() {{ echo \"$@\" >>scontrol.log; }}\n{}", between("```text\n#!/bin/bash\n", "```"));
+    for (written, here) in [
+        ("spindrift campaign", concat!("'", env!("CARGO_BIN_EXE_spindrift"), "' campaign")),
+        (" spin_sweep.toml ", &format!(" small.toml --samples {samples} ")),
+        ("/scratch/spin_sweep", "sharded"),
+    ] {
+        assert_eq!(script.matches(written).count(), 1, "{written:?} in {script}");
+        script = script.replace(written, here);
+    }
+    scratch.file("array.sh", &script);
+    script
+}
+
+/// Starts the script as task `task` of two, after so many restarts.
+fn slurm_task(scratch: &ScratchFolder, task: u32, restarts: u32) -> Child {
+    let numbers = [("SLURM_ARRAY_TASK_ID", task), ("SLURM_ARRAY_TASK_COUNT", 2), ("SLURM_CPUS_PER_TASK", 1)];
+    let mut shell = Command::new("bash");
+    shell.arg("array.sh").current_dir(scratch.path("")).stdout(Stdio::null()).stderr(Stdio::null());
+    shell.envs(numbers.map(|(name, number)| (name, number.to_string())));
+    shell.env("SLURM_JOB_ID", "101").env("SLURM_RESTART_COUNT", restarts.to_string()).spawn().expect("bash")
+}
+
+/// Law: the tasks of the array make the rows of one process, and a task that ends by itself is not put back into the queue.
+#[test]
+fn the_slurm_array_makes_the_bytes_of_one_process() {
+    let scratch = folder("slurm-recipe");
+    let script = slurm_script(&scratch, 9000);
+    assert!(script.contains("--signal=B:USR1@60 --requeue"), "{script}");
+    scratch.prints("campaign small.toml --samples 9000 --out one", 0);
+    for task in [2, 1, 1] {
+        assert_eq!(slurm_task(&scratch, task, 0).wait().expect("ended").code(), Some(0), "task {task}");
+    }
+    scratch.prints("finish sharded", 0);
+    assert!(contents(&scratch.path("sharded")) == contents(&scratch.path("one")));
+    assert!(!scratch.path("scontrol.log").exists());
+}
+
+/// Law: a task that is signalled before its time limit, or killed, puts itself back into the queue, at most ten times; after another signal it does not.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_slurm_task_that_was_stopped_is_put_back() {
+    let scratch = folder("slurm-requeue");
+    slurm_script(&scratch, 400_000); // seconds, so that there is time to stop
+    let parts = || fs::read_dir(scratch.path("sharded/runs")).map_or(0, Iterator::count);
+    let wait = |mut what: Box<dyn FnMut() -> bool + '_>| {
+        let begun = Instant::now();
+        while !what() {
+            assert!(begun.elapsed() < Duration::from_secs(60), "it does not happen");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    };
+    let mut requeued = 0;
+    // USR1 goes to the shell, which passes it on; the others to the program
+    for (signal, restarts, code, is_back) in
+        [("USR1", 0, 138, true), ("KILL", 9, 137, true), ("KILL", 10, 137, false), ("TERM", 0, 143, false)]
+    {
+        let before = parts();
+        let mut task = slurm_task(&scratch, 1, restarts);
+        let children = format!("/proc/{0}/task/{0}/children", task.id());
+        let program = || fs::read_to_string(&children).ok()?.split_whitespace().next()?.parse().ok();
+        wait(Box::new(|| parts() > before && program().is_some()));
+        send(signal, if signal == "USR1" { task.id() } else { program().expect("it runs") });
+        assert_eq!(task.wait().expect("ended").code(), Some(code), "{signal}");
+        requeued += usize::from(is_back);
+        let asked = fs::read_to_string(scratch.path("scontrol.log")).unwrap_or_default();
+        assert_eq!(asked, "requeue 101\n".repeat(requeued), "{signal}, {restarts} restarts");
     }
 }

@@ -269,7 +269,6 @@ fn escapes_in_arguments_are_shown_as_text() {
         vec!["campaign", "small.toml", "--size", hostile],
         vec!["check", "small.toml", "--set", hostile],
         vec!["precision", "small.toml", "--methods", hostile],
-        vec!["slurm", "small.toml", "--time", hostile],
         vec!["verify", "r", "--fraction", hostile],
     ] {
         let arguments: Vec<String> =
