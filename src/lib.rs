@@ -53,6 +53,8 @@ pub mod control;
 #[doc(hidden)]
 pub mod ensemble;
 #[doc(hidden)]
+pub mod findings;
+#[doc(hidden)]
 pub mod report;
 #[doc(hidden)]
 pub mod sampling;

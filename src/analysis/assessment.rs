@@ -1,8 +1,9 @@
 //! [`Assessment`]: what the runs of a campaign say of one requirement.
 
 use crate::campaign::{Requirement, ShownUnit, Statement};
-use crate::statistics::binomial::Decision;
+use crate::statistics::binomial::{Decision, upper_bound};
 use crate::statistics::gate::{Gate, GateLimit};
+use crate::statistics::looks::adjusted;
 use crate::statistics::quantile::percent;
 
 /// What the runs say of one requirement.
@@ -102,10 +103,30 @@ impl Assessment {
         self.interval.iter().any(|end| end.is_finite())
     }
 
+    /// At how many points of time it is tested.
+    fn points(&self) -> usize {
+        self.worst.map_or(1, |worst| worst.points)
+    }
+
+    /// The confidence at which it fails: after the corrections for looks, requirements and points of time.
+    pub fn fails_at(&self) -> f64 {
+        adjusted(self.confidences[1], self.points())
+    }
+
+    /// The same, were it the only requirement.
+    pub fn fails_alone_at(&self) -> f64 {
+        adjusted(self.confidences[0], self.points())
+    }
+
     /// Whether it would have failed, were it the only requirement.
     pub fn fails_alone(&self) -> bool {
-        let [lower, upper] = self.gate.bounds;
-        let is_undecided = matches!(self.gate.decision, Decision::Undecided(_));
+        let [lower, mut upper] = self.gate.bounds;
+        if let Some(worst) = self.worst {
+            // the bounds are those of one point that was chosen among several
+            let most = (self.runs - self.violations + worst.unresolved).min(self.runs);
+            upper = upper_bound(most, self.runs, self.fails_alone_at());
+        }
+        let is_undecided = matches!(self.gate.decision, Decision::Undecided(_)) && self.reason.is_none();
         is_undecided
             && match (self.requirement.statement, self.requirement.limit) {
                 (Statement::Mean, GateLimit::AtMost(limit)) => lower > limit,

@@ -33,6 +33,21 @@ impl ShownUnit {
         ShownUnit { unit: unit.to_owned(), size: [1.0; 2] }
     }
 
+    /// The same, or hours or days in place of seconds: the unit in which a person says a time as long as `longest`, if `limit` is a short number in it.
+    #[must_use]
+    pub fn of_time(self, longest: f64, limit: Option<f64>) -> Self {
+        /// A limit with more digits in a unit is not said in it.
+        const DIGITS: usize = 4;
+        let is_short = |value: f64| format!("{value:.0$e}", DIGITS - 1).parse() == Ok(value);
+        let units = [("days", 86_400.0, 172_800.0), ("h", 3600.0, 7200.0)].into_iter();
+        let mut fitting =
+            units.filter(|(_, size, from)| longest >= *from && limit.is_none_or(|one| is_short(one / size)));
+        match fitting.next().filter(|_| self.unit == "s") {
+            Some((unit, size, _)) => ShownUnit { unit: unit.to_owned(), size: [size, 1.0] },
+            None => self,
+        }
+    }
+
     /// Whether numbers are shown as they are.
     pub fn is_own(&self) -> bool {
         self.size[0] == self.size[1]

@@ -6,9 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::campaign::Overrides;
-use crate::cli::argument_values::{
-    count, fraction, method, seconds, setting, shard, shift, size, threads, tolerance,
-};
+use crate::cli::argument_values::{count, fraction, method, seconds, setting, shard, shift, size, threads, tolerance};
 use crate::cli::colour::Colour;
 use crate::cli::{help, screen};
 use crate::propagation::Method;

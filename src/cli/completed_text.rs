@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::cli::screen::width;
+use crate::findings::number::{bytes, counted};
 use crate::report::audit_summary::cost;
-use crate::report::number::{bytes, counted};
 use crate::report::summary::{EndVerdict, SummaryEnd};
 use crate::report::verdict_table::{self, VerdictRow};
 use crate::report::{brief_text, drivers_text};

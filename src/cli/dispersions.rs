@@ -7,7 +7,7 @@ use crate::cli::screen::width;
 use crate::ensemble::drawn::{MASS_COLUMNS, magnitudes, mass_properties};
 use crate::ensemble::magnitude::Magnitude;
 use crate::ensemble::{DrawnScenes, Percentiles};
-use crate::report::number::{counted, short, trimmed};
+use crate::findings::number::{counted, short, trimmed};
 use crate::report::origin_text::{origin, unit_of};
 use crate::sampling::{Design, Replaced, SampleId};
 use crate::table::Table;

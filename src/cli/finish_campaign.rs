@@ -5,7 +5,7 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::terminal::Terminal;
 use crate::cli::{completed_text, screen};
-use crate::report::shell_word::quoted_path;
+use crate::findings::shell_word::quoted_path;
 use crate::storage::names::PLAN;
 use crate::table::wrapped::wrapped;
 use crate::workflow::finishing::finish;

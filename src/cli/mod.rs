@@ -1,4 +1,4 @@
-//! Layer 11: the command line.
+//! Layer 12: the command line.
 //!
 //! - [`program`]: the program as a whole. - [`arguments`]: commands and options; [`argument_values`]: their values; [`help`]: what their help texts end with. - [`outputs`]: which files a command may write. - [`workload`]: what a command would
 //!   compute and write, refused where it cannot be done; [`machine`]: what is left of memory and disk.

@@ -6,7 +6,7 @@ use std::io::Write;
 use crate::cli::arguments::NewOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::screen;
-use crate::report::shell_word::quoted_path;
+use crate::findings::shell_word::quoted_path;
 use crate::storage::atomic;
 
 /// The file: a spacecraft with a wheel, what is uncertain of it, and a requirement.

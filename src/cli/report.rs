@@ -5,7 +5,7 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::refuse_within;
 use crate::cli::terminal::Terminal;
 use crate::cli::{completed_text, screen};
-use crate::report::number::bytes;
+use crate::findings::number::bytes;
 use crate::report::share_text;
 use crate::workflow::Session;
 use crate::workflow::page::{Remade, remade};

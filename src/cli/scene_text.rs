@@ -3,9 +3,9 @@
 use std::fmt::{Result, Write};
 
 use crate::campaign::Display;
+use crate::findings::number::trimmed;
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{cross, difference, norm, product, scaled, sum};
-use crate::report::number::trimmed;
 use crate::scene::mass::{Body, Wheel};
 use crate::scene::schema::InitialInput;
 use crate::scene::{MassProperties, Scene, SceneInput};

@@ -4,7 +4,7 @@ use crate::cli::arguments::VerifyOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::terminal::Terminal;
 use crate::cli::{completed_text, screen};
-use crate::report::number::counted;
+use crate::findings::number::counted;
 use crate::storage::names::PLAN;
 use crate::table::wrapped::wrapped;
 use crate::workflow::{Session, Verification, Verified, verify};

@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use crate::analysis::audit_tally::{AuditTally, Coverage, PROMISED_COVERAGE};
 use crate::ensemble::audit::AuditValue;
+use crate::findings::number::{counted, short};
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
-use crate::report::number::{counted, short};
 use crate::statistics::quantile::percent;
 use crate::statistics::spread::Spread;
 use crate::table::Table;

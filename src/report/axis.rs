@@ -1,7 +1,7 @@
 //! [`DrawnAxis`]: an axis of a figure in a file: from values to places, where its ticks are, and what is written at them.
 
+use crate::findings::number::short;
 use crate::report::figure::{Axis, Scale};
-use crate::report::number::short;
 
 /// Where a variable varies by less than this fraction of its magnitude, its axis shows the change since the first value.
 const CHANGE_BELOW: f64 = 1e-3;

@@ -2,8 +2,8 @@
 
 use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, said};
+use crate::findings::number::counted;
 use crate::report::compared::Compared;
-use crate::report::number::counted;
 use crate::table::Table;
 use crate::table::text::Align;
 use crate::table::wrapped::fitted;

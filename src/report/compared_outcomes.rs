@@ -3,11 +3,11 @@
 use crate::analysis::comparison::{Absence, ColumnComparison, Comparison, Shift};
 use crate::analysis::outcomes::outcomes;
 use crate::campaign::{Plan, ShownUnit, Statement};
+use crate::findings::names;
+use crate::findings::number::counted;
+use crate::findings::number::{brief, outward, trimmed};
 use crate::observables::Group;
 use crate::report::compared::Compared;
-use crate::report::names;
-use crate::report::number::counted;
-use crate::report::number::{brief, outward, trimmed};
 use crate::report::share_text;
 use crate::statistics::quantile::percent;
 use crate::table::Table;

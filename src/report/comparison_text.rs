@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use crate::analysis::comparison::ColumnComparison;
 use crate::analysis::population::Population;
+use crate::findings::number::{brief, counted};
 use crate::report::compared::{Compared, ComparedVerdict};
-use crate::report::number::{brief, counted};
 use crate::report::{changed_keys, compared_outcomes};
 use crate::table::Table;
 use crate::table::text::{Align, Text};

@@ -2,7 +2,7 @@
 
 use crate::ensemble::FailureReason;
 use crate::ensemble::failure_reasons::with_numbers;
-use crate::report::number::trimmed;
+use crate::findings::number::trimmed;
 use crate::run::Status;
 
 /// Most reasons that are listed.

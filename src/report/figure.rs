@@ -4,7 +4,7 @@
 //! numbers and names from here.
 
 use crate::campaign::{Display, ShownUnit};
-use crate::report::number::short;
+use crate::findings::number::short;
 
 /// The colour of a mark, by what it belongs to: bodies keep theirs everywhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

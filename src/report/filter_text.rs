@@ -1,7 +1,7 @@
 //! Whether the filters of a control loop know how large their errors are, in words.
 
 use crate::analysis::statistics::{ColumnStatistics, Statistics};
-use crate::report::number::brief;
+use crate::findings::number::brief;
 
 /// Normalised squares of estimation errors per degree of freedom have a median a little below 1 where the covariance of a filter is right (that of chi-square
 /// with 6 degrees is 0.89). Above this one, errors are typically half as large again as the filter says, or more.

@@ -1,9 +1,9 @@
 //! Histograms: bars of equal width, by decades where values span many; of drawn samples with their nominal value and with what is expected
 //! of the distribution that was asked for.
 
+use crate::findings::number::short;
 use crate::report::expected_counts::Asked;
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape, Scale};
-use crate::report::number::short;
 
 /// Fewest and most bars; between them as many as the square root of the number of values, so that few values are no comb.
 const BARS: [usize; 2] = [10, 40];

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use crate::findings::names::sentence;
+use crate::findings::number::counted;
 use crate::report::escaped::escaped;
-use crate::report::names::sentence;
-use crate::report::number::counted;
 use crate::report::summary::SummaryEnd;
 use crate::table::Table;
 use crate::table::text::Align;

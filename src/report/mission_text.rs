@@ -2,7 +2,7 @@
 
 use crate::analysis::missions::{MissionShare, Missions};
 use crate::control::guidance::Failure;
-use crate::report::number::trimmed;
+use crate::findings::number::trimmed;
 use crate::report::share_text::with_interval;
 
 /// How a mission ended, in words that follow "mission".

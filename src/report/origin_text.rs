@@ -1,7 +1,7 @@
 //! Where the values of a dispersed number come from, in words.
 
 use crate::campaign::{Plan, ShownUnit};
-use crate::report::number::trimmed;
+use crate::findings::number::trimmed;
 use crate::sampling::NumberWords;
 
 /// The unit in which the dispersed number `column` of `plan` is shown.

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::ensemble::precision::{Deviation, Measurement, Setting, Skipped};
-use crate::report::number::counted;
-use crate::report::number::{brief, significant};
+use crate::findings::number::counted;
+use crate::findings::number::{brief, significant};
 use crate::table::Table;
 use crate::table::text::{Align, Text};
 

@@ -1,7 +1,7 @@
 //! Shares of runs in words: "98.4% [91.5, 99.96]".
 
 use crate::analysis::noise_share::NoiseShare;
-use crate::report::number::{brief, outward};
+use crate::findings::number::{brief, outward};
 use crate::statistics::share_within::FEWEST_OTHERS;
 use crate::table::Table;
 use crate::table::text::Align;

@@ -3,7 +3,7 @@
 use crate::analysis::stopping::{LookFound, Stopping};
 use crate::campaign::Plan;
 use crate::campaign::stop::When;
-use crate::report::number::short;
+use crate::findings::number::short;
 
 /// One sentence on `stopping`, a look at the campaign of `plan`; a second one where it ended the campaign.
 pub fn text(plan: &Plan, stopping: &Stopping) -> String {

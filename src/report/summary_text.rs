@@ -1,13 +1,13 @@
 //! A summary on the screen: the verdicts first, then what was found, then how well it was computed, with all that is known of it: what `--verbose` prints.
 
 use super::audit_summary::{Numerics, shorts};
-use super::number::short;
 use super::observable_lines::{ObservableLine, table};
 use super::summary::{LISTED, Summary};
 use super::{failure_text, mission_text, requirements, warnings};
 use crate::analysis::assessment::Assessment;
 use crate::analysis::outcomes::OF_MOTION;
 use crate::analysis::statuses::Ended;
+use crate::findings::number::short;
 use crate::table::Table;
 use crate::table::text::Align;
 use crate::table::wrapped::{message, wrapped};

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::campaign::Plan;
+use crate::findings::number::{short, significant, trimmed};
 use crate::observables::Series;
-use crate::report::number::{short, significant, trimmed};
 use crate::report::over_time::figure_list::{ListedFigure, Place, Shows, Traits, figures_of};
 use crate::run::{Quantity, StateField};
 use crate::scene::Name;

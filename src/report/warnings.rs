@@ -4,9 +4,9 @@ use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
 use crate::analysis::population::Loss;
 use crate::analysis::statistics::Statistics;
 use crate::campaign::Plan;
+use crate::findings::number::counted;
 use crate::report::audit_summary::AuditSummary;
 use crate::report::drivers_text::{ranked, sentence};
-use crate::report::number::counted;
 use crate::report::share_text::with_interval;
 use crate::run::Status;
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::analysis::ending::ending;
 use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
-use crate::report::shell_word::quoted_path;
+use crate::findings::shell_word::quoted_path;
 use crate::report::summary::SummaryEnd;
 use crate::storage::claim::Finished;
 use crate::storage::manifest::PartsRead;

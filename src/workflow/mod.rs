@@ -1,4 +1,4 @@
-//! Layer 10: campaigns and results, as a program works with them; the command line is one such program.
+//! Layer 11: campaigns and results, as a program works with them; the command line is one such program.
 //!
 //! - [`campaign`]: [`Campaign`], a file and where its result goes; [`outcome`]: how it ended; `running`: the samples that are not there yet. - [`results`]: [`Results`], a finished
 //!   result to be read.

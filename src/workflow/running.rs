@@ -10,7 +10,7 @@ use crate::campaign::Plan;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
 use crate::ensemble::{Ensemble, Part, Parts, run as run_parts};
-use crate::report::number::counted;
+use crate::findings::number::counted;
 use crate::report::stopping_text::text as stopping_text;
 use crate::storage::claim::{Ready, Shard};
 use crate::storage::manifest::PartRecord;

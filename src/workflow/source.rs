@@ -4,8 +4,8 @@ use std::path::Path;
 
 use crate::campaign::{FilesRead, Overrides, Plan, data, find, nearest_file};
 use crate::ensemble::Ensemble;
-use crate::report::number::counted;
-use crate::report::shell_word::quoted_path;
+use crate::findings::number::counted;
+use crate::findings::shell_word::quoted_path;
 use crate::storage::found::Found;
 use crate::storage::identity::sha256;
 use crate::storage::manifest::{Identity, PartRecord};

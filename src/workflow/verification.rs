@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use crate::control::laws::asked;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts};
-use crate::report::number::counted;
+use crate::findings::number::counted;
 use crate::sampling::SampleId;
 use crate::storage::claim::{Claim, ClaimOptions, claim, lock, open};
 use crate::storage::folder::{PartFile, unmark};

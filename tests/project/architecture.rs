@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Layers: a module imports only from layers below its own (and from itself).
-const LAYERS: [(&str, u32); 19] = [
+const LAYERS: [(&str, u32); 20] = [
     ("math", 0),
     ("scene", 1),
     ("run", 1),
@@ -22,10 +22,11 @@ const LAYERS: [(&str, u32); 19] = [
     ("ensemble", 6),
     ("storage", 7),
     ("analysis", 8),
-    ("report", 9),
-    ("workflow", 10),
-    ("cli", 11),
-    ("main", 12),
+    ("findings", 9),
+    ("report", 10),
+    ("workflow", 11),
+    ("cli", 12),
+    ("main", 13),
 ];
 
 /// Crates that only these modules or files may use.

@@ -1,9 +1,9 @@
 //! The relative errors of the balances over time: on the page with bands, in plots together.
 
+use crate::findings::number::short;
 use crate::observables::Series;
 use crate::report::figure::Dash;
 use crate::report::figure::{Figure, FigureSection, Hue, Mark};
-use crate::report::number::short;
 use crate::report::over_time::curves::{Curves, over_time};
 use crate::report::over_time::figure_list::ListedFigure;
 use crate::report::over_time::relative_errors;

@@ -1,9 +1,9 @@
 //! Energies over time: of each body, all of them, and what goes from one to another.
 
+use crate::findings::number::short;
 use crate::observables::Series;
 use crate::report::axis::ROUNDING;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
-use crate::report::number::short;
 use crate::report::over_time::curves::{Curves, over_time};
 use crate::report::over_time::figure_list::ListedFigure;
 use crate::report::over_time::spectrum::{amplitudes, dominant};

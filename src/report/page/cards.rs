@@ -3,9 +3,9 @@
 use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::campaign::{Display, ShownUnit};
+use crate::findings::names;
+use crate::findings::names::sentence as sentence_case;
 use crate::report::escaped::escaped;
-use crate::report::names;
-use crate::report::names::sentence as sentence_case;
 use crate::report::page::NO_INTERVAL;
 use crate::report::page::influence::Influence;
 use crate::report::page::readable::{in_brackets, number, with_unit};

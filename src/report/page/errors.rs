@@ -2,9 +2,9 @@
 
 use crate::analysis::order_statistics::share_interval;
 use crate::analysis::survey::{Survey, SurveyedOutcome};
+use crate::findings::names;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::histogram::{bins, counts};
-use crate::report::names;
 use crate::report::page::NO_INTERVAL;
 use crate::report::page::readable::grouped;
 use crate::run::Status;

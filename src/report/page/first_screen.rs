@@ -3,10 +3,10 @@
 use crate::analysis::missions::Missions;
 use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
+use crate::findings::names::sentence;
 use crate::report::escaped::escaped;
 use crate::report::failure_text::{readable, status_words};
 use crate::report::mission_text;
-use crate::report::names::sentence;
 use crate::report::page::cards::{Card, Judged, overall};
 use crate::report::page::readable::{grouped, number};
 use crate::report::requirements;

@@ -13,10 +13,10 @@ use crate::analysis::survey::Survey;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::ensemble::Bands;
+use crate::findings::names;
+use crate::findings::names::sentence;
 use crate::report::drivers_text::{self, outcomes, ranked, verb};
 use crate::report::filter_text;
-use crate::report::names;
-use crate::report::names::sentence;
 use crate::report::over_time::curves::{FEWEST, TimeBands};
 use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
@@ -252,7 +252,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
         notes.push(format!("{}.", sentence(&assumed)));
     }
     match (&one.reason, one.gate.decision) {
-        (Some(reason), _) => notes.push(format!("{}.", crate::report::names::sentence(reason))),
+        (Some(reason), _) => notes.push(format!("{}.", crate::findings::names::sentence(reason))),
         (None, Decision::Undecided(runs)) => {
             notes.push(format!("{}.", sentence(&runs_needed(runs.map(grouped).as_deref()))));
         }
@@ -289,7 +289,7 @@ fn card(one: &Assessment, survey: &Survey, statistics: &Statistics, influences: 
             )
         }
     };
-    notes.extend(one.note.as_ref().map(|note| format!("{}.", crate::report::names::sentence(note))));
+    notes.extend(one.note.as_ref().map(|note| format!("{}.", crate::findings::names::sentence(note))));
     Card {
         judged: match one.gate.decision {
             Decision::Pass => Judged::Pass,

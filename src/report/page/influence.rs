@@ -2,11 +2,11 @@
 
 use crate::analysis::survey::{SCATTER, Survey, SurveyedOutcome, chosen};
 use crate::campaign::Plan;
+use crate::findings::names;
+use crate::findings::names::sentence;
 use crate::report::drivers_text::SEE_INTERACTIONS;
 use crate::report::escaped::escaped;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
-use crate::report::names;
-use crate::report::names::sentence;
 use crate::report::page::errors::{having, magnitude, shown_rows};
 use crate::report::page::fates::{self, Fate};
 use crate::run::Quantity;

@@ -1,11 +1,11 @@
 //! The inputs, one line each: what was drawn as a small histogram, what was asked for, the nominal value, and how well both fit.
 
 use crate::campaign::Plan;
+use crate::findings::names;
+use crate::findings::names::sentence;
 use crate::math::incomplete_gamma::incomplete_gamma;
 use crate::report::escaped::escaped;
 use crate::report::figure::{Figure, Mark};
-use crate::report::names;
-use crate::report::names::sentence;
 use crate::report::origin_text::{origin, unit_of};
 use crate::report::page::readable::with_unit;
 

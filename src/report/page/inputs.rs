@@ -4,8 +4,8 @@ use core::f64::consts::PI;
 
 use crate::analysis::survey::Survey;
 use crate::campaign::Plan;
+use crate::findings::names;
 use crate::report::figure::{Axis, Figure, FigureSection};
-use crate::report::names;
 use crate::report::origin_text::origin;
 use crate::report::page::readable::grouped;
 use crate::report::{drawn_figure, histogram, marginal};

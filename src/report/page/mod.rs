@@ -43,10 +43,10 @@ use crate::analysis::survey::{self, Survey};
 use crate::campaign::Plan;
 use crate::campaign::event::Event;
 use crate::ensemble::Ensemble;
+use crate::findings::names;
+use crate::findings::number::counted;
 use crate::report::figure::{Figure, FigureSection, Mark, Scale};
 use crate::report::mission_text;
-use crate::report::names;
-use crate::report::number::counted;
 use crate::report::over_time::curves::{Curves, TimeBands};
 use crate::sampling::{Design, SampleId};
 

@@ -1,7 +1,7 @@
 //! Numbers as a person reads them: powers of ten with superscripts, thousands apart, SI prefixes.
 
+use crate::findings::number::outward;
 use crate::report::axis::superscript;
-use crate::report::number::outward;
 
 /// A number with three or four digits, below ten million with those before its point: 0.01234, 1.235 x 10^-13 with superscripts, 4,096, 6,971,002.
 pub fn number(value: f64) -> String {

@@ -57,7 +57,8 @@ fn indexed_jobs_make_the_bytes_of_one_process() {
 
 /// The script of the array in the document, for `small.toml` with so many samples; `scontrol`, which it calls, writes its arguments to a file.
 fn slurm_script(scratch: &ScratchFolder, samples: u64) -> String {
-    let mut script = format!("scontrol() {{ echo \"$@\" >>scontrol.log; }}\n{}", between("```text\n#!/bin/bash\n", "```"));
+    let mut script =
+        format!("scontrol() {{ echo \"$@\" >>scontrol.log; }}\n{}", between("```text\n#!/bin/bash\n", "```"));
     for (written, here) in [
         ("spindrift campaign", concat!("'", env!("CARGO_BIN_EXE_spindrift"), "' campaign")),
         (" spin_sweep.toml ", &format!(" small.toml --samples {samples} ")),

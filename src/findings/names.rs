@@ -1,4 +1,5 @@
-//! What columns and parameters are called where a person reads them: in words, on the page, in figures and in sentences of the screen. The technical
+//! What columns and parameters are called where a person reads them: in words, on the page, in figures and in sentences
+//! of the screen. The technical
 //! names stay in files, tooltips and commands.
 
 use crate::campaign::Plan;
@@ -80,7 +81,8 @@ fn of_stem(name: &str) -> String {
     format!("{before}{}{after}", of_series(stem))
 }
 
-/// The part of a run in words, and the quantity: of `_from_120_s_to_600_s_pointing_error` " from 120 s to 600 s" and `pointing_error`; `None` without such a part.
+/// The part of a run in words, and the quantity: of `_from_120_s_to_600_s_pointing_error` " from 120 s to 600 s" and
+/// `pointing_error`; `None` without such a part.
 fn window_of(text: &str) -> Option<(String, &str)> {
     let (mut window, mut rest) = (String::new(), text);
     for word in ["from", "to"] {
@@ -124,7 +126,8 @@ fn of_series(stem: &str) -> String {
     format!("{energy}{about}")
 }
 
-/// What a component of a parameter is called: "initial angular velocity y", "wheel w1 rate", "thruster p2 thrust scale".
+/// What a component of a parameter is called: "initial angular velocity y", "wheel w1 rate", "thruster p2 thrust
+/// scale".
 pub fn of_component(parameter: Parameter, component: usize) -> String {
     let text = of_parameter(parameter);
     match parameter.components()[component] {

@@ -1,0 +1,364 @@
+//! Numbers in text: the one formatter of screen, page, JUnit, notebook and messages. It writes plain ASCII, as a
+//! command would take it; a page sets minus signs
+//! and powers of ten by [`typeset`].
+
+use crate::campaign::ShownUnit;
+
+/// A number in four significant digits, at most eleven characters; whole numbers below 1e5 in full.
+pub fn short(value: f64) -> String {
+    significant(value, 4)
+}
+
+/// A number in three significant digits, for lines that are read at a glance; whole numbers below 1e5 in full.
+pub fn brief(value: f64) -> String {
+    significant(value, 3)
+}
+
+/// A number in so many significant digits; with a power of ten below 1e-3 and from the power on that has two digits
+/// more; smaller whole numbers in full.
+pub fn significant(value: f64, digits: usize) -> String {
+    let size = value.abs();
+    if size == 0.0 {
+        return "0".to_owned();
+    }
+    let in_powers = format!("{value:.*e}", digits - 1);
+    if !(1e-3..f64::max(1e5, libm::exp10((digits + 1) as f64))).contains(&size) {
+        in_powers
+    } else if size == libm::floor(size) {
+        format!("{value:.0}")
+    } else {
+        // of the rounded number: 99.999 is 100.0, not 100.00
+        let before = in_powers.rsplit('e').next().and_then(|power| power.parse::<i32>().ok()).unwrap_or(0);
+        format!("{value:.*}", (digits as i32 - 1 - before).max(0) as usize)
+    }
+}
+
+/// The ends of an interval, rounded away from its middle to so many significant digits: what is shown contains what was
+/// found. Whole numbers below 1e5 in
+/// full; ends that are not finite stay.
+pub fn outward([low, high]: [f64; 2], digits: i32) -> [f64; 2] {
+    let rounded = |value: f64, up: bool| {
+        if value == 0.0 || !value.is_finite() {
+            return value;
+        }
+        let size = value.abs();
+        let power = libm::floor(libm::log10(size)) as i32 - digits + 1;
+        let power = if (1.0..1e5).contains(&size) { power.min(0) } else { power };
+        let [times, over] = [-power, power].map(|power| libm::exp10(f64::from(power.max(0))));
+        let steps = value * times / over;
+        let whole = libm::round(steps);
+        // not by its own rounding
+        let steps = match (steps - whole).abs() < 1e-13 * steps.abs() {
+            true => whole,
+            false if up => libm::ceil(steps),
+            false => libm::floor(steps),
+        };
+        steps / times * over
+    };
+    [rounded(low, false), rounded(high, true)]
+}
+
+/// The same without zeros at the end of its decimals.
+pub fn trimmed(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
+    let (number, power) = text.split_at(text.find('e').unwrap_or(text.len()));
+    match number.contains('.') {
+        true => number.trim_end_matches('0').trim_end_matches('.').to_owned() + power,
+        false => text,
+    }
+}
+
+/// A number as a file has it, without the decimals of a whole one.
+pub fn written(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+}
+
+/// A time in the unit in which a person says it: "90 s", "2 days".
+pub fn time(seconds: f64) -> String {
+    let shown = ShownUnit::own("s").of_time(seconds.abs(), Some(seconds));
+    format!("{} {}", trimmed(shown.value(seconds), 6), shown.unit)
+}
+
+/// A count with what is counted: "1 run", "3 runs". `thing` is regular.
+pub fn counted<C: core::fmt::Display + PartialEq + From<u8>>(count: C, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == C::from(1) { "" } else { "s" })
+}
+
+/// A size of files in decimal units.
+pub fn bytes(size: u64) -> String {
+    const UNITS: [&str; 5] = ["B", "kB", "MB", "GB", "TB"];
+    let mut value = size as f64;
+    let mut unit = 0;
+    while value >= 1000.0 && unit + 1 < UNITS.len() {
+        value /= 1000.0;
+        unit += 1;
+    }
+    if unit == 0 { format!("{size} B") } else { format!("{value:.1} {}", UNITS[unit]) }
+}
+
+/// The power of ten of the last digit that an interval of this half-width supports: two digits of the half-width.
+fn place_of(half_width: f64) -> i32 {
+    libm::floor(libm::log10(half_width) + 1e-9) as i32 - 1
+}
+
+/// `value` rounded to a multiple of 10^`place`: downward, upward, or to the nearest, and not by the rounding of the
+/// value itself.
+fn rounded(value: f64, place: i32, up: Option<bool>) -> f64 {
+    let [times, over] = [-place, place].map(|power| libm::exp10(f64::from(power.max(0))));
+    let (steps, mut whole) = (value * times / over, libm::round(value * times / over));
+    if (steps - whole).abs() >= 1e-13 * steps.abs() {
+        whole = up.map_or(whole, |up| if up { libm::ceil(steps) } else { libm::floor(steps) });
+    }
+    whole / times * over
+}
+
+/// `value` with its last digit at 10^`place`.
+fn at_place(value: f64, place: i32) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        return format!("{:.*}", (-place).clamp(0, 6) as usize, 0.0);
+    }
+    let power = libm::floor(libm::log10(size) + 1e-12) as i32;
+    if (1e-3..1e6).contains(&size) && place > -12 {
+        format!("{value:.*}", (-place).max(0) as usize)
+    } else {
+        format!("{value:.*e}", (power - place).clamp(0, MOST_DIGITS - 1) as usize)
+    }
+}
+
+/// No `f64` tells more.
+const MOST_DIGITS: i32 = 15;
+/// Numbers of one sign whose sizes differ by more have their own digits each.
+const MOST_RATIO: f64 = 100.0;
+
+/// An estimate and the ends of its interval, which are NaN where they are not known: digits to the same place, as many
+/// as the interval supports, the ends rounded
+/// away from the estimate. No end is shown at one of the `bounds` of what is estimated that it does not reach. `None`
+/// in place of an end that is not known.
+fn interval_texts(value: f64, ends: [f64; 2], bounds: [f64; 2]) -> (String, [Option<String>; 2]) {
+    let known: Vec<f64> = ends.into_iter().filter(|end| end.is_finite()).collect();
+    let all = || known.iter().copied().chain([value]);
+    let sizes = || all().map(f64::abs).filter(|size| *size > 0.0);
+    let [least, most] = [sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max)];
+    let is_wide = all().all(|one| one >= 0.0) | all().all(|one| one <= 0.0) && most > MOST_RATIO * least;
+    let half = match known[..] {
+        [low, high] => 0.5 * (high - low).abs(),
+        [end] => (end - value).abs(),
+        _ => 0.0,
+    };
+    if half == 0.0 || is_wide {
+        let outward = outward(ends, 3);
+        return (brief(value), outward.map(|end| end.is_finite().then(|| brief(end))));
+    }
+    let least_place = libm::floor(libm::log10(most)) as i32 + 1 - MOST_DIGITS;
+    let shown = |place: i32| [0, 1].map(|which| rounded(ends[which], place, Some(which == 1)));
+    let reaches = |place: i32| (0..2).any(|which| shown(place)[which] == bounds[which] && ends[which] != bounds[which]);
+    let mut place = place_of(half);
+    while place > least_place && reaches(place) {
+        place -= 1;
+    }
+    let place = place.max(least_place);
+    let text = |one: f64| one.is_finite().then(|| at_place(one, place));
+    (at_place(rounded(value, place, None), place), shown(place).map(text))
+}
+
+/// The same as one text: "0.938 [0.901, 0.994]", with `?` in place of an end that is not known; without brackets where
+/// neither is.
+pub fn with_interval(value: f64, ends: [f64; 2]) -> String {
+    bracketed(value, ends, [f64::NAN; 2], "")
+}
+
+fn bracketed(value: f64, ends: [f64; 2], bounds: [f64; 2], unit: &str) -> String {
+    let (value, ends) = interval_texts(value, ends, bounds);
+    if ends.iter().all(Option::is_none) {
+        return format!("{value}{unit}");
+    }
+    let [low, high] = ends.map(|end| end.unwrap_or_else(|| "?".to_owned()));
+    format!("{value}{unit} [{low}, {high}]")
+}
+
+/// A share in per cent with three digits, and near 100 with as many as show that it is not all.
+pub fn percent(share: f64) -> String {
+    let left = 100.0 * (1.0 - share);
+    if (1e-12..1.0).contains(&left) {
+        format!("{:.*}", (-libm::floor(libm::log10(left))) as usize, 100.0 * share)
+    } else {
+        brief(100.0 * share)
+    }
+}
+
+/// A share, or where runs are missing its least and largest value, with its interval where there is one: "98.40%
+/// [91.45, 99.96]".
+pub fn share([least, most]: [f64; 2], interval: [f64; 2]) -> String {
+    if least == most && interval.iter().any(|end| end.is_finite()) {
+        return bracketed(100.0 * least, interval.map(|end| 100.0 * end), [0.0, 100.0], "%");
+    }
+    if least == most {
+        return format!("{}%", percent(least));
+    }
+    let range = format!("{}% to {}%", percent(least), percent(most));
+    if interval.iter().any(|end| !end.is_finite()) {
+        return range;
+    }
+    let (_, ends) = interval_texts(50.0 * (least + most), interval.map(|end| 100.0 * end), [0.0, 100.0]);
+    format!("{range} [{}]", ends.map(Option::unwrap_or_default).join(", "))
+}
+
+/// Numbers that stand side by side: three digits each, and as many more as keep different ones apart.
+pub fn apart<const N: usize>(values: [f64; N]) -> [String; N] {
+    let texts = |digits: usize| values.map(|value| significant(value, digits));
+    let is_apart = |digits: &usize| {
+        let texts = texts(*digits);
+        (0..N).all(|one| (0..one).all(|other| values[one] == values[other] || texts[one] != texts[other]))
+    };
+    texts((3..MOST_DIGITS as usize).find(is_apart).unwrap_or(3))
+}
+
+/// A text of this module with true minus signs and raised powers of ten, as a page shows it.
+pub fn typeset(text: &str) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    let (mut out, mut at) = (String::with_capacity(text.len()), 0);
+    let is_digit = |place: usize| letters.get(place).is_some_and(char::is_ascii_digit);
+    while at < letters.len() {
+        let before = at.checked_sub(1).map(|at| letters[at]);
+        let is_power = letters[at] == 'e' && before.is_some_and(|letter| letter.is_ascii_digit());
+        let sign = usize::from(letters.get(at + 1) == Some(&'-'));
+        if is_power && is_digit(at + 1 + sign) {
+            out += "\u{202f}\u{d7}\u{202f}10";
+            at += 1;
+            while at < letters.len() && (letters[at] == '-' || letters[at].is_ascii_digit()) {
+                let digit = letters[at].to_digit(10).and_then(|digit| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(digit as usize));
+                out.push(digit.unwrap_or('⁻'));
+                at += 1;
+            }
+            continue;
+        }
+        let is_minus = letters[at] == '-' && is_digit(at + 1) && before.is_none_or(|one| " [(=".contains(one));
+        out.push(if is_minus { '\u{2212}' } else { letters[at] });
+        at += 1;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: a number fits its column, whatever its magnitude.
+    #[test]
+    fn short_numbers_are_short() {
+        for (value, text) in [
+            (0.0, "0"),
+            (1.234_567e-15, "1.235e-15"),
+            (12.345_67, "12.35"),
+            (4096.0, "4096"),
+            (99.999, "100.0"),
+            (0.999_99, "1.000"),
+            (-1.5e300, "-1.500e300"),
+        ] {
+            assert_eq!(short(value), text);
+        }
+        for (value, text) in [
+            (0.0, "0"),
+            (1_982.771_592_697, "1982.77"),
+            (-0.012_345_678, "-0.0123457"),
+            (1_234_567.8, "1234568"),
+            (0.5, "0.5"),
+            (3.0, "3"),
+            (1.234_567_8e-9, "1.23457e-9"),
+            (1e30, "1e30"),
+            (-1.5e-4, "-1.5e-4"),
+        ] {
+            assert_eq!(trimmed(value, 6), text);
+        }
+        assert_eq!([0.909_3, 1094.4, 2174.2, 99_999.9].map(brief), ["0.909", "1094", "2174", "100000"]);
+        for value in [f64::MIN, f64::MIN_POSITIVE, f64::NAN, f64::INFINITY] {
+            assert!(short(value).len() <= 11, "{value:e}: {}", short(value));
+        }
+    }
+
+    /// Law: what is shown of an interval contains it, and is at most a step of its last digit larger; what fits the
+    /// digits stays.
+    #[test]
+    fn rounded_intervals_contain_theirs() {
+        for (interval, digits, known) in [
+            ([0.123_45, 0.123_45], 3, [0.123, 0.124]),
+            ([-0.123_45, 0.5], 3, [-0.124, 0.5]),
+            ([98.4, 98.4], 3, [98.4, 98.4]),
+            ([12_345.2, 99_999.1], 3, [12_345.0, 100_000.0]),
+            ([1.234_5e-13, 1.234_5e13], 3, [1.23e-13, 1.24e13]),
+            ([0.0, f64::INFINITY], 3, [0.0, f64::INFINITY]),
+        ] {
+            let found = outward(interval, digits);
+            let near = |found: f64, known: f64| found == known || (found / known - 1.0).abs() < 1e-12;
+            assert!(near(found[0], known[0]) && near(found[1], known[1]), "{interval:?}: {found:?}");
+            assert!(outward(found, digits) == found, "{found:?} is not rounded again");
+        }
+        assert!(outward([f64::NAN, 1.0], 3)[0].is_nan());
+    }
+
+    /// Law: an interval contains the one that was found and is hardly wider, its ends and the estimate have digits to
+    /// the same place, and it reaches a bound only where
+    /// what was found does.
+    #[test]
+    fn shown_intervals_contain_theirs() {
+        let decimals =
+            |text: &str| text.split('e').next().and_then(|one| one.split_once('.')).map_or(0, |(_, d)| d.len());
+        let (mut half, bounds) = (3e-10, [0.0, 100.0]);
+        while half < 40.0 {
+            for value in [50.0, 1.000_001_2 + half, 99.999 - half] {
+                for ends in [[value - half, value + half], [value - half, value + 0.01 * half]] {
+                    let (estimate, texts) = interval_texts(value, ends, bounds);
+                    let texts = texts.map(|text| text.expect("an end"));
+                    let shown = texts.each_ref().map(|text| text.parse::<f64>().expect("a number"));
+                    assert!(
+                        shown[0] <= ends[0] * (1.0 + 1e-13) && shown[1] >= ends[1] * (1.0 - 1e-13),
+                        "{ends:?} {texts:?}"
+                    );
+                    assert!(shown[1] - shown[0] < 1.3 * (ends[1] - ends[0]) + 1e-12, "{ends:?} {texts:?}");
+                    assert!(shown[0] > 0.0 && shown[1] < 100.0, "{ends:?} {texts:?}");
+                    assert_eq!(texts.each_ref().map(|one| decimals(one)), [decimals(&estimate); 2], "{texts:?}");
+                }
+            }
+            half *= 1.7;
+        }
+        for (value, ends, text) in [
+            (0.938_1, [0.901_2, 0.993_6], "0.938 [0.901, 0.994]"),
+            (1.000_001_2, [1.000_000_9, 1.000_001_52], "1.00000120 [1.00000090, 1.00000152]"),
+            (3.0, [f64::NAN; 2], "3"),
+            (2.0, [f64::NAN, 2.456], "2.00 [?, 2.46]"),
+            (12_345.6, [11_000.0, 14_000.0], "12300 [11000, 14000]"),
+            (1.07e-13, [9.1e-14, 1.2e-13], "1.07e-13 [9.1e-14, 1.20e-13]"),
+            (3e-12, [1e-15, 1.234e-9], "3.00e-12 [1.00e-15, 1.24e-9]"),
+            (5.0, [5.0; 2], "5 [5, 5]"),
+        ] {
+            assert_eq!(with_interval(value, ends), text);
+        }
+        assert_eq!(share([0.984; 2], [0.914_6, 0.999_58]), "98.40% [91.46, 99.96]");
+        assert_eq!(share([1.0; 2], [0.988, 1.0]), "100.00% [98.80, 100.00]");
+        assert_eq!(share([0.25, 0.98], [f64::NAN; 2]), "25% to 98%");
+        let shares = [0.0, 0.95, 0.982, 0.005_027, 0.999_51, 0.999_987, 1.0 - 2e-9].map(percent);
+        assert_eq!(shares, ["0", "95", "98.2", "0.503", "99.95", "99.999", "99.9999998"]);
+    }
+
+    /// Law: neighbours that differ are seen to differ; times are said in the unit of a person, if that is exact.
+    #[test]
+    fn neighbours_stay_apart() {
+        assert_eq!(apart([1.000_001_2, 1.000_003_4, 2.0]), ["1.000001", "1.000003", "2"]);
+        assert_eq!(apart([0.5, 0.5]), ["0.500", "0.500"]);
+        assert_eq!([90.0, 7200.0, 172_800.0, 12_345.6].map(time), ["90 s", "2 h", "2 days", "12345.6 s"]);
+        assert_eq!(typeset("-3e-13 [-4, 5-6]"), "\u{2212}3\u{202f}\u{d7}\u{202f}10⁻¹³ [\u{2212}4, 5-6]");
+    }
+
+    /// Law: one is one thing, and everything else, nothing too, are several.
+    #[test]
+    fn one_is_singular() {
+        assert_eq!([0_usize, 1, 2, 11].map(|count| counted(count, "run")), ["0 runs", "1 run", "2 runs", "11 runs"]);
+    }
+
+    #[test]
+    fn sizes_have_units() {
+        assert_eq!([0, 999, 1000, 3_200_000].map(bytes), ["0 B", "999 B", "1.0 kB", "3.2 MB"]);
+    }
+}

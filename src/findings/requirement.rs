@@ -1,0 +1,266 @@
+//! Requirements: what is asked, whether it is met, by which number, and what to know of that.
+
+use crate::analysis::assessment::{Assessment, RARE};
+use crate::analysis::order_statistics::without_value;
+use crate::analysis::statistics::Statistics;
+use crate::analysis::verdicts::Verdicts;
+use crate::campaign::{Plan, Statement};
+use crate::findings::number::{self, counted, outward, share, short, time, trimmed, written};
+use crate::findings::{Finding, Number, Verdict, names};
+use crate::statistics::binomial::{Decision, POWER};
+use crate::statistics::gate::GateLimit;
+use crate::statistics::quantile::percent;
+
+/// The name of the share of runs that a verdict is about.
+const WITHIN: &str = "runs within the limit";
+/// Most digits of a bound.
+const DIGITS: i32 = 12;
+
+// what the documents say of the runs that would decide
+const _: () = assert!(POWER == 0.9);
+
+/// A finding for each requirement of `plan`: those that fail first, then those that are undecided; within each the
+/// nearest to its limit first.
+pub fn findings(plan: &Plan, verdicts: &Verdicts, statistics: &Statistics) -> Vec<Finding> {
+    let list = verdicts.list.iter().enumerate();
+    let mut found: Vec<(Finding, (u8, f64))> =
+        list.map(|(place, one)| (finding(plan, place, one, statistics), rank(one))).collect();
+    found.sort_by(|(_, a), (_, b)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    found.into_iter().map(|(finding, _)| finding).collect()
+}
+
+fn finding(plan: &Plan, place: usize, one: &Assessment, statistics: &Statistics) -> Finding {
+    let numbers = numbers(one, statistics);
+    Finding {
+        id: format!("requirement_{}", place + 1),
+        verdict: Some(Verdict::of(one.gate.decision)),
+        title: title(one),
+        sentence: sentence(one, &numbers),
+        notes: notes(plan, one),
+        numbers,
+        ..Finding::default()
+    }
+}
+
+/// Verdicts in their order, and how far the estimate is from the limit: in half widths of its interval, so that numbers
+/// of different units compare.
+fn rank(one: &Assessment) -> (u8, f64) {
+    let class = match one.gate.decision {
+        Decision::Fail => 0,
+        Decision::Undecided(_) => 1,
+        Decision::Pass => 2,
+    };
+    let target = target(one);
+    let distance = (one.gate.estimate - target).abs();
+    let half = 0.5 * (one.interval[1] - one.interval[0]);
+    let scale = if half > 0.0 { half } else { target.abs().max(one.gate.estimate.abs()).max(f64::MIN_POSITIVE) };
+    (class, if distance.is_finite() { distance / scale } else { f64::MAX })
+}
+
+/// What the estimate of the gate has to reach: a share of the runs, or the limit of the mean.
+fn target(one: &Assessment) -> f64 {
+    match one.requirement.statement {
+        Statement::Mean => one.requirement.limit.value(),
+        Statement::Fraction(target) => target,
+        Statement::Quantile(p) => one.requirement.limit.fraction(p),
+    }
+}
+
+/// The requirement in a few words: "pointing error at launch <= 2 deg in 95%".
+pub fn title(one: &Assessment) -> String {
+    let requirement = &one.requirement;
+    let name = names::of_column(requirement.name(), &one.unit);
+    let side = if matches!(requirement.limit, GateLimit::AtMost(_)) { "<=" } else { ">=" };
+    let unit = one.shown.unit.as_str();
+    let limit = format!("{} {unit}", written(one.shown.written(requirement.limit.value())));
+    let is = match (requirement.name(), requirement.limit) {
+        // yes or no
+        ("launched", GateLimit::AtLeast(limit)) if limit > 0.0 => name,
+        _ => format!("{name} {side} {}{}", limit.trim_end(), times(one)),
+    };
+    match requirement.statement {
+        Statement::Quantile(p) if requirement.window().is_some() => {
+            format!("{is} in {}%", percent(requirement.limit.fraction(p)))
+        }
+        Statement::Quantile(p) => format!("p{} of {is}", percent(p)),
+        Statement::Fraction(fraction) => format!("{is} in {}%", percent(fraction)),
+        Statement::Mean => {
+            let range = requirement.bounded.map(|ends| ends.map(|end| written(one.shown.written(end))));
+            let range = range.map(|[low, high]| format!(" (bounded = [{low}, {high}] {unit}"));
+            format!("mean of {is}{}", range.map_or(String::new(), |text| text.trim_end().to_owned() + ")"))
+        }
+    }
+}
+
+/// When the limit holds, of a requirement over time.
+fn times(one: &Assessment) -> String {
+    let Some(band) = one.requirement.band() else { return String::new() };
+    let which = if one.requirement.window().is_some() { "at all times" } else { "at each time" };
+    let end = |word: &str, end: Option<f64>| end.map_or(String::new(), |end| format!(" {word} {}", time(end)));
+    format!(" {which}{}{}", end("from", band.from_s), end("to", band.to_s))
+}
+
+/// The requirement with its confidence: what a test is called.
+pub fn question(one: &Assessment) -> String {
+    format!("{}, with {}% confidence", title(one), percent(one.requirement.confidence))
+}
+
+/// What decides first: the quantile where there is one, the mean or the share of the runs within the limit.
+fn numbers(one: &Assessment, statistics: &Statistics) -> Vec<Number> {
+    let limit = one.requirement.limit;
+    let value = |name: String, value: f64, interval: [f64; 2]| {
+        let longest = limit.value().abs().max(value.abs());
+        let shown = one.shown.clone().of_time(longest, Some(limit.value()));
+        Number { name, unit: one.unit.clone(), value, interval, limit: Some(limit), of: one.runs, shown }
+    };
+    let target = GateLimit::AtLeast(target(one));
+    let within = Number { limit: Some(target), ..Number::share(WITHIN, one.gate.estimate, one.interval, one.runs) };
+    match one.requirement.statement {
+        Statement::Mean => vec![value("mean".to_owned(), one.gate.estimate, one.interval)],
+        Statement::Fraction(_) => vec![within],
+        Statement::Quantile(p) => {
+            let interval = statistics.required(&one.requirement).map_or([None; 2], |quantile| quantile.interval);
+            let interval = if one.has_interval() { interval } else { [None; 2] };
+            let quantile = one
+                .value
+                .map(|found| value(format!("p{}", percent(p)), found, interval.map(|end| end.unwrap_or(f64::NAN))));
+            quantile.into_iter().chain([within]).collect()
+        }
+    }
+}
+
+fn sentence(one: &Assessment, numbers: &[Number]) -> String {
+    let runs = counted(one.runs, "run");
+    let values = numbers.iter().filter(|number| number.name != WITHIN && number.value.is_finite());
+    let mut said: Vec<String> = values.map(|number| format!("{} {}", number.name, number.text())).collect();
+    if let (Statement::Quantile(p), None, true) = (one.requirement.statement, one.value, one.missing > 0) {
+        said.push(format!("p{} is among the runs without a value", percent(p)));
+    }
+    if one.requirement.statement == Statement::Mean {
+        return if said.is_empty() { format!("no mean of {runs}") } else { format!("{} of {runs}", said.join("; ")) };
+    }
+    let at = one.worst.map_or(String::new(), |worst| {
+        format!(" at {}, where the fewest are of {} points of time", time(worst.time_s), worst.points)
+    });
+    let share = match one.gate.estimate {
+        estimate if estimate.is_finite() => format!(": {}", share([estimate; 2], one.interval)),
+        _ => String::new(),
+    };
+    said.push(format!("{} of {runs} within the limit{at}{share}", one.runs - one.violations));
+    said.join("; ")
+}
+
+/// What else has to be known of a verdict, what decided it first.
+fn notes(plan: &Plan, one: &Assessment) -> Vec<String> {
+    let mut notes: Vec<String> = decided_by(one).into_iter().collect();
+    notes.extend(one.reason.clone());
+    if let (None, Decision::Undecided(runs)) = (&one.reason, one.gate.decision) {
+        notes.push(runs_needed(plan, runs.map(|runs| runs.max(one.runs + 1))));
+    }
+    if let Some(worst) = one.worst {
+        if worst.unresolved > 0 {
+            let runs = counted(worst.unresolved, "more run");
+            notes.push(format!("{runs} too near to the limit for the bands to tell, counted as violations"));
+        }
+        notes.push(format!(
+            "it passes if every point does at {}%, and fails if one does at {}%, the correction over {} points",
+            trimmed(100.0 * one.confidences[0], 6),
+            trimmed(100.0 * one.fails_at(), 6),
+            worst.points
+        ));
+    }
+    if one.missing > 0 {
+        notes.push(without_value(&one.missing.to_string()));
+    }
+    notes.extend(assumed(one));
+    notes.extend(one.note.clone());
+    notes
+}
+
+/// What a decision on a mean assumes of events that the runs do not show.
+fn assumed(one: &Assessment) -> Option<String> {
+    let room = format!("{} {}", short(one.shown.value(one.room_for_rare_events()?)), one.shown.unit);
+    Some(format!(
+        "if events rarer than {RARE} in {} runs move the mean by less than {}; with bounded = [lowest, highest] it \
+         would assume nothing",
+        one.runs,
+        room.trim_end(),
+    ))
+}
+
+/// What decided, in a few words, where the interval in brackets seems to say otherwise: the bound of a verdict, which
+/// looks at one side, where the interval has the
+/// limit in it; that nothing is decided, where it has not. `None` where the interval shows it.
+fn decided_by(one: &Assessment) -> Option<String> {
+    if one.fails_alone() {
+        let [alone, together] = [one.fails_alone_at(), one.fails_at()].map(|confidence| trimmed(100.0 * confidence, 6));
+        return Some(format!("missed at {alone}%, not at the {together}% that all requirements together ask for"));
+    }
+    let ([bound, limit], is_lower) = one.hidden_bound()?;
+    let is_mean = one.requirement.statement == Statement::Mean;
+    let shown = |value: f64| if is_mean { one.shown.value(value) } else { 100.0 * value };
+    let (bound, limit) = (shown(bound), shown(limit));
+    // what is said holds, and decides: rounded away from what was found, in as many digits as that takes
+    let rounded = |digits: i32| outward([bound; 2], digits)[usize::from(!is_lower)];
+    let digits = (3..DIGITS)
+        .find(|digits| if is_lower { rounded(*digits) > limit } else { rounded(*digits) < limit })
+        .unwrap_or(DIGITS);
+    let number = trimmed(rounded(digits), digits as usize);
+    let number = if is_mean { format!("{number} {}", one.shown.unit) } else { format!("{number}% of runs") };
+    let side = if is_lower { "at least" } else { "at most" };
+    Some(format!("{side} {}, one-sided at {}%", number.trim_end(), percent(one.confidences[0])))
+}
+
+/// How many dispersed `runs` would decide; `None`: no number of them.
+fn runs_needed(plan: &Plan, runs: Option<u64>) -> String {
+    const IF: &str = "if the truth is as observed";
+    match runs {
+        None => format!("no number of runs would decide it, {IF}"),
+        Some(runs) if plan.samples > 1 => {
+            format!("about {runs} dispersed runs (samples = {}) should decide it, {IF}", runs + 1)
+        }
+        Some(runs) => format!("about {runs} runs should decide it, {IF}"),
+    }
+}
+
+/// What the verdicts say together: how often one of them is wrong, and what to do about those that are undecided.
+pub fn together(verdicts: &Verdicts) -> Vec<String> {
+    let mut said = Vec::new();
+    let least = verdicts.list.iter().map(|one| one.requirement.confidence).fold(1.0, f64::min);
+    if verdicts.list.len() > 1 {
+        said.push(format!(
+            "of the {} requirements together: the chance that one which is met FAILs is at most {}% (Holm), and so is \
+             the chance that all PASS while one is missed",
+            verdicts.list.len(),
+            trimmed(100.0 * (1.0 - least), 6)
+        ));
+    }
+    if verdicts.list.iter().any(Assessment::has_interval) {
+        said.push(
+            "a verdict looks at one side only, with the confidence of its requirement: it may be decided while its \
+             two-sided interval still has the limit in it"
+                .to_owned(),
+        );
+    }
+    if verdicts.looks > 1 {
+        said.push(format!("the confidence is that of all {} looks of [stop] together", verdicts.looks));
+    }
+    let has_number = |one: &Assessment| matches!(one.gate.decision, Decision::Undecided(Some(_)));
+    if verdicts.looks == 1 && verdicts.list.iter().any(has_number) {
+        said.push(
+            "to add runs until every requirement is decided, write [stop] when = \"decided\"; adding runs by hand and \
+             testing again makes wrong verdicts more likely"
+                .to_owned(),
+        );
+    }
+    if verdicts.invalid > 0 {
+        let share = verdicts.invalid as f64 / verdicts.samples as f64;
+        said.push(format!(
+            "{} of {} samples ({}%) are not physical and outside of the population",
+            verdicts.invalid,
+            verdicts.samples,
+            number::percent(share)
+        ));
+    }
+    said
+}
