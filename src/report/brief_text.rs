@@ -275,7 +275,8 @@ fn drivers(plan: &Plan, summary: &Summary, all: &[InputSensitivity]) -> String {
     let said: String = failed.into_iter().chain(said.take(most)).collect();
     let computed = Status::ALL.into_iter().zip(summary.statuses.of_population());
     let computed: u64 = computed.filter(|(status, _)| *status == Status::Done).map(|(_, count)| count).sum();
-    match said.is_empty() && !all.is_empty() && summary.without_nominal && summary.warnings.is_empty() {
+    let is_tested = !all.is_empty() && drivers_text::refused(plan, all).is_none();
+    match said.is_empty() && is_tested && summary.without_nominal && summary.warnings.is_empty() {
         true => format!("  no significant driver found in {}\n", counted(computed, "dispersed run")),
         false => said,
     }

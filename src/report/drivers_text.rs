@@ -15,7 +15,6 @@ use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
 use crate::table::Table;
 use crate::table::text::Align;
-use crate::table::wrapped::wrapped;
 
 const NAMED: usize = 2;
 
@@ -34,8 +33,16 @@ pub fn outcomes<'a>(plan: &Plan, all: &'a [InputSensitivity]) -> Vec<&'a str> {
     names
 }
 
-/// The rankings of an outcome, at the confidence of the plan.
+/// Why no driver was tested ([`Plan::bound_inputs`]); `None` where all were, or there is nothing to test.
+pub fn refused(plan: &Plan, all: &[InputSensitivity]) -> Option<String> {
+    plan.bound_inputs(all.first()?.rows)
+}
+
+/// The rankings of an outcome, at the confidence of the plan; none where no driver was tested ([`refused`]).
 pub fn ranked<'a>(plan: &Plan, all: &'a [InputSensitivity], outcome: &str) -> Vec<Ranking<'a>> {
+    if refused(plan, all).is_some() {
+        return Vec::new();
+    }
     rankings(all, outcome, 1.0 - plan.analysis.confidence)
 }
 
@@ -265,9 +272,6 @@ pub fn text(plan: &Plan, all: &[InputSensitivity], width: usize) -> String {
     let mut text = table.text(width);
     if has_rest && !matches!(plan.design, Design::Saltelli(_)) {
         text += &format!("  shares of the variance: {SEE_INTERACTIONS}\n");
-    }
-    if let Some(note) = all.first().and_then(|one| plan.bound_inputs(one.rows)) {
-        text = wrapped(&format!("  {note}\n"), width);
     }
     if text.is_empty() { text } else { format!("\n  drivers\n{text}") }
 }

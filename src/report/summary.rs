@@ -18,7 +18,7 @@ use crate::ensemble::FailureReason;
 use crate::findings::number::counted;
 use crate::report::audit_summary::{AuditSummary, Numerics};
 use crate::report::observable_lines::{ObservableLine, lines};
-use crate::report::{filter_text, requirements, stopping_text};
+use crate::report::{requirements, stopping_text};
 use crate::run::Status;
 use crate::sampling::Replaced;
 use crate::statistics::contingency::Occurrence;
@@ -52,7 +52,7 @@ pub struct Summary {
     pub(super) replaced: Vec<Replaced>,
     /// What comes before every number.
     pub(super) warnings: Vec<String>,
-    /// What the numbers leave unsaid: filters that do not know their errors.
+    /// What the numbers leave unsaid.
     pub(super) notes: Vec<String>,
     /// The last look of a campaign with `[stop]`, and in words.
     pub(super) stopping: Option<(Stopping, String)>,
@@ -68,7 +68,7 @@ impl Summary {
         let audit = tally.audits.as_ref().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
         Summary {
             warnings: Vec::new(),
-            notes: filter_text::overconfident(statistics),
+            notes: Vec::new(),
             name: plan.name.clone(),
             seed: plan.seed,
             samples: plan.samples,
@@ -91,10 +91,10 @@ impl Summary {
         }
     }
 
-    /// The same, with what comes before every number.
+    /// The same, with what comes before every number, and what these leave unsaid.
     #[must_use]
-    pub fn with_warnings(self, warnings: Vec<String>) -> Self {
-        Summary { warnings, ..self }
+    pub fn with_warnings(self, warnings: Vec<String>, notes: Vec<String>) -> Self {
+        Summary { warnings, notes, ..self }
     }
 
     /// The same, with how the missions of a control loop ended.

@@ -19,7 +19,7 @@ use crate::ensemble::Bands;
 use crate::report::audit_summary::AuditSummary;
 use crate::report::summary::SummaryEnd;
 use crate::report::warnings::warnings;
-use crate::report::{requirements, stopping_text};
+use crate::report::{drivers_text, filter_text, requirements, stopping_text};
 use crate::storage::atomic;
 use crate::storage::rows_reader::RowsReader;
 use crate::workflow::error::WorkflowError;
@@ -42,6 +42,8 @@ pub struct Analysed {
     pub tally: Tally,
     /// What a reader has to know before any number.
     pub warnings: Vec<String>,
+    /// What the numbers leave unsaid: filters that do not know their errors, and that no driver was tested.
+    pub notes: Vec<String>,
 }
 
 impl Analysed {
@@ -77,9 +79,12 @@ pub fn computed(
         true => sensitivity::of_failures(plan, &gathered.failure_rows, threads),
         false => Vec::new(),
     };
+    let sensitivities = sensitivity::compute(plan, &gathered.first_rows, threads);
+    let refused = drivers_text::refused(plan, &sensitivities);
     Ok(Analysed {
+        notes: filter_text::overconfident(&statistics).into_iter().chain(refused).collect(),
+        sensitivities,
         warnings: warnings(plan, &statistics, audit.as_ref(), &failures, gathered.tally.beyond_air),
-        sensitivities: sensitivity::compute(plan, &gathered.first_rows, threads),
         stopping: stopping(plan, plan.samples, &gathered.stop_values, &verdicts),
         verdicts,
         statistics,

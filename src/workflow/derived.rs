@@ -98,7 +98,7 @@ pub(super) fn derive(
     let summary = Summary::new(plan, &analysed.tally, &analysed.statistics, analysed.verdicts.clone())
         .with_stopping(plan, analysed.stopping.clone())
         .with_missions(analysed.missions.clone())
-        .with_warnings(analysed.warnings.clone());
+        .with_warnings(analysed.warnings.clone(), analysed.notes.clone());
     take(files, SUMMARY, Some(Ok::<_, WorkflowError>(summary.json().into_bytes())))?;
     Ok(Derived { analysed, page, summary })
 }

@@ -122,6 +122,7 @@ fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord], no
         sensitivities: &analysed.sensitivities,
         missions: &analysed.missions,
         warnings: &analysed.warnings,
+        notes: &analysed.notes,
         noise,
         bands: analysed.bands.as_ref(),
         stopping: analysed.stopping.as_ref(),

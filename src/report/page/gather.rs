@@ -16,7 +16,6 @@ use crate::ensemble::Bands;
 use crate::findings::names;
 use crate::findings::names::sentence;
 use crate::report::drivers_text::{self, outcomes, ranked, verb};
-use crate::report::filter_text;
 use crate::report::over_time::curves::{FEWEST, TimeBands};
 use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
@@ -48,6 +47,8 @@ pub struct Analysis<'a> {
     pub bands: Option<&'a Bands>,
     /// What a reader has to know before any number.
     pub warnings: &'a [String],
+    /// What the numbers leave unsaid.
+    pub notes: &'a [String],
     /// The look that ended the campaign, where it has `[stop]`.
     pub stopping: Option<&'a Stopping>,
 }
@@ -61,7 +62,7 @@ impl Contents {
         said.extend(analysis.stopping.map(|found| stopping_text::text(plan, found)));
         Contents {
             warnings: analysis.warnings.to_vec(),
-            notes: filter_text::overconfident(analysis.statistics),
+            notes: analysis.notes.to_vec(),
             loss: analysis.statistics.loss(),
             bands: analysis.bands.map_or_else(Vec::new, time_bands),
             confidence: analysis.statistics.population.has_intervals().then_some(analysis.statistics.confidence),
