@@ -1,8 +1,8 @@
 //! The keys that name a file of numbers: `file`, `sha256`, `column`, `parameters`, `columns`.
 
 use super::data::{COPIES, DataFile, MOST_FILES, MOST_NUMBERS, Unused, copy_name};
+use super::meaning::meant;
 use super::parameter::{named, unknown_parameter, without_effect};
-use super::problem::nearest;
 use super::section::Section;
 use crate::sampling::DataColumn;
 use crate::scene::{Parameter, SceneInput};
@@ -38,8 +38,8 @@ const LONGEST_SHOWN: usize = 60;
 fn absent_column(column: &str, data: &DataFile) -> (String, String) {
     let short = |name: &String| name.chars().take(LONGEST_SHOWN).collect::<String>();
     let shown: Vec<String> = data.names.iter().map(short).take(12).collect();
-    let remedy = match nearest(column, data.names.iter().map(String::as_str)) {
-        Some(meant) => format!("did you mean {meant:?}?"),
+    let remedy = match meant(column, data.names.iter().map(String::as_str)) {
+        Some(meant) => meant.remedy(),
         None => "name one of these, or add the column to the file".to_owned(),
     };
     (format!("a column of the file ({})", shown.join(", ")), remedy)

@@ -6,7 +6,8 @@
 
 use super::excerpt::Excerpt;
 use super::known_columns::KnownColumns;
-use super::problem::{CampaignError, Problem, SHOWN, nearest};
+use super::meaning::{Meant, meant};
+use super::problem::{CampaignError, Problem, SHOWN};
 use super::size;
 use super::sources::{SourceText, Sources, lay_over, moved_table, put, value_at};
 use crate::control::ControlLaw;
@@ -224,12 +225,13 @@ impl<'a> Document<'a> {
         });
     }
 
-    /// The key of what is set at the byte `offset`, and the written key that it probably means: it, or what follows a table that no file has.
-    pub(super) fn setting_meant(&self, offset: usize) -> Option<String> {
+    /// The written key that the key of what is set at the byte `offset` probably means: it, or what follows a table that
+    /// no file has.
+    pub(super) fn setting_meant(&self, offset: usize) -> Option<Meant<'_>> {
         let written = self.sources.at(offset).key.as_deref()?;
         let (_, rest) = written.split_once('.')?;
-        let near = |name: &str| nearest(name, self.spans.keys().map(String::as_str).filter(|key| key.contains('.')));
-        near(rest).or_else(|| near(written)).filter(|meant| *meant != written).map(str::to_owned)
+        let near = |name: &str| meant(name, self.spans.keys().map(String::as_str).filter(|key| key.contains('.')));
+        near(rest).or_else(|| near(written)).filter(|meant| meant.name != written)
     }
 
     /// Number of problems that are noted.

@@ -1,7 +1,7 @@
 //! [`Extreme`]: an `[[extreme]]` table, the largest or smallest value of a quantity over time, between observation points too.
 
 use super::event::Event;
-use super::problem::nearest;
+use super::meaning::meant;
 use super::section::Section;
 use super::watched_quantity::{self, variables};
 use crate::observables::band_series::{BandSeries, event_series};
@@ -82,9 +82,9 @@ impl Extreme {
             && !events.iter().any(|event| event.name == *name)
         {
             let names = || events.iter().map(|event| event.name.as_str());
-            let remedy = match (nearest(name, names()), events.is_empty()) {
+            let remedy = match (meant(name, names()), events.is_empty()) {
                 (_, true) => "add an [[event]] of this name".to_owned(),
-                (Some(meant), _) => format!("did you mean {meant:?}?"),
+                (Some(meant), _) => meant.remedy(),
                 (None, _) => format!("name one of {}", names().collect::<Vec<_>>().join(", ")),
             };
             table.refuse("after", "the name of an [[event]] of this file", remedy);

@@ -1,7 +1,7 @@
 //! Which file a name on the command line means.
 
 use super::input_file::is_unreadable;
-use super::problem::nearest;
+use super::meaning::meant;
 use std::path::{Path, PathBuf};
 
 /// The folder of shipped campaigns, in which a bare name is looked up.
@@ -57,7 +57,7 @@ fn nearest_in(start: &Path, name: &Path) -> Option<PathBuf> {
         campaigns.sort();
         files.extend(campaigns.into_iter().filter_map(|path| Some((stem(&path)?, path))));
     }
-    let meant = nearest(&stem(name)?, files.iter().map(|(stem, _)| stem.as_str()))?.to_owned();
+    let meant = meant(&stem(name)?, files.iter().map(|(stem, _)| stem.as_str()))?.name.to_owned();
     files.into_iter().find(|(stem, _)| *stem == meant).map(|(_, path)| path)
 }
 

@@ -1,6 +1,6 @@
 //! [`KnownColumns`]: the columns of the rows of a plan by name: what requirements, expressions and lists of columns in a campaign file mean.
 
-use super::problem::nearest;
+use super::meaning::meant;
 use super::units;
 use crate::observables::band_series::band_series;
 use crate::observables::window::Window;
@@ -63,8 +63,8 @@ impl KnownColumns {
                 .to_owned()
         } else {
             let list = || self.bands.iter().map(Quantity::name);
-            match nearest(name, list()) {
-                Some(meant) => format!("did you mean {meant:?}?"),
+            match meant(name, list()) {
+                Some(meant) => meant.remedy(),
                 None => format!("name one of {}", list().collect::<Vec<_>>().join(", ")),
             }
         };
@@ -82,8 +82,8 @@ impl KnownColumns {
         let remedy = if table::all().any(|column| column.quantity.name() == name) {
             "this scene or method does not have it: name another".to_owned()
         } else {
-            match nearest(name, self.observables.iter().map(Quantity::name)) {
-                Some(meant) => format!("did you mean {meant:?}?"),
+            match meant(name, self.observables.iter().map(Quantity::name)) {
+                Some(meant) => meant.remedy(),
                 None => "docs/columns.md lists them".to_owned(),
             }
         };

@@ -1,6 +1,7 @@
 //! Layer 5: campaign files. What was written ([`Spec`]) -> what will run ([`Plan`]), or every reason why not ([`CampaignError`]).
 //!
 //! - [`problem`]: one reason, with file, line, key, value, allowed range and remedy. [`excerpt`]: the line with a mark.
+//!   [`meaning`]: what an unknown name probably means.
 //! - [`input_file`]: regular files of bounded size. [`size`]: how large a campaign file may be.
 //! - [`document`], [`section`], [`numbers`], [`lists`]: a TOML document that is read key by key and remembers the lines. By hand and not by
 //!   serde's derive, which stops at the first error and knows no line of a key that passed.
@@ -49,6 +50,7 @@ mod keys;
 pub mod known_columns;
 mod lines;
 pub mod lists;
+pub mod meaning;
 mod module_key;
 pub mod notes;
 pub mod numbers;

@@ -1,6 +1,6 @@
 //! Names of parameters in campaign files.
 
-use super::problem::nearest;
+use super::meaning::meant;
 use super::section::Section;
 use crate::scene::{LawParameter, Parameter, SceneInput};
 
@@ -43,8 +43,8 @@ pub(super) fn unknown_parameter(scene: &SceneInput, name: &str) -> (String, Stri
         let component = index.parse().ok().filter(|index: &usize| *index < parameter.width())?;
         Some(format!("components have names: write {:?}", parameter.component_name(component)))
     });
-    let remedy = indexed.unwrap_or_else(|| match nearest(name, names.iter().map(String::as_str)) {
-        Some(meant) => format!("did you mean {meant:?}?"),
+    let remedy = indexed.unwrap_or_else(|| match meant(name, names.iter().map(String::as_str)) {
+        Some(meant) => meant.remedy(),
         None => "write table and key as in this file, \"wheels.w1.radius_m\"".to_owned(),
     });
     ("a numeric key of scene or initial state, as a whole or with a component (.x)".to_owned(), remedy)

@@ -1,7 +1,7 @@
 //! [`Section`]: one table of a [`Document`] while it is read, key by key: tables, texts and names. Numbers are in [`super::numbers`].
 
 use super::document::{Document, Spans};
-use super::problem::nearest;
+use super::meaning::meant;
 use super::units;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -322,17 +322,16 @@ impl<'d, 'a> Section<'d, 'a> {
             let is_root = self.path.is_empty();
             // of a setting the whole path may be meant otherwise
             let of_setting = if is_root { self.document.setting_meant(span.start) } else { None };
-            let meant = of_setting.clone().or_else(|| {
-                let known = self.known.iter().map(String::as_str);
-                Some(nearest(name, known)?.to_owned())
-            });
+            let written = self.value(name).map(|value| self.document.written(value));
+            let meant = of_setting.or_else(|| meant(name, self.known.iter().map(String::as_str)));
+            let meant = meant.map(|meant| meant.remedy_of_key(written.as_deref().unwrap_or_default()));
             let mut place = match &self.title {
                 Some(title) => title.clone(),
                 None if is_root => "a campaign file".to_owned(),
                 None => format!("[{}]", self.path),
             };
             let remedy = match meant {
-                Some(meant) => format!("did you mean {meant}?"),
+                Some(remedy) => remedy,
                 None => {
                     place += &format!(" ({})", self.known.join(", "));
                     "delete it".to_owned()
@@ -340,7 +339,7 @@ impl<'d, 'a> Section<'d, 'a> {
             };
             // the value of a table is its keys, and that of a setting is what was set in it
             let is_table = self.is_table(name) && is_root;
-            let value = self.value(name).filter(|_| !is_table).map(|value| self.document.written(value));
+            let value = written.filter(|_| !is_table);
             self.document.spans.insert(path.clone(), Spans { key: span, value: 0..0 });
             self.document.add_unknown(&path, value, place, remedy);
         }
@@ -361,7 +360,8 @@ const SYNONYMS: [(&str, &str); 7] = [
 /// What a name must be, and which one was probably meant.
 pub fn choice(written: &str, names: &[&str]) -> (String, String) {
     let synonym = SYNONYMS.iter().find(|(other, name)| written.eq_ignore_ascii_case(other) && names.contains(name));
-    let meant = synonym.map(|(_, name)| *name).or_else(|| nearest(written, names.iter().copied()));
+    let meant =
+        synonym.map(|(_, name)| *name).or_else(|| meant(written, names.iter().copied()).map(|meant| meant.name));
     let remedy = match meant {
         Some(meant) => format!("did you mean {meant:?}?"),
         None => "choose one of these".to_owned(),

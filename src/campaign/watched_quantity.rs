@@ -1,6 +1,6 @@
 //! What is watched in a run: a quantity over time, or an expression of several.
 
-use super::problem::nearest;
+use super::meaning::meant;
 use super::section::Section;
 use crate::observables::band_series::{BandSeries, event_series};
 use crate::observables::{Group, Groups, Request};
@@ -46,11 +46,11 @@ fn refusal(name: &str, series: &[BandSeries], observed: &Request) -> (String, St
         of.groups = Groups::NONE.with(*group);
         event_series(&of).iter().any(|band| band.quantity.name() == name)
     });
-    let remedy = match (group, nearest(name, names())) {
+    let remedy = match (group, meant(name, names())) {
         (Some(group), _) => {
             format!("it is in a group that is not observed: add {:?} to observe.groups", group.name())
         }
-        (None, Some(meant)) => format!("did you mean {meant:?}?"),
+        (None, Some(meant)) => meant.remedy(),
         (None, None) => format!("name some of {}", names().collect::<Vec<_>>().join(", ")),
     };
     (allowed, remedy)

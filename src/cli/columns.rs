@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::campaign::problem::nearest;
+use crate::campaign::meaning::meant;
 use crate::campaign::{Overrides, Plan};
 use crate::cli::arguments::ColumnsOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
@@ -48,8 +48,8 @@ pub fn run(options: &ColumnsOptions) -> Result<CommandOutcome, Failure> {
         Some(word) => text(&found(&all, word).ok_or_else(|| {
             let groups: Vec<&str> = by_group(&all).map(|columns| columns[0].group.as_str()).collect();
             let words = all.iter().map(|column| column.quantity.name());
-            let meant = nearest(word, words.chain(groups.iter().copied()));
-            let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
+            let meant = meant(word, words.chain(groups.iter().copied()));
+            let meant = meant.map_or(String::new(), |meant| format!("; did you mean {}?", meant.name));
             Failure::Input(format!(
                 "{word}: must be a group ({}) or a word in a column's name or meaning{meant}",
                 groups.join(", ")

@@ -63,7 +63,9 @@ fn suggests(error: &CampaignError, written: &str, meant: &str, names: &[String])
     let is_as_near = |name: &String| distance(written, name) <= distance(written, meant);
     let right: Vec<&String> = names.iter().filter(|name| is_as_near(name)).collect();
     error.problems.iter().any(|problem| {
-        let suggested = problem.remedy.split_once("did you mean ").map(|(_, rest)| rest.trim_matches(['?', '"']));
+        // a doubled letter may make another unit, `radius_mm`: that is what was probably meant then
+        let said = problem.remedy.split_once("did you mean ").or_else(|| problem.remedy.split_once("write "));
+        let suggested = said.map(|(_, rest)| rest.split(',').next().unwrap_or_default().trim_matches(['?', '"']));
         suggested.is_some_and(|suggested| right.iter().any(|name| *name == suggested))
     })
 }
@@ -184,6 +186,80 @@ fn every_misspelt_parameter_and_observable_gets_its_suggestion() {
     }
     assert!(wrong.is_empty(), "{} of {tried}:\n{}", wrong.len(), wrong.join("\n"));
     assert!(tried > 100, "{tried} misspellings");
+}
+
+/// A file whose bodies are on an orbit, with a line for each of `keys`.
+fn on_an_orbit(keys: &str) -> String {
+    format!(
+        "[campaign]\nname = \"o\"\nsamples = 2\nseed = 1\nduration_s = 10.0\n[body]\nmass_kg = 10\n\
+         inertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]\nincludes_wheels = false\n[initial]\nangular_velocity_rad_s = [0, 0, 1]\n\
+         [[wheels]]\nname = \"w\"\naxis = [0, 0, 1]\ndensity_kg_m3 = 1\nradius_m = 0.1\nlength_m = 0.1\n\
+         [[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 0.1\n\
+         [orbit]\nsemi_major_axis_m = 7e6\n{keys}"
+    )
+}
+
+/// Law: a key in another unit of its dimension is refused with what to write, and that means the same.
+#[test]
+fn a_key_in_another_unit_gets_its_value_with_the_unit() {
+    for (right, wrong, si) in [
+        ("semi_major_axis_m = 7e6", "semi_major_axis_km = 7000", "semi_major_axis_m = 7000000.0"),
+        (
+            "semi_major_axis_m = 7e6",
+            "semi_major_axis_m = 7e6\ninclination_deg = 90",
+            "inclination_rad = 1.57079632679489",
+        ),
+        ("semi_major_axis_m = 7e6", "semi_major_axis_m = 7e6\nincl_deg = 90", "inclination_rad = 1.57079632679489"),
+        ("semi_major_axis_m = 7e6", "semi_major_axis_m = 7e6\nraan_deg = 90", "ascending_node_rad = 1.57079632679489"),
+        (
+            "semi_major_axis_m = 7e6",
+            "semi_major_axis_m = 7e6\ntrue_anomaly_deg = 180",
+            "true_anomaly_rad = 3.14159265358979",
+        ),
+        ("semi_major_axis_m = 7e6", "semi_major_axis_m = 7e6\nmu_km3_s2 = 398600", "mu_m3_s2 = 398600000000000.0"),
+        ("std = 0.1", "std_rpm = 30", "std = 3.14159265358979"),
+        ("std = 0.1", "std_deg_s = 180", "std = 3.14159265358979"),
+        ("density_kg_m3 = 1\n", "density_kg_m3 = 1\nrate_rpm = 30\n", "rate_rad_s = 3.14159265358979"),
+        ("duration_s = 10.0", "duration_min = 2", "duration_s = 120.0"),
+        ("duration_s = 10.0", "duration_hours = 2", "duration_s = 7200.0"),
+        ("radius_m = 0.1", "radius_mm = 500", "radius_m = 0.5"),
+    ] {
+        let base = on_an_orbit("");
+        assert!(base.contains(right) && Plan::from_text("good.toml", &base, Overrides::default()).is_ok(), "{right}");
+        let text = base.replacen(right, wrong, 1);
+        let error = error(&text);
+        let advice = error.problems.iter().find(|problem| problem.is_unknown);
+        let advice = advice
+            .and_then(|problem| problem.remedy.strip_prefix("write "))
+            .unwrap_or_else(|| panic!("{wrong}: {error}"));
+        let written = wrong.lines().next_back().unwrap_or_default();
+        let plan = Plan::from_text("good.toml", &text.replacen(written, advice, 1), Overrides::default());
+        let plan = plan.unwrap_or_else(|error| panic!("{advice}: {error}"));
+        assert!(plan.text().contains(si), "{wrong}: {advice}: {}", plan.text());
+    }
+}
+
+/// Law: a quantity of another meaning is refused with the key that it gives and how, not as a misspelling.
+#[test]
+fn a_quantity_of_another_meaning_is_refused_with_its_conversion() {
+    for (written, key, how) in [
+        ("mean_anomaly_rad", "true_anomaly_rad", "E - e sin E = M"),
+        ("mean_anomaly_deg", "true_anomaly_rad", "E - e sin E = M"),
+        ("eccentric_anomaly_rad", "true_anomaly_rad", "tan(E / 2)"),
+        ("argument_of_latitude_rad", "true_anomaly_rad", "less argument_of_periapsis_rad"),
+        ("longitude_of_periapsis_rad", "argument_of_periapsis_rad", "less ascending_node_rad"),
+        ("longitude_of_ascending_node_deg", "ascending_node_rad", "sidereal time"),
+        ("local_time_of_ascending_node", "ascending_node_rad", "mean Sun"),
+        ("perigee_altitude_km", "semi_major_axis_m", "plus the mean of the altitudes"),
+        ("apogee_radius_m", "semi_major_axis_m", "half of their difference"),
+        ("altitude_m", "semi_major_axis_m", "plus the altitude"),
+        ("orbital_period_s", "semi_major_axis_m", "cube root"),
+        ("mean_motion_rad_s", "semi_major_axis_m", "cube root"),
+    ] {
+        let error = error(&on_an_orbit(&format!("{written} = 1\n")));
+        let remedy = &error.problems[0].remedy;
+        assert!(remedy.starts_with(&format!("write {key}: ")) && remedy.contains(how), "{written}: {error}");
+    }
 }
 
 /// Counter-test: a wrong suggestion, and none, are seen.
