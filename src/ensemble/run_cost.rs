@@ -76,6 +76,19 @@ pub fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
     run * (1.0 + AUDIT * plan.audit_fraction)
 }
 
+/// What a page may take beside a tenth of its campaign, s, less what it takes without any run.
+const PAGE_S: f64 = 0.15;
+/// Time of an evaluation of a run that is flown beside others, with its law and what is observed of it, s: 5e-6 in
+/// `net_launch_orbit`, 1.6e-5 in `spin_sweep`.
+const EVALUATION_BESIDE_OTHERS_S: f64 = 1e-5;
+
+/// How many runs may be flown again for the page of a campaign of `rows` runs that each took so many `evaluations` in
+/// the mean: a tenth of them, and as many as take [`PAGE_S`]. The work is counted, so that a result has one page.
+pub fn replays(rows: u64, evaluations: f64) -> usize {
+    let each = evaluations.max(1.0) * EVALUATION_BESIDE_OTHERS_S;
+    (0.1 * rows as f64 + PAGE_S / each) as usize
+}
+
 /// CPU time that this thread has used, s, to the nanosecond.
 #[cfg(unix)]
 pub fn thread_seconds() -> f64 {

@@ -16,6 +16,7 @@ use crate::ensemble::flights::{Flights, LawDraw, nominal_attitude, observe, repl
 use crate::ensemble::runner::RunError;
 use crate::ensemble::settings::propagator;
 use crate::math::Isa;
+use crate::observables::nominal_attitude::NominalAttitude;
 use crate::observables::{Group, Observer, Request, Series};
 use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry, points_to};
 use crate::sampling::SampleId;
@@ -127,10 +128,28 @@ impl<'p> SingleRuns<'p> {
         SingleRuns { ends: EndFinder::new(plan, (isa, None)), ..Self::observing(plan, grid, isa, [request, shown]) }
     }
 
+    /// The same without what only a row has: differences from the nominal run, and the times of events. The rows are known.
+    pub fn replays(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
+        let request = plan.request_over(grid.duration());
+        let shown = Request { groups: groups.iter().copied().collect(), ..request };
+        let ends = EndFinder::new(plan, (isa, None));
+        SingleRuns { ends, events: None, ..Self::with_nominal(plan, grid, isa, ([request, shown], None)) }
+    }
+
     /// Runs of which one request gives the rows and another the series; no event ends them.
-    fn observing(plan: &'p Plan, grid: Grid, isa: Isa, [request, shown]: [Request; 2]) -> Self {
+    fn observing(plan: &'p Plan, grid: Grid, isa: Isa, requests: [Request; 2]) -> Self {
+        let nominal = requests.iter().find_map(|request| nominal_attitude(plan, request, &grid, isa));
+        Self::with_nominal(plan, grid, isa, (requests, nominal))
+    }
+
+    /// The same, compared with the attitude of the `nominal` run where that is known.
+    fn with_nominal(
+        plan: &'p Plan,
+        grid: Grid,
+        isa: Isa,
+        ([request, shown], nominal): ([Request; 2], Option<NominalAttitude>),
+    ) -> Self {
         let fields = states(&request).union(shown.fields()).union(request.fields());
-        let nominal = |request: &Request| nominal_attitude(plan, request, &grid, isa);
         SingleRuns {
             draws: SceneDraws::new(plan),
             plan,
@@ -139,8 +158,8 @@ impl<'p> SingleRuns<'p> {
             shown,
             ends: None,
             flights: Flights::new(plan, &propagator(plan, grid.clone(), fields), (isa, None)).recording(),
-            observer: Observer::new(request, &grid).with_nominal(nominal(&request)),
-            series_observer: Observer::new(shown, &grid).with_nominal(nominal(&shown)),
+            observer: Observer::new(request, &grid).with_nominal(nominal.clone()),
+            series_observer: Observer::new(shown, &grid).with_nominal(nominal),
             events: EventFinder::new(plan, &grid, (isa, None)).map(|events| events.ended_by(None)),
             ignored: vec![f64::NAN; shown.columns().len()],
             grid,
@@ -165,63 +184,94 @@ impl<'p> SingleRuns<'p> {
         let draw = plan.law.as_ref().map(|_| LawDraw { sample: noise, parameters: self.draws.drawn().control.clone() });
         let end = self.ends.as_mut().and_then(|ends| ends.end(&scene, draw.as_slice()));
         let Some(end) = end.filter(|end| end.time <= self.grid.duration()) else {
-            return Ok(self.fly(scene, draw));
+            return Ok(self.fly(&[scene], draw.as_slice()).swap_remove(0));
         };
         let mut ended = Self::observing(plan, end.grid(&self.grid).0, self.isa, [self.request, self.shown]);
         ended.events = ended.events.map(|events| events.ended_by(Some(end)));
-        Ok(ended.fly(scene, draw))
+        Ok(ended.fly(&[scene], draw.as_slice()).swap_remove(0))
     }
 
-    /// The run of `scene`, under a law with this draw.
-    fn fly(&mut self, scene: Scene, draw: Option<LawDraw>) -> SingleRun {
-        let mut row = vec![f64::NAN; self.request.columns().len()];
-        let (mut result, mut reason) = (None, String::new());
-        let (isa, observer, series_observer) = (self.isa, &mut self.observer, &mut self.series_observer);
-        let (plan, ignored) = (self.plan, &mut self.ignored);
-        let events = &mut self.events;
-        if let Some(events) = events {
-            events.restart(1);
+    /// Runs samples side by side, which takes a fraction of the time of one after another; each is the same bit for bit.
+    pub fn run_all(&mut self, samples: &[SampleId]) -> Vec<Result<SingleRun, Vec<SceneError>>> {
+        if self.ends.is_some() {
+            return samples.iter().map(|sample| self.run(*sample)).collect();
         }
-        self.flights.fly(std::slice::from_ref(&scene), draw.as_slice(), &mut |run, of_law| {
-            let status = observe(plan, observer, isa, &scene, (&run, of_law), &mut row);
+        let mut draws = Vec::new();
+        let drawn: Vec<Result<Scene, Vec<SceneError>>> = samples
+            .iter()
+            .map(|sample| {
+                let scene = self.draws.scene(*sample)?;
+                let parameters = || self.draws.drawn().control.clone();
+                draws.extend(self.plan.law.as_ref().map(|_| LawDraw { sample: *sample, parameters: parameters() }));
+                Ok(scene)
+            })
+            .collect();
+        let scenes: Vec<Scene> = drawn.iter().flatten().cloned().collect();
+        let mut flown = self.fly(&scenes, &draws).into_iter();
+        drawn.into_iter().map(|scene| scene.map(|_| flown.next().expect("a run of each scene"))).collect()
+    }
+
+    /// The runs of `scenes`, under a law with these draws, one for each where the plan has a law.
+    fn fly(&mut self, scenes: &[Scene], draws: &[LawDraw]) -> Vec<SingleRun> {
+        let (isa, observer, series_observer) = (self.isa, &mut self.observer, &mut self.series_observer);
+        let (plan, ignored, events, grid) = (self.plan, &mut self.ignored, &mut self.events, &self.grid);
+        let request = self.request;
+        let mut flown: Vec<Option<SingleRun>> = vec![None; scenes.len()];
+        if let Some(events) = events {
+            events.restart(scenes.len());
+        }
+        self.flights.fly(scenes, draws, &mut |run, of_law| {
+            let scene = &scenes[run.index];
+            let mut row = vec![f64::NAN; request.columns().len()];
+            let status = observe(plan, observer, isa, scene, (&run, of_law), &mut row);
             if let Some(events) = events {
                 events.look(&run, observer, status);
             }
-            observe(plan, series_observer, isa, &scene, (&run, of_law), ignored);
-            reason = observer.reason(status, run.outcome, &row);
-            result = Some((run.table.clone(), run.arcs.to_vec(), Outcome { status, ..*run.outcome }));
+            let reason = observer.reason(status, run.outcome, &row);
+            observe(plan, series_observer, isa, scene, (&run, of_law), ignored);
+            let series = series_observer.series().map(|(series, values)| (series, values.collect())).collect();
+            flown[run.index] = Some(SingleRun {
+                scene: scene.clone(),
+                grid: grid.clone(),
+                table: run.table.clone(),
+                arcs: run.arcs.to_vec(),
+                outcome: Outcome { status, ..*run.outcome },
+                reason,
+                series,
+                telemetry: Telemetry::default(),
+                row,
+                request,
+            });
         });
-        let (table, arcs, mut outcome) = result.expect("the propagator finishes every scene that it is given");
-        if let Some(end) = arcs.last().filter(|arc| arc.applied.ends_run).map(|arc| arc.start) {
-            outcome.points = outcome.points.min(points_to(self.grid.times(), end));
+        let every = "the propagator finishes every scene that it is given";
+        let mut flown: Vec<SingleRun> = flown.into_iter().map(|run| run.expect(every)).collect();
+        let is_located = |run: &SingleRun| matches!(run.outcome.status, Status::Done | Status::Inaccurate);
+        if let Some(events) = events.as_mut().filter(|_| flown.iter().any(is_located)) {
+            events.locate(scenes, draws);
         }
-        if matches!(outcome.status, Status::Done | Status::Inaccurate) {
-            self.flights.report(0, &mut row[self.request.places_of_law()]);
-            if let Some(events) = &mut self.events {
-                events.locate(std::slice::from_ref(&scene), draw.as_slice());
-                let places = event_finder::places(plan, &self.request);
-                row[places].iter_mut().zip(events.values(0)).for_each(|(place, value)| *place = value);
+        for (index, run) in flown.iter_mut().enumerate() {
+            let outcome = &mut run.outcome;
+            if let Some(end) = run.arcs.last().filter(|arc| arc.applied.ends_run).map(|arc| arc.start) {
+                outcome.points = outcome.points.min(points_to(grid.times(), end));
             }
+            match outcome.status {
+                Status::Done | Status::Inaccurate => {
+                    self.flights.report(index, &mut run.row[request.places_of_law()]);
+                    if let Some(events) = events {
+                        let places = event_finder::places(plan, &request);
+                        let values = events.values(index);
+                        run.row[places].iter_mut().zip(values).for_each(|(place, value)| *place = value);
+                    }
+                }
+                Status::Surface => {
+                    outcome.points = outcome.points.min(grid.times().partition_point(|time| *time <= outcome.time));
+                }
+                Status::Diverged => run.reason = self.flights.divergence(index),
+                _ => {}
+            }
+            run.telemetry = self.flights.telemetry(index).unwrap_or_default();
         }
-        if outcome.status == Status::Surface {
-            outcome.points = outcome.points.min(self.grid.times().partition_point(|time| *time <= outcome.time));
-        } else if outcome.status == Status::Diverged {
-            reason = self.flights.divergence(0);
-        }
-        let telemetry = self.flights.telemetry(0).unwrap_or_default();
-        let series = self.series_observer.series().map(|(series, values)| (series, values.collect())).collect();
-        SingleRun {
-            scene,
-            grid: self.grid.clone(),
-            table,
-            arcs,
-            outcome,
-            reason,
-            series,
-            telemetry,
-            row,
-            request: self.request,
-        }
+        flown
     }
 
     /// The values that were drawn for the last run, as [`crate::sampling::Dispersions::columns`] lists them.

@@ -89,9 +89,9 @@ pub(super) fn derive(
         .map_err(WorkflowError::files)?;
     let page = match job.page {
         PageKind::Without => None,
-        PageKind::OfRows => Some(made_page(&job.session, job.ensemble, &analysed, job.records, None)?.0),
+        PageKind::OfRows => Some(made_page(&job.session, job.ensemble, &analysed, (job.reader, job.records), None)?.0),
         PageKind::WithNoise(scenes) => {
-            Some(made_page(&job.session, job.ensemble, &analysed, job.records, Some(scenes))?.0)
+            Some(made_page(&job.session, job.ensemble, &analysed, (job.reader, job.records), Some(scenes))?.0)
         }
     };
     take(files, REPORT, page.as_ref().map(|page| Ok::<_, WorkflowError>(page.html.clone().into_bytes())))?;

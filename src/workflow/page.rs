@@ -12,14 +12,16 @@ use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
 use crate::report::image::{self, PlotSize};
 use crate::report::page::gather::Analysis;
+use crate::report::page::runs::{KnownRow, listed};
 use crate::report::page::{Contents, Page};
 use crate::report::summary::SummaryEnd;
+use crate::sampling::SampleId;
 use crate::storage::claim::open;
 use crate::storage::folder::relist;
 use crate::storage::manifest::PartsRead;
 use crate::storage::manifest::{FileRecord, PartRecord};
 use crate::storage::names::{MANIFEST, REPORT};
-use crate::storage::rows_reader::RowsReader;
+use crate::storage::rows_reader::{RowsError, RowsReader};
 use crate::storage::whole_file::place;
 use crate::workflow::analysed::{Analysed, computed};
 use crate::workflow::error::WorkflowError;
@@ -74,7 +76,7 @@ pub fn remade(
     let reader = RowsReader::new(storage, parts.rows);
     let gathered = Gathered::of_files(&ensemble, (&reader, &parts.bands), threads).map_err(WorkflowError::files)?;
     let analysed = computed(&plan, &reader, gathered, threads)?;
-    let (page, noise) = made_page(session, &ensemble, &analysed, &records, noise)?;
+    let (page, noise) = made_page(session, &ensemble, &analysed, (&reader, &records), noise)?;
     let path = root.join(REPORT);
     place(storage, &path, page.html.as_bytes()).map_err(WorkflowError::files)?;
     relist(storage, root, (manifest, &found.plan), FileRecord::of(REPORT, page.html.as_bytes()))
@@ -90,21 +92,74 @@ const BEFORE_MARK: &str = "<meta charset=\"utf-8\">\n";
 /// The page of a result whose parts are `records`, and the share of noise in its outcomes, measured by so many `scenes`, where that is asked for.
 ///
 /// # Errors
-/// Where threads cannot be started.
+/// Where threads cannot be started, or rows cannot be read.
 pub(super) fn made_page(
     session: &Session<'_>,
     ensemble: &Ensemble<'_>,
     analysed: &Analysed,
-    records: &[PartRecord],
+    (reader, records): (&RowsReader, &[PartRecord]),
     scenes: Option<u64>,
 ) -> Result<(Page, Vec<NoiseShare>), WorkflowError> {
-    let Some(scenes) = scenes else { return Ok((page(ensemble, analysed, records, &[]), Vec::new())) };
     let plan = ensemble.plan();
+    let listed = listed(plan, &analysed.survey);
+    let samples: Vec<SampleId> = listed.into_iter().map(|(sample, _)| sample).collect();
+    let rows = rows_of(ensemble, reader, records, &samples).map_err(WorkflowError::files)?;
+    let page = |noise: &[NoiseShare]| {
+        let made = page(ensemble, analysed, (&rows, records), noise);
+        made.left_out.iter().for_each(|text| session.watch.note(&format!("{REPORT}: {text}")));
+        made
+    };
+    let Some(scenes) = scenes else { return Ok((page(&[]), Vec::new())) };
     let machine = (session.isa, session.threads);
     let noise = noise_shares(plan, &outcomes(plan), scenes, machine).map_err(WorkflowError::files)?;
-    let made = page(ensemble, analysed, records, &noise);
+    let made = page(&noise);
     let marked = format!("{BEFORE_MARK}{NOISE_MARK}{scenes}\">\n");
     Ok((Page { html: made.html.replacen(BEFORE_MARK, &marked, 1), ..made }, noise))
+}
+
+/// The rows of `samples`, from the parts that have them.
+///
+/// # Errors
+/// Where a part cannot be read.
+fn rows_of(
+    ensemble: &Ensemble<'_>,
+    reader: &RowsReader,
+    records: &[PartRecord],
+    samples: &[SampleId],
+) -> Result<Vec<KnownRow>, RowsError> {
+    let plan = ensemble.plan();
+    let columns = ensemble.request().columns();
+    let inputs = plan.dispersions.columns().iter().map(|column| column.parameter.column_name(column.component));
+    let wanted: Vec<String> = columns.iter().map(|column| column.quantity.name().to_owned()).chain(inputs).collect();
+    let mut rows = Vec::new();
+    for (index, record) in records.iter().enumerate() {
+        let part = record.samples();
+        // chosen samples have their own numbers
+        let may_have = |sample: &SampleId| (part.first.0..part.first.0 + part.count as u64).contains(&sample.0);
+        let Some(part) = reader.part(index).filter(|_| plan.chosen.is_some() || samples.iter().any(may_have)) else {
+            continue;
+        };
+        let part = part?;
+        let all = part.samples()?;
+        let places: Vec<usize> = (0..all.len()).filter(|row| samples.contains(&all[*row])).collect();
+        if places.is_empty() {
+            continue;
+        }
+        let (statuses, reasons) = (part.statuses()?, part.reasons()?);
+        let first = rows.len();
+        rows.extend(places.iter().map(|row| KnownRow {
+            sample: all[*row],
+            status: statuses[*row],
+            reason: reasons[*row].clone().unwrap_or_default(),
+            numbers: Vec::with_capacity(wanted.len()),
+        }));
+        for name in &wanted {
+            let column = part.numbers(name)?;
+            let known = rows[first..].iter_mut().zip(&places);
+            known.for_each(|(known, row)| known.numbers.push((name.clone(), column[*row])));
+        }
+    }
+    Ok(rows)
 }
 
 /// By how many scenes the page `html` was made to tell noise; `None` of one that does not.
@@ -115,7 +170,12 @@ pub(super) fn noise_scenes(html: &[u8]) -> Option<u64> {
 }
 
 /// The page of a result whose parts are `records`; `noise`: the share of noise in its outcomes, where it was measured.
-fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord], noise: &[NoiseShare]) -> Page {
+fn page(
+    ensemble: &Ensemble<'_>,
+    analysed: &Analysed,
+    (rows, records): (&[KnownRow], &[PartRecord]),
+    noise: &[NoiseShare],
+) -> Page {
     let analysis = Analysis {
         statistics: &analysed.statistics,
         verdicts: &analysed.verdicts,
@@ -124,6 +184,7 @@ fn page(ensemble: &Ensemble<'_>, analysed: &Analysed, records: &[PartRecord], no
         warnings: &analysed.warnings,
         notes: &analysed.notes,
         noise,
+        rows,
         bands: analysed.bands.as_ref(),
         stopping: analysed.stopping.as_ref(),
     };

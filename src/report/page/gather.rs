@@ -21,6 +21,7 @@ use crate::report::page::Contents;
 use crate::report::page::cards::{Card, Judged, driven_by};
 use crate::report::page::influence::{Influence, counted_list};
 use crate::report::page::readable::{grouped, number, with_unit};
+use crate::report::page::runs::KnownRow;
 use crate::report::requirements::{assumed, decided_by, runs_needed, together};
 use crate::report::share_text;
 use crate::report::stopping_text;
@@ -49,6 +50,8 @@ pub struct Analysis<'a> {
     pub warnings: &'a [String],
     /// What the numbers leave unsaid.
     pub notes: &'a [String],
+    /// The rows of the runs that the page lists.
+    pub rows: &'a [KnownRow],
     /// The look that ended the campaign, where it has `[stop]`.
     pub stopping: Option<&'a Stopping>,
 }
@@ -78,6 +81,7 @@ impl Contents {
             missions: analysis.missions.clone(),
             influences,
             said,
+            rows: analysis.rows.to_vec(),
             files,
         }
     }

@@ -33,14 +33,18 @@ struct LiveNumber {
     values: Vec<f64>,
 }
 
-/// A number of the row of `run`; `None` where it has none.
-fn of_row(run: &SingleRun, name: &str) -> Option<f64> {
-    let place = run.request.columns().iter().position(|column| column.quantity.name() == name)?;
-    run.row.get(place).copied().filter(|value| value.is_finite())
+/// A number of a row; `None` where it has none.
+fn of_row(row: &[(String, f64)], name: &str) -> Option<f64> {
+    row.iter().find(|(column, _)| column == name).map(|(_, value)| *value).filter(|value| value.is_finite())
 }
 
 /// What is shown of the first `points` points of `run`, with the place of its numbers.
-pub fn numbers(plan: &Plan, run: &SingleRun, points: usize, payload: &mut Payload) -> Vec<Value> {
+pub fn numbers(
+    plan: &Plan,
+    (run, row): (&SingleRun, &[(String, f64)]),
+    points: usize,
+    payload: &mut Payload,
+) -> Vec<Value> {
     let shown = |mut number: LiveNumber| {
         // what is only round-off beside the rest of the run is shown as the zero that it stands for
         let largest = number.values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
@@ -55,8 +59,12 @@ pub fn numbers(plan: &Plan, run: &SingleRun, points: usize, payload: &mut Payloa
         }
         shown
     };
-    let list =
-        [pointing_error(run, points), Some(rate(run, points)), wheel_speeds(run, points), propellant(run, points)];
+    let list = [
+        pointing_error(run, points),
+        Some(rate(run, points)),
+        wheel_speeds(run, points),
+        propellant((run, row), points),
+    ];
     list.into_iter().flatten().chain(approach(run, points)).chain(sunlight(run, points)).map(shown).collect()
 }
 
@@ -104,8 +112,8 @@ fn wheel_speeds(run: &SingleRun, points: usize) -> Option<LiveNumber> {
 
 /// Propellant used since the start, in the ratio that the row has of propellant and impulse; the impulse itself where the specific impulse is not
 /// known. `None` where no thruster fires.
-fn propellant(run: &SingleRun, points: usize) -> Option<LiveNumber> {
-    let ratio = of_row(run, "propellant_kg").zip(of_row(run, "impulse_total_n_s"));
+fn propellant((run, row): (&SingleRun, &[(String, f64)]), points: usize) -> Option<LiveNumber> {
+    let ratio = of_row(row, "propellant_kg").zip(of_row(row, "impulse_total_n_s"));
     let ratio = ratio.filter(|(_, impulse)| *impulse > 0.0).map(|(mass, impulse)| mass / impulse);
     let force = |arc: &crate::scene::Arc| arc.applied.thrust.iter().sum::<f64>();
     let firing: Vec<(f64, f64, f64)> = run
@@ -178,15 +186,15 @@ fn sunlight(run: &SingleRun, points: usize) -> Option<LiveNumber> {
 }
 
 /// The times at which the phases of a loop first began, and at which the mission or an event ended the run, with their names, by time.
-pub fn marks(plan: &Plan, run: &SingleRun, row: &[(String, f64)]) -> Vec<Value> {
-    let begins = |name: &str| Some((of_row(run, &format!("phase_{name}_begin_s"))?, name.to_owned()));
+pub fn marks(plan: &Plan, row: &[(String, f64)]) -> Vec<Value> {
+    let begins = |name: &str| Some((of_row(row, &format!("phase_{name}_begin_s"))?, name.to_owned()));
     let spec = plan.law.as_ref().and_then(|law| law.spec());
     let phases = spec.iter().flat_map(|spec| &spec.phases);
     let mut marks: Vec<(f64, String)> = phases.filter_map(|phase| begins(phase.name.as_str())).collect();
-    let end = of_row(run, "end_time_s").zip(mission_text::of_row(row));
+    let end = of_row(row, "end_time_s").zip(mission_text::of_row(row));
     marks.extend(end.map(|(time, text)| (time, text.trim_start_matches("mission ").to_owned())));
     let ended_by =
-        |event: &Event| Some((of_row(run, &format!("{}_time_s", event.name))?, format!("ended by {}", event.name)));
+        |event: &Event| Some((of_row(row, &format!("{}_time_s", event.name))?, format!("ended by {}", event.name)));
     marks.extend(plan.events.iter().filter(|event| event.ends_run).filter_map(ended_by));
     marks.sort_by(|a, b| a.0.total_cmp(&b.0));
     marks.into_iter().map(|(time, name)| json!({ "time": time, "name": name })).collect()

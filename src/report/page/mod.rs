@@ -36,6 +36,7 @@ use self::fates::Fate;
 use self::figure_json::json_of;
 use self::influence::Influence;
 use self::payload::Payload;
+use self::runs::KnownRow;
 use crate::analysis::missions::Missions;
 use crate::analysis::population::Loss;
 use crate::analysis::statistics::ColumnStatistics;
@@ -43,6 +44,7 @@ use crate::analysis::survey::{self, Survey};
 use crate::campaign::Plan;
 use crate::campaign::event::Event;
 use crate::ensemble::Ensemble;
+use crate::ensemble::run_cost::replays;
 use crate::findings::names;
 use crate::findings::number::counted;
 use crate::report::figure::{Figure, FigureSection, Mark, Scale};
@@ -73,8 +75,19 @@ pub struct Contents {
     pub verdicts: Vec<Card>,
     /// What `[stop]` and the verdicts together say, as sentences.
     pub said: Vec<String>,
+    /// The rows of the runs that it lists ([`runs::listed`]).
+    pub rows: Vec<KnownRow>,
     /// Names and SHA-256 of the files of the result.
     pub files: Vec<(String, String)>,
+}
+
+impl Contents {
+    /// How many runs are flown again: of a campaign of one run that one, else as many as a page has the time for.
+    fn replays(&self, plan: &Plan) -> usize {
+        let evaluations = self.statistics.iter().find(|row| row.quantity.name() == "evaluations");
+        replays(plan.rows(), evaluations.and_then(|row| row.moments.mean()).unwrap_or(0.0))
+            .max(usize::from(plan.rows() == 1))
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -82,6 +95,8 @@ pub struct Page {
     pub html: String,
     /// Its figures, in their order.
     pub figures: Vec<Figure>,
+    /// How many of the runs that it lists it does not show, and the command that does; nothing where there is none.
+    pub left_out: Option<String>,
 }
 
 /// What stands in place of an interval where there is none.
@@ -109,7 +124,8 @@ impl Page {
     pub fn new(ensemble: &Ensemble<'_>, contents: &Contents) -> Self {
         let (plan, survey) = (ensemble.plan(), &contents.survey);
         let has_intervals = is_independent(plan) && !contents.loss.is_big();
-        let shown = runs::shown_runs(plan, survey, ensemble.isa());
+        let list = runs::listed(plan, survey);
+        let shown = runs::shown_runs(plan, (&list, &contents.rows), contents.replays(plan), ensemble.isa());
         let first = shown.iter().find(|run| run.sample == SampleId(0));
         let nominal_end = first.and_then(|run| mission_text::of_run(&run.row));
         let nominal = first.and_then(|run| run.run.as_ref());
@@ -173,7 +189,8 @@ impl Page {
         };
         let title = word.map_or_else(|| plan.name.clone(), |word| format!("{word}: {}", plan.name));
         let sections = sections(plan, contents, &shown, has_replay, &figures);
-        Page { html: document(&title, &first.concat(), &sections, &data, &payload.text()), figures }
+        let html = document(&title, &first.concat(), &sections, &data, &payload.text());
+        Page { html, figures, left_out: runs::left_out(&shown) }
     }
 }
 
@@ -227,7 +244,7 @@ fn sections(
     let curves = outcomes::folded_curves(drawn);
     [
         figures(FigureSection::Outcome, "Outcome", "How each outcome is distributed over the runs.", &curves),
-        plain("replay", "Replay", "The nominal run and the worst ones in three dimensions.", replay).filter(|_| has_replay),
+        plain("replay", "Replay", &format!("The nominal run and the worst ones in three dimensions. {}", runs::left_out(shown).map_or_else(String::new, |text| text + ".")), replay).filter(|_| has_replay),
         figures(FigureSection::Time, "Over time", "The nominal run, and where the dispersed runs are at each time. The slider of the replay moves a cursor through these figures; a click in one moves the replay.", ""),
         Some(PageSection { has_figures: has(FigureSection::Influence), ..influence }),
         plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the worst outcomes. Run in the folder of this page, each command repeats its run bit for bit.", tables::worst_runs(plan, &contents.survey, shown)),

@@ -157,7 +157,7 @@ pub fn motion(plan: &Plan, shown: &ShownRun, payload: &mut Payload) -> Option<Va
         "numbers": numbers(plan, shown), "duration": plan.grid.duration(), "times": payload.singles(&run.grid.times()[..points]),
         "attitude": payload.singles(&attitude), "omega": payload.singles(&omega), "momentum": payload.singles(&momentum),
         "angles": payload.singles(&angles), "debris": debris, "goal": goal, "loop": control(plan, run, points, payload),
-        "failed": shown.has_failed(), "live": live::numbers(plan, run, points, payload), "marks": live::marks(plan, run, &shown.row)
+        "failed": shown.has_failed(), "live": live::numbers(plan, (run, &shown.row), points, payload), "marks": live::marks(plan, &shown.row)
     });
     if let Some(directions) = sky::directions(run, points, payload) {
         motion["orbit"] = directions;

@@ -3,6 +3,7 @@
 use crate::analysis::survey::Survey;
 use crate::analysis::worst_runs::WorstRuns;
 use crate::campaign::Plan;
+use crate::ensemble::single::SingleRuns;
 use crate::ensemble::{DrawnScenes, SingleRun};
 use crate::findings::names;
 use crate::math::Isa;
@@ -23,8 +24,8 @@ const MOST_FAILED: usize = 5;
 const FEWEST: usize = 240;
 /// Intervals of a run in the page, at most.
 const MOST: usize = 600;
-/// Points of a campaign's grid up to which a shown run has its row: the memory of more is not worth a few numbers.
-const MOST_OF_ROW: usize = 20_000;
+/// Runs that are flown side by side: as many as the widest vectors hold.
+const BESIDE: usize = 8;
 /// A turn between two pictures, rad: enough pictures that a motion is seen as such.
 const TURN: f64 = 0.6;
 
@@ -40,19 +41,29 @@ pub const GROUPS: [Group; 8] = [
     Group::Orbit,
 ];
 
+/// The row of a run, as the result has it.
+#[derive(Clone, Debug)]
+pub struct KnownRow {
+    pub sample: SampleId,
+    pub status: Status,
+    /// Why it is not ok; empty where it is.
+    pub reason: String,
+    /// Its numbers by the names of their columns.
+    pub numbers: Vec<(String, f64)>,
+}
+
 /// A run that the page shows.
 #[derive(Clone, Debug)]
 pub struct ShownRun {
     pub sample: SampleId,
     pub why: String,
-    /// How it ended; the reason where it is not ok.
     pub status: Status,
-    /// Why it is not ok; empty where it is.
+    /// Why it is not ok, as people read it; empty where it is.
     pub reason: String,
     pub inputs: Vec<f64>,
-    /// The numbers of its row, by the names of their columns, as the campaign has them: the run may be shown at other times. Empty where it has none.
+    /// The numbers of its row, by the names of their columns.
     pub row: Vec<(String, f64)>,
-    /// The run itself; `None` where its scene is not physical.
+    /// The run itself; `None` where it was not flown again, or its scene is not physical.
     pub run: Option<SingleRun>,
 }
 
@@ -65,70 +76,77 @@ impl ShownRun {
     }
 }
 
-/// The nominal run and the worst ones, run again with all of their states.
-pub fn shown_runs(plan: &Plan, survey: &Survey, isa: Isa) -> Vec<ShownRun> {
-    let grid = grid(plan, isa);
+/// The nominal run and the worst ones, in the order in which they are shown, each with why it is.
+pub fn listed(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
     let mut list = vec![(SampleId(0), "nominal".to_owned())];
     for (sample, why) in worst(plan, survey) {
         if !list.iter().any(|(other, _)| *other == sample) && list.len() <= WORST {
             list.push((sample, why));
         }
     }
-    let panicked = survey.statuses.failed().filter(|ended| ended.status == Status::InternalError);
-    let panicked: Vec<&(SampleId, String)> = panicked.flat_map(|ended| &ended.first).collect();
-    let one = |(sample, why): (SampleId, String)| match panicked.iter().find(|(other, _)| *other == sample) {
-        // a run that ended in a panic would do so again
-        Some((_, reason)) => {
-            let (inputs, reason) = (inputs(plan, sample), reason.clone());
-            ShownRun { sample, why, status: Status::InternalError, reason, inputs, row: Vec::new(), run: None }
+    list
+}
+
+/// The runs of `list`, the first `flown` of them flown again with all of their states; `rows` are theirs.
+pub fn shown_runs(
+    plan: &Plan,
+    (list, rows): (&[(SampleId, String)], &[KnownRow]),
+    flown: usize,
+    isa: Isa,
+) -> Vec<ShownRun> {
+    let row = |sample: SampleId| rows.iter().find(|row| row.sample == sample);
+    // a run that ended in a panic would do so again
+    let is_flown = |sample: &SampleId| row(*sample).is_none_or(|row| row.status != Status::InternalError);
+    let samples: Vec<SampleId> = list.iter().map(|(sample, _)| *sample).filter(is_flown).take(flown).collect();
+    let mut runs = flights(plan, &samples, rows, isa);
+    let one = |(sample, why): &(SampleId, String)| {
+        let known = row(*sample);
+        let run = runs.iter().position(|(other, _)| other == sample).map(|place| runs.swap_remove(place).1);
+        ShownRun {
+            sample: *sample,
+            why: why.clone(),
+            status: known.map_or(Status::Done, |row| row.status),
+            reason: known.map_or_else(String::new, |row| readable(&row.reason)),
+            inputs: inputs(plan, *sample),
+            row: known.map_or_else(Vec::new, |row| row.numbers.clone()),
+            run,
         }
-        None => shown(plan, sample, why, &grid, isa),
     };
-    list.into_iter().map(one).collect()
+    list.iter().map(one).collect()
+}
+
+/// How many of `runs` were not flown again for want of time, and the command that flies the first of them.
+pub fn left_out(runs: &[ShownRun]) -> Option<String> {
+    let unflown = runs.iter().filter(|run| run.run.is_none());
+    let mut left = unflown.filter(|run| !matches!(run.status, Status::InternalError | Status::InvalidSample));
+    let (first, more) = (left.next()?, left.count());
+    Some(format!(
+        "{} of {} runs are not replayed, which would take longer than a tenth of the campaign; \
+         this flies one: spindrift simulate plan.toml --sample {}",
+        more + 1,
+        runs.len(),
+        first.sample
+    ))
+}
+
+/// Flies `samples` side by side, on the grid of the page with the times at which their missions end; those that are
+/// physical.
+fn flights(plan: &Plan, samples: &[SampleId], rows: &[KnownRow], isa: Isa) -> Vec<(SampleId, SingleRun)> {
+    if samples.is_empty() {
+        return Vec::new();
+    }
+    let numbers = rows.iter().filter(|row| samples.contains(&row.sample)).flat_map(|row| &row.numbers);
+    let ends = numbers.filter(|(name, end)| name == "end_time_s" && end.is_finite());
+    let grid = ends.fold(grid(plan, isa), |grid, (_, end)| with_time(&grid, *end).unwrap_or(grid));
+    let mut runs = SingleRuns::replays(plan, grid, isa, &GROUPS);
+    let flown = samples.chunks(BESIDE).flat_map(|some| some.iter().copied().zip(runs.run_all(some)));
+    flown.filter_map(|(sample, run)| Some((sample, run.ok()?))).collect()
 }
 
 /// The inputs of a sample as applied.
 fn inputs(plan: &Plan, sample: SampleId) -> Vec<f64> {
     let drawn = DrawnScenes::new(plan, sample, 1);
     drawn.columns.iter().filter_map(|column| column.first().copied()).collect()
-}
-
-fn shown(plan: &Plan, sample: SampleId, why: String, grid: &Grid, isa: Isa) -> ShownRun {
-    let inputs = inputs(plan, sample);
-    let on = |grid: Grid| SingleRun::with_series(plan, sample, grid, isa, &GROUPS);
-    // a mission ends between two times of the grid: where it ends is shown too
-    let to_its_end = |run: SingleRun| {
-        let end = run.arcs.last().filter(|arc| arc.applied.ends_run).and_then(|arc| with_time(grid, arc.start));
-        end.and_then(|grid| on(grid).ok()).unwrap_or(run)
-    };
-    match on(grid.clone()).map(to_its_end) {
-        Ok(run) => {
-            let (status, reason) = (run.outcome.status, readable(&run.reason));
-            let row = row(plan, &run, &inputs, isa, sample);
-            ShownRun { sample, why, status, reason, inputs, row, run: Some(run) }
-        }
-        Err(errors) => {
-            let reason = readable(&errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "));
-            ShownRun { sample, why, status: Status::InvalidSample, reason, inputs, row: Vec::new(), run: None }
-        }
-    }
-}
-
-/// The row of a sample, which is shown as `run`: of a campaign with other times, from another run, where that is not too large.
-fn row(plan: &Plan, run: &SingleRun, inputs: &[f64], isa: Isa, sample: SampleId) -> Vec<(String, f64)> {
-    let another = if plan.grid == run.grid || plan.grid.points() > MOST_OF_ROW {
-        None
-    } else {
-        SingleRun::new(plan, sample, plan.grid.clone(), isa).ok()
-    };
-    let has_row = another.is_some() || plan.grid == run.grid;
-    let run = another.as_ref().unwrap_or(run);
-    let names = run.request.columns().into_iter().map(|column| column.quantity.name().to_owned());
-    // what depends on the times between is not known then
-    let of_run = names.zip(run.row.iter().copied()).filter(|(name, _)| has_row || name.contains("_final"));
-    let columns = plan.dispersions.columns().iter().zip(inputs);
-    let of_inputs = columns.map(|(column, value)| (column.parameter.column_name(column.component), *value));
-    of_run.chain(of_inputs).collect()
 }
 
 /// Failed runs, the first of each kind first, then the worst values of each outcome in turn; of the errors where the campaign has no outcome.
@@ -195,16 +213,19 @@ fn tied(worst: &WorstRuns, value: f64) -> (usize, String) {
 /// The times of the runs in the page: the campaign's, with divided intervals where it is coarse or the motion fast.
 fn grid(plan: &Plan, isa: Isa) -> Grid {
     let given = plan.grid.points().saturating_sub(1).max(1);
+    // of a mission, whose phases are shorter than its longest duration, as many as there are
+    if plan.law.is_some() {
+        return Grid::uniform(plan.grid.duration(), given.min(MOST) * (MOST / given).max(1) + 1);
+    }
     // the memory of the page does not depend on the campaign's grid
     let looked_at = Grid::uniform(plan.grid.duration(), given.min(MOST) + 1);
-    let fastest = SingleRun::with_series(plan, SampleId(0), looked_at, isa, &[]).map_or(0.0, |run| {
+    let nominal = || SingleRuns::replays(plan, looked_at, isa, &[]).run(SampleId(0));
+    let fastest = nominal().map_or(0.0, |run| {
         let points = run.outcome.points.min(run.grid.points());
         let rate = |point: usize| crate::math::vector::norm(run.table.at(crate::run::StateField::Rate, point));
         (0..points).map(rate).filter(|rate| rate.is_finite()).fold(0.0, f64::max)
     });
-    // of a mission, whose phases are shorter than its longest duration, as many as there are
-    let fewest = if plan.law.is_some() { MOST } else { FEWEST };
-    let wanted = (fastest * plan.grid.duration() / TURN).clamp(fewest as f64, MOST as f64) as usize;
+    let wanted = (fastest * plan.grid.duration() / TURN).clamp(FEWEST as f64, MOST as f64) as usize;
     let intervals = if given >= wanted { given.min(MOST) } else { given * (wanted / given).max(1) };
     Grid::uniform(plan.grid.duration(), intervals + 1)
 }
@@ -230,9 +251,12 @@ mod tests {
     fn a_mission_is_shown_to_its_end() {
         let text = include_str!("../../../campaigns/net_launch.toml");
         let plan = Plan::from_text("net_launch", text, Overrides::default()).expect("valid");
-        let run = shown(&plan, SampleId(0), String::new(), &Grid::uniform(plan.grid.duration(), 31), Isa::best());
-        let end = run.row.iter().find(|(name, _)| name == "end_time_s").expect("a column").1;
-        let flown = run.run.expect("physical");
+        let run = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), Isa::best()).expect("physical");
+        let names = run.request.columns().into_iter().map(|column| column.quantity.name().to_owned());
+        let numbers: Vec<(String, f64)> = names.zip(run.row).collect();
+        let end = numbers.iter().find(|(name, _)| name == "end_time_s").expect("a column").1;
+        let row = KnownRow { sample: SampleId(0), status: Status::Done, reason: String::new(), numbers };
+        let (_, flown) = flights(&plan, &[SampleId(0)], &[row], Isa::best()).swap_remove(0);
         assert_eq!(flown.grid.times()[flown.outcome.points - 1], end);
         assert_eq!(with_time(&flown.grid, end), None);
         assert_eq!(with_time(&flown.grid, 1e9), None);
