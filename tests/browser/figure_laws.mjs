@@ -1,7 +1,5 @@
 // Laws of figures: what they show, say, select and save.
 
-import { existsSync, readFileSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
 import { colorsIn, problems, screenshots } from "./open_page.mjs";
 
 const FEWEST_COLORS = 3; // background, axes and at least one mark
@@ -173,50 +171,6 @@ export async function checkSaid(page, name) {
     return found;
   });
   problems.push(...wrong.slice(0, 8).map((text) => `${name}: ${text}`));
-}
-
-// What scripts make of a page - texts, buttons, what figures draw and say of their middle - is what somebody has read and found right: tests/golden/views. With
-// SPINDRIFT_WRITE_VIEWS=1 it is written; the difference is read before it is committed.
-export async function checkView(page, name) {
-  if (!["net_launch", "orbit", "failing"].includes(name)) return;
-  const view = await page.evaluate(() => {
-    const lines = [];
-    const digits = (value) => (typeof value === "number" && Number.isFinite(value) ? Number(value.toPrecision(6)) : value);
-    const brief = (value) => {
-      if (Array.isArray(value)) return value.length > 6 ? `${value.length}: ${[0, value.length >> 1, value.length - 1].map((k) => JSON.stringify(brief(value[k]))).join(" .. ")}` : value.map(brief);
-      if (ArrayBuffer.isView(value)) return brief(Array.from(value));
-      if (typeof value === "function") return "function";
-      if (value && typeof value === "object") return Object.fromEntries(Object.entries(value).map(([key, part]) => [key, brief(part)]));
-      return digits(value);
-    };
-    const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_ELEMENT, (element) => (element.matches("script, style, pre, table, p, dl, .card, .plot, .live, .clock, .numbers, figcaption") ? NodeFilter.FILTER_REJECT : NodeFilter.FILTER_ACCEPT));
-    while (walker.nextNode()) {
-      const element = walker.currentNode;
-      const own = Array.from(element.childNodes, (node) => (node.nodeType === Node.TEXT_NODE ? node.textContent.trim() : "")).filter(Boolean).join(" ");
-      const said = ["title", "aria-label", "placeholder", "data-sample", "data-camera", "data-time", "href", "disabled"].filter((key) => element.hasAttribute(key)).map((key) => `${key}="${element.getAttribute(key)}"`);
-      if (own || said.length > 0) lines.push(`${element.localName}.${element.className.baseVal ?? element.className}: ${own} ${said.join(" ")}`.trimEnd());
-    }
-    for (const { figure, chart } of views) {
-      const { series, xAxis, yAxis } = chart?.getOption() ?? {};
-      const axes = [xAxis, yAxis].map((list) => (list ?? []).map(({ type, name, min, max, data }) => ({ type, name, min, max, data })));
-      lines.push(`figure ${figure.name}: ${figure.title}`, `  axes ${JSON.stringify(brief(axes))}`);
-      for (const { type, name, data, step, symbol, stack } of series ?? []) lines.push(`  ${JSON.stringify(brief({ type, name, data, step, symbol, stack }))}`);
-      const text = csvText(figure).split("\n");
-      for (const k of [0, 1, text.length >> 1, text.length - 2]) lines.push(`  saved ${k}: ${text[k] ?? ""}`);
-      for (const mark of figure.marks) {
-        const k = (mark.x?.length ?? 0) >> 1;
-        if (mark.x?.length > 0 && mark.y?.length > 0) lines.push(`  tip: ${described(figure, [-1e6, -1e6], [mark.x[k], mark.y[k]], () => [0, 0]).join("; ")}`);
-      }
-    }
-    return `${lines.join("\n")}\n`;
-  });
-  // the version and the plan's identity are another in another version of the program
-  const steady = view.replaceAll(/(?<![.\d])\b([0-9a-f]{64}|[0-9a-f]{8})\b(?!\.)/g, "ID").replaceAll(/spindrift \d+\.\d+\.\d+/g, "spindrift VERSION");
-  const path = join("tests", "golden", "views", `browser_${name}.txt`);
-  if (process.env.SPINDRIFT_WRITE_VIEWS) return writeFileSync(path, steady);
-  const [approved, found] = [existsSync(path) ? readFileSync(path, "utf8").split("\n") : [], steady.split("\n")];
-  const at = found.findIndex((line, k) => line !== approved[k]);
-  if (at >= 0 || approved.length !== found.length) problems.push(`${name}: line ${at + 1} of ${path} is "${found[at]}", and was "${approved[at]}"`);
 }
 
 // A click on a point selects its run in all figures, and a second one replays it or copies its command; a click on a bar selects the runs of that bar.

@@ -9,7 +9,7 @@
 import { mkdirSync, readFileSync, statSync } from "node:fs";
 import { basename, dirname, join, resolve } from "node:path";
 import puppeteer from "puppeteer-core";
-import { checkFigures, checkHover, checkSaid, checkSelection, checkTexts, checkView } from "./figure_laws.mjs";
+import { checkFigures, checkHover, checkSaid, checkSelection, checkTexts } from "./figure_laws.mjs";
 import { checkInputs, checkLinks, checkNarrowTables, checkPaper, checkTables, checkWithoutScripts } from "./layout_laws.mjs";
 import { opened, problems, screenshots } from "./open_page.mjs";
 import { checkCursor, checkFullScreen, checkNumbers, checkReplay, checkStill } from "./replay_laws.mjs";
@@ -31,7 +31,6 @@ async function checked(browser, file) {
   const figures = await checkFigures(page, name, shot("light"));
   await checkHover(page, name);
   await checkSaid(page, name);
-  await checkView(page, name);
   await checkTexts(page, name);
   await checkInputs(page, name);
   await checkSelection(page, name);
