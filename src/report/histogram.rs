@@ -67,17 +67,51 @@ fn part(k: usize, bars: usize) -> f64 {
     k as f64 / bars as f64
 }
 
-/// Edges of equally wide bars; whole numbers have a bar each.
+/// Edges of equally wide bars; values on a lattice, as counts and times of control periods are, have bars of whole steps
+/// of it, each with as many places.
 fn linear_bins(values: &[f64], limits: &[f64]) -> Vec<f64> {
     let (low, high) = ends(values);
-    let are_whole = values.iter().all(|value| *value == libm::floor(*value));
-    if are_whole && high - low <= BARS[1] as f64 {
-        return (0..=(high - low) as usize + 1).map(|k| low + k as f64 - 0.5).collect();
+    if let Some(step) = lattice(values) {
+        let steps = libm::round((high - low) / step) as usize;
+        let most = if steps <= BARS[1] { BARS[1] } else { bars(values.len()) };
+        let each = (steps + 1).div_ceil(most);
+        // the places up to a limit end with a bar
+        let limit = limits.iter().copied().find(|limit| low < *limit && *limit < high);
+        let before = limit.map_or(0, |limit| libm::floor((limit - low) / step + 1e-6) as usize + 1);
+        let outside = (each - before % each) % each;
+        let edge = |k: usize| low + step * ((k * each) as f64 - outside as f64 - 0.5);
+        return (0..=(steps + 1 + outside).div_ceil(each)).map(edge).collect();
     }
     let half = if high > low { 0.0 } else { 0.05 * low.abs().max(1e-300) };
     let bars = bars(values.len());
     let edge = |k: usize| (1.0 - part(k, bars)) * (low - half) + part(k, bars) * (high + half);
     moved((0..=bars).map(edge).collect(), limits, |edge, by| edge + by, |to, from| to - from)
+}
+
+/// The step of the lattice on which all of `values` are: one for whole numbers, else the smallest distance of two of them,
+/// where many share a place; `None` where they are on none.
+fn lattice(values: &[f64]) -> Option<f64> {
+    /// Values to a place, at least, of values that are not whole.
+    const SHARED: usize = 4;
+    /// How far from its place a value may be, in steps: rounding of times that are multiples of a period.
+    const OFF: f64 = 1e-6;
+    /// Steps between the smallest and the largest value, at most.
+    const LONGEST: f64 = 1e5;
+    if values.iter().all(|value| *value == libm::floor(*value) && value.abs() < 1e15) {
+        return Some(1.0);
+    }
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let (low, high) = (*sorted.first()?, *sorted.last()?);
+    let apart = 1e-9 * (high - low);
+    let gaps: Vec<f64> = sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > apart).collect();
+    let step = gaps.iter().copied().fold(f64::INFINITY, f64::min);
+    let is_shared = !gaps.is_empty() && (gaps.len() + 1) * SHARED <= values.len() && high - low <= LONGEST * step;
+    let is_on = |value: &f64| {
+        let steps = (value - low) / step;
+        (steps - libm::round(steps)).abs() < OFF * steps.max(1.0)
+    };
+    (is_shared && values.iter().all(is_on)).then_some(step)
 }
 
 /// How many `values` are between neighbouring `edges`; those at the ends count too.
@@ -188,6 +222,31 @@ mod tests {
             assert!(edges.is_sorted() && edges.iter().all(|edge| edge.is_finite()), "{edges:?}");
         }
         assert!(bins(&[], &[]).0.is_empty());
+    }
+
+    /// Law: bars of counts and of times of control periods have equally many places of the lattice, so that equally many
+    /// values at each place are equally high bars, but for those at the ends; a bar ends with the last place up to a limit.
+    #[test]
+    fn bars_follow_the_lattice() {
+        for (step, offset) in [(1.0, 3.0), (0.1, 0.05), (0.25, -7.0)] {
+            for places in [2, 7, 41, 57, 333, 1000] {
+                let values: Vec<f64> = (0..5 * places).map(|k| offset + step * f64::from(k % places)).collect();
+                let limit = offset + step * libm::floor(0.4 * f64::from(places));
+                let edges = linear_bins(&values, &[limit]);
+                let heights = counts(&values, &edges);
+                let inner = &heights[1..heights.len() - 1];
+                assert!(inner.windows(2).all(|pair| pair[0] == pair[1]), "{step}, {places}: {heights:?}");
+                let ends = heights.iter().all(|height| inner.is_empty() || *height <= inner[0]);
+                assert!(ends, "{step}, {places}: {heights:?}");
+                let is_edge = |edge: &f64| (edge - limit - 0.5 * step).abs() < 1e-6 * step;
+                assert!(limit == offset || edges.iter().any(is_edge), "{limit}: {edges:?}");
+                assert!(heights.len() <= BARS[1].max(bars(values.len())) + 1, "{step}, {places}: {}", heights.len());
+                assert_eq!(heights.iter().sum::<f64>(), f64::from(5 * places));
+            }
+        }
+        // values of their own are on no lattice
+        let values: Vec<f64> = (0..400).map(|k| libm::sqrt(f64::from(k))).collect();
+        assert_eq!(lattice(&values), None);
     }
 
     /// Law: bars are as many as the square root of the number of values, from ten to forty; a limit between the values is an edge of them, on every kind of axis, and every value is still in
