@@ -11,14 +11,14 @@ use pyo3::prelude::*;
 use spindrift::cli::run_campaign::refuse_work;
 use spindrift::workflow::{CampaignOutcome, Outputs, Session, Watch, WorkflowError};
 
+use crate::campaign_source::{CampaignSource, prepared};
 use crate::law::{Law, refuse_unnamed};
-use crate::plan::{Plan, prepared};
 use crate::{SpindriftError, raised};
 
 /// What is run.
 pub struct Run {
     /// The campaign.
-    pub plan: Plan,
+    pub source: CampaignSource,
     /// With so many samples.
     pub samples: Option<u64>,
     /// The folder of the result.
@@ -123,7 +123,7 @@ fn ran(run: &Run, watch: &Shared) -> Ended {
         session = session.with_crew(&**law);
     }
     let outputs = Outputs { without_page: !run.page, ..Outputs::default() };
-    let campaign = run.plan.campaign(session, run.samples).store(&run.out).outputs(outputs);
+    let campaign = run.source.campaign(session, run.samples).store(&run.out).outputs(outputs);
     let campaign = prepared(if run.overwrite { campaign.overwrite() } else { campaign })?;
     if run.law.is_some() {
         refuse_unnamed(campaign.plan())?;

@@ -10,7 +10,6 @@ use generator::{Generator, Gn, is_generator};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use spindrift::campaign::Plan;
-use spindrift::control::ControlLaw;
 use spindrift::control::laws::asked::{Answered, Answers, Question, is_law_of};
 use spindrift::ensemble::crew::Crew;
 use spindrift::workflow::WorkflowError;
@@ -47,7 +46,7 @@ fn tell(question: &Question<'_>, numbers: &mut Vec<f64>) {
 /// # Errors
 /// Where none does.
 pub fn refuse_unnamed(plan: &Plan) -> Result<(), WorkflowError> {
-    if plan.law.as_ref().and_then(ControlLaw::spec).is_some_and(is_law_of) {
+    if plan.loop_spec().is_some_and(is_law_of) {
         return Ok(());
     }
     Err(WorkflowError::Input("control=: no phase has law = \"python\" in [[guidance]]".to_owned()))

@@ -4,6 +4,7 @@
 //! - `plan`: a campaign file and what is changed of it. - `job`: a run on a thread of its own. - `law`: a law of attitude in Python. - `results`: a finished result. - `stores`: results
 //!   at s3:// addresses. - `table`: rows and other tables through Arrow's C interface. - `toml_values`: values of Python as TOML.
 
+mod campaign_source;
 mod job;
 mod law;
 mod plan;

@@ -10,42 +10,20 @@ use spindrift::cli::workload::Workload;
 use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::workflow::simulated::simulated;
-use spindrift::workflow::{Campaign, PreparedCampaign, Quiet, Session, WorkflowError};
+use spindrift::workflow::{Quiet, Session, WorkflowError};
 
+use crate::campaign_source::{CampaignSource, prepared};
 use crate::job::{Job, Run};
 use crate::law::Law;
 use crate::table::ArrowTable;
 use crate::toml_values::{table, value};
 
-/// The name of a plan from a dict in messages.
-const DICT: &str = "dict";
-
 /// A campaign file, or the text of one, and what is changed of it.
 #[pyclass(module = "spindrift._native", frozen)]
 #[derive(Clone)]
-pub struct Plan {
-    file: PathBuf,
-    text: Option<String>,
-    /// Dotted keys and their values as TOML.
-    settings: Vec<(String, String)>,
-}
+pub struct Plan(CampaignSource);
 
 impl Plan {
-    /// The campaign, with so many samples.
-    pub fn campaign<'a>(&self, session: Session<'a>, samples: Option<u64>) -> Campaign<'a> {
-        let mut campaign = match &self.text {
-            Some(text) => Campaign::from_text(DICT, text, session),
-            None => Campaign::from_file(&self.file, session),
-        };
-        for (key, value) in &self.settings {
-            campaign = campaign.set(key, value);
-        }
-        match samples {
-            Some(samples) => campaign.samples(samples),
-            None => campaign,
-        }
-    }
-
     /// What `work` makes of the plan, without Python's lock.
     fn with<T: Send>(
         &self,
@@ -57,7 +35,7 @@ impl Plan {
         Law::flown(py, control, || {
             let watch = Quiet::default();
             let session = Session::new(&watch)?;
-            work(prepared(self.campaign(session, samples))?.plan(), session.isa)
+            work(prepared(self.0.campaign(session, samples))?.plan(), session.isa)
         })
     }
 
@@ -68,28 +46,19 @@ impl Plan {
     }
 }
 
-/// The file of `campaign`, read and checked.
-///
-/// # Errors
-/// Where it is wrong.
-pub fn prepared(campaign: Campaign<'_>) -> Result<PreparedCampaign<'_>, WorkflowError> {
-    let nothing = || WorkflowError::Input("no run failed; nothing to do".to_owned());
-    campaign.prepare()?.ok_or_else(nothing)
-}
-
 #[pymethods]
 impl Plan {
     /// The campaign file `path`, which may be given without folder and extension.
     #[staticmethod]
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Plan { file: path, text: None, settings: Vec::new() }.checked(py)
+        Plan(CampaignSource::of_file(path)).checked(py)
     }
 
     /// The campaign file that `tables` are.
     #[staticmethod]
     fn from_dict(py: Python<'_>, tables: &Bound<'_, PyDict>) -> PyResult<Self> {
         let text = table("", tables)?.to_string();
-        Plan { file: PathBuf::from(DICT), text: Some(text), settings: Vec::new() }.checked(py)
+        Plan(CampaignSource::of_text(text)).checked(py)
     }
 
     /// The same with other values of these dotted keys.
@@ -98,7 +67,7 @@ impl Plan {
         for (key, item) in values.iter() {
             let key: String = key.extract()?;
             let text = value(&key, &item)?.to_string();
-            plan.settings.push((key, text));
+            plan.0.settings.push((key, text));
         }
         plan.checked(py)
     }
@@ -165,6 +134,6 @@ impl Plan {
     ) -> PyResult<Job> {
         let threads = crate::threads(threads)?;
         let law = control.map(|control| Law::new(py, control)).transpose()?;
-        Job::start(Run { plan: self.clone(), samples, out, threads, overwrite, page, yes, law })
+        Job::start(Run { source: self.0.clone(), samples, out, threads, overwrite, page, yes, law })
     }
 }

@@ -5,7 +5,7 @@ use crate::analysis::order_statistics::share_interval;
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
 use crate::campaign::Plan;
-use crate::control::guidance::Failure;
+use crate::control::failure::Failure;
 use crate::run::Status;
 use crate::scene::Name;
 use crate::storage::rows_reader::RowsError;
@@ -57,7 +57,7 @@ pub type Missions = Vec<MissionShare>;
 impl MissionCounter {
     /// Of the runs of `plan`.
     pub fn new(plan: &Plan) -> Self {
-        let spec = plan.law.as_ref().and_then(|law| law.spec());
+        let spec = plan.loop_spec();
         MissionCounter {
             phases: spec.map_or_else(Vec::new, |spec| spec.phases.iter().map(|phase| phase.name).collect()),
             has_loop: spec.is_some(),

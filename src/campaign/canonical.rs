@@ -223,7 +223,7 @@ impl Plan {
         if !self.nominal.actuation.is_empty() {
             lines.keys_of("[actuators]", Table::Actuators, 0, &self.nominal);
         }
-        if let Some(spec) = self.law.as_ref().and_then(|law| law.spec()) {
+        if let Some(spec) = self.loop_spec() {
             control::write(spec, scene, lines);
         } else if let Some(law) = &self.law {
             lines.table("[control]");

@@ -4,10 +4,11 @@ use super::data_keys::found;
 use super::input_file::{self, InputError};
 use super::section::Section;
 use super::units;
-use crate::control::flight_code::{FlightCode, MOST_BYTES};
+use crate::control::flight_code::{self, FlightCode, MOST_BYTES};
 use crate::control::laws::LawKind;
+use crate::control::sensor_spec::SensorSpec;
 use crate::control::sensors;
-use crate::control::spec::{ModuleSpec, SensorSpec};
+use crate::control::spec::ModuleSpec;
 use sha2::{Digest, Sha256};
 
 /// What the file says of a module.
@@ -101,7 +102,7 @@ fn module(
         let remedy = "bring back the module that was meant, or delete this line";
         return Err(("module_sha256", format!("the SHA-256 of the module, {found}"), remedy.to_owned()));
     }
-    let code = FlightCode::kept(&bytes, &found).map_err(|(allowed, remedy)| ("module", allowed, remedy))?;
+    let code = flight_code::kept(&bytes, &found).map_err(|(allowed, remedy)| ("module", allowed, remedy))?;
     let parameters = code.kind().parameters.iter().map(|parameter| (parameter.facts.key, parameter.facts.unit));
     for (key, written) in parameters.chain(code.telemetry().iter().map(|declared| (declared.key, declared.unit))) {
         let unit = units::in_name(key);

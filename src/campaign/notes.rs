@@ -2,7 +2,7 @@
 
 use super::plan::{Plan, ROUNDING_OF_PLATES};
 use super::requirement::{Requirement, Subject};
-use crate::control::{ControlLaw, review};
+use crate::control::review;
 use crate::dynamics::effects::{Effect, ForceModel, Form};
 use crate::observables::accuracy::Accuracy;
 use crate::sampling::design::{MAX_SAMPLES, Size};
@@ -45,7 +45,7 @@ impl Plan {
                 of_plates.join(" and ")
             ));
         }
-        if let (Some(spec), Ok(scene)) = (self.law.as_ref().and_then(ControlLaw::spec), Scene::resolve(&self.nominal)) {
+        if let (Some(spec), Ok(scene)) = (self.loop_spec(), Scene::resolve(&self.nominal)) {
             notes.extend(review::notes(spec, &self.nominal.control, &scene, self.grid.duration()));
         }
         notes

@@ -19,8 +19,8 @@ use super::settings::Compression;
 use super::size;
 use super::sources::Sources;
 use super::spec::Spec;
-use crate::control::ControlLaw;
 use crate::control::laws::LawKind;
+use crate::control::{ControlLaw, LoopSpec};
 use crate::observables::request::NutationAxis;
 use crate::observables::window::MAX_WINDOWS;
 use crate::observables::{Group, Request};
@@ -143,6 +143,11 @@ fn default_tolerance(method: Method, scene: &SceneInput) -> f64 {
 const MAX_STEPS: u64 = 10_000_000;
 
 impl Plan {
+    /// The control loop of the campaign file; `None` without one, and of a law that a program brings.
+    pub fn loop_spec(&self) -> Option<&LoopSpec> {
+        self.law.as_ref().and_then(ControlLaw::spec)
+    }
+
     /// The plan of a campaign that `[stop]` looks at when it has `samples` samples, or at the next number of samples of a look; the same without
     /// `[stop]`.
     #[must_use]

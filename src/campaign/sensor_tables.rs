@@ -3,8 +3,9 @@
 use super::numbers::{NOT_NEGATIVE, POSITIVE};
 use super::section::Section;
 use super::tables::{read_keys, read_name};
-use crate::control::measurement::Observes;
-use crate::control::spec::{MOST_TICKS, SensorSpec, ticks_per_period};
+use crate::control::observes::Observes;
+use crate::control::sensor_spec::SensorSpec;
+use crate::control::spec::{MOST_TICKS, ticks_per_period};
 use crate::control::{estimators, sensors};
 use crate::scene::table::Table;
 use crate::scene::{DeclaredTable, Name, SceneInput};

@@ -49,7 +49,7 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
 /// # Errors
 /// Where its nominal scene is not physical.
 pub fn text(plan: &Plan, isa: Isa, is_verbose: bool) -> Result<(String, CommandOutcome), Failure> {
-    asked::refuse_unanswered(plan.law.as_ref()).map_err(Failure::Input)?;
+    asked::refuse_unanswered(plan.loop_spec()).map_err(Failure::Input)?;
     let ensemble = Ensemble::new(plan, isa);
     let scene = Scene::resolve(&plan.nominal)
         .map_err(|errors| Failure::Input(errors.iter().map(|error| format!("{error}\n")).collect()))?;
@@ -83,7 +83,7 @@ pub fn text(plan: &Plan, isa: Isa, is_verbose: bool) -> Result<(String, CommandO
             writeln!(text, "{}", scene_text::in_short(&scene))?;
         }
         writeln!(text, "{}", scene_text::attitude(&plan.nominal.initial))?;
-        if let Some(spec) = plan.law.as_ref().and_then(|law| law.spec()) {
+        if let Some(spec) = plan.loop_spec() {
             if is_verbose {
                 section(&mut text, "Torque of the control loop")?;
             }

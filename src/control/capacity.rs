@@ -2,8 +2,9 @@
 //! its thrusters can take it out again.
 
 use super::allocation::{ThrustAllocation, WheelTorque};
-use super::measurement::Observes;
-use super::spec::{LoopSpec, SensorSpec};
+use crate::control::observes::Observes;
+use crate::control::sensor_spec::SensorSpec;
+use crate::control::spec::LoopSpec;
 use crate::control::vector::{difference, dot, norm, product, scaled, sum};
 use crate::math::symmetric::principal_axes;
 use crate::scene::Scene;
@@ -170,7 +171,7 @@ mod tests {
             text = text.replace(from, to);
         }
         let plan = Plan::from_text("d.toml", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
-        let spec = plan.law.as_ref().and_then(|law| law.spec()).expect("a loop").clone();
+        let spec = plan.loop_spec().expect("a loop").clone();
         let found = Capacity::of(&spec, &Scene::resolve(&plan.nominal).expect("physical"));
         let notes = found.notes(&spec);
         (found, notes)

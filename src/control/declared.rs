@@ -1,5 +1,6 @@
 //! [`declared!`]: numbers of a table of a loop, said once: the rows of their keys, and the struct that reads them.
 
+use crate::scene::schema::Limit;
 use crate::scene::{DeclaredTable, LawParameter};
 
 /// What the numbers of a key are in a program.
@@ -45,6 +46,16 @@ macro_rules! declared {
     };
 }
 pub(crate) use declared;
+
+/// A number that is not negative, with its default.
+pub const fn number(
+    key: &'static str,
+    unit: &'static str,
+    meaning: &'static str,
+    default: &'static [f64],
+) -> LawParameter {
+    LawParameter::number(key, unit, meaning, Limit::NotNegative).or(default)
+}
 
 /// A limit of which zero is none.
 pub fn limit(number: f64) -> f64 {

@@ -4,10 +4,10 @@
 //!   (in [`context`]).
 //! - [`runs`]: the laws of the runs that an engine propagates together.
 //! - [`spec`]: what a loop of a campaign file consists of; [`parameters`]: its numbers (`declared`: how a part says its own). [`control_loop`]: it in a run, where the truth ([`plant`]) and what flies it ([`flight_software`])
-//!   meet. [`outcome`]: what comes of a run;
+//!   meet, through [`bus`]. [`outcome`]: what comes of a run; [`failure`]: why a mission has failed;
 //!   [`recorder`]: its telemetry; [`loop_record`]: quantities over time at the observation points.
-//! - [`tick_times`]: the times of ticks. [`truth`]: the true state at a tick. [`sensors`]: what is measured of it
-//! ([`measurement`]).
+//! - [`tick_times`]: the times of ticks. [`truth`]: the true state at a tick. [`sensors`]: what is measured of it ([`measurement`], [`sensor_spec`]), and what
+//!   that says of the state ([`observes`]).
 //! - [`estimators`]: from measurements to an [`estimate`].
 //! - [`guidance`]: which phase a run is in, and the attitude and the maneuver that it wants.
 //! - [`laws`]: from an estimate to a wanted torque. [`flight_code`]: WebAssembly modules as such a law.
@@ -21,12 +21,14 @@
 
 pub mod actuators;
 pub mod allocation;
+pub mod bus;
 pub mod capacity;
 pub mod context;
 pub mod control_loop;
 pub(crate) mod declared;
 pub mod estimate;
 pub mod estimators;
+pub mod failure;
 pub mod flight_code;
 pub mod flight_software;
 pub mod guidance;
@@ -35,6 +37,7 @@ pub mod laws;
 pub mod loop_record;
 pub mod measurement;
 pub mod net_launch;
+pub mod observes;
 pub mod outcome;
 pub mod parameters;
 pub mod plant;
@@ -42,6 +45,7 @@ pub mod recorder;
 pub mod review;
 pub mod rotation;
 pub mod runs;
+pub mod sensor_spec;
 pub mod sensors;
 pub mod small_matrix;
 pub mod spec;

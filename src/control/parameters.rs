@@ -1,21 +1,11 @@
 //! The numbers that `[control]` and the phases of `[[guidance]]` have: keys with unit, limit, default and meaning.
 
-use super::declared::declared;
+use super::declared::{declared, number};
 use super::guidance::phase::Maneuver;
 use super::guidance::target::Target;
 use super::net_launch;
 use crate::scene::LawParameter;
 use crate::scene::schema::{Facts, Limit, Needs, Presence, Shape};
-
-/// A number that is not negative, with its default.
-pub(super) const fn number(
-    key: &'static str,
-    unit: &'static str,
-    meaning: &'static str,
-    default: &'static [f64],
-) -> LawParameter {
-    LawParameter::number(key, unit, meaning, Limit::NotNegative).or(default)
-}
 
 declared! {
     /// Of every loop.

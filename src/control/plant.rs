@@ -1,31 +1,20 @@
 //! [`Plant`]: the truth of one run: the scene that is flown, its sensors, and what its actuators make of commands.
 //!
-//! Flight software sees [`Measurements`] and gives [`ActingCommands`]; nothing else passes between the two.
+//! [`super::bus`]: what passes between it and flight software.
 
 use std::sync::Arc;
 
 use super::actuators::WheelDrive;
-use super::control_loop::SAME_TIME;
+use super::bus::{ActingCommands, Measurements};
 use super::estimate::Estimate;
-use super::flight_software::ActingCommands;
 use super::measurement::Measurement;
 use super::sensors::SampledSensor;
 use super::spec::LoopSpec;
+use super::tick_times::SAME_TIME;
 use super::truth::{DebrisMotion, Truth};
 use super::vector::{scaled, sum};
 use crate::dynamics::actuation::{Actuation, BodyState, OpenLoop, WheelState};
 use crate::scene::{Device, FailureInput, MAX_THRUSTERS, Scene, WheelMode};
-
-/// What flight software is told at a tick.
-#[derive(Clone, Copy, Debug)]
-pub struct Measurements<'a> {
-    /// Time since the start of the run, s.
-    pub time: f64,
-    /// What the sensors deliver.
-    pub delivered: &'a [Measurement],
-    /// Perfect knowledge: the true state, where the loop is given it instead of sensors.
-    pub perfect: Option<&'a Estimate>,
-}
 
 /// What the actuators make of commands over an arc.
 #[derive(Clone, Copy, Debug)]

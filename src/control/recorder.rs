@@ -1,16 +1,16 @@
 //! [`Recorder`]: telemetry of a run under a loop: phase, estimates, commands, measurements and what a module reports, at the control ticks.
 
-use super::control_loop::SAME_TIME;
 use super::estimate::Estimate;
 use super::estimators::kalman::NormalizedSquare;
-use super::estimators::{Consistency, ExpectedErrors};
-use super::flight_code::FlightCode;
-use super::flight_software::Commanded;
 use super::measurement::Measurement;
 use super::sensors::{Components, KINDS as SENSORS};
 use super::spec::LoopSpec;
 use super::truth::DebrisState;
 use super::vector::difference;
+use crate::control::bus::Commanded;
+use crate::control::estimators::estimator::{Consistency, ExpectedErrors};
+use crate::control::flight_code::module::FlightCode;
+use crate::control::tick_times::SAME_TIME;
 use crate::run::{Quantity, Telemetry};
 use crate::scene::MAX_WHEELS;
 

@@ -1,12 +1,12 @@
 //! [`notes`]: what is allowed in a control loop and looks like a mistake, its numbers apart (`ensemble::plausibility`).
 
 use super::guidance::phase::Next;
-use super::laws::LawSettings;
-use super::measurement::Observes;
 use super::parameters::{ConditionNumbers, LoopNumbers, PhaseNumbers};
 use super::spec::{LoopSpec, PhaseSpec};
 use super::stability::beyond_limit;
 use crate::control::laws::asked;
+use crate::control::laws::interface::LawSettings;
+use crate::control::observes::Observes;
 use crate::dynamics::effects::{Effect, ForceModel, Form};
 use crate::sampling::SampleId;
 use crate::scene::{ControlInput, DeclaredTable, Scene};
@@ -191,7 +191,7 @@ fn stability(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, place: usiz
         period: spec.period,
         delay: LoopNumbers::of(&numbers.law).delay,
         sample: SampleId(0),
-        code: spec.code(),
+        code: spec.law_module(),
     };
     let beyond = beyond_limit((spec, place), (&spec.believed(scene), scene), &(law.make)(&settings), settings.delay)?;
     Some(format!("guidance.{}: {beyond}", phase.name))

@@ -1,13 +1,15 @@
 //! [`LoopSpec`]: what a control loop consists of, as a campaign file says it; its numbers, which can be dispersed, are parameters of the scene.
 
-use super::estimators::EstimatorKind;
-use super::flight_code::FlightCode;
 use super::guidance::condition::Condition;
 use super::guidance::phase::{Maneuver, Next};
 use super::guidance::target::Target;
 use super::laws::LawKind;
+use super::laws::interface::LawModule;
 use super::laws::rod_law::RodUse;
-use super::measurement::{Observes, Reading, Values};
+use super::observes::Observes;
+use super::sensor_spec::SensorSpec;
+use crate::control::estimators::estimator::EstimatorKind;
+use crate::control::flight_code::module::FlightCode;
 use crate::observables::{LawSeries, Series};
 use crate::scene::{Name, Scene};
 
@@ -53,63 +55,6 @@ pub struct ModuleSpec {
     pub file: String,
     /// What it is.
     pub code: &'static FlightCode,
-}
-
-/// A sensor.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SensorSpec {
-    /// Its name.
-    pub name: Name,
-    /// Its kind, by its place in the list.
-    pub kind: usize,
-    /// Time between measurements, s.
-    pub period: f64,
-    /// Time from a measurement to its delivery, s.
-    pub latency: f64,
-}
-
-impl SensorSpec {
-    /// What it says of the state.
-    pub fn observes(&self) -> Observes {
-        super::sensors::KINDS[self.kind].observes
-    }
-
-    /// How many numbers it measures.
-    pub fn width(&self) -> usize {
-        super::sensors::KINDS[self.kind].quantities.iter().map(|quantity| quantity.components.width()).sum()
-    }
-
-    /// `values` as telemetry has them: rotations over the period of the sensor as their mean rate.
-    pub fn telemetry(&self, mut values: Values) -> Values {
-        let mut next = 0;
-        for quantity in super::sensors::KINDS[self.kind].quantities {
-            let end = next + quantity.components.width();
-            if quantity.is_over_period {
-                values[next..end].iter_mut().for_each(|value| *value /= self.period);
-            }
-            next = end;
-        }
-        values
-    }
-}
-
-/// What the sensors of a loop have delivered last.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Readings<'a> {
-    /// The sensors, in the order of the loop.
-    pub sensors: &'a [SensorSpec],
-    /// Of each; empty where nobody asks.
-    pub last: &'a [Reading],
-}
-
-impl<'a> Readings<'a> {
-    /// None.
-    pub const NONE: Readings<'static> = Readings { sensors: &[], last: &[] };
-
-    /// Each with its sensor.
-    pub fn iter(&self) -> impl Iterator<Item = (&'a SensorSpec, &'a Reading)> + use<'a> {
-        self.sensors.iter().zip(self.last)
-    }
 }
 
 /// Most ticks in a control period, and control periods in a latency.
@@ -179,6 +124,11 @@ impl LoopSpec {
     /// The module that phases name as their law.
     pub fn code(&self) -> Option<&'static FlightCode> {
         self.module.as_ref().map(|module| module.code)
+    }
+
+    /// The same, as laws are made from it.
+    pub fn law_module(&self) -> Option<&'static dyn LawModule> {
+        self.code().map(|code| code as &dyn LawModule)
     }
 
     /// The quantities over time that the loop records.

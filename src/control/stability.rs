@@ -13,13 +13,14 @@
 
 use super::actuators::modulation;
 use super::allocation::{ThrustAllocation, WheelTorque};
-use super::control_loop::SAME_TIME;
 use super::guidance::target::Target;
-use super::laws::{AttitudeLaw, KnownBody, LawInput, digits};
 use super::rotation::quaternion_of;
 use super::small_matrix::{added, inverse, multiplied};
 use super::spec::{LoopSpec, PhaseSpec};
 use super::vector::{dot, product, scaled};
+use crate::control::laws::AttitudeLaw;
+use crate::control::laws::interface::{KnownBody, LawInput, digits};
+use crate::control::tick_times::SAME_TIME;
 use crate::math::symmetric::principal_axes;
 use crate::scene::Scene;
 

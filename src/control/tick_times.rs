@@ -2,7 +2,8 @@
 //! decimal number, and so may the difference of two such times: what compares them with numbers of a file takes the
 //! whole number of ticks instead.
 
-use super::control_loop::SAME_TIME;
+/// Times that differ by less than this share of a period are one: rounding of the products that they are.
+pub const SAME_TIME: f64 = 1e-9;
 
 /// A time that is nearer to a tick than this share of the time between two is that of the tick: the difference of two
 /// times has a rounding of 2e-16 of them, so that this suffices for 4e9 ticks.

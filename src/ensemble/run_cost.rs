@@ -4,7 +4,6 @@
 //! core. A clock would give other parts on another machine, or on the same one an hour later.
 
 use crate::campaign::Plan;
-use crate::control::ControlLaw;
 use crate::control::laws::asked::is_law_of;
 use crate::ensemble::flights::Flights;
 use crate::ensemble::parts::Parts;
@@ -37,7 +36,7 @@ const ASKED: u64 = 64;
 
 /// Whether the law of `plan` is asked for many runs at once. Its work is not that of the plan, and nothing is known of it where nobody answers.
 fn is_asked(plan: &Plan) -> bool {
-    plan.law.as_ref().and_then(ControlLaw::spec).is_some_and(is_law_of)
+    plan.loop_spec().is_some_and(is_law_of)
 }
 
 /// The parts of a campaign of `plan`.
@@ -56,8 +55,7 @@ pub fn parts_of_runs(plan: &Plan, seconds: f64) -> Parts {
 /// What a run of `plan` takes at most on one core, s: a function of the plan, not of the machine.
 pub fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
     // a tick is a step, which no limit of steps ends
-    let counted =
-        plan.law.as_ref().and_then(ControlLaw::spec).map_or(f64::NAN, |spec| spec.period * COUNTED_STEPS as f64);
+    let counted = plan.loop_spec().map_or(f64::NAN, |spec| spec.period * COUNTED_STEPS as f64);
     let duration = if plan.grid.duration() > 2.0 * counted { counted } else { plan.grid.duration() };
     // the work of a run is that of its steps; the points would only take memory
     let grid = Grid::uniform(duration, plan.grid.points().min(POINTS));

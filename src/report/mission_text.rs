@@ -1,7 +1,7 @@
 //! How the missions of a control loop ended, in words.
 
 use crate::analysis::missions::{MissionShare, Missions};
-use crate::control::guidance::Failure;
+use crate::control::failure::Failure;
 use crate::findings::number::trimmed;
 use crate::report::share_text::with_interval;
 

@@ -111,7 +111,7 @@ pub fn time_table(plan: &Plan, wheels: &[Name], series: &Table<'_>, width: usize
     };
     let phase = series.numbers("phase").map(|(_, values)| {
         let name = |phase: f64| {
-            let spec = plan.law.as_ref().and_then(|law| law.spec())?;
+            let spec = plan.loop_spec()?;
             Some(fitted(spec.phases.get(phase as usize)?.name.as_str(), LONGEST_PHASE, |text| text.chars().count()))
         };
         let text = |point: &usize| match values[*point] {

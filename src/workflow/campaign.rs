@@ -233,7 +233,7 @@ impl PreparedCampaign<'_> {
     /// # Errors
     /// Where the folder has something that must not be replaced, or files cannot be read or written.
     pub fn run(&self) -> Result<CampaignOutcome, WorkflowError> {
-        asked::refuse_unanswered(self.plan.law.as_ref()).map_err(WorkflowError::Input)?;
+        asked::refuse_unanswered(self.plan.loop_spec()).map_err(WorkflowError::Input)?;
         let Campaign { session, shard, overwrite, fail_fast, outputs, .. } = &self.campaign;
         let (ensemble, root, stored) = (self.ensemble(), &*self.root, self.stored.as_ref());
         let is_stored = stored.map_or(Ok(true), |stored| stored.begin(&ensemble, &self.files))?;

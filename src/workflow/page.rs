@@ -63,7 +63,7 @@ pub fn remade(
         )));
     };
     let plan = plan_of_sound(session, (root, &found), Some(REPORT))?;
-    asked::refuse_unanswered(plan.law.as_ref()).map_err(WorkflowError::Input)?;
+    asked::refuse_unanswered(plan.loop_spec()).map_err(WorkflowError::Input)?;
     if noise.is_some() && plan.law.is_none() {
         return Err(WorkflowError::Input(format!(
             "campaign {} has no control loop, and without one a run has no noise: leave out --noise",

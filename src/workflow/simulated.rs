@@ -26,7 +26,7 @@ pub struct Simulated {
 /// # Errors
 /// Where there is no such sample, its scene is not physical, or a time is no time.
 pub fn simulated(plan: &Plan, sample: u64, times: Option<&[f64]>, isa: Isa) -> Result<Simulated, WorkflowError> {
-    asked::refuse_unanswered(plan.law.as_ref()).map_err(WorkflowError::Input)?;
+    asked::refuse_unanswered(plan.loop_spec()).map_err(WorkflowError::Input)?;
     if sample >= plan.samples {
         let (last, name) = (plan.samples - 1, &plan.name);
         return Err(WorkflowError::Input(format!("--sample {sample}: must be 0 to {last}, the samples of {name}")));

@@ -12,6 +12,7 @@ use crate::storage::disk::{StorageError, new_folder};
 use crate::storage::identity::sha256;
 use crate::storage::manifest::PartRecord;
 use crate::storage::names::{DATA, PLAN};
+use crate::storage::remote::connection::connect;
 use crate::storage::remote::{Address, Fault, Remote, head_of};
 use crate::storage::rows_file::identity;
 use crate::workflow::error::WorkflowError;
@@ -33,7 +34,7 @@ pub(super) struct Stored<'a> {
 
 /// The address that `path` is; `None` of a folder.
 pub(super) fn address(path: &Path) -> Result<Option<Address>, WorkflowError> {
-    Address::of(path).map_err(WorkflowError::Input)
+    Address::of(path, connect().is_some()).map_err(WorkflowError::Input)
 }
 
 /// The folder of this machine for rows with the first object `head`.

@@ -72,7 +72,7 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     let (plan, read) = plan_in(session, root, &found)?;
     let plan = plan.at_look(found.rows());
     // also without rows to compute again: the page has runs over time
-    asked::refuse_unanswered(plan.law.as_ref()).map_err(WorkflowError::Input)?;
+    asked::refuse_unanswered(plan.loop_spec()).map_err(WorkflowError::Input)?;
     let ensemble = Ensemble::new(&plan, session.isa);
     let expected = identity(&ensemble);
     refuse_other_rows(root, &found, &expected)?;

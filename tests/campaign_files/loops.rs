@@ -1,7 +1,7 @@
 //! Control loops in campaign files: what is refused, with one problem for one mistake, and how a phase or a sensor is addressed.
 
 use spindrift::campaign::{CampaignError, Overrides, Plan};
-use spindrift::control::measurement::Observes;
+use spindrift::control::observes::Observes;
 
 use crate::support::scratch_folder::ScratchFolder;
 

@@ -12,7 +12,7 @@ use super::random_modules::{KINDS, module};
 use crate::support::scratch_folder::ScratchFolder;
 use rustix::time::{ClockId, clock_gettime};
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::control::guidance::Failure;
+use spindrift::control::failure::Failure;
 use spindrift::ensemble::{Ensemble, Part, PartId, Supervision};
 use spindrift::math::Isa;
 use spindrift::run::Status;

@@ -88,11 +88,17 @@ fn read(folder: &Path, root: &Path, list: &mut Vec<Source>) {
 
 /// All files of the library and of the program.
 fn sources() -> Vec<Source> {
+    ["src", "kernels/src"].iter().flat_map(|folder| sources_in(folder)).collect()
+}
+
+/// Where the sources of each crate are.
+const CRATES_OF_THE_PROJECT: [&str; 3] = ["src", "kernels/src", "python/src"];
+
+/// All files of one crate.
+fn sources_in(folder: &str) -> Vec<Source> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let mut list = Vec::new();
-    for folder in ["src", "kernels/src"] {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
-        read(&root, &root, &mut list);
-    }
+    read(&root, &root, &mut list);
     list
 }
 
@@ -118,32 +124,79 @@ fn forbidden_crates(source: &Source) -> Vec<String> {
     wrong.map(|(name, _)| format!("{} uses {name}", source.path)).collect()
 }
 
-/// Files of one folder that depend on each other in a circle: one of them each.
-fn circles(sources: &[Source]) -> Vec<String> {
-    let stem = |source: &Source| source.path.trim_end_matches(".rs").to_owned();
-    let files: Vec<String> = sources.iter().map(stem).filter(|stem| !stem.ends_with("/mod")).collect();
-    let mut uses: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    for source in sources {
-        let own = stem(source);
-        let folder = own.rsplit_once('/').map_or("", |(folder, _)| folder);
-        let here = source.after("super::").into_iter().map(|path| format!("{folder}/{}", path[0]));
-        let absolute =
-            source.after("crate::").into_iter().flat_map(|path| (2..=path.len()).map(move |n| path[..n].join("/")));
-        let found = here.chain(absolute).filter(|file| *file != own && files.contains(file));
-        let beside = found.filter(|file| file.rsplit_once('/').map_or("", |(folder, _)| folder) == folder);
-        uses.entry(own.clone()).or_default().extend(beside);
+/// The paths of a `use` tree or of a path in code: of `a::{b, c::d}` `a::b` and `a::c::d`, as names.
+fn paths(text: &str) -> Vec<Vec<String>> {
+    let is_name = |letter: char| letter.is_alphanumeric() || letter == '_';
+    if let Some(group) = text.strip_prefix('{') {
+        let (mut depth, mut begin, mut found) = (1, 0, Vec::new());
+        for (at, letter) in group.char_indices() {
+            depth += match letter {
+                '{' => 1,
+                '}' => -1,
+                _ => 0,
+            };
+            if depth == 0 || depth == 1 && letter == ',' {
+                found.extend(paths(group[begin..at].trim_start()));
+                begin = at + 1;
+            }
+            if depth == 0 {
+                break;
+            }
+        }
+        return found;
     }
-    let reaches = |from: &String| {
-        let (mut open, mut seen) = (uses.get(from).cloned().unwrap_or_default(), Vec::new());
+    let (name, rest) = text.split_at(text.find(|letter| !is_name(letter)).unwrap_or(text.len()));
+    match rest.strip_prefix("::").filter(|_| !name.is_empty()) {
+        Some(rest) => paths(rest).into_iter().map(|path| [vec![name.to_owned()], path].concat()).collect(),
+        None => vec![vec![name.to_owned()]],
+    }
+}
+
+/// The files of a crate that depend on each other in circles, `mod.rs` too. A `mod x;` is no dependence; a path through what a `mod.rs` exports again is one
+/// on that file.
+fn circles(sources: &[Source]) -> Vec<String> {
+    let module = |source: &Source| {
+        let stem = source.path.trim_end_matches(".rs");
+        stem.strip_suffix("/mod").unwrap_or(stem).to_owned()
+    };
+    let modules: BTreeMap<String, &Source> =
+        sources.iter().map(|source| (module(source), source)).filter(|(name, _)| name != "lib").collect();
+    let uses = |(own, source): (&String, &&Source)| -> Vec<String> {
+        let names: Vec<String> = own.split('/').map(str::to_owned).collect();
+        let above = names[..names.len() - 1].to_vec();
+        // `pub(in crate::x)` says who may use, not what is used
+        let mut parts = source.code.split("pub(in ");
+        let first = parts.next().unwrap_or_default().to_owned();
+        let code = parts.fold(first, |code, part| code + part.split_once(')').map_or(part, |(_, rest)| rest));
+        let after = |start: &str, base: &[String]| -> Vec<Vec<String>> {
+            let is_name = |letter: char| letter.is_alphanumeric() || letter == '_' || letter == ':';
+            let found = code.match_indices(start).filter(|(at, _)| !code[..*at].ends_with(is_name));
+            found.flat_map(|(at, _)| paths(&code[at + start.len()..])).map(|path| [base, &path[..]].concat()).collect()
+        };
+        let mut found = [after("crate::", &[]), after("super::", &above), after("self::", &names)].concat();
+        // a module below this one, named without `self`
+        for below in modules.keys().filter_map(|other| other.strip_prefix(&format!("{own}/"))) {
+            if !below.contains('/') {
+                found.extend(after(&format!("{below}::"), &[&names[..], &[below.to_owned()]].concat()));
+            }
+        }
+        let file = |path: Vec<String>| {
+            (1..=path.len()).rev().map(|n| path[..n].join("/")).find(|name| modules.contains_key(name))
+        };
+        found.into_iter().filter_map(file).filter(|name| name != own).collect()
+    };
+    let uses: BTreeMap<&String, Vec<String>> = modules.iter().map(|one| (one.0, uses(one))).collect();
+    let reaches = |from: &&String| {
+        let (mut open, mut seen) = (uses[*from].clone(), Vec::new());
         while let Some(next) = open.pop() {
             if !seen.contains(&next) {
-                open.extend(uses.get(&next).cloned().unwrap_or_default());
+                open.extend(uses[&next].clone());
                 seen.push(next);
             }
         }
-        seen.contains(from)
+        seen.contains(*from)
     };
-    files.iter().filter(|file| reaches(file)).cloned().collect()
+    modules.keys().filter(reaches).cloned().collect()
 }
 
 /// Law: a module imports from layers below its own.
@@ -156,11 +209,23 @@ fn modules_import_only_from_layers_below() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Law: files of a module do not depend on each other in a circle.
+/// Modules whose `mod.rs` has both the vocabulary of its files and what these make of it.
+const KNOWN_CIRCLES: [&str; 5] =
+    ["kernels/src/math", "kernels/src/ode", "kernels/src/run", "kernels/src/scene/schema", "src/report/page"];
+
+/// Law: files of a crate do not depend on each other in a circle, those of the list apart; and the list has nothing that is none.
 #[test]
-fn files_of_a_module_do_not_depend_on_each_other_in_circles() {
-    let found = circles(&sources());
-    assert!(found.is_empty(), "{found:#?}");
+fn files_do_not_depend_on_each_other_in_circles() {
+    let found: Vec<String> = CRATES_OF_THE_PROJECT
+        .iter()
+        .flat_map(|folder| circles(&sources_in(folder)).into_iter().map(move |name| format!("{folder}/{name}")))
+        .collect();
+    let is_of = |name: &str, known: &str| name == known || name.starts_with(&format!("{known}/"));
+    let new: Vec<&String> = found.iter().filter(|name| !KNOWN_CIRCLES.iter().any(|known| is_of(name, known))).collect();
+    assert!(new.is_empty(), "{new:#?}");
+    let mended: Vec<&&str> =
+        KNOWN_CIRCLES.iter().filter(|known| !found.iter().any(|name| is_of(name, known))).collect();
+    assert!(mended.is_empty(), "no circle any more: {mended:?}");
 }
 
 /// Law: crates that belong to one place are used there only.
@@ -182,11 +247,16 @@ fn the_checks_can_fail() {
     }
     assert_eq!(forbidden_crates(&file("campaign/a.rs", "parquet::x()")), ["campaign/a.rs uses parquet"]);
     assert!(forbidden_crates(&file("storage/a.rs", "use parquet::x;")).is_empty());
-    let one = file("storage/one.rs", "use crate::storage::two::X;");
-    let two = file("storage/two.rs", "use super::three;");
-    let three = file("storage/three.rs", "fn f() -> crate::storage::one::X {}");
-    assert_eq!(circles(&[one, two]).len(), 0);
-    let one = file("storage/one.rs", "use crate::storage::two::X;");
-    let two = file("storage/two.rs", "use super::three;");
-    assert_eq!(circles(&[one, two, three]).len(), 3);
+    let chain = |last: &str| {
+        let three = file("storage/three.rs", last);
+        let one = file("storage/one.rs", "use crate::storage::two::X;");
+        circles(&[one, file("storage/two.rs", "use super::three;"), three]).len()
+    };
+    assert_eq!([chain("fn f() {}"), chain("pub(in crate::storage::one) fn f() {}")], [0, 0]);
+    assert_eq!([chain("fn f() -> crate::storage::one::X {}"), chain("use super::{four, one::{X, Y}};")], [3, 3]);
+    // between folders, through what a `mod.rs` exports again, and to one below it
+    let above = file("a/mod.rs", "pub mod b; pub use b::X;");
+    assert_eq!(circles(&[file("a/mod.rs", "pub mod b;"), file("a/b.rs", "use super::Y;")]).len(), 0);
+    assert_eq!(circles(&[above, file("a/b.rs", "use crate::a::Y;")]).len(), 2);
+    assert_eq!(circles(&[file("a/c.rs", "use crate::d::e::X;"), file("d/e.rs", "use crate::a::c::Y;")]).len(), 2);
 }

@@ -1,8 +1,7 @@
 //! How thrusters of a loop are driven: the list of `control.modulation`.
 
 use super::thruster_drive::ThrustMode;
-use crate::control::declared::declared;
-use crate::control::parameters::number;
+use crate::control::declared::{declared, number};
 use crate::scene::{DeclaredTable, LawParameter};
 
 /// The names, in the order of their places.

@@ -13,22 +13,24 @@ use crate::control::estimators::{EstimatorContext, KINDS as ESTIMATORS, KnownSen
 use crate::control::flight_software::{FlightSoftware, Parts};
 use crate::control::guidance::phase::Phase;
 use crate::control::guidance::target::Target;
+use crate::control::laws::interface::LawSettings;
 use crate::control::laws::rod_law::RodLaw;
-use crate::control::laws::{AttitudeLaw, LawSettings, MomentumUnloading};
+use crate::control::laws::{AttitudeLaw, MomentumUnloading};
 use crate::control::net_launch::geometry::LaunchState;
 use crate::control::net_launch::launch::PlumeCone;
 use crate::control::net_launch::parameters::{DebrisNumbers, TransferNumbers};
-use crate::control::outcome::MissionCriteria;
 use crate::control::outcome::columns::OutcomeColumns;
+use crate::control::outcome::criteria::MissionCriteria;
 use crate::control::parameters::{
     AttitudeNumbers, ConditionNumbers, LoopNumbers, PhaseNumbers, ThrusterNumbers, UnloadingNumbers,
 };
 use crate::control::plant::Plant;
 use crate::control::recorder::Recorder;
+use crate::control::sensor_spec::SensorSpec;
 use crate::control::sensors::failing::FailingSensor;
 use crate::control::sensors::{KINDS as SENSORS, SampledSensor, Sensor, SensorContext};
 use crate::control::small_matrix::inverse;
-use crate::control::spec::{LoopSpec, PhaseSpec, SensorSpec};
+use crate::control::spec::{LoopSpec, PhaseSpec};
 use crate::scene::{DeclaredTable, Device, Scene};
 
 /// The motors and bearings of the wheels of `scene`.
@@ -120,7 +122,7 @@ fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: 
             period: spec.period,
             delay,
             sample: context.sample,
-            code: spec.code(),
+            code: spec.law_module(),
         };
         phase.law.map_or(AttitudeLaw::None, |law| (law.make)(&settings))
     };

@@ -2,18 +2,20 @@
 
 use std::sync::Arc;
 
-use super::SAME_TIME;
 use crate::control::estimate::EstimateErrors;
+use crate::control::failure::Failure;
 use crate::control::flight_software::{FlightSoftware, Guided};
 use crate::control::guidance::target::{OrbitMotion, Target, TargetInput};
-use crate::control::guidance::{Failure, Guidance, Progress};
+use crate::control::guidance::{Guidance, Progress};
 use crate::control::loop_record::{KnownOverTime, NOTHING_KNOWN, SharedRecord, place};
 use crate::control::net_launch::launch::centers_of;
+use crate::control::outcome::MissionOutcome;
 use crate::control::outcome::columns::OutcomeColumns;
-use crate::control::outcome::{MissionCriteria, MissionOutcome};
+use crate::control::outcome::criteria::MissionCriteria;
 use crate::control::plant::{Applied, Plant};
 use crate::control::recorder::{Recorder, Tick};
 use crate::control::spec::LoopSpec;
+use crate::control::tick_times::SAME_TIME;
 use crate::control::truth::Truth;
 use crate::control::vector::{difference, norm};
 use crate::dynamics::actuation::{Actuation, BodyState, WheelState};

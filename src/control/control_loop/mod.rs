@@ -18,17 +18,17 @@ use std::sync::Arc;
 use self::growth::Growth;
 use self::mission::Mission;
 use super::flight_software::FlightSoftware;
-use super::guidance::{Failure, Progress};
-use super::laws::{AttitudeLaw, digits};
 use super::outcome::columns::OutcomeColumns;
 use super::plant::Plant;
 use super::stability::beyond_limit;
+use super::tick_times::SAME_TIME;
 use super::truth::Truth;
+use crate::control::failure::Failure;
+use crate::control::guidance::Progress;
+use crate::control::laws::AttitudeLaw;
+use crate::control::laws::interface::digits;
 use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, WheelState};
 use crate::run::Telemetry;
-
-/// Times that differ by less than this share of a period are one: rounding of the products that they are.
-pub const SAME_TIME: f64 = 1e-9;
 
 /// When the ticks of a loop are.
 #[derive(Clone, Copy, Debug)]

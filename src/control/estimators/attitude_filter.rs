@@ -12,9 +12,10 @@ use std::sync::Arc;
 use super::attitude_innovation::{AttitudeInnovation, WholeAttitude};
 use super::delayed::Filter;
 use super::kalman::{NormalizedSquare, blocks, corners, halves, normalized_square, symmetric};
-use crate::control::measurement::{AttitudeSensor, Values, values};
+use crate::control::estimators::attitude_innovation::AttitudeSensor;
+use crate::control::measurement::{Values, values};
+use crate::control::observes::GyroNoise;
 use crate::control::rotation::{quaternion_of, vector_of};
-use crate::control::sensors::rate_gyro::GyroNoise;
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
 use crate::control::vector::{conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, scaled, sum};
 

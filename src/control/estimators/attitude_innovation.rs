@@ -1,7 +1,9 @@
 //! [`AttitudeInnovation`]: what one measurement of the attitude, or of a part of it, says to a filter of attitude and three more numbers.
 
+use std::fmt::Debug;
+
 use super::kalman::{Gain, NormalizedSquare};
-use crate::control::measurement::{AttitudeSensor, Values, part};
+use crate::control::measurement::{Values, part};
 use crate::control::rotation::vector_of;
 use crate::control::vector::{conjugate, hamilton};
 
@@ -46,6 +48,12 @@ impl AttitudeInnovation {
             AttitudeInnovation::Three(innovation) => innovation.update(covariance),
         }
     }
+}
+
+/// How a filter takes a measurement of the attitude: as flight software believes the sensor, by its nominal parameters.
+pub trait AttitudeSensor: Debug + Send + Sync {
+    /// The innovation of `values`, measured at `time` (s), where the attitude then is estimated as `q_es` (F_s -> F_e, scalar first).
+    fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation;
 }
 
 /// A sensor that measures the whole attitude, as a quaternion; the covariance of its error in F_s, rad^2.

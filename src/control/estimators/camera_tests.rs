@@ -8,6 +8,7 @@ use crate::control::sensors;
 use crate::control::sensors::bench::{table, truth};
 use crate::control::truth::DebrisState;
 use crate::control::vector::{dcm_from_quaternion, hamilton, scaled, transposed_product};
+use crate::scene::Scene;
 use crate::scene::{DebrisInput, SceneInput};
 
 /// Deviation of the attitude at the start, rad.

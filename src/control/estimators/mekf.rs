@@ -14,13 +14,16 @@ use super::delayed::Delayed;
 use super::kalman::{NormalizedSquare, corners};
 use super::rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter};
 use super::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
-use super::{Consistency, Estimator, EstimatorContext, EstimatorKind, ExpectedErrors, KnownSensor, Update, center_of};
 use crate::control::declared::declared;
 use crate::control::estimate::Estimate;
-use crate::control::laws::wheel_momenta;
-use crate::control::measurement::{AttitudeSensor, Measurement, Observes, PointMotion, part};
+use crate::control::estimators::attitude_innovation::AttitudeSensor;
+use crate::control::estimators::estimator::{
+    Consistency, Estimator, EstimatorContext, EstimatorKind, ExpectedErrors, KnownSensor, Update, center_of,
+};
+use crate::control::laws::interface::wheel_momenta;
+use crate::control::measurement::{Measurement, PointMotion, part};
+use crate::control::observes::{GyroNoise, Observes};
 use crate::control::rotation::{quaternion_of, vector_of};
-use crate::control::sensors::rate_gyro::GyroNoise;
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
 use crate::control::truth::{DebrisState, Truth};
 use crate::control::vector::{conjugate, dcm_from_quaternion, difference, dot, hamilton, product, scaled, sum};

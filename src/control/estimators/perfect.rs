@@ -1,7 +1,7 @@
 //! Perfect knowledge: the true state; true parameters are not part of it.
 
-use super::{Estimator, EstimatorKind, Update};
 use crate::control::estimate::Estimate;
+use crate::control::estimators::estimator::{Estimator, EstimatorKind, Update};
 
 pub(super) const KIND: EstimatorKind = EstimatorKind {
     name: "perfect",

@@ -3,9 +3,10 @@
 //!
 //! The rate is that of the gyro, bias and all, or without one the turn between the last two attitudes over the time between them.
 
-use super::{Estimator, EstimatorContext, EstimatorKind, Update, center_of};
 use crate::control::estimate::Estimate;
-use crate::control::measurement::{Observes, PointMotion, part};
+use crate::control::estimators::estimator::{Estimator, EstimatorContext, EstimatorKind, Update, center_of};
+use crate::control::measurement::{PointMotion, part};
+use crate::control::observes::Observes;
 use crate::control::rotation::vector_of;
 use crate::control::vector::{conjugate, dcm_from_quaternion, hamilton, product, scaled, sum};
 use crate::dynamics::gravity::Gravity;

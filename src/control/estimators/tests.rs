@@ -4,15 +4,22 @@ use super::delayed::Filter;
 use super::rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter};
 use super::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
 use super::*;
+use crate::control::estimate::Estimate;
 use crate::control::laws::plant::Body;
+use crate::control::measurement::{Measurement, PointMotion};
 use crate::control::measurement::{Values, values};
+use crate::control::observes::Observes;
 use crate::control::rotation::quaternion_of;
+use crate::control::sensors;
 use crate::control::sensors::bench::{chi_square, input_on_orbit, sensor, table, truth};
-use crate::control::sensors::{self, Sensor};
+use crate::control::sensors::sensor::Sensor;
 use crate::control::small_matrix::diagonal;
+use crate::control::truth::DebrisState;
+use crate::control::vector::{dcm_from_quaternion, product, sum};
 use crate::control::vector::{difference, hamilton, norm, scaled};
 use crate::sampling::{Noise, SampleId};
 use crate::scene::{DebrisInput, SceneInput};
+use crate::scene::{MAX_WHEELS, Scene};
 
 /// Times at which the statistics are judged, and the share of H0 that may fail one of them: each of `TIMES` times NEES and innovations at rest and in a slew.
 const TIMES: usize = 20;

@@ -6,7 +6,7 @@
 //!
 //! Their numbers stand in the memory of the module in the order of the lines. What is declared is kept for good, as the module is.
 
-use super::{DeclaredTelemetry, WantedSensor};
+use super::module::{DeclaredTelemetry, WantedSensor};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 

@@ -1,7 +1,7 @@
 //! [`bytes`] and [`measured`]: what a module is given at a tick, as it stands in its memory: little-endian numbers.
 
-use super::WantedSensor;
-use crate::control::laws::{KnownBody, LawInput};
+use super::module::WantedSensor;
+use crate::control::laws::interface::{KnownBody, LawInput};
 use crate::control::measurement::MAX_VALUES;
 use crate::scene::MAX_WHEELS;
 

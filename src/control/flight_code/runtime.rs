@@ -7,17 +7,19 @@ use std::fmt;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use wasmtime::{
-    Config, Engine, Error, Instance, InstancePre, Linker, Memory, Module, Result, Store, StoreLimits,
-    StoreLimitsBuilder, Trap, TypedFunc, WasmResults, bail, format_err,
+    Config, Engine, Error, Instance, Linker, Memory, Module, Result, Store, StoreLimits, StoreLimitsBuilder, Trap,
+    TypedFunc, WasmResults, bail, format_err,
 };
 
 use super::input::{self, MEASURED, NUMBERS};
-use super::{
-    DeclaredTelemetry, FlightCode, INTERFACES, MOST_MEMORY, MOST_STACK, NAME, Refusal, START_FUEL, STEP_FUEL,
-    WantedSensor, complexity, declared,
+use super::module::{
+    Compiled, DeclaredTelemetry, FlightCode, INTERFACES, MOST_MEMORY, MOST_STACK, NAME, Refusal, START_FUEL, STEP_FUEL,
+    WantedSensor,
 };
-use crate::control::guidance::Failure;
-use crate::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
+use super::{complexity, declared};
+use crate::control::failure::Failure;
+use crate::control::laws::interface::{KnownBody, LawInput, LawSettings, OwnLaw, PhaseLaw};
+use crate::control::laws::{AttitudeLaw, LawKind};
 use crate::scene::LawParameter;
 
 /// Most tables of a module, and elements of each.
@@ -68,10 +70,14 @@ pub fn kept(bytes: &[u8], sha256: &str) -> std::result::Result<&'static FlightCo
 
 /// Makes the law of a phase.
 fn make(settings: &LawSettings<'_>) -> AttitudeLaw {
-    let Some(code) = settings.code else { return AttitudeLaw::None };
+    settings.code.map_or(AttitudeLaw::None, |code| AttitudeLaw::Own(code.law(settings)))
+}
+
+/// The law that the module `code` is, as [`super::FlightCode`] gives it to phases.
+pub fn law(code: &'static FlightCode, settings: &LawSettings<'_>) -> OwnLaw {
     let number =
         |parameter: &LawParameter| settings.table.named(parameter.facts.key).map_or(f64::NAN, |found| found[0]);
-    AttitudeLaw::own(ModuleLaw {
+    OwnLaw::new(ModuleLaw {
         code,
         parameters: code.kind.parameters.iter().map(number).collect(),
         times: [settings.period, settings.delay],
@@ -80,9 +86,6 @@ fn make(settings: &LawSettings<'_>) -> AttitudeLaw {
         failure: None,
     })
 }
-
-/// A module that is ready to be instantiated.
-pub struct Compiled(InstancePre<StoreLimits>);
 
 /// What a module declares.
 struct Declared {

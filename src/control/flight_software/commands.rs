@@ -1,85 +1,16 @@
 //! From a wanted torque and force to commands; which of them act.
 
-use super::stored_momentum;
-use super::{CommandedImpulse, FlightSoftware, Guided};
-use crate::control::actuators::DelayQueue;
-use crate::control::allocation::rods::{NO_DIPOLES, RodCommand};
-use crate::control::control_loop::SAME_TIME;
-use crate::control::guidance::Failure;
+use super::{CommandedImpulse, FlightSoftware, Guided, stored_momentum};
+use crate::control::allocation::rods::NO_DIPOLES;
+use crate::control::bus::{ActingCommands, Commanded, NO_PULSES, Pulses};
+use crate::control::failure::Failure;
 use crate::control::guidance::phase::Maneuver;
 use crate::control::guidance::target::Target;
-use crate::control::laws::LawInput;
-use crate::control::spec::Readings;
+use crate::control::laws::interface::LawInput;
+use crate::control::sensor_spec::Readings;
+use crate::control::tick_times::SAME_TIME;
 use crate::control::vector::{cross, dcm_from_quaternion, difference, dot, product, scaled, sum};
-use crate::scene::{MAX_THRUSTERS, MAX_TORQUE_RODS, MAX_WHEELS};
-
-/// What the motors are commanded, N m, by wheel.
-pub type MotorCommand = [f64; MAX_WHEELS];
-
-/// What was commanded at a control tick, as telemetry has it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Commanded {
-    /// Torques of the motors, N m.
-    pub motor_torque: MotorCommand,
-    /// Mean thrusts over the control period, N.
-    pub thrust: [f64; MAX_THRUSTERS],
-    /// Dipoles of the torque rods, A m^2.
-    pub dipoles: [f64; MAX_TORQUE_RODS],
-}
-
-impl Commanded {
-    /// Nothing.
-    pub const NOTHING: Commanded =
-        Commanded { motor_torque: [0.0; MAX_WHEELS], thrust: [0.0; MAX_THRUSTERS], dipoles: [0.0; MAX_TORQUE_RODS] };
-}
-
-/// What the thrusters are commanded.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pulses {
-    /// When they begin, s.
-    pub begin: f64,
-    /// Thrusts while they last, N, by thruster.
-    pub thrust: [f64; MAX_THRUSTERS],
-    /// How long each lasts, s.
-    pub on_time: [f64; MAX_THRUSTERS],
-}
-
-/// No thruster fires.
-pub const NO_PULSES: Pulses = Pulses { begin: 0.0, thrust: [0.0; MAX_THRUSTERS], on_time: [0.0; MAX_THRUSTERS] };
-
-/// Commands that act, or will.
-#[derive(Clone, Debug)]
-pub struct CommandsUnderWay {
-    pub(super) motors: DelayQueue<MotorCommand>,
-    /// Nothing is pushed in a loop without thrusters.
-    pub(in crate::control) thrust: DelayQueue<Pulses>,
-    /// Nothing is pushed in a loop without torque rods.
-    pub(super) rods: DelayQueue<RodCommand>,
-}
-
-impl CommandsUnderWay {
-    /// None, with room for those of a loop with this delay and period, s, and with torque rods or without.
-    pub fn new(delay: f64, period: f64, has_rods: bool) -> Self {
-        CommandsUnderWay {
-            motors: DelayQueue::new([0.0; MAX_WHEELS], delay, period),
-            thrust: DelayQueue::new(NO_PULSES, delay, period),
-            rods: if has_rods { DelayQueue::new(NO_DIPOLES, delay, period) } else { DelayQueue::constant(NO_DIPOLES) },
-        }
-    }
-}
-
-/// The commands that act at a time.
-#[derive(Clone, Copy, Debug)]
-pub struct ActingCommands<'a> {
-    /// Of the motors, N m.
-    pub motor_torque: &'a MotorCommand,
-    /// Of the thrusters; `None` in a loop without them.
-    pub pulses: Option<&'a Pulses>,
-    /// Of the torque rods.
-    pub rods: &'a RodCommand,
-    /// Until when they act, s.
-    pub until: f64,
-}
+use crate::scene::{MAX_THRUSTERS, MAX_WHEELS};
 
 impl FlightSoftware {
     /// Commands what the law and the maneuver want.

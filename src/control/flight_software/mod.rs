@@ -1,34 +1,38 @@
 //! [`FlightSoftware`]: estimator, guidance, law and allocation of one run. What it knows is the nominal scene as it is believed ([`LoopSpec::believed`]), its
 //! own drawn numbers, what its sensors deliver, and what it has commanded: no field of it and no argument of its tick is the truth.
 //!
-//! [`commands`]: from a wanted torque and force to commands.
+//! - `commands`: from a wanted torque and force to commands. - [`under_way`]: commands until they act no more.
+//! - `maneuver`: the impulse that is left of a maneuver, and the attitude that it wants.
 
-pub mod commands;
+mod commands;
+mod maneuver;
+pub mod under_way;
 
 use std::sync::Arc;
 
-use self::commands::CommandsUnderWay;
-pub use self::commands::{ActingCommands, Commanded, MotorCommand, Pulses};
+use self::under_way::CommandsUnderWay;
 use super::actuators::{PulseState, ThrusterDrive};
 use super::allocation::rods::RodAllocation;
 use super::allocation::thrust::ThrustAllocation;
 use super::allocation::wheel_torque::WheelTorque;
+use super::bus::{Commanded, Measurements};
 use super::estimate::Estimate;
-use super::estimators::{Consistency, Estimator, Update};
+use super::failure::Failure;
 use super::guidance::condition::GuidanceInput;
 use super::guidance::phase::Phase;
 use super::guidance::target::{AttitudeError, OrbitMotion};
-use super::guidance::{Failure, Guidance, Progress};
+use super::guidance::{Guidance, Progress};
 use super::laws::asked::is_law_of;
 use super::laws::rod_law::MeasuredField;
-use super::laws::{AttitudeLaw, KnownBody};
-use super::measurement::{Measurement, Observes, PointMotion, Reading, part};
-use super::net_launch::geometry::{LaunchGeometry, LaunchState};
-use super::net_launch::maneuver::geometry_of;
-use super::plant::Measurements;
+use super::net_launch::geometry::{Centers, LaunchGeometry, LaunchState};
 use super::spec::LoopSpec;
 use super::tick_times::TickTimes;
 use super::truth::Truth;
+use crate::control::estimators::estimator::{Consistency, Estimator, Update};
+use crate::control::laws::AttitudeLaw;
+use crate::control::laws::interface::KnownBody;
+use crate::control::measurement::{Measurement, PointMotion, Reading, part};
+use crate::control::observes::Observes;
 use crate::control::vector::{dcm_from_quaternion, norm, product, scaled, sum};
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::orbit_state::OrbitState;
@@ -38,6 +42,14 @@ use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 fn stored_momentum(scene: &Scene, estimate: &Estimate) -> [f64; 3] {
     let wheels = scene.mass.wheels.iter().zip(estimate.wheel_rates);
     wheels.fold([0.0; 3], |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
+}
+
+/// The geometry of the launch from the state `launch` as estimated; `None` without debris.
+fn geometry_of(launch: &LaunchState, estimate: &Estimate) -> Option<LaunchGeometry> {
+    let debris = estimate.debris.as_ref()?;
+    let centers =
+        Centers { r_co_e: estimate.r_co_e, v_co_e: estimate.v_co_e, r_gdo_e: debris.r_gdo_e, v_gdo_e: debris.v_gdo_e };
+    Some(launch.geometry(&centers))
 }
 
 /// What guidance has decided at a control tick.

@@ -6,8 +6,8 @@
 
 use std::sync::{Arc, PoisonError, RwLock};
 
-use super::{AttitudeLaw, KnownBody, LawInput, LawKind, PhaseLaw};
-use crate::control::ControlLaw;
+use super::interface::{KnownBody, LawInput, PhaseLaw};
+use super::{AttitudeLaw, LawKind};
 use crate::control::estimate::Estimate;
 use crate::control::spec::LoopSpec;
 use crate::sampling::SampleId;
@@ -75,12 +75,12 @@ pub fn is_law_of(spec: &LoopSpec) -> bool {
     spec.phases.iter().any(|phase| phase.law == Some(&KIND))
 }
 
-/// Why runs under `law` cannot be flown now, if so: nobody answers for it.
+/// Why runs of the loop `spec` cannot be flown now, if so: nobody answers for it.
 ///
 /// # Errors
 /// With the message.
-pub fn refuse_unanswered(law: Option<&ControlLaw>) -> Result<(), String> {
-    if now().is_some() || !law.and_then(ControlLaw::spec).is_some_and(is_law_of) {
+pub fn refuse_unanswered(spec: Option<&LoopSpec>) -> Result<(), String> {
+    if now().is_some() || !spec.is_some_and(is_law_of) {
         return Ok(());
     }
     Err(format!(

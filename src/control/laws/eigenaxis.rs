@@ -1,8 +1,8 @@
 //! [`Eigenaxis`]: a slew about one axis fixed in the body and in space.
 
 use super::integral::{self, Integral};
+use super::interface::{KnownBody, LawInput, LawSettings};
 use super::slew::Slew;
-use super::{AttitudeLaw, KnownBody, LawInput, LawKind};
 use crate::control::declared::{declared, limit};
 use crate::control::vector::{norm, product, scaled, sum};
 use crate::scene::LawParameter;
@@ -46,24 +46,23 @@ declared! {
     }
 }
 
-/// Its place in the list of laws.
-pub const KIND: LawKind = LawKind {
-    name: "eigenaxis",
-    parameters: &PARAMETERS,
-    make: |settings| {
+/// What campaign files call it.
+pub const NAME: &str = "eigenaxis";
+
+impl Eigenaxis {
+    /// The law of a phase.
+    pub fn of(settings: &LawSettings<'_>) -> Self {
         let numbers = EigenaxisNumbers::of(settings.table);
         let (bandwidth, damping) = (numbers.bandwidth, numbers.damping);
-        AttitudeLaw::Eigenaxis(Eigenaxis {
+        Eigenaxis {
             largest_rate: limit(numbers.max_rate),
             largest_torque: limit(numbers.max_torque),
             integral: Integral::new(numbers.integral_gain, limit(numbers.integral_limit)),
             slew: Slew::new(settings.period, settings.delay),
             ..Eigenaxis::new(2.0 * bandwidth * bandwidth, 2.0 * damping * bandwidth)
-        })
-    },
-};
+        }
+    }
 
-impl Eigenaxis {
     /// Without limits and integral.
     pub fn new(stiffness: f64, damping: f64) -> Self {
         let (largest_rate, largest_torque) = (f64::INFINITY, f64::INFINITY);

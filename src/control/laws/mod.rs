@@ -6,6 +6,7 @@
 pub mod asked;
 mod eigenaxis;
 mod integral;
+pub mod interface;
 pub mod momentum_unloading;
 mod mrp_feedback;
 mod quaternion_feedback;
@@ -20,18 +21,36 @@ pub use mrp_feedback::MrpFeedback;
 pub use quaternion_feedback::QuaternionFeedback;
 pub use rate_damping::RateDamping;
 
+pub use interface::{KnownBody, LawInput, LawModule, LawSettings, OwnLaw, PhaseLaw, wheel_momenta};
+
 use std::fmt;
 
-use crate::control::estimate::Estimate;
-use crate::control::flight_code::FlightCode;
-use crate::control::guidance::Failure;
-use crate::control::spec::Readings;
-use crate::control::vector::{cross, difference, dot, product, scaled, sum};
-use crate::sampling::SampleId;
-use crate::scene::{DeclaredTable, LawParameter, MassProperties, WheelMode};
+use crate::control::failure::Failure;
+use crate::scene::LawParameter;
 
 /// The laws of attitude that a campaign can name.
-pub static KINDS: &[LawKind] = &[rate_damping::KIND, quaternion_feedback::KIND, mrp_feedback::KIND, eigenaxis::KIND];
+pub static KINDS: &[LawKind] = &[
+    LawKind {
+        name: rate_damping::NAME,
+        parameters: &rate_damping::PARAMETERS,
+        make: |settings| AttitudeLaw::RateDamping(RateDamping::of(settings)),
+    },
+    LawKind {
+        name: quaternion_feedback::NAME,
+        parameters: &quaternion_feedback::PARAMETERS,
+        make: |settings| AttitudeLaw::QuaternionFeedback(QuaternionFeedback::of(settings)),
+    },
+    LawKind {
+        name: mrp_feedback::NAME,
+        parameters: &mrp_feedback::PARAMETERS,
+        make: |settings| AttitudeLaw::MrpFeedback(MrpFeedback::of(settings)),
+    },
+    LawKind {
+        name: eigenaxis::NAME,
+        parameters: &eigenaxis::PARAMETERS,
+        make: |settings| AttitudeLaw::Eigenaxis(Eigenaxis::of(settings)),
+    },
+];
 
 /// A law of attitude that a campaign can name. Your own one is a static of your program, which its session brings
 /// ([`crate::workflow::session::Session::with_attitude_law`]): phases of `[[guidance]]` then name it as they do the others.
@@ -78,60 +97,6 @@ impl PartialEq for LawKind {
     }
 }
 
-/// A law of attitude that a program brings, in a run. It is made for each phase that names it, and begins anew with the phase.
-pub trait PhaseLaw {
-    /// The wanted torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first of the phase).
-    fn torque(&mut self, body: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3];
-
-    /// Why it cannot go on, where its torque is no finite number; `None`: that itself is the reason.
-    fn failure(&self) -> Option<Failure> {
-        None
-    }
-
-    /// What it has reported at its last tick, by the columns of the loop ([`FlightCode::telemetry`]); NaN where a value is no finite number.
-    fn telemetry(&self) -> &[f64] {
-        &[]
-    }
-}
-
-/// A [`PhaseLaw`] that can be copied without knowing its type.
-trait ClonedLaw: PhaseLaw + fmt::Debug + Send {
-    fn cloned(&self) -> Box<dyn ClonedLaw>;
-}
-
-impl<L: PhaseLaw + Clone + fmt::Debug + Send + 'static> ClonedLaw for L {
-    fn cloned(&self) -> Box<dyn ClonedLaw> {
-        Box::new(self.clone())
-    }
-}
-
-/// The law of a program in a run.
-#[derive(Debug)]
-pub struct OwnLaw(Box<dyn ClonedLaw>);
-
-impl Clone for OwnLaw {
-    fn clone(&self) -> Self {
-        OwnLaw(self.0.cloned())
-    }
-}
-
-/// What the law of a phase is made from.
-#[derive(Clone, Copy, Debug)]
-pub struct LawSettings<'a> {
-    /// Its numbers.
-    pub table: &'a DeclaredTable,
-    /// Whether `mrp_feedback` has omega x H.
-    pub gyroscopic: bool,
-    /// The control period, s.
-    pub period: f64,
-    /// The time from a tick to the effect of its command, s.
-    pub delay: f64,
-    /// The run.
-    pub sample: SampleId,
-    /// The module of the loop, if it has one.
-    pub code: Option<&'static FlightCode>,
-}
-
 /// A law of attitude in a run, with what it remembers.
 #[expect(clippy::large_enum_variant, reason = "a run has one for each phase, and a box would be allocated")]
 #[derive(Clone, Debug)]
@@ -159,7 +124,7 @@ impl AttitudeLaw {
             AttitudeLaw::QuaternionFeedback(law) => law.torque(body, input, period),
             AttitudeLaw::MrpFeedback(law) => law.torque(body, input, period),
             AttitudeLaw::Eigenaxis(law) => law.torque(body, input, period),
-            AttitudeLaw::Own(law) => law.0.torque(body, input, period),
+            AttitudeLaw::Own(law) => law.law_mut().torque(body, input, period),
         }
     }
 
@@ -170,19 +135,23 @@ impl AttitudeLaw {
         let gains = match &mut law {
             AttitudeLaw::RateDamping(law) => {
                 law.gain *= share;
-                format!("gain_n_m_s = {}", digits(law.gain))
+                format!("gain_n_m_s = {}", interface::digits(law.gain))
             }
             AttitudeLaw::MrpFeedback(law) => {
                 (law.stiffness, law.damping) = (share * law.stiffness, share * law.damping);
-                format!("stiffness_n_m = {}, damping_n_m_s = {}", digits(law.stiffness), digits(law.damping))
+                format!(
+                    "stiffness_n_m = {}, damping_n_m_s = {}",
+                    interface::digits(law.stiffness),
+                    interface::digits(law.damping)
+                )
             }
             AttitudeLaw::QuaternionFeedback(law) => {
                 law.bandwidth *= share;
-                format!("bandwidth_rad_s = {}", digits(law.bandwidth))
+                format!("bandwidth_rad_s = {}", interface::digits(law.bandwidth))
             }
             AttitudeLaw::Eigenaxis(law) if law.largest_torque == f64::INFINITY => {
                 (law.stiffness, law.damping) = (share * share * law.stiffness, share * law.damping);
-                format!("bandwidth_rad_s = {}", digits((0.5 * law.stiffness).sqrt()))
+                format!("bandwidth_rad_s = {}", interface::digits((0.5 * law.stiffness).sqrt()))
             }
             AttitudeLaw::None | AttitudeLaw::Eigenaxis(_) | AttitudeLaw::Own(_) => return None,
         };
@@ -192,7 +161,7 @@ impl AttitudeLaw {
     /// Why the law cannot go on, where its torque is no finite number and that is not the reason itself.
     pub fn failure(&self) -> Option<Failure> {
         match self {
-            AttitudeLaw::Own(law) => law.0.failure(),
+            AttitudeLaw::Own(law) => law.law().failure(),
             _ => None,
         }
     }
@@ -200,104 +169,15 @@ impl AttitudeLaw {
     /// What the law has reported at its last tick; nothing, but for modules.
     pub fn telemetry(&self) -> &[f64] {
         match self {
-            AttitudeLaw::Own(law) => law.0.telemetry(),
+            AttitudeLaw::Own(law) => law.law().telemetry(),
             _ => &[],
         }
     }
 
     /// The law `law` of a program.
     pub fn own(law: impl PhaseLaw + Clone + fmt::Debug + Send + 'static) -> Self {
-        AttitudeLaw::Own(OwnLaw(Box::new(law)))
+        AttitudeLaw::Own(OwnLaw::new(law))
     }
-}
-
-/// A number with four significant digits.
-pub(super) fn digits(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
-}
-
-/// What a law of attitude knows at a tick. F_t is the target's frame: the attitude that F_s is to have.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LawInput<'a> {
-    /// Attitude quaternion F_s -> F_t, scalar first, of either sign.
-    pub q_ts: [f64; 4],
-    /// Rate of F_s relative to F_e, in F_s, rad/s.
-    pub omega_se_s: [f64; 3],
-    /// Rate of F_t relative to F_e, in F_s, rad/s.
-    pub omega_te_s: [f64; 3],
-    /// Derivative of that rate in F_e, in F_s, rad/s^2.
-    pub acceleration_te_s: [f64; 3],
-    /// H, with the wheels, in F_s, N m s: [`KnownBody::momentum`].
-    pub momentum_s: [f64; 3],
-    /// Time since the start of the run, s.
-    pub time: f64,
-    /// All that is estimated; `None` where a law is tried without a loop.
-    pub estimate: Option<&'a Estimate>,
-    /// What the sensors have delivered last; none where no law of the loop asks for it ([`asked`], [`FlightCode::sensors`]).
-    pub readings: Readings<'a>,
-}
-
-impl LawInput<'_> {
-    /// At rest at a target at rest, without momentum.
-    pub const AT_TARGET: LawInput<'static> = LawInput {
-        q_ts: [1.0, 0.0, 0.0, 0.0],
-        omega_se_s: [0.0; 3],
-        omega_te_s: [0.0; 3],
-        acceleration_te_s: [0.0; 3],
-        momentum_s: [0.0; 3],
-        time: 0.0,
-        estimate: None,
-        readings: Readings::NONE,
-    };
-
-    /// Rate of F_s relative to F_t, in F_s, rad/s.
-    pub fn omega_st_s(&self) -> [f64; 3] {
-        difference(self.omega_se_s, self.omega_te_s)
-    }
-
-    /// The vector part of the attitude, of the shorter rotation: q_v sign(q_0).
-    pub fn error_vector(&self) -> [f64; 3] {
-        let [w, x, y, z] = self.q_ts;
-        if w < 0.0 { [-x, -y, -z] } else { [x, y, z] }
-    }
-
-    /// omega x H + K (omega_te' - omega x omega_te): the torque that keeps the rate relative to the target, F_s, N m.
-    pub fn feedforward(&self, body: &KnownBody) -> [f64; 3] {
-        let carried = difference(self.acceleration_te_s, cross(self.omega_se_s, self.omega_te_s));
-        sum(product(body.inertia, carried), cross(self.omega_se_s, self.momentum_s))
-    }
-}
-
-/// The constants of the spacecraft that a law knows: of the nominal scene.
-#[derive(Clone, Copy, Debug)]
-pub struct KnownBody {
-    /// K = J*: the inertia without the axial ones of free wheels, in F_s, kg m^2.
-    pub inertia: [[f64; 3]; 3],
-}
-
-impl KnownBody {
-    /// Those of `mass`.
-    pub fn of(mass: &MassProperties) -> Self {
-        KnownBody { inertia: mass.inertia_rotating() }
-    }
-
-    /// H = K omega + sum h_i a_i, in F_s, N m s: of the body at the rate `omega` (rad/s), with the wheels of `mass` at the rates `rates` (rad/s).
-    pub fn momentum(&self, mass: &MassProperties, omega: [f64; 3], rates: &[f64]) -> [f64; 3] {
-        wheel_momenta(mass, omega, rates).fold(product(self.inertia, omega), sum)
-    }
-}
-
-/// What the wheels of `mass` add to K omega, h_i a_i by wheel, in F_s, N m s, at the rate `omega` of the body and the rates `rates` of the wheels, rad/s:
-/// h_i = J_i (a_i . omega + Omega_i) of a free wheel, and J_i Omega_i of one whose speed is held, because K has the rest of it.
-pub fn wheel_momenta<'a>(
-    mass: &'a MassProperties,
-    omega: [f64; 3],
-    rates: &'a [f64],
-) -> impl Iterator<Item = [f64; 3]> + 'a {
-    mass.wheels.iter().zip(rates).map(move |(wheel, rate)| {
-        let carried = if wheel.mode == WheelMode::SpeedHeld { 0.0 } else { dot(wheel.axis, omega) };
-        scaled(wheel.axial * (carried + rate), wheel.axis)
-    })
 }
 
 #[cfg(test)]
@@ -361,6 +241,9 @@ mod tests {
     use super::*;
     use crate::control::rotation::{quaternion_of, vector_of};
     use crate::control::vector::{conjugate, dcm_from_quaternion, hamilton, norm, transposed_product};
+    use crate::control::vector::{difference, product, scaled, sum};
+    use crate::sampling::SampleId;
+    use crate::scene::DeclaredTable;
     use crate::scene::{Name, Scene, SceneInput};
 
     /// Law: every law of the list is made from its table, has units and names of its own, and takes energy out of a body that turns at its target.
@@ -471,7 +354,9 @@ mod tests {
         let omega = [0.3, -0.2, 0.5];
         for modes in 0..9 {
             let mut input = SceneInput::report();
-            let mode = |k: usize| [WheelMode::Free, WheelMode::SpeedHeld, WheelMode::Locked][k];
+            let mode = |k: usize| {
+                [crate::scene::WheelMode::Free, crate::scene::WheelMode::SpeedHeld, crate::scene::WheelMode::Locked][k]
+            };
             for (wheel, k) in input.wheels.iter_mut().zip([modes % 3, modes / 3]) {
                 (wheel.mode, wheel.axis) = (mode(k), [0.48, -0.6, 0.64]);
             }

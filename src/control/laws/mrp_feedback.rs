@@ -1,6 +1,6 @@
 //! [`MrpFeedback`]: proportional to the modified Rodrigues parameters of the error, to the rate, and to an integral.
 
-use super::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings};
+use super::interface::{KnownBody, LawInput, LawSettings};
 use crate::control::declared::{declared, limit};
 use crate::control::rotation::mrp_of;
 use crate::control::vector::{cross, difference, norm, product, scaled, sum};
@@ -43,19 +43,18 @@ declared! {
     }
 }
 
-/// Its place in the list of laws.
-pub const KIND: LawKind = LawKind {
-    name: "mrp_feedback",
-    parameters: &PARAMETERS,
-    make: |LawSettings { table, gyroscopic, .. }| {
-        let numbers = MrpNumbers::of(table);
-        let law = MrpFeedback::new(numbers.stiffness, numbers.damping);
-        let law = law.with_integral(numbers.integral, limit(numbers.integral_limit));
-        AttitudeLaw::MrpFeedback(MrpFeedback { gyroscopic: *gyroscopic, ..law })
-    },
-};
+/// What campaign files call it.
+pub const NAME: &str = "mrp_feedback";
 
 impl MrpFeedback {
+    /// The law of a phase.
+    pub fn of(settings: &LawSettings<'_>) -> Self {
+        let numbers = MrpNumbers::of(settings.table);
+        let law = MrpFeedback::new(numbers.stiffness, numbers.damping);
+        let law = law.with_integral(numbers.integral, limit(numbers.integral_limit));
+        MrpFeedback { gyroscopic: settings.gyroscopic, ..law }
+    }
+
     /// Without an integral, and without omega x H.
     pub fn new(stiffness: f64, damping: f64) -> Self {
         let (integral, integral_limit) = (0.0, f64::INFINITY);

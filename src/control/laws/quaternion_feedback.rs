@@ -1,7 +1,7 @@
 //! [`QuaternionFeedback`]: proportional to the quaternion of the error, and to the rate.
 
 use super::integral::{self, Integral};
-use super::{AttitudeLaw, KnownBody, LawInput, LawKind};
+use super::interface::{KnownBody, LawInput, LawSettings};
 use crate::control::declared::{declared, limit};
 use crate::control::vector::{product, scaled, sum};
 use crate::scene::LawParameter;
@@ -30,19 +30,18 @@ declared! {
     }
 }
 
-/// Its place in the list of laws.
-pub const KIND: LawKind = LawKind {
-    name: "quaternion_feedback",
-    parameters: &PARAMETERS,
-    make: |settings| {
+/// What campaign files call it.
+pub const NAME: &str = "quaternion_feedback";
+
+impl QuaternionFeedback {
+    /// The law of a phase.
+    pub fn of(settings: &LawSettings<'_>) -> Self {
         let QuaternionNumbers { bandwidth, damping, integral_gain, integral_limit } =
             QuaternionNumbers::of(settings.table);
         let integral = Integral::new(integral_gain, limit(integral_limit));
-        AttitudeLaw::QuaternionFeedback(QuaternionFeedback { bandwidth, damping, integral })
-    },
-};
+        QuaternionFeedback { bandwidth, damping, integral }
+    }
 
-impl QuaternionFeedback {
     /// Without an integral.
     pub fn new(bandwidth: f64, damping: f64) -> Self {
         QuaternionFeedback { bandwidth, damping, integral: Integral::NONE }

@@ -1,7 +1,7 @@
 //! [`RateDamping`]: a torque against the rate.
 
 use super::integral::{self, Integral};
-use super::{AttitudeLaw, LawInput, LawKind};
+use super::interface::{LawInput, LawSettings};
 use crate::control::declared::{declared, limit};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
@@ -25,17 +25,16 @@ declared! {
     }
 }
 
-/// Its place in the list of laws.
-pub const KIND: LawKind = LawKind {
-    name: "rate_damping",
-    parameters: &PARAMETERS,
-    make: |settings| {
-        let RateDampingNumbers { gain, integral_gain, integral_limit } = RateDampingNumbers::of(settings.table);
-        AttitudeLaw::RateDamping(RateDamping { gain, integral: Integral::new(integral_gain, limit(integral_limit)) })
-    },
-};
+/// What campaign files call it.
+pub const NAME: &str = "rate_damping";
 
 impl RateDamping {
+    /// The law of a phase.
+    pub fn of(settings: &LawSettings<'_>) -> Self {
+        let RateDampingNumbers { gain, integral_gain, integral_limit } = RateDampingNumbers::of(settings.table);
+        RateDamping { gain, integral: Integral::new(integral_gain, limit(integral_limit)) }
+    }
+
     /// The torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first).
     pub fn torque(&mut self, input: &LawInput, period: f64) -> [f64; 3] {
         self.integral.with(input.omega_se_s, period).map(|rate| -self.gain * rate)

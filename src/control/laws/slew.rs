@@ -4,7 +4,7 @@
 //! the body stops at the target under the deceleration b (B. Wie, *Space Vehicle Dynamics and Control*, 2008, section 7.3, has the same limit for small
 //! angles). The curve is met at the end of each period, so that following it needs no gain, and not the bandwidth of small errors.
 
-use super::{KnownBody, LawInput};
+use super::interface::{KnownBody, LawInput};
 use crate::control::rotation::vector_of;
 use crate::control::vector::{dot, norm, product, scaled, sum};
 

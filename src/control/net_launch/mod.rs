@@ -1,9 +1,8 @@
 //! What a loop does and reports of the launch of a net at debris; the rest of `control` knows debris only as a second body that sensors see.
 //!
 //! - [`geometry`]: the launch state, and the transfer to it. [`parameters`]: its numbers in campaign files.
-//! - [`maneuver`]: the impulse that flight software still has to give. [`launch`]: what is true at the launch, and plumes that hit the debris.
+//! - [`launch`]: what is true at the launch, and plumes that hit the debris.
 
 pub mod geometry;
 pub mod launch;
-pub mod maneuver;
 pub mod parameters;

@@ -1,8 +1,7 @@
 //! The numbers of `[control]` and of phases that net launch needs.
 
 use super::geometry::LaunchState;
-use crate::control::declared::declared;
-use crate::control::parameters::number;
+use crate::control::declared::{declared, number};
 use crate::control::vector::{norm, scaled};
 use crate::scene::schema::Limit;
 use crate::scene::{DeclaredTable, LawParameter, Orbit};

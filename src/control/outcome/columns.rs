@@ -1,10 +1,12 @@
 //! [`OutcomeColumns`]: the columns of rows that say what a run under a loop has come to, as one table: name, unit, meaning and value in one row.
 
-use super::{MissionCriteria, MissionOutcome, STANDARD_GRAVITY};
 use crate::control::estimators::kalman::NormalizedSquare;
-use crate::control::flight_code::FlightCode;
-use crate::control::guidance::{Failure, Guidance};
+use crate::control::failure::Failure;
+use crate::control::flight_code::module::FlightCode;
+use crate::control::guidance::Guidance;
 use crate::control::net_launch::launch::AtLaunch;
+use crate::control::outcome::criteria::MissionCriteria;
+use crate::control::outcome::{MissionOutcome, STANDARD_GRAVITY};
 use crate::control::spec::LoopSpec;
 use crate::observables::{ColumnKind, LawColumn, LawColumns};
 use crate::run::Quantity;

@@ -1,40 +1,23 @@
 //! [`MissionOutcome`]: what a run under a loop has come to, from the true state at every tick. [`columns`]: the columns that say it.
 
 pub mod columns;
+pub mod criteria;
 mod stability;
 
+use self::criteria::MissionCriteria;
 use self::stability::Stability;
 use super::estimate::EstimateErrors;
-use super::estimators::Consistency;
-use super::guidance::Failure;
 use super::guidance::target::AttitudeError;
 use super::net_launch::geometry::LaunchState;
-use super::net_launch::launch::{AtLaunch, PlumeCone};
+use super::net_launch::launch::AtLaunch;
 use super::plant::Applied;
 use super::truth::Truth;
+use crate::control::estimators::estimator::Consistency;
+use crate::control::failure::Failure;
 use crate::control::rotation::vector_of;
 use crate::control::vector::{dot, norm, scaled};
 use crate::dynamics::actuation::Actuation;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
-
-/// The numbers of a run with which its outcome is judged.
-#[derive(Clone, Copy, Debug)]
-pub struct MissionCriteria {
-    /// The launch state.
-    pub launch: LaunchState,
-    /// Distance from the debris below which the mission fails, m.
-    pub keep_out: f64,
-    /// Where plumes hit the debris.
-    pub plume: PlumeCone,
-    /// Pointing error of an attitude that has settled, rad.
-    pub settling_band: f64,
-    /// Start and length of the window of the relative performance error, s; zero: from settling on, and to the end.
-    pub stability: [f64; 2],
-    /// Control period, s.
-    pub period: f64,
-    /// Specific impulse, s; zero where it is not known.
-    pub isp: f64,
-}
 
 /// Standard gravity, by which a specific impulse is an exhaust velocity, m/s^2 (ISO 80000-3).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;

@@ -3,7 +3,7 @@
 //! Source: ECSS-E-ST-60-10C, *Control performance*, 2008, section 3.2: the performance error e(t) is here the rotation vector from the target to the true
 //! attitude; the relative performance error over an interval is e(t) less its mean over that interval.
 
-use super::MissionCriteria;
+use crate::control::outcome::criteria::MissionCriteria;
 use crate::control::vector::norm;
 
 /// What the ticks of a run have shown so far.

@@ -1,8 +1,8 @@
 //! [`FailingSensor`]: a sensor that fails at a time of the run.
 
-use super::{Sensor, SensorContext, SensorKind};
-use crate::control::control_loop::SAME_TIME;
 use crate::control::measurement::Values;
+use crate::control::sensors::sensor::{Sensor, SensorContext, SensorKind};
+use crate::control::tick_times::SAME_TIME;
 use crate::control::truth::Truth;
 use crate::scene::{DeclaredTable, FailureInput, SensorOutput};
 

@@ -1,8 +1,11 @@
 //! A radar on the ground: positions and velocities in F_e of the base point p and, where there is one, of the debris's centre of mass.
 
-use super::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, XYZ, optional};
 use crate::control::declared::declared;
-use crate::control::measurement::{Observes, Values, values};
+use crate::control::measurement::{Values, values};
+use crate::control::observes::Observes;
+use crate::control::sensors::sensor::{
+    AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, XYZ, optional,
+};
 use crate::control::truth::Truth;
 use crate::control::vector::sum;
 

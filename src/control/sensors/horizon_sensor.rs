@@ -6,10 +6,13 @@
 use std::sync::Arc;
 
 use super::two_angles::{AnglesInView, TwoAngles};
-use super::{Components, MeasuredQuantity, Need, Sensor, SensorContext, SensorKind, axes, optional};
 use crate::control::declared::declared;
-use crate::control::estimators::attitude_innovation::AttitudeInnovation;
-use crate::control::measurement::{AttitudeSensor, Observes, Values};
+use crate::control::estimators::attitude_innovation::{AttitudeInnovation, AttitudeSensor};
+use crate::control::measurement::Values;
+use crate::control::observes::Observes;
+use crate::control::sensors::sensor::{
+    Components, MeasuredQuantity, Need, Sensor, SensorContext, SensorKind, axes, optional,
+};
 use crate::control::truth::Truth;
 use crate::control::vector::{norm, scaled};
 use crate::dynamics::orbit_path::OrbitPath;

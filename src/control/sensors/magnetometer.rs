@@ -5,11 +5,14 @@
 
 use std::sync::Arc;
 
-use super::{AXES, MeasuredQuantity, Need, NormalErrors, Sensor, SensorContext, SensorKind, XYZ, axes};
 use crate::control::declared::declared;
-use crate::control::estimators::attitude_innovation::{AttitudeInnovation, Innovation};
-use crate::control::measurement::{AttitudeSensor, Observes, Values, part, values};
+use crate::control::estimators::attitude_innovation::{AttitudeInnovation, AttitudeSensor, Innovation};
+use crate::control::measurement::{Values, part, values};
+use crate::control::observes::Observes;
 use crate::control::rotation::{from_s3_to, quaternion_of};
+use crate::control::sensors::sensor::{
+    AXES, MeasuredQuantity, Need, NormalErrors, Sensor, SensorContext, SensorKind, XYZ, axes,
+};
 use crate::control::small_matrix::{diagonal, multiplied, transposed};
 use crate::control::truth::Truth;
 use crate::control::vector::{cross, dcm_from_quaternion, dot, sum, transposed_product};

@@ -4,11 +4,13 @@
 //! Determination and Control*, 2014, section 4.7. Over a period T the bias walks by N(0, su^2 T), and the rotation has the variance
 //! sv^2 T + su^2 T^3/12 about the mean of the biases at both ends. A turn of more than half a revolution between samples reads as the shorter one.
 
-use super::NormalErrors;
-use super::{AXES, MeasuredQuantity, Sensor, SensorContext, SensorKind, XYZ, axes, optional};
 use crate::control::declared::declared;
-use crate::control::measurement::{Observes, Values, values};
+use crate::control::measurement::{Values, values};
+use crate::control::observes::{GyroNoise, Observes};
 use crate::control::rotation::{turned, vector_of};
+use crate::control::sensors::sensor::{
+    AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, XYZ, axes, optional,
+};
 use crate::control::truth::Truth;
 use crate::control::vector::{conjugate, hamilton, scaled, sum};
 use crate::scene::schema::Limit;
@@ -53,15 +55,6 @@ declared! {
     count_angle: f64 = optional("quantization_rad", "rad", "Angle of one count; the remainder is carried to the next sample; 0: none");
     max_rate: f64 = optional("max_rate_rad_s", "rad/s", "Largest mean rate about each axis that it can measure; 0: no limit");
     }
-}
-
-/// The noise of a gyro, as flight software believes it: Farrenkopf's sv, rad/sqrt(s), and su, rad/s/sqrt(s).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GyroNoise {
-    /// Angular random walk sv.
-    pub angular_random_walk: f64,
-    /// Random walk of the bias su.
-    pub bias_random_walk: f64,
 }
 
 impl GyroNoise {

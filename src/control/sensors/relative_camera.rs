@@ -1,9 +1,12 @@
 //! A camera on the spacecraft: attitude and rate of the debris relative to the spacecraft, within a range.
 
-use super::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, WXYZ, XYZ, optional};
 use crate::control::declared::declared;
-use crate::control::measurement::{Observes, Values, values};
+use crate::control::measurement::{Values, values};
+use crate::control::observes::Observes;
 use crate::control::rotation::quaternion_of;
+use crate::control::sensors::sensor::{
+    AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, WXYZ, XYZ, optional,
+};
 use crate::control::truth::Truth;
 use crate::control::vector::{conjugate, dcm_from_quaternion, difference, hamilton, norm, product, sum};
 

@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
-use super::Sensor;
 use crate::control::measurement::{Measurement, Values};
+use crate::control::sensors::sensor::Sensor;
 use crate::control::truth::Truth;
 
 /// A sensor in the loop: it measures every so many ticks, and delivers a measurement a fixed number of ticks later, with its age.

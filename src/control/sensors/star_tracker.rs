@@ -3,12 +3,15 @@
 //! The third axis of the tracker, F_t, is its boresight, about which a tracker measures least exactly (C. C. Liebe, IEEE Transactions on Aerospace and
 //! Electronic Systems 38(2), 2002). The others are s1 and s2, turned with s3 to the boresight the shortest way: they are s1 and s2 where it is s3.
 
-use super::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, WXYZ, axes, optional};
+use crate::control::sensors::sensor::{
+    AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, WXYZ, axes, optional,
+};
 use std::sync::Arc;
 
 use crate::control::declared::declared;
 use crate::control::estimators::attitude_innovation::WholeAttitude;
-use crate::control::measurement::{Observes, Values, values};
+use crate::control::measurement::{Values, values};
+use crate::control::observes::Observes;
 use crate::control::rotation::{from_s3_to, quaternion_of};
 use crate::control::small_matrix::{diagonal, multiplied, transposed};
 use crate::control::truth::Truth;

@@ -7,10 +7,13 @@
 use std::sync::Arc;
 
 use super::two_angles::{AnglesInView, TwoAngles};
-use super::{Components, MeasuredQuantity, Sensor, SensorContext, SensorKind, axes, optional};
 use crate::control::declared::declared;
-use crate::control::estimators::attitude_innovation::AttitudeInnovation;
-use crate::control::measurement::{AttitudeSensor, Observes, Values};
+use crate::control::estimators::attitude_innovation::{AttitudeInnovation, AttitudeSensor};
+use crate::control::measurement::Values;
+use crate::control::observes::Observes;
+use crate::control::sensors::sensor::{
+    Components, MeasuredQuantity, Sensor, SensorContext, SensorKind, axes, optional,
+};
 use crate::control::truth::Truth;
 use crate::control::vector::{norm, scaled};
 use crate::dynamics::environment::shadow::lit;
@@ -137,8 +140,8 @@ mod tests {
     use crate::control::estimators::attitude_filter::{AttitudeFilter, AttitudeObservation};
     use crate::control::estimators::delayed::Filter;
     use crate::control::measurement::part;
+    use crate::control::observes::GyroNoise;
     use crate::control::rotation::{from_s3_to, quaternion_of, vector_of};
-    use crate::control::sensors::rate_gyro::GyroNoise;
     use crate::control::small_matrix::{multiplied, transposed};
     use crate::control::vector::{
         conjugate, cross, dcm_from_quaternion, difference, dot, hamilton, product, transposed_product,

@@ -1,8 +1,11 @@
 //! Tachometers of the wheels: their rates relative to the body.
 
-use super::{Components, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, optional};
 use crate::control::declared::declared;
-use crate::control::measurement::{Observes, Values, values};
+use crate::control::measurement::{Values, values};
+use crate::control::observes::Observes;
+use crate::control::sensors::sensor::{
+    Components, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, optional,
+};
 use crate::control::truth::Truth;
 use crate::scene::schema::Limit;
 use crate::scene::{LawParameter, MAX_WHEELS};

@@ -4,10 +4,10 @@
 //! atan(u1/u3) and atan(u2/u3): what two crossed slits measure (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 7.1). The rotation about
 //! the direction is not seen.
 
-use super::{NormalErrors, SensorContext};
 use crate::control::estimators::attitude_innovation::{AttitudeInnovation, Innovation};
 use crate::control::measurement::{Values, part, values};
 use crate::control::rotation::from_s3_to;
+use crate::control::sensors::sensor::{NormalErrors, SensorContext};
 use crate::control::small_matrix::{multiplied, transposed};
 use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, product, transposed_product};
 

@@ -32,7 +32,7 @@ impl<'p> Looked<'p> {
 
     /// The control loop of the plan.
     pub fn spec(&self) -> Option<&'p LoopSpec> {
-        self.plan.law.as_ref().and_then(|law| law.spec())
+        self.plan.loop_spec()
     }
 
     /// The parameters that the nominal scene has.

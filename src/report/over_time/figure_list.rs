@@ -36,7 +36,7 @@ pub struct Traits {
 impl Traits {
     /// Of the scenes of `plan`, in which `wheels` turn.
     pub fn of(plan: &Plan, wheels: &[Name]) -> Self {
-        let spec = plan.law.as_ref().and_then(|law| law.spec());
+        let spec = plan.loop_spec();
         let is = |what: fn(&crate::control::LoopSpec) -> bool| spec.is_some_and(what);
         Traits {
             has_loop: spec.is_some(),

@@ -205,7 +205,7 @@ pub fn approach_goal(plan: &Plan, run: &SingleRun) -> Option<ApproachGoal> {
 
 /// The radius within which a mission fails, m; zero without one.
 pub fn keep_out(plan: &Plan) -> f64 {
-    let spec = plan.law.as_ref().and_then(|law| law.spec());
+    let spec = plan.loop_spec();
     if spec.is_some() { DebrisNumbers::of(&plan.nominal.control.law).keep_out } else { 0.0 }
 }
 

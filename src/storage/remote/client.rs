@@ -13,7 +13,7 @@ use object_store::path::Path as Key;
 use object_store::{ClientConfigKey, Error, ObjectStore, ObjectStoreExt, PutMode, PutOptions, RetryConfig};
 use tokio::runtime::{Builder, Runtime};
 
-use super::{Address, Connected, Objects};
+use super::address::{Address, Connected, Objects};
 
 /// How often a request is tried again: with pauses up to 15 s, some minute in all.
 const RETRIES: usize = 10;

@@ -16,7 +16,8 @@ use std::io;
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-use super::{Address, Objects};
+use super::address::{Address, Objects};
+use super::connection::connect;
 use crate::campaign::Plan;
 use crate::storage::disk::{Storage, StorageError, above, at, entries_in, new_folder};
 use crate::storage::folder::{Folder, MOST_MANIFEST, PartFile, begin, unmark};
@@ -73,7 +74,7 @@ impl Remote {
     /// Where the store does not answer, or refuses.
     pub fn open(address: Address) -> Result<Remote, StorageError> {
         let none = || io::Error::other("this build of spindrift has no object stores");
-        let connected = super::connect().ok_or_else(none).and_then(|connect| connect(&address, HEAD));
+        let connected = connect().ok_or_else(none).and_then(|connect| connect(&address, HEAD));
         let (client, head) = connected.map_err(at(Path::new(&address.to_string())))?;
         Ok(Remote { address, client, head: head.map_or_else(OnceLock::new, OnceLock::from), commits: Mutex::default() })
     }

@@ -1,20 +1,11 @@
-//! The geometry of the launch as estimated, the impulse that is left of a maneuver, and the attitude that it wants.
+//! The impulse that is left of a maneuver, and the attitude that it wants.
 
-use super::geometry::{Centers, LaunchGeometry, LaunchState};
-use crate::control::estimate::Estimate;
-use crate::control::flight_software::FlightSoftware;
+use super::FlightSoftware;
 use crate::control::guidance::phase::{Maneuver, Phase};
 use crate::control::guidance::target::{AttitudeError, TargetInput, VelocityToGo};
+use crate::control::net_launch::geometry::LaunchGeometry;
 use crate::control::vector::{dcm_from_quaternion, difference, product, scaled};
 use crate::scene::MAX_THRUSTERS;
-
-/// The geometry of the launch from the state `launch` as estimated; `None` without debris.
-pub(in crate::control) fn geometry_of(launch: &LaunchState, estimate: &Estimate) -> Option<LaunchGeometry> {
-    let debris = estimate.debris.as_ref()?;
-    let centers =
-        Centers { r_co_e: estimate.r_co_e, v_co_e: estimate.v_co_e, r_gdo_e: debris.r_gdo_e, v_gdo_e: debris.v_gdo_e };
-    Some(launch.geometry(&centers))
-}
 
 impl FlightSoftware {
     /// The impulse per mass that is left of the maneuver of the phase.

@@ -1,0 +1,81 @@
+//! [`Address`]: where a result is in an object store; [`Objects`]: what a client does there.
+
+use std::path::Path;
+use std::{fmt, io};
+
+/// The objects below an address, each by its name below that: what a client of a store does.
+pub trait Objects: Send + Sync {
+    /// Puts the object `name`, unless there is one. `None` where it has this content now; else what it has.
+    ///
+    /// # Errors
+    /// Where it is not known to be there.
+    fn create(&self, name: &str, bytes: &[u8]) -> io::Result<Option<Vec<u8>>>;
+
+    /// The content of the object `name`; `None` where there is none.
+    ///
+    /// # Errors
+    /// Where that is not known.
+    fn get(&self, name: &str) -> io::Result<Option<Vec<u8>>>;
+
+    /// The names of the objects of the folder `folder`.
+    ///
+    /// # Errors
+    /// Where they are not known.
+    fn list(&self, folder: &str) -> io::Result<Vec<String>>;
+}
+
+/// A client, and the content of an object, if there is one: so the client is known to work.
+pub type Connected = (Box<dyn Objects>, Option<Vec<u8>>);
+
+/// Where a result is in an object store: `s3://bucket/prefix`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Address {
+    pub bucket: String,
+    /// What the names of its objects begin with, without a slash at the end.
+    pub prefix: String,
+}
+
+impl Address {
+    /// The address that `path` is; `None` of the path of a folder. `has_client`: whether this process can connect to a store.
+    ///
+    /// # Errors
+    /// What is wrong with it; in a build without object stores, how to get one with them.
+    pub fn of(path: &Path, has_client: bool) -> Result<Option<Address>, String> {
+        let Some((scheme, rest)) = path.to_str().and_then(|text| text.split_once(':')) else { return Ok(None) };
+        // a letter is a disk of Windows
+        let is_scheme = scheme.len() > 1 && scheme.bytes().all(|byte| byte.is_ascii_alphanumeric());
+        if !is_scheme || !(rest.starts_with('/') || scheme.eq_ignore_ascii_case("s3")) {
+            return Ok(None);
+        }
+        let shown = path.display();
+        let Some(rest) = rest.strip_prefix("//").filter(|_| scheme == "s3") else {
+            return Err(format!(
+                "{shown}: must be a folder, or an address in a store that has S3's interface: s3://bucket/name; \
+                         a folder with this name is ./{shown}"
+            ));
+        };
+        if !has_client {
+            return Err(format!(
+                "{shown}: this build of spindrift has no object stores; build one that has them: cargo build --release --features cloud"
+            ));
+        }
+        let (bucket, prefix) = rest.split_once('/').unwrap_or((rest, ""));
+        let prefix = prefix.trim_end_matches('/');
+        let is_name = |name: &str| {
+            let is_allowed = |byte: u8| byte.is_ascii_alphanumeric() || b"-_.=+@".contains(&byte);
+            !name.is_empty() && ![".", ".."].contains(&name) && name.bytes().all(is_allowed)
+        };
+        if !is_name(bucket) || !prefix.split('/').all(is_name) {
+            return Err(format!(
+                "{shown}: must be s3://bucket/name, with further names between slashes where you like; names have letters, digits and -_.=+@"
+            ));
+        }
+        Ok(Some(Address { bucket: bucket.to_owned(), prefix: prefix.to_owned() }))
+    }
+}
+
+impl fmt::Display for Address {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "s3://{}/{}", self.bucket, self.prefix)
+    }
+}
