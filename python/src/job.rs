@@ -8,7 +8,6 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use spindrift::cli::run_campaign::refuse_work;
 use spindrift::workflow::{CampaignOutcome, Outputs, Session, Watch, WorkflowError};
 
 use crate::campaign_source::{CampaignSource, prepared};
@@ -128,7 +127,7 @@ fn ran(run: &Run, watch: &Shared) -> Ended {
     if run.law.is_some() {
         refuse_unnamed(campaign.plan())?;
     }
-    refuse_work(&campaign, (None, run.threads), run.overwrite, run.yes)?;
+    campaign.refuse_work(run.yes)?;
     Ok(match campaign.run()? {
         CampaignOutcome::Stopped { samples, left } => Some((samples, left)),
         _ => None,

@@ -6,10 +6,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use spindrift::campaign;
 use spindrift::cli::check;
-use spindrift::cli::workload::Workload;
 use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::workflow::simulated::simulated;
+use spindrift::workflow::workload::Workload;
 use spindrift::workflow::{Quiet, Session, WorkflowError};
 
 use crate::campaign_source::{CampaignSource, prepared};

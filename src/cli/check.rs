@@ -7,7 +7,6 @@ use crate::analysis::part_columns::RowNames;
 use crate::campaign::{Plan, failed_device};
 use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::workload::Workload;
 use crate::cli::{completed_text, dispersions, scene_text, screen};
 use crate::control::capacity::Capacity;
 use crate::control::laws::asked;
@@ -28,6 +27,7 @@ use crate::storage::rows_file;
 use crate::table::wrapped::wrapped;
 use crate::workflow::isa;
 use crate::workflow::source::plan;
+use crate::workflow::workload::Workload;
 
 /// Runs the command.
 ///

@@ -1,10 +1,9 @@
 //! Layer 12: the command line.
 //!
-//! - [`program`]: the program as a whole. - [`arguments`]: commands and options; [`argument_values`]: their values; [`help`]: what their help texts end with. - [`outputs`]: which files a command may write. - [`workload`]: what a command would
-//!   compute and write, refused where it cannot be done; [`machine`]: what is left of memory and disk.
+//! - [`program`]: the program as a whole. - [`arguments`]: commands and options; [`argument_values`]: their values; [`help`]: what their help texts end with. - [`outputs`]: which files a command may write.
 //! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`index`], [`new`], [`precision`], [`report`], [`sample`],
 //!   [`simulate`]: one command each; [`completed_text`]: what is printed of a result.
-//! - [`dispersions`]: the dispersions of a plan as text. - [`terminal`]: notes and the progress bar; [`screen`]: printing, [`colour`]: in colour; [`signals`].
+//! - [`dispersions`]: the dispersions of a plan as text. - [`terminal`]: notes and the progress bar; [`screen`]: printing, [`terminal_width`]: how wide, [`colour`]: in colour; [`signals`].
 //! - [`command_outcome`]: how a command ends, and its exit code.
 //!
 //! Not here: physics, sampling, file formats, and what campaigns and results are (`workflow`).
@@ -21,7 +20,6 @@ pub mod dispersions;
 pub mod finish_campaign;
 pub mod help;
 pub mod index;
-pub mod machine;
 pub mod new;
 pub mod outputs;
 pub mod precision;
@@ -34,5 +32,5 @@ pub mod screen;
 pub mod signals;
 pub mod simulate;
 pub mod terminal;
+pub mod terminal_width;
 pub mod verify;
-pub mod workload;

@@ -7,7 +7,6 @@ use crate::cli::arguments::PrecisionOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::refuse_inputs;
 use crate::cli::screen;
-use crate::cli::workload::Workload;
 use crate::dynamics::effects::ForceModel;
 use crate::ensemble::Ensemble;
 use crate::ensemble::precision::{Limits, Precision, States};
@@ -21,6 +20,7 @@ use crate::storage::precision_table::precision_table;
 use crate::storage::{atomic, table_file};
 use crate::workflow::isa;
 use crate::workflow::source::plan_and_files;
+use crate::workflow::workload::Workload;
 
 /// Runs the command.
 ///

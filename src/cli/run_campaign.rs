@@ -1,6 +1,5 @@
 //! `spindrift campaign`: runs the samples of a campaign that are not there yet, and finishes the result.
 
-use std::num::NonZeroUsize;
 use std::path::Path;
 
 use crate::cli::arguments::CampaignOptions;
@@ -10,7 +9,6 @@ use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::screen;
 use crate::cli::signals;
 use crate::cli::terminal::Terminal;
-use crate::cli::workload::Workload;
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
 use crate::storage::claim::Shard;
@@ -120,28 +118,7 @@ fn check(options: &CampaignOptions, campaign: &PreparedCampaign<'_>) -> Result<(
     let outputs = [("--junit", options.junit.as_deref()), ("--figures", options.figures.as_deref())];
     refuse_inputs(&campaign.files().paths(), &[outputs[0], ("--out", Some(root))])?;
     refuse_within(root, &outputs)?;
-    refuse_work(campaign, (options.shard, options.threads), options.overwrite, options.yes)
-}
-
-/// Refuses what the machine cannot do, and without `yes` what takes long or most of the disk.
-///
-/// # Errors
-/// The refusal.
-pub fn refuse_work(
-    campaign: &PreparedCampaign<'_>,
-    (shard, threads): (Option<Shard>, Option<NonZeroUsize>),
-    overwrite: bool,
-    yes: bool,
-) -> Result<(), Failure> {
-    let (plan, root, ensemble) = (campaign.plan(), campaign.root(), campaign.ensemble());
-    let there = Some(root).filter(|_| !overwrite);
-    let work = |samples| Workload::of_campaign((&ensemble, samples), there, shard, threads).measured(&ensemble);
-    if let [first, .., last] = plan.looks()[..] {
-        work(first).check(root, yes, shard.is_some())?;
-        work(last).check_limit(root, yes)
-    } else {
-        work(plan.rows()).check(root, yes, shard.is_some())
-    }
+    campaign.refuse_work(options.yes)
 }
 
 fn ended_by(name: &str, failed: &FailedRun, root: &Path) -> String {

@@ -6,7 +6,6 @@ use crate::campaign::{Overrides, Plan, draw};
 use crate::cli::arguments::SampleOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::refuse_inputs;
-use crate::cli::workload::{Workload, plotted_samples};
 use crate::cli::{dispersions, screen};
 use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::findings::number::counted;
@@ -17,6 +16,7 @@ use crate::sampling::SampleId;
 use crate::storage::drawn_table;
 use crate::storage::table_file::TableFormat;
 use crate::workflow::source::plan_and_files;
+use crate::workflow::workload::{Workload, plotted_samples};
 
 /// Runs the command.
 ///

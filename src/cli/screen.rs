@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal, Write};
 
 use crate::campaign::excerpt::printable;
 use crate::cli::colour::{self, Kind, coloured};
-use crate::cli::machine::{Stream, terminal_width};
+use crate::cli::terminal_width::{Stream, terminal_width};
 use crate::table::wrapped::message;
 
 /// Prints a result on standard output.

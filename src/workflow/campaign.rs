@@ -17,6 +17,7 @@ use crate::workflow::running::{Running, run_missing};
 use crate::workflow::session::Session;
 use crate::workflow::source::plan_and_files;
 use crate::workflow::stored::{Stored, address};
+use crate::workflow::workload::Workload;
 
 /// Default folder of results, in the current folder.
 pub const RESULTS: &str = "results";
@@ -226,6 +227,24 @@ impl PreparedCampaign<'_> {
     /// The plan ready to run.
     pub fn ensemble(&self) -> Ensemble<'_> {
         Ensemble::new(&self.plan, self.campaign.session.isa)
+    }
+
+    /// Refuses what the machine cannot do, and without `yes` what takes long or most of the disk.
+    ///
+    /// # Errors
+    /// The refusal, with the numbers and the remedy.
+    pub fn refuse_work(&self, yes: bool) -> Result<(), WorkflowError> {
+        let Campaign { session, shard, overwrite, .. } = &self.campaign;
+        let (plan, root, ensemble) = (&self.plan, &*self.root, self.ensemble());
+        let there = Some(root).filter(|_| !overwrite);
+        let work =
+            |samples| Workload::of_campaign((&ensemble, samples), there, *shard, session.threads).measured(&ensemble);
+        if let [first, .., last] = plan.looks()[..] {
+            work(first).check(root, yes, shard.is_some())?;
+            work(last).check_limit(root, yes)
+        } else {
+            work(plan.rows()).check(root, yes, shard.is_some())
+        }
     }
 
     /// Runs what is not there yet: all samples, those that an interrupted run has not made, or those that a larger campaign has more.

@@ -7,6 +7,7 @@
 //! - [`verification`]: whether a result is what was written, and (`derived_check`) what its rows say.
 //! - [`results_index`]: all results below a folder. - [`failed_samples`]: samples that failed, again or as the end. - [`source`]: where plans come from. - [`session`]: disk, threads, control law, and who
 //!   is told. - `stored`: results in an object store. - [`error`].
+//! - [`workload`]: what a command would compute and write, refused where it cannot be done; [`machine`]: what is left of memory and disk.
 //!
 //! Not here: what is printed, options and exit codes (`cli`).
 
@@ -18,6 +19,7 @@ mod ending;
 pub mod error;
 pub mod failed_samples;
 pub mod finishing;
+pub mod machine;
 pub mod outcome;
 pub mod page;
 pub mod results;
@@ -28,6 +30,7 @@ pub mod simulated;
 pub mod source;
 mod stored;
 pub mod verification;
+pub mod workload;
 
 pub use analysed::Analysed;
 pub use campaign::{Campaign, PreparedCampaign};

@@ -1,5 +1,4 @@
-//! What the machine has: memory and space on a disk that are left, and the width of the terminal. Only refusals, warnings and the layout of
-//! tables on the screen depend on it.
+//! What the machine has left: memory, and space on a disk. Only refusals depend on it.
 
 use std::path::Path;
 
@@ -15,27 +14,6 @@ pub fn free_disk(path: &Path) -> Option<u64> {
 /// Free space of a disk; unknown here.
 #[cfg(not(unix))]
 pub fn free_disk(_path: &Path) -> Option<u64> {
-    None
-}
-
-/// What may be a terminal.
-#[cfg(unix)]
-pub use std::os::fd::AsFd as Stream;
-
-/// What may be a terminal.
-#[cfg(not(unix))]
-pub use std::io::IsTerminal as Stream;
-
-/// Number of characters in a line of the terminal that shows `stream`; `None` where it is no terminal or does not say.
-#[cfg(unix)]
-pub fn terminal_width(stream: &impl Stream) -> Option<usize> {
-    let size = rustix::termios::tcgetwinsize(stream).ok()?;
-    Some(usize::from(size.ws_col)).filter(|width| *width > 0)
-}
-
-/// Width of a terminal; unknown here.
-#[cfg(not(unix))]
-pub fn terminal_width(_stream: &impl Stream) -> Option<usize> {
     None
 }
 

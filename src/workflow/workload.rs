@@ -6,8 +6,6 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use crate::campaign::{Plan, Retention};
-use crate::cli::command_outcome::Failure;
-use crate::cli::machine::{free_disk, free_memory};
 use crate::ensemble::Ensemble;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe};
 use crate::ensemble::run_cost::{parts_of_runs, run_seconds};
@@ -20,6 +18,8 @@ use crate::storage::claim::Shard;
 use crate::storage::disk::Disk;
 use crate::storage::found::{FolderContents, contents};
 use crate::storage::rows_file;
+use crate::workflow::error::WorkflowError;
+use crate::workflow::machine::{free_disk, free_memory};
 
 /// CPU time beyond which a command asks for `--yes`, s.
 const LONG_S: f64 = 24.0 * 3600.0;
@@ -190,19 +190,19 @@ impl Workload {
     ///
     /// # Errors
     /// The refusal, with the numbers and the remedy.
-    pub fn check(&self, root: &Path, yes: bool, is_shard: bool) -> Result<(), Failure> {
+    pub fn check(&self, root: &Path, yes: bool, is_shard: bool) -> Result<(), WorkflowError> {
         self.refusal([free_disk(root), free_memory()], root, yes, is_shard)
-            .map_or(Ok(()), |why| Err(Failure::Input(why)))
+            .map_or(Ok(()), |why| Err(WorkflowError::Input(why)))
     }
 
     /// Refuses, without `yes`, what [`Workload::check`] refuses with it or without: of a campaign that may end earlier.
     ///
     /// # Errors
     /// The refusal, with the numbers and the remedy.
-    pub fn check_limit(&self, root: &Path, yes: bool) -> Result<(), Failure> {
+    pub fn check_limit(&self, root: &Path, yes: bool) -> Result<(), WorkflowError> {
         match self.check(root, false, false) {
-            Err(Failure::Input(why)) if !yes => {
-                Err(Failure::Input(format!("at most {why}; with --yes it starts, and may end earlier ([stop])")))
+            Err(WorkflowError::Input(why)) if !yes => {
+                Err(WorkflowError::Input(format!("at most {why}; with --yes it starts, and may end earlier ([stop])")))
             }
             _ => Ok(()),
         }
