@@ -39,7 +39,8 @@
 //! `docs/model.md` the equations.
 
 #![forbid(unsafe_code)]
-#![warn(clippy::unwrap_used, clippy::print_stdout)] // failures are values; a printing macro panics where the pipe is closed
+// failures are values; a printing macro panics where the pipe is closed
+#![warn(clippy::unwrap_used, clippy::print_stdout)]
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 #[doc(hidden)]
@@ -120,7 +121,8 @@ pub use dynamics::actuation::Actuation;
 ///     body_torque: body.omega_se_s.map(|rate| -rate),
 ///     ..Actuation::none(f64::INFINITY)
 /// };
-/// let body = BodyState { omega_se_s: [0.1, 0.0, 0.0], q_es: [1.0, 0.0, 0.0, 0.0], r_co_e: [0.0; 3], v_co_e: [0.0; 3] };
+/// let (omega_se_s, q_es) = ([0.1, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]);
+/// let body = BodyState { omega_se_s, q_es, r_co_e: [0.0; 3], v_co_e: [0.0; 3] };
 /// assert_eq!(law.arc(0.0, &body, &WheelState::AT_REST).body_torque[0], -0.1);
 /// ```
 #[doc(inline)]
@@ -275,7 +277,10 @@ pub use propagation::Engine;
 #[doc(inline)]
 pub use propagation::Method as PropagationMethod;
 /// ```
-/// use spindrift::{Control, Grid, Isa, PropagationMethod, PropagationSettings, Scene, SceneInput, StateField, StateFields, Status, Tolerance};
+/// use spindrift::{
+///     Control, Grid, Isa, PropagationMethod, PropagationSettings, Scene, SceneInput, StateField, StateFields, Status,
+///     Tolerance,
+/// };
 /// let scene = Scene::resolve(&SceneInput::report()).unwrap();
 /// let tolerance = Tolerance { relative: 1e-12, absolute: 1e-12 };
 /// let control = Control { tolerance, step: None, max_steps: 100_000 };
@@ -383,9 +388,12 @@ pub use scene::SceneInput;
 #[doc(inline)]
 pub use scene::schema::Limit;
 /// ```
-/// use spindrift::{Campaign, CampaignOutcome, Outputs, Quiet, Results, SampleId, Session, Verification, WorkflowError, verify};
+/// use spindrift::{
+///     Campaign, CampaignOutcome, Outputs, Quiet, Results, SampleId, Session, Verification, WorkflowError, verify,
+/// };
 ///
-/// let (watch, folder) = (Quiet::default(), std::env::temp_dir().join(format!("spindrift-doctest-{}", std::process::id())));
+/// let watch = Quiet::default();
+/// let folder = std::env::temp_dir().join(format!("spindrift-doctest-{}", std::process::id()));
 /// let session = Session::new(&watch)?;
 /// let campaign = Campaign::from_file("campaigns/no_debris.toml", session).samples(50).store(&folder);
 /// let Some(prepared) = campaign.prepare()? else { panic!("all samples are meant") };

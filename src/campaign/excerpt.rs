@@ -60,8 +60,7 @@ impl Display for Excerpt {
 
 /// Whether a terminal may obey `letter`, or it changes the order of what is read: control characters, and marks of writing direction.
 fn is_unsafe(letter: char) -> bool {
-    letter.is_control()
-        || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{2028}' | '\u{2029}')
+    letter.is_control() || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 /// `text` with escapes, `\u{1b}`, for the characters that a terminal may obey, except for line ends and tabs.

@@ -97,7 +97,9 @@ pub const ROWS: [Row; 13] = [
     Row::new("at_least", Kind::Amount, "Lower limit, in the unit of the observable or quantity"),
     Row::new("bounded", Kind::Numbers(BOUNDS), "For a mean: two values between which every run is known to lie"),
     Row::new("never", Kind::Word(&NEVER), "For a fraction: whether a run without a value, because the event never happens, meets the limit"),
-    Row::new("confidence", Kind::Number, "Confidence of the verdict").limited(CONFIDENCE).or(Presence::Or(DEFAULT_CONFIDENCE)),
+    Row::new("confidence", Kind::Number, "Confidence of the verdict")
+        .limited(CONFIDENCE)
+        .or(Presence::Or(DEFAULT_CONFIDENCE)),
 ];
 
 const A_TABLE_EACH: &str = "write a [[require]] table for each";

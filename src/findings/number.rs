@@ -228,7 +228,8 @@ pub fn typeset(text: &str) -> String {
             out += "\u{202f}\u{d7}\u{202f}10";
             at += 1;
             while at < letters.len() && (letters[at] == '-' || letters[at].is_ascii_digit()) {
-                let digit = letters[at].to_digit(10).and_then(|digit| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(digit as usize));
+                let digit = letters[at].to_digit(10);
+                let digit = digit.and_then(|digit| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(digit as usize));
                 out.push(digit.unwrap_or('⁻'));
                 at += 1;
             }

@@ -1,11 +1,11 @@
 //! [`Manifest`]: what a dataset consists of, as lines of JSON that are only ever appended to.
 //!
 //! ```text
-//! {"spindrift":"dataset","format":5,...,"crc":"9f3c0a71"}        what the rows are: hash of the row plan, seed, columns, arithmetic
+//! {"spindrift":"dataset","format":5,...,"crc":"9f3c0a71"}  the rows: hash of the row plan, seed, columns, arithmetic
 //! {"plan":"[campaign]\n...","crc":...}                            the text of plan.toml; the last such line holds
 //! {"part":0,"first_sample":0,"rows":256,"files":[...],"crc":...} a part whose files are whole and on the disk
 //! {"dropped":3,"crc":...}                                         a part that is to be made again
-//! {"finished":true,"parts":16,"rows":4096,"files":[...],"crc":...} all of it is there, with every file that follows from the rows
+//! {"finished":true,"parts":16,"rows":4096,"files":[...],"crc":...} all is there, with every file that follows from it
 //! ```
 //! Only what is listed exists. Every line ends with the CRC-32 (ISO 3309) of what stands before it: a line that a crash cut off, or in which a
 //! bit has changed, is recognised and left out, and the part that it listed is made again.

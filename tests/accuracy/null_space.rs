@@ -235,7 +235,8 @@ proptest! {
         let c_es = rotation(state.fuselage.dcm);
         let (omega, omega_dot) = (Vector3::from(state.omega_s), Vector3::from(rate.omega_s));
         let c = Vector3::from(scene.mass.center);
-        let p_dot = (Vector3::from(rate.v_p) + c_es * (omega_dot.cross(&c) + omega.cross(&omega.cross(&c)))) * scene.mass.total;
+        let of_center = c_es * (omega_dot.cross(&c) + omega.cross(&omega.cross(&c)));
+        let p_dot = (Vector3::from(rate.v_p) + of_center) * scene.mass.total;
         let size = scene.mass.total * (1.0 + omega.norm_squared() + omega_dot.norm()) * (1.0 + c.norm());
         // measured: 3.2e-16
         prop_assert!((p_dot - Vector3::from(rate.impulse)).norm() <= 3e-15 * size);

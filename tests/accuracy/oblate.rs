@@ -171,7 +171,7 @@ fn every_method_finds_the_reference_solution() {
 ///
 /// ```text
 /// mu, k, H = mpf('3.986004418e14'), 3*mpf('1.08262668e-3')*mpf(6378137)**2/2, 60
-/// # r'' = -(s + f - g z^2) r - 2 f z e3 with s, f, g = mu/|r|^3, mu k/|r|^5, 5 mu k/|r|^7 and the recurrences of powers of r . r
+/// # r'' = -(s + f - g z^2) r - 2 f z e3 with s, f, g = mu/|r|^3, mu k/|r|^5, 5 mu k/|r|^7, by recurrences of powers
 /// ```
 #[test]
 fn debris_beside_a_spacecraft() {

@@ -72,11 +72,15 @@ pub static KINDS: &[LawKind] = &[
 ///     }
 /// }
 ///
-/// static PARAMETERS: [LawParameter; 1] = [LawParameter::number("brake_n_m_s", "N m s", "Torque over rate", Limit::Positive)];
+/// static PARAMETERS: [LawParameter; 1] =
+///     [LawParameter::number("brake_n_m_s", "N m s", "Torque over rate", Limit::Positive)];
 /// static BRAKE: LawKind = LawKind {
 ///     name: "brake",
 ///     parameters: &PARAMETERS,
-///     make: |settings: &LawSettings<'_>| AttitudeLaw::own(Brake { gain: settings.table.named("brake_n_m_s").map_or(0.0, |c| c[0]) }),
+///     make: |settings: &LawSettings<'_>| {
+///         let gain = settings.table.named("brake_n_m_s").map_or(0.0, |numbers| numbers[0]);
+///         AttitudeLaw::own(Brake { gain })
+///     },
 /// };
 /// assert_eq!(BRAKE.name, "brake");
 /// ```

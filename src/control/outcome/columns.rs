@@ -123,7 +123,7 @@ const fn row(
 /// All columns, in their order.
 #[rustfmt::skip]
 static TABLE: [Row; 43] = [
-    row("launched", "", Needs::Launch, |run, _| f64::from(u8::from(run.outcome.failure == Failure::None && run.outcome.end.is_finite())),
+    row("launched", "", Needs::Launch, |run, _| f64::from(u8::from(run.outcome.has_launched())),
         "Whether the net was launched: 1 or 0."),
     row("failure", "", Needs::Nothing, |run, _| run.outcome.failure.code(), "Why the mission failed: <failures>."),
     row("phase_final", "", Needs::Nothing, |run, _| run.guidance.phase as f64, "The phase in which the run ended: <phases>."),
@@ -134,7 +134,7 @@ static TABLE: [Row; 43] = [
         "Rotation angle from the true attitude to the target of the last phase that had one, at the last tick."),
     row("settling_time_s", "s", Needs::Target, |run, _| run.outcome.settled_since - run.outcome.pointing_since,
         "Time from the beginning of the last phase with a target until the pointing error stayed within control.settling_band_rad; null if it never did."),
-    row("overshoot_rad", "rad", Needs::Target, |run, _| if run.outcome.pointing_since.is_nan() { f64::NAN } else { run.outcome.overshoot },
+    row("overshoot_rad", "rad", Needs::Target, |run, _| run.outcome.overshoot_of_target(),
         "Largest angle beyond the target, against the direction of the error with which the last phase with a target began."),
     row("mission_settling_time_s", "s", Needs::Target, |run, _| run.outcome.stability.settled_since(),
         "Time from the start of the run until the pointing error stayed within control.settling_band_rad to the end, in all phases from then on; null if it never did."),
@@ -164,7 +164,8 @@ static TABLE: [Row; 43] = [
         "Sum of the impulses of all thrusters, fired by the loop."),
     row("delta_v_m_s", "m/s", Needs::Thrusters, |run, _| run.outcome.velocity_change,
         "Integral of the magnitude of the acceleration from thrust."),
-    row("propellant_kg", "kg", Needs::Thrusters, |run, _| finite(run.outcome.impulse_total() / (STANDARD_GRAVITY * run.criteria.isp)),
+    row("propellant_kg", "kg", Needs::Thrusters,
+        |run, _| finite(run.outcome.impulse_total() / (STANDARD_GRAVITY * run.criteria.isp)),
         "Propellant used at control.isp_s; null if that is not known. The mass of the spacecraft is constant."),
     row("plume_time_s", "s", Needs::Plumes, |run, _| run.outcome.plume_time,
         "Time during which a thruster fired at debris within control.plume_range_m and control.plume_half_angle_rad of its plume's axis, by the state at the start of each arc."),

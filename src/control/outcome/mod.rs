@@ -165,6 +165,16 @@ impl MissionOutcome {
         self.plume_time += if hits { length } else { 0.0 };
     }
 
+    /// Whether the net was launched.
+    fn has_launched(&self) -> bool {
+        self.failure == Failure::None && self.end.is_finite()
+    }
+
+    /// Largest rotation to the target after it was first passed, rad; NaN where no phase had a target.
+    fn overshoot_of_target(&self) -> f64 {
+        if self.pointing_since.is_nan() { f64::NAN } else { self.overshoot }
+    }
+
     /// The sum of the impulses of all thrusters so far, N s.
     pub fn impulse_total(&self) -> f64 {
         self.impulse.iter().sum()

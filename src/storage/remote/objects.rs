@@ -1,7 +1,7 @@
 //! [`Remote`]: a result in an object store: the files of its folder under their names, and what says which of them are whole.
 //!
 //! ```text
-//! s3://bucket/x/_commits/plan.jsonl          what the rows are, and the plan: who puts it first decides whose rows these are
+//! s3://bucket/x/_commits/plan.jsonl          rows and plan: who puts it first decides whose rows these are
 //! s3://bucket/x/runs/part-000000.parquet     rows, as in the folder
 //! s3://bucket/x/_commits/part-000000.jsonl   the line of the manifest that lists this part: its files are there
 //! s3://bucket/x/summary.json, ...            what follows from the rows

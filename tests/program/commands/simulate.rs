@@ -38,7 +38,8 @@ fn simulate_writes_the_promised_columns() {
     let scratch = folder("columns");
     scratch.prints("simulate small.toml --out s.csv", 0);
     let text = scratch.text("s.csv");
-    let expected = "time_s,r_po_e_x_m,r_po_e_y_m,r_po_e_z_m,v_po_e_x_m_s,v_po_e_y_m_s,v_po_e_z_m_s,q_es_w,q_es_x,q_es_y,q_es_z,\
+    let expected = "time_s,r_po_e_x_m,r_po_e_y_m,r_po_e_z_m,v_po_e_x_m_s,v_po_e_y_m_s,v_po_e_z_m_s,\
+        q_es_w,q_es_x,q_es_y,q_es_z,\
         omega_se_s_x_rad_s,omega_se_s_y_rad_s,omega_se_s_z_rad_s,angle_w1_rad,rate_w1_rad_s,angle_w2_rad,rate_w2_rad_s,\
         r_gdo_e_x_m,r_gdo_e_y_m,r_gdo_e_z_m,v_gdo_e_x_m_s,v_gdo_e_y_m_s,v_gdo_e_z_m_s,q_ed_w,q_ed_x,q_ed_y,q_ed_z,\
         omega_de_d_x_rad_s,omega_de_d_y_rad_s,omega_de_d_z_rad_s,\
