@@ -1,5 +1,5 @@
-//! [`Capacity`]: about which axes a loop has torque in both directions, whether the momentum of the nominal scene fits into its wheels, and about which axes
-//! its thrusters can take it out again.
+//! [`Capacity`]: about which axes a loop has torque in both directions, whether the momentum of the nominal scene fits
+//! into its wheels, and about which axes its thrusters can take it out again.
 
 use super::allocation::{ThrustAllocation, WheelTorque};
 use crate::control::observes::Observes;
@@ -9,22 +9,25 @@ use crate::control::vector::{difference, dot, norm, product, scaled, sum};
 use crate::math::symmetric::principal_axes;
 use crate::scene::Scene;
 
-/// Torques of wheels and thrusters in a direction below this, of the sum of two projections, are none: above its rounding, 1e-16, and below the square of any
-/// alignment that is used, 1e-12.
+/// Torques of wheels and thrusters in a direction below this, of the sum of two projections, are none: above its
+/// rounding, 1e-16, and below the square of any alignment that is used, 1e-12.
 const NOTHING: f64 = 1e-13;
 
-/// What a loop can do about torque, and about the angular momentum of the nominal scene about its centre of mass. Axes are unit vectors in F_s.
+/// What a loop can do about torque, and about the angular momentum of the nominal scene about its centre of mass. Axes
+/// are unit vectors in F_s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capacity {
     /// The part of the momentum within the span of the wheels' axes, N m s.
     pub within_reach: f64,
-    /// The most that the wheels can take in its direction within their limits of speed, shared by least norm, N m s; infinite without limits.
+    /// The most that the wheels can take in its direction within their limits of speed, shared by least norm, N m s;
+    /// infinite without limits.
     pub wheels: f64,
     /// The part about axes without torque in both directions, N m s: the loop cannot take it.
     pub out_of_reach: f64,
     /// The axes that span the torques of the wheels.
     pub wheel_axes: Vec<[f64; 3]>,
-    /// The axes that span the torques of the thrusters in both directions, with the total thrust and the net force of 1 N m, N.
+    /// The axes that span the torques of the thrusters in both directions, with the total thrust and the net force of 1
+    /// N m, N.
     pub thruster_axes: Vec<([f64; 3], [f64; 2])>,
     /// The number of axes about which they unload the wheels: where the force is held, without a net force.
     pub unloaded_axes: usize,
@@ -105,13 +108,15 @@ impl Capacity {
         let mut notes = Vec::new();
         if self.within_reach > self.wheels {
             notes.push(format!(
-                "the wheels of the loop can take {:.3} N m s of the nominal momentum of {:.3} N m s along their axes: they saturate when the body is stopped",
+                "the wheels of the loop can take {:.3} N m s of the nominal momentum of {:.3} N m s along their axes: \
+                they saturate when the body is stopped",
                 self.wheels, self.within_reach
             ));
         }
         if !self.free_axes.is_empty() && spec.phases.iter().any(|phase| phase.law.is_some()) {
             notes.push(format!(
-                "neither wheels nor thrusters of the loop have torque in both directions about {}: the loop cannot control the attitude about it; add wheels or thrusters",
+                "neither wheels nor thrusters of the loop have torque in both directions about {}: the loop cannot \
+                control the attitude about it; add wheels or thrusters",
                 names(&self.free_axes)
             ));
         }
@@ -127,7 +132,8 @@ impl Capacity {
             let axes = ["no axis", "one axis", "two axes"][self.unloaded_axes];
             let held = if spec.holds_force { " without a net force" } else { "" };
             notes.push(format!(
-                "the thrusters of the loop have torque in both directions{held} about {axes} alone: momentum of the wheels about the others cannot be unloaded without a turn"
+                "the thrusters of the loop have torque in both directions{held} about {axes} alone: momentum of the \
+                wheels about the others cannot be unloaded without a turn"
             ));
         }
         let is_read = |sensor: &SensorSpec| matches!(sensor.observes(), Observes::Field(_)) && !spec.rods.is_empty();
@@ -177,7 +183,8 @@ mod tests {
         (found, notes)
     }
 
-    /// Law: the momentum of Berdoz's spacecraft along s2, s3 is within the wheels' limits where J Omega says so; that along s1 is for P2 and P3, about s1 alone.
+    /// Law: the momentum of Berdoz's spacecraft along s2, s3 is within the wheels' limits where J Omega says so; that
+    /// along s1 is for P2 and P3, about s1 alone.
     #[test]
     fn momenta_fit_or_not() {
         let (found, notes) = capacity(&[]);

@@ -6,8 +6,8 @@ use crate::scene::{ControlInput, Scene};
 
 /// What the law of one run is made from.
 ///
-/// A law is to know what flight software knows: the nominal scene, its own parameters, and what its sensors measure. The drawn scene is the truth,
-/// for models of sensors and actuators only.
+/// A law is to know what flight software knows: the nominal scene, its own parameters, and what its sensors measure.
+/// The drawn scene is the truth, for models of sensors and actuators only.
 #[derive(Clone, Copy, Debug)]
 pub struct LawContext<'a> {
     /// The scene without dispersions.
@@ -24,7 +24,8 @@ pub struct LawContext<'a> {
     pub seed: u64,
     /// The duration of the campaign, s.
     pub duration: f64,
-    /// When this run ends, s: after that, or at an event that ends it. The law must not decide by it: where an event ends a run is found in one that goes on.
+    /// When this run ends, s: after that, or at an event that ends it. The law must not decide by it: where an event
+    /// ends a run is found in one that goes on.
     pub end: f64,
     /// Where a control loop writes its quantities over time; `None` where nobody reads them.
     pub record: Option<&'a SharedRecord>,
@@ -55,8 +56,8 @@ impl LawContext<'_> {
         }
     }
 
-    /// Random numbers of this run for the purpose `name` (`gyro.noise.x`), tick by tick: the same for the same seed, sample, name and tick,
-    /// whatever else is drawn.
+    /// Random numbers of this run for the purpose `name` (`gyro.noise.x`), tick by tick: the same for the same seed,
+    /// sample, name and tick, whatever else is drawn.
     pub fn noise(&self, name: &str) -> Noise {
         Noise::new(self.seed, name, self.sample)
     }

@@ -23,9 +23,8 @@ impl DeclaredValue for f64 {
     }
 }
 
-/// `declared! { /// doc
-/// Name = ROWS { field: f64 = row; other: [f64; 3] = row; } }`: the struct `Name` with these fields, its rows `ROWS` for campaign files, and
-/// `Name::of(&table)`, which reads them.
+/// `declared! { /// doc Name = ROWS { field: f64 = row; other: [f64; 3] = row; } }`: the struct `Name` with these
+/// fields, its rows `ROWS` for campaign files, and `Name::of(&table)`, which reads them.
 macro_rules! declared {
     ($(#[$about:meta])* $name:ident = $rows:ident { $($field:ident: $type:ty = $row:expr;)+ }) => {
         $(#[$about])*
@@ -71,11 +70,13 @@ mod tests {
         /// Of this test.
         Numbers = ROWS {
             gain: f64 = LawParameter::number("gain", "1", "Gain", Limit::Positive);
-            bias: [f64; 3] = LawParameter::number("bias", "1", "Bias", Limit::Finite).with_components(&["x", "y", "z"]).or(&[1.0, 2.0, 3.0]);
+            bias: [f64; 3] = LawParameter::number("bias", "1", "Bias", Limit::Finite).with_components(&["x", "y",
+                "z"]).or(&[1.0, 2.0, 3.0]);
         }
     }
 
-    /// Law: a field has the numbers of its own key; where the table does not have the key, the default, or NaN without one.
+    /// Law: a field has the numbers of its own key; where the table does not have the key, the default, or NaN without
+    /// one.
     #[test]
     fn fields_have_the_numbers_of_their_keys() {
         let mut table = DeclaredTable::of(Name::NONE, &ROWS);

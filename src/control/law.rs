@@ -14,9 +14,9 @@ use crate::scene::{Actuated, LawParameter};
 
 /// A control law that a campaign flies.
 ///
-/// Its name and its parameters are part of the plan, and so of the identity of the rows. The law of a run is made at its start and sees this run
-/// alone; it must not depend on anything but its context and what it is told in the run. Change the name where you change the law: rows that are
-/// there already are then other rows.
+/// Its name and its parameters are part of the plan, and so of the identity of the rows. The law of a run is made at
+/// its start and sees this run alone; it must not depend on anything but its context and what it is told in the run.
+/// Change the name where you change the law: rows that are there already are then other rows.
 #[derive(Clone)]
 pub struct ControlLaw {
     name: &'static str,
@@ -29,7 +29,8 @@ pub struct ControlLaw {
 }
 
 impl ControlLaw {
-    /// The law called `name`, which commands what `commands` says, with the parameters `parameters`; `make` makes the law of a run.
+    /// The law called `name`, which commands what `commands` says, with the parameters `parameters`; `make` makes the
+    /// law of a run.
     ///
     /// ```
     /// use spindrift::control::ControlLaw;

@@ -1,7 +1,9 @@
-//! [`LoopRecord`]: what a control loop records at the observation points: the quantities over time of bands and requirements.
+//! [`LoopRecord`]: what a control loop records at the observation points: the quantities over time of bands and
+//! requirements.
 //!
-//! A loop knows its errors at its ticks and its torques at the starts of arcs; an observation point has what was known last. The engine holds the loops
-//! of the runs that it flies, so that a record is shared memory: the loop writes it, and whoever observes the run reads it when the run has ended.
+//! A loop knows its errors at its ticks and its torques at the starts of arcs; an observation point has what was known
+//! last. The engine holds the loops of the runs that it flies, so that a record is shared memory: the loop writes it,
+//! and whoever observes the run reads it when the run has ended.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

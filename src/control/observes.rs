@@ -1,5 +1,5 @@
-//! [`Observes`]: what sensors say of the state. Estimators do not ask for kinds of sensors: they take what a kind observes, of which there are as many
-//! forms as an estimator has ways to use one.
+//! [`Observes`]: what sensors say of the state. Estimators do not ask for kinds of sensors: they take what a kind
+//! observes, of which there are as many forms as an estimator has ways to use one.
 
 use std::sync::Arc;
 
@@ -24,10 +24,11 @@ pub enum Observes {
     Attitude(fn(&DeclaredTable) -> Arc<dyn AttitudeSensor>),
     /// A part of the attitude, as the direction of the Sun in F_s is; the scene is the nominal one.
     Direction(fn(&DeclaredTable, &Scene) -> Arc<dyn AttitudeSensor>),
-    /// Position and velocity of the base point p in F_e, and of the debris's centre of mass; standard deviations in m and m/s.
+    /// Position and velocity of the base point p in F_e, and of the debris's centre of mass; standard deviations in m
+    /// and m/s.
     Motion(fn(&DeclaredTable) -> [f64; 2]),
-    /// Attitude of the debris relative to the spacecraft F_d -> F_s, scalar first, and its rate relative to the spacecraft in F_d, rad/s; standard deviations in
-    /// rad and rad/s.
+    /// Attitude of the debris relative to the spacecraft F_d -> F_s, scalar first, and its rate relative to the
+    /// spacecraft in F_d, rad/s; standard deviations in rad and rad/s.
     DebrisAttitude(fn(&DeclaredTable) -> [f64; 2]),
     /// Rates of the wheels relative to the body, in the order of those that turn, rad/s.
     WheelRates,

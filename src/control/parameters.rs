@@ -23,7 +23,8 @@ declared! {
             "Start of the window over which stability is measured; 0: when the mission has settled",
             &[0.0],
         );
-        stability_window: f64 = number("stability_window_s", "s", "Length of that window; 0: to the end of the run", &[0.0]);
+        stability_window: f64 = number("stability_window_s", "s", "Length of that window; 0: to the end of the run",
+            &[0.0]);
         saturation_timeout: f64 = number(
             "saturation_timeout_s",
             "s",
@@ -63,7 +64,8 @@ declared! {
             "Time constant with which thrusters unload the wheels; 0: they do not",
             &[0.0],
         );
-        dead_band: f64 = number("unloading_dead_band_n_m_s", "N m s", "Wheel momentum that need not be unloaded", &[0.0]);
+        dead_band: f64 = number("unloading_dead_band_n_m_s", "N m s", "Wheel momentum that need not be unloaded",
+            &[0.0]);
     }
 }
 
@@ -89,7 +91,8 @@ declared! {
     }
 }
 
-/// The lists of a phase with the target `target` and the maneuver `thrust`, with a condition or without, in a loop with thrusters or without.
+/// The lists of a phase with the target `target` and the maneuver `thrust`, with a condition or without, in a loop with
+/// thrusters or without.
 pub fn of_phase(
     target: Target,
     thrust: Maneuver,

@@ -50,7 +50,8 @@ pub struct Plant {
 }
 
 impl Plant {
-    /// A run of the scene `drawn` for `duration` seconds that ends at `end`, measured by `sensors`, with a motor for each wheel that turns.
+    /// A run of the scene `drawn` for `duration` seconds that ends at `end`, measured by `sensors`, with a motor for
+    /// each wheel that turns.
     pub fn new(
         spec: &Arc<LoopSpec>,
         drawn: Scene,

@@ -1,4 +1,5 @@
-//! [`Recorder`]: telemetry of a run under a loop: phase, estimates, commands, measurements and what a module reports, at the control ticks.
+//! [`Recorder`]: telemetry of a run under a loop: phase, estimates, commands, measurements and what a module reports,
+//! at the control ticks.
 
 use super::estimate::Estimate;
 use super::estimators::kalman::NormalizedSquare;
@@ -139,7 +140,8 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
         add("estimated_omega_de_d", XYZ, rate, meaning, of_debris(|debris, _| debris.omega_de_d));
     }
     if spec.has_filter() {
-        let meaning = "Normalised square of an estimation error, or of the innovation of this tick, divided by its degrees of freedom; null if there is none.";
+        let meaning = "Normalised square of an estimation error, or of the innovation of this tick, divided by its \
+            degrees of freedom; null if there is none.";
         type Squares = fn(&Consistency) -> [Option<NormalizedSquare>; 2];
         let squares: [(&str, bool, Squares); 4] = [
             ("attitude", true, |of| [of.attitude, of.attitude_innovation]),
@@ -153,7 +155,8 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
             });
             add(name, &["nees", "innovation_square"], [""; 2], meaning, values);
         }
-        let meaning = "Root mean square of the magnitude of this estimation error by the filter's covariance: the root of the sum of three variances.";
+        let meaning = "Root mean square of the magnitude of this estimation error by the filter's covariance: the root \
+            of the sum of three variances.";
         type Error = fn(&ExpectedErrors) -> Option<f64>;
         let errors: [(&str, bool, [&str; 2], Error); 4] = [
             ("attitude", true, ["rad"; 2], |of| of.attitude),

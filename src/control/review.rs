@@ -13,8 +13,8 @@ use crate::scene::{ControlInput, DeclaredTable, Scene};
 
 /// Times that differ by less, relative to the duration, are one: a sum of two of them has an error of 1e-16.
 const SAME: f64 = 1e-12;
-/// What about the loop `spec` looks like a mistake, a sentence each: with its nominal numbers `numbers`, in the nominal scene `scene`, over `duration`
-/// seconds.
+/// What about the loop `spec` looks like a mistake, a sentence each: with its nominal numbers `numbers`, in the nominal
+/// scene `scene`, over `duration` seconds.
 pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f64) -> Vec<String> {
     let phases: Vec<(&PhaseSpec, &DeclaredTable)> = spec.phases.iter().zip(&numbers.guidance).collect();
     let mut notes = order(&spec.phases);
@@ -65,7 +65,8 @@ fn transfers_about_a_point_mass(phases: &[(&PhaseSpec, &DeclaredTable)], scene: 
     let j2 = scene.orbit.and_then(|orbit| orbit.j2).filter(|j2| *j2 > 0.0)?;
     let (phase, _) = phases.iter().find(|(_, table)| number(table, "transfer_time_s") > 0.0)?;
     Some(format!(
-        "guidance.{}: transfers are those of Clohessy & Wiltshire about a point mass; orbit.j2 = {j2:?} acts on both bodies, and is a disturbance to them",
+        "guidance.{}: transfers are those of Clohessy & Wiltshire about a point mass; orbit.j2 = {j2:?} acts on both \
+        bodies, and is a disturbance to them",
         phase.name
     ))
 }
@@ -76,10 +77,14 @@ fn window(table: &DeclaredTable, duration: f64) -> Option<String> {
     let end = if window > 0.0 { from + window } else { from };
     let is_beyond = end > duration * (1.0 + SAME) || from > 0.0 && from >= duration;
     is_beyond.then(|| {
-        let columns = "relative_performance_error_rms_rad and relative_performance_error_peak_to_peak_rad are null in every run";
+        let columns = "relative_performance_error_rms_rad and relative_performance_error_peak_to_peak_rad are null in \
+            every run";
         let start = if from > 0.0 { format!("stability_from_s = {from:?}") } else { "the start".to_owned() };
         let last = if window > 0.0 { format!(", stability_window_s = {window:?}") } else { String::new() };
-        format!("control: the window of stability from {start}{last} is not over at campaign.duration_s = {duration:?}: {columns}")
+        format!(
+            "control: the window of stability from {start}{last} is not over at campaign.duration_s = \
+            {duration:?}: {columns}"
+        )
     })
 }
 
@@ -118,7 +123,8 @@ fn order(phases: &[PhaseSpec]) -> Vec<String> {
             notes.push(format!("guidance.{name} is never reached: no phase that is flown is followed by it"));
         } else if phase.next == Next::Phase(place) || phase.otherwise == Some(place) {
             notes.push(format!(
-                "guidance.{name} follows itself: it begins anew each time, and so do its law, hold_s and timeout_s; without `until` a phase goes on to the end of the run"
+                "guidance.{name} follows itself: it begins anew each time, and so do its law, hold_s and timeout_s; \
+                without `until` a phase goes on to the end of the run"
             ));
         } else if !ends[place] {
             endless.push(phase.name.as_str());
@@ -126,7 +132,8 @@ fn order(phases: &[PhaseSpec]) -> Vec<String> {
     }
     if endless.len() > 1 {
         notes.push(format!(
-            "guidance: {} follow one another for ever: from none of them is there a way to \"launch\", or to a phase without `until`",
+            "guidance: {} follow one another for ever: from none of them is there a way to \"launch\", or to a phase \
+            without `until`",
             endless.join(", ")
         ));
     }
@@ -149,9 +156,15 @@ fn condition(phase: &PhaseSpec, table: &DeclaredTable, duration: f64) -> Vec<Str
         ));
     }
     if timeout > 0.0 && hold > timeout {
-        notes.push(format!("guidance.{name}.hold_s = {hold:?} is beyond its timeout_s = {timeout:?}: the condition never holds for so long"));
+        notes.push(format!(
+            "guidance.{name}.hold_s = {hold:?} is beyond its timeout_s = {timeout:?}: the condition \
+            never holds for so long"
+        ));
     } else if hold > duration {
-        notes.push(format!("guidance.{name}.hold_s = {hold:?} is beyond campaign.duration_s = {duration:?}: the condition never holds for so long"));
+        notes.push(format!(
+            "guidance.{name}.hold_s = {hold:?} is beyond campaign.duration_s = {duration:?}: the \
+            condition never holds for so long"
+        ));
     }
     notes
 }
@@ -167,7 +180,8 @@ fn slew(spec: &LoopSpec, numbers: &ControlInput, (phase, table): (&PhaseSpec, &D
         let most = number(table, "max_rate_rad_s");
         if most > 0.0 && rate > most {
             notes.push(format!(
-                "guidance.{name}.max_rate_rad_s = {rate:?} is above sensors.{}.max_rate_rad_s = {most:?}: the tracker gives nothing in such a slew",
+                "guidance.{name}.max_rate_rad_s = {rate:?} is above sensors.{}.max_rate_rad_s = {most:?}: the tracker \
+                gives nothing in such a slew",
                 tracker.name
             ));
         }
@@ -179,7 +193,8 @@ fn slew(spec: &LoopSpec, numbers: &ControlInput, (phase, table): (&PhaseSpec, &D
 fn stability(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, place: usize) -> Option<String> {
     let (phase, table) = (&spec.phases[place], &numbers.guidance[place]);
     let law = phase.law?;
-    // a slew under a torque limit brakes on a curve that has no gain at its end; a law of measurements is not tried without them
+    // a slew under a torque limit brakes on a curve that has no gain at its end; a law of measurements is not tried
+    // without them
     let has_no_estimate =
         law == &asked::KIND || spec.code().is_some_and(|code| law == code.kind() && !code.sensors().is_empty());
     if number(table, "max_torque_n_m") > 0.0 || has_no_estimate {
@@ -203,7 +218,10 @@ fn fast_wheels(spec: &LoopSpec, scene: &Scene) -> Vec<String> {
     let note = |(place, name): (usize, &crate::scene::Name)| {
         let (rate, limit) = (scene.initial.wheel_rates[place], scene.actuators.wheels[place].speed_limit);
         (rate.abs() > limit).then(|| {
-            format!("wheels.{name}.rate_rad_s = {rate:?} is above its speed_limit_rad_s = {limit:?} at the start: its motor can only brake it")
+            format!(
+                "wheels.{name}.rate_rad_s = {rate:?} is above its speed_limit_rad_s = {limit:?} at the start: its \
+                motor can only brake it"
+            )
         })
     };
     wheels.filter_map(note).collect()

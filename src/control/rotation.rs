@@ -1,4 +1,5 @@
-//! Rotations as vectors and as modified Rodrigues parameters, beside the quaternions of [`super::vector`] (scalar first, Hamilton product).
+//! Rotations as vectors and as modified Rodrigues parameters, beside the quaternions of [`super::vector`] (scalar
+//! first, Hamilton product).
 
 use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, scaled, sum};
 
@@ -20,15 +21,16 @@ pub fn vector_of(q: [f64; 4]) -> [f64; 3] {
     scaled(factor, [x, y, z])
 }
 
-/// The modified Rodrigues parameters of `q`, of length at most one: tan(angle/4) times the axis, of the shorter rotation, which is the shadow set
-/// where the other is longer (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018, section 3.5).
+/// The modified Rodrigues parameters of `q`, of length at most one: tan(angle/4) times the axis, of the shorter
+/// rotation, which is the shadow set where the other is longer (H. Schaub & J. L. Junkins, *Analytical Mechanics of
+/// Space Systems*, 2018, section 3.5).
 pub fn mrp_of(q: [f64; 4]) -> [f64; 3] {
     let [w, x, y, z] = if q[0] < 0.0 { q.map(|component| -component) } else { q };
     scaled(1.0 / (1.0 + w), [x, y, z])
 }
 
-/// `v` turned by the rotation vector `by`: with components in the frame before the turn, those in the frame after it are by the opposite vector.
-/// Rodrigues's formula.
+/// `v` turned by the rotation vector `by`: with components in the frame before the turn, those in the frame after it
+/// are by the opposite vector. Rodrigues's formula.
 pub fn turned(v: [f64; 3], by: [f64; 3]) -> [f64; 3] {
     let angle = norm(by);
     if angle == 0.0 {
@@ -40,7 +42,8 @@ pub fn turned(v: [f64; 3], by: [f64; 3]) -> [f64; 3] {
     sum(sum(scaled(cosine, v), scaled(sine, cross(axis, v))), along)
 }
 
-/// The rotation matrix of the shortest way that s3 turns to `direction`, of any length but zero; about s1 where that is the opposite one.
+/// The rotation matrix of the shortest way that s3 turns to `direction`, of any length but zero; about s1 where that is
+/// the opposite one.
 pub fn from_s3_to(direction: [f64; 3]) -> [[f64; 3]; 3] {
     let [x, y, z] = direction;
     let across = [-y, x, 0.0];
@@ -55,8 +58,9 @@ mod tests {
     use super::*;
     use crate::control::vector::{dcm_from_quaternion, difference, hamilton, product};
 
-    /// Law: vector and quaternion are one rotation, of any angle up to half a turn; so are the MRP, and a turned vector.
-    /// Law: s3 goes to the direction, whatever its length; the axes stay orthonormal and right-handed; s3 itself is left as it is, bit for bit.
+    /// Law: vector and quaternion are one rotation, of any angle up to half a turn; so are the MRP, and a turned
+    /// vector. Law: s3 goes to the direction, whatever its length; the axes stay orthonormal and right-handed; s3
+    /// itself is left as it is, bit for bit.
     #[test]
     fn s3_turns_to_a_direction() {
         let cases = [

@@ -19,7 +19,8 @@ pub struct LawRuns {
     laws: Vec<SharedLaw>,
 }
 
-/// The law of a run. The engine holds the laws of the runs that it propagates; who is told that a run has ended can tell its law, too.
+/// The law of a run. The engine holds the laws of the runs that it propagates; who is told that a run has ended can
+/// tell its law, too.
 #[derive(Clone)]
 pub struct SharedLaw(Shared<Mutex<BesideSchedule>>);
 
@@ -66,7 +67,8 @@ impl LawRuns {
         self.laws.clone()
     }
 
-    /// Writes what the law of run `run`, which has ended, reports: the values of [`super::ControlLaw::columns`], NaN where it has none.
+    /// Writes what the law of run `run`, which has ended, reports: the values of [`super::ControlLaw::columns`], NaN
+    /// where it has none.
     pub fn report(&self, run: usize, values: &mut [f64]) {
         values.fill(f64::NAN);
         self.laws[run].lock().law.report(values);

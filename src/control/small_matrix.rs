@@ -1,4 +1,5 @@
-//! Matrices of fixed size, by rows: products, Cholesky factors, inverses. For filters and allocation, without allocation.
+//! Matrices of fixed size, by rows: products, Cholesky factors, inverses. For filters and allocation, without
+//! allocation.
 
 /// The inverse of a 3x3 matrix, by cofactors.
 pub fn inverse(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {

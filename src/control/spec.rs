@@ -1,4 +1,5 @@
-//! [`LoopSpec`]: what a control loop consists of, as a campaign file says it; its numbers, which can be dispersed, are parameters of the scene.
+//! [`LoopSpec`]: what a control loop consists of, as a campaign file says it; its numbers, which can be dispersed, are
+//! parameters of the scene.
 
 use super::guidance::condition::Condition;
 use super::guidance::phase::{Maneuver, Next};
@@ -60,9 +61,9 @@ pub struct ModuleSpec {
 /// Most ticks in a control period, and control periods in a latency.
 pub const MOST_TICKS: f64 = 1000.0;
 
-/// The number of ticks in a control period of `period` seconds, at some of which each sensor measures: sensors with these periods, each a whole multiple
-/// of the control period or a whole fraction of it. One where no sensor is faster than the loop; else the least common multiple of the fractions. `None`
-/// where that is more than [`MOST_TICKS`].
+/// The number of ticks in a control period of `period` seconds, at some of which each sensor measures: sensors with
+/// these periods, each a whole multiple of the control period or a whole fraction of it. One where no sensor is faster
+/// than the loop; else the least common multiple of the fractions. `None` where that is more than [`MOST_TICKS`].
 pub fn ticks_per_period(period: f64, sensors: impl Iterator<Item = f64>) -> Option<u64> {
     let common = |a: u64, b: u64| {
         let (mut x, mut y) = (a, b);

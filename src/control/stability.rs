@@ -1,15 +1,19 @@
 //! Whether a law whose torque is held over control periods, and acts after a delay, is stable for small errors.
 //!
-//! About one axis the body is a double integrator, theta'' = a. At tick k, a period T apart, the law gives
-//! a_k = -(k theta_k + c theta'_k + i sum theta + j sum theta'), which acts from t_k + d to t_(k+1) + d, with d = (m + f) T. With angles, rates times T, and accelerations times T^2 the z-transform is
+//! About one axis the body is a double integrator, theta'' = a. At tick k, a period T apart, the law gives a_k = -(k
+//! theta_k + c theta'_k + i sum theta + j sum theta'), which acts from t_k + d to t_(k+1) + d, with d = (m + f) T. With
+//! angles, rates times T, and accelerations times T^2 the z-transform is
 //!
-//! (z-1)^3 z^(m+1) + (c T (z-1) + j T z) (z-1) D + (k T^2 (z-1) + i T^2 z) (D + (z-1) B) = 0, D = f + (1-f) z, B = f - f^2/2 + z (1-f)^2/2,
+//! (z-1)^3 z^(m+1) + (c T (z-1) + j T z) (z-1) D + (k T^2 (z-1) + i T^2 z) (D + (z-1) B) = 0, D = f + (1-f) z, B = f -
+//! f^2/2 + z (1-f)^2/2,
 //!
-//! with a factor z-1 less where there is no integral of the angle, and another one less where there is no stiffness and no integral of the rate, which
-//! acts as a stiffness: a free integrator is not the law's. A law is stable where all roots are within the unit circle, which the Schur-Cohn test decides without computing them (E. I. Jury, *Theory and Application of
-//! the z-Transform Method*, 1964). Without delay and integral that is k T < 2 c and c T < 2.
+//! with a factor z-1 less where there is no integral of the angle, and another one less where there is no stiffness and
+//! no integral of the rate, which acts as a stiffness: a free integrator is not the law's. A law is stable where all
+//! roots are within the unit circle, which the Schur-Cohn test decides without computing them (E. I. Jury, *Theory and
+//! Application of the z-Transform Method*, 1964). Without delay and integral that is k T < 2 c and c T < 2.
 //!
-//! Exact for small angles and where flight software believes the nominal inertia; limits, friction, and the lag of an estimator are not part of it.
+//! Exact for small angles and where flight software believes the nominal inertia; limits, friction, and the lag of an
+//! estimator are not part of it.
 
 use super::actuators::modulation;
 use super::allocation::{ThrustAllocation, WheelTorque};
@@ -37,8 +41,8 @@ const HALVINGS: usize = 40;
 /// The least share of its torque at which a law is tried.
 const LEAST_SHARE: f64 = 1e-3;
 
-/// The gains of a law about one axis: accelerations, rad/s^2, for an error of a radian, for a rate of a radian a second, and for each tick of an error
-/// of a radian or of a rate of a radian a second.
+/// The gains of a law about one axis: accelerations, rad/s^2, for an error of a radian, for a rate of a radian a
+/// second, and for each tick of an error of a radian or of a rate of a radian a second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisGains {
     /// k, 1/s^2.
@@ -114,8 +118,8 @@ fn is_within_unit_circle(mut a: Vec<f64>) -> bool {
     true
 }
 
-/// The gains of `law`, which knows `known`, about each axis that the torques within the projection `reach` control of a body with the inertia `inertia`
-/// (K, kg m^2), all in F_s; without a target the attitude is free.
+/// The gains of `law`, which knows `known`, about each axis that the torques within the projection `reach` control of a
+/// body with the inertia `inertia` (K, kg m^2), all in F_s; without a target the attitude is free.
 pub fn axis_gains(
     law: &AttitudeLaw,
     known: &KnownBody,
@@ -228,7 +232,8 @@ mod tests {
     use super::*;
     use crate::control::laws::{Integral, MrpFeedback, QuaternionFeedback, RateDamping};
 
-    /// The size of angle and rate in two windows of a double integrator under a torque that is held, flown from instant to instant: early and late.
+    /// The size of angle and rate in two windows of a double integrator under a torque that is held, flown from instant
+    /// to instant: early and late.
     fn flown(gains: AxisGains, period: f64, delay: f64) -> [f64; 2] {
         const TICKS: usize = 6000;
         let (mut angle, mut rate, mut summed, mut summed_rate) = (1.0, 0.3 / period, 0.0, 0.0);
@@ -265,8 +270,8 @@ mod tests {
         sizes
     }
 
-    /// Law: 2% below the limit of the gains errors die away, 2% above it they grow, flown in time: at any delay, with and without stiffness, integral of the angle and
-    /// integral of the rate.
+    /// Law: 2% below the limit of the gains errors die away, 2% above it they grow, flown in time: at any delay, with
+    /// and without stiffness, integral of the angle and integral of the rate.
     #[test]
     fn the_limit_is_where_errors_begin_to_grow() {
         let mut tried = 0;
@@ -305,7 +310,8 @@ mod tests {
         assert!(tried >= 60, "{tried} limits");
     }
 
-    /// Law: without delay the limits are c T = 2 and k T = 2 c; with a delay of a period c T = 1 where the stiffness is small.
+    /// Law: without delay the limits are c T = 2 and k T = 2 c; with a delay of a period c T = 1 where the stiffness is
+    /// small.
     #[test]
     fn limits_are_those_of_the_textbook() {
         let stable = |k: f64, c: f64, delay: f64| {
@@ -326,8 +332,8 @@ mod tests {
         }
     }
 
-    /// Law: the gains of a law are those of its equation: w^2 and 2 z w about every axis that is controlled; K/(4 J) and P/J; the gain over J, and its integral
-    /// of the rate.
+    /// Law: the gains of a law are those of its equation: w^2 and 2 z w about every axis that is controlled; K/(4 J)
+    /// and P/J; the gain over J, and its integral of the rate.
     #[test]
     fn gains_are_those_of_the_law() {
         let inertia = [[30.0, 2.0, 0.0], [2.0, 36.0, -1.0], [0.0, -1.0, 24.0]];

@@ -37,7 +37,8 @@ pub struct DebrisState {
     pub omega_de_d: [f64; 3],
 }
 
-/// The motion of the debris of a run over time: a free rigid body in uniform translation or beside an orbit, read at ascending times.
+/// The motion of the debris of a run over time: a free rigid body in uniform translation or beside an orbit, read at
+/// ascending times.
 #[derive(Clone, Debug)]
 pub struct DebrisMotion {
     inertia: [[f64; 3]; 3],
@@ -51,7 +52,8 @@ pub struct DebrisMotion {
     now: DebrisState,
 }
 
-/// Order of the series of the free rotation, and the largest |omega| h of a step: the first neglected term is (1/4)^13/13!, far below rounding.
+/// Order of the series of the free rotation, and the largest |omega| h of a step: the first neglected term is
+/// (1/4)^13/13!, far below rounding.
 const ORDER: usize = 12;
 const LARGEST_TURN: f64 = 0.25;
 /// Steps between two readings beyond which the debris is not followed: a hundred thousand radians.

@@ -1,13 +1,13 @@
 //! [`Copula`]: dependence between the numbers u of several dimensions, whatever their distributions (Gaussian copula).
 //!
-//! Normal scores z = Phi^-1(u) of independent u become y = L z with the Cholesky factor of the correlation matrix R = L L^T, and
-//! u' = Phi(y) is the input of the distributions. So every marginal distribution stays what it is, and R is the correlation of the scores: that of the
-//! values where these are normal. A rank correlation rho_s is reached by r = 2 sin(pi rho_s/6) (K. Pearson 1907; W. H. Kruskal,
-//! *J. Am. Stat. Assoc.* 53 (1958) 814).
+//! Normal scores z = Phi^-1(u) of independent u become y = L z with the Cholesky factor of the correlation matrix R = L
+//! L^T, and u' = Phi(y) is the input of the distributions. So every marginal distribution stays what it is, and R is
+//! the correlation of the scores: that of the values where these are normal. A rank correlation rho_s is reached by r =
+//! 2 sin(pi rho_s/6) (K. Pearson 1907; W. H. Kruskal, *J. Am. Stat. Assoc.* 53 (1958) 814).
 //!
-//! A matrix that is not positive semidefinite is refused, or replaced by the nearest that is (N. J. Higham, *Computing the nearest
-//! correlation matrix*, IMA J. Numer. Anal. 22 (2002) 329, algorithm 3.3). All arithmetic here is plain and portable: the factor
-//! is on the path of a row.
+//! A matrix that is not positive semidefinite is refused, or replaced by the nearest that is (N. J. Higham, *Computing
+//! the nearest correlation matrix*, IMA J. Numer. Anal. 22 (2002) 329, algorithm 3.3). All arithmetic here is plain and
+//! portable: the factor is on the path of a row.
 
 use super::design::BLOCK;
 use crate::math::normal::{probability, quantiles};
@@ -37,7 +37,8 @@ impl Copula {
         Copula { dimensions, factor: cholesky(correlation) }
     }
 
-    /// Replaces the independent numbers of a block by dependent ones; their normal scores go to `scores`. Both by dimension.
+    /// Replaces the independent numbers of a block by dependent ones; their normal scores go to `scores`. Both by
+    /// dimension.
     pub fn apply(&self, u: &mut [[f64; BLOCK]], scores: &mut [[f64; BLOCK]]) {
         for dimension in &self.dimensions {
             quantiles(&u[*dimension], &mut scores[*dimension]);
@@ -69,7 +70,8 @@ pub fn score_correlation(rank_correlation: f64) -> f64 {
     2.0 * libm::sin(core::f64::consts::PI / 6.0 * rank_correlation)
 }
 
-/// The Cholesky factor of a positive semidefinite matrix; a row that depends on those above it gets a zero on the diagonal.
+/// The Cholesky factor of a positive semidefinite matrix; a row that depends on those above it gets a zero on the
+/// diagonal.
 fn cholesky(matrix: &Matrix) -> Matrix {
     let mut factor: Matrix = Vec::with_capacity(matrix.len());
     for (i, entries) in matrix.iter().enumerate() {
@@ -97,7 +99,8 @@ pub fn smallest_negative_eigenvalue(matrix: &Matrix) -> Option<f64> {
     (smallest < -SLACK * matrix.len() as f64).then_some(smallest)
 }
 
-/// The correlation matrix nearest to a symmetric one with unit diagonal, in the Frobenius norm (Higham 2002, algorithm 3.3).
+/// The correlation matrix nearest to a symmetric one with unit diagonal, in the Frobenius norm (Higham 2002, algorithm
+/// 3.3).
 pub fn nearest_correlation(matrix: &Matrix) -> Matrix {
     let n = matrix.len();
     let (mut y, mut correction) = (matrix.clone(), vec![vec![0.0; n]; n]);
@@ -130,8 +133,8 @@ fn semidefinite_part(matrix: &Matrix) -> Matrix {
     (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
 }
 
-/// Eigenvalues of a symmetric matrix and its eigenvectors as columns, by cyclic Jacobi rotations (Golub & Van Loan, *Matrix
-/// Computations*, 4th ed. (2013), section 8.5).
+/// Eigenvalues of a symmetric matrix and its eigenvectors as columns, by cyclic Jacobi rotations (Golub & Van Loan,
+/// *Matrix Computations*, 4th ed. (2013), section 8.5).
 #[expect(clippy::needless_range_loop, reason = "two rows of one matrix change together")]
 fn eigen(matrix: &Matrix) -> (Vec<f64>, Matrix) {
     const SWEEPS: usize = 60;

@@ -1,8 +1,8 @@
 //! [`Correlation`]: a `[[correlate]]` table as written; `copulas`: all of them together as dependence of dimensions.
 //!
-//! A table says how pairs of components depend on each other: all pairs of its parameters (a square matrix), or each component of
-//! one parameter with each of another (a block; for two numbers, one number). Tables with a component in common make one matrix;
-//! pairs that none of them names are independent.
+//! A table says how pairs of components depend on each other: all pairs of its parameters (a square matrix), or each
+//! component of one parameter with each of another (a block; for two numbers, one number). Tables with a component in
+//! common make one matrix; pairs that none of them names are independent.
 
 use super::copula::{Copula, Matrix, nearest_correlation, smallest_negative_eigenvalue};
 use super::distribution::{Distribution, Quantile};
@@ -81,8 +81,8 @@ struct Pairs {
     scores: Vec<(usize, usize, f64)>,
 }
 
-/// The dependence that the tables of `list` ask for. `drawn` gives the dimension and the distribution of a component, if it has a
-/// distribution of one number. Also which matrices were replaced, and what is wrong.
+/// The dependence that the tables of `list` ask for. `drawn` gives the dimension and the distribution of a component,
+/// if it has a distribution of one number. Also which matrices were replaced, and what is wrong.
 pub(super) fn copulas<'d>(
     list: &[Correlation],
     drawn: impl Fn((Parameter, usize)) -> Option<Drawn<'d>>,
@@ -266,7 +266,8 @@ impl Correlation {
                 Err(error_of(Table::Correlate(index), "parameters", name, allowed, remedy))
             };
             let Some(one) = drawn((*parameter, *component)) else {
-                let allowed = "made of numbers that a [[disperse]] table draws each for itself: not together with others (directions, attitudes, rows of a table), and not at a fixed offset";
+                let allowed = "made of numbers that a [[disperse]] table draws each for itself: not together with \
+                    others (directions, attitudes, rows of a table), and not at a fixed offset";
                 return refused(
                     allowed,
                     "give it a distribution of its own such as \"normal\", or take it out of the list",
@@ -323,7 +324,8 @@ impl Correlation {
         Ok(scales)
     }
 
-    /// The correlation of the normal scores for the number `r` of two distributions; or what it must be, and the remedy.
+    /// The correlation of the normal scores for the number `r` of two distributions; or what it must be, and the
+    /// remedy.
     fn score(&self, r: f64, a: &Distribution, b: &Distribution) -> Result<f64, (String, &'static str)> {
         if r.abs() > 1.0 + SAME {
             let remedy = match self.measure {

@@ -54,11 +54,12 @@ impl Derived {
     }
 }
 
-/// How far the value of an expression at the nominal scene may be from the nominal value, relative to the larger of the two.
+/// How far the value of an expression at the nominal scene may be from the nominal value, relative to the larger of the
+/// two.
 const NOMINAL_SLACK: f64 = 1e-9;
 
-/// The columns of `list`, added to `columns`, in an order in which each comes after what it is made of; and what is wrong.
-/// `is_drawn` tells whether a component has a distribution.
+/// The columns of `list`, added to `columns`, in an order in which each comes after what it is made of; and what is
+/// wrong. `is_drawn` tells whether a component has a distribution.
 pub(super) fn derived(
     list: &[Derivation],
     columns: &mut Columns,

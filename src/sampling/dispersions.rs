@@ -176,7 +176,8 @@ impl Dispersions {
         &self.dimensions
     }
 
-    /// The distribution of each dimension: dimensions of one distribution have one number, counted from zero without gaps.
+    /// The distribution of each dimension: dimensions of one distribution have one number, counted from zero without
+    /// gaps.
     pub fn factors(&self) -> Vec<usize> {
         let random = self.assigned.iter().map(|assigned| assigned.map.dimensions()).filter(|count| *count > 0);
         random.enumerate().flat_map(|(factor, count)| vec![factor; count]).collect()

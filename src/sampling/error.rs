@@ -29,7 +29,8 @@ impl std::fmt::Display for Table {
 
 /// Why a campaign's dispersions cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{table}.{key}{}: must be {allowed}; {remedy}", .value.as_ref().map_or(" is missing".to_owned(), |value| format!(" = {value}")))]
+#[error("{table}.{key}{}: must be {allowed}; {remedy}", .value.as_ref().map_or(" is missing".to_owned(),
+    |value| format!(" = {value}")))]
 pub struct DispersionError {
     pub table: Table,
     /// Its key that is wrong: `parameter`, `std`, ...

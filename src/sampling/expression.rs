@@ -1,13 +1,13 @@
 //! [`Expression`]: arithmetic over parameters, as in `expression = "0.5 * wheel1.density_kg_m3"`.
 //!
-//! A parser of operator precedence (V. R. Pratt, *Top down operator precedence*, 1973) into a list for a stack machine. By hand,
-//! because no crate fits: names hold dots, functions must be those of `libm` (the same bits everywhere), and a draw may not
-//! allocate. `exmex` (regex, `lazy_static`) takes the platform's functions, `evalexpr` is AGPL, `meval` and `fasteval` are no
-//! longer maintained.
+//! A parser of operator precedence (V. R. Pratt, *Top down operator precedence*, 1973) into a list for a stack machine.
+//! By hand, because no crate fits: names hold dots, functions must be those of `libm` (the same bits everywhere), and a
+//! draw may not allocate. `exmex` (regex, `lazy_static`) takes the platform's functions, `evalexpr` is AGPL, `meval`
+//! and `fasteval` are no longer maintained.
 //!
 //! | | |
 //! | --- | --- |
-//! | operators, weakest first | `or`, `and`, `< <= > >= == !=` (each 1 or 0), `+ -`, `* /`, unary `-`, `^` (from the right) |
+//! | operators, weakest first | `or`, `and`, `< <= > >= == !=` (1 or 0), `+ -`, `* /`, unary `-`, `^` (from the right) |
 //! | functions | `sqrt exp ln log10 sin cos tan asin acos atan atan2 abs min max`, `if(condition, yes, no)` |
 //! | truth | every number other than 0 |
 //! | constants | `pi`, numbers such as `2`, `0.5`, `1e-3` |
@@ -50,7 +50,8 @@ enum Binary {
     NotEqual,
 }
 
-/// A function of one or two numbers with its name, which alone tells it from others: one function may have several addresses, and one address several functions.
+/// A function of one or two numbers with its name, which alone tells it from others: one function may have several
+/// addresses, and one address several functions.
 #[derive(Clone, Copy, Debug)]
 enum Function {
     One(&'static str, fn(f64) -> f64),
@@ -122,7 +123,8 @@ impl Expression {
         &self.variables
     }
 
-    /// The value, where `variable` gives the value of the variable at each place of [`Expression::variables`]. Allocates nothing.
+    /// The value, where `variable` gives the value of the variable at each place of [`Expression::variables`].
+    /// Allocates nothing.
     pub fn value(&self, variable: impl Fn(usize) -> f64) -> f64 {
         let mut stack = [0.0; DEEPEST + 2];
         let mut top = 0;

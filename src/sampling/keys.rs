@@ -1,7 +1,8 @@
-//! The keys of a table of a campaign file as data: [`Row`], one key; [`Rule`], what several keys have to do with each other; [`Written`], what a
-//! file says.
+//! The keys of a table of a campaign file as data: [`Row`], one key; [`Rule`], what several keys have to do with each
+//! other; [`Written`], what a file says.
 //!
-//! A distribution and a design list their rows. Reading, error messages, canonical text and the tables of the documents follow from them.
+//! A distribution and a design list their rows. Reading, error messages, canonical text and the tables of the documents
+//! follow from them.
 
 use crate::scene::Parameter;
 use std::collections::BTreeMap;
@@ -194,14 +195,15 @@ impl Row {
 pub const FILE_OF_PARAMETERS: Row = Row::new(
     "file",
     Kind::Columns,
-    "File of numbers; with `parameters` (default: all columns of the file), `columns` (default: the names of the parameters), and `sha256`, the checksum of the file",
+    "File of numbers; with `parameters` (default: all columns of the file), `columns` (default: the names of the \
+    parameters), and `sha256`, the checksum of the file",
 );
 
 /// What several keys of a table have to do with each other.
 #[derive(Clone, Copy, Debug)]
 pub enum Rule {
-    /// Exactly one of several ways to say something is written, each with one or several keys; an example for the first key, and what to do where there
-    /// are several.
+    /// Exactly one of several ways to say something is written, each with one or several keys; an example for the first
+    /// key, and what to do where there are several.
     One(&'static [&'static [&'static str]], &'static str, &'static str),
     /// At most one of these is written.
     AtMostOne(&'static [&'static str]),

@@ -1,7 +1,8 @@
 //! [`Noise`]: random numbers within a run, addressed by tick: of sensors, and of whatever else a control law needs.
 //!
-//! The generator is that of [`super::stream`], under a purpose of its own: the key is (seed, name, `noise`), the stream number of ChaCha is the
-//! sample, and tick k takes the k-th word. So a number depends on (seed, name, sample, tick) alone: not on lanes, nor on what was drawn before.
+//! The generator is that of [`super::stream`], under a purpose of its own: the key is (seed, name, `noise`), the stream
+//! number of ChaCha is the sample, and tick k takes the k-th word. So a number depends on (seed, name, sample, tick)
+//! alone: not on lanes, nor on what was drawn before.
 
 use rand::Rng;
 use rand::rngs::ChaCha8Rng;
@@ -47,7 +48,8 @@ impl Noise {
 mod tests {
     use super::*;
 
-    /// Law: a number depends on seed, name, sample and tick alone, not on the order of reading; each of the four changes it.
+    /// Law: a number depends on seed, name, sample and tick alone, not on the order of reading; each of the four
+    /// changes it.
     #[test]
     fn numbers_depend_on_their_address_alone() {
         let mut noise = Noise::new(1, "gyro", SampleId(7));
@@ -63,7 +65,8 @@ mod tests {
         assert_ne!(super::super::Stream::new(1, "gyro").uniform(SampleId(7)), in_order[7]);
     }
 
-    /// Law: moments of 40,000 normal numbers over ticks and over samples are those of a standard normal, within five standard errors.
+    /// Law: moments of 40,000 normal numbers over ticks and over samples are those of a standard normal, within five
+    /// standard errors.
     #[test]
     fn normal_numbers_are_standard() {
         for over_samples in [false, true] {

@@ -1,11 +1,13 @@
-//! Spearman's rank correlation of two numbers whose normal scores have the correlation r, and the r that gives a rank correlation.
+//! Spearman's rank correlation of two numbers whose normal scores have the correlation r, and the r that gives a rank
+//! correlation.
 //!
-//! The rank of a value in a large sample is its grade G: the probability of smaller values and half of that of the value itself. Of two
-//! continuous distributions the grades are the u of the copula, and r = 2 sin(pi rho/6) ([`score_correlation`]). The grade of a
-//! discrete distribution is a step function of the score; with steps d_i at scores a_i, e_j at b_j and the bivariate normal density
-//! phi_2, dE[G H]/dr = sum d_i e_j phi_2(a_i, b_j; r) (R. L. Plackett, *Biometrika* 41 (1954) 351), integrated here from 0 to r
-//! over theta = asin r (Z. Drezner & G. O. Wesolowsky, *J. Stat. Comput. Simul.* 35 (1990) 101). A discrete distribution reaches less
-//! than rank correlation 1 unless both have the same steps.
+//! The rank of a value in a large sample is its grade G: the probability of smaller values and half of that of the
+//! value itself. Of two continuous distributions the grades are the u of the copula, and r = 2 sin(pi rho/6)
+//! ([`score_correlation`]). The grade of a discrete distribution is a step function of the score; with steps d_i at
+//! scores a_i, e_j at b_j and the bivariate normal density phi_2, dE[G H]/dr = sum d_i e_j phi_2(a_i, b_j; r) (R. L.
+//! Plackett, *Biometrika* 41 (1954) 351), integrated here from 0 to r over theta = asin r (Z. Drezner & G. O.
+//! Wesolowsky, *J. Stat. Comput. Simul.* 35 (1990) 101). A discrete distribution reaches less than rank correlation 1
+//! unless both have the same steps.
 
 use super::copula::score_correlation;
 use super::distribution::{Distribution, Quantile};
@@ -21,7 +23,8 @@ enum Grades {
     Steps(Vec<[f64; 3]>),
 }
 
-/// Discrete values that are less probable than this are joined with their neighbours: the rank correlation changes by about its square.
+/// Discrete values that are less probable than this are joined with their neighbours: the rank correlation changes by
+/// about its square.
 const FINEST: f64 = 1.0 / 64.0;
 /// Intervals of Simpson's rule: errors below 1e-7 where the steps are apart by more than 0.01.
 const INTERVALS: u32 = 128;
@@ -119,8 +122,8 @@ fn covariance(a: &Grades, b: &Grades, theta: f64) -> f64 {
     (0..=INTERVALS).map(term).sum::<f64>() * width / 3.0
 }
 
-/// The correlation of the normal scores with which `a` and `b` have the rank correlation `rank`; or, where they cannot have it, the
-/// lowest and the highest that they can have.
+/// The correlation of the normal scores with which `a` and `b` have the rank correlation `rank`; or, where they cannot
+/// have it, the lowest and the highest that they can have.
 pub(super) fn scores_of_ranks(rank: f64, a: &Distribution, b: &Distribution) -> Result<f64, [f64; 2]> {
     let (a, b) = (Grades::of(a), Grades::of(b));
     if a == Grades::Continuous && b == Grades::Continuous {
@@ -179,7 +182,8 @@ mod tests {
         covariance(&a, &b, libm::asin(r)) / (a.deviation() * b.deviation())
     }
 
-    /// Two values at even chances: E[G H] by the orthant probability 1/4 + asin(r)/(2 pi) (W. F. Sheppard 1899), so rho = 2 asin(r)/pi.
+    /// Two values at even chances: E[G H] by the orthant probability 1/4 + asin(r)/(2 pi) (W. F. Sheppard 1899), so
+    /// rho = 2 asin(r)/pi.
     #[test]
     fn even_chances_have_the_orthant_probability() {
         let coin = choice(&[1.0, 1.0]);
@@ -189,8 +193,8 @@ mod tests {
         }
     }
 
-    /// Known: the density of Plackett integrated in closed form for continuous distributions, and mpmath's bivariate normal probabilities
-    /// (double integrals, 30 digits) for steps.
+    /// Known: the density of Plackett integrated in closed form for continuous distributions, and mpmath's bivariate
+    /// normal probabilities (double integrals, 30 digits) for steps.
     #[test]
     fn rank_correlations_are_known_ones() {
         let normal = Distribution::Normal(NormalQuantile { mean: 0.0, std: 1.0 });

@@ -62,8 +62,8 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Writes every dispersed number of `sample` into `scene`, a copy of the nominal scene or of an earlier draw, and what was
-    /// applied into `applied`, one number a column. Sample 0 is nominal.
+    /// Writes every dispersed number of `sample` into `scene`, a copy of the nominal scene or of an earlier draw, and
+    /// what was applied into `applied`, one number a column. Sample 0 is nominal.
     ///
     /// # Panics
     /// Where `applied` is not as long as [`Dispersions::columns`].

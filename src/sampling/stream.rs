@@ -1,7 +1,7 @@
 //! [`Stream`]: the random numbers of one component of one parameter, addressed by sample.
 //!
-//! The generator is ChaCha with 8 rounds (D. J. Bernstein, *ChaCha, a variant of Salsa20*, 2008), 64-bit block counter and
-//! nonce zero. The 256-bit key is, byte by byte,
+//! The generator is ChaCha with 8 rounds (D. J. Bernstein, *ChaCha, a variant of Salsa20*, 2008), 64-bit block counter
+//! and nonce zero. The 256-bit key is, byte by byte,
 //!
 //! | bytes | |
 //! | --- | --- |
@@ -9,10 +9,10 @@
 //! | 8..24 | FNV-1a, 128 bits, of the component's name (`initial.angular_velocity_rad_s.y`), little-endian |
 //! | 24..32 | the ASCII text `sampling` |
 //!
-//! and sample k takes the k-th little-endian 64-bit word of the key stream. So a draw depends on (seed, sample, name) alone,
-//! any sample is reached at once, neighbours share a block (one draw costs an eighth of one), and any implementation of ChaCha
-//! gives the same numbers. Counters that hold the sample *and* the parameter under one key were rejected: they would number
-//! the parameters, and a new one would renumber the others.
+//! and sample k takes the k-th little-endian 64-bit word of the key stream. So a draw depends on (seed, sample, name)
+//! alone, any sample is reached at once, neighbours share a block (one draw costs an eighth of one), and any
+//! implementation of ChaCha gives the same numbers. Counters that hold the sample *and* the parameter under one key
+//! were rejected: they would number the parameters, and a new one would renumber the others.
 
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
@@ -129,8 +129,8 @@ mod tests {
         assert_eq!(fnv1a("a"), 0xd228_cb69_6f1a_8caf_7891_2b70_4e4a_8964);
     }
 
-    /// Golden, from a second ChaCha8 written for the purpose after Bernstein's paper in another language: any change of these is a
-    /// change of every campaign that was ever run.
+    /// Golden, from a second ChaCha8 written for the purpose after Bernstein's paper in another language: any change of
+    /// these is a change of every campaign that was ever run.
     #[test]
     fn draws_are_pinned() {
         let bits = |seed, name, sample| Stream::new(seed, name).bits(SampleId(sample));

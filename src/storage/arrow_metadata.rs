@@ -1,8 +1,9 @@
 //! Arrow's schema within the metadata of a Parquet file, where readers find the unit and the meaning of a column.
 //!
-//! The format: the message "Schema" of Arrow's IPC format with its length before it, in base64, under the key `ARROW:schema` (Apache Arrow,
-//! *Columnar Format*, "Serialization and Interprocess Communication", and its files `Message.fbs` and `Schema.fbs`; Arrow's C++ library
-//! defines the key). The message is a FlatBuffer and is written by hand: the crate that encodes it is a sixth of a cold build.
+//! The format: the message "Schema" of Arrow's IPC format with its length before it, in base64, under the key
+//! `ARROW:schema` (Apache Arrow, *Columnar Format*, "Serialization and Interprocess Communication", and its files
+//! `Message.fbs` and `Schema.fbs`; Arrow's C++ library defines the key). The message is a FlatBuffer and is written by
+//! hand: the crate that encodes it is a sixth of a cold build.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -54,8 +55,8 @@ enum Slot {
     Reference,
 }
 
-/// A FlatBuffer that is written front to back: what refers to something comes before it. Every field of a table takes four bytes, so that
-/// all is aligned (no field that is stored here needs more).
+/// A FlatBuffer that is written front to back: what refers to something comes before it. Every field of a table takes
+/// four bytes, so that all is aligned (no field that is stored here needs more).
 struct FlatBuffer(Vec<u8>);
 
 impl FlatBuffer {
@@ -153,8 +154,8 @@ mod tests {
     use arrow_schema::{DataType, Field, Schema};
     use std::collections::HashMap;
 
-    /// Law: Arrow's own reader, which verifies a buffer, finds every column with its type and metadata; texts of all lengths, so that every
-    /// alignment occurs.
+    /// Law: Arrow's own reader, which verifies a buffer, finds every column with its type and metadata; texts of all
+    /// lengths, so that every alignment occurs.
     #[test]
     fn arrow_reads_the_schema() {
         let types =

@@ -1,8 +1,8 @@
-//! [`write()`]: files that are either whole or absent, outside of datasets: tables, plots and reports that a command is told to write.
-//! The files of a dataset are written by [`super::folder`].
+//! [`write()`]: files that are either whole or absent, outside of datasets: tables, plots and reports that a command is
+//! told to write. The files of a dataset are written by [`super::folder`].
 //!
-//! A file is written under a temporary name in its own folder (a rename cannot cross file systems), flushed to the disk, and
-//! then renamed. Its temporary name is one that nothing else has; what a crash leaves is recognised by it.
+//! A file is written under a temporary name in its own folder (a rename cannot cross file systems), flushed to the
+//! disk, and then renamed. Its temporary name is one that nothing else has; what a crash leaves is recognised by it.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -21,7 +21,8 @@ fn check_replaceable(path: &Path) -> io::Result<()> {
     }
 }
 
-/// The error of making `path`, in words: what is in the way, and what to do about it; as it is where the system says that itself.
+/// The error of making `path`, in words: what is in the way, and what to do about it; as it is where the system says
+/// that itself.
 pub fn explained(path: &Path, error: io::Error) -> io::Error {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let text = match error.kind() {
@@ -52,8 +53,8 @@ pub fn make_folder(path: &Path) -> io::Result<()> {
     })
 }
 
-/// Writes the file `path` with `content` and renames it; an older file of that name is replaced only then, and so is a link, not what it
-/// leads to.
+/// Writes the file `path` with `content` and renames it; an older file of that name is replaced only then, and so is a
+/// link, not what it leads to.
 ///
 /// # Errors
 /// What `content` returns, or the first failing operation on the file; the unfinished file is removed.
@@ -115,7 +116,8 @@ mod tests {
         fs::remove_dir_all(&folder).unwrap();
     }
 
-    /// Law: what is in the way of a file is said in words, without the numbers of the system, with what to do: a file, a folder, a folder that is not there.
+    /// Law: what is in the way of a file is said in words, without the numbers of the system, with what to do: a file,
+    /// a folder, a folder that is not there.
     #[test]
     fn what_is_in_the_way_is_said() {
         let folder = folder("words");
@@ -163,8 +165,8 @@ mod tests {
         fs::remove_dir_all(&folder).unwrap();
     }
 
-    /// Law: a link that somebody put under the temporary or the final name is not followed, a file of the temporary name is kept, and a pipe of
-    /// the final name is refused without waiting.
+    /// Law: a link that somebody put under the temporary or the final name is not followed, a file of the temporary
+    /// name is kept, and a pipe of the final name is refused without waiting.
     #[cfg(unix)]
     #[test]
     fn links_are_not_followed() {

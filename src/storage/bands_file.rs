@@ -1,4 +1,5 @@
-//! Files of the bands of a part, `bands/part-000000.parquet`: what [`PartBands`] counted, one row for each bucket that is not empty.
+//! Files of the bands of a part, `bands/part-000000.parquet`: what [`PartBands`] counted, one row for each bucket that
+//! is not empty.
 //!
 //! The metadata have what the bands are of, so that a file says by itself what its buckets mean.
 
@@ -25,7 +26,8 @@ const LAYOUT_KEY: &str = "spindrift.bands";
 const RUNS_KEY: &str = "spindrift.bands.runs";
 /// How many of them are counted.
 const COUNTED_KEY: &str = "spindrift.bands.counted";
-/// Of every place, which is a point of a series, series by series: the smallest and the largest kept number, NaN where no run has one.
+/// Of every place, which is a point of a series, series by series: the smallest and the largest kept number, NaN where
+/// no run has one.
 const EXTREMES_KEYS: [&str; 2] = ["spindrift.bands.min", "spindrift.bands.max"];
 /// How many runs have no number there.
 const WITHOUT_KEY: &str = "spindrift.bands.without";
@@ -35,7 +37,8 @@ const ROWS_KEY: &str = "spindrift.bands.rows";
 /// The columns, each with its meaning.
 const BUCKET: (&str, &str) = (
     "bucket",
-    "The bucket of the deviations from the nominal run: twice the leading bits of the magnitude (32 to an octave, 1 at 2^-512), and 1 where it is negative; 0: zero.",
+    "The bucket of the deviations from the nominal run: twice the leading bits of the magnitude (32 to an octave, 1 at \
+    2^-512), and 1 where it is negative; 0: zero.",
 );
 const COUNT: (&str, &str) = ("count", "Number of runs in it.");
 
@@ -206,7 +209,8 @@ impl StoredBands {
 /// The bands of several parts together; memory does not grow with their number.
 ///
 /// # Errors
-/// The first file that cannot be read, is damaged or of another campaign, or whose part does not follow those before it.
+/// The first file that cannot be read, is damaged or of another campaign, or whose part does not follow those before
+/// it.
 pub fn read(
     storage: &dyn Storage,
     files: &[PathBuf],
@@ -275,7 +279,8 @@ mod tests {
         path
     }
 
-    /// Law: files are merged in their order; one that makes no sense, is damaged, of another campaign or there twice is refused by its name.
+    /// Law: files are merged in their order; one that makes no sense, is damaged, of another campaign or there twice is
+    /// refused by its name.
     #[test]
     fn files_are_merged_or_refused_by_name() {
         let folder = std::env::temp_dir().join(format!("spindrift-bands-file-{}", std::process::id()));

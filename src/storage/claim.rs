@@ -19,8 +19,8 @@ use crate::storage::recovery::is_lost;
 use crate::storage::replacement::{self, remove_replaced, remove_unfinished, replace};
 use crate::storage::verify::{damaged as damaged_parts, derived_damage};
 
-/// How long a lock of another process is waited for: that of a process which was killed ends once the system has closed its files, and a
-/// program that the owner starts has copies of the owner's files for a moment.
+/// How long a lock of another process is waited for: that of a process which was killed ends once the system has closed
+/// its files, and a program that the owner starts has copies of the owner's files for a moment.
 const PATIENCE: Duration = Duration::from_millis(300);
 /// Between two tries of a lock.
 const PAUSE: Duration = Duration::from_millis(10);
@@ -193,7 +193,8 @@ fn fill(
     }
     if let Some(differences) = row_differences(&found.plan, plan).filter(|_| found.identity.is_some()) {
         let conflict = format!(
-            "its first line says that its rows are those of this plan, and its second one has a plan with other rows:\n  {differences}"
+            "its first line says that its rows are those of this plan, and its second one has a plan with other \
+            rows:\n  {differences}"
         );
         return Err(FolderError::Mixed { folder, conflict: format!("{MANIFEST}: {conflict}") });
     }
@@ -304,7 +305,8 @@ pub fn lock(storage: &dyn Storage, root: &Path) -> Result<Locks, FolderError> {
     Ok(locks)
 }
 
-/// Opens the dataset in `root` as it is, for commands that add no samples; locked against writers, and against readers unless `is_shared`.
+/// Opens the dataset in `root` as it is, for commands that add no samples; locked against writers, and against readers
+/// unless `is_shared`.
 ///
 /// # Errors
 /// Where there is none, or a file operation fails.

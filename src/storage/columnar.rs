@@ -1,9 +1,9 @@
 //! Tables as Parquet: [`Layout`] is that of all files of one kind.
 //!
-//! Arrow's schema (which carries unit and meaning as field metadata) beside Parquet's, with Parquet's typed column writer: columns are passed
-//! from the memory of the rows to the encoder without a copy. The Arrow writer was rejected: it writes a third slower.
-//! Floats have no dictionary (with one the file is a quarter larger and takes five times as long). The encoding
-//! BYTE_STREAM_SPLIT makes their exponents compress.
+//! Arrow's schema (which carries unit and meaning as field metadata) beside Parquet's, with Parquet's typed column
+//! writer: columns are passed from the memory of the rows to the encoder without a copy. The Arrow writer was rejected:
+//! it writes a third slower. Floats have no dictionary (with one the file is a quarter larger and takes five times as
+//! long). The encoding BYTE_STREAM_SPLIT makes their exponents compress.
 
 use std::borrow::Borrow;
 use std::collections::BTreeMap;
@@ -42,12 +42,14 @@ const ROOT: &str = "arrow_schema";
 #[derive(Clone, Debug)]
 pub struct Layout {
     columns: Vec<Column>,
-    /// What every file says of itself, in order of the keys: that of a hash map changes from run to run, and files must not.
+    /// What every file says of itself, in order of the keys: that of a hash map changes from run to run, and files must
+    /// not.
     metadata: BTreeMap<String, String>,
     root: TypePtr,
     /// Properties of every file, without its metadata.
     properties: WriterProperties,
-    /// The schema as Arrow's readers look for it. It is encoded once: for a small part that costs as much as tens of runs.
+    /// The schema as Arrow's readers look for it. It is encoded once: for a small part that costs as much as tens of
+    /// runs.
     arrow_schema: KeyValue,
 }
 
@@ -288,8 +290,8 @@ mod tests {
         SerializedFileReader::new(bytes::Bytes::from(bytes)).unwrap()
     }
 
-    /// Law: the cells of a table with every kind of value come back from Parquet bit for bit, in every packing; those that are absent or not finite
-    /// are null.
+    /// Law: the cells of a table with every kind of value come back from Parquet bit for bit, in every packing; those
+    /// that are absent or not finite are null.
     #[test]
     fn parquet_comes_back() {
         let table = every_kind();

@@ -1,14 +1,17 @@
 //! [`Storage`]: the file operations that a dataset is made of, so that tests can let any of them fail.
 //!
-//! The idea of SQLite's test layer: everything that a dataset does to the disk, and every read of its files ([`super::stored_file`]), uses this
-//! interface, and a test repeats the same work with a fault at the first, second, third ... operation. [`Disk`] is the real one.
+//! The idea of SQLite's test layer: everything that a dataset does to the disk, and every read of its files
+//! ([`super::stored_file`]), uses this interface, and a test repeats the same work with a fault at the first, second,
+//! third ... operation. [`Disk`] is the real one.
 //!
 //! On purpose not here, since they are no files of a dataset:
 //! - what a command is told to write elsewhere (`--junit`, `--figures`, `--out` of `simulate`, `sample`, `precision`):
 //!   [`super::atomic`], and `create_dir_all` of the folders of figures;
-//! - what a campaign file names, and the file itself: [`crate::campaign::input_file`]. The copies of files of numbers in `data/` are read as
-//!   the originals are: by the plan's checksum, so that what cannot be read is an error of the plan;
-//! - questions that no row and no decision about a file depends on: whether two paths are the same file, free space and memory, `/proc`.
+//! - what a campaign file names, and the file itself: [`crate::campaign::input_file`]. The copies of files of numbers
+//!   in `data/` are read as the originals are: by the plan's checksum, so that what cannot be read is an error of the
+//!   plan;
+//! - questions that no row and no decision about a file depends on: whether two paths are the same file, free space and
+//!   memory, `/proc`.
 
 use std::fmt::Debug;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -19,14 +22,15 @@ use crate::storage::stored_file::{StoredFile, Unfit, content, has};
 
 /// Operations on files. Each may fail; none leaves a file under a final name that is not whole.
 pub trait Storage: Debug + Send + Sync {
-    /// Creates the file `path`, which must not exist (a link of that name is not followed), writes `bytes` and flushes them to the disk.
+    /// Creates the file `path`, which must not exist (a link of that name is not followed), writes `bytes` and flushes
+    /// them to the disk.
     ///
     /// # Errors
     /// The first operation that fails; a part of the file may be left.
     fn create(&self, path: &Path, bytes: &[u8]) -> io::Result<()>;
 
-    /// Appends `bytes` to the file `path` at `length`, its length until now, and flushes them to the disk. What is there after `length` is cut
-    /// off first: a line that an earlier failure left unfinished.
+    /// Appends `bytes` to the file `path` at `length`, its length until now, and flushes them to the disk. What is
+    /// there after `length` is cut off first: a line that an earlier failure left unfinished.
     ///
     /// # Errors
     /// The first operation that fails.
@@ -54,7 +58,8 @@ pub trait Storage: Debug + Send + Sync {
         has(&*self.open(path)?, bytes)
     }
 
-    /// Locks a file or folder against other processes, shared or not, until the result is dropped; `None` where the file system has no locks.
+    /// Locks a file or folder against other processes, shared or not, until the result is dropped; `None` where the
+    /// file system has no locks.
     ///
     /// # Errors
     /// Where another process has it locked, or it cannot be opened or locked.
@@ -66,7 +71,8 @@ pub trait Storage: Debug + Send + Sync {
     /// Where it fails.
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
 
-    /// Gives the file `from` the name `to` too, which must not exist: of several processes that do so at the same time one succeeds.
+    /// Gives the file `from` the name `to` too, which must not exist: of several processes that do so at the same time
+    /// one succeeds.
     ///
     /// # Errors
     /// Where it fails; `AlreadyExists` where there is something of that name.
@@ -245,7 +251,8 @@ fn is_at(file: &File, path: &Path) -> bool {
     }
 }
 
-/// Refuses a folder of a dataset that is none: through a link that somebody put in its place, files elsewhere would change.
+/// Refuses a folder of a dataset that is none: through a link that somebody put in its place, files elsewhere would
+/// change.
 ///
 /// # Errors
 /// Where it is a link or something else; none where it is not there.
@@ -276,8 +283,8 @@ pub fn new_folder(storage: &dyn Storage, path: &Path) -> Result<(), StorageError
     missing.into_iter().try_for_each(|folder| storage.sync_folder(folder).map_err(at(folder)))
 }
 
-/// The folder that `path` means: what it leads to where it is a link, whether that is there or not, so that a link which changes later
-/// changes nothing; and one with a name where it is `.` or `..`.
+/// The folder that `path` means: what it leads to where it is a link, whether that is there or not, so that a link
+/// which changes later changes nothing; and one with a name where it is `.` or `..`.
 ///
 /// # Errors
 /// Where a link cannot be read, or leads to itself.
@@ -368,7 +375,8 @@ mod tests {
         assert!(Disk.remove(&file).is_ok() && Disk.remove_folder(&folder).is_ok());
     }
 
-    /// Law: what was created is read; what is no regular file is unfit, and what is not there is neither read nor unfit.
+    /// Law: what was created is read; what is no regular file is unfit, and what is not there is neither read nor
+    /// unfit.
     #[test]
     fn only_regular_files_are_read() {
         let folder = std::env::temp_dir().join(format!("spindrift-storage-{}", std::process::id()));

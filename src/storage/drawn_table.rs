@@ -37,8 +37,8 @@ pub fn values(drawn: &DrawnScenes) -> Vec<Values<'_>> {
     fixed.into_iter().chain(numbers).collect()
 }
 
-/// Writes the sampled parameters of `plan` to `path`, in the format of its extension; the file is whole or absent. Samples are drawn as
-/// they are written; `seen` is shown each part of them.
+/// Writes the sampled parameters of `plan` to `path`, in the format of its extension; the file is whole or absent.
+/// Samples are drawn as they are written; `seen` is shown each part of them.
 ///
 /// # Errors
 /// [`TableError`].

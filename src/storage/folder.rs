@@ -7,8 +7,9 @@
 //! results/<name>/summary.json, ...          what follows from the rows
 //! results/<name>/_SUCCESS                  everything is there
 //! ```
-//! A part is written under a temporary name, flushed to the disk, read back and compared, and renamed; its folder is flushed; then one line
-//! of the manifest lists it. Whatever stops the program, the parts that are listed are whole, and the others are made again.
+//! A part is written under a temporary name, flushed to the disk, read back and compared, and renamed; its folder is
+//! flushed; then one line of the manifest lists it. Whatever stops the program, the parts that are listed are whole,
+//! and the others are made again.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -82,8 +83,9 @@ struct FolderState {
 }
 
 impl Folder {
-    /// The dataset in `root` of the plan with this text, whose manifest `manifest` (its name below `root`) has so far the records `own`; `others`
-    /// are the parts of other manifests. What was damaged in the manifest is left out of its new text.
+    /// The dataset in `root` of the plan with this text, whose manifest `manifest` (its name below `root`) has so far
+    /// the records `own`; `others` are the parts of other manifests. What was damaged in the manifest is left out of
+    /// its new text.
     ///
     /// # Errors
     /// Where a file operation fails.
@@ -99,7 +101,8 @@ impl Folder {
         let what = (folder.plan.as_str(), &folder.identity);
         let own = own.map_or_else(|| begin(storage, root, what, &folder.manifest), Ok)?;
         let text = Manifest::text(&folder.identity, &folder.plan, own.parts.values(), None);
-        // a manifest with damage, or one that says that it is finished, is written again: what is appended must follow its last part
+        // a manifest with damage, or one that says that it is finished, is written again: what is appended must follow
+        // its last part
         let is_same = own.identity.as_ref() == Some(&folder.identity) && own.plan.as_ref() == Some(&folder.plan);
         if !own.damaged.is_empty() || own.is_finished || !is_same {
             folder.write(&folder.manifest, text.as_bytes())?;
@@ -134,7 +137,8 @@ impl Folder {
         &self.identity
     }
 
-    /// The path of the file `name`, which is about to change: it is in this folder, and not through a link in another one.
+    /// The path of the file `name`, which is about to change: it is in this folder, and not through a link in another
+    /// one.
     fn own(&self, name: &str) -> Result<PathBuf, StorageError> {
         let path = self.path(name);
         for folder in [&*self.root, above(&path)] {
@@ -272,8 +276,8 @@ impl Folder {
         self.write(&file, bytes)
     }
 
-    /// Takes back that everything is there, before anything of it is replaced: the summary, if there is one, then says that it is of rows
-    /// before.
+    /// Takes back that everything is there, before anything of it is replaced: the summary, if there is one, then says
+    /// that it is of rows before.
     ///
     /// # Errors
     /// Where a file operation fails.
@@ -294,7 +298,8 @@ impl Folder {
         self.storage.sync_folder(&self.root).map_err(at(&self.root))
     }
 
-    /// Prepares the folder `name` for files that are made again: without those that an earlier end of the campaign left there.
+    /// Prepares the folder `name` for files that are made again: without those that an earlier end of the campaign left
+    /// there.
     ///
     /// # Errors
     /// Where a file operation fails.
@@ -314,8 +319,8 @@ impl Folder {
         Ok(path)
     }
 
-    /// Says that everything is there: the manifest lists all parts in order, whichever manifests listed them before, and what follows from
-    /// them; and the mark is set.
+    /// Says that everything is there: the manifest lists all parts in order, whichever manifests listed them before,
+    /// and what follows from them; and the mark is set.
     ///
     /// # Errors
     /// Where a file operation fails.
@@ -348,7 +353,8 @@ pub fn unmark(storage: &dyn Storage, root: &Path) -> Result<(), StorageError> {
     storage.sync_folder(root).map_err(at(root))
 }
 
-/// Writes the manifest of the finished dataset in `root`, whose plan has the text `plan`, after one file that follows from the rows was made again.
+/// Writes the manifest of the finished dataset in `root`, whose plan has the text `plan`, after one file that follows
+/// from the rows was made again.
 ///
 /// # Errors
 /// Where a file operation fails.
@@ -376,8 +382,9 @@ fn unfinished_summary(bytes: &[u8]) -> Option<String> {
     Some(format!("{summary:#}\n"))
 }
 
-/// The manifest `name` of the dataset in `root`, where no manifest of this name was found: a new one with the identity of the rows. Of
-/// several processes that begin at the same time, one makes it, with locks and without; what it says is read by all.
+/// The manifest `name` of the dataset in `root`, where no manifest of this name was found: a new one with the identity
+/// of the rows. Of several processes that begin at the same time, one makes it, with locks and without; what it says is
+/// read by all.
 ///
 /// # Errors
 /// Where a file operation fails; where there is one that lists parts of these rows: its folder did not show it.

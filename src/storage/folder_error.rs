@@ -16,7 +16,8 @@ const LISTED: usize = 12;
 pub enum FolderError {
     /// It has the rows of another plan.
     #[error(
-        "`{folder}` contains {what} of another plan:\n  {differences}\nchoose another --out, or replace it with --overwrite"
+        "`{folder}` contains {what} of another plan:\n  {differences}\nchoose another --out, or replace it with \
+        --overwrite"
     )]
     Occupied {
         folder: String,
@@ -27,12 +28,14 @@ pub enum FolderError {
     },
     /// It has more rows than the plan.
     #[error(
-        "`{folder}` contains {found} rows of this plan, more than its {asked} samples; leave --samples out, choose another --out, or replace it with --overwrite"
+        "`{folder}` contains {found} rows of this plan, more than its {asked} samples; leave --samples out, choose \
+        another --out, or replace it with --overwrite"
     )]
     Larger { folder: String, found: u64, asked: u64 },
     /// Its shards are of different plans.
     #[error(
-        "`{folder}` has rows of different plans: {conflict}\nremove the manifest of the wrong one, so that its parts are made again, or run the campaign with --overwrite"
+        "`{folder}` has rows of different plans: {conflict}\nremove the manifest of the wrong one, so that its parts \
+        are made again, or run the campaign with --overwrite"
     )]
     Mixed {
         folder: String,
@@ -41,16 +44,19 @@ pub enum FolderError {
     },
     /// It has a plan and rows, and no manifest.
     #[error(
-        "`{folder}` has lost its manifest.jsonl; this makes its rows again from its plan.toml: spindrift verify {folder} --repair"
+        "`{folder}` has lost its manifest.jsonl; this makes its rows again from its plan.toml: spindrift verify \
+        {folder} --repair"
     )]
     Lost { folder: String },
     /// Everything is there, and a shard has other keys that change no row.
     #[error(
-        "`{folder}` is finished, and the plan of this shard has other keys that change no row; run the campaign without --shard: it answers from the rows that are there"
+        "`{folder}` is finished, and the plan of this shard has other keys that change no row; run the campaign \
+        without --shard: it answers from the rows that are there"
     )]
     Answered { folder: String },
     #[error(
-        "`{folder}` contains `{entry}`, which is not part of a result of spindrift; move it away, or choose another --out"
+        "`{folder}` contains `{entry}`, which is not part of a result of spindrift; move it away, or choose another \
+        --out"
     )]
     Foreign { folder: String, entry: String },
     /// Another process writes to it.
@@ -62,7 +68,8 @@ pub enum FolderError {
     },
     /// It has a result that is to be replaced, and cannot be renamed.
     #[error(
-        "`{folder}` cannot be replaced, because it cannot be renamed: {why}; choose a folder below it or another one as --out, and run the command in another folder, or remove what is in it and leave --overwrite out"
+        "`{folder}` cannot be replaced, because it cannot be renamed: {why}; choose a folder below it or another one \
+        as --out, and run the command in another folder, or remove what is in it and leave --overwrite out"
     )]
     Immovable {
         folder: String,
@@ -106,12 +113,14 @@ pub(super) fn occupied(
     FolderError::Occupied { folder, what, differences }
 }
 
-/// All keys in which the plan of the text `there`, whose rows are `rows`, differs from `plan`, whose rows are `identity`, one a line.
+/// All keys in which the plan of the text `there`, whose rows are `rows`, differs from `plan`, whose rows are
+/// `identity`, one a line.
 pub(super) fn all_differences((there, rows): (&str, &Identity), (plan, identity): (&Plan, &Identity)) -> String {
     reasons(text_differences(there, &plan.text()).into_iter().map(said).collect(), rows, identity)
 }
 
-/// The text of a `list` of keys that differ, where the rows are `there` and not `identity`: what else differs is added, and what is too long is cut.
+/// The text of a `list` of keys that differ, where the rows are `there` and not `identity`: what else differs is added,
+/// and what is too long is cut.
 fn reasons(mut list: Vec<String>, there: &Identity, identity: &Identity) -> String {
     if there.arithmetic != identity.arithmetic || there.format != identity.format {
         list.push(format!(

@@ -1,4 +1,5 @@
-//! [`contents`]: what is in the folder of a result, as it was found: its manifests, its plan, and what does not belong there.
+//! [`contents`]: what is in the folder of a result, as it was found: its manifests, its plan, and what does not belong
+//! there.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -29,7 +30,8 @@ pub enum FolderContents {
 /// A dataset as it was found.
 #[derive(Debug, Default)]
 pub struct Found {
-    /// The text of its plan: that of `plan.toml` where a manifest has the same, else that of a manifest; empty where there is none.
+    /// The text of its plan: that of `plan.toml` where a manifest has the same, else that of a manifest; empty where
+    /// there is none.
     pub plan: String,
     /// What is wrong with `plan.toml`, where it is not the plan.
     pub plan_damage: Option<String>,
@@ -44,15 +46,18 @@ pub struct Found {
     pub is_finished: bool,
     /// Whether it has a page, or had one.
     pub has_page: bool,
-    /// The first entry that has a name of the dataset and is something else: a link, or a folder where a file should be.
+    /// The first entry that has a name of the dataset and is something else: a link, or a folder where a file should
+    /// be.
     pub foreign: Option<String>,
     /// Entries whose names no file of a dataset has: they are left alone.
     pub strays: Vec<String>,
     /// Files with names of the dataset that no manifest lists although everything is there.
     pub unlisted: Vec<String>,
-    /// Of a result that is not finished: the files that follow from rows and that no manifest lists. Nothing says what should be in them.
+    /// Of a result that is not finished: the files that follow from rows and that no manifest lists. Nothing says what
+    /// should be in them.
     pub unchecked: Vec<String>,
-    /// Commits of the table's log that no manifest lists although everything is there: a table engine would believe them.
+    /// Commits of the table's log that no manifest lists although everything is there: a table engine would believe
+    /// them.
     pub foreign_commits: Vec<String>,
 }
 
@@ -99,7 +104,8 @@ impl Found {
         self.parts().values().map(|part| part.rows).sum()
     }
 
-    /// Number of samples up to the last one of a part that is listed. Parts are not made in order: it may be more than the rows.
+    /// Number of samples up to the last one of a part that is listed. Parts are not made in order: it may be more than
+    /// the rows.
     pub(super) fn extent(&self) -> u64 {
         self.parts().values().map(|part| part.first_sample.saturating_add(part.rows)).max().unwrap_or(0)
     }
@@ -268,7 +274,8 @@ mod tests {
     use super::*;
     use crate::storage::disk::Disk;
 
-    /// Law: without a manifest, files that are whole are not taken for this program's, and what it left unfinished is nothing.
+    /// Law: without a manifest, files that are whole are not taken for this program's, and what it left unfinished is
+    /// nothing.
     #[test]
     fn whole_files_without_a_manifest_are_foreign() {
         let root = std::env::temp_dir().join(format!("spindrift-found-{}", std::process::id()));

@@ -1,4 +1,5 @@
-//! [`Identity`] of rows: of a plan and its columns ([`of`]), as the metadata of a file of rows ([`metadata`]), and read from there ([`in_rows`]).
+//! [`Identity`] of rows: of a plan and its columns ([`of`]), as the metadata of a file of rows ([`metadata`]), and read
+//! from there ([`in_rows`]).
 
 use bytes::Bytes;
 use parquet::file::metadata::ParquetMetaDataReader;
@@ -59,7 +60,8 @@ pub fn part_metadata(part: Part, first: SampleId) -> [(&'static str, String); 3]
     [(PART_KEY, part.id.0.to_string()), (FIRST_KEY, first.to_string()), (SAMPLES_KEY, part.count.to_string())]
 }
 
-/// The rows of a file, and number and size of its part, as its metadata say; `None` where the bytes are no file of rows.
+/// The rows of a file, and number and size of its part, as its metadata say; `None` where the bytes are no file of
+/// rows.
 pub fn in_rows(bytes: Bytes) -> Option<(Identity, PartId, usize)> {
     let read = std::panic::catch_unwind(|| ParquetMetaDataReader::new().parse_and_finish(&bytes).ok());
     let metadata = read.ok().flatten()?;
@@ -76,16 +78,16 @@ pub fn in_rows(bytes: Bytes) -> Option<(Identity, PartId, usize)> {
     Some((identity, PartId(pairs.get(PART_KEY)?.parse().ok()?), pairs.get(SAMPLES_KEY)?.parse().ok()?))
 }
 
-/// Identity of the rows and the row plan, for files of rows: all that changes them, and nothing else. The name of the campaign, the version of
-/// the program and the instruction set are not part of it: no bit of a row depends on them.
+/// Identity of the rows and the row plan, for files of rows: all that changes them, and nothing else. The name of the
+/// campaign, the version of the program and the instruction set are not part of it: no bit of a row depends on them.
 pub fn row_provenance(plan: &Plan, identity: &Identity) -> BTreeMap<String, String> {
     let plan = ("spindrift.row_plan", plan.row_text());
     let pairs = metadata(identity).into_iter().chain([plan]);
     pairs.map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
-/// Version of the program, campaign, seed, and the plan with its hash. The instruction set is not part of it: no bit of a
-/// row depends on it.
+/// Version of the program, campaign, seed, and the plan with its hash. The instruction set is not part of it: no bit of
+/// a row depends on it.
 pub fn provenance(plan: &Plan) -> BTreeMap<String, String> {
     let pairs = [
         ("spindrift.version", env!("CARGO_PKG_VERSION").to_owned()),

@@ -7,8 +7,8 @@
 //! {"dropped":3,"crc":...}                                         a part that is to be made again
 //! {"finished":true,"parts":16,"rows":4096,"files":[...],"crc":...} all is there, with every file that follows from it
 //! ```
-//! Only what is listed exists. Every line ends with the CRC-32 (ISO 3309) of what stands before it: a line that a crash cut off, or in which a
-//! bit has changed, is recognised and left out, and the part that it listed is made again.
+//! Only what is listed exists. Every line ends with the CRC-32 (ISO 3309) of what stands before it: a line that a crash
+//! cut off, or in which a bit has changed, is recognised and left out, and the part that it listed is made again.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,16 +17,17 @@ use crate::sampling::SampleId;
 use crate::storage::names::{PART_BANDS, RUNS, is_derived, is_ours};
 use std::path::PathBuf;
 
-/// Version of these lines, and of the files that they list: counts are Int64 since 2, parts have other sizes and bands coarser buckets since 3;
-/// since 4 the manifest has the plan and lists the files that follow from the rows, and every file of rows has the whole [`Identity`];
-/// since 5 bands of large campaigns count the first runs only.
+/// Version of these lines, and of the files that they list: counts are Int64 since 2, parts have other sizes and bands
+/// coarser buckets since 3; since 4 the manifest has the plan and lists the files that follow from the rows, and every
+/// file of rows has the whole [`Identity`]; since 5 bands of large campaigns count the first runs only.
 pub const FORMAT: u32 = 5;
 
-/// Version of the arithmetic of rows: it changes where the same row plan would give other bits. The instruction set is no part of it.
-/// Since 2 Taylor steps have more orders and integrals of thrust are those of the direction cosine matrix.
-/// Since 3 the Taylor series of the gravity gradient follow the orbit in the frame of the body; since 4 estimates count steps in part shadow in full.
-/// Since 5 what Taylor steps leave out under effects that change within an arc is added up as vectors, and their growth of errors is averaged.
-/// Since 6 estimates follow errors through repeated periods, past separatrices, and from perigee to perigee.
+/// Version of the arithmetic of rows: it changes where the same row plan would give other bits. The instruction set is
+/// no part of it. Since 2 Taylor steps have more orders and integrals of thrust are those of the direction cosine
+/// matrix. Since 3 the Taylor series of the gravity gradient follow the orbit in the frame of the body; since 4
+/// estimates count steps in part shadow in full. Since 5 what Taylor steps leave out under effects that change within
+/// an arc is added up as vectors, and their growth of errors is averaged. Since 6 estimates follow errors through
+/// repeated periods, past separatrices, and from perigee to perigee.
 pub const ARITHMETIC: u32 = 6;
 
 /// What the rows of a dataset are. Rows of two datasets with the same identity can be mixed.
@@ -181,7 +182,8 @@ impl Manifest {
         manifest
     }
 
-    /// The text of a manifest with these parts in order; finished where `derived` are the files that follow from the rows.
+    /// The text of a manifest with these parts in order; finished where `derived` are the files that follow from the
+    /// rows.
     pub fn text<'p>(
         identity: &Identity,
         plan: &str,
@@ -245,7 +247,8 @@ pub(super) mod tests {
         assert_eq!((read.plan.as_deref(), read.derived), (Some(PLAN), vec![derived()]));
     }
 
-    /// Law: a manifest cut off at any byte has exactly the parts whose lines are whole, and is finished only when it is whole.
+    /// Law: a manifest cut off at any byte has exactly the parts whose lines are whole, and is finished only when it is
+    /// whole.
     #[test]
     fn every_cut_is_recognised() {
         let text = text();
@@ -262,7 +265,8 @@ pub(super) mod tests {
         }
     }
 
-    /// Law: a bit that changes anywhere costs at most the lines that it is in, and never lists a part that was not written.
+    /// Law: a bit that changes anywhere costs at most the lines that it is in, and never lists a part that was not
+    /// written.
     #[test]
     fn every_changed_bit_is_recognised() {
         let text = text();
@@ -285,7 +289,8 @@ pub(super) mod tests {
         }
     }
 
-    /// Law: a part that was dropped is listed again only where a later line lists it; what follows the last line takes it back.
+    /// Law: a part that was dropped is listed again only where a later line lists it; what follows the last line takes
+    /// it back.
     #[test]
     fn dropped_parts_are_gone() {
         let dropped = Record::Dropped { dropped: 1 }.line();

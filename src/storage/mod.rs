@@ -1,16 +1,23 @@
 //! Layer 7: results on disk.
 //!
-//! - [`found`]: what is in the folder of a result. - [`mod@claim`]: whether a campaign may write there, [`folder_error`]: and if not, why.
-//! - [`folder`]: the dataset, and the protocol by which parts are added, [`whole_file`]: and each file. [`manifest`]: what it consists of,
-//!   [`mod@identity`]: what its rows are, [`names`]: of its files.
-//! - [`replacement`]: a result takes the place of an older one. - [`table_log`]: the log by which table engines read the rows.
+//! - [`found`]: what is in the folder of a result.
+//! - [`mod@claim`]: whether a campaign may write there, [`folder_error`]: and if not, why.
+//! - [`folder`]: the dataset, and the protocol by which parts are added, [`whole_file`]: and each file. [`manifest`]:
+//!   what it consists of, [`mod@identity`]: what its rows are, [`names`]: of its files.
+//! - [`replacement`]: a result takes the place of an older one.
+//! - [`table_log`]: the log by which table engines read the rows.
 //! - [`verify`]: whether files are what was written, [`recovery`]: the manifest of a result that has lost it.
-//! - [`disk`]: file operations, [`stored_file`]: of open files. - [`atomic`]: files that are whole or absent.
-//! - [`rows_file`]: the files of rows, which [`part_sink`] writes and [`rows_reader`] reads, through [`parquet_source`]; [`bands_file`]: of bands.
-//! - [`columnar`]: tables to Parquet, with [`arrow_metadata`]. - [`table_file`]: tables in a single file: [`timeseries`], [`bands_table`],
-//!   [`drawn_table`], [`precision_table`]. - [`parallel`]: threads. - [`remote`]: results in an object store.
+//! - [`disk`]: file operations, [`stored_file`]: of open files.
+//! - [`atomic`]: files that are whole or absent.
+//! - [`rows_file`]: the files of rows, which [`part_sink`] writes and [`rows_reader`] reads, through
+//!   [`parquet_source`]; [`bands_file`]: of bands.
+//! - [`columnar`]: tables to Parquet, with [`arrow_metadata`].
+//! - [`table_file`]: tables in a single file: [`timeseries`], [`bands_table`], [`drawn_table`], [`precision_table`].
+//! - [`parallel`]: threads.
+//! - [`remote`]: results in an object store.
 //!
-//! Not here: what the rows say (`analysis`), text and figures for people (`report`), and reading tables for a campaign (`campaign`).
+//! Not here: what the rows say (`analysis`), text and figures for people (`report`), and reading tables for a campaign
+//! (`campaign`).
 
 pub mod arrow_metadata;
 pub mod atomic;

@@ -27,7 +27,8 @@ pub const SHARDS: &str = "shards";
 pub const TRAJECTORIES: &str = "trajectories";
 /// Folder of the log by which table engines read the rows.
 pub const TABLE_LOG: &str = "_delta_log";
-/// Folder of the last, incomplete parts that versions of the table list: `runs/` has the same part with its further rows later.
+/// Folder of the last, incomplete parts that versions of the table list: `runs/` has the same part with its further
+/// rows later.
 pub const VERSIONS: &str = "versions";
 /// Folder of copies of the files of numbers and the module that the plan names, each by its SHA-256.
 pub const DATA: &str = crate::campaign::data::COPIES;
@@ -53,7 +54,8 @@ pub fn bands_of(part: PartId) -> String {
     format!("{PART_BANDS}/part-{:06}.parquet", part.0)
 }
 
-/// The name under which versions of the table list `part` where it has `rows` rows and can have more, below the folder of the dataset.
+/// The name under which versions of the table list `part` where it has `rows` rows and can have more, below the folder
+/// of the dataset.
 pub fn version_of(part: PartId, rows: u64) -> String {
     format!("{VERSIONS}/part-{:06}-{rows:06}.parquet", part.0)
 }
@@ -68,7 +70,8 @@ pub fn is_of_parts(folder: &str) -> bool {
     folder == RUNS || folder == PART_BANDS
 }
 
-/// Whether the file `name`, below the folder of a dataset, follows from plan and rows: the last line of the manifest lists it.
+/// Whether the file `name`, below the folder of a dataset, follows from plan and rows: the last line of the manifest
+/// lists it.
 pub fn is_derived(name: &str) -> bool {
     let (folder, file) = name.split_once('/').unwrap_or(("", name));
     let is_own = [MANIFEST, SUCCESS, REPLACEMENT].contains(&name) || is_of_parts(folder) || folder == SHARDS;
@@ -85,7 +88,8 @@ pub fn is_unique(text: &str) -> bool {
     text.len() == 16 && text.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
 }
 
-/// The name under which the file `path` is written until it is whole: processes that write it at the same time have a name each.
+/// The name under which the file `path` is written until it is whole: processes that write it at the same time have a
+/// name each.
 pub fn unfinished(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(format!(".{}{UNFINISHED}", unique()));

@@ -1,5 +1,5 @@
-//! [`in_parallel`]: independent items on several threads. [`in_order`]: the same, merged in their order as they come. Threads that the system does
-//! not start are done without.
+//! [`in_parallel`]: independent items on several threads. [`in_order`]: the same, merged in their order as they come.
+//! Threads that the system does not start are done without.
 
 use std::num::NonZeroUsize;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -43,8 +43,9 @@ pub fn on_threads(threads: usize, work: &(dyn Fn() + Sync)) {
 /// Items that may wait for an earlier one, for each thread.
 const AHEAD: usize = 2;
 
-/// Reads the items 0, 1, ... `items` - 1 on `threads` threads (`None`: one per core): `read` makes something of one on any thread, and `merge` is
-/// shown the results in the order of the items, whatever the threads do. No more than a few of them are held at a time.
+/// Reads the items 0, 1, ... `items` - 1 on `threads` threads (`None`: one per core): `read` makes something of one on
+/// any thread, and `merge` is shown the results in the order of the items, whatever the threads do. No more than a few
+/// of them are held at a time.
 ///
 /// # Errors
 /// That of the first item, in their order, for which `read` or `merge` fails.
@@ -167,8 +168,8 @@ mod tests {
         assert!(std::panic::catch_unwind(work).is_err());
     }
 
-    /// Law: the error is that of the first item, in their order, that fails; a later one that failed sooner does not keep the
-    /// items before it from being merged.
+    /// Law: the error is that of the first item, in their order, that fails; a later one that failed sooner does not
+    /// keep the items before it from being merged.
     #[test]
     fn the_first_error_counts() {
         for threads in [1, 2, 3] {

@@ -1,7 +1,7 @@
 //! [`ParquetSource`]: a file of a dataset as the Parquet reader reads it.
 //!
-//! The Parquet reader turns errors into texts of its own, and may panic where a read has failed: the first error of the file is kept, so that a
-//! file that cannot be read is not called damaged.
+//! The Parquet reader turns errors into texts of its own, and may panic where a read has failed: the first error of the
+//! file is kept, so that a file that cannot be read is not called damaged.
 
 use std::io::{self, BufReader, Read};
 use std::path::Path;

@@ -1,6 +1,7 @@
 //! [`write_parts`]: adds each finished part to a dataset.
 //!
-//! Threads encode their own parts; one thread more writes the files and waits for the disk, so that no run waits for it.
+//! Threads encode their own parts; one thread more writes the files and waits for the disk, so that no run waits for
+//! it.
 
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::sync::{Mutex, OnceLock, PoisonError};
@@ -80,7 +81,8 @@ impl PartFiles {
         Ok(PartFiles { rows: RowsFile::new(ensemble)?, bands: OnceLock::new() })
     }
 
-    /// The files of the part of `rows`: a function of the part alone. They are written to `buffers`, as long as there are some.
+    /// The files of the part of `rows`: a function of the part alone. They are written to `buffers`, as long as there
+    /// are some.
     ///
     /// # Errors
     /// Where encoding fails.
@@ -143,8 +145,9 @@ impl Sink for PartSink<'_> {
 /// Is told of each part once it is in its folder.
 pub type Written<'a> = &'a (dyn Fn(&PartRecord) -> Result<(), StorageError> + Sync);
 
-/// Runs `body` with a sink for the rows of `ensemble`, which also counts them in `counts`; when this returns, every part that the sink took is in `folder` and `written` was told of it, or an
-/// error says why not. An error of writing is reported before one of `body`.
+/// Runs `body` with a sink for the rows of `ensemble`, which also counts them in `counts`; when this returns, every
+/// part that the sink took is in `folder` and `written` was told of it, or an error says why not. An error of writing
+/// is reported before one of `body`.
 ///
 /// # Errors
 /// Where parts could not be encoded or written.

@@ -1,7 +1,7 @@
 //! [`begin_again`]: the manifest of a dataset that has lost it.
 //!
-//! What the files of rows say of themselves is whose they are; that they have what was written then, nothing says. So the new manifest has the
-//! identity and the plan and lists no part: the parts are computed again.
+//! What the files of rows say of themselves is whose they are; that they have what was written then, nothing says. So
+//! the new manifest has the identity and the plan and lists no part: the parts are computed again.
 
 use std::path::Path;
 
@@ -22,8 +22,8 @@ pub fn is_lost(storage: &dyn Storage, root: &Path) -> Result<bool, StorageError>
     Ok(has(PLAN) && has(RUNS) && !has(MANIFEST))
 }
 
-/// Writes the manifest of the dataset in `root`, where a file of rows of its plan is there; whether it was written. `plan` is the text of the
-/// plan.
+/// Writes the manifest of the dataset in `root`, where a file of rows of its plan is there; whether it was written.
+/// `plan` is the text of the plan.
 ///
 /// # Errors
 /// Where a file operation fails.

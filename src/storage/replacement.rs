@@ -1,9 +1,11 @@
-//! [`replace`]: a finished dataset takes the place of an older one, which stays whole until then; and what is removed on the way.
+//! [`replace`]: a finished dataset takes the place of an older one, which stays whole until then; and what is removed
+//! on the way.
 //!
-//! The new dataset is made in the folder `.<name>.<digits>.new` beside the old one. The digits are drawn, and the file `_REPLACEMENT` in it, which
-//! is the first one there, repeats them: a folder without that proof, or with that of another name, was not made for this, and is neither used
-//! nor changed. When it is complete, the old dataset is renamed to `.<name>.<digits>.old`, the new one takes its place, and the old one, to which
-//! the proof in the new one leads, is removed; the proof is removed last. An interruption at any point is completed from the proof.
+//! The new dataset is made in the folder `.<name>.<digits>.new` beside the old one. The digits are drawn, and the file
+//! `_REPLACEMENT` in it, which is the first one there, repeats them: a folder without that proof, or with that of
+//! another name, was not made for this, and is neither used nor changed. When it is complete, the old dataset is
+//! renamed to `.<name>.<digits>.old`, the new one takes its place, and the old one, to which the proof in the new one
+//! leads, is removed; the proof is removed last. An interruption at any point is completed from the proof.
 //!
 //! Only files that a dataset lists, or that have names of its own, are ever removed.
 
@@ -60,8 +62,8 @@ fn begun(storage: &dyn Storage, root: &Path) -> Result<Vec<String>, StorageError
     Ok(found)
 }
 
-/// The folder, with a proof, in which a dataset with this identity and at most so many samples is made that is to replace `root`: one that an
-/// interrupted process left, or a new one. What others left is removed.
+/// The folder, with a proof, in which a dataset with this identity and at most so many samples is made that is to
+/// replace `root`: one that an interrupted process left, or a new one. What others left is removed.
 ///
 /// # Errors
 /// Where a file operation fails.
@@ -103,8 +105,8 @@ pub(super) fn begin(
     Ok(new)
 }
 
-/// Whether `root` can be replaced by `new`, before any work: its folder must be one that can be renamed, which a mount point cannot, and not
-/// one in which somebody works.
+/// Whether `root` can be replaced by `new`, before any work: its folder must be one that can be renamed, which a mount
+/// point cannot, and not one in which somebody works.
 ///
 /// # Errors
 /// What keeps it from being renamed; `new` is then removed, if nothing is in it.
@@ -133,8 +135,8 @@ pub(super) fn check_replaceable(storage: &dyn Storage, new: &Path, root: &Path) 
     })
 }
 
-/// Removes the files of a dataset, and its folders where nothing else is in them: first the marks, so that a partly removed dataset is never
-/// taken for a whole one; the proof last.
+/// Removes the files of a dataset, and its folders where nothing else is in them: first the marks, so that a partly
+/// removed dataset is never taken for a whole one; the proof last.
 fn remove(storage: &dyn Storage, root: &Path, found: &Found) -> Result<(), StorageError> {
     let top = storage.list(root).map_err(at(root))?;
     if top.is_empty() {
@@ -174,8 +176,8 @@ fn remove(storage: &dyn Storage, root: &Path, found: &Found) -> Result<(), Stora
 /// Puts the finished dataset `new` in the place of `root`, and removes what was there.
 ///
 /// # Errors
-/// Where a file operation fails, or something was put into `root` that is not part of its dataset; the old result is then still whole, in its
-/// place or beside it.
+/// Where a file operation fails, or something was put into `root` that is not part of its dataset; the old result is
+/// then still whole, in its place or beside it.
 pub fn replace(storage: &dyn Storage, new: &Path, root: &Path) -> Result<(), StorageError> {
     let digits = proof(storage, new)?.ok_or_else(|| at(new)(io::Error::other("its file _REPLACEMENT is gone")))?;
     no_link(root).map_err(at(root))?;
@@ -214,7 +216,8 @@ pub(super) fn remove_replaced(storage: &dyn Storage, root: &Path) -> Result<(), 
     storage.sync_folder(root).map_err(at(root))
 }
 
-/// The new dataset of a replacement of `root` that was interrupted between its two renames; `None` where there was none.
+/// The new dataset of a replacement of `root` that was interrupted between its two renames; `None` where there was
+/// none.
 ///
 /// # Errors
 /// Where a file operation fails.
@@ -250,8 +253,8 @@ pub(super) fn complete(storage: &dyn Storage, new: &Path, root: &Path) -> Result
     storage.sync_folder(above(root)).map_err(at(above(root)))
 }
 
-/// Removes what an interrupted process left in an unfinished dataset: temporary files, and files of parts that it did not come to list. The
-/// campaign may have fewer samples now, and then no part would replace these.
+/// Removes what an interrupted process left in an unfinished dataset: temporary files, and files of parts that it did
+/// not come to list. The campaign may have fewer samples now, and then no part would replace these.
 pub(super) fn remove_unfinished(storage: &dyn Storage, root: &Path, parts: &[PartRecord]) -> Result<(), StorageError> {
     let listed: BTreeSet<&str> = parts.iter().flat_map(|part| &part.files).map(|file| file.name.as_str()).collect();
     for folder in FOLDERS.into_iter().chain([""]) {

@@ -56,7 +56,8 @@ fn error_columns(ensemble: &Ensemble<'_>, indices: Vec<usize>) -> Vec<Column> {
     indices.into_iter().map(column).collect()
 }
 
-/// The observables whose numerical errors are columns: those with statistics in the summary, where the campaign has audits.
+/// The observables whose numerical errors are columns: those with statistics in the summary, where the campaign has
+/// audits.
 pub fn audited_observables(ensemble: &Ensemble<'_>) -> Vec<usize> {
     if ensemble.plan().audit_fraction > 0.0 { headlines(ensemble.request()) } else { Vec::new() }
 }
@@ -64,7 +65,8 @@ pub fn audited_observables(ensemble: &Ensemble<'_>) -> Vec<usize> {
 /// The columns of a row.
 pub fn columns(ensemble: &Ensemble<'_>) -> Vec<Column> {
     let number = "Number of the sample within the campaign; 0 is the nominal scene.";
-    let status = "How the run ended: ok, step_limit, step_floor, non_finite, invalid_sample, inaccurate, internal_error, \
+    let status = "How the run ended: ok, step_limit, step_floor, non_finite, invalid_sample, inaccurate, \
+        internal_error, \
          surface, diverged.";
     let reason = "Why the run is not ok.";
     let fixed = [(SAMPLE_ID, number, Content::Count), (STATUS, status, Content::Word), (REASON, reason, Content::Word)]

@@ -1,8 +1,9 @@
 //! [`RowsReader`]: reads the files of rows of a result back, columns by name, one part at a time.
 //!
-//! By Parquet's typed column reader: a column comes from the decoder as a list of numbers, without Arrow's arrays between. Memory is
-//! that of the parts under way and does not depend on the number of rows. The Parquet reader panics on some damaged files; here
-//! that is an error that names the file. A file that cannot be read is told apart from one that is damaged.
+//! By Parquet's typed column reader: a column comes from the decoder as a list of numbers, without Arrow's arrays
+//! between. Memory is that of the parts under way and does not depend on the number of rows. The Parquet reader panics
+//! on some damaged files; here that is an error that names the file. A file that cannot be read is told apart from one
+//! that is damaged.
 
 use std::borrow::Cow;
 use std::num::NonZeroUsize;
@@ -80,8 +81,9 @@ impl RowsReader {
         })
     }
 
-    /// Reads every part on `threads` threads (`None`: one per core): `read` takes what is wanted from a part on any thread, and `merge`
-    /// is shown the results in the order of the parts, whatever the threads do. No more than a few parts are held at a time.
+    /// Reads every part on `threads` threads (`None`: one per core): `read` takes what is wanted from a part on any
+    /// thread, and `merge` is shown the results in the order of the parts, whatever the threads do. No more than a few
+    /// parts are held at a time.
     ///
     /// # Errors
     /// That of the first part, in their order, that could not be opened or for which `read` or `merge` fails.
@@ -99,7 +101,8 @@ impl RowsReader {
     }
 }
 
-/// What `read` returns; a panic of the Parquet reader is an error too. Where the file could not be read, that is the error.
+/// What `read` returns; a panic of the Parquet reader is an error too. Where the file could not be read, that is the
+/// error.
 fn caught<T>(
     path: &str,
     source: &ParquetSource,
@@ -430,7 +433,8 @@ mod tests {
         assert!(missing.first_parts(1).next().is_some_and(|part| part.is_err()));
     }
 
-    /// Law: parts are merged in their order for any number of threads, and the error is that of the first part that fails.
+    /// Law: parts are merged in their order for any number of threads, and the error is that of the first part that
+    /// fails.
     #[test]
     fn parts_are_merged_in_order() {
         let folder = Folder::new("order");

@@ -1,7 +1,8 @@
 //! [`StoredFile`]: a file of a dataset that is open for reading, at any position, so that tests can let any read fail.
 //!
-//! What a file is and whether it can be read are two things: [`Unfit`] says that a file is not what a dataset has there; every other error says
-//! that it cannot be read now, and nothing about what is in it. A file that ends before its length is of the second kind.
+//! What a file is and whether it can be read are two things: [`Unfit`] says that a file is not what a dataset has
+//! there; every other error says that it cannot be read now, and nothing about what is in it. A file that ends before
+//! its length is of the second kind.
 
 use std::fmt::Debug;
 use std::fs::File;
@@ -17,7 +18,8 @@ pub trait StoredFile: Debug + Send + Sync {
     /// Where it cannot be found out.
     fn length(&self) -> io::Result<u64>;
 
-    /// Reads into `bytes` what is there from `offset` on; how many bytes that are: fewer than asked for at any time, none at the end only.
+    /// Reads into `bytes` what is there from `offset` on; how many bytes that are: fewer than asked for at any time,
+    /// none at the end only.
     ///
     /// # Errors
     /// Where they cannot be read.
@@ -127,7 +129,8 @@ pub fn content(file: &dyn StoredFile, most: u64) -> io::Result<Vec<u8>> {
 /// Bytes that are compared at a time: they stay in the second-level cache.
 const PIECE: usize = 1 << 16;
 
-/// Whether the content of a file is `bytes`. Reads it piece by piece: a file of a part would otherwise be in memory twice.
+/// Whether the content of a file is `bytes`. Reads it piece by piece: a file of a part would otherwise be in memory
+/// twice.
 ///
 /// # Errors
 /// Where it cannot be read.
@@ -185,7 +188,8 @@ mod tests {
         }
     }
 
-    /// Law: a file has the bytes that are in it, and no others: none less, none more, none different, in whichever piece.
+    /// Law: a file has the bytes that are in it, and no others: none less, none more, none different, in whichever
+    /// piece.
     #[test]
     fn a_file_has_what_is_in_it() {
         for (length, piece) in [(0, 1), (1, 1), (300, 7), (PIECE - 1, PIECE), (PIECE + 1, 1000), (3 * PIECE, PIECE)] {

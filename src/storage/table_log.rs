@@ -1,12 +1,14 @@
 //! [`update`]: the log by which table engines (Spark, Trino, DuckDB, polars, pandas) open a dataset as one table.
 //!
-//! It is a transaction log of Delta Lake: <https://github.com/delta-io/delta/blob/master/PROTOCOL.md>, reader version 1, writer version 2. Each
-//! commit `_delta_log/<version>.json` has lines of JSON, one action each: the first has the `protocol`, the `metaData` with the columns,
-//! their units and meanings, and an `add` for every file of rows; when a campaign was made longer, one more commit adds the new files. The
-//! log follows from the manifest, which stays the truth: its times are zero, and the id of the table is from the row hash.
+//! It is a transaction log of Delta Lake: <https://github.com/delta-io/delta/blob/master/PROTOCOL.md>, reader version
+//! 1, writer version 2. Each commit `_delta_log/<version>.json` has lines of JSON, one action each: the first has the
+//! `protocol`, the `metaData` with the columns, their units and meanings, and an `add` for every file of rows; when a
+//! campaign was made longer, one more commit adds the new files. The log follows from the manifest, which stays the
+//! truth: its times are zero, and the id of the table is from the row hash.
 //!
-//! What a version lists never changes: the last part, which gets further rows when the campaign is made longer, is listed as a copy in
-//! `versions/`, which the next version removes and which stays for readers of the version before. So `runs/` has every row once.
+//! What a version lists never changes: the last part, which gets further rows when the campaign is made longer, is
+//! listed as a copy in `versions/`, which the next version removes and which stays for readers of the version before.
+//! So `runs/` has every row once.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -112,7 +114,8 @@ fn head(identity: &Identity, columns: &str) -> [Value; 2] {
         json!({"protocol": {"minReaderVersion": 1, "minWriterVersion": 2}}),
         json!({"metaData": {
             "id": id(identity),
-            "description": format!("Rows of a campaign of spindrift, one for each sample; row hash {}.", identity.row_hash),
+            "description": format!("Rows of a campaign of spindrift, one for each sample; row hash {}.",
+                identity.row_hash),
             "format": {"provider": "parquet", "options": {}},
             "schemaString": columns,
             "partitionColumns": [],
@@ -200,7 +203,8 @@ fn log_of(commits: Vec<(String, Vec<u8>)>, identity: &Identity) -> Option<Log> {
     (!log.commits.is_empty()).then_some(log)
 }
 
-/// Whether `before` is what a campaign of fewer samples has: the same files, and a copy of its last part, which may have further rows now.
+/// Whether `before` is what a campaign of fewer samples has: the same files, and a copy of its last part, which may
+/// have further rows now.
 fn is_earlier(before: &Files, now: &Files) -> bool {
     let part =
         |name: &str| name.split('/').next_back().and_then(|file| file.split(['-', '.']).nth(1).map(str::to_owned));
@@ -213,7 +217,8 @@ fn is_earlier(before: &Files, now: &Files) -> bool {
     })
 }
 
-/// Whether the log in `root` is one that this program has written for the rows of `parts`, with these `columns`; `growing` as for [`update`].
+/// Whether the log in `root` is one that this program has written for the rows of `parts`, with these `columns`;
+/// `growing` as for [`update`].
 ///
 /// # Errors
 /// Where it cannot be read.
@@ -227,8 +232,9 @@ pub fn is_of(
     Ok(log.is_some_and(|log| log.columns == schema(columns) && log.files == files(parts, growing)))
 }
 
-/// Brings the log of a dataset whose parts are all there up to date: nothing where it is, one more commit where files were added, and a new
-/// log where there is none, or another one. `growing` is the part that gets further rows when the campaign is made longer.
+/// Brings the log of a dataset whose parts are all there up to date: nothing where it is, one more commit where files
+/// were added, and a new log where there is none, or another one. `growing` is the part that gets further rows when the
+/// campaign is made longer.
 ///
 /// # Errors
 /// Where a file operation fails.
@@ -314,7 +320,8 @@ mod tests {
         update(folder, &headings(), growing.map(PartId)).expect("written");
     }
 
-    /// The files of rows that version `version` lists, as an engine finds them: what was added, without what was removed.
+    /// The files of rows that version `version` lists, as an engine finds them: what was added, without what was
+    /// removed.
     fn listed(root: &Root, version: usize) -> Vec<String> {
         let mut files = Vec::new();
         for version in 0..=version {
@@ -328,8 +335,8 @@ mod tests {
         files
     }
 
-    /// Law: the log lists the files of rows of the manifest and nothing else; it is written once; more parts are one more commit, which
-    /// replaces the copy of the part that grew; what a version lists stays as it was.
+    /// Law: the log lists the files of rows of the manifest and nothing else; it is written once; more parts are one
+    /// more commit, which replaces the copy of the part that grew; what a version lists stays as it was.
     #[test]
     fn the_log_follows_the_manifest() {
         let (root, folder) = dataset("follows");
@@ -360,7 +367,8 @@ mod tests {
         assert_eq!(listed(&root, 1), now);
     }
 
-    /// Law: a log in which a bit has changed, a commit is missing or one is too many is replaced by a new one, and so is one with a damaged copy.
+    /// Law: a log in which a bit has changed, a commit is missing or one is too many is replaced by a new one, and so
+    /// is one with a damaged copy.
     #[test]
     fn a_damaged_log_is_replaced() {
         let (root, folder) = dataset("damage");

@@ -1,7 +1,7 @@
 //! A run as a table over time, for Parquet, CSV, the screen and Python.
 //!
-//! The state table has the spacecraft's centre of mass c; the series gives the point p (the origin of F_s), as the paper's
-//! state does: r_p = r_c - C_es c, v_p = v_c - C_es (omega x c).
+//! The state table has the spacecraft's centre of mass c; the series gives the point p (the origin of F_s), as the
+//! paper's state does: r_p = r_c - C_es c, v_p = v_c - C_es (omega x c).
 
 use crate::ensemble::SingleRun;
 use crate::math::vector::{cross, dcm_from_quaternion, difference, product};

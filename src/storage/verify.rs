@@ -1,7 +1,9 @@
-//! [`damaged`], [`derived_damage`]: whether the files of a dataset are what its manifest says, and their rows those of its identity.
+//! [`damaged`], [`derived_damage`]: whether the files of a dataset are what its manifest says, and their rows those of
+//! its identity.
 //!
-//! A part is damaged where its files are there and have something else, or are not there. A file that cannot be read now (an error of the disk or
-//! the network, no permission) is no damage: nothing is known about it, and no part is given up for it.
+//! A part is damaged where its files are there and have something else, or are not there. A file that cannot be read
+//! now (an error of the disk or the network, no permission) is no damage: nothing is known about it, and no part is
+//! given up for it.
 
 use std::path::Path;
 
@@ -11,8 +13,8 @@ use crate::storage::manifest::{FileRecord, Identity, PartRecord};
 use crate::storage::names::RUNS;
 use crate::storage::stored_file::is_unfit;
 
-/// What is wrong with the files of a part in the dataset `root`, whose rows have the identity `identity`; `None` where they are what was
-/// written.
+/// What is wrong with the files of a part in the dataset `root`, whose rows have the identity `identity`; `None` where
+/// they are what was written.
 fn damage(
     storage: &dyn Storage,
     root: &Path,
@@ -32,7 +34,8 @@ fn damage(
     Ok(None)
 }
 
-/// What the metadata of the rows of `part` say that is not so: checksums alone say nothing about where a file comes from.
+/// What the metadata of the rows of `part` say that is not so: checksums alone say nothing about where a file comes
+/// from.
 fn foreign_rows(bytes: Vec<u8>, identity: &Identity, part: &PartRecord) -> Option<String> {
     match in_rows(bytes.into()) {
         Some((there, id, rows)) if there == *identity && id.0 == part.part && rows as u64 == part.rows => None,

@@ -28,7 +28,8 @@ pub(super) fn place_new(storage: &dyn Storage, path: &Path, bytes: &[u8]) -> Res
     let temporary = written(storage, path, bytes)?;
     let placed = match storage.link(&temporary, path) {
         Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
-        // a file system where a file has one name; without locks, another process that has begun meanwhile clears unfinished files away
+        // a file system where a file has one name; without locks, another process that has begun meanwhile clears
+        // unfinished files away
         Err(error)
             if [ErrorKind::PermissionDenied, ErrorKind::Unsupported, ErrorKind::NotFound].contains(&error.kind()) =>
         {

@@ -5,7 +5,8 @@ use std::collections::VecDeque;
 /// Room for commands on their way is not reserved beyond this; a longer delay takes it as it needs it.
 const MOST_ROOM: usize = 1000;
 
-/// Commands that act from a later time on, each until the next one does. A command computed at a tick acts after the delay, which has any length.
+/// Commands that act from a later time on, each until the next one does. A command computed at a tick acts after the
+/// delay, which has any length.
 #[derive(Clone, Debug)]
 pub struct DelayQueue<C> {
     acting: C,
@@ -14,8 +15,8 @@ pub struct DelayQueue<C> {
 }
 
 impl<C: Copy> DelayQueue<C> {
-    /// `initial` acts until the first command does. Has room for what is on its way at a delay of `delay` seconds and a command every `period` seconds, so
-    /// that nothing is allocated later.
+    /// `initial` acts until the first command does. Has room for what is on its way at a delay of `delay` seconds and a
+    /// command every `period` seconds, so that nothing is allocated later.
     pub fn new(initial: C, delay: f64, period: f64) -> Self {
         let room = ((delay / period).ceil() as usize).min(MOST_ROOM) + 2;
         DelayQueue { acting: initial, waiting: VecDeque::with_capacity(room) }
@@ -37,7 +38,8 @@ impl<C: Copy> DelayQueue<C> {
         (&self.acting, self.waiting.iter().map(|(_, command)| command))
     }
 
-    /// The command that acts at `time`, and when the next one takes its place: infinite where none is on its way. Times ascend from call to call.
+    /// The command that acts at `time`, and when the next one takes its place: infinite where none is on its way. Times
+    /// ascend from call to call.
     pub fn at(&mut self, time: f64) -> (&C, f64) {
         while let Some((_, command)) = self.waiting.pop_front_if(|(from, _)| *from <= time) {
             self.acting = command;
@@ -50,7 +52,8 @@ impl<C: Copy> DelayQueue<C> {
 mod tests {
     use super::*;
 
-    /// Law: at any time that command acts which is the latest whose time has come, for any ratio of delay and period; and the room suffices.
+    /// Law: at any time that command acts which is the latest whose time has come, for any ratio of delay and period;
+    /// and the room suffices.
     #[test]
     fn the_latest_command_whose_time_has_come_acts() {
         for (delay, period) in [(0.0, 0.1), (0.1, 0.1), (0.25, 0.1), (0.03, 0.1), (1.7, 0.3)] {

@@ -5,11 +5,12 @@
 pub enum ThrustMode {
     /// To any thrust up to its largest.
     Throttled,
-    /// On or off, for a share of the period that makes the mean. What is too short for a pulse is kept and added in the next period, so that no impulse is
-    /// lost (Basilisk's `thrFiringRemainder`).
+    /// On or off, for a share of the period that makes the mean. What is too short for a pulse is kept and added in the
+    /// next period, so that no impulse is lost (Basilisk's `thrFiringRemainder`).
     Remainder,
-    /// On or off. What is too short for a pulse makes one of the least length from the share `on` of it upwards, none from `off` downwards, and what the last
-    /// period made in between (a Schmitt trigger; Basilisk's `thrFiringSchmitt`).
+    /// On or off. What is too short for a pulse makes one of the least length from the share `on` of it upwards, none
+    /// from `off` downwards, and what the last period made in between (a Schmitt trigger; Basilisk's
+    /// `thrFiringSchmitt`).
     Hysteresis {
         /// Share of the least length at which a pulse starts.
         on: f64,
@@ -23,9 +24,11 @@ pub enum ThrustMode {
 pub struct ThrusterDrive {
     /// How it is driven.
     pub mode: ThrustMode,
-    /// Largest thrust, N; that while it is on, where it is on or off. Infinite only of one that is throttled without a limit.
+    /// Largest thrust, N; that while it is on, where it is on or off. Infinite only of one that is throttled without a
+    /// limit.
     pub most: f64,
-    /// Least length of a pulse, s: the minimum impulse bit over the thrust. Not above the control period. Of no effect where it is throttled.
+    /// Least length of a pulse, s: the minimum impulse bit over the thrust. Not above the control period. Of no effect
+    /// where it is throttled.
     pub least_on: f64,
 }
 
@@ -50,7 +53,8 @@ pub struct Pulse {
 }
 
 impl ThrusterDrive {
-    /// The thrust over a period of `period` seconds in which the mean thrust `wanted` (N; below zero as zero) is wanted.
+    /// The thrust over a period of `period` seconds in which the mean thrust `wanted` (N; below zero as zero) is
+    /// wanted.
     pub fn over(&self, wanted: f64, period: f64, state: &mut PulseState) -> Pulse {
         let wanted = wanted.max(0.0);
         let excess = (wanted - self.most).max(0.0);
@@ -106,8 +110,9 @@ mod tests {
         }
     }
 
-    /// Basilisk babdff7, src/fswAlgorithms/effectorInterfaces/thrFiringRemainder/_UnitTest/test_thrFiringRemainder.py, to its tolerance; its first two
-    /// rows are before the module knows a period. Off-pulsing is a thrust less than the largest.
+    /// Basilisk babdff7, src/fswAlgorithms/effectorInterfaces/thrFiringRemainder/_UnitTest/test_thrFiringRemainder.py,
+    /// to its tolerance; its first two rows are before the module knows a period. Off-pulsing is a thrust less than the
+    /// largest.
     #[test]
     fn pulses_with_remainder_are_those_of_basilisk() {
         let wanted = [0.5, 0.05, 0.1, 0.15, 0.19, 0.0, 0.2, 0.49];
@@ -122,7 +127,8 @@ mod tests {
         assert_pulses(THRUSTER, [less; 5], [odd, second, odd, fourth, odd]);
     }
 
-    /// Basilisk babdff7, src/fswAlgorithms/effectorInterfaces/thrFiringSchmitt/_UnitTest/test_thrFiringSchmitt.py, to its tolerance.
+    /// Basilisk babdff7, src/fswAlgorithms/effectorInterfaces/thrFiringSchmitt/_UnitTest/test_thrFiringSchmitt.py, to
+    /// its tolerance.
     #[test]
     fn pulses_with_hysteresis_are_those_of_basilisk() {
         let drive = ThrusterDrive { mode: ThrustMode::Hysteresis { on: 0.75, off: 0.25 }, ..THRUSTER };
@@ -136,8 +142,8 @@ mod tests {
         assert_pulses(drive, wanted, [on(0.2), on(0.2), on(0.2), on(0.0), on(0.0)]);
     }
 
-    /// Law: with remainder, the impulse is the wanted one within one minimum bit at the end of every period, whatever is wanted within reach; with
-    /// hysteresis it is not, which is what the remainder is for.
+    /// Law: with remainder, the impulse is the wanted one within one minimum bit at the end of every period, whatever
+    /// is wanted within reach; with hysteresis it is not, which is what the remainder is for.
     #[test]
     fn no_impulse_is_lost() {
         let error = |drive: ThrusterDrive| {

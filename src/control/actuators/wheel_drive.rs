@@ -1,7 +1,8 @@
 //! [`WheelDrive`]: the torque on a wheel over an arc, of its motor within limits and of friction.
 //!
-//! All of it is held over the arc, so that friction and limits are right to first order in the arc's length. The rate at the end is predicted from the
-//! torque on the wheel alone: what else turns the body changes it, which the next arc sees.
+//! All of it is held over the arc, so that friction and limits are right to first order in the arc's length. The rate
+//! at the end is predicted from the torque on the wheel alone: what else turns the body changes it, which the next arc
+//! sees.
 
 use crate::control::vector::{dot, product};
 use crate::scene::FailureInput;
@@ -40,8 +41,9 @@ pub struct Driven {
     pub is_speed_limited: bool,
 }
 
-/// What resists a change of the rate relative to the body of a wheel with the axial inertia `axial` (kg m^2) about `axis` (in F_s): its motor turns the
-/// body too, omega' = -K^-1 a tau, so that Omega' = tau (1/J + a.K^-1 a). `inverse` is K^-1, 1/(kg m^2), F_s.
+/// What resists a change of the rate relative to the body of a wheel with the axial inertia `axial` (kg m^2) about
+/// `axis` (in F_s): its motor turns the body too, omega' = -K^-1 a tau, so that Omega' = tau (1/J + a.K^-1 a).
+/// `inverse` is K^-1, 1/(kg m^2), F_s.
 pub fn relative_inertia(axial: f64, axis: [f64; 3], inverse: [[f64; 3]; 3]) -> f64 {
     axial / (1.0 + axial * dot(axis, product(inverse, axis)))
 }
@@ -79,20 +81,22 @@ impl WheelDrive {
         }
     }
 
-    /// What acts over an arc of `length` > 0 seconds at whose start the wheel has the rate `rate` relative to the body (rad/s), where the torque
-    /// `commanded` (N m) is commanded.
+    /// What acts over an arc of `length` > 0 seconds at whose start the wheel has the rate `rate` relative to the body
+    /// (rad/s), where the torque `commanded` (N m) is commanded.
     ///
-    /// The motor accelerates the wheel no further than to the limit of the rate; beyond the limit it leaves the wheel to friction, or brakes as
-    /// commanded. Friction has its value at the start, but does not turn the wheel back: where it would, it is what stops the wheel at the end. Where
-    /// the motor turns the wheel round, Coulomb friction is against the motion at the end and viscous friction is zero. A wheel at rest stays at
-    /// rest where its motor is weaker than Coulomb friction.
+    /// The motor accelerates the wheel no further than to the limit of the rate; beyond the limit it leaves the wheel
+    /// to friction, or brakes as commanded. Friction has its value at the start, but does not turn the wheel back:
+    /// where it would, it is what stops the wheel at the end. Where the motor turns the wheel round, Coulomb friction
+    /// is against the motion at the end and viscous friction is zero. A wheel at rest stays at rest where its motor is
+    /// weaker than Coulomb friction.
     pub fn over(&self, commanded: f64, rate: f64, length: f64) -> Driven {
         let bias = if commanded == 0.0 { 0.0 } else { self.torque_bias };
         let asked = self.torque_scale * commanded + bias;
         let within = asked.clamp(-self.torque_limit, self.torque_limit);
         // the torque that changes the rate by 1 rad/s over the arc
         let per_rate = self.inertia / length;
-        // the most that the motor may do along a direction in which the rate is `along`: up to the limit, and against friction
+        // the most that the motor may do along a direction in which the rate is `along`: up to the limit, and against
+        // friction
         let friction = |along: f64| if along > 0.0 { self.coulomb + self.viscous * along } else { 0.0 };
         let most = |along: f64| (per_rate * (self.speed_limit - along) + friction(along)).max(0.0);
         let motor = within.clamp(-most(-rate), most(rate));
@@ -133,7 +137,8 @@ mod tests {
         (0..arcs).map(|_| next()).collect()
     }
 
-    /// Law: under Coulomb friction the rate falls linearly; the wheel stops, from either side, and stays, also under a motor that is weaker.
+    /// Law: under Coulomb friction the rate falls linearly; the wheel stops, from either side, and stays, also under a
+    /// motor that is weaker.
     #[test]
     fn coulomb_friction_stops_a_wheel() {
         let wheel = WheelDrive { coulomb: 0.02, ..WHEEL };
@@ -154,8 +159,8 @@ mod tests {
         assert!((through.torque + 1.98).abs() < 1e-15);
     }
 
-    /// Law: under viscous friction the rate decays exponentially, with an error of first order in the arc's length; over an arc far longer than the time
-    /// constant it stops, and does not turn back.
+    /// Law: under viscous friction the rate decays exponentially, with an error of first order in the arc's length;
+    /// over an arc far longer than the time constant it stops, and does not turn back.
     #[test]
     fn viscous_friction_decays() {
         let wheel = WheelDrive { viscous: 0.05, ..WHEEL };
@@ -170,8 +175,8 @@ mod tests {
         assert!(rates(&wheel, 4.0, 1000.0, 1, |_| 0.0)[0].abs() < 1e-15);
     }
 
-    /// Law: whatever is commanded, the motor stays within its limit and the rate within its own; the excess is what is missing; and what is within both
-    /// limits is given as it is.
+    /// Law: whatever is commanded, the motor stays within its limit and the rate within its own; the excess is what is
+    /// missing; and what is within both limits is given as it is.
     #[test]
     fn limits_hold() {
         let wheel = WheelDrive { torque_limit: 0.3, speed_limit: 2.0, coulomb: 0.01, viscous: 0.004, ..WHEEL };
@@ -199,8 +204,9 @@ mod tests {
         assert_eq!(wheel.over(-0.3, 3.0, 0.1).motor, -0.3);
     }
 
-    /// Basilisk babdff7, src/simulation/dynamics/reactionWheels/_UnitTest/test_reactionWheelStateEffector_ConfigureRWRequests.py: cases saturation and
-    /// speedSaturation, u_current exactly.
+    /// Basilisk babdff7,
+    /// src/simulation/dynamics/reactionWheels/_UnitTest/test_reactionWheelStateEffector_ConfigureRWRequests.py: cases
+    /// saturation and speedSaturation, u_current exactly.
     #[test]
     fn limits_are_those_of_basilisk() {
         for (limit, commanded, expected) in [(1.0, -1.2, -1.0), (2.0, 1.5, 1.5), (2.0, 2.5, 2.0)] {
@@ -240,7 +246,8 @@ mod tests {
         }
     }
 
-    /// Law: the torque that stops a wheel on a body stops it: its rate relative to the body, which takes the opposite torque.
+    /// Law: the torque that stops a wheel on a body stops it: its rate relative to the body, which takes the opposite
+    /// torque.
     #[test]
     fn the_body_is_part_of_the_inertia() {
         let (axial, axis, moments) = (0.8, [0.6, 0.0, 0.8], [3.0, 2.0, 5.0]);

@@ -15,6 +15,6 @@ pub mod wheel_torque;
 pub use thrust::ThrustAllocation;
 pub use wheel_torque::WheelTorque;
 
-/// A component of a force or torque below this, relative to its length, is rounding: of a lever, a projection, a difference. Measured: a few 1e-16. A
-/// thruster that fired because of it would cut arcs and be counted.
+/// A component of a force or torque below this, relative to its length, is rounding: of a lever, a projection, a
+/// difference. Measured: a few 1e-16. A thruster that fired because of it would cut arcs and be counted.
 const ROUNDING: f64 = 1e-14;

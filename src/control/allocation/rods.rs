@@ -38,8 +38,8 @@ impl RodAllocation {
         RodAllocation { least_norm: WheelTorque::new(&axes), rods }
     }
 
-    /// The dipoles with the least norm for the part of `wanted` (F_s, A m^2) within the span of the rods, all by the same factor less where one would be
-    /// beyond its limit: the direction stays.
+    /// The dipoles with the least norm for the part of `wanted` (F_s, A m^2) within the span of the rods, all by the
+    /// same factor less where one would be beyond its limit: the direction stays.
     pub fn limited(&self, wanted: [f64; 3]) -> RodCommand {
         let found = self.least_norm.motors(scaled(-1.0, wanted));
         let ratios = self.rods.iter().zip(found).map(|((_, _, limit), dipole)| dipole.abs() / limit);
@@ -73,8 +73,8 @@ mod tests {
 
     const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-    /// Law: within the limits the rods have the wanted dipole, three or four of them; beyond, one along it that is at a limit; a rod that the loop does not
-    /// drive has none; two rods have the part within their plane.
+    /// Law: within the limits the rods have the wanted dipole, three or four of them; beyond, one along it that is at a
+    /// limit; a rod that the loop does not drive has none; two rods have the part within their plane.
     #[test]
     fn rods_have_the_wanted_dipole_or_its_direction() {
         let oblique = [0.577_350_269_189_625_8; 3];

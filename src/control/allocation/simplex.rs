@@ -1,8 +1,8 @@
 //! [`least`]: a small linear program with bounded variables and costs in an order of priority, in memory of fixed size.
 //!
-//! The simplex method in tableau form (G. B. Dantzig, *Linear Programming and Extensions*, 1963, chapters 5 and 18 for bounds) with the rule of
-//! R. G. Bland (Mathematics of Operations Research 2(2), 1977), which cannot cycle. Costs are compared in lexicographic order, as if each
-//! priority outweighed all later ones.
+//! The simplex method in tableau form (G. B. Dantzig, *Linear Programming and Extensions*, 1963, chapters 5 and 18 for
+//! bounds) with the rule of R. G. Bland (Mathematics of Operations Research 2(2), 1977), which cannot cycle. Costs are
+//! compared in lexicographic order, as if each priority outweighed all later ones.
 
 use crate::scene::MAX_THRUSTERS;
 
@@ -15,10 +15,12 @@ pub(super) const LEVELS: usize = 4;
 
 /// Smallest reduced cost and smallest pivot that are not rounding, where entries and costs are at most of order one.
 const NEGLIGIBLE: f64 = 1e-10;
-/// Most steps. Bland's rule ends by itself (1,000 random sets take 40 steps at most); this holds where rounding makes it fail.
+/// Most steps. Bland's rule ends by itself (1,000 random sets take 40 steps at most); this holds where rounding makes
+/// it fail.
 const MOST_STEPS: usize = 500;
 
-/// A variable: its entries in the equations, its largest value (the smallest is zero), and its costs, the first priority first.
+/// A variable: its entries in the equations, its largest value (the smallest is zero), and its costs, the first
+/// priority first.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Column {
     pub entries: [f64; ROWS],
@@ -49,7 +51,9 @@ struct Tableau<'a> {
 
 /// The variables with the least cost that satisfy the first `rows` equations: entries times variables = `wanted`.
 ///
-/// The columns from `units` on are those of the unit matrix, then those of its negative: the first basis, of the sign of what is wanted. Entries, costs and `wanted` are of order one. Errors: a few rounding errors times the condition of the last basis.
+/// The columns from `units` on are those of the unit matrix, then those of its negative: the first basis, of the sign
+/// of what is wanted. Entries, costs and `wanted` are of order one. Errors: a few rounding errors times the condition
+/// of the last basis.
 pub(super) fn least(rows: usize, columns: &[Column], units: usize, wanted: [f64; ROWS]) -> [f64; COLUMNS] {
     let mut tableau = Tableau::new(rows, columns, units, wanted);
     let mut steps = 0;
@@ -98,7 +102,8 @@ impl<'a> Tableau<'a> {
         wanted
     }
 
-    /// The direction in which a change of variable `j` lowers the cost, if one does: up from zero, or down from its largest value.
+    /// The direction in which a change of variable `j` lowers the cost, if one does: up from zero, or down from its
+    /// largest value.
     fn direction(&self, j: usize) -> Option<f64> {
         if self.is_basic[j] || self.columns[j].most == 0.0 {
             return None;
@@ -168,7 +173,8 @@ impl<'a> Tableau<'a> {
         }
     }
 
-    /// The basic variables from the equations again: the errors of the steps go, two digits of them in the worst of 1,000 random sets.
+    /// The basic variables from the equations again: the errors of the steps go, two digits of them in the worst of
+    /// 1,000 random sets.
     fn refine(&mut self, units: usize, wanted: [f64; ROWS]) {
         let mut missing = self.missing(wanted);
         for (basic, value) in self.basis.iter().zip(self.values).take(self.rows) {

@@ -27,9 +27,9 @@ fn size(vector: impl IntoIterator<Item = f64>) -> f64 {
     vector.into_iter().map(f64::abs).sum()
 }
 
-/// Law: the optimum is that of SciPy's linprog on 1,000 random sets, with a force and without, with limits and without, beside wheels that reach nothing,
-/// one axis, two, all: what is missing of torque and force by priority, and the total; no thrust is negative or beyond its limit, and beyond the limits
-/// the torque keeps its direction.
+/// Law: the optimum is that of SciPy's linprog on 1,000 random sets, with a force and without, with limits and without,
+/// beside wheels that reach nothing, one axis, two, all: what is missing of torque and force by priority, and the
+/// total; no thrust is negative or beyond its limit, and beyond the limits the torque keeps its direction.
 #[test]
 fn optima_are_those_of_linprog() {
     let text = include_str!("../../../tests/golden/thrust_allocation.json");
@@ -78,7 +78,8 @@ fn optima_are_those_of_linprog() {
     assert!(cut > 100, "{cut} sets beyond their limits");
 }
 
-/// Every corner of thrusts within `most` that give `torque` about c: with n thrusters and three equations all but three are at zero or at their limit.
+/// Every corner of thrusts within `most` that give `torque` about c: with n thrusters and three equations all but three
+/// are at zero or at their limit.
 fn corners(thrusters: &[Thruster], most: f64, torque: [f64; 3], found: &mut Vec<f64>) {
     let columns: Vec<[f64; 3]> = thrusters.iter().map(|one| cross(one.position, one.direction)).collect();
     let n = columns.len();
@@ -98,8 +99,9 @@ fn corners(thrusters: &[Thruster], most: f64, torque: [f64; 3], found: &mut Vec<
     }
 }
 
-/// Law: four canted thrusters and five, whose torques span all directions, give every torque of every direction within their limits, with the least
-/// total of all corners; a torque that is beyond them keeps its direction. No set of three can.
+/// Law: four canted thrusters and five, whose torques span all directions, give every torque of every direction within
+/// their limits, with the least total of all corners; a torque that is beyond them keeps its direction. No set of three
+/// can.
 #[test]
 fn canted_thrusters_give_every_torque() {
     let places = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
@@ -183,7 +185,8 @@ fn the_closed_form_is_the_optimum() {
     assert!(report([0.1, 0.0, 1.5], 1.0, NONE).lever.is_none(), "with c off s3 they turn about s2 too");
 }
 
-/// Law: a torque that no wheel can give comes before the force, the force before a torque that wheels make good. Without a wanted force, one thruster turns.
+/// Law: a torque that no wheel can give comes before the force, the force before a torque that wheels make good.
+/// Without a wanted force, one thruster turns.
 #[test]
 fn torque_comes_first() {
     let pair = report([0.0, 0.0, 1.5], 1.0, NONE);
@@ -223,8 +226,9 @@ fn oblique_wheels_have_a_plane() {
     }
 }
 
-/// Law: rounding fires no thruster. Thrusters whose lines meet c turn nothing, whatever their directions; what wheels about three oblique axes give is given
-/// by them alone; and of a torque across two wheels no thruster gives more than that of it.
+/// Law: rounding fires no thruster. Thrusters whose lines meet c turn nothing, whatever their directions; what wheels
+/// about three oblique axes give is given by them alone; and of a torque across two wheels no thruster gives more than
+/// that of it.
 #[test]
 fn rounding_fires_nothing() {
     let mut numbers = Numbers(11);
@@ -273,8 +277,9 @@ pub fn eight(center: [f64; 3], by_wheels: [[f64; 3]; 3]) -> ThrustAllocation {
     ThrustAllocation::new(&thrusters, center, &[0.95; 8], by_wheels)
 }
 
-/// Basilisk babdff7, src/fswAlgorithms/effectorInterfaces/thrForceMapping/_UnitTest/test_thrForceMapping.py, set of eight thrusters, torque
-/// (1, -0.5, 0.7) N m about all axes: the total of its thrusts, from its module (bsk 2.12.1). Law: the same torque with no greater total.
+/// Basilisk babdff7, src/fswAlgorithms/effectorInterfaces/thrForceMapping/_UnitTest/test_thrForceMapping.py, set of
+/// eight thrusters, torque (1, -0.5, 0.7) N m about all axes: the total of its thrusts, from its module (bsk 2.12.1).
+/// Law: the same torque with no greater total.
 #[test]
 fn totals_are_no_greater_than_of_basilisk() {
     for (center, of_basilisk) in [([0.0; 3], 1.9648525930985303), ([0.03, 0.001, 0.02], 1.9830476967174024)] {

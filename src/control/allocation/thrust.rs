@@ -1,14 +1,19 @@
-//! [`ThrustAllocation`]: thrusts, none negative, that give a wanted torque, and a force where one is wanted, with the least total thrust.
+//! [`ThrustAllocation`]: thrusts, none negative, that give a wanted torque, and a force where one is wanted, with the
+//! least total thrust.
 //!
-//! **Attitude first.** min sum(f) with the torque as wanted and 0 <= f <= max. The force is free, unless a maneuver or `hold_force` asks for one. What cannot
-//! be had is missed by the least amount, in this order: the torque that no wheel can give; the force, where one is wanted; the torque that wheels make
-//! good (`super::WheelTorque::reachable`); then the total is made least. An amount is the sum of the magnitudes of the components: of the force in F_s, of
-//! the torque along axes of which each is within the span of the wheels' axes or across it (those of F_s where wheels reach all or nothing).
+//! **Attitude first.** min sum(f) with the torque as wanted and 0 <= f <= max. The force is free, unless a maneuver or
+//! `hold_force` asks for one. What cannot be had is missed by the least amount, in this order: the torque that no wheel
+//! can give; the force, where one is wanted; the torque that wheels make good (`super::WheelTorque::reachable`); then
+//! the total is made least. An amount is the sum of the magnitudes of the components: of the force in F_s, of the
+//! torque along axes of which each is within the span of the wheels' axes or across it (those of F_s where wheels reach
+//! all or nothing).
 //!
-//! **Limits.** Where a thrust would be beyond its limit, the torque that no wheel can give keeps its direction and is scaled down as little as possible:
-//! a torque against a rate stays one. The rest follows in the order above, within the limits.
+//! **Limits.** Where a thrust would be beyond its limit, the torque that no wheel can give keeps its direction and is
+//! scaled down as little as possible: a torque against a rate stays one. The rest follows in the order above, within
+//! the limits.
 //!
-//! It is a linear program (`super::simplex`). Berdoz's P1, P2, P3 with a wanted force have a closed form in three cases.
+//! It is a linear program (`super::simplex`). Berdoz's P1, P2, P3 with a wanted force have a closed form in three
+//! cases.
 
 use super::ROUNDING;
 use super::simplex::{COLUMNS, Column, ROWS, least};
@@ -18,7 +23,8 @@ use crate::math::symmetric::principal_axes;
 use crate::scene::thruster::report_offset;
 use crate::scene::{MAX_THRUSTERS, Scene, Thruster};
 
-/// A component of all thrusters' torques (or forces) below this, relative to the largest one, is rounding: far below any lever or alignment.
+/// A component of all thrusters' torques (or forces) below this, relative to the largest one, is rounding: far below
+/// any lever or alignment.
 const NOTHING: f64 = 1e-9;
 
 /// The priorities: torque that no wheel can give, force, torque that wheels make good, the total thrust.
@@ -61,8 +67,9 @@ pub struct ThrustAllocation {
 }
 
 impl ThrustAllocation {
-    /// That of `thrusters` on a spacecraft with its centre of mass c at `center` (from p in F_s, m). `most` has the largest thrusts, N, infinite without a
-    /// limit, zero of a thruster that is not used; `by_wheels` is the projection onto the torques that wheels can give, F_s.
+    /// That of `thrusters` on a spacecraft with its centre of mass c at `center` (from p in F_s, m). `most` has the
+    /// largest thrusts, N, infinite without a limit, zero of a thruster that is not used; `by_wheels` is the projection
+    /// onto the torques that wheels can give, F_s.
     ///
     /// # Panics
     /// With more than [`MAX_THRUSTERS`] thrusters, or not as many limits.
@@ -95,7 +102,8 @@ impl ThrustAllocation {
         ThrustAllocation { wrenches, most, rows, lever }
     }
 
-    /// That of the thrusters at the places `used` of `scene` in a control loop, beside wheels that can give the torques of the projection `by_wheels`.
+    /// That of the thrusters at the places `used` of `scene` in a control loop, beside wheels that can give the torques
+    /// of the projection `by_wheels`.
     pub fn of_loop(scene: &Scene, used: &[usize], by_wheels: [[f64; 3]; 3]) -> Self {
         let models = &scene.actuators.thrusters;
         let limit = |place: usize| if used.contains(&place) { models[place].max_thrust } else { 0.0 };
@@ -103,8 +111,8 @@ impl ThrustAllocation {
         Self::new(&scene.thrusters, scene.mass.center, &most, by_wheels)
     }
 
-    /// The thrusts (N, in the order of the thrusters) for the torque `torque_s` about c (N m, F_s), and for the force `force_s` (N, F_s) where one is wanted;
-    /// none where these are not finite.
+    /// The thrusts (N, in the order of the thrusters) for the torque `torque_s` about c (N m, F_s), and for the force
+    /// `force_s` (N, F_s) where one is wanted; none where these are not finite.
     pub fn allocate(&self, force_s: Option<[f64; 3]>, torque_s: [f64; 3]) -> [f64; MAX_THRUSTERS] {
         let wanted = [force_s.unwrap_or([0.0; 3]), torque_s];
         let rows = self.rows(force_s.is_some());
@@ -136,8 +144,8 @@ impl ThrustAllocation {
         Rows(&self.rows[..if has_force { self.rows.len() } else { torques }])
     }
 
-    /// P2 and P3 turn about s1 with opposite signs: P2 - P3 = D makes the torque, P1 - P2 - P3 the force F. The smaller of P2, P3 is zero unless that
-    /// leaves P1 below zero; then P1 is, and P2 + P3 = -F.
+    /// P2 and P3 turn about s1 with opposite signs: P2 - P3 = D makes the torque, P1 - P2 - P3 the force F. The smaller
+    /// of P2, P3 is zero unless that leaves P1 below zero; then P1 is, and P2 + P3 = -F.
     fn closed_form(&self, lever: f64, [[_, _, force], [torque, ..]]: &Wrench) -> [f64; MAX_THRUSTERS] {
         let mut thrust = [0.0; MAX_THRUSTERS];
         if !(force.is_finite() && torque.is_finite()) {
@@ -178,8 +186,8 @@ impl ThrustAllocation {
         self.solved(&columns, self.wrenches.len(), rows, wanted, size)
     }
 
-    /// The thrusts within their limits: of the torque of `without_limits` that no wheel can give the largest share, then what comes nearest to the rest of
-    /// `wanted`.
+    /// The thrusts within their limits: of the torque of `without_limits` that no wheel can give the largest share,
+    /// then what comes nearest to the rest of `wanted`.
     fn within_limits(&self, rows: Rows<'_>, wanted: &Wrench, without_limits: &Wrench) -> [f64; MAX_THRUSTERS] {
         let mut target = *wanted;
         // the rows are a basis of the torques that the thrusters give
@@ -265,9 +273,10 @@ impl Rows<'_> {
     }
 }
 
-/// Three orthogonal axes of which each is within the span of the projection `by_wheels` or across it: those of F_s where `by_wheels` is diagonal. Otherwise
-/// the one axis that is alone, n, within or across; the direction within the plane across n that is nearest to an axis of F_s, to the first of them where
-/// several are as near; and their cross product.
+/// Three orthogonal axes of which each is within the span of the projection `by_wheels` or across it: those of F_s
+/// where `by_wheels` is diagonal. Otherwise the one axis that is alone, n, within or across; the direction within the
+/// plane across n that is nearest to an axis of F_s, to the first of them where several are as near; and their cross
+/// product.
 fn torque_axes(by_wheels: [[f64; 3]; 3]) -> [([f64; 3], usize); 3] {
     let of_frame = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let within = (0..3).map(|i| by_wheels[i][i]).sum::<f64>().round() as usize;

@@ -5,12 +5,14 @@ use crate::control::vector::{difference, norm, product, scaled, sum};
 use crate::math::list::List;
 use crate::scene::MAX_THRUSTERS;
 
-/// Directions that differ by less, relative to their length, are one: far above the rounding of positions, far below any alignment.
+/// Directions that differ by less, relative to their length, are one: far above the rounding of positions, far below
+/// any alignment.
 const SAME: f64 = 1e-9;
 
 impl ThrustAllocation {
-    /// The projection onto the torques (F_s) that the thrusters give in both directions, with whatever net force comes with them; where `holds_force`, without
-    /// any. Momentum of wheels along them can be unloaded. Of P1, P2, P3 it is s1 s1^T.
+    /// The projection onto the torques (F_s) that the thrusters give in both directions, with whatever net force comes
+    /// with them; where `holds_force`, without any. Momentum of wheels along them can be unloaded. Of P1, P2, P3 it is
+    /// s1 s1^T.
     pub fn two_sided_torques(&self, holds_force: bool) -> [[f64; 3]; 3] {
         // what a cone of wrenches has in both directions is spanned by those of its generators whose opposite is in it
         let mut spanning = List::<Wrench, MAX_THRUSTERS>::empty([[0.0; 3]; 2]);
@@ -39,8 +41,8 @@ impl ThrustAllocation {
         projection
     }
 
-    /// The total thrust and the magnitude of the net force, N, of 1 N m about the unit vector `axis` (F_s), in the direction in which each is larger, without
-    /// limits; where `holds_force`, with the force held at zero.
+    /// The total thrust and the magnitude of the net force, N, of 1 N m about the unit vector `axis` (F_s), in the
+    /// direction in which each is larger, without limits; where `holds_force`, with the force held at zero.
     pub fn cost(&self, axis: [f64; 3], holds_force: bool) -> [f64; 2] {
         [1.0, -1.0].iter().fold([0.0_f64; 2], |[total, force], sign| {
             let thrust = self.nearest(self.rows(holds_force), &[[0.0; 3], scaled(*sign, axis)]);
@@ -71,8 +73,9 @@ mod tests {
     use crate::scene::Thruster;
     use crate::scene::thruster::REPORT_DIRECTIONS;
 
-    /// Law: torque in both directions: about s1 of P1, P2, P3, with the force held or free, about all axes of eight thrusters; of P2 and P3 alone, and of two
-    /// opposite thrusters, where the force is free. In that space every torque is given, in both directions.
+    /// Law: torque in both directions: about s1 of P1, P2, P3, with the force held or free, about all axes of eight
+    /// thrusters; of P2 and P3 alone, and of two opposite thrusters, where the force is free. In that space every
+    /// torque is given, in both directions.
     #[test]
     fn two_sided_torques_can_be_given() {
         let close = |found: [[f64; 3]; 3], expected: [f64; 3]| {

@@ -6,14 +6,16 @@ use crate::math::list::List;
 use crate::math::symmetric::principal_axes;
 use crate::scene::{MAX_WHEELS, Scene};
 
-/// A direction along which the sum of the squares of the axes' components is less than this, relative to the largest such sum, is not reached: above the
-/// rounding of such sums, 1e-16, and below the square of any alignment that is used, 1e-12.
+/// A direction along which the sum of the squares of the axes' components is less than this, relative to the largest
+/// such sum, is not reached: above the rounding of such sums, 1e-16, and below the square of any alignment that is
+/// used, 1e-12.
 const NOT_REACHED: f64 = 1e-13;
 
 /// What is known of the wheels' axes, made once per run.
 ///
-/// A motor's torque tau on a wheel acts as -tau on the body: u = -A tau, with the axes as columns of A. tau = -A^T (A A^T)^+ u has the least norm of
-/// all that give the part of u within the span of the axes (the pseudo-inverse of R. Penrose, Proc. Cambridge Phil. Soc. 51, 1955).
+/// A motor's torque tau on a wheel acts as -tau on the body: u = -A tau, with the axes as columns of A. tau = -A^T (A
+/// A^T)^+ u has the least norm of all that give the part of u within the span of the axes (the pseudo-inverse of R.
+/// Penrose, Proc. Cambridge Phil. Soc. 51, 1955).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelTorque {
     /// Torques of the motors for a unit torque on the body along each axis of F_s, by wheels.
@@ -65,7 +67,8 @@ impl WheelTorque {
             .fold([0.0; 3], |all, (along, axis)| sum(all, scaled(along, *axis)))
     }
 
-    /// The torques of the motors on the wheels (N m, in the order of the axes) for the torque `torque_s` on the body, F_s, N m: of its part within reach.
+    /// The torques of the motors on the wheels (N m, in the order of the axes) for the torque `torque_s` on the body,
+    /// F_s, N m: of its part within reach.
     pub fn motors(&self, torque_s: [f64; 3]) -> [f64; MAX_WHEELS] {
         let mut found = [0.0; MAX_WHEELS];
         found.iter_mut().zip(&self.gains).for_each(|(motor, gain)| *motor = dot(*gain, torque_s));
@@ -84,8 +87,9 @@ mod tests {
 
     const WANTED: [f64; 3] = [1.0, -0.5, 0.7];
 
-    /// Basilisk babdff7, src/fswAlgorithms/effectorInterfaces/rwMotorTorque: four wheels from _UnitTest/test_rwMotorTorque.py; six random ones from the
-    /// module itself (bsk 2.12.1). To the tolerance of its test.
+    /// Basilisk babdff7, src/fswAlgorithms/effectorInterfaces/rwMotorTorque: four wheels from
+    /// _UnitTest/test_rwMotorTorque.py; six random ones from the module itself (bsk 2.12.1). To the tolerance of its
+    /// test.
     #[test]
     fn torques_are_those_of_basilisk() {
         let third = 0.5773502691896258;
@@ -115,8 +119,8 @@ mod tests {
         }
     }
 
-    /// Law: two wheels give the part of the torque in their plane, with torques of the least norm; one wheel gives the part along it; parallel wheels
-    /// share.
+    /// Law: two wheels give the part of the torque in their plane, with torques of the least norm; one wheel gives the
+    /// part along it; parallel wheels share.
     #[test]
     fn the_part_within_reach_is_given() {
         let a = scaled(1.0 / norm([1.0, 2.0, 2.0]), [1.0, 2.0, 2.0]);

@@ -95,8 +95,8 @@ fn sensors(spec: &LoopSpec, context: &LawContext<'_>, tick_period: f64) -> Vec<S
     spec.sensors.iter().zip(&context.parameters.sensors).enumerate().map(sampled).collect()
 }
 
-/// The flight software of the run of `context`, on a loop with ticks of `tick_period` seconds: it is made from nominal numbers, and from the drawn ones of the
-/// loop itself.
+/// The flight software of the run of `context`, on a loop with ticks of `tick_period` seconds: it is made from nominal
+/// numbers, and from the drawn ones of the loop itself.
 fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: f64) -> FlightSoftware {
     let numbers = &context.parameters.law;
     let believed = spec.believed(context.nominal);

@@ -1,4 +1,5 @@
-//! [`Mission`]: a run judged by the truth: what it comes to, what ends it, and its quantities over time. Nothing of it goes back to flight software.
+//! [`Mission`]: a run judged by the truth: what it comes to, what ends it, and its quantities over time. Nothing of it
+//! goes back to flight software.
 
 use std::sync::Arc;
 
@@ -40,7 +41,8 @@ pub struct Mission {
 }
 
 impl Mission {
-    /// That of a run under `spec`, judged by `criteria`; it fails after `saturation_timeout` seconds at the limit of speed.
+    /// That of a run under `spec`, judged by `criteria`; it fails after `saturation_timeout` seconds at the limit of
+    /// speed.
     pub fn new(
         spec: &Arc<LoopSpec>,
         criteria: MissionCriteria,

@@ -1,13 +1,14 @@
 //! [`ControlLoop`]: plant and flight software of one run, tick by tick, and what the mission comes to.
 //!
-//! At a tick the sensors that are due measure the true state, the estimator updates, guidance may change the phase, the law wants a torque and the
-//! maneuver a force, and allocation makes commands of them. A command acts `delay_s` later, until the next one (zero-order hold), or as pulses; what the
-//! actuators make of it is held over an arc, with friction and limits by the state at its start. Where the end of a run is a tick, that tick is the last
-//! one: the run can launch or fail there, and nothing that it commands acts.
+//! At a tick the sensors that are due measure the true state, the estimator updates, guidance may change the phase, the
+//! law wants a torque and the maneuver a force, and allocation makes commands of them. A command acts `delay_s` later,
+//! until the next one (zero-order hold), or as pulses; what the actuators make of it is held over an arc, with friction
+//! and limits by the state at its start. Where the end of a run is a tick, that tick is the last one: the run can
+//! launch or fail there, and nothing that it commands acts.
 //!
-//! The truth is [`super::plant`]'s, and flight software is [`super::flight_software`]: measurements go from one to the other and commands back, and here is
-//! the only place that knows both. `mission` judges the run by the truth, and `growth` whether its commands hold the
-//! body.
+//! The truth is [`super::plant`]'s, and flight software is [`super::flight_software`]: measurements go from one to the
+//! other and commands back, and here is the only place that knows both. `mission` judges the run by the truth, and
+//! `growth` whether its commands hold the body.
 
 mod construction;
 mod growth;

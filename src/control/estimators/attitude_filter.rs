@@ -1,9 +1,10 @@
 //! [`AttitudeFilter`]: attitude and bias of the gyro, by a multiplicative extended Kalman filter.
 //!
-//! E. J. Lefferts, F. L. Markley & M. D. Shuster, J. Guidance 5(5), 1982. The error of the attitude is a rotation vector in F_s, true = estimated (x) error; that
-//! of the bias is true minus estimated. The gyro is a rate-integrating one ([`crate::control::sensors`]): its errors add to the rotation vector, so that they
-//! turn the attitude by the right Jacobian J of that vector, and transition and noise of a step are exact for it at any rate. At zero rate J = 1, and the
-//! noise is Farrenkopf's: sv^2 T + su^2 T^3/3, -su^2 T^2/2, su^2 T.
+//! E. J. Lefferts, F. L. Markley & M. D. Shuster, J. Guidance 5(5), 1982. The error of the attitude is a rotation
+//! vector in F_s, true = estimated (x) error; that of the bias is true minus estimated. The gyro is a rate-integrating
+//! one ([`crate::control::sensors`]): its errors add to the rotation vector, so that they turn the attitude by the
+//! right Jacobian J of that vector, and transition and noise of a step are exact for it at any rate. At zero rate J =
+//! 1, and the noise is Farrenkopf's: sv^2 T + su^2 T^3/3, -su^2 T^2/2, su^2 T.
 //!
 //! Not here: measurements that come late ([`super::delayed`]).
 
@@ -69,7 +70,8 @@ pub struct AttitudeFilter {
 }
 
 impl AttitudeFilter {
-    /// Attitude `q_es` with an error of standard deviation `attitude_sigma` (rad) about each axis, no bias with one of `bias_sigma` (rad/s).
+    /// Attitude `q_es` with an error of standard deviation `attitude_sigma` (rad) about each axis, no bias with one of
+    /// `bias_sigma` (rad/s).
     pub fn new(q_es: [f64; 4], attitude_sigma: f64, bias_sigma: f64, noise: GyroNoise) -> Self {
         let (a, b) = (attitude_sigma * attitude_sigma, bias_sigma * bias_sigma);
         AttitudeFilter { q_es, bias_s: [0.0; 3], covariance: diagonal([a, a, a, b, b, b]), rate_s: [0.0; 3], noise }
@@ -168,8 +170,9 @@ mod tests {
 
     const REST: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
-    /// Variances of attitude before and after an update, their covariance and that of the bias before it, in the steady state about one axis (R. L. Farrenkopf,
-    /// 1978; F. L. Markley & R. G. Reynolds, J. Guidance 23(6), 2000), for noise sv, su of the gyro and sn of an attitude every T seconds.
+    /// Variances of attitude before and after an update, their covariance and that of the bias before it, in the steady
+    /// state about one axis (R. L. Farrenkopf, 1978; F. L. Markley & R. G. Reynolds, J. Guidance 23(6), 2000), for
+    /// noise sv, su of the gyro and sn of an attitude every T seconds.
     fn farrenkopf(sv: f64, su: f64, sn: f64, t: f64) -> [f64; 4] {
         let (u, v) = (su * t * t.sqrt() / sn, sv * t.sqrt() / sn);
         let g = (1.0 + v * v / 4.0 + u * u / 48.0).sqrt();
@@ -183,8 +186,8 @@ mod tests {
         ]
     }
 
-    /// Law: at rest with equal noise the covariance converges to the closed form before and after the update, about every axis, to 3e-14 (measured: 3.3e-15;
-    /// asked: 1e-10), and axes do not mix.
+    /// Law: at rest with equal noise the covariance converges to the closed form before and after the update, about
+    /// every axis, to 3e-14 (measured: 3.3e-15; asked: 1e-10), and axes do not mix.
     #[test]
     fn the_covariance_converges_to_the_closed_form() {
         for (sv, su, sn, t) in [(1e-4, 1e-5, 5e-4, 0.5), (1e-6, 2e-7, 2.5e-5, 2.0)] {
@@ -252,9 +255,9 @@ mod tests {
         covariance: Vec<f64>,
     }
 
-    /// Law: an independent implementation (matrices, series, informations, 40 digits, no history) that was fed with the same rotations and attitudes, which
-    /// arrive late and out of order, gives the same estimates at every tick: to 6e-15 in attitude and bias and 1e-14 of
-    /// the diagonal in the covariance (measured: 6.1e-16, 1.2e-15).
+    /// Law: an independent implementation (matrices, series, informations, 40 digits, no history) that was fed with the
+    /// same rotations and attitudes, which arrive late and out of order, gives the same estimates at every tick: to
+    /// 6e-15 in attitude and bias and 1e-14 of the diagonal in the covariance (measured: 6.1e-16, 1.2e-15).
     #[test]
     fn an_independent_implementation_agrees() {
         let golden: Golden =

@@ -1,4 +1,5 @@
-//! [`AttitudeInnovation`]: what one measurement of the attitude, or of a part of it, says to a filter of attitude and three more numbers.
+//! [`AttitudeInnovation`]: what one measurement of the attitude, or of a part of it, says to a filter of attitude and
+//! three more numbers.
 
 use std::fmt::Debug;
 
@@ -7,8 +8,8 @@ use crate::control::measurement::{Values, part};
 use crate::control::rotation::vector_of;
 use crate::control::vector::{conjugate, hamilton};
 
-/// An innovation of M numbers: e = H d + n, where d is the error of the attitude, true = estimated (x) d as a rotation vector in F_s, and n has the covariance
-/// R.
+/// An innovation of M numbers: e = H d + n, where d is the error of the attitude, true = estimated (x) d as a rotation
+/// vector in F_s, and n has the covariance R.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Innovation<const M: usize> {
     /// e.
@@ -39,8 +40,8 @@ impl<const M: usize> Innovation<M> {
 }
 
 impl AttitudeInnovation {
-    /// The correction of a state whose first three errors are d, and the normalised square; `covariance`, that of the state, becomes the one after it. `None`,
-    /// and nothing changes, where the filter is already certain.
+    /// The correction of a state whose first three errors are d, and the normalised square; `covariance`, that of the
+    /// state, becomes the one after it. `None`, and nothing changes, where the filter is already certain.
     pub fn update(&self, covariance: &mut [[f64; 6]; 6]) -> Option<([f64; 6], NormalizedSquare)> {
         match self {
             AttitudeInnovation::One(innovation) => innovation.update(covariance),
@@ -52,7 +53,8 @@ impl AttitudeInnovation {
 
 /// How a filter takes a measurement of the attitude: as flight software believes the sensor, by its nominal parameters.
 pub trait AttitudeSensor: Debug + Send + Sync {
-    /// The innovation of `values`, measured at `time` (s), where the attitude then is estimated as `q_es` (F_s -> F_e, scalar first).
+    /// The innovation of `values`, measured at `time` (s), where the attitude then is estimated as `q_es` (F_s -> F_e,
+    /// scalar first).
     fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation;
 }
 

@@ -1,4 +1,5 @@
-//! What a camera's image says of the debris is as uncertain, and about the same axes, as the attitude through which it was seen.
+//! What a camera's image says of the debris is as uncertain, and about the same axes, as the attitude through which it
+//! was seen.
 
 use super::tests::{at_once, observes, update};
 use super::*;
@@ -20,8 +21,9 @@ const CAMERA: f64 = 1e-4;
 /// Deviation of the debris's attitude at the start, rad.
 const DEBRIS: f64 = 1.0;
 
-/// Law: after one image the debris's attitude is as uncertain about each axis of F_s as the spacecraft's attitude, the camera and the start together say, by
-/// the sum of information: however F_d lies relative to F_s, an error about an axis of F_s has its square over that variance.
+/// Law: after one image the debris's attitude is as uncertain about each axis of F_s as the spacecraft's attitude, the
+/// camera and the start together say, by the sum of information: however F_d lies relative to F_s, an error about an
+/// axis of F_s has its square over that variance.
 #[test]
 fn an_image_is_as_uncertain_as_the_attitude() {
     let input = SceneInput::report().with_debris(DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 100.0 });

@@ -1,7 +1,8 @@
 //! [`Delayed`]: a filter that takes measurements of the past at their time.
 //!
-//! The last states are kept, with what they were propagated by and what was measured at each. A measurement that is late is taken at its time, and all steps
-//! after it are made again: the estimate is that of a filter to which nothing came late.
+//! The last states are kept, with what they were propagated by and what was measured at each. A measurement that is
+//! late is taken at its time, and all steps after it are made again: the estimate is that of a filter to which nothing
+//! came late.
 
 use std::collections::VecDeque;
 use std::fmt::Debug;
@@ -18,7 +19,8 @@ pub trait Filter: Clone {
     /// Moves on by a tick.
     fn propagate(&mut self, step: &Self::Step);
 
-    /// Takes a measurement; the normalised square of the innovation. `None`, and nothing changes, where the filter is already certain.
+    /// Takes a measurement; the normalised square of the innovation. `None`, and nothing changes, where the filter is
+    /// already certain.
     fn update(&mut self, observation: &Self::Observation) -> Option<NormalizedSquare>;
 }
 
@@ -52,7 +54,8 @@ impl<F: Filter> Delayed<F> {
         &self.now
     }
 
-    /// The state `age` ticks ago, after all measurements of that time that have arrived; the oldest that is kept, where that is younger.
+    /// The state `age` ticks ago, after all measurements of that time that have arrived; the oldest that is kept, where
+    /// that is younger.
     pub fn at(&self, age: usize) -> &F {
         &self.past[self.past.len().saturating_sub(age + 1)].state
     }
@@ -70,7 +73,8 @@ impl<F: Filter> Delayed<F> {
         self.past.push_back(Past { step: Some(step), observations, state: self.now.clone() });
     }
 
-    /// Takes a measurement of `age` ticks ago. `None`, and nothing changes, where it is older than all that is kept, or the filter was already certain.
+    /// Takes a measurement of `age` ticks ago. `None`, and nothing changes, where it is older than all that is kept, or
+    /// the filter was already certain.
     pub fn update(&mut self, observation: F::Observation, age: usize) -> Option<NormalizedSquare> {
         let index = self.past.len().checked_sub(age + 1)?;
         let at = &mut self.past[index];

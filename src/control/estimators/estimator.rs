@@ -17,7 +17,8 @@ pub struct Update<'a> {
     pub measurements: &'a [Measurement],
     /// Mean acceleration by the thrust that was commanded since the tick before, in F_s, m/s^2.
     pub acceleration_s: [f64; 3],
-    /// Mean torque on the body that was commanded since the tick before, by thrusters and by the reaction of motors, in F_s, N m.
+    /// Mean torque on the body that was commanded since the tick before, by thrusters and by the reaction of motors, in
+    /// F_s, N m.
     pub torque_s: [f64; 3],
     /// Torques of the motors on the wheels that were commanded since the tick before, N m.
     pub motor_torques: [f64; MAX_WHEELS],
@@ -25,8 +26,8 @@ pub struct Update<'a> {
     pub perfect: Option<&'a Estimate>,
 }
 
-/// How well the errors of a filter agree with its covariance: normalised squares of errors (NEES) and of the innovations of this tick; `None` where the
-/// filter does not have it.
+/// How well the errors of a filter agree with its covariance: normalised squares of errors (NEES) and of the
+/// innovations of this tick; `None` where the filter does not have it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Consistency {
     /// NEES of the attitude and, where it is estimated and known, the gyro's bias or the rate.
@@ -45,15 +46,15 @@ pub struct Consistency {
     pub debris: Option<NormalizedSquare>,
     /// Innovation of them.
     pub debris_innovation: Option<NormalizedSquare>,
-    /// Means since the start of the normalised squares of the innovations, each over its degrees of freedom, in the order above; `None` where nothing was
-    /// measured.
+    /// Means since the start of the normalised squares of the innovations, each over its degrees of freedom, in the
+    /// order above; `None` where nothing was measured.
     pub mean_innovations: [Option<f64>; 4],
     /// What the covariance says of the errors.
     pub expected: ExpectedErrors,
 }
 
-/// Root mean squares that the covariance of a filter gives to the magnitudes of its errors: the root of the sum of the variances of three components; `None`
-/// where the filter does not have it.
+/// Root mean squares that the covariance of a filter gives to the magnitudes of its errors: the root of the sum of the
+/// variances of three components; `None` where the filter does not have it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ExpectedErrors {
     /// Of the attitude, rad.
@@ -71,7 +72,8 @@ pub trait Estimator: Send {
     /// Moves `estimate`, that of the tick before, to this tick. Called once for each tick, in order.
     fn update(&mut self, update: &Update<'_>, estimate: &mut Estimate);
 
-    /// How well its errors agree with its covariance, after the update of the same tick; `gyro_bias_s` is the true bias, where there is a gyro, rad/s.
+    /// How well its errors agree with its covariance, after the update of the same tick; `gyro_bias_s` is the true
+    /// bias, where there is a gyro, rad/s.
     fn consistency(&self, _truth: &Truth, _gyro_bias_s: Option<[f64; 3]>) -> Consistency {
         Consistency::default()
     }

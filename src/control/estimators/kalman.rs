@@ -2,8 +2,8 @@
 
 use crate::control::small_matrix::{added, cholesky, multiplied, solved, transposed};
 
-/// e^T S^-1 e, of an innovation or of an error of the estimate: distributed as chi-square with `degrees` degrees of freedom where the filter is told the
-/// truth about its noise.
+/// e^T S^-1 e, of an innovation or of an error of the estimate: distributed as chi-square with `degrees` degrees of
+/// freedom where the filter is told the truth about its noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalizedSquare {
     /// Its value.
@@ -31,10 +31,12 @@ pub struct Gain<const N: usize, const M: usize> {
 }
 
 impl<const N: usize, const M: usize> Gain<N, M> {
-    /// That of a measurement with the sensitivity `h` and the covariance `r`; `p` becomes the covariance after it. `None`, and nothing changes, where the
-    /// covariance of the innovation is not positive definite: the filter is as certain of the measurement as can be.
+    /// That of a measurement with the sensitivity `h` and the covariance `r`; `p` becomes the covariance after it.
+    /// `None`, and nothing changes, where the covariance of the innovation is not positive definite: the filter is as
+    /// certain of the measurement as can be.
     ///
-    /// The covariance is updated in the form (1 - K H) P (1 - K H)^T + K R K^T, which stays positive (R. S. Bucy & P. D. Joseph, 1968).
+    /// The covariance is updated in the form (1 - K H) P (1 - K H)^T + K R K^T, which stays positive (R. S. Bucy & P.
+    /// D. Joseph, 1968).
     pub fn of(p: &mut [[f64; N]; N], h: &[[f64; N]; M], r: &[[f64; M]; M]) -> Option<Self> {
         let pht = multiplied(p, &transposed(h));
         let factor = cholesky(&added(&multiplied(h, &pht), r))?;

@@ -1,11 +1,13 @@
-//! Filters of all that is estimated: attitude and gyro bias ([`super::attitude_filter`]), or without a gyro attitude and rate by the nominal body's equation
-//! of motion ([`super::rigid_body_filter`]); position and velocity of spacecraft and debris ([`super::translation_filter`]); attitude and rate of the
-//! debris, torque-free, which keep on through gaps of the camera.
+//! Filters of all that is estimated: attitude and gyro bias ([`super::attitude_filter`]), or without a gyro attitude
+//! and rate by the nominal body's equation of motion ([`super::rigid_body_filter`]); position and velocity of
+//! spacecraft and debris ([`super::translation_filter`]); attitude and rate of the debris, torque-free, which keep on
+//! through gaps of the camera.
 //!
-//! They start at the nominal state, at no bias, and believe the nominal noise of the sensors. Measurements are taken at their time. The debris is seen through the
-//! estimated attitude and rate of the spacecraft: their covariance adds to the camera's noise, as if it were white, which it is not.
-//! Where the gyro measures less often than the loop ticks, the rotation in between is predicted at its last rate and put right when it
-//! measures. Rates of wheels follow the commanded torques of motors from one tachometer reading to the next.
+//! They start at the nominal state, at no bias, and believe the nominal noise of the sensors. Measurements are taken at
+//! their time. The debris is seen through the estimated attitude and rate of the spacecraft: their covariance adds to
+//! the camera's noise, as if it were white, which it is not. Where the gyro measures less often than the loop ticks,
+//! the rotation in between is predicted at its last rate and put right when it measures. Rates of wheels follow the
+//! commanded torques of motors from one tachometer reading to the next.
 
 use std::sync::Arc;
 
@@ -47,38 +49,46 @@ const fn belief(key: &'static str, unit: &'static str, meaning: &'static str, de
 declared! {
     /// What the filters believe at the start, and of what they do not know.
     Beliefs = PARAMETERS {
-        attitude_sigma: f64 = belief("initial_attitude_sigma_rad", "rad", "Initial standard deviation of the attitude, about each axis", &[0.1]);
+        attitude_sigma: f64 = belief("initial_attitude_sigma_rad", "rad",
+            "Initial standard deviation of the attitude, about each axis", &[0.1]);
         bias_sigma: f64 = belief(
         "initial_bias_sigma_rad_s",
         "rad/s",
         "Initial standard deviation of the gyro bias, whose first estimate is zero",
         &[1e-4],
     );
-        rate_sigma: f64 = belief("initial_rate_sigma_rad_s", "rad/s", "Initial standard deviation of the rate; used without a gyro", &[0.1]);
+        rate_sigma: f64 = belief("initial_rate_sigma_rad_s", "rad/s",
+            "Initial standard deviation of the rate; used without a gyro", &[0.1]);
         rate_walk: f64 = belief(
         "rate_random_walk_rad_s_sqrt_s",
         "rad/s/sqrt(s)",
         "Process noise of the rate: unknown torque; used without a gyro",
         &[1e-4],
     );
-        position_sigma: f64 = belief("initial_position_sigma_m", "m", "Initial standard deviation of the position, along each axis", &[10.0]);
-        velocity_sigma: f64 = belief("initial_velocity_sigma_m_s", "m/s", "Initial standard deviation of the velocity, along each axis", &[0.1]);
+        position_sigma: f64 = belief("initial_position_sigma_m", "m",
+            "Initial standard deviation of the position, along each axis", &[10.0]);
+        velocity_sigma: f64 = belief("initial_velocity_sigma_m_s", "m/s",
+            "Initial standard deviation of the velocity, along each axis", &[0.1]);
         velocity_walk: f64 = belief(
         "velocity_random_walk_m_s_sqrt_s",
         "m/s/sqrt(s)",
         "Process noise of the velocity: unknown acceleration",
         &[1e-4],
     );
-        debris_position_sigma: f64 = belief("debris_position_sigma_m", "m", "Initial standard deviation of the debris's position", &[10.0]);
-        debris_velocity_sigma: f64 = belief("debris_velocity_sigma_m_s", "m/s", "Initial standard deviation of the debris's velocity", &[0.1]);
+        debris_position_sigma: f64 = belief("debris_position_sigma_m", "m",
+            "Initial standard deviation of the debris's position", &[10.0]);
+        debris_velocity_sigma: f64 = belief("debris_velocity_sigma_m_s", "m/s",
+            "Initial standard deviation of the debris's velocity", &[0.1]);
         debris_velocity_walk: f64 = belief(
         "debris_velocity_random_walk_m_s_sqrt_s",
         "m/s/sqrt(s)",
         "Process noise of the debris's velocity: unknown acceleration",
         &[1e-5],
     );
-        debris_attitude_sigma: f64 = belief("debris_attitude_sigma_rad", "rad", "Initial standard deviation of the debris's attitude", &[1.0]);
-        debris_rate_sigma: f64 = belief("debris_rate_sigma_rad_s", "rad/s", "Initial standard deviation of the debris's rate", &[0.1]);
+        debris_attitude_sigma: f64 = belief("debris_attitude_sigma_rad", "rad",
+            "Initial standard deviation of the debris's attitude", &[1.0]);
+        debris_rate_sigma: f64 = belief("debris_rate_sigma_rad_s", "rad/s",
+            "Initial standard deviation of the debris's rate", &[0.1]);
         debris_rate_walk: f64 = belief(
         "debris_rate_random_walk_rad_s_sqrt_s",
         "rad/s/sqrt(s)",
@@ -243,8 +253,8 @@ impl Mekf {
         }
     }
 
-    /// What the covariances say of the errors at this tick. Spacecraft and debris are estimated by filters of their own, whose variances add; axes of a
-    /// motion are alike.
+    /// What the covariances say of the errors at this tick. Spacecraft and debris are estimated by filters of their
+    /// own, whose variances add; axes of a motion are alike.
     fn expected(&self) -> ExpectedErrors {
         let root = |covariance: [[f64; 3]; 3]| (0..3).map(|axis| covariance[axis][axis]).sum::<f64>().sqrt();
         let [attitude, rate] = self.covariances_at(0).map(root);

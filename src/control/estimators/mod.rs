@@ -1,9 +1,11 @@
 //! From measurements to an estimate of the state. One file for each kind, one line for each in [`KINDS`].
 //!
 //! - [`estimator`]: what all of them are. `perfect`: the true state. `raw`: the last measurements. `mekf`: filters.
-//! - [`attitude_filter`], [`rigid_body_filter`], [`translation_filter`]: the filters, with [`kalman`], and [`delayed`] for measurements that come late.
+//! - [`attitude_filter`], [`rigid_body_filter`], [`translation_filter`]: the filters, with [`kalman`], and [`delayed`]
+//!   for measurements that come late.
 //!
-//! An estimator knows the nominal scene, its own parameters, and the nominal parameters of the sensors; the truth reaches it in measurements alone.
+//! An estimator knows the nominal scene, its own parameters, and the nominal parameters of the sensors; the truth
+//! reaches it in measurements alone.
 
 pub mod attitude_filter;
 pub mod attitude_innovation;

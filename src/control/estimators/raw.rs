@@ -1,7 +1,8 @@
-//! Raw measurements: the last of each kind, held until the next, latency and all; the nominal state before the first. On an orbit position and velocity are not
-//! held but fall freely from where they were measured.
+//! Raw measurements: the last of each kind, held until the next, latency and all; the nominal state before the first.
+//! On an orbit position and velocity are not held but fall freely from where they were measured.
 //!
-//! The rate is that of the gyro, bias and all, or without one the turn between the last two attitudes over the time between them.
+//! The rate is that of the gyro, bias and all, or without one the turn between the last two attitudes over the time
+//! between them.
 
 use crate::control::estimate::Estimate;
 use crate::control::estimators::estimator::{Estimator, EstimatorContext, EstimatorKind, Update, center_of};

@@ -1,8 +1,9 @@
-//! [`RigidBodyFilter`]: attitude and rate of a rigid body of known inertia, by a multiplicative extended Kalman filter: of the debris, and of a spacecraft
-//! without gyro.
+//! [`RigidBodyFilter`]: attitude and rate of a rigid body of known inertia, by a multiplicative extended Kalman filter:
+//! of the debris, and of a spacecraft without gyro.
 //!
-//! The body follows Euler's equation K omega' = H x omega + u, H = K omega + h, with known torque u and momentum h of its wheels; what is not known of them is
-//! white noise, a random walk of the rate. Errors as in [`super::attitude_filter`]: a rotation vector in the frame of the body, and true minus estimated rate.
+//! The body follows Euler's equation K omega' = H x omega + u, H = K omega + h, with known torque u and momentum h of
+//! its wheels; what is not known of them is white noise, a random walk of the rate. Errors as in
+//! [`super::attitude_filter`]: a rotation vector in the frame of the body, and true minus estimated rate.
 
 use super::attitude_filter::{AttitudeObservation, normalized};
 use super::delayed::Filter;
@@ -59,13 +60,14 @@ pub struct RigidBodyFilter {
     rate_random_walk: f64,
 }
 
-/// The largest |omega| h of a step of the integration, rad (the error of a step is some 0.05^5/100 of a radian), and the largest number of steps.
+/// The largest |omega| h of a step of the integration, rad (the error of a step is some 0.05^5/100 of a radian), and
+/// the largest number of steps.
 const LARGEST_TURN: f64 = 0.05;
 const MOST_STEPS: f64 = 64.0;
 
 impl RigidBodyFilter {
-    /// A body of the inertia K (kg m^2, about its centre of mass, in its frame) with the attitude `q` and the rate `omega` to the standard deviations `sigmas`,
-    /// rad and rad/s, about each axis.
+    /// A body of the inertia K (kg m^2, about its centre of mass, in its frame) with the attitude `q` and the rate
+    /// `omega` to the standard deviations `sigmas`, rad and rad/s, about each axis.
     pub fn new(inertia: [[f64; 3]; 3], q: [f64; 4], omega: [f64; 3], sigmas: [f64; 2], rate_random_walk: f64) -> Self {
         let [a, b] = sigmas.map(|sigma| sigma * sigma);
         let covariance = diagonal([a, a, a, b, b, b]);
@@ -95,8 +97,9 @@ impl RigidBodyFilter {
         crate::control::small_matrix::transposed(&columns)
     }
 
-    /// Moves on by `h` seconds: the rate by the classical Runge-Kutta method, the attitude by the rotation vector to fourth order, the covariance with the
-    /// transition of the attitude as it turned, that of the rate to second order, and the trapezoidal rule between them.
+    /// Moves on by `h` seconds: the rate by the classical Runge-Kutta method, the attitude by the rotation vector to
+    /// fourth order, the covariance with the transition of the attitude as it turned, that of the rate to second order,
+    /// and the trapezoidal rule between them.
     fn step(&mut self, h: f64, step: &BodyStep) {
         let before = self.omega;
         let k1 = self.acceleration(before, step);

@@ -1,4 +1,5 @@
-//! Filters against models of sensors and against their own assumptions: consistency over many runs, and estimates without noise.
+//! Filters against models of sensors and against their own assumptions: consistency over many runs, and estimates
+//! without noise.
 
 use super::delayed::Filter;
 use super::rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter};
@@ -21,7 +22,8 @@ use crate::sampling::{Noise, SampleId};
 use crate::scene::{DebrisInput, SceneInput};
 use crate::scene::{MAX_WHEELS, Scene};
 
-/// Times at which the statistics are judged, and the share of H0 that may fail one of them: each of `TIMES` times NEES and innovations at rest and in a slew.
+/// Times at which the statistics are judged, and the share of H0 that may fail one of them: each of `TIMES` times NEES
+/// and innovations at rest and in a slew.
 const TIMES: usize = 20;
 const ALPHA: f64 = 0.05 / (4 * TIMES) as f64;
 
@@ -51,15 +53,16 @@ const GYRO: [(&str, &[f64]); 2] =
 const TRACKER_NOISE: [f64; 3] = [2e-4, 3e-4, 1e-3];
 const START: [f64; 2] = [5e-3, 1e-3];
 
-/// What many runs of the attitude filter with gyro and star tracker found: sums of NEES (6) and of squares of innovations (3) at each time, root mean square
-/// of the bias's error at the end.
+/// What many runs of the attitude filter with gyro and star tracker found: sums of NEES (6) and of squares of
+/// innovations (3) at each time, root mean square of the bias's error at the end.
 struct Found {
     errors: [f64; TIMES],
     innovations: [f64; TIMES],
     bias: f64,
 }
 
-/// `runs` runs with the rate `omega` from the sensor models, of a filter that is told `told` times the noise of the tracker.
+/// `runs` runs with the rate `omega` from the sensor models, of a filter that is told `told` times the noise of the
+/// tracker.
 fn attitude_runs(runs: u64, omega: [f64; 3], told: f64) -> Found {
     let nominal = &Scene::resolve(&SceneInput::report()).expect("a valid scene");
     let own = &[("initial_attitude_sigma_rad", &START[..1]), ("initial_bias_sigma_rad_s", &START[1..])];
@@ -126,8 +129,9 @@ pub fn observes(kind: &str) -> Observes {
     sensors::kind(kind).expect("a kind").observes
 }
 
-/// H0: NEES and innovations of 1,000 runs at 20 times are chi-square; family-wise alpha 0.05 with the other rate, seeds 5 and 8. A mean that is wrong by 10%
-/// is found with a probability above 0.99 at each time. The bias is known ten times better than at the start (17 and 10.4 times).
+/// H0: NEES and innovations of 1,000 runs at 20 times are chi-square; family-wise alpha 0.05 with the other rate, seeds
+/// 5 and 8. A mean that is wrong by 10% is found with a probability above 0.99 at each time. The bias is known ten
+/// times better than at the start (17 and 10.4 times).
 fn assert_consistent(omega: [f64; 3]) {
     let found = attitude_runs(1_000, omega, 1.0);
     for time in 0..TIMES {
@@ -160,8 +164,9 @@ fn wrong_noise_is_found() {
     }
 }
 
-/// Law: position and velocity of a thrusting point, and attitude and rate of a tumbling body that is not seen for a while, have chi-square errors and
-/// innovations where truth and filter have the same noise: 200 runs, 20 times, family-wise alpha 0.05, seed 8.
+/// Law: position and velocity of a thrusting point, and attitude and rate of a tumbling body that is not seen for a
+/// while, have chi-square errors and innovations where truth and filter have the same noise: 200 runs, 20 times,
+/// family-wise alpha 0.05, seed 8.
 #[test]
 fn translation_and_debris_are_consistent() {
     let (runs, t) = (200, 0.5_f64);
@@ -218,7 +223,8 @@ fn translation_and_debris_are_consistent() {
     }
 }
 
-/// The sensors of a nominal run, which have no noise, with what the filters believe of it; the period of the gyro in ticks of 0.1 s, 0 for none.
+/// The sensors of a nominal run, which have no noise, with what the filters believe of it; the period of the gyro in
+/// ticks of 0.1 s, 0 for none.
 struct Nominal {
     names: Vec<&'static str>,
     /// Period and latency, s.
@@ -248,8 +254,8 @@ impl Nominal {
     }
 }
 
-/// The errors of the estimator `name` after 60 s in a slew at a constant rate with thrust, beside tumbling debris, from sensors without noise but with latency:
-/// the truth starts apart from the nominal scene.
+/// The errors of the estimator `name` after 60 s in a slew at a constant rate with thrust, beside tumbling debris, from
+/// sensors without noise but with latency: the truth starts apart from the nominal scene.
 fn errors_without_noise(name: &str, gyro_period: u64) -> (crate::control::estimate::EstimateErrors, Estimate) {
     let input = SceneInput::report().with_debris(DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 100.0 });
     let mut nominal = Scene::resolve(&input).expect("a valid scene");
@@ -304,8 +310,9 @@ fn errors_without_noise(name: &str, gyro_period: u64) -> (crate::control::estima
     last.expect("ticks")
 }
 
-/// Law: without noise the filters find the truth in spite of latencies of up to four ticks, a bias, a wrong start, and a gyro that is slower than the loop or not
-/// there. What is left is what they have not forgotten of the start: bounds are five to ten times the errors with the gyro.
+/// Law: without noise the filters find the truth in spite of latencies of up to four ticks, a bias, a wrong start, and
+/// a gyro that is slower than the loop or not there. What is left is what they have not forgotten of the start: bounds
+/// are five to ten times the errors with the gyro.
 #[test]
 fn estimates_without_noise_are_the_truth() {
     for gyro_period in [1, 2, 0] {
@@ -320,8 +327,8 @@ fn estimates_without_noise_are_the_truth() {
     }
 }
 
-/// Law: raw measurements are late by the latency and what is held; the rate has the gyro's bias, or without a gyro is that between attitudes. Perfect
-/// knowledge has no error.
+/// Law: raw measurements are late by the latency and what is held; the rate has the gyro's bias, or without a gyro is
+/// that between attitudes. Perfect knowledge has no error.
 #[test]
 fn raw_measurements_are_late_and_perfect_knowledge_is_not() {
     // tick 600: the last attitude is of tick 595, delivered at 597
@@ -349,8 +356,8 @@ fn kinds_have_names_and_defaults() {
     }
 }
 
-/// Law: without torque on the whole, the momentum in F_e and the energy of rotation stay where wheels have a constant momentum in the body, to 2e-9 (measured: 2.9e-10
-/// over 600 steps of 0.014 rad).
+/// Law: without torque on the whole, the momentum in F_e and the energy of rotation stay where wheels have a constant
+/// momentum in the body, to 2e-9 (measured: 2.9e-10 over 600 steps of 0.014 rad).
 #[test]
 fn a_body_with_wheels_keeps_momentum_and_energy() {
     let inertia = diagonal([300.0, 420.0, 180.0]);
@@ -370,8 +377,8 @@ fn a_body_with_wheels_keeps_momentum_and_energy() {
     assert!(error < 2e-9 && (after.1 / before.1 - 1.0).abs() < 2e-11, "{error} and {}", after.1 / before.1 - 1.0);
 }
 
-/// Law: between tachometer readings the axial momentum of a wheel grows by the commanded torque of its motor, whatever the body does; the rotations of a gyro
-/// that is faster than the loop are joined in their order.
+/// Law: between tachometer readings the axial momentum of a wheel grows by the commanded torque of its motor, whatever
+/// the body does; the rotations of a gyro that is faster than the loop are joined in their order.
 #[test]
 fn wheels_follow_their_motors_and_fast_gyros_are_joined() {
     let nominal = &Scene::resolve(&SceneInput::report()).expect("a valid scene");
@@ -404,7 +411,8 @@ fn wheels_follow_their_motors_and_fast_gyros_are_joined() {
     assert!(estimate.q_es.iter().zip(q).all(|(a, b)| (a - b).abs() < 4e-16), "{:?} for {q:?}", estimate.q_es);
 }
 
-/// Law: each kind of sensor that an estimator is said to use changes its estimate, and no other does: what nobody uses is refused by `check`, not ignored.
+/// Law: each kind of sensor that an estimator is said to use changes its estimate, and no other does: what nobody uses
+/// is refused by `check`, not ignored.
 #[test]
 fn each_sensor_that_is_used_changes_the_estimate() {
     let input = input_on_orbit().with_debris(DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 100.0 });

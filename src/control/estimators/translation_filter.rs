@@ -1,12 +1,13 @@
 //! [`TranslationFilter`]: position and velocity of a point in F_e, by a linear Kalman filter with known acceleration.
 //!
-//! Noise is the same along all axes, and so the axes are independent: one covariance of position and velocity serves all three. What is not known of the
-//! acceleration is white noise, a random walk of the velocity (Y. Bar-Shalom, X. R. Li & T. Kirubarajan, *Estimation with Applications to Tracking and
-//! Navigation*, 2001, section 6.2.2).
+//! Noise is the same along all axes, and so the axes are independent: one covariance of position and velocity serves
+//! all three. What is not known of the acceleration is white noise, a random walk of the velocity (Y. Bar-Shalom, X. R.
+//! Li & T. Kirubarajan, *Estimation with Applications to Tracking and Navigation*, 2001, section 6.2.2).
 //!
-//! On an orbit the pull of the central body is known at the estimated position, and the step is the Runge-Kutta-Nyström method of order 4 (E. Hairer, S. Norsett
-//! & G. Wanner, *Solving Ordinary Differential Equations I*, 1993, table II.14.2). The covariance leaves out that the pull depends on the position: over the
-//! seconds between two measurements it changes it by (n t)^2, 1e-6.
+//! On an orbit the pull of the central body is known at the estimated position, and the step is the
+//! Runge-Kutta-Nyström method of order 4 (E. Hairer, S. Norsett & G. Wanner, *Solving Ordinary Differential Equations
+//! I*, 1993, table II.14.2). The covariance leaves out that the pull depends on the position: over the seconds between
+//! two measurements it changes it by (n t)^2, 1e-6.
 
 use super::delayed::Filter;
 use super::kalman::{Gain, NormalizedSquare, normalized_square, symmetric, transported};
@@ -47,7 +48,8 @@ pub struct TranslationFilter {
 }
 
 impl PointMotion {
-    /// This motion `t` seconds later, under the constant acceleration `acceleration_e` (F_e, m/s^2) and the pull `gravity` of a central body at the origin.
+    /// This motion `t` seconds later, under the constant acceleration `acceleration_e` (F_e, m/s^2) and the pull
+    /// `gravity` of a central body at the origin.
     pub fn falling(&self, gravity: &Gravity<f64>, acceleration_e: [f64; 3], t: f64) -> PointMotion {
         let PointMotion { r_e, v_e } = *self;
         let pull = |r: [f64; 3]| sum(acceleration_e, gravity.acceleration(r, norm(r)));
@@ -126,7 +128,8 @@ mod tests {
     use crate::dynamics::orbit::KeplerOrbit;
     use crate::scene::Orbit;
 
-    /// Law: what falls is on its Kepler orbit, to fourth order in the step, and a known acceleration adds t^2/2 of itself.
+    /// Law: what falls is on its Kepler orbit, to fourth order in the step, and a known acceleration adds t^2/2 of
+    /// itself.
     #[test]
     fn a_falling_point_is_on_its_orbit() {
         let orbit = Orbit {

@@ -1,7 +1,8 @@
 //! [`check`]: whether a module is simple enough to be compiled in seconds.
 //!
-//! A compiler's time and memory grow faster than the code: with the product of a function's blocks and locals, each of which may have another value in each
-//! block, and with the square of its blocks. What compilers make of flight code is below these limits.
+//! A compiler's time and memory grow faster than the code: with the product of a function's blocks and locals, each of
+//! which may have another value in each block, and with the square of its blocks. What compilers make of flight code is
+//! below these limits.
 
 use wasmparser::{CompositeInnerType, FunctionBody, Operator, Parser, Payload, SubType};
 use wasmtime::{Result, bail};
@@ -15,12 +16,14 @@ const MOST_LOCALS: u64 = 1_000;
 const MOST_NESTED: u64 = 1_000;
 /// Most targets of all tables of branches.
 const MOST_TARGETS: u64 = 20_000;
-/// Most segments of data and of elements, each of which is code that an instance begins with: 45,000 of data take half a minute and more than a gigabyte.
+/// Most segments of data and of elements, each of which is code that an instance begins with: 45,000 of data take half
+/// a minute and more than a gigabyte.
 const MOST_SEGMENTS: u32 = 2_000;
 /// Most parameters and results of all types and, once more, of all functions: the compiler makes code for each type
 /// that passes them on, and for each function. 4,000 types of 990 took 103 s and 618 MB.
 const MOST_PASSED: u64 = 100_000;
-/// Largest sum, over the functions, of the square of their blocks, that of one with 5,000: some seconds; a function of 10,000 loops takes nine.
+/// Largest sum, over the functions, of the square of their blocks, that of one with 5,000: some seconds; a function of
+/// 10,000 loops takes nine.
 const MOST_SQUARES: u64 = 25_000_000;
 /// Largest sum, over the functions, of blocks times locals: some seconds.
 const MOST_VALUES: u64 = 3_000_000;
@@ -88,7 +91,8 @@ fn passed_by(of: &SubType) -> u64 {
     }
 }
 
-/// The number of targets in the tables of branches of a function, that of its blocks times locals, and the square of that of its blocks; locals are within their own limit.
+/// The number of targets in the tables of branches of a function, that of its blocks times locals, and the square of
+/// that of its blocks; locals are within their own limit.
 fn counts(body: &FunctionBody<'_>) -> Result<[u64; 3]> {
     let mut locals = 0;
     for declared in body.get_locals_reader()? {

@@ -4,7 +4,8 @@
 //! - sensors whose measurements it is given, `name | kind`;
 //! - telemetry, `key | unit | meaning`.
 //!
-//! Their numbers stand in the memory of the module in the order of the lines. What is declared is kept for good, as the module is.
+//! Their numbers stand in the memory of the module in the order of the lines. What is declared is kept for good, as the
+//! module is.
 
 use super::module::{DeclaredTelemetry, WantedSensor};
 use crate::scene::LawParameter;

@@ -12,8 +12,9 @@ pub const MEASURED: usize = 1 + MAX_VALUES;
 /// The age of the measurement of a sensor that has delivered none.
 const NONE_YET: f64 = -1.0;
 
-/// The numbers of a tick `elapsed` seconds after the last one of the phase (zero at the first), in a loop of the control period and the delay `times`, s.
-/// In this order, which is that of the table in `docs/flight-code.md` and of `struct spindrift_input` in `examples/flight_code/spindrift.h`.
+/// The numbers of a tick `elapsed` seconds after the last one of the phase (zero at the first), in a loop of the
+/// control period and the delay `times`, s. In this order, which is that of the table in `docs/flight-code.md` and of
+/// `struct spindrift_input` in `examples/flight_code/spindrift.h`.
 pub fn bytes(body: &KnownBody, input: &LawInput<'_>, elapsed: f64, times: [f64; 2]) -> [u8; 8 * NUMBERS] {
     let mut bytes = [0; 8 * NUMBERS];
     let mut places = bytes.chunks_exact_mut(8);
@@ -48,7 +49,8 @@ pub fn bytes(body: &KnownBody, input: &LawInput<'_>, elapsed: f64, times: [f64; 
     bytes
 }
 
-/// The last measurements of the sensors `wanted`, one after the other: age, s, and numbers, as telemetry has them; 0 beyond those that its kind has.
+/// The last measurements of the sensors `wanted`, one after the other: age, s, and numbers, as telemetry has them; 0
+/// beyond those that its kind has.
 pub fn measured(wanted: &[WantedSensor], input: &LawInput<'_>) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(8 * MEASURED * wanted.len());
     for wanted in wanted {

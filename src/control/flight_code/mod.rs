@@ -1,11 +1,13 @@
 //! [`FlightCode`]: a WebAssembly module as the law of attitude of the phases that name it (`law = "module"`).
 //!
-//! A module is a core module without imports. It shares its linear memory with the loop: at every control tick the loop writes what is known into the input of
-//! the module, calls its step, and reads the wanted torque from its output. The interface has a number ([`INTERFACES`]). A later interface appends to what
-//! modules are given and asked, so that those of an earlier one go on to fly. `docs/flight-code.md` describes all of it for those who write modules.
+//! A module is a core module without imports. It shares its linear memory with the loop: at every control tick the loop
+//! writes what is known into the input of the module, calls its step, and reads the wanted torque from its output. The
+//! interface has a number ([`INTERFACES`]). A later interface appends to what modules are given and asked, so that
+//! those of an earlier one go on to fly. `docs/flight-code.md` describes all of it for those who write modules.
 //!
-//! - `complexity`: what is too much to compile. `declared`: parameters, sensors and telemetry that a module declares. `input`: what it is given. `runtime`: modules as compiled, and their instances;
-//!   these are in builds with the feature `wasm` alone.
+//! - `complexity`: what is too much to compile. `declared`: parameters, sensors and telemetry that a module declares.
+//!   `input`: what it is given. `runtime`: modules as compiled, and their instances; these are in builds with the
+//!   feature `wasm` alone.
 
 #[cfg(feature = "wasm")]
 mod complexity;
@@ -24,7 +26,8 @@ pub use module::{
 
 use super::laws::interface::{LawModule, LawSettings, OwnLaw};
 
-/// The module with these bytes, whose SHA-256 is `sha256`. A process compiles each once, and keeps it for good: it has as many as its campaign files name.
+/// The module with these bytes, whose SHA-256 is `sha256`. A process compiles each once, and keeps it for good: it has
+/// as many as its campaign files name.
 ///
 /// # Errors
 /// What is wrong with it; in a build without the feature `wasm`, how to get one with it.

@@ -4,7 +4,8 @@ use std::fmt;
 
 use crate::control::laws::LawKind;
 
-/// The numbers of the interfaces, of which `spindrift_interface` of a module returns one. 2 has measurements and telemetry beside what 1 has.
+/// The numbers of the interfaces, of which `spindrift_interface` of a module returns one. 2 has measurements and
+/// telemetry beside what 1 has.
 pub const INTERFACES: [i32; 2] = [1, 2];
 /// What phases call the law that a module is.
 pub const NAME: &str = "module";

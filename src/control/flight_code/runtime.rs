@@ -1,7 +1,8 @@
 //! Modules as compiled, and their instances.
 //!
-//! What a module does is a function of what it is given: NaN have one form, nothing is imported, and fuel is counted in instructions. Only the depth of calls at
-//! which it traps depends on the processor ([`MOST_STACK`]). Bounds are checked by instructions, not by signals: those are the process's own.
+//! What a module does is a function of what it is given: NaN have one form, nothing is imported, and fuel is counted in
+//! instructions. Only the depth of calls at which it traps depends on the processor ([`MOST_STACK`]). Bounds are
+//! checked by instructions, not by signals: those are the process's own.
 
 use std::fmt;
 use std::sync::{Mutex, OnceLock, PoisonError};
@@ -29,7 +30,8 @@ const MOST_ELEMENTS: usize = 10_000;
 const LONGEST_TEXT: usize = 1 << 14;
 /// The numbers of the output.
 const OUTPUT: usize = 3;
-/// The functions that return where numbers stand, each with the one that returns where the text stands that declares them.
+/// The functions that return where numbers stand, each with the one that returns where the text stands that declares
+/// them.
 const PARAMETERS: [&str; 2] = ["spindrift_parameters", "spindrift_parameter_table"];
 const MEASUREMENTS: [&str; 2] = ["spindrift_measurements", "spindrift_measurement_table"];
 const TELEMETRY: [&str; 2] = ["spindrift_telemetry", "spindrift_telemetry_table"];
@@ -192,7 +194,8 @@ impl Running {
         Ok(())
     }
 
-    /// What the module declares in the text of the function `table`, whose numbers, `count` of each thing, stand at `place`, which the function `name` returns.
+    /// What the module declares in the text of the function `table`, whose numbers, `count` of each thing, stand at
+    /// `place`, which the function `name` returns.
     fn declared<T>(
         &mut self,
         [name, table]: [&str; 2],
@@ -272,7 +275,8 @@ struct Known {
     measured: Vec<u8>,
 }
 
-/// The function `name` of an instance, without arguments and with these results; `None` where it exports nothing of that name.
+/// The function `name` of an instance, without arguments and with these results; `None` where it exports nothing of
+/// that name.
 fn function<R: WasmResults>(
     instance: &Instance,
     store: &mut Store<StoreLimits>,

@@ -38,7 +38,8 @@ impl FlightSoftware {
         }
     }
 
-    /// The impulse per mass, in F_e, m/s, of thrust that is commanded and has not acted yet at `time`, at the attitude `q_es`.
+    /// The impulse per mass, in F_e, m/s, of thrust that is commanded and has not acted yet at `time`, at the attitude
+    /// `q_es`.
     fn on_its_way(&self, q_es: [f64; 4], time: f64) -> [f64; 3] {
         let (acting, waiting) = self.under_way.thrust.all();
         let mut impulse = [0.0; MAX_THRUSTERS];

@@ -1,7 +1,9 @@
-//! [`FlightSoftware`]: estimator, guidance, law and allocation of one run. What it knows is the nominal scene as it is believed ([`LoopSpec::believed`]), its
-//! own drawn numbers, what its sensors deliver, and what it has commanded: no field of it and no argument of its tick is the truth.
+//! [`FlightSoftware`]: estimator, guidance, law and allocation of one run. What it knows is the nominal scene as it is
+//! believed ([`LoopSpec::believed`]), its own drawn numbers, what its sensors deliver, and what it has commanded: no
+//! field of it and no argument of its tick is the truth.
 //!
-//! - `commands`: from a wanted torque and force to commands. - [`under_way`]: commands until they act no more.
+//! - `commands`: from a wanted torque and force to commands.
+//! - [`under_way`]: commands until they act no more.
 //! - `maneuver`: the impulse that is left of a maneuver, and the attitude that it wants.
 
 mod commands;
@@ -248,7 +250,8 @@ impl FlightSoftware {
         }
     }
 
-    /// Decides at a control tick how the mission goes on, and begins a phase where one follows; `failure`: what ends it whatever the phase.
+    /// Decides at a control tick how the mission goes on, and begins a phase where one follows; `failure`: what ends it
+    /// whatever the phase.
     pub fn guide(&mut self, time: f64, failure: Option<Failure>) -> Guided {
         let (mut error, mut velocity_to_go) = self.wanted(self.geometry.as_ref(), time);
         let progress = match failure {
@@ -287,7 +290,8 @@ impl FlightSoftware {
         (self.spec.has_debris && is_lost).then_some(Failure::LostTarget)
     }
 
-    /// What the conditions of phases can ask for, where the attitude relative to the target and the velocity to go are these.
+    /// What the conditions of phases can ask for, where the attitude relative to the target and the velocity to go are
+    /// these.
     fn guidance_input(&self, time: f64, error: AttitudeError, velocity_to_go: [f64; 3]) -> GuidanceInput {
         let (estimate, ticks) = (&self.estimate, &self.ticks);
         let rates = &estimate.wheel_rates[..self.believed.mass.wheels.len()];
@@ -307,7 +311,8 @@ impl FlightSoftware {
         }
     }
 
-    /// The orbit as flight software knows it: that of the nominal scene at `time`, s; with perfect knowledge the true one. `None` without an orbit.
+    /// The orbit as flight software knows it: that of the nominal scene at `time`, s; with perfect knowledge the true
+    /// one. `None` without an orbit.
     pub(in crate::control) fn orbit_motion(&self, time: f64) -> Option<OrbitMotion> {
         let (orbit, nominal) = self.orbit.as_ref().zip(self.believed.orbit.as_ref())?;
         if self.spec.knows_the_truth() {
@@ -347,7 +352,8 @@ impl FlightSoftware {
         self.law.telemetry()
     }
 
-    /// How the errors of the filters compare with their covariances, by the truth: flight software is judged by it, and does not keep it.
+    /// How the errors of the filters compare with their covariances, by the truth: flight software is judged by it, and
+    /// does not keep it.
     pub fn consistency(&self, truth: &Truth, gyro_bias_s: Option<[f64; 3]>) -> Consistency {
         self.estimator.consistency(truth, gyro_bias_s)
     }

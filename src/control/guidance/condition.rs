@@ -156,7 +156,8 @@ impl Condition {
         self.quantities.iter().any(|quantity| QUANTITIES[*quantity].name == name)
     }
 
-    /// The range of its value in runs of `duration` seconds, whatever the motion: 0 to 0 where it is never met, 1 to 1 where it is always.
+    /// The range of its value in runs of `duration` seconds, whatever the motion: 0 to 0 where it is never met, 1 to 1
+    /// where it is always.
     pub fn range(&self, duration: f64) -> [f64; 2] {
         self.expression.range(|variable| match QUANTITIES[self.quantities[variable]].range {
             QuantityRange::Any => [f64::NEG_INFINITY, f64::INFINITY],

@@ -1,6 +1,7 @@
 //! Guidance: a state machine of phases, whose conditions stand in the campaign file.
 //!
-//! - [`phase`]: what a phase is. [`target`]: the attitude that it wants. [`condition`]: what ends it, and what conditions can ask for.
+//! - [`phase`]: what a phase is. [`target`]: the attitude that it wants. [`condition`]: what ends it, and what
+//!   conditions can ask for.
 //! - Here: [`Guidance`], which phase a run is in.
 
 pub mod condition;
@@ -153,7 +154,8 @@ mod tests {
         }
     }
 
-    /// Law: a phase ends where its condition has been met without a gap for `hold_s`, and not before; a gap starts the count anew.
+    /// Law: a phase ends where its condition has been met without a gap for `hold_s`, and not before; a gap starts the
+    /// count anew.
     #[test]
     fn a_condition_must_hold() {
         let mut first = phase("body_rate_rad_s < 1", Next::Phase(1));

@@ -83,8 +83,9 @@ impl OrbitMotion {
         }
     }
 
-    /// The attitude q_eo of the local orbital frame ([`crate::scene::LocalFrame`]), F_o -> F_e, and its angular velocity in F_e, rad/s. By plain sums, like
-    /// everything that flight software computes: those of `LocalFrame` are fused, and would be other bits.
+    /// The attitude q_eo of the local orbital frame ([`crate::scene::LocalFrame`]), F_o -> F_e, and its angular
+    /// velocity in F_e, rad/s. By plain sums, like everything that flight software computes: those of `LocalFrame` are
+    /// fused, and would be other bits.
     fn local_frame(&self) -> ([f64; 4], [f64; 3]) {
         let normal = cross(self.r_e, self.v_e);
         let o3 = scaled(-1.0 / norm(self.r_e), self.r_e);
@@ -183,7 +184,8 @@ fn turn_of(vector: [f64; 3], change: [f64; 3]) -> [f64; 3] {
     if square == 0.0 { [0.0; 3] } else { scaled(1.0 / square, cross(vector, change)) }
 }
 
-/// The attitude relative to the one that points s3 along `direction` (F_e, any length) by the shortest rotation, and turns at `turn` (rad/s, F_e).
+/// The attitude relative to the one that points s3 along `direction` (F_e, any length) by the shortest rotation, and
+/// turns at `turn` (rad/s, F_e).
 fn pointing(q_es: [f64; 4], direction: [f64; 3], turn: [f64; 3]) -> AttitudeError {
     let length = norm(direction);
     if length == 0.0 {
@@ -222,8 +224,8 @@ mod tests {
         TargetInput { geometry: Some(geometry), ..NOTHING }
     }
 
-    /// Law: without error s3 points at the central body and, where the whole attitude is wanted, the axes are those of the orbital frame as turned; what
-    /// the target turns by is how its attitude changes along the orbit.
+    /// Law: without error s3 points at the central body and, where the whole attitude is wanted, the axes are those of
+    /// the orbital frame as turned; what the target turns by is how its attitude changes along the orbit.
     #[test]
     fn targets_of_an_orbit_turn_with_it() {
         let mu = 3.986e14;
@@ -279,7 +281,8 @@ mod tests {
         assert!(dot(across, r_e).abs() < 1e-8 && dot(across, v_e).abs() < 1e-11);
     }
 
-    /// Law: after the rotation back by the error, s3 points at the target, and the angle of the error is that between s3 and the target.
+    /// Law: after the rotation back by the error, s3 points at the target, and the angle of the error is that between
+    /// s3 and the target.
     #[test]
     fn the_error_leads_to_the_target() {
         for q_es in [[1.0, 0.0, 0.0, 0.0], quaternion_of([0.3, -1.0, 2.0]), quaternion_of([3.0, 0.5, 0.0])] {

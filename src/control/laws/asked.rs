@@ -1,8 +1,9 @@
-//! A law of attitude that is not in this program: whoever flies the campaign answers for it, tick by tick. The function of Python that
-//! `plan.run(control=...)` is given is one.
+//! A law of attitude that is not in this program: whoever flies the campaign answers for it, tick by tick. The function
+//! of Python that `plan.run(control=...)` is given is one.
 //!
-//! A loop asks its law at a tick and waits for the torque. Where runs are flown side by side on one thread ([`crate::ensemble::crew::Crew`]), the one who
-//! answers lets a run wait until the others have asked too, and answers all of them at once.
+//! A loop asks its law at a tick and waits for the torque. Where runs are flown side by side on one thread
+//! ([`crate::ensemble::crew::Crew`]), the one who answers lets a run wait until the others have asked too, and answers
+//! all of them at once.
 
 use std::sync::{Arc, PoisonError, RwLock};
 
@@ -84,7 +85,8 @@ pub fn refuse_unanswered(spec: Option<&LoopSpec>) -> Result<(), String> {
         return Ok(());
     }
     Err(format!(
-        "[[guidance]]: law = {NAME:?} is a function of Python, which is not here: give it to the Python package, plan.run(control=...)"
+        "[[guidance]]: law = {NAME:?} is a function of Python, which is not here: give it to the Python package, \
+        plan.run(control=...)"
     ))
 }
 

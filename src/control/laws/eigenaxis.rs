@@ -8,13 +8,15 @@ use crate::control::vector::{norm, product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-/// u = -K (k (e + z) + c omega_st) + omega x H + K (omega_te' - omega x omega_te), with e = q_v sign(q_0) of the attitude q relative to the target, omega_st the
-/// rate relative to it, z = Ki int e dt, K = J less the axial inertias of free wheels, H the momentum with the wheels. From rest it turns about a fixed axis,
-/// with theta'' = -c theta' - k sin(theta/2) (B. Wie, H. Weiss & A. Arapostathis, *J. Guidance* 12(3), 1989).
+/// u = -K (k (e + z) + c omega_st) + omega x H + K (omega_te' - omega x omega_te), with e = q_v sign(q_0) of the
+/// attitude q relative to the target, omega_st the rate relative to it, z = Ki int e dt, K = J less the axial inertias
+/// of free wheels, H the momentum with the wheels. From rest it turns about a fixed axis, with theta'' = -c theta' - k
+/// sin(theta/2) (B. Wie, H. Weiss & A. Arapostathis, *J. Guidance* 12(3), 1989).
 ///
-/// With a limit of the rate, k (e + z) is cut to the length c max_rate, where the body coasts at that rate (cascade saturation; Wie, *Space Vehicle Dynamics and
-/// Control*, 2008, section 7.3). With a limit of the torque, K (...) keeps its direction, and large errors are removed by a `Slew`, which brakes in
-/// time. The integral rests while something is cut.
+/// With a limit of the rate, k (e + z) is cut to the length c max_rate, where the body coasts at that rate (cascade
+/// saturation; Wie, *Space Vehicle Dynamics and Control*, 2008, section 7.3). With a limit of the torque, K (...) keeps
+/// its direction, and large errors are removed by a `Slew`, which brakes in time. The integral rests while something is
+/// cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eigenaxis {
     /// k, 1/s^2.
@@ -23,8 +25,8 @@ pub struct Eigenaxis {
     pub damping: f64,
     /// Largest rate, rad/s; infinite without a limit.
     pub largest_rate: f64,
-    /// Largest torque on the body beside what its own momentum and a target that turns take, N m; infinite without a limit. Beyond it the torque keeps its
-    /// direction.
+    /// Largest torque on the body beside what its own momentum and a target that turns take, N m; infinite without a
+    /// limit. Beyond it the torque keeps its direction.
     pub largest_torque: f64,
     /// The integral of the error.
     pub integral: Integral,
@@ -35,11 +37,15 @@ pub struct Eigenaxis {
 declared! {
     /// Its numbers in campaign files.
     EigenaxisNumbers = PARAMETERS {
-        bandwidth: f64 = LawParameter::number("bandwidth_rad_s", "rad/s", "Natural frequency w of small errors: k = 2 w^2", Limit::Positive);
-        damping: f64 = LawParameter::number("damping", "1", "Damping ratio z of small errors: c = 2 z w", Limit::Positive);
-        max_rate: f64 = LawParameter::number("max_rate_rad_s", "rad/s", "Largest rate of a slew; zero: no limit", Limit::NotNegative)
+        bandwidth: f64 = LawParameter::number("bandwidth_rad_s", "rad/s",
+            "Natural frequency w of small errors: k = 2 w^2", Limit::Positive);
+        damping: f64 = LawParameter::number("damping", "1", "Damping ratio z of small errors: c = 2 z w",
+            Limit::Positive);
+        max_rate: f64 = LawParameter::number("max_rate_rad_s", "rad/s", "Largest rate of a slew; zero: no limit",
+            Limit::NotNegative)
             .or(&[0.0]);
-        max_torque: f64 = LawParameter::number("max_torque_n_m", "N m", "Largest torque of a slew; zero: no limit", Limit::NotNegative)
+        max_torque: f64 = LawParameter::number("max_torque_n_m", "N m", "Largest torque of a slew; zero: no limit",
+            Limit::NotNegative)
             .or(&[0.0]);
         integral_gain: f64 = integral::GAIN;
         integral_limit: f64 = integral::LIMIT;
@@ -163,7 +169,8 @@ mod tests {
 
     const FREE: f64 = f64::INFINITY;
 
-    /// Law: the slew is about one axis and follows theta'' = -c theta' - k sin(theta/2), with errors of first order in the period.
+    /// Law: the slew is about one axis and follows theta'' = -c theta' - k sin(theta/2), with errors of first order in
+    /// the period.
     #[test]
     fn the_axis_stays_and_the_angle_follows_its_equation() {
         let (law, time) = (Eigenaxis::new(0.02, 0.15), 20.0);
@@ -186,11 +193,12 @@ mod tests {
         Eigenaxis { largest_rate: rate, largest_torque: torque, slew: Slew::new(period, delay), ..law }
     }
 
-    /// Law: a slew from rest under limits of torque and rate takes the time of the textbook, 2 sqrt(theta/a) or theta/v + v/a with a = torque/|K axis| (Wie,
-    /// section 7.3), within 3%, two periods and the delay, until it stays within 0.1 deg, with an overshoot of less than 0.05 deg, for every bandwidth that the
-    /// period allows, any period and delay, short and long. The rate stays within its limit, and the axis is left only by the torque omega x H that is held
-    /// over a period. Two periods: switches wait for a tick, and the last two remove what is left. Measured for 2.9 rad with a period and a delay of 0.5 s:
-    /// 1.007 of it, 0.024 rad off the axis.
+    /// Law: a slew from rest under limits of torque and rate takes the time of the textbook, 2 sqrt(theta/a) or
+    /// theta/v + v/a with a = torque/|K axis| (Wie, section 7.3), within 3%, two periods and the delay, until it stays
+    /// within 0.1 deg, with an overshoot of less than 0.05 deg, for every bandwidth that the period allows, any period
+    /// and delay, short and long. The rate stays within its limit, and the axis is left only by the torque omega x H
+    /// that is held over a period. Two periods: switches wait for a tick, and the last two remove what is left.
+    /// Measured for 2.9 rad with a period and a delay of 0.5 s: 1.007 of it, 0.024 rad off the axis.
     #[test]
     fn slews_take_the_time_of_the_textbook() {
         let torque = 0.25;
@@ -223,7 +231,8 @@ mod tests {
         }
     }
 
-    /// Law: the law for small errors alone, whose torque an actuator cuts, does not brake in time at a high bandwidth, and is slow at a low one.
+    /// Law: the law for small errors alone, whose torque an actuator cuts, does not brake in time at a high bandwidth,
+    /// and is slow at a low one.
     #[test]
     fn without_a_slew_it_does_not_brake_in_time() {
         let along = norm([INERTIA[0] * AXIS[0], INERTIA[1] * AXIS[1], INERTIA[2] * AXIS[2]]);

@@ -28,8 +28,9 @@ pub const RATE_LIMIT: LawParameter = LawParameter::number(
 )
 .or(&[0.0]);
 
-/// z = Ki int e dt of an error e, each component within a limit. A law has e + z in place of e: z grows until e is zero (friction of wheels, a torque that the
-/// model does not have). It starts at zero with the phase; z += Ki T e at every later tick, before it is used.
+/// z = Ki int e dt of an error e, each component within a limit. A law has e + z in place of e: z grows until e is zero
+/// (friction of wheels, a torque that the model does not have). It starts at zero with the phase; z += Ki T e at every
+/// later tick, before it is used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Integral {
     /// Ki, 1/s; zero without an integral.

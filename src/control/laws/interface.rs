@@ -1,5 +1,5 @@
-//! Between a loop and its laws: what a law is made from ([`LawSettings`]), what it knows ([`KnownBody`]) and is told at a tick ([`LawInput`]), and what the
-//! law of a program is ([`PhaseLaw`]).
+//! Between a loop and its laws: what a law is made from ([`LawSettings`]), what it knows ([`KnownBody`]) and is told at
+//! a tick ([`LawInput`]), and what the law of a program is ([`PhaseLaw`]).
 
 use std::fmt;
 
@@ -10,9 +10,11 @@ use crate::control::vector::{cross, difference, dot, product, scaled, sum};
 use crate::sampling::SampleId;
 use crate::scene::{DeclaredTable, MassProperties, WheelMode};
 
-/// A law of attitude that a program brings, in a run. It is made for each phase that names it, and begins anew with the phase.
+/// A law of attitude that a program brings, in a run. It is made for each phase that names it, and begins anew with the
+/// phase.
 pub trait PhaseLaw {
-    /// The wanted torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first of the phase).
+    /// The wanted torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first of the
+    /// phase).
     fn torque(&mut self, body: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3];
 
     /// Why it cannot go on, where its torque is no finite number; `None`: that itself is the reason.
@@ -20,7 +22,8 @@ pub trait PhaseLaw {
         None
     }
 
-    /// What it has reported at its last tick, by the columns of the loop ([`crate::control::flight_code::FlightCode::telemetry`]); NaN where a value is no finite number.
+    /// What it has reported at its last tick, by the columns of the loop
+    /// ([`crate::control::flight_code::FlightCode::telemetry`]); NaN where a value is no finite number.
     fn telemetry(&self) -> &[f64] {
         &[]
     }
@@ -109,7 +112,8 @@ pub struct LawInput<'a> {
     pub time: f64,
     /// All that is estimated; `None` where a law is tried without a loop.
     pub estimate: Option<&'a Estimate>,
-    /// What the sensors have delivered last; none where no law of the loop asks for it ([`super::asked`], [`crate::control::flight_code`]).
+    /// What the sensors have delivered last; none where no law of the loop asks for it ([`super::asked`],
+    /// [`crate::control::flight_code`]).
     pub readings: Readings<'a>,
 }
 
@@ -157,14 +161,16 @@ impl KnownBody {
         KnownBody { inertia: mass.inertia_rotating() }
     }
 
-    /// H = K omega + sum h_i a_i, in F_s, N m s: of the body at the rate `omega` (rad/s), with the wheels of `mass` at the rates `rates` (rad/s).
+    /// H = K omega + sum h_i a_i, in F_s, N m s: of the body at the rate `omega` (rad/s), with the wheels of `mass` at
+    /// the rates `rates` (rad/s).
     pub fn momentum(&self, mass: &MassProperties, omega: [f64; 3], rates: &[f64]) -> [f64; 3] {
         wheel_momenta(mass, omega, rates).fold(product(self.inertia, omega), sum)
     }
 }
 
-/// What the wheels of `mass` add to K omega, h_i a_i by wheel, in F_s, N m s, at the rate `omega` of the body and the rates `rates` of the wheels, rad/s:
-/// h_i = J_i (a_i . omega + Omega_i) of a free wheel, and J_i Omega_i of one whose speed is held, because K has the rest of it.
+/// What the wheels of `mass` add to K omega, h_i a_i by wheel, in F_s, N m s, at the rate `omega` of the body and the
+/// rates `rates` of the wheels, rad/s: h_i = J_i (a_i . omega + Omega_i) of a free wheel, and J_i Omega_i of one whose
+/// speed is held, because K has the rest of it.
 pub fn wheel_momenta<'a>(
     mass: &'a MassProperties,
     omega: [f64; 3],

@@ -1,7 +1,8 @@
 //! Laws of attitude: from what is known of the attitude to a wanted torque on the body.
 //!
-//! All of them know the nominal spacecraft only: [`KnownBody`] has its constants. The equation of motion is K omega' = H x omega + u, with K = J* where
-//! free wheels are driven by motors, H the angular momentum with the wheels, and u the torque on the body, F_s.
+//! All of them know the nominal spacecraft only: [`KnownBody`] has its constants. The equation of motion is K omega' =
+//! H x omega + u, with K = J* where free wheels are driven by motors, H the angular momentum with the wheels, and u the
+//! torque on the body, F_s.
 
 pub mod asked;
 mod eigenaxis;
@@ -53,7 +54,8 @@ pub static KINDS: &[LawKind] = &[
 ];
 
 /// A law of attitude that a campaign can name. Your own one is a static of your program, which its session brings
-/// ([`crate::workflow::session::Session::with_attitude_law`]): phases of `[[guidance]]` then name it as they do the others.
+/// ([`crate::workflow::session::Session::with_attitude_law`]): phases of `[[guidance]]` then name it as they do the
+/// others.
 ///
 /// ```
 /// use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
@@ -217,7 +219,8 @@ pub(super) mod plant {
             std::array::from_fn(|i| total[i] / self.inertia[i])
         }
 
-        /// Moves on by `time` seconds under a constant torque, in `steps` steps (RK4 of the rate, exponentials of its mean).
+        /// Moves on by `time` seconds under a constant torque, in `steps` steps (RK4 of the rate, exponentials of its
+        /// mean).
         pub fn step(&mut self, torque: [f64; 3], time: f64, steps: usize) {
             let h = time / steps as f64;
             for _ in 0..steps {
@@ -250,7 +253,8 @@ mod tests {
     use crate::scene::DeclaredTable;
     use crate::scene::{Name, Scene, SceneInput};
 
-    /// Law: every law of the list is made from its table, has units and names of its own, and takes energy out of a body that turns at its target.
+    /// Law: every law of the list is made from its table, has units and names of its own, and takes energy out of a
+    /// body that turns at its target.
     #[test]
     fn every_law_is_made_and_damps() {
         let body = Body { inertia: [30.0, 45.0, 20.0], q_es: [1.0, 0.0, 0.0, 0.0], omega: [0.02, -0.01, 0.03] };
@@ -274,8 +278,8 @@ mod tests {
         }
     }
 
-    /// Law: laws that follow a target follow one that turns at a rate that changes, to an error of first order in the period; without the target's rate
-    /// and its derivative they lag behind.
+    /// Law: laws that follow a target follow one that turns at a rate that changes, to an error of first order in the
+    /// period; without the target's rate and its derivative they lag behind.
     #[test]
     fn a_target_that_turns_is_followed() {
         let laws = [
@@ -311,8 +315,8 @@ mod tests {
         }
     }
 
-    /// Law: a constant torque leaves a law of the list with an error (an angle, or of rate damping a rate) without its integral, and none with it; a limit of
-    /// the integral below what balances the torque leaves a part.
+    /// Law: a constant torque leaves a law of the list with an error (an angle, or of rate damping a rate) without its
+    /// integral, and none with it; a limit of the integral below what balances the torque leaves a part.
     #[test]
     fn the_integral_of_every_law_removes_the_offset() {
         for kind in KINDS {
@@ -352,7 +356,8 @@ mod tests {
         }
     }
 
-    /// Law: H of the laws is that of the whole spacecraft, J omega + sum J_i Omega_i a_i, whichever wheels turn freely, are held or are locked.
+    /// Law: H of the laws is that of the whole spacecraft, J omega + sum J_i Omega_i a_i, whichever wheels turn freely,
+    /// are held or are locked.
     #[test]
     fn momentum_is_that_of_the_whole_spacecraft() {
         let omega = [0.3, -0.2, 0.5];

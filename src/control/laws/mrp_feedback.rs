@@ -7,10 +7,12 @@ use crate::control::vector::{cross, difference, norm, product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-/// u = -k s - P omega_st - P Ki z + (omega_te + Ki z) x H + K (omega_te' - omega x omega_te), with s the attitude relative to the target, z = k int s dt + K
-/// omega_st, K = J less the axial inertias of free wheels, and H with the wheels (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018,
-/// section 8.4; the form of Basilisk's module `mrpFeedback`: towards a target at rest without an integral nothing is left of the third term). Where
-/// `gyroscopic`, omega x H stands in place of (omega_te + Ki z) x H: the body's own gyroscopic torque is balanced.
+/// u = -k s - P omega_st - P Ki z + (omega_te + Ki z) x H + K (omega_te' - omega x omega_te), with s the attitude
+/// relative to the target, z = k int s dt + K omega_st, K = J less the axial inertias of free wheels, and H with the
+/// wheels (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018, section 8.4; the form of
+/// Basilisk's module `mrpFeedback`: towards a target at rest without an integral nothing is left of the third term).
+/// Where `gyroscopic`, omega x H stands in place of (omega_te + Ki z) x H: the body's own gyroscopic torque is
+/// balanced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MrpFeedback {
     /// K, N m.
@@ -30,9 +32,12 @@ pub struct MrpFeedback {
 declared! {
     /// Its numbers in campaign files.
     MrpNumbers = PARAMETERS {
-        stiffness: f64 = LawParameter::number("stiffness_n_m", "N m", "Torque opposing an MRP of one: K", Limit::Positive);
-        damping: f64 = LawParameter::number("damping_n_m_s", "N m s", "Torque opposing a rate of 1 rad/s: P", Limit::NotNegative);
-        integral: f64 = LawParameter::number("integral_1_n_m_s", "1/(N m s)", "Gain of the integral: Ki", Limit::NotNegative).or(&[0.0]);
+        stiffness: f64 = LawParameter::number("stiffness_n_m", "N m", "Torque opposing an MRP of one: K",
+            Limit::Positive);
+        damping: f64 = LawParameter::number("damping_n_m_s", "N m s", "Torque opposing a rate of 1 rad/s: P",
+            Limit::NotNegative);
+        integral: f64 = LawParameter::number("integral_1_n_m_s", "1/(N m s)", "Gain of the integral: Ki",
+            Limit::NotNegative).or(&[0.0]);
         integral_limit: f64 = LawParameter::number(
             "integral_limit_n_m_s",
             "N m s",
@@ -87,7 +92,8 @@ impl MrpFeedback {
         scaled(-1.0, sum(torque, feedforward))
     }
 
-    /// The Lyapunov function omega' K omega/2 + 2 K ln(1 + s's) of a target at rest, whose derivative is -P |omega|^2 (Schaub & Junkins, eq. 8.53).
+    /// The Lyapunov function omega' K omega/2 + 2 K ln(1 + s's) of a target at rest, whose derivative is -P |omega|^2
+    /// (Schaub & Junkins, eq. 8.53).
     pub fn lyapunov(&self, craft: &KnownBody, mrp: [f64; 3], omega: [f64; 3]) -> f64 {
         let kinetic: f64 = product(craft.inertia, omega).iter().zip(omega).map(|(h, w)| 0.5 * h * w).sum();
         kinetic + 2.0 * self.stiffness * libm::log1p(norm(mrp) * norm(mrp))
@@ -101,8 +107,8 @@ mod tests {
     use crate::control::rotation::quaternion_of;
     use crate::control::vector::dot;
 
-    /// Law: V falls by P times the integral of |omega|^2, with an error of first order in the period, also where the MRP switch to the shadow set, at
-    /// which V does not jump.
+    /// Law: V falls by P times the integral of |omega|^2, with an error of first order in the period, also where the
+    /// MRP switch to the shadow set, at which V does not jump.
     #[test]
     fn the_lyapunov_function_falls() {
         let inertia = [900.0, 800.0, 600.0];
@@ -136,8 +142,9 @@ mod tests {
         assert!((order - 1.0).abs() < 0.03 && coarse < 0.1, "first order: {order} of {coarse} and {fine}");
     }
 
-    /// Basilisk babdff7, src/fswAlgorithms/attControl/mrpFeedback/_UnitTest/test_mrpFeedback.py: the torques of the module (bsk 2.12.1) at its first three
-    /// calls, control law 0, less its known torque of 1 N m along each axis. To the tolerance of the test.
+    /// Basilisk babdff7, src/fswAlgorithms/attControl/mrpFeedback/_UnitTest/test_mrpFeedback.py: the torques of the
+    /// module (bsk 2.12.1) at its first three calls, control law 0, less its known torque of 1 N m along each axis. To
+    /// the tolerance of the test.
     #[test]
     fn torques_are_those_of_basilisk() {
         let mrp = [0.3, -0.5, 0.7];
@@ -199,8 +206,8 @@ mod tests {
         assert!(left(0.005) < 3e-8, "{}", left(0.005));
     }
 
-    /// Law: with omega x H the rate obeys K omega' = -k s - P omega of a target at rest, whatever momentum the wheels have; without it that momentum turns
-    /// the body.
+    /// Law: with omega x H the rate obeys K omega' = -k s - P omega of a target at rest, whatever momentum the wheels
+    /// have; without it that momentum turns the body.
     #[test]
     fn the_gyroscopic_torque_is_balanced() {
         let (inertia, omega) = ([30.0, 45.0, 20.0], [0.05, -0.02, 0.03]);

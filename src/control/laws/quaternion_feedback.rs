@@ -7,9 +7,10 @@ use crate::control::vector::{product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-/// u = -2 w^2 K (e + z_i) - 2 z w K omega_st + omega x H + K (omega_te' - omega x omega_te), with e = q_v sign(q_0) of the attitude q relative to the target,
-/// omega_st the rate relative to it, z_i = Ki int e dt, for the bandwidth w and the damping z of small errors. K is J less the axial inertias of free wheels, H
-/// the momentum with the wheels (B. Wie, *Space Vehicle Dynamics and Control*, 2008, section 7.3; the last term follows a target that turns).
+/// u = -2 w^2 K (e + z_i) - 2 z w K omega_st + omega x H + K (omega_te' - omega x omega_te), with e = q_v sign(q_0) of
+/// the attitude q relative to the target, omega_st the rate relative to it, z_i = Ki int e dt, for the bandwidth w and
+/// the damping z of small errors. K is J less the axial inertias of free wheels, H the momentum with the wheels (B.
+/// Wie, *Space Vehicle Dynamics and Control*, 2008, section 7.3; the last term follows a target that turns).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuaternionFeedback {
     /// Bandwidth w, rad/s.
@@ -23,7 +24,8 @@ pub struct QuaternionFeedback {
 declared! {
     /// Its numbers in campaign files.
     QuaternionNumbers = PARAMETERS {
-        bandwidth: f64 = LawParameter::number("bandwidth_rad_s", "rad/s", "Natural frequency of small errors", Limit::Positive);
+        bandwidth: f64 = LawParameter::number("bandwidth_rad_s", "rad/s", "Natural frequency of small errors",
+            Limit::Positive);
         damping: f64 = LawParameter::number("damping", "1", "Damping ratio of small errors", Limit::NotNegative);
         integral_gain: f64 = integral::GAIN;
         integral_limit: f64 = integral::LIMIT;
@@ -74,7 +76,8 @@ mod tests {
         angles
     }
 
-    /// Law: a small angle about one axis follows the exact discrete solution of theta'' = -2 z w theta' - w^2 theta under a held torque.
+    /// Law: a small angle about one axis follows the exact discrete solution of theta'' = -2 z w theta' - w^2 theta
+    /// under a held torque.
     #[test]
     fn small_angles_follow_the_discrete_solution() {
         let (law, period, start) = (QuaternionFeedback::new(0.5, 0.8), 0.2, 1e-5);
@@ -90,9 +93,10 @@ mod tests {
         }
     }
 
-    /// Law: at a hundred periods an oscillation, overshoot and settling time are those of a second-order system, within 2% of the step and of the time.
-    /// With the frequency and the damping of the discrete poles, which are those of the held torque, they are its exactly: a torque that is held acts half a
-    /// period late, and takes 0.01 of the damping ratio.
+    /// Law: at a hundred periods an oscillation, overshoot and settling time are those of a second-order system, within
+    /// 2% of the step and of the time. With the frequency and the damping of the discrete poles, which are those of the
+    /// held torque, they are its exactly: a torque that is held acts half a period late, and takes 0.01 of the damping
+    /// ratio.
     #[test]
     fn overshoot_and_settling_are_second_order() {
         let response = |decay: f64, damped: f64, time: f64| {
@@ -140,7 +144,8 @@ mod tests {
         assert!(at_rest(quaternion_of([0.0, 0.0, 4.0]))[2] > 0.0, "four radians back are two forth");
     }
 
-    /// Whether the loop with u/J = -k sin(theta/2) - c theta' grows from a small angle and rate, the torque acting at once or a period late.
+    /// Whether the loop with u/J = -k sin(theta/2) - c theta' grows from a small angle and rate, the torque acting at
+    /// once or a period late.
     fn grows(k: f64, c: f64, period: f64, is_late: bool) -> bool {
         let bandwidth = (0.5 * k).sqrt();
         let mut law = QuaternionFeedback::new(bandwidth, 0.5 * c / bandwidth);
@@ -164,8 +169,9 @@ mod tests {
         late > early
     }
 
-    /// Law: stability is lost at c T = 2 without stiffness, at k T = 4 c with little damping; and where the torque is a period late at c T = 1, and where the
-    /// root locus z (z - 1)^2 + c T (z - 1) + k T^2 (z + 1)/4 = 0 leaves the unit circle: k T^2/4 = (sqrt(9 - 8 c T) - 3 + 2 c T)/2. Within 1%.
+    /// Law: stability is lost at c T = 2 without stiffness, at k T = 4 c with little damping; and where the torque is a
+    /// period late at c T = 1, and where the root locus z (z - 1)^2 + c T (z - 1) + k T^2 (z + 1)/4 = 0 leaves the unit
+    /// circle: k T^2/4 = (sqrt(9 - 8 c T) - 3 + 2 c T)/2. Within 1%.
     #[test]
     fn stability_ends_where_theory_says() {
         let late = |d: f64| 2.0 * ((9.0 - 8.0 * d).sqrt() - 3.0 + 2.0 * d);

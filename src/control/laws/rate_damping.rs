@@ -6,8 +6,8 @@ use crate::control::declared::{declared, limit};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-/// u = -gain (omega + z) against the rate omega relative to F_e, with z = Ki int omega dt. The energy of rotation falls at -gain |omega|^2 without the
-/// integral.
+/// u = -gain (omega + z) against the rate omega relative to F_e, with z = Ki int omega dt. The energy of rotation falls
+/// at -gain |omega|^2 without the integral.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RateDamping {
     /// Gain, N m s.

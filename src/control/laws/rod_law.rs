@@ -25,7 +25,8 @@ pub const ROD_USES: [(&str, RodUse); 3] =
 declared! {
     /// Of a phase with B-dot.
     BDotNumbers = B_DOT {
-        gain: f64 = LawParameter::number("b_dot_gain_a_m2_s_t", "A m^2 s/T", "Dipole opposing a change in the field of 1 T/s", Limit::Positive);
+        gain: f64 = LawParameter::number("b_dot_gain_a_m2_s_t", "A m^2 s/T",
+            "Dipole opposing a change in the field of 1 T/s", Limit::Positive);
     }
 }
 
@@ -57,14 +58,15 @@ impl RodUse {
 pub enum RodLaw {
     /// Nothing.
     None,
-    /// m = -k dB/dt with B in F_s (A. C. Stickler & K. T. Alfriend, Journal of Spacecraft and Rockets 13, 282, 1976): a body that turns much faster than the
-    /// field along its orbit sees dB/dt = B x omega, and loses energy at k |B x omega|^2.
+    /// m = -k dB/dt with B in F_s (A. C. Stickler & K. T. Alfriend, Journal of Spacecraft and Rockets 13, 282, 1976): a
+    /// body that turns much faster than the field along its orbit sees dB/dt = B x omega, and loses energy at k |B x
+    /// omega|^2.
     BDot {
         /// k, A m^2 s/T.
         gain: f64,
     },
-    /// m = (h x B)/(T |B|^2) (P. J. Camillo & F. L. Markley, Journal of Guidance and Control 3, 563, 1980): the torque is -1/T times the part of the momentum h
-    /// of the wheels that is across B.
+    /// m = (h x B)/(T |B|^2) (P. J. Camillo & F. L. Markley, Journal of Guidance and Control 3, 563, 1980): the torque
+    /// is -1/T times the part of the momentum h of the wheels that is across B.
     Unloading {
         /// T, s.
         time_constant: f64,
@@ -86,7 +88,8 @@ impl RodLaw {
         matches!(self, RodLaw::Unloading { .. })
     }
 
-    /// The wanted dipole, F_s, A m^2, where the field is measured as `field` and the wheels have the momentum `stored_s` relative to the body, N m s.
+    /// The wanted dipole, F_s, A m^2, where the field is measured as `field` and the wheels have the momentum
+    /// `stored_s` relative to the body, N m s.
     pub fn dipole(&self, field: &MeasuredField, stored_s: [f64; 3]) -> [f64; 3] {
         match self {
             RodLaw::None => [0.0; 3],
@@ -138,7 +141,8 @@ mod tests {
     use super::*;
     use crate::control::vector::{norm, sum};
 
-    /// Law: B-dot takes energy out of a turning body, omega . (m x B) = -k |B x omega|^2 to first order in the interval; a single measurement is no rate.
+    /// Law: B-dot takes energy out of a turning body, omega . (m x B) = -k |B x omega|^2 to first order in the
+    /// interval; a single measurement is no rate.
     #[test]
     fn b_dot_brakes() {
         let (omega, field) = ([0.02, -0.03, 0.01], [2e-5, -1e-5, 3e-5]);

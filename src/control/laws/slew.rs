@@ -1,20 +1,23 @@
 //! [`Slew`]: how [`super::Eigenaxis`] removes a large error under a limit of the torque: bang-bang or bang-coast-bang.
 //!
-//! With the angle theta of the rotation to the target, its axis e and a = torque limit/|K e|, the rate along e follows min(max_rate, sqrt(2 b theta)), from which
-//! the body stops at the target under the deceleration b (B. Wie, *Space Vehicle Dynamics and Control*, 2008, section 7.3, has the same limit for small
-//! angles). The curve is met at the end of each period, so that following it needs no gain, and not the bandwidth of small errors.
+//! With the angle theta of the rotation to the target, its axis e and a = torque limit/|K e|, the rate along e follows
+//! min(max_rate, sqrt(2 b theta)), from which the body stops at the target under the deceleration b (B. Wie, *Space
+//! Vehicle Dynamics and Control*, 2008, section 7.3, has the same limit for small angles). The curve is met at the end
+//! of each period, so that following it needs no gain, and not the bandwidth of small errors.
 
 use super::interface::{KnownBody, LawInput};
 use crate::control::rotation::vector_of;
 use crate::control::vector::{dot, norm, product, scaled, sum};
 
-/// b/a: the share of the deceleration that the torque limit gives which braking counts on. The rest is for an inertia that is not the believed one, by up to 5%; it
-/// costs 1.3% of the time of a slew without coasting, sqrt((1 + 1/0.95)/2).
+/// b/a: the share of the deceleration that the torque limit gives which braking counts on. The rest is for an inertia
+/// that is not the believed one, by up to 5%; it costs 1.3% of the time of a slew without coasting, sqrt((1 +
+/// 1/0.95)/2).
 const BRAKING: f64 = 0.95;
-/// Ticks near the target after which the law for small errors takes over. On the curve there are four before what is left is removed, which takes two.
+/// Ticks near the target after which the law for small errors takes over. On the curve there are four before what is
+/// left is removed, which takes two.
 const NEAR_TICKS: u8 = 6;
-/// The torque for small errors, relative to the limit, from which on a slew begins anew: twice it, which noise at the target does not reach where the bandwidth
-/// suits it.
+/// The torque for small errors, relative to the limit, from which on a slew begins anew: twice it, which noise at the
+/// target does not reach where the bandwidth suits it.
 const ANEW: f64 = 2.0;
 /// Commands on their way that are remembered; those before them count as none.
 const MOST_COMMANDS: usize = 16;
@@ -53,8 +56,8 @@ impl Slew {
         Slew { period, delay, stage, near: 0, was_closing: false, has_stopped: false, commands }
     }
 
-    /// The rotation vector to the target (its angle times its axis, rad) and the rate relative to it, rad/s, F_s, when the command of this tick begins to act:
-    /// those of `input`, moved on by the commands that act until then.
+    /// The rotation vector to the target (its angle times its axis, rad) and the rate relative to it, rad/s, F_s, when
+    /// the command of this tick begins to act: those of `input`, moved on by the commands that act until then.
     fn predicted(&self, input: &LawInput) -> [[f64; 3]; 2] {
         let (mut angle, mut rate) = (vector_of(input.q_ts), input.omega_st_s());
         let remembered = MOST_COMMANDS as f64 * self.period;
@@ -67,8 +70,8 @@ impl Slew {
         [angle, rate]
     }
 
-    /// The acceleration at a tick, rad/s^2, F_s, before the limit of the torque; `None` where the error is small. `small` is the acceleration of the law for small
-    /// errors, `largest_rate` rad/s, `largest_torque` N m.
+    /// The acceleration at a tick, rad/s^2, F_s, before the limit of the torque; `None` where the error is small.
+    /// `small` is the acceleration of the law for small errors, `largest_rate` rad/s, `largest_torque` N m.
     pub fn acceleration(
         &mut self,
         craft: &KnownBody,

@@ -1,12 +1,14 @@
 //! [`LaunchGeometry`]: where the spacecraft is relative to the state from which a net is launched.
 //!
-//! Let v_d be the velocity of the debris in F_e and A_d the line through its centre of mass along v_d. At the launch state the spacecraft's centre of mass
-//! is on A_d behind the debris (on the side of -v_d) at a constant distance L, at rest relative to the debris, and s3, the axis of the net launcher, points
-//! at it: with e the unit vector of v_d, position r_d - L e, velocity v_d, s3 = e.
+//! Let v_d be the velocity of the debris in F_e and A_d the line through its centre of mass along v_d. At the launch
+//! state the spacecraft's centre of mass is on A_d behind the debris (on the side of -v_d) at a constant distance L, at
+//! rest relative to the debris, and s3, the axis of the net launcher, points at it: with e the unit vector of v_d,
+//! position r_d - L e, velocity v_d, s3 = e.
 //!
-//! On an orbit v_d is the velocity along it, and e turns, at the rate omega = v_d x v_d'/|v_d|^2. "At rest" is meant in the frame that turns so: the relative
-//! velocity is v - v_d - omega x (r - r_d), zero of a spacecraft that stays on A_d. The relative motion is that beside a circular orbit of this rate (W. H. Clohessy
-//! & R. S. Wiltshire, Journal of the Aerospace Sciences 27, 1960); on an ellipse it is wrong by its eccentricity, which the loop corrects.
+//! On an orbit v_d is the velocity along it, and e turns, at the rate omega = v_d x v_d'/|v_d|^2. "At rest" is meant in
+//! the frame that turns so: the relative velocity is v - v_d - omega x (r - r_d), zero of a spacecraft that stays on
+//! A_d. The relative motion is that beside a circular orbit of this rate (W. H. Clohessy & R. S. Wiltshire, Journal of
+//! the Aerospace Sciences 27, 1960); on an ellipse it is wrong by its eccentricity, which the loop corrects.
 
 use crate::control::vector::{cross, difference, dot, norm, product, scaled, sum, transposed_product};
 
@@ -81,15 +83,16 @@ impl TurningFrame {
         sum(change, cross(self.turn(), vector))
     }
 
-    /// The acceleration without thrust at `position` and `velocity` relative to the debris, both in this frame, with components in F_e: Clohessy &
-    /// Wiltshire's equations x'' = 3 n^2 x + 2 n y', y'' = -2 n x', z'' = -n^2 z.
+    /// The acceleration without thrust at `position` and `velocity` relative to the debris, both in this frame, with
+    /// components in F_e: Clohessy & Wiltshire's equations x'' = 3 n^2 x + 2 n y', y'' = -2 n x', z'' = -n^2 z.
     fn acceleration(&self, position: [f64; 3], velocity: [f64; 3]) -> [f64; 3] {
         let ([x, _, z], [u, v, _]) = (product(self.axes, position), product(self.axes, velocity));
         let n = self.rate;
         transposed_product(self.axes, [n * (3.0 * n * x + 2.0 * v), -2.0 * n * u, -n * n * z])
     }
 
-    /// The velocity at which a spacecraft at `position` comes to the origin in `time` seconds: the closed form of those equations.
+    /// The velocity at which a spacecraft at `position` comes to the origin in `time` seconds: the closed form of those
+    /// equations.
     fn velocity_to_origin(&self, position: [f64; 3], time: f64) -> [f64; 3] {
         let (n, [x, y, z]) = (self.rate, product(self.axes, position));
         let (sin, cos) = libm::sincos(n * time);
@@ -104,7 +107,8 @@ impl TurningFrame {
 }
 
 impl LaunchState {
-    /// The axis A_d of debris with the velocity `v_gdo_e` (m/s, F_e); `None` where it is too slow and the file names no other.
+    /// The axis A_d of debris with the velocity `v_gdo_e` (m/s, F_e); `None` where it is too slow and the file names no
+    /// other.
     pub fn axis(&self, v_gdo_e: [f64; 3]) -> Option<[f64; 3]> {
         let speed = norm(v_gdo_e);
         if speed >= self.least_speed && speed > 0.0 {
@@ -145,18 +149,20 @@ impl LaunchGeometry {
         self.frame.map_or(change, |frame| frame.inertial_change(vector, change))
     }
 
-    /// The relative acceleration of spacecraft and debris without thrust, as their velocity is meant, F_e, m/s^2: none, without gravity.
+    /// The relative acceleration of spacecraft and debris without thrust, as their velocity is meant, F_e, m/s^2: none,
+    /// without gravity.
     pub fn acceleration(&self) -> [f64; 3] {
         self.frame.map_or([0.0; 3], |frame| frame.acceleration(self.from_station, self.relative_velocity))
     }
 
-    /// The change of velocity with which the spacecraft reaches the station in `time` > 0 seconds without thrust: the first of two impulses (the second
-    /// stops it there), m/s.
+    /// The change of velocity with which the spacecraft reaches the station in `time` > 0 seconds without thrust: the
+    /// first of two impulses (the second stops it there), m/s.
     pub fn transfer(&self, time: f64) -> [f64; 3] {
         self.transfer_of(self.from_station, self.relative_velocity, time)
     }
 
-    /// How that changes without thrust, the time of the transfer being the same, as velocities are meant, m/s^2: it is linear in position and velocity.
+    /// How that changes without thrust, the time of the transfer being the same, as velocities are meant, m/s^2: it is
+    /// linear in position and velocity.
     pub fn change_of_transfer(&self, time: f64) -> [f64; 3] {
         self.transfer_of(self.relative_velocity, self.acceleration(), time)
     }
@@ -228,8 +234,8 @@ mod tests {
 
     const MU: f64 = 3.986004418e14;
 
-    /// Spacecraft and debris on a circle of 7,000 km, `x` m up, `y` ahead and `z` across from the debris with the velocity `v` in the turning frame, and
-    /// their geometry.
+    /// Spacecraft and debris on a circle of 7,000 km, `x` m up, `y` ahead and `z` across from the debris with the
+    /// velocity `v` in the turning frame, and their geometry.
     fn beside_a_circle(position: [f64; 3], velocity: [f64; 3]) -> (Centers, LaunchGeometry) {
         let (r, n) = (7e6_f64, (MU / 7e6_f64.powi(3)).sqrt());
         let (r_gdo_e, v_gdo_e) = ([r, 0.0, 0.0], [0.0, r * n, 0.0]);
@@ -264,8 +270,8 @@ mod tests {
         assert!(norm(flat.relative_velocity) > 0.01);
     }
 
-    /// Law: the first impulse of a transfer leads to the station along two Kepler orbits, up to the terms of second order that Clohessy & Wiltshire leave out
-    /// (50^2 m/7000 km); without the orbit's terms it misses by metres.
+    /// Law: the first impulse of a transfer leads to the station along two Kepler orbits, up to the terms of second
+    /// order that Clohessy & Wiltshire leave out (50^2 m/7000 km); without the orbit's terms it misses by metres.
     #[test]
     fn the_transfer_leads_to_the_station() {
         for (position, velocity) in

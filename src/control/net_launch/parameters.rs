@@ -50,7 +50,8 @@ declared! {
 declared! {
     /// Of a phase with a transfer.
     TransferNumbers = TRANSFER {
-        time: f64 = LawParameter::number("transfer_time_s", "s", "Time of the transfer to the station", Limit::Positive);
+        time: f64 = LawParameter::number("transfer_time_s", "s", "Time of the transfer to the station",
+            Limit::Positive);
     }
 }
 

@@ -1,4 +1,5 @@
-//! [`OutcomeColumns`]: the columns of rows that say what a run under a loop has come to, as one table: name, unit, meaning and value in one row.
+//! [`OutcomeColumns`]: the columns of rows that say what a run under a loop has come to, as one table: name, unit,
+//! meaning and value in one row.
 
 use crate::control::estimators::kalman::NormalizedSquare;
 use crate::control::failure::Failure;
@@ -126,37 +127,52 @@ static TABLE: [Row; 43] = [
     row("launched", "", Needs::Launch, |run, _| f64::from(u8::from(run.outcome.has_launched())),
         "Whether the net was launched: 1 or 0."),
     row("failure", "", Needs::Nothing, |run, _| run.outcome.failure.code(), "Why the mission failed: <failures>."),
-    row("phase_final", "", Needs::Nothing, |run, _| run.guidance.phase as f64, "The phase in which the run ended: <phases>."),
-    row("end_time_s", "s", Needs::Nothing, |run, _| run.outcome.end, "Time at which the mission launched or failed; null if it did neither."),
+    row("phase_final", "", Needs::Nothing, |run, _| run.guidance.phase as f64,
+        "The phase in which the run ended: <phases>."),
+    row("end_time_s", "s", Needs::Nothing, |run, _| run.outcome.end,
+        "Time at which the mission launched or failed; null if it did neither."),
     row("phase_<phase>_begin_s", "s", Needs::Nothing, |run, phase| run.guidance.first_begun[phase],
         "Time at which phase <phase> first began; null if it never did."),
     row("pointing_error_final_rad", "rad", Needs::Target, |run, _| run.outcome.pointing_error,
         "Rotation angle from the true attitude to the target of the last phase that had one, at the last tick."),
     row("settling_time_s", "s", Needs::Target, |run, _| run.outcome.settled_since - run.outcome.pointing_since,
-        "Time from the beginning of the last phase with a target until the pointing error stayed within control.settling_band_rad; null if it never did."),
+        "Time from the beginning of the last phase with a target until the pointing error stayed within \
+        control.settling_band_rad; null if it never did."),
     row("overshoot_rad", "rad", Needs::Target, |run, _| run.outcome.overshoot_of_target(),
-        "Largest angle beyond the target, against the direction of the error with which the last phase with a target began."),
+        "Largest angle beyond the target, against the direction of the error with which the last phase with a target \
+        began."),
     row("mission_settling_time_s", "s", Needs::Target, |run, _| run.outcome.stability.settled_since(),
-        "Time from the start of the run until the pointing error stayed within control.settling_band_rad to the end, in all phases from then on; null if it never did."),
+        "Time from the start of the run until the pointing error stayed within control.settling_band_rad to the end, \
+        in all phases from then on; null if it never did."),
     row("relative_performance_error_rms_rad", "rad", Needs::Target, |run, _| run.outcome.stability.rms(run.criteria),
-        "Relative performance error (ECSS-E-ST-60-10C): root mean square magnitude of the rotation vector from the target to the true attitude less its mean over the ticks of the window of control.stability_from_s and control.stability_window_s; null if the run does not complete the window, or a phase in it has no target."),
-    row("relative_performance_error_peak_to_peak_rad", "rad", Needs::Target, |run, _| run.outcome.stability.peak_to_peak(run.criteria),
-        "Relative performance error (ECSS-E-ST-60-10C): largest peak to peak, about any body axis, of the rotation vector from the target to the true attitude less its mean over the ticks of the window of control.stability_from_s and control.stability_window_s; null if the run does not complete the window, or a phase in it has no target."),
+        "Relative performance error (ECSS-E-ST-60-10C): root mean square magnitude of the rotation vector from the \
+        target to the true attitude less its mean over the ticks of the window of control.stability_from_s and \
+        control.stability_window_s; null if the run does not complete the window, or a phase in it has no target."),
+    row("relative_performance_error_peak_to_peak_rad", "rad", Needs::Target,
+        |run, _| run.outcome.stability.peak_to_peak(run.criteria),
+        "Relative performance error (ECSS-E-ST-60-10C): largest peak to peak, about any body axis, of the rotation \
+        vector from the target to the true attitude less its mean over the ticks of the window of \
+        control.stability_from_s and control.stability_window_s; null if the run does not complete the window, or a \
+        phase in it has no target."),
     row("debris_distance_min_m", "m", Needs::Approach, |run, _| finite(run.outcome.debris_distance),
         "Smallest distance between the centres of mass of spacecraft and debris at the ticks."),
     row("pointing_error_launch_rad", "rad", Needs::LaunchAtDebris, |run, _| run.launch(|at| at.pointing_error),
         "Angle between s3 and the line to the debris at the launch; null if not launched."),
     row("axis_offset_launch_m", "m", Needs::LaunchAtDebris, |run, _| run.launch(|at| at.axis_offset),
-        "Distance of the centre of mass from the line through the debris along its velocity at the launch; null if not launched."),
+        "Distance of the centre of mass from the line through the debris along its velocity at the launch; null if not \
+        launched."),
     row("distance_error_launch_m", "m", Needs::LaunchAtDebris, |run, _| run.launch(|at| at.distance_error),
-        "Distance behind the debris along that line less control.launch_distance_m at the launch; null if not launched."),
+        "Distance behind the debris along that line less control.launch_distance_m at the launch; null if not \
+        launched."),
     row("relative_speed_launch_m_s", "m/s", Needs::LaunchAtDebris, |run, _| run.launch(|at| at.relative_speed),
         "Speed relative to the debris at the launch; null if not launched."),
     row("body_rate_launch_rad_s", "rad/s", Needs::LaunchAtDebris, |run, _| run.launch(|at| at.body_rate),
         "Magnitude of the angular velocity of the body relative to F_e at the launch; null if not launched."),
     row("tumble_axis_angle_launch_rad", "rad", Needs::LaunchAtDebris, |run, _| run.launch(|at| at.momentum_angle),
-        "Angle, 0 to pi/2, between the angular momentum of the debris and the launch axis at the launch; null if not launched."),
-    row("wheel_speed_margin_launch_rad_s", "rad/s", Needs::LaunchWithWheels, |run, _| run.launch(|at| finite(at.speed_margin)),
+        "Angle, 0 to pi/2, between the angular momentum of the debris and the launch axis at the launch; null if not \
+        launched."),
+    row("wheel_speed_margin_launch_rad_s", "rad/s", Needs::LaunchWithWheels,
+        |run, _| run.launch(|at| finite(at.speed_margin)),
         "Smallest difference between a wheel's speed limit and its speed at the launch; null if not launched."),
     row("impulse_<thruster>_n_s", "N s", Needs::Thrusters, |run, thruster| run.outcome.impulse[thruster],
         "Impulse of thruster <thruster>, fired by the loop."),
@@ -168,7 +184,8 @@ static TABLE: [Row; 43] = [
         |run, _| finite(run.outcome.impulse_total() / (STANDARD_GRAVITY * run.criteria.isp)),
         "Propellant used at control.isp_s; null if that is not known. The mass of the spacecraft is constant."),
     row("plume_time_s", "s", Needs::Plumes, |run, _| run.outcome.plume_time,
-        "Time during which a thruster fired at debris within control.plume_range_m and control.plume_half_angle_rad of its plume's axis, by the state at the start of each arc."),
+        "Time during which a thruster fired at debris within control.plume_range_m and control.plume_half_angle_rad of \
+        its plume's axis, by the state at the start of each arc."),
     row("speed_peak_<wheel>_rad_s", "rad/s", Needs::Wheels, |run, wheel| run.outcome.speed_peak[wheel],
         "Largest magnitude of the rate of wheel <wheel> relative to the body at the ticks."),
     row("wheel_momentum_peak_n_m_s", "N m s", Needs::Wheels, |run, _| run.outcome.momentum_peak,
@@ -178,7 +195,8 @@ static TABLE: [Row; 43] = [
     row("speed_saturated_s", "s", Needs::Wheels, |run, _| run.outcome.saturated[1],
         "Time during which a motor gave less than was commanded because of its wheel's speed limit."),
     row("torque_excess_max_n_m", "N m", Needs::Wheels, |run, _| run.outcome.torque_excess,
-        "Largest difference between the commanded torque and what a motor gave, because of its torque limit or its wheel's speed limit."),
+        "Largest difference between the commanded torque and what a motor gave, because of its torque limit or its \
+        wheel's speed limit."),
     row("rod_dipole_max_a_m2", "A m^2", Needs::Rods, |run, _| run.outcome.rod_dipole,
         "Largest magnitude of the dipole of all torque rods together."),
     row("rod_saturated_time_s", "s", Needs::Rods, |run, _| run.outcome.rod_saturated,
@@ -192,21 +210,34 @@ static TABLE: [Row; 43] = [
     row("relative_velocity_estimate_error_final_m_s", "m/s", Needs::Approach, |run, _| run.outcome.relative_error[1],
         "Magnitude of the error in the estimated velocity relative to the debris at the last tick."),
     row("attitude_nees_final", "", Needs::Filter, |run, _| per_degree(run.outcome.consistency.attitude),
-        "Normalised square of the estimation error of attitude and gyro bias (or rate) at the last tick, divided by its degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
-    row("attitude_innovation_mean", "", Needs::Filter, |run, _| run.outcome.consistency.mean_innovations[0].unwrap_or(f64::NAN),
-        "Mean normalised square of the innovations of attitude and gyro bias (or rate), divided by its degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
+        "Normalised square of the estimation error of attitude and gyro bias (or rate) at the last tick, divided by \
+        its degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
+    row("attitude_innovation_mean", "", Needs::Filter,
+        |run, _| run.outcome.consistency.mean_innovations[0].unwrap_or(f64::NAN),
+        "Mean normalised square of the innovations of attitude and gyro bias (or rate), divided by its degrees of \
+        freedom: 1 on average if the filter is consistent; null if it is not known."),
     row("motion_nees_final", "", Needs::FilterOfMotion, |run, _| per_degree(run.outcome.consistency.motion),
-        "Normalised square of the estimation error of position and velocity at the last tick, divided by its degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
-    row("motion_innovation_mean", "", Needs::FilterOfMotion, |run, _| run.outcome.consistency.mean_innovations[1].unwrap_or(f64::NAN),
-        "Mean normalised square of the innovations of position and velocity, divided by its degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
-    row("debris_motion_nees_final", "", Needs::FilterOfMotion, |run, _| per_degree(run.outcome.consistency.debris_motion),
-        "Normalised square of the estimation error of position and velocity of the debris at the last tick, divided by its degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
-    row("debris_motion_innovation_mean", "", Needs::FilterOfMotion, |run, _| run.outcome.consistency.mean_innovations[2].unwrap_or(f64::NAN),
-        "Mean normalised square of the innovations of position and velocity of the debris, divided by its degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
+        "Normalised square of the estimation error of position and velocity at the last tick, divided by its degrees \
+        of freedom: 1 on average if the filter is consistent; null if it is not known."),
+    row("motion_innovation_mean", "", Needs::FilterOfMotion,
+        |run, _| run.outcome.consistency.mean_innovations[1].unwrap_or(f64::NAN),
+        "Mean normalised square of the innovations of position and velocity, divided by its degrees of freedom: 1 on \
+        average if the filter is consistent; null if it is not known."),
+    row("debris_motion_nees_final", "", Needs::FilterOfMotion,
+        |run, _| per_degree(run.outcome.consistency.debris_motion),
+        "Normalised square of the estimation error of position and velocity of the debris at the last tick, divided by \
+        its degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
+    row("debris_motion_innovation_mean", "", Needs::FilterOfMotion,
+        |run, _| run.outcome.consistency.mean_innovations[2].unwrap_or(f64::NAN),
+        "Mean normalised square of the innovations of position and velocity of the debris, divided by its degrees of \
+        freedom: 1 on average if the filter is consistent; null if it is not known."),
     row("debris_attitude_nees_final", "", Needs::FilterOfMotion, |run, _| per_degree(run.outcome.consistency.debris),
-        "Normalised square of the estimation error of attitude and rate of the debris at the last tick, divided by its degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
-    row("debris_attitude_innovation_mean", "", Needs::FilterOfMotion, |run, _| run.outcome.consistency.mean_innovations[3].unwrap_or(f64::NAN),
-        "Mean normalised square of the innovations of attitude and rate of the debris, divided by its degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
+        "Normalised square of the estimation error of attitude and rate of the debris at the last tick, divided by its \
+        degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
+    row("debris_attitude_innovation_mean", "", Needs::FilterOfMotion,
+        |run, _| run.outcome.consistency.mean_innovations[3].unwrap_or(f64::NAN),
+        "Mean normalised square of the innovations of attitude and rate of the debris, divided by its degrees of \
+        freedom: 1 on average if the filter is consistent; null if it is not known."),
 ];
 
 /// The columns of each number of telemetry that a module declares; its own unit and meaning come on top.
@@ -216,14 +247,16 @@ static TELEMETRY: [Row; 2] = [
         "",
         Needs::Telemetry,
         |run, place| run.telemetry(place)[0],
-        "telemetry of the module at the last tick at which it was asked; null if it never was, or if this is not a finite number.",
+        "telemetry of the module at the last tick at which it was asked; null if it never was, or if this is not a \
+        finite number.",
     ),
     row(
         "module_<telemetry>_max",
         "",
         Needs::Telemetry,
         |run, place| run.telemetry(place)[1],
-        "largest magnitude of that telemetry of the module at the ticks; null if it was never asked, or if one of them is not a finite number.",
+        "largest magnitude of that telemetry of the module at the ticks; null if it was never asked, or if one of them \
+        is not a finite number.",
     ),
 ];
 

@@ -1,4 +1,5 @@
-//! [`MissionOutcome`]: what a run under a loop has come to, from the true state at every tick. [`columns`]: the columns that say it.
+//! [`MissionOutcome`]: what a run under a loop has come to, from the true state at every tick. [`columns`]: the columns
+//! that say it.
 
 pub mod columns;
 pub mod criteria;
@@ -28,7 +29,8 @@ pub struct MissionOutcome {
     failure: Failure,
     end: f64,
     at_launch: Option<AtLaunch>,
-    /// Largest rotation to the target after it was first passed, rad, and the direction of the first error of the phase.
+    /// Largest rotation to the target after it was first passed, rad, and the direction of the first error of the
+    /// phase.
     overshoot: f64,
     first_error: Option<[f64; 3]>,
     /// Since when the pointing error has been within the band, s; NaN while it is not.
@@ -51,7 +53,8 @@ pub struct MissionOutcome {
     rod_saturated: f64,
     attitude_error: [f64; 2],
     relative_error: [f64; 2],
-    /// What the module has reported at its last tick, and the largest magnitude so far: NaN once one was no finite number.
+    /// What the module has reported at its last tick, and the largest magnitude so far: NaN once one was no finite
+    /// number.
     telemetry: Vec<[f64; 2]>,
     /// How the errors of the filters compare with their covariances, at the last tick.
     pub consistency: Consistency,
@@ -87,7 +90,8 @@ impl MissionOutcome {
         }
     }
 
-    /// Takes the truth of a tick. `error` is the true attitude relative to the target of the phase, `None` without one; `begins`: the phase has just begun.
+    /// Takes the truth of a tick. `error` is the true attitude relative to the target of the phase, `None` without one;
+    /// `begins`: the phase has just begun.
     pub fn tick(
         &mut self,
         scene: &Scene,

@@ -1,7 +1,9 @@
-//! [`Stability`]: since when a mission has settled, and how steady the attitude is over a window: the relative performance error.
+//! [`Stability`]: since when a mission has settled, and how steady the attitude is over a window: the relative
+//! performance error.
 //!
-//! Source: ECSS-E-ST-60-10C, *Control performance*, 2008, section 3.2: the performance error e(t) is here the rotation vector from the target to the true
-//! attitude; the relative performance error over an interval is e(t) less its mean over that interval.
+//! Source: ECSS-E-ST-60-10C, *Control performance*, 2008, section 3.2: the performance error e(t) is here the rotation
+//! vector from the target to the true attitude; the relative performance error over an interval is e(t) less its mean
+//! over that interval.
 
 use crate::control::outcome::criteria::MissionCriteria;
 use crate::control::vector::norm;
@@ -70,12 +72,14 @@ impl Stability {
         self.settled_since
     }
 
-    /// Root mean square over the window of the magnitude of the relative performance error, rad; NaN of a window that the run has not completed.
+    /// Root mean square over the window of the magnitude of the relative performance error, rad; NaN of a window that
+    /// the run has not completed.
     pub fn rms(&self, criteria: &MissionCriteria) -> f64 {
         if self.is_complete(criteria) { (self.squares.iter().sum::<f64>() / self.count).sqrt() } else { f64::NAN }
     }
 
-    /// Largest difference, about an axis of the body, of two errors in the window, rad; NaN of a window that the run has not completed.
+    /// Largest difference, about an axis of the body, of two errors in the window, rad; NaN of a window that the run
+    /// has not completed.
     pub fn peak_to_peak(&self, criteria: &MissionCriteria) -> f64 {
         if !self.is_complete(criteria) || self.squares.iter().any(|square| square.is_nan()) {
             return f64::NAN;
@@ -83,7 +87,8 @@ impl Stability {
         self.extremes.iter().fold(0.0, |most: f64, [low, high]| most.max(high - low))
     }
 
-    /// Whether the run has reached the end of the window: the last tick lasts a period. A window without an end has two ticks.
+    /// Whether the run has reached the end of the window: the last tick lasts a period. A window without an end has two
+    /// ticks.
     fn is_complete(&self, criteria: &MissionCriteria) -> bool {
         let [_, length] = criteria.stability;
         let reached = self.last + (1.0 + 1e-9) * criteria.period;
@@ -142,7 +147,8 @@ mod tests {
         (0..200).map(|tick| Some(error(tick))).collect()
     }
 
-    /// Law: a mission has settled when its error stays within the band to the end, whatever the phase; a tick without a target is not settled.
+    /// Law: a mission has settled when its error stays within the band to the end, whatever the phase; a tick without a
+    /// target is not settled.
     #[test]
     fn a_mission_settles_where_the_error_stays_in_the_band() {
         let mut errors = settling();
@@ -158,8 +164,8 @@ mod tests {
         assert!(found(&errors, &plain).iter().all(|value| value.is_nan()));
     }
 
-    /// Law: rms and peak to peak are those of the error less its mean over the window, in two passes; of a window after settling, of an interval, and of
-    /// one without an end. A constant error has none, however large.
+    /// Law: rms and peak to peak are those of the error less its mean over the window, in two passes; of a window after
+    /// settling, of an interval, and of one without an end. A constant error has none, however large.
     #[test]
     fn relative_performance_errors_are_those_of_the_window() {
         let errors = settling();

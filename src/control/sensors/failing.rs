@@ -6,8 +6,8 @@ use crate::control::tick_times::SAME_TIME;
 use crate::control::truth::Truth;
 use crate::scene::{DeclaredTable, FailureInput, SensorOutput};
 
-/// A sensor that is as it was until it fails. From the first sample at or after that time on it delivers nothing, or its last measurement, or it measures
-/// with another bias and the same noise.
+/// A sensor that is as it was until it fails. From the first sample at or after that time on it delivers nothing, or
+/// its last measurement, or it measures with another bias and the same noise.
 pub struct FailingSensor {
     sensor: Box<dyn Sensor>,
     /// The same with the bias that it has in the end, which measures from the start, so that it remembers the same.
@@ -78,7 +78,8 @@ mod tests {
     use crate::sampling::SampleId;
     use crate::scene::{Scene, SceneInput};
 
-    /// What a gyro with noise measures over 20 samples about x, where it fails as `failure` says: a body that turns faster and faster.
+    /// What a gyro with noise measures over 20 samples about x, where it fails as `failure` says: a body that turns
+    /// faster and faster.
     fn measured(failure: Option<&FailureInput>) -> Vec<Option<f64>> {
         let kind = super::super::kind("rate_gyro").expect("a kind");
         let noise: [(&str, &[f64]); 3] = [
@@ -98,8 +99,9 @@ mod tests {
         (0..20).map(|count| sensor.measure(count, &at(count)).map(|values| part::<3>(&values, 0)[0])).collect()
     }
 
-    /// Law: before its failure a sensor measures what it would have measured, bit for bit, noise included; from the first sample at that time on it
-    /// is silent, or repeats the sample before, or differs by the bias over its period alone.
+    /// Law: before its failure a sensor measures what it would have measured, bit for bit, noise included; from the
+    /// first sample at that time on it is silent, or repeats the sample before, or differs by the bias over its period
+    /// alone.
     #[test]
     fn a_sensor_fails_at_its_time() {
         let healthy = measured(None);

@@ -1,4 +1,5 @@
-//! A radar on the ground: positions and velocities in F_e of the base point p and, where there is one, of the debris's centre of mass.
+//! A radar on the ground: positions and velocities in F_e of the base point p and, where there is one, of the debris's
+//! centre of mass.
 
 use crate::control::declared::declared;
 use crate::control::measurement::{Values, values};
@@ -88,7 +89,8 @@ mod tests {
     use crate::control::truth::DebrisState;
     use crate::control::vector::difference;
 
-    /// Law: all twelve errors are normal with their deviations, and each is independent of the one before it: 4,000 samples, alpha 1e-4 each, seed 5.
+    /// Law: all twelve errors are normal with their deviations, and each is independent of the one before it: 4,000
+    /// samples, alpha 1e-4 each, seed 5.
     #[test]
     fn the_noise_of_each_component_is_its_own() {
         let mut at = truth(0.0, [1.0, 0.0, 0.0, 0.0], [0.0; 3]);

@@ -1,7 +1,8 @@
-//! A horizon sensor: the direction of nadir in the axes of the sensor, as [two angles](super::two_angles); nothing where nadir is out of view.
+//! A horizon sensor: the direction of nadir in the axes of the sensor, as [two angles](super::two_angles); nothing
+//! where nadir is out of view.
 //!
-//! Nadir is the direction from the centre of mass to the centre of the central body, which a sensor finds from the horizon about it. Filters compare it with
-//! the nadir of the nominal orbit.
+//! Nadir is the direction from the centre of mass to the centre of the central body, which a sensor finds from the
+//! horizon about it. Filters compare it with the nadir of the nominal orbit.
 
 use std::sync::Arc;
 
@@ -38,7 +39,8 @@ declared! {
     /// Its numbers in campaign files.
     HorizonSensorNumbers = PARAMETERS {
     noise: f64 = optional("noise_rad", "rad", "Standard deviation of each angle");
-    boresight: [f64; 3] = axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0, 0.0, 1.0]);
+    boresight: [f64; 3] = axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0,
+        0.0, 1.0]);
     half_field_of_view: f64 = optional(
         "half_field_of_view_rad",
         "rad",
@@ -102,8 +104,9 @@ mod tests {
 
     const BORESIGHT: [f64; 3] = [1.0, 2.0, 2.0];
 
-    /// Law: the angles are those of the direction to the centre of the central body, wherever the spacecraft is: about a boresight along nadir both are zero,
-    /// and a turn about s2 by a moves nadir by a; nadir behind the sensor is not seen.
+    /// Law: the angles are those of the direction to the centre of the central body, wherever the spacecraft is: about
+    /// a boresight along nadir both are zero, and a turn about s2 by a moves nadir by a; nadir behind the sensor is not
+    /// seen.
     #[test]
     fn the_angles_are_those_of_nadir() {
         for r_e in [[7e6, 0.0, 0.0], [-3e6, 4e6, 5e6]] {
@@ -126,8 +129,8 @@ mod tests {
         assert!((a + 0.2_f64).abs() < 1e-15 && f64::abs(b) < 1e-15, "{a} {b}");
     }
 
-    /// Law: the innovation of an attitude that is wrong by a small rotation d is H d, to second order, with the nadir of the time of the measurement; with
-    /// that of another time it is not.
+    /// Law: the innovation of an attitude that is wrong by a small rotation d is H d, to second order, with the nadir
+    /// of the time of the measurement; with that of another time it is not.
     #[test]
     fn the_sensitivity_is_the_derivative() {
         let nominal = on_orbit();

@@ -1,7 +1,8 @@
 //! A magnetometer: the Earth's magnetic field in F_s, with noise, bias, errors of scale and misalignment.
 //!
-//! The field is that of `[environment]` at the true place. That of torque rods and wheels beside it is not in it: a real one is read while rods are off, or
-//! has its bias corrected. Filters compare it with the field on the nominal orbit.
+//! The field is that of `[environment]` at the true place. That of torque rods and wheels beside it is not in it: a
+//! real one is read while rods are off, or has its bias corrected. Filters compare it with the field on the nominal
+//! orbit.
 
 use std::sync::Arc;
 
@@ -41,8 +42,10 @@ declared! {
     MagnetometerNumbers = PARAMETERS {
     noise: [f64; 3] = axes("noise_t", "T", "Standard deviation of each component", Limit::NotNegative);
     bias: [f64; 3] = axes("bias_t", "T", "Constant error of each component", Limit::Finite);
-    scale: [f64; 3] = axes("scale", "1", "Ratio of measured to true component along each of its axes", Limit::Finite).or(&[1.0; 3]);
-    misalignment: [f64; 3] = axes("misalignment_rad", "rad", "Rotation vector from the body to its axes, in F_s", Limit::Finite);
+    scale: [f64; 3] = axes("scale", "1", "Ratio of measured to true component along each of its axes",
+        Limit::Finite).or(&[1.0; 3]);
+    misalignment: [f64; 3] = axes("misalignment_rad", "rad", "Rotation vector from the body to its axes, in F_s",
+        Limit::Finite);
     }
 }
 
@@ -62,9 +65,9 @@ impl Believed {
 }
 
 impl AttitudeSensor for Believed {
-    /// The innovation is across the measured field m, as that of [`super::two_angles`]: e_i = b_i . (m - B) = -b_i . B for two unit vectors b across m, where B
-    /// is the field in F_s as estimated; the length of B says nothing of the attitude. With B' = B x d for a small error d of the attitude, b . (B x d) =
-    /// (b x B) . d.
+    /// The innovation is across the measured field m, as that of [`super::two_angles`]: e_i = b_i . (m - B) = -b_i . B
+    /// for two unit vectors b across m, where B is the field in F_s as estimated; the length of B says nothing of the
+    /// attitude. With B' = B x d for a small error d of the attitude, b . (B x d) = (b x B) . d.
     fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation {
         let field_e = self.field.as_ref().map_or([0.0; 3], |(orbit, field)| field.at(time, orbit.state(time).position));
         let field_s = transposed_product(dcm_from_quaternion(q_es), field_e);
@@ -125,7 +128,8 @@ mod tests {
         part(&sensor("magnetometer", numbers, 1.0, sample).measure(count, &truth).expect("a field"), 0)
     }
 
-    /// Law: without errors it is the field at the place and time, turned into the body; each error does what its key says.
+    /// Law: without errors it is the field at the place and time, turned into the body; each error does what its key
+    /// says.
     #[test]
     fn it_measures_the_field() {
         let q = quaternion_of([0.3, -0.2, 0.5]);
@@ -142,7 +146,8 @@ mod tests {
         assert!(off(turned, [true_s[1], -true_s[0], true_s[2]]) < 1e-15);
     }
 
-    /// Law: each component has noise of its own with its deviation (4,000 samples, alpha 1e-3 each); the nominal run has none.
+    /// Law: each component has noise of its own with its deviation (4,000 samples, alpha 1e-3 each); the nominal run
+    /// has none.
     #[test]
     fn each_component_has_noise() {
         let q = [1.0, 0.0, 0.0, 0.0];
@@ -155,8 +160,8 @@ mod tests {
         }
     }
 
-    /// Law: the innovation of an attitude that is wrong by a small rotation d is H d, to second order, in the field of the nominal orbit at the time of the
-    /// measurement.
+    /// Law: the innovation of an attitude that is wrong by a small rotation d is H d, to second order, in the field of
+    /// the nominal orbit at the time of the measurement.
     #[test]
     fn the_sensitivity_is_the_derivative() {
         let nominal = on_orbit();

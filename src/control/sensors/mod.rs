@@ -1,8 +1,8 @@
 //! Models of sensors: from the true state to measurements. One file for each kind, one line for each in [`KINDS`].
 //!
-//! A sensor measures at its own period; [`SampledSensor`] says when, and delivers each measurement after the latency. Noise is addressed by the sensor's own
-//! count, so that it depends neither on other sensors nor on measurements that were lost. The nominal run has no noise; biases, scales and
-//! misalignments stay.
+//! A sensor measures at its own period; [`SampledSensor`] says when, and delivers each measurement after the latency.
+//! Noise is addressed by the sensor's own count, so that it depends neither on other sensors nor on measurements that
+//! were lost. The nominal run has no noise; biases, scales and misalignments stay.
 //!
 //! One that fails during the run is a [`failing`] sensor around that of its kind.
 //!
@@ -108,15 +108,16 @@ pub(super) mod bench {
         }
     }
 
-    /// The quantile of chi-square with `degrees` degrees of freedom at `p`: E. B. Wilson & M. M. Hilferty, 1931; to 1e-4 above 100 degrees.
+    /// The quantile of chi-square with `degrees` degrees of freedom at `p`: E. B. Wilson & M. M. Hilferty, 1931; to
+    /// 1e-4 above 100 degrees.
     pub fn chi_square(p: f64, degrees: f64) -> f64 {
         let spread = 2.0 / (9.0 * degrees);
         degrees * (1.0 - spread + normal::quantile(p) * spread.sqrt()).powi(3)
     }
 
-    /// Fails where `numbers`, which H0 says are independent and normal with mean zero and this standard deviation, have a mean or a mean square that H0
-    /// gives with a probability below `alpha` each. With 4,000 numbers and alpha = 1e-3 a deviation that is wrong by 10% is found with a probability
-    /// above 0.999.
+    /// Fails where `numbers`, which H0 says are independent and normal with mean zero and this standard deviation, have
+    /// a mean or a mean square that H0 gives with a probability below `alpha` each. With 4,000 numbers and alpha = 1e-3
+    /// a deviation that is wrong by 10% is found with a probability above 0.999.
     pub fn assert_normal(numbers: &[f64], deviation: f64, alpha: f64) {
         let n = numbers.len() as f64;
         let mean = numbers.iter().sum::<f64>() / n;
@@ -148,8 +149,8 @@ mod tests {
         assert!(kind("sextant").is_none());
     }
 
-    /// Law: the noise of a sample depends on its count alone, not on samples that were lost before it or read after it; runs have noise of their own,
-    /// the nominal one none.
+    /// Law: the noise of a sample depends on its count alone, not on samples that were lost before it or read after it;
+    /// runs have noise of their own, the nominal one none.
     #[test]
     fn noise_is_addressed_by_count() {
         let noise: [(&str, &[f64]); 1] = [("noise_rad", &[1e-3, 2e-3, 3e-3])];

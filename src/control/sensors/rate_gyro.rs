@@ -1,8 +1,9 @@
 //! A rate-integrating gyro: the rotation vector from sample to sample, so that a slew adds no error of a held rate.
 //!
-//! Source of the noise: R. L. Farrenkopf, J. Guidance and Control 1(4), 1978; F. L. Markley & J. L. Crassidis, *Fundamentals of Spacecraft Attitude
-//! Determination and Control*, 2014, section 4.7. Over a period T the bias walks by N(0, su^2 T), and the rotation has the variance
-//! sv^2 T + su^2 T^3/12 about the mean of the biases at both ends. A turn of more than half a revolution between samples reads as the shorter one.
+//! Source of the noise: R. L. Farrenkopf, J. Guidance and Control 1(4), 1978; F. L. Markley & J. L. Crassidis,
+//! *Fundamentals of Spacecraft Attitude Determination and Control*, 2014, section 4.7. Over a period T the bias walks
+//! by N(0, su^2 T), and the rotation has the variance sv^2 T + su^2 T^3/12 about the mean of the biases at both ends. A
+//! turn of more than half a revolution between samples reads as the shorter one.
 
 use crate::control::declared::declared;
 use crate::control::measurement::{Values, values};
@@ -48,12 +49,16 @@ declared! {
         "Standard deviation of the bias after one second, from its random walk",
     );
     bias: [f64; 3] = axes("bias_rad_s", "rad/s", "Bias at the start of the run", Limit::Finite);
-    scale: [f64; 3] = LawParameter::number("scale", "1", "Ratio of measured to true rotation about each axis", Limit::Finite)
+    scale: [f64; 3] = LawParameter::number("scale", "1", "Ratio of measured to true rotation about each axis",
+        Limit::Finite)
         .with_components(&AXES)
         .or(&[1.0; 3]);
-    misalignment: [f64; 3] = axes("misalignment_rad", "rad", "Rotation vector from the body to the axes of the gyro", Limit::Finite);
-    count_angle: f64 = optional("quantization_rad", "rad", "Angle of one count; the remainder is carried to the next sample; 0: none");
-    max_rate: f64 = optional("max_rate_rad_s", "rad/s", "Largest mean rate about each axis that it can measure; 0: no limit");
+    misalignment: [f64; 3] = axes("misalignment_rad", "rad", "Rotation vector from the body to the axes of the gyro",
+        Limit::Finite);
+    count_angle: f64 = optional("quantization_rad", "rad",
+        "Angle of one count; the remainder is carried to the next sample; 0: none");
+    max_rate: f64 = optional("max_rate_rad_s", "rad/s",
+        "Largest mean rate about each axis that it can measure; 0: no limit");
     }
 }
 
@@ -172,8 +177,9 @@ mod tests {
     const WALK: f64 = 4e-3;
     const SLEW: [f64; 3] = [0.3, -0.2, 0.1];
 
-    /// Law: rotation and bias have Farrenkopf's statistics, in a slew too: H0 of means and variances of 4,000 samples, alpha 1e-3 each, seed 5. The walk is
-    /// as large as the white noise here, so that su^2 T^3/12 counts: without it the variance would be 12% too small.
+    /// Law: rotation and bias have Farrenkopf's statistics, in a slew too: H0 of means and variances of 4,000 samples,
+    /// alpha 1e-3 each, seed 5. The walk is as large as the white noise here, so that su^2 T^3/12 counts: without it
+    /// the variance would be 12% too small.
     #[test]
     fn the_noise_is_farrenkopfs() {
         let (period, values): (f64, [(&str, &[f64]); 2]) =
@@ -196,7 +202,8 @@ mod tests {
         }
     }
 
-    /// Law: without random noise the rotation is that of the scaled, misaligned axes plus bias times period, to rounding.
+    /// Law: without random noise the rotation is that of the scaled, misaligned axes plus bias times period, to
+    /// rounding.
     #[test]
     fn fixed_errors_act_on_the_rotation() {
         let (bias, scale, misalignment) = ([1e-3, -2e-3, 3e-3], [1.01, 0.98, 1.0], [0.0, 0.0, 0.02]);
@@ -213,7 +220,8 @@ mod tests {
         }
     }
 
-    /// Law: rotations are whole counts, and their sum is within half a count of the true angle; beyond the largest rate it reads that rate.
+    /// Law: rotations are whole counts, and their sum is within half a count of the true angle; beyond the largest rate
+    /// it reads that rate.
     #[test]
     fn counts_add_up_and_rates_saturate() {
         let count = 7e-4;

@@ -44,8 +44,10 @@ declared! {
         "rad",
         "Standard deviation of the relative attitude about each axis of the spacecraft",
     );
-    rate_noise: f64 = optional("rate_noise_rad_s", "rad/s", "Standard deviation of each component of the relative rate");
-    max_range: f64 = optional("max_range_m", "m", "Distance between the centres of mass beyond which it delivers nothing; 0: no limit");
+    rate_noise: f64 = optional("rate_noise_rad_s", "rad/s",
+        "Standard deviation of each component of the relative rate");
+    max_range: f64 = optional("max_range_m", "m", "Distance between the centres of mass beyond which it delivers \
+        nothing; 0: no limit");
     }
 }
 
@@ -93,8 +95,8 @@ mod tests {
     use crate::control::rotation::vector_of;
     use crate::control::truth::DebrisState;
 
-    /// Law: a body that turns with the spacecraft has no relative rate; errors are normal with their deviations (4,000 samples, alpha 1e-3 each, seed 5);
-    /// out of range, or without debris, there is nothing.
+    /// Law: a body that turns with the spacecraft has no relative rate; errors are normal with their deviations (4,000
+    /// samples, alpha 1e-3 each, seed 5); out of range, or without debris, there is nothing.
     #[test]
     fn the_debris_is_seen_from_the_spacecraft() {
         let (q_es, q_sd, omega) =

@@ -6,7 +6,8 @@ use crate::control::measurement::{Measurement, Values};
 use crate::control::sensors::sensor::Sensor;
 use crate::control::truth::Truth;
 
-/// A sensor in the loop: it measures every so many ticks, and delivers a measurement a fixed number of ticks later, with its age.
+/// A sensor in the loop: it measures every so many ticks, and delivers a measurement a fixed number of ticks later,
+/// with its age.
 pub struct SampledSensor {
     sensor: Box<dyn Sensor>,
     every: u64,
@@ -17,12 +18,14 @@ pub struct SampledSensor {
 }
 
 impl SampledSensor {
-    /// `sensor`, which measures at the ticks 0, `every`, 2 `every`, ... and delivers `latency` ticks of `tick` seconds later. `every` is at least one.
+    /// `sensor`, which measures at the ticks 0, `every`, 2 `every`, ... and delivers `latency` ticks of `tick` seconds
+    /// later. `every` is at least one.
     pub fn new(sensor: Box<dyn Sensor>, every: u64, latency: u64, tick: f64) -> Self {
         SampledSensor { sensor, every, latency, age: latency as f64 * tick, waiting: VecDeque::new() }
     }
 
-    /// What is delivered at `tick`, where the state is `truth`, by the sensor at the place `sensor`. Called once for each tick, in order.
+    /// What is delivered at `tick`, where the state is `truth`, by the sensor at the place `sensor`. Called once for
+    /// each tick, in order.
     pub fn deliver(&mut self, sensor: usize, tick: u64, truth: &Truth) -> Option<Measurement> {
         if tick.is_multiple_of(self.every)
             && let Some(measurement) = self.sensor.measure(tick / self.every, truth)
@@ -46,7 +49,8 @@ mod tests {
     use crate::control::measurement::part;
     use crate::control::rotation::{quaternion_of, vector_of};
 
-    /// Law: what is delivered at tick k is the state `latency` ticks before, with that age; nothing before the first, and nothing of a lost sample.
+    /// Law: what is delivered at tick k is the state `latency` ticks before, with that age; nothing before the first,
+    /// and nothing of a lost sample.
     #[test]
     fn a_measurement_is_delivered_after_the_latency() {
         let limit: [(&str, &[f64]); 1] = [("max_rate_rad_s", &[0.05])];

@@ -10,7 +10,8 @@ use crate::scene::{DeclaredTable, LawParameter, MAX_WHEELS, Scene, SceneInput};
 
 /// A model of a sensor in one run.
 pub trait Sensor: Send {
-    /// What it measures of `truth`, in the order of its kind's quantities; `None` where it gives nothing. `count` is the number of its samples before this one: 0 at the start of the run.
+    /// What it measures of `truth`, in the order of its kind's quantities; `None` where it gives nothing. `count` is
+    /// the number of its samples before this one: 0 at the start of the run.
     fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values>;
 
     /// The true bias of a gyro at its last sample, in F_s, rad/s: what an estimate of it is judged by.

@@ -1,7 +1,8 @@
 //! A star tracker: the attitude, with noise about the axes of the tracker; nothing above a rate of the body.
 //!
-//! The third axis of the tracker, F_t, is its boresight, about which a tracker measures least exactly (C. C. Liebe, IEEE Transactions on Aerospace and
-//! Electronic Systems 38(2), 2002). The others are s1 and s2, turned with s3 to the boresight the shortest way: they are s1 and s2 where it is s3.
+//! The third axis of the tracker, F_t, is its boresight, about which a tracker measures least exactly (C. C. Liebe,
+//! IEEE Transactions on Aerospace and Electronic Systems 38(2), 2002). The others are s1 and s2, turned with s3 to the
+//! boresight the shortest way: they are s1 and s2 where it is s3.
 
 use crate::control::sensors::sensor::{
     AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, WXYZ, axes, optional,
@@ -43,9 +44,12 @@ declared! {
         "Standard deviation about each axis of the tracker: two across the boresight, the third about it",
         Limit::NotNegative,
     );
-    boresight: [f64; 3] = axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0, 0.0, 1.0]);
-    bias: [f64; 3] = axes("bias_rad", "rad", "Constant rotation vector from the true body axes to the measured ones", Limit::Finite);
-    max_rate: f64 = optional("max_rate_rad_s", "rad/s", "Rate of the body above which it delivers nothing; 0: no limit");
+    boresight: [f64; 3] = axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0,
+        0.0, 1.0]);
+    bias: [f64; 3] = axes("bias_rad", "rad", "Constant rotation vector from the true body axes to the measured ones",
+        Limit::Finite);
+    max_rate: f64 = optional("max_rate_rad_s", "rad/s",
+        "Rate of the body above which it delivers nothing; 0: no limit");
     }
 }
 
@@ -108,8 +112,9 @@ mod tests {
         Some(vector_of(hamilton(conjugate(q), part(&measured, 0))))
     }
 
-    /// Law: noise about the boresight is about that direction of the body, whichever it is, and of unit length or not; across it there is none where the
-    /// noise across is zero. The covariance that a filter believes is that of the errors.
+    /// Law: noise about the boresight is about that direction of the body, whichever it is, and of unit length or not;
+    /// across it there is none where the noise across is zero. The covariance that a filter believes is that of the
+    /// errors.
     #[test]
     fn the_noise_is_about_the_axes_of_the_tracker() {
         const ABOUT: f64 = 2e-4;
@@ -132,7 +137,8 @@ mod tests {
                 }
             }
         }
-        // with noise about all axes: the sample covariance of 4,000 errors is that of the filter, to six standard errors (H0: they agree)
+        // with noise about all axes: the sample covariance of 4,000 errors is that of the filter, to six standard
+        // errors (H0: they agree)
         let values: [(&str, &[f64]); 2] = [("noise_rad", &NOISE), ("boresight", &[0.6, 0.0, 0.8])];
         let mut tracker = sensor("star_tracker", &values, 0.5, 6);
         let covariance = covariance_s(&table("unit", &PARAMETERS, &values));
@@ -150,8 +156,8 @@ mod tests {
         assert!((covariance[0][2] - expected).abs() < 1e-14 * expected, "{} {expected}", covariance[0][2]);
     }
 
-    /// Law: the error about each axis of the body is normal with its deviation, at any attitude, and axes are independent: 4,000 samples, alpha 1e-3
-    /// each, seed 5.
+    /// Law: the error about each axis of the body is normal with its deviation, at any attitude, and axes are
+    /// independent: 4,000 samples, alpha 1e-3 each, seed 5.
     #[test]
     fn the_noise_is_about_the_axes_of_the_body() {
         let mut tracker = sensor("star_tracker", &[("noise_rad", &NOISE)], 0.5, 6);
@@ -168,7 +174,8 @@ mod tests {
         }
     }
 
-    /// Law: above the largest rate nothing is measured; the noise of later samples is that without the loss. The nominal run has the bias alone.
+    /// Law: above the largest rate nothing is measured; the noise of later samples is that without the loss. The
+    /// nominal run has the bias alone.
     #[test]
     fn a_fast_body_is_not_seen() {
         let values: [(&str, &[f64]); 2] = [("noise_rad", &NOISE), ("max_rate_rad_s", &[0.03])];

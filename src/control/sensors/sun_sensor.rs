@@ -1,4 +1,5 @@
-//! A two-axis Sun sensor: the direction of the Sun in the axes of the sensor, as [two angles](super::two_angles); nothing where the Sun is out of view.
+//! A two-axis Sun sensor: the direction of the Sun in the axes of the sensor, as [two angles](super::two_angles);
+//! nothing where the Sun is out of view.
 //!
 //! On an orbit with an epoch the Sun is that of the date, and the sensor sees nothing while the Earth covers more than
 //! half of its disc: the shadow is that of `environment.shadow`. Elsewhere the Sun is in a fixed direction, and nothing
@@ -43,7 +44,8 @@ declared! {
     /// Its numbers in campaign files.
     SunSensorNumbers = PARAMETERS {
     noise: f64 = optional("noise_rad", "rad", "Standard deviation of each angle");
-    boresight: [f64; 3] = axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0, 0.0, 1.0]);
+    boresight: [f64; 3] = axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0,
+        0.0, 1.0]);
     sun_direction: [f64; 3] = axes(
         "sun_direction",
         "1",
@@ -208,7 +210,8 @@ mod tests {
         }
     }
 
-    /// Law: the tangents of the angles and one are the direction of the Sun, whatever the attitude; the Sun is seen within the field of view and nowhere else.
+    /// Law: the tangents of the angles and one are the direction of the Sun, whatever the attitude; the Sun is seen
+    /// within the field of view and nowhere else.
     #[test]
     fn the_angles_are_those_of_the_sun() {
         let values: [(&str, &[f64]); 3] =
@@ -231,7 +234,8 @@ mod tests {
         assert!(tried[0] > 1 && tried[1] > 2, "{tried:?}");
     }
 
-    /// Law: both angles have noise of their own with its deviation, about the bias: 4,000 samples, alpha 1e-3 each, seed 5.
+    /// Law: both angles have noise of their own with its deviation, about the bias: 4,000 samples, alpha 1e-3 each,
+    /// seed 5.
     #[test]
     fn each_angle_has_noise() {
         let values: [(&str, &[f64]); 3] =
@@ -269,8 +273,9 @@ mod tests {
         }
     }
 
-    /// Law: an update adds its information, P^-1 + H^T R^-1 H: at the boresight across the direction of the Sun the variance after n angles of deviation s is that
-    /// of n + 1 numbers, 1/(1/p + n/s^2), and about it nothing is learned. Errors of 2,000 filters that start with the variance p have this spread (alpha 1e-3).
+    /// Law: an update adds its information, P^-1 + H^T R^-1 H: at the boresight across the direction of the Sun the
+    /// variance after n angles of deviation s is that of n + 1 numbers, 1/(1/p + n/s^2), and about it nothing is
+    /// learned. Errors of 2,000 filters that start with the variance p have this spread (alpha 1e-3).
     #[test]
     fn errors_fall_as_information_adds() {
         const START: f64 = 0.01;

@@ -68,7 +68,8 @@ mod tests {
     use super::*;
     use crate::control::measurement::part;
 
-    /// Law: each rate is scaled and has noise of its own (4,000 samples, alpha 1e-3, seed 5); a wheel that is not there reads zero.
+    /// Law: each rate is scaled and has noise of its own (4,000 samples, alpha 1e-3, seed 5); a wheel that is not there
+    /// reads zero.
     #[test]
     fn rates_have_scale_and_noise() {
         let mut at = truth(0.0, [1.0, 0.0, 0.0, 0.0], [0.0; 3]);

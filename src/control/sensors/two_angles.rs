@@ -1,8 +1,9 @@
-//! A direction measured as two angles, by a sensor with a boresight: what the Sun sensor and the horizon sensor have in common.
+//! A direction measured as two angles, by a sensor with a boresight: what the Sun sensor and the horizon sensor have in
+//! common.
 //!
-//! The third axis of the sensor, F_t, is its boresight; the others are turned with s3 to it the shortest way. With the direction u in F_t the angles are
-//! atan(u1/u3) and atan(u2/u3): what two crossed slits measure (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 7.1). The rotation about
-//! the direction is not seen.
+//! The third axis of the sensor, F_t, is its boresight; the others are turned with s3 to it the shortest way. With the
+//! direction u in F_t the angles are atan(u1/u3) and atan(u2/u3): what two crossed slits measure (J. R. Wertz,
+//! *Spacecraft Attitude Determination and Control*, 1978, section 7.1). The rotation about the direction is not seen.
 
 use crate::control::estimators::attitude_innovation::{AttitudeInnovation, Innovation};
 use crate::control::measurement::{Values, part, values};
@@ -33,9 +34,9 @@ impl TwoAngles {
 
     /// The innovation of the angles `values` where the direction is estimated as `u_t` in F_t, a unit vector.
     ///
-    /// It is across the measured direction m: e_i = -b_i . u for two unit vectors b across m. With u' = u x d for a small error d of the attitude,
-    /// b . (u x d) = (b x u) . d; the noise of the angles moves m by b_i . dm/d(angle). Unlike the difference of the angles it has no pole where the estimate
-    /// has the direction beside the sensor.
+    /// It is across the measured direction m: e_i = -b_i . u for two unit vectors b across m. With u' = u x d for a
+    /// small error d of the attitude, b . (u x d) = (b x u) . d; the noise of the angles moves m by b_i . dm/d(angle).
+    /// Unlike the difference of the angles it has no pole where the estimate has the direction beside the sensor.
     pub fn innovation(&self, values: &Values, u_t: [f64; 3]) -> AttitudeInnovation {
         let tangents = part::<2>(values, 0).map(libm::tan);
         let seen = [tangents[0], tangents[1], 1.0];
@@ -65,7 +66,8 @@ pub struct AnglesInView {
 }
 
 impl AnglesInView {
-    /// Those of `angles` with a constant error of `bias` (rad), up to `half_field_of_view` (rad) from the boresight; zero: all before the sensor.
+    /// Those of `angles` with a constant error of `bias` (rad), up to `half_field_of_view` (rad) from the boresight;
+    /// zero: all before the sensor.
     pub fn new(context: &SensorContext<'_>, angles: TwoAngles, half_field_of_view: f64, bias: f64) -> Self {
         AnglesInView {
             angles,
@@ -75,7 +77,8 @@ impl AnglesInView {
         }
     }
 
-    /// What is measured as number `count` of the direction `u_e` in F_e, a unit vector, at the attitude `q_es`; `None` where it is out of view.
+    /// What is measured as number `count` of the direction `u_e` in F_e, a unit vector, at the attitude `q_es`; `None`
+    /// where it is out of view.
     pub fn measure(&mut self, count: u64, u_e: [f64; 3], q_es: [f64; 4]) -> Option<Values> {
         let [x, y, z] = self.angles.in_sensor(u_e, q_es);
         // not a number is out of view too

@@ -1,10 +1,10 @@
 //! `halton`: Halton's sequence (*Numer. Math.* 2 (1960) 84) with random digit permutations.
 //!
-//! The number of a point in the dimension of base b is its radical inverse, in which each digit is replaced by its image under a
-//! random permutation of 0..b, another for each digit (A. B. Owen, *A randomized Halton algorithm in R* (2017)). Without it
-//! neighbouring large bases are nearly proportional to each other; one random line a d + c for each digit, which is cheaper, leaves
-//! correlations of 0.5 between pairs in 12 dimensions with 256 points. Digits continue beyond those of the point, so that each
-//! number is uniform, down to about 2^-52.
+//! The number of a point in the dimension of base b is its radical inverse, in which each digit is replaced by its
+//! image under a random permutation of 0..b, another for each digit (A. B. Owen, *A randomized Halton algorithm in R*
+//! (2017)). Without it neighbouring large bases are nearly proportional to each other; one random line a d + c for each
+//! digit, which is cheaper, leaves correlations of 0.5 between pairs in 12 dimensions with 256 points. Digits continue
+//! beyond those of the point, so that each number is uniform, down to about 2^-52.
 
 use super::hash::{below, keyed};
 use super::replicates::{REPLICATES, Replicates, by_replicate};
@@ -20,8 +20,8 @@ const FINEST: u64 = 1 << 52;
 #[derive(Clone, Debug)]
 struct Radix {
     base: u64,
-    /// The permutation of each digit, `base` numbers one after the other; the first digit is the point's lowest, the fraction's
-    /// highest. Bases are below 2^16 in all dimensions that there are.
+    /// The permutation of each digit, `base` numbers one after the other; the first digit is the point's lowest, the
+    /// fraction's highest. Bases are below 2^16 in all dimensions that there are.
     permutations: Vec<u16>,
     /// The weight of each digit.
     weights: Vec<u64>,
@@ -186,9 +186,10 @@ mod tests {
         worst
     }
 
-    /// Law: the largest correlation over all pairs is what random permutations of another generator give (mean over 8 seeds; its
-    /// standard deviation over seeds is at most 15% of it, 5% of the mean, so a quarter more is five standard deviations). Power:
-    /// random lines in place of permutations give 0.5 and 0.8 in 12 and 56 dimensions, two to six times as much.
+    /// Law: the largest correlation over all pairs is what random permutations of another generator give (mean over 8
+    /// seeds; its standard deviation over seeds is at most 15% of it, 5% of the mean, so a quarter more is five
+    /// standard deviations). Power: random lines in place of permutations give 0.5 and 0.8 in 12 and 56 dimensions, two
+    /// to six times as much.
     #[test]
     fn pairs_are_as_uncorrelated_as_random_permutations_make_them() {
         use rand::seq::SliceRandom;

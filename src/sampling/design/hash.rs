@@ -3,8 +3,8 @@
 /// The golden ratio's fraction in 64 bits: what tells neighbouring counters apart.
 pub const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// Mixes 64 bits one to one (variant 13 of D. Stafford's finalisers, as in G. L. Steele, D. Lea & C. H. Flood, *Fast splittable
-/// pseudorandom number generators*, OOPSLA 2014).
+/// Mixes 64 bits one to one (variant 13 of D. Stafford's finalisers, as in G. L. Steele, D. Lea & C. H. Flood, *Fast
+/// splittable pseudorandom number generators*, OOPSLA 2014).
 #[inline(always)]
 pub const fn mix(x: u64) -> u64 {
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -1,10 +1,10 @@
-//! `latin_hypercube`: in each dimension one sample in each of n equal strata (M. D. McKay, R. J. Beckman & W. J. Conover,
-//! *Technometrics* 21 (1979) 239).
+//! `latin_hypercube`: in each dimension one sample in each of n equal strata (M. D. McKay, R. J. Beckman & W. J.
+//! Conover, *Technometrics* 21 (1979) 239).
 //!
-//! The stratum of a sample follows from a keyed permutation of 0..n: a Feistel network over the next even number of bits, walked
-//! until it falls below n (J. Black & P. Rogaway, *Ciphers with arbitrary finite domains*, CT-RSA 2002). So it takes no memory
-//! and any sample is found at once. Within its stratum the sample is where the random design would put it in the cube.
-//! n = samples - 1, since sample 0 is the nominal scene.
+//! The stratum of a sample follows from a keyed permutation of 0..n: a Feistel network over the next even number of
+//! bits, walked until it falls below n (J. Black & P. Rogaway, *Ciphers with arbitrary finite domains*, CT-RSA 2002).
+//! So it takes no memory and any sample is found at once. Within its stratum the sample is where the random design
+//! would put it in the cube. n = samples - 1, since sample 0 is the nominal scene.
 
 use super::hash::keyed;
 use super::replicates::{REPLICATES, Replicates};
@@ -13,7 +13,8 @@ use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Row, Written};
 use crate::sampling::stream::{Stream, key};
 
-/// Feistel rounds: four make a pseudorandom permutation of an ideal round function (M. Luby & C. Rackoff, 1988); two more for safety.
+/// Feistel rounds: four make a pseudorandom permutation of an ideal round function (M. Luby & C. Rackoff, 1988); two
+/// more for safety.
 const ROUNDS: usize = 6;
 /// Minimum number of bits of half a block: in a small block a Feistel network reaches few of the permutations.
 const MIN_HALF: u32 = 4;

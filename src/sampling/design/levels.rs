@@ -1,7 +1,7 @@
 //! [`Levels`]: the levels of a grid and of a design of one at a time.
 //!
-//! A level is a u: with n levels the middles of n equally likely intervals, (i + 1/2)/n, or the quantiles that the file lists.
-//! Levels are computed where they are needed, not stored: a file may ask for any number of them.
+//! A level is a u: with n levels the middles of n equally likely intervals, (i + 1/2)/n, or the quantiles that the file
+//! lists. Levels are computed where they are needed, not stored: a file may ask for any number of them.
 
 use crate::sampling::error::{DispersionError, Table, error_of};
 use crate::sampling::keys::{ALL_BUT_ONE, Counts, Kind, Row, Rule, Value, Values, Written};

@@ -1,8 +1,8 @@
-//! [`Design`]: where the samples are in the unit cube; [`Points`]: for each sample and each random dimension one number u in
-//! (0, 1), which distributions map to values. To add a design, write its file and add it to the list below.
+//! [`Design`]: where the samples are in the unit cube; [`Points`]: for each sample and each random dimension one number
+//! u in (0, 1), which distributions map to values. To add a design, write its file and add it to the list below.
 //!
-//! Sample 0 is the nominal scene in every design; sample k >= 1 is point k - 1 of the design. Each number is found from the
-//! sample's id alone: no permutation and no earlier point is stored.
+//! Sample 0 is the nominal scene in every design; sample k >= 1 is point k - 1 of the design. Each number is found from
+//! the sample's id alone: no permutation and no earlier point is stored.
 //!
 //! | design | file | earlier rows stay when samples are added | draws stay when a dispersion is added or moved |
 //! | --- | --- | --- | --- |
@@ -16,8 +16,9 @@
 //!
 //! Latin hypercube, Sobol and Halton may be several designs of their kind, each scrambled on its own: [`replicates`].
 //!
-//! Dimensions are known by name (the component's, or the parameter's and a number for a distribution of several components). Samples
-//! come in blocks of eight consecutive ones, [`BLOCK`], the size of a block of ChaCha and of a call of the quantiles; a number never depends on what was asked before.
+//! Dimensions are known by name (the component's, or the parameter's and a number for a distribution of several
+//! components). Samples come in blocks of eight consecutive ones, [`BLOCK`], the size of a block of ChaCha and of a
+//! call of the quantiles; a number never depends on what was asked before.
 
 mod enumerations;
 pub mod grid;
@@ -68,7 +69,8 @@ impl Design {
         Self::NAMES.iter().copied().filter(has).collect()
     }
 
-    /// Whether the first samples represent the population as all do: those of a grid or of a list are others than the last.
+    /// Whether the first samples represent the population as all do: those of a grid or of a list are others than the
+    /// last.
     pub fn begins_as_it_goes_on(&self) -> bool {
         match self {
             Design::Random(_) | Design::LatinHypercube(_) | Design::Sobol(_) | Design::Halton(_) => true,

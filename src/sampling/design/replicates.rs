@@ -1,11 +1,12 @@
 //! [`Replicates`]: several designs of one kind in place of one, each scrambled on its own.
 //!
-//! Points of one scrambled net or hypercube depend on each other, so that intervals for independent runs do not hold. Means over
-//! replicates that are scrambled independently are independent and alike: from their spread follows an interval (A. B. Owen,
-//! *Scrambled net variance for integrals of smooth functions*, Ann. Statist. 25 (1997) 1541, section 1; *Monte Carlo theory, methods and
-//! examples*, chapter 17.4).
+//! Points of one scrambled net or hypercube depend on each other, so that intervals for independent runs do not hold.
+//! Means over replicates that are scrambled independently are independent and alike: from their spread follows an
+//! interval (A. B. Owen, *Scrambled net variance for integrals of smooth functions*, Ann. Statist. 25 (1997) 1541,
+//! section 1; *Monte Carlo theory, methods and examples*, chapter 17.4).
 //!
-//! Sample k >= 1 is point (k - 1) / R of replicate (k - 1) mod R: with every R samples more each replicate has one more.
+//! Sample k >= 1 is point (k - 1) / R of replicate (k - 1) mod R: with every R samples more each replicate has one
+//! more.
 
 use crate::sampling::error::{DispersionError, Table, error_of};
 use crate::sampling::keys::{Kind, Row, Written};
@@ -68,8 +69,8 @@ impl Replicates {
         Err(error_of(Table::Campaign, "samples", samples.to_string(), allowed, remedy))
     }
 
-    /// What scrambles the dimensions `names` in each replicate: their names, with the number of the replicate where there are
-    /// several.
+    /// What scrambles the dimensions `names` in each replicate: their names, with the number of the replicate where
+    /// there are several.
     pub(super) fn names(self, names: &[String]) -> Vec<Vec<String>> {
         match self.0 {
             1 => vec![names.to_vec()],

@@ -1,5 +1,5 @@
-//! `saltelli`: blocks of samples from which first-order and total sensitivity indices are estimated (A. Saltelli et al.,
-//! *Variance based sensitivity analysis of model output*, Comput. Phys. Commun. 181 (2010) 259, section 3).
+//! `saltelli`: blocks of samples from which first-order and total sensitivity indices are estimated (A. Saltelli et
+//! al., *Variance based sensitivity analysis of model output*, Comput. Phys. Commun. 181 (2010) 259, section 3).
 //!
 //! Two independent points A and B make k + 2 samples, k being the number of distributions: A, then A with the numbers
 //! of distribution 1 from B, ..., of distribution k from B, then B. So point j is member j mod (k + 2) of block j div
@@ -35,7 +35,8 @@ pub fn members(factors: &[usize]) -> u64 {
 }
 
 impl Saltelli {
-    /// Blocks for the dimensions `names`; dimension i belongs to distribution `factors[i]`, counted from zero without gaps.
+    /// Blocks for the dimensions `names`; dimension i belongs to distribution `factors[i]`, counted from zero without
+    /// gaps.
     pub fn new(seed: u64, names: &[String], factors: &[usize]) -> Self {
         let sequence =
             |name: &String| (Sobol::new(seed, &[name.clone(), format!("{name}/B")]), key(seed, name, *b"saltelli"));
@@ -91,7 +92,8 @@ impl Kind for SaltelliDesign {
             Some(samples) if samples > 1 && (samples - 1) % members != 0 => {
                 let below = 1 + (samples - 1) / members * members;
                 let allowed = format!(
-                    "1 and a multiple of {members}: the nominal scene and whole blocks of the distributions and two more"
+                    "1 and a multiple of {members}: the nominal scene and whole blocks of the distributions and two \
+                    more"
                 );
                 let above = Some(below + members).filter(|above| *above <= MAX_SAMPLES);
                 let remedy = above.map_or(format!("write {below}"), |above| format!("write {below} or {above}"));
@@ -110,9 +112,10 @@ impl Kind for SaltelliDesign {
 mod tests {
     use super::*;
 
-    /// Law: each member takes from B what it should, and the estimators of Saltelli 2010 give the known indices of a sum of
-    /// squares of uniform numbers, f = x1^2 + 2 x2^2 + 4 x3^2, that is shares of variance 1 : 4 : 16, to four standard errors of
-    /// independent blocks: sqrt(2 S/n) of a first-order index S, and of a total one 1.6% of it, the error of the variance.
+    /// Law: each member takes from B what it should, and the estimators of Saltelli 2010 give the known indices of a
+    /// sum of squares of uniform numbers, f = x1^2 + 2 x2^2 + 4 x3^2, that is shares of variance 1 : 4 : 16, to four
+    /// standard errors of independent blocks: sqrt(2 S/n) of a first-order index S, and of a total one 1.6% of it, the
+    /// error of the variance.
     #[test]
     fn blocks_give_sensitivity_indices() {
         let names: Vec<String> = ["x1", "x2", "x3"].map(str::to_owned).to_vec();

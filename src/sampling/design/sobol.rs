@@ -1,11 +1,12 @@
 //! `sobol`: Sobol's sequence with the direction numbers of Joe and Kuo and nested uniform scrambling.
 //!
-//! Directions: S. Joe & F. Y. Kuo, *Constructing Sobol sequences with better two-dimensional projections*, SIAM J. Sci. Comput.
-//! 30 (2008) 2635, file new-joe-kuo-6, its first 512 dimensions. Scrambling: A. B. Owen, *Randomly permuted (t,m,s)-nets and
-//! (t,s)-sequences* (1995): each bit of a point is flipped or not by a hash of the dimension's key and of the bits above it, so that all points
-//! that share those bits are flipped alike; done bit by bit for the leading 32, which tell any 2^32 points apart, and by one hash
-//! of these for the bits below. Point 0 is used, as it must be (A. B. Owen, *On dropping the first Sobol' point*, 2020): the
-//! scrambled sequence is best in 2^m points, which are 2^m + 1 samples with the nominal one.
+//! Directions: S. Joe & F. Y. Kuo, *Constructing Sobol sequences with better two-dimensional projections*, SIAM J. Sci.
+//! Comput. 30 (2008) 2635, file new-joe-kuo-6, its first 512 dimensions. Scrambling: A. B. Owen, *Randomly permuted
+//! (t,m,s)-nets and (t,s)-sequences* (1995): each bit of a point is flipped or not by a hash of the dimension's key and
+//! of the bits above it, so that all points that share those bits are flipped alike; done bit by bit for the leading
+//! 32, which tell any 2^32 points apart, and by one hash of these for the bits below. Point 0 is used, as it must be
+//! (A. B. Owen, *On dropping the first Sobol' point*, 2020): the scrambled sequence is best in 2^m points, which are
+//! 2^m + 1 samples with the nominal one.
 
 use std::collections::HashMap;
 
@@ -32,7 +33,8 @@ pub struct Sobol {
 }
 
 impl Sobol {
-    /// The sequence for the dimensions `names`, at most [`MAX_DIMENSIONS`]: directions by position, scrambling by seed and name.
+    /// The sequence for the dimensions `names`, at most [`MAX_DIMENSIONS`]: directions by position, scrambling by seed
+    /// and name.
     pub fn new(seed: u64, names: &[String]) -> Self {
         let keys = names.iter().map(|name| key(seed, name, *b"sobol   ")).collect();
         Sobol { directions: directions(names.len()), keys }
@@ -55,7 +57,8 @@ impl Sobol {
     }
 }
 
-/// The binary fractions of the first `count` dimensions, by the recurrence of the primitive polynomial (Joe & Kuo 2008, (2)).
+/// The binary fractions of the first `count` dimensions, by the recurrence of the primitive polynomial (Joe & Kuo 2008,
+/// (2)).
 fn directions(count: usize) -> Vec<[u64; 64]> {
     // the first dimension is van der Corput's sequence
     let first = std::array::from_fn(|k| 1u64 << (63 - k));
@@ -194,8 +197,9 @@ mod tests {
         (0..count).map(|k| format!("d{k}")).collect()
     }
 
-    /// The points 1, 2, 3 and 1000 in the dimensions 1, 2, 3, 10, 100, 512 as scipy.stats.qmc.Sobol(512, scramble=False, bits=62)
-    /// has them (its points are in the order of Gray's code, so its point k ^ (k >> 1) is meant), times 2^20.
+    /// The points 1, 2, 3 and 1000 in the dimensions 1, 2, 3, 10, 100, 512 as scipy.stats.qmc.Sobol(512,
+    /// scramble=False, bits=62) has them (its points are in the order of Gray's code, so its point k ^ (k >> 1) is
+    /// meant), times 2^20.
     #[test]
     fn unscrambled_points_are_those_of_scipy() {
         let sobol = Sobol::new(0, &names(512));
@@ -213,8 +217,8 @@ mod tests {
         (1000, [97280, 168960, 472064, 128000, 525312, 683008]),
     ];
 
-    /// Law of a scrambled net: of the first 2^m points exactly one is in each of the 2^m intervals of each dimension, and in the
-    /// first two dimensions (a (0, m, 2)-net) exactly one in each box of area 2^-m.
+    /// Law of a scrambled net: of the first 2^m points exactly one is in each of the 2^m intervals of each dimension,
+    /// and in the first two dimensions (a (0, m, 2)-net) exactly one in each box of area 2^-m.
     #[test]
     fn a_scrambled_net_is_a_net() {
         let sobol = Sobol::new(7, &names(60));
@@ -263,8 +267,9 @@ mod tests {
         assert!(goes_with(2, [0, 1]) < 1.0);
     }
 
-    /// H0: a scrambled point is uniform over seeds. Point 5 of dimension 3 in 16 cells over 16,000 seeds: chi-square with 15
-    /// degrees of freedom, alpha = 1e-3: critical 37.7. Power: a bit that never flips leaves half of the cells empty.
+    /// H0: a scrambled point is uniform over seeds. Point 5 of dimension 3 in 16 cells over 16,000 seeds: chi-square
+    /// with 15 degrees of freedom, alpha = 1e-3: critical 37.7. Power: a bit that never flips leaves half of the cells
+    /// empty.
     #[test]
     fn a_scrambled_point_is_uniform_over_seeds() {
         let mut counts = [0u32; 16];

@@ -1,4 +1,5 @@
-//! `table`: the rows of a file, for the parameters that are its columns; other parameters are drawn as by the random design.
+//! `table`: the rows of a file, for the parameters that are its columns; other parameters are drawn as by the random
+//! design.
 
 use super::random::RandomPoints;
 use super::traits::{Dimensions, Kind, Size};

@@ -91,8 +91,8 @@ pub trait Kind: Clone + Debug + PartialEq {
 
 /// The points of a design, for one worker. What it keeps only makes neighbours cheap.
 pub trait PointSource: Debug {
-    /// The numbers of the samples of `block`, dimension by dimension; [`NOMINAL`] where a dimension keeps its nominal value.
-    /// What is there for sample 0 means nothing.
+    /// The numbers of the samples of `block`, dimension by dimension; [`NOMINAL`] where a dimension keeps its nominal
+    /// value. What is there for sample 0 means nothing.
     fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]);
 }
 

@@ -11,7 +11,8 @@ use crate::sampling::keys::{ALL_BUT_ONE, Kind, Row, Rule, Value, Values};
 #[derive(Clone, Copy, Debug)]
 pub struct AttitudeError;
 
-/// Ready to be drawn: q = q_0 (x) exp(theta/2) with a normal rotation vector theta of mean zero, in the frame of the body.
+/// Ready to be drawn: q = q_0 (x) exp(theta/2) with a normal rotation vector theta of mean zero, in the frame of the
+/// body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AttitudeErrorMap {
     nominal: [f64; 4],
@@ -20,8 +21,8 @@ pub struct AttitudeErrorMap {
 }
 
 impl AttitudeErrorMap {
-    /// About `nominal` (a unit quaternion), with the covariance `covariance`, rad^2, symmetric and positive semidefinite; `None`
-    /// where it is not (to 1e-12 of its trace).
+    /// About `nominal` (a unit quaternion), with the covariance `covariance`, rad^2, symmetric and positive
+    /// semidefinite; `None` where it is not (to 1e-12 of its trace).
     pub fn new(nominal: [f64; 4], covariance: [[f64; 3]; 3]) -> Option<Self> {
         Some(AttitudeErrorMap { nominal, factor: factor(covariance)? })
     }
@@ -119,8 +120,8 @@ pub fn rotation(theta: [f64; 3]) -> [f64; 4] {
     [cosine, x, y, z]
 }
 
-/// The lower Cholesky factor of a symmetric positive semidefinite matrix; `None` where it is not one. A pivot that is zero to rounding
-/// has a column of zeros.
+/// The lower Cholesky factor of a symmetric positive semidefinite matrix; `None` where it is not one. A pivot that is
+/// zero to rounding has a column of zeros.
 fn factor(m: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
     /// Entries come from files: twelve digits of them are meant.
     const SLACK: f64 = 1e-12;

@@ -1,5 +1,5 @@
-//! `beta`: between `min` and `max`, with density proportional to x^(`alpha` - 1) (1 - x)^(`beta` - 1), from a table of its quantiles
-//! ([`super::of_score`]) of ln(x/(1 - x)), which is smooth and loses digits at neither end.
+//! `beta`: between `min` and `max`, with density proportional to x^(`alpha` - 1) (1 - x)^(`beta` - 1), from a table of
+//! its quantiles ([`super::of_score`]) of ln(x/(1 - x)), which is smooth and loses digits at neither end.
 
 use super::of_score::OfScore;
 use super::target::Target;
@@ -55,8 +55,8 @@ impl BetaQuantile {
         BetaQuantile { alpha, beta, min, max, logit }
     }
 
-    /// The value at the normal score `z`; relative error of its place in the interval, from the nearer end, below 1e-12 (test
-    /// `quantiles_are_those_of_mpmath`).
+    /// The value at the normal score `z`; relative error of its place in the interval, from the nearer end, below 1e-12
+    /// (test `quantiles_are_those_of_mpmath`).
     fn at_score(&self, z: f64) -> f64 {
         let logit = self.logit.value(z);
         let odds = libm::exp(-logit.abs());
@@ -92,8 +92,8 @@ impl Quantile for BetaQuantile {
 mod tests {
     use super::*;
 
-    /// Law: a table is small, so that it is made in milliseconds and a draw finds its piece at once. Shapes below 1 have a corner at
-    /// the middle. Measured: at most 128 pieces.
+    /// Law: a table is small, so that it is made in milliseconds and a draw finds its piece at once. Shapes below 1
+    /// have a corner at the middle. Measured: at most 128 pieces.
     #[test]
     fn tables_are_small() {
         for (a, b) in
@@ -106,9 +106,9 @@ mod tests {
 
     #[test]
     fn closed_forms() {
-        // a = 1: 1 - (1 - x)^b; b = 1: x^a; a = b = 1/2: sin^2(pi u/2). The table is one of the logarithm of the odds, so an error of
-        // some units in its last place is this error of x, relative, times the size of the logarithm (276 at x = 1e-120).
-        // Measured: 3.8e-15.
+        // a = 1: 1 - (1 - x)^b; b = 1: x^a; a = b = 1/2: sin^2(pi u/2). The table is one of the logarithm of the odds,
+        // so an error of some units in its last place is this error of x, relative, times the size of the logarithm
+        // (276 at x = 1e-120). Measured: 3.8e-15.
         let check = |[a, b]: [f64; 2], u: f64, expected: f64| {
             let found = BetaQuantile::new(a, b, 0.0, 1.0).quantile(u);
             let odds = (libm::log(expected) - libm::log1p(-expected)).abs();

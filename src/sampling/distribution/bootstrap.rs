@@ -1,5 +1,6 @@
-//! `bootstrap`: the `parameters` of one row of a `file`, each row as likely as the others, drawn with replacement (B. Efron, *Ann. Stat.* 7
-//! (1979) 1). Numbers of a draw are those of one observation: their joint distribution is that of the file.
+//! `bootstrap`: the `parameters` of one row of a `file`, each row as likely as the others, drawn with replacement (B.
+//! Efron, *Ann. Stat.* 7 (1979) 1). Numbers of a draw are those of one observation: their joint distribution is that of
+//! the file.
 
 use super::target::JointTarget;
 use super::traits::{Map, NumberWords, Together};
@@ -90,7 +91,8 @@ mod tests {
             map.values(&[u], &mut values);
             values
         };
-        // the least and the greatest u that a design gives; the numbers of a row stay together, in the order of the file
+        // the least and the greatest u that a design gives; the numbers of a row stay together, in the order of the
+        // file
         assert_eq!([f64::MIN_POSITIVE, 0.33].map(row), [[5.0, -5.0]; 2]);
         assert_eq!([0.34, 0.66].map(row), [[1.0, -1.0]; 2]);
         assert_eq!([0.67, 1.0 - 0.5 * f64::EPSILON].map(row), [[2.0, -2.0]; 2]);

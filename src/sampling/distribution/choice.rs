@@ -1,5 +1,5 @@
-//! `choice`: one of a list of `values`, with `weights`, else all alike. The values are sorted, so that quantiles rise with u and a
-//! rank correlation is one of values.
+//! `choice`: one of a list of `values`, with `weights`, else all alike. The values are sorted, so that quantiles rise
+//! with u and a rank correlation is one of values.
 
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};

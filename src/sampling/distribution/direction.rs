@@ -1,9 +1,10 @@
 //! `uniform_direction`, `cone`, `von_mises_fisher`: direction and magnitude of a vector apart.
 //!
-//! All three have an `axis` (else the nominal vector) and a distribution of the magnitude, `[disperse.magnitude]` (else the nominal
-//! one's). Isotropy is uniform in solid angle: the cosine of the angle to the axis is what is uniform on a sphere or in a cone, and
-//! what the von Mises-Fisher distribution is exponential in; a direction made of uniform components, or of a uniform angle to
-//! the axis, is not isotropic (test `usual_mistakes_are_caught` in `tests/sampling/geometric.rs`).
+//! All three have an `axis` (else the nominal vector) and a distribution of the magnitude, `[disperse.magnitude]` (else
+//! the nominal one's). Isotropy is uniform in solid angle: the cosine of the angle to the axis is what is uniform on a
+//! sphere or in a cone, and what the von Mises-Fisher distribution is exponential in; a direction made of uniform
+//! components, or of a uniform angle to the axis, is not isotropic (test `usual_mistakes_are_caught` in
+//! `tests/sampling/geometric.rs`).
 
 use super::target::JointTarget;
 use super::traits::{Map, Nested, NumberWords, Quantile, Together, nested};
@@ -20,7 +21,8 @@ pub struct UniformDirection<N>(PhantomData<N>);
 #[derive(Clone, Copy, Debug)]
 pub struct Cone<N>(PhantomData<N>);
 
-/// Von Mises-Fisher: density proportional to exp(kappa cos theta) (R. A. Fisher, *Dispersion on a sphere*, Proc. R. Soc. A 217, 1953).
+/// Von Mises-Fisher: density proportional to exp(kappa cos theta) (R. A. Fisher, *Dispersion on a sphere*, Proc. R.
+/// Soc. A 217, 1953).
 #[derive(Clone, Copy, Debug)]
 pub struct VonMisesFisher<N>(PhantomData<N>);
 

@@ -55,8 +55,9 @@ impl Scalar for Empirical {
 }
 
 impl Quantile for EmpiricalQuantile {
-    /// The value at `u`: the smallest with at least the fraction u of the values at or below it, or with linear interpolation
-    /// that at position u (n - 1), counted from zero (R. J. Hyndman & Y. Fan, *Am. Stat.* 50 (1996) 361, types 1 and 7).
+    /// The value at `u`: the smallest with at least the fraction u of the values at or below it, or with linear
+    /// interpolation that at position u (n - 1), counted from zero (R. J. Hyndman & Y. Fan, *Am. Stat.* 50 (1996) 361,
+    /// types 1 and 7).
     fn quantile(&self, u: f64) -> f64 {
         let last = self.values.len() - 1;
         match self.interpolation {

@@ -1,5 +1,5 @@
-//! `gamma`: from `min` (0 where it is not written) on, with density proportional to x^(`shape` - 1) exp(-x/`scale`). Mean `min` +
-//! `shape` `scale`. From a table of its quantiles ([`super::of_score`]) of ln x.
+//! `gamma`: from `min` (0 where it is not written) on, with density proportional to x^(`shape` - 1) exp(-x/`scale`).
+//! Mean `min` + `shape` `scale`. From a table of its quantiles ([`super::of_score`]) of ln x.
 
 use super::of_score::OfScore;
 use super::target::Target;
@@ -31,7 +31,8 @@ impl GammaQuantile {
         GammaQuantile { shape, scale, min, log }
     }
 
-    /// The value at the normal score `z`; relative error of what is above `min` below 1e-12 (test `quantiles_are_those_of_mpmath`).
+    /// The value at the normal score `z`; relative error of what is above `min` below 1e-12 (test
+    /// `quantiles_are_those_of_mpmath`).
     fn at_score(&self, z: f64) -> f64 {
         self.min + self.scale * libm::exp(self.log.value(z))
     }

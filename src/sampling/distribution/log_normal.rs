@@ -1,4 +1,5 @@
-//! `log_normal`: normal in the natural logarithm, with standard deviation `log_std` and `median`, else the nominal value.
+//! `log_normal`: normal in the natural logarithm, with standard deviation `log_std` and `median`, else the nominal
+//! value.
 
 use super::target::{LOGARITHM, Target};
 use super::traits::{NumberWords, Quantile, Scalar, each_score};

@@ -1,12 +1,13 @@
 //! Distributions: how each is written, checked against its target, and drawn.
 //!
-//! A distribution of one number ([`Scalar`]) becomes one quantile function of u in (0, 1) for each component ([`Quantile`]).
-//! One of several numbers together ([`Together`]) becomes one map from a fixed number of u to all components ([`Map`]). The same
-//! number of u gives a draw in every sample, so every design (random, Latin hypercube, Sobol, ...) gives a distribution the same
-//! meaning, and one number can be correlated with another through their u. Rejection and polar methods, which take an
-//! unknown number of u, are not here.
+//! A distribution of one number ([`Scalar`]) becomes one quantile function of u in (0, 1) for each component
+//! ([`Quantile`]). One of several numbers together ([`Together`]) becomes one map from a fixed number of u to all
+//! components ([`Map`]). The same number of u gives a draw in every sample, so every design (random, Latin hypercube,
+//! Sobol, ...) gives a distribution the same meaning, and one number can be correlated with another through their u.
+//! Rejection and polar methods, which take an unknown number of u, are not here.
 //!
-//! To add a distribution, write its file and add it to the list below. [`target`] has the checks that distributions share.
+//! To add a distribution, write its file and add it to the list below. [`target`] has the checks that distributions
+//! share.
 
 pub mod about_axis;
 pub mod attitude_error;
@@ -65,7 +66,8 @@ use crate::sampling::keys::{Kind, Row, Rule, Written};
 
 enumerations::distributions! {
     one number:
-        Normal, TruncatedNormal, Uniform, LogNormal, LogUniform, Triangular, Beta, Pert, Choice, Bernoulli, Empirical, Offset,
+        Normal, TruncatedNormal, Uniform, LogNormal, LogUniform, Triangular, Beta, Pert, Choice, Bernoulli,
+        Empirical, Offset,
         Rayleigh, Exponential, Gamma, Weibull, StudentT;
     several together:
         UniformAttitude = UniformAttitude,
@@ -132,11 +134,11 @@ mod tests {
     use rand::SeedableRng;
     use rand_distr::Distribution as _;
 
-    /// Number of values, level and critical value of each test of Kolmogorov and Smirnov: alpha = 1e-3 gives
-    /// c = sqrt(-ln(alpha/2)/2) = 1.949, D = c/sqrt(n) = 0.0044. H0: the values follow the law. Power: a shift of the mean by
-    /// 0.02 standard deviations moves the distribution function at the mean by 0.0080; the empirical function deviates there by
-    /// 0.5/sqrt(n) = 0.0011 (1 sigma), so the shift is missed at > 3.2 sigma only, power > 0.999. The seed is fixed, so the
-    /// outcome is too.
+    /// Number of values, level and critical value of each test of Kolmogorov and Smirnov: alpha = 1e-3 gives c =
+    /// sqrt(-ln(alpha/2)/2) = 1.949, D = c/sqrt(n) = 0.0044. H0: the values follow the law. Power: a shift of the mean
+    /// by 0.02 standard deviations moves the distribution function at the mean by 0.0080; the empirical function
+    /// deviates there by 0.5/sqrt(n) = 0.0011 (1 sigma), so the shift is missed at > 3.2 sigma only, power > 0.999. The
+    /// seed is fixed, so the outcome is too.
     const N: usize = 200_000;
     const CRITICAL: f64 = 1.949;
 

@@ -1,4 +1,5 @@
-//! `normal`: normal about the nominal value, with standard deviation `std` or `relative_std`, or a third of `three_sigma`.
+//! `normal`: normal about the nominal value, with standard deviation `std` or `relative_std`, or a third of
+//! `three_sigma`.
 
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar, each_score};

@@ -1,7 +1,8 @@
-//! [`OfScore`]: a quantile function without a closed form as a smooth function of the normal score, in a table that is made once.
+//! [`OfScore`]: a quantile function without a closed form as a smooth function of the normal score, in a table that is
+//! made once.
 //!
-//! Newton's method for each draw was rejected: a quantile of beta(1e4, 1e4) takes three evaluations of a fraction of 300 terms, some
-//! 10 us; a table takes a tenth of a microsecond, and some milliseconds to be made.
+//! Newton's method for each draw was rejected: a quantile of beta(1e4, 1e4) takes three evaluations of a fraction of
+//! 300 terms, some 10 us; a table takes a tenth of a microsecond, and some milliseconds to be made.
 
 use crate::math::chebyshev::Pieces;
 use crate::math::normal::probability;
@@ -17,11 +18,12 @@ const TOLERANCE: f64 = 1e-13;
 pub struct OfScore(Arc<Pieces>);
 
 impl OfScore {
-    /// `of` gives the value at a probability and its complement. `shape` is the smallest shape parameter: values have an error of some
-    /// rounding units divided by it, which no piece gets below.
+    /// `of` gives the value at a probability and its complement. `shape` is the smallest shape parameter: values have
+    /// an error of some rounding units divided by it, which no piece gets below.
     pub fn new(of: &dyn Fn(f64, f64) -> f64, shape: f64) -> Self {
         let noise = 8.0 * f64::EPSILON / shape.min(1.0);
-        // values in the tails are half a square of the score, whose rounding is that of the probability, divided by the shape
+        // values in the tails are half a square of the score, whose rounding is that of the probability, divided by the
+        // shape
         let tolerance = |value: f64| TOLERANCE.max(noise).max(16.0 * f64::EPSILON * value);
         OfScore(Arc::new(Pieces::new(&|z| of(probability(z), probability(-z)), -FARTHEST, FARTHEST, &tolerance)))
     }

@@ -1,4 +1,5 @@
-//! `offset`: the same difference from the nominal value in every sample but the nominal one, `offset` or `relative_offset`.
+//! `offset`: the same difference from the nominal value in every sample but the nominal one, `offset` or
+//! `relative_offset`.
 
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};

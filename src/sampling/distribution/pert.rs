@@ -1,10 +1,11 @@
 //! `pert`: the beta distribution between `min` and `max` with shapes 1 + 4 (mode - min)/(max - min) and
 //! 1 + 4 (max - mode)/(max - min); `mode` is the nominal value where it is not written.
 //!
-//! Its shapes are from 1 to 5 and their sum is 6: the continued fraction of the incomplete beta function (DLMF 8.17.22, evaluated by
-//! the method of Lentz as modified by Thompson & Barnett, *J. Comput. Phys.* 64 (1986) 490) takes few terms, and no table is needed as
-//! for [`super::beta`]. The inverse is Newton's method for ln I as a function of ln x: that function rises and is concave (x f(x)/I
-//! falls), so each step after the first comes from the left and none overshoots; no bracket is needed.
+//! Its shapes are from 1 to 5 and their sum is 6: the continued fraction of the incomplete beta function (DLMF 8.17.22,
+//! evaluated by the method of Lentz as modified by Thompson & Barnett, *J. Comput. Phys.* 64 (1986) 490) takes few
+//! terms, and no table is needed as for [`super::beta`]. The inverse is Newton's method for ln I as a function of ln x:
+//! that function rises and is concave (x f(x)/I falls), so each step after the first comes from the left and none
+//! overshoots; no bracket is needed.
 
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};

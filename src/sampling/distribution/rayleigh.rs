@@ -1,5 +1,5 @@
-//! `rayleigh`: the length of a vector with two independent normal components of mean zero and standard deviation `scale` (Lord
-//! Rayleigh, *Phil. Mag.* 10 (1880) 73): an off-axis angle, a lateral offset.
+//! `rayleigh`: the length of a vector with two independent normal components of mean zero and standard deviation
+//! `scale` (Lord Rayleigh, *Phil. Mag.* 10 (1880) 73): an off-axis angle, a lateral offset.
 
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};

@@ -1,5 +1,6 @@
-//! `student_t`: about the nominal value, with `degrees_of_freedom` and `scale`, or `relative_scale` (Student, *Biometrika* 6 (1908) 1):
-//! an error whose tails are heavier than normal. From a table of its quantiles ([`super::of_score`]) of asinh(t/sqrt(nu)).
+//! `student_t`: about the nominal value, with `degrees_of_freedom` and `scale`, or `relative_scale` (Student,
+//! *Biometrika* 6 (1908) 1): an error whose tails are heavier than normal. From a table of its quantiles
+//! ([`super::of_score`]) of asinh(t/sqrt(nu)).
 
 use super::of_score::OfScore;
 use super::target::Target;

@@ -1,5 +1,5 @@
-//! [`Target`]: the components that a distribution is for, and the checks that distributions share; [`JointTarget`], the same for
-//! distributions of several numbers together.
+//! [`Target`]: the components that a distribution is for, and the checks that distributions share; [`JointTarget`], the
+//! same for distributions of several numbers together.
 
 use crate::sampling::error::{DispersionError, error};
 use crate::sampling::keys::{Presence, Row, Values, Written};
@@ -41,7 +41,8 @@ impl Target<'_> {
         (0..self.nominals.len()).map(of).collect()
     }
 
-    /// The numbers of `key`, one for each component, within the limit of its row: the written ones, else those that hold by default.
+    /// The numbers of `key`, one for each component, within the limit of its row: the written ones, else those that
+    /// hold by default.
     pub(super) fn each(&self, key: &'static str) -> Numbers {
         let row = self.rows.iter().find(|row| row.key == key);
         let list = match (self.written.values(key), row.map(|row| row.presence)) {

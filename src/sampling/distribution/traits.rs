@@ -32,7 +32,8 @@ pub trait Scalar {
     fn quantiles(target: &Target<'_>) -> Result<Vec<Self::Quantile>, DispersionError>;
 }
 
-/// For [`Quantile::of_scores`] of a distribution whose value is the function `of` of the normal score: the value of each.
+/// For [`Quantile::of_scores`] of a distribution whose value is the function `of` of the normal score: the value of
+/// each.
 #[inline]
 pub fn each_score(z: &[f64; 8], values: &mut [f64; 8], of: impl Fn(f64) -> f64) -> bool {
     for (value, z) in values.iter_mut().zip(z) {
@@ -53,8 +54,8 @@ pub trait Quantile: Clone + Debug + PartialEq {
         }
     }
 
-    /// The values of eight normal scores z, that is the quantiles of Phi(z), where the value is a function of z itself; false,
-    /// and nothing done, elsewhere. A score says more than its u in the upper tail.
+    /// The values of eight normal scores z, that is the quantiles of Phi(z), where the value is a function of z itself;
+    /// false, and nothing done, elsewhere. A score says more than its u in the upper tail.
     #[inline]
     fn of_scores(&self, _z: &[f64; 8], _values: &mut [f64; 8]) -> bool {
         false
@@ -71,7 +72,8 @@ pub trait Quantile: Clone + Debug + PartialEq {
         None
     }
 
-    /// Of a discrete distribution, the probability of each value or a smaller one, ascending; the last is 1 to rounding.
+    /// Of a discrete distribution, the probability of each value or a smaller one, ascending; the last is 1 to
+    /// rounding.
     fn steps(&self) -> Option<Vec<f64>> {
         None
     }
@@ -80,7 +82,8 @@ pub trait Quantile: Clone + Debug + PartialEq {
     fn text(&self, words: NumberWords<'_>) -> String;
 }
 
-/// A distribution of all components of a vector or an attitude together, or of the numbers that a file of its own names.
+/// A distribution of all components of a vector or an attitude together, or of the numbers that a file of its own
+/// names.
 pub trait Together {
     /// The name in campaign files.
     const NAME: &'static str;
@@ -119,11 +122,13 @@ pub trait Map: Clone + Debug + PartialEq {
 /// Largest number of u of one distribution.
 pub const MAX_DIMENSIONS: usize = 8;
 
-/// The distributions of one number that others have within them: of a magnitude, of an angle. The list of distributions is one.
+/// The distributions of one number that others have within them: of a magnitude, of an angle. The list of distributions
+/// is one.
 pub trait Nested {
     type Quantile: Quantile;
 
-    /// The quantile function about `nominal` of the distribution with this name and these keys, which the table `key` has.
+    /// The quantile function about `nominal` of the distribution with this name and these keys, which the table `key`
+    /// has.
     ///
     /// # Errors
     /// That it is not a distribution of one number, or what about its numbers does not fit.

@@ -25,8 +25,8 @@ fn cut_key(written: &Written) -> &'static str {
     ["sigmas"].into_iter().chain(BOTH_KEYS).find(|key| written.has(key)).unwrap_or("lower")
 }
 
-/// Ready to be drawn: normal under the condition that the value lies between two bounds. Truncated, not clamped: the bounds carry no
-/// probability.
+/// Ready to be drawn: normal under the condition that the value lies between two bounds. Truncated, not clamped: the
+/// bounds carry no probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TruncatedNormalQuantile {
     mean: f64,
@@ -41,8 +41,8 @@ pub struct TruncatedNormalQuantile {
 }
 
 impl TruncatedNormalQuantile {
-    /// The normal distribution of `mean` and `std` > 0 between `lower` < `upper` (either may be infinite); `None` where less than
-    /// [`TruncatedNormalQuantile::LEAST`] of the distribution lies between the bounds.
+    /// The normal distribution of `mean` and `std` > 0 between `lower` < `upper` (either may be infinite); `None` where
+    /// less than [`TruncatedNormalQuantile::LEAST`] of the distribution lies between the bounds.
     pub fn new(mean: f64, std: f64, lower: f64, upper: f64) -> Option<Self> {
         let (a, b) = ((lower - mean) / std, (upper - mean) / std);
         // In an upper tail probabilities are 1 minus something and lose their digits: reflect it to a lower tail.
@@ -53,7 +53,8 @@ impl TruncatedNormalQuantile {
         (between >= Self::LEAST).then_some(TruncatedNormalQuantile { mean, std, lower, upper, below, above, between })
     }
 
-    /// A distribution of width zero, at its mean; a nominal that is not a number is the scene's error, and is reported as such.
+    /// A distribution of width zero, at its mean; a nominal that is not a number is the scene's error, and is reported
+    /// as such.
     fn fixed(mean: f64) -> Self {
         TruncatedNormalQuantile {
             mean,
@@ -66,8 +67,8 @@ impl TruncatedNormalQuantile {
         }
     }
 
-    /// The least probability between the bounds: further out than about 8.2 standard deviations the scene that is asked for
-    /// has nothing to do with its nominal.
+    /// The least probability between the bounds: further out than about 8.2 standard deviations the scene that is asked
+    /// for has nothing to do with its nominal.
     pub const LEAST: f64 = 1e-16;
 
     /// The quantile of the lower tail after reflection.

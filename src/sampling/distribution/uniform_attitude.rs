@@ -38,8 +38,8 @@ impl Map for UniformAttitude {
     }
 }
 
-/// Unit quaternion (scalar first) uniform on the 3-sphere, and so a rotation uniform on SO(3) (K. Shoemake, *Uniform random
-/// rotations*, Graphics Gems III, 1992, p. 124-132); norm 1 to rounding; test `attitudes_are_uniform`.
+/// Unit quaternion (scalar first) uniform on the 3-sphere, and so a rotation uniform on SO(3) (K. Shoemake, *Uniform
+/// random rotations*, Graphics Gems III, 1992, p. 124-132); norm 1 to rounding; test `attitudes_are_uniform`.
 fn uniform_attitude(u: [f64; 3]) -> [f64; 4] {
     let (near, far) = ((1.0 - u[0]).sqrt(), u[0].sqrt());
     let ((s1, c1), (s2, c2)) = (libm::sincos(TAU * u[1]), libm::sincos(TAU * u[2]));
@@ -52,10 +52,10 @@ mod tests {
     use crate::math::vector::dcm_from_quaternion;
     use crate::sampling::stream::{SampleId, Stream};
 
-    /// H0: the rotation is uniform on SO(3), so every entry of its matrix has E[c^2] = 1/3 with variance 4/45, and the angle
-    /// theta has distribution (theta - sin theta)/pi. n = 100,000 fixed draws; alpha = 1e-3 each: |z| < 3.29 for the nine means,
-    /// sqrt(n) D < 1.949 for the angle. Power: quaternions of normalised uniform numbers (a known mistake) shift E[c33^2] by 0.01,
-    /// ten standard deviations.
+    /// H0: the rotation is uniform on SO(3), so every entry of its matrix has E[c^2] = 1/3 with variance 4/45, and the
+    /// angle theta has distribution (theta - sin theta)/pi. n = 100,000 fixed draws; alpha = 1e-3 each: |z| < 3.29 for
+    /// the nine means, sqrt(n) D < 1.949 for the angle. Power: quaternions of normalised uniform numbers (a known
+    /// mistake) shift E[c33^2] by 0.01, ten standard deviations.
     #[test]
     fn attitudes_are_uniform() {
         const N: usize = 100_000;

@@ -1,5 +1,5 @@
-//! `weibull`: from `min` (0 where it is not written) on, with distribution function 1 - exp(-(x/`scale`)^`shape`) (W. Weibull, *J. Appl.
-//! Mech.* 18 (1951) 293): times to failure, extremes.
+//! `weibull`: from `min` (0 where it is not written) on, with distribution function 1 - exp(-(x/`scale`)^`shape`) (W.
+//! Weibull, *J. Appl. Mech.* 18 (1951) 293): times to failure, extremes.
 
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};

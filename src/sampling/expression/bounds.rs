@@ -44,8 +44,9 @@ impl Expression {
         })
     }
 
-    /// A range that holds every value, where `variable` gives the range of the variable at each place: that of interval arithmetic, which takes each
-    /// occurrence of a variable for one of its own. Functions other than `abs`, powers, and quotients are not followed: they can be anything.
+    /// A range that holds every value, where `variable` gives the range of the variable at each place: that of interval
+    /// arithmetic, which takes each occurrence of a variable for one of its own. Functions other than `abs`, powers,
+    /// and quotients are not followed: they can be anything.
     pub fn range(&self, variable: impl Fn(usize) -> [f64; 2]) -> [f64; 2] {
         let mut stack: Vec<[f64; 2]> = Vec::new();
         for step in &self.steps {
@@ -158,7 +159,8 @@ mod tests {
         }
     }
 
-    /// Law: the range holds every value, and what it says can never be is never so; it is the exact range where every variable stands there once.
+    /// Law: the range holds every value, and what it says can never be is never so; it is the exact range where every
+    /// variable stands there once.
     #[test]
     fn ranges_hold_every_value() {
         let ranges = [[0.0, f64::INFINITY], [0.0, 2.0], [-3.0, -1.0]];

@@ -36,7 +36,8 @@ pub struct Address {
 }
 
 impl Address {
-    /// The address that `path` is; `None` of the path of a folder. `has_client`: whether this process can connect to a store.
+    /// The address that `path` is; `None` of the path of a folder. `has_client`: whether this process can connect to a
+    /// store.
     ///
     /// # Errors
     /// What is wrong with it; in a build without object stores, how to get one with them.
@@ -56,7 +57,8 @@ impl Address {
         };
         if !has_client {
             return Err(format!(
-                "{shown}: this build of spindrift has no object stores; build one that has them: cargo build --release --features cloud"
+                "{shown}: this build of spindrift has no object stores; build one that has them: cargo build --release \
+                --features cloud"
             ));
         }
         let (bucket, prefix) = rest.split_once('/').unwrap_or((rest, ""));
@@ -67,7 +69,8 @@ impl Address {
         };
         if !is_name(bucket) || !prefix.split('/').all(is_name) {
             return Err(format!(
-                "{shown}: must be s3://bucket/name, with further names between slashes where you like; names have letters, digits and -_.=+@"
+                "{shown}: must be s3://bucket/name, with further names between slashes where you like; names have \
+                letters, digits and -_.=+@"
             ));
         }
         Ok(Some(Address { bucket: bucket.to_owned(), prefix: prefix.to_owned() }))

@@ -1,7 +1,9 @@
-//! [`connect`]: requests to the store of an address, and what their errors mean. A part of the library with the feature `cloud`, and of the Python package.
+//! [`connect`]: requests to the store of an address, and what their errors mean. A part of the library with the feature
+//! `cloud`, and of the Python package.
 //!
-//! The crate `object_store` tries a request again that the store could not answer (5xx, 429, a connection that broke). An object that is put on the condition that there is none of its
-//! name needs more: an answer that was lost, 409 and 412 all leave open what is there. So it is looked at: the same content is success, whoever has put it; nothing is a
+//! The crate `object_store` tries a request again that the store could not answer (5xx, 429, a connection that broke).
+//! An object that is put on the condition that there is none of its name needs more: an answer that was lost, 409 and
+//! 412 all leave open what is there. So it is looked at: the same content is success, whoever has put it; nothing is a
 //! reason to try again; anything else is the caller's.
 
 use std::error::Error as _;
@@ -123,13 +125,15 @@ fn said(address: &Address, error: &Error) -> io::Error {
             format!("there is no bucket `{}`: create it, or correct the address or AWS_ENDPOINT_URL", address.bucket)
         }
         Error::PermissionDenied { .. } | Error::Unauthenticated { .. } => format!(
-            "refused ({cause}): check AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY and AWS_SESSION_TOKEN, and that they may get, put and list objects below this address"
+            "refused ({cause}): check AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY and AWS_SESSION_TOKEN, and that they \
+            may get, put and list objects below this address"
         ),
         Error::AlreadyExists { .. } => {
             format!("another process puts it again and again ({cause}); run the command again")
         }
         _ if CREDENTIALS.iter().all(|name| variable(name).is_none()) => format!(
-            "no credentials: set AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY, or run the command where the machine has a role of its own ({cause})"
+            "no credentials: set AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY, or run the command where the machine has \
+            a role of its own ({cause})"
         ),
         _ if ENDPOINTS.iter().filter_map(|name| variable(name)).any(|url| url.starts_with("http://"))
             && variable("AWS_ALLOW_HTTP").is_none() =>
@@ -137,7 +141,8 @@ fn said(address: &Address, error: &Error) -> io::Error {
             format!("AWS_ENDPOINT_URL is not encrypted: AWS_ALLOW_HTTP=true allows that ({cause})")
         }
         _ => format!(
-            "{cause}: check AWS_ENDPOINT_URL, AWS_REGION and the network; once the store answers, the same command continues"
+            "{cause}: check AWS_ENDPOINT_URL, AWS_REGION and the network; once the store answers, the same command \
+            continues"
         ),
     };
     let values = SECRETS.iter().filter_map(|name| variable(name));

@@ -13,7 +13,8 @@ pub type Connect = fn(&Address, &str) -> io::Result<Connected>;
 
 static CONNECT: OnceLock<Connect> = OnceLock::new();
 
-/// Makes `connect` the client of this process, where the build has none of its own: so the Python package has object stores and the library of the program, compiled once.
+/// Makes `connect` the client of this process, where the build has none of its own: so the Python package has object
+/// stores and the library of the program, compiled once.
 pub fn connect_by(connect: Connect) {
     let _ = CONNECT.set(connect);
 }

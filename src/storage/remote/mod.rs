@@ -1,7 +1,9 @@
 //! Results in an object store: [`Address`], where; [`Remote`], what is put and got there.
 //!
-//! - [`address`]: addresses, and what a client does there. - [`connection`]: the client of this process.
-//! - `client`: requests, in a build with the feature `cloud` and in the Python package; where there is none, an address is refused.
+//! - [`address`]: addresses, and what a client does there.
+//! - [`connection`]: the client of this process.
+//! - `client`: requests, in a build with the feature `cloud` and in the Python package; where there is none, an address
+//!   is refused.
 //! - `objects`: the files of a result as objects, and the order in which they are put.
 
 pub mod address;

@@ -1,4 +1,5 @@
-//! [`Remote`]: a result in an object store: the files of its folder under their names, and what says which of them are whole.
+//! [`Remote`]: a result in an object store: the files of its folder under their names, and what says which of them are
+//! whole.
 //!
 //! ```text
 //! s3://bucket/x/_commits/plan.jsonl          rows and plan: who puts it first decides whose rows these are
@@ -8,8 +9,9 @@
 //! s3://bucket/x/manifest.jsonl               everything, with its SHA-256
 //! s3://bucket/x/_SUCCESS                     everything is there
 //! ```
-//! They are put in this order, each on the condition that there is none of its name (`If-None-Match: *`), so that nothing is ever replaced. Whoever makes the same rows puts the same
-//! objects: one that is there already is compared, and the same content is as good as one's own. Whatever stops a process, what its objects list is there.
+//! They are put in this order, each on the condition that there is none of its name (`If-None-Match: *`), so that
+//! nothing is ever replaced. Whoever makes the same rows puts the same objects: one that is there already is compared,
+//! and the same content is as good as one's own. Whatever stops a process, what its objects list is there.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -54,7 +56,8 @@ pub struct Remote {
     client: Box<dyn Objects>,
     /// The first object, where there is one.
     head: OnceLock<Vec<u8>>,
-    /// Commits that are there with the files of their parts, and whether their content is known to be that of this process.
+    /// Commits that are there with the files of their parts, and whether their content is known to be that of this
+    /// process.
     commits: Mutex<BTreeMap<String, bool>>,
 }
 
@@ -96,7 +99,8 @@ impl Remote {
         identity.zip(plan).ok_or_else(|| self.damaged(HEAD))
     }
 
-    /// Whether nothing is there, so that these can be the rows of `plan`, whose identity is `identity`; no where they are.
+    /// Whether nothing is there, so that these can be the rows of `plan`, whose identity is `identity`; no where they
+    /// are.
     ///
     /// # Errors
     /// Where there are those of another plan, with the keys that differ.
@@ -183,7 +187,8 @@ impl Remote {
         self.put(SUCCESS, b"")
     }
 
-    /// Adds those of the parts that are there to `folder` which it has not and which `is_mine` says; the number of their rows. A part of which an object is missing is left out.
+    /// Adds those of the parts that are there to `folder` which it has not and which `is_mine` says; the number of
+    /// their rows. A part of which an object is missing is left out.
     ///
     /// # Errors
     /// Where an object is not what was put, or a request or a file operation fails.
@@ -226,7 +231,8 @@ impl Remote {
         bytes.filter(|bytes| sha256(bytes) == file.sha256).ok_or_else(|| self.damaged(&file.name))
     }
 
-    /// Begins a folder for the rows that are there in `root`, unless it has begun, with the files of numbers that their plan names: it is then an unfinished result.
+    /// Begins a folder for the rows that are there in `root`, unless it has begun, with the files of numbers that their
+    /// plan names: it is then an unfinished result.
     ///
     /// # Errors
     /// Where there is no result, an object is damaged, or a request or a file operation fails.
@@ -252,8 +258,9 @@ impl Remote {
         Ok(())
     }
 
-    /// Makes the folder `root` a copy of the whole result that is there; what is wrong with its objects, where they are not what the manifest lists. All are got and
-    /// compared where the folder is to be made `afresh`, else those that it has not.
+    /// Makes the folder `root` a copy of the whole result that is there; what is wrong with its objects, where they are
+    /// not what the manifest lists. All are got and compared where the folder is to be made `afresh`, else those that
+    /// it has not.
     ///
     /// # Errors
     /// Where a request or a file operation fails.
@@ -315,7 +322,9 @@ impl Remote {
     pub fn put(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError> {
         let Some(there) = self.client.create(name, bytes).map_err(self.at(name))? else { return Ok(()) };
         Err(self.at(name)(io::Error::other(format!(
-            "has another content (SHA-256 {}) than this process has for it (SHA-256 {}), and what is in a store is not replaced: choose another --out; or, if that object is damaged, remove it, and the same command puts it again",
+            "has another content (SHA-256 {}) than this process has for it (SHA-256 {}), and what is in a store is not \
+            replaced: choose another --out; or, if that object is damaged, remove it, and the same command puts it \
+            again",
             sha256(&there),
             sha256(bytes)
         ))))
