@@ -4,6 +4,7 @@
 
 use super::columns::parameter_quantity;
 use super::known_columns::KnownColumns;
+use super::parameter::named;
 use super::section::Section;
 use crate::run::Quantity;
 use crate::sampling::Column;
@@ -61,14 +62,7 @@ fn variable(name: &str, scene: &SceneInput, known: &KnownColumns) -> Option<Vari
     if known.observable(name).is_some() {
         return Some(Variable::Observable(name.to_owned()));
     }
-    if let Some((parameter, component)) = Parameter::find(scene, name) {
-        let component = component.or((parameter.width() == 1).then_some(0))?;
-        return Some(Variable::Parameter(parameter, component));
-    }
-    let of = |parameter: Parameter| (0..parameter.width()).map(move |component| (parameter, component));
-    let mut components = Parameter::all(scene).flat_map(of);
-    let found = components.find(|(parameter, component)| parameter.column_name(*component) == name);
-    found.map(|(parameter, component)| Variable::Parameter(parameter, component))
+    named(scene, name).map(|(parameter, component)| Variable::Parameter(parameter, component))
 }
 
 impl DerivedObservable {
@@ -102,6 +96,13 @@ impl DerivedObservable {
     /// Name, unit and meaning.
     pub fn quantity(&self) -> Quantity {
         Quantity::named(self.name.clone(), self.unit.clone(), format!("{}.", self.expression))
+    }
+
+    /// The parameters in the expression, each with its component.
+    pub fn parameters(&self, scene: &SceneInput) -> Vec<(Parameter, usize)> {
+        let expression = Expression::parse(&self.expression).ok();
+        let names = expression.iter().flat_map(Expression::variables);
+        names.filter_map(|name| named(scene, name)).collect()
     }
 
     /// The expression, and what its variables are; `None` only for what `DerivedObservable::read` refuses.

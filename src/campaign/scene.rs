@@ -109,6 +109,7 @@ fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
         return;
     }
     for key in ["sensors", "guidance"] {
+        root.know(key);
         if root.has(key) {
             root.refuse(key, "left out without [control]", "add a [control] table, or delete this one");
         }

@@ -336,7 +336,7 @@ fn audit_estimate(ensemble: &Ensemble<'_>) -> String {
     let cores = cores();
     format!(
         "audit of {} of the samples, from {}: {:.1} ms each; about {} audits on {}: {} s more\n",
-        short(plan.audit_fraction),
+        if plan.audit_fraction == 1.0 { "all".to_owned() } else { short(plan.audit_fraction) },
         counted(count, "audit"),
         seconds * 1e3,
         short(libm::round(audits)),

@@ -40,7 +40,10 @@ pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
     let mut notes: Vec<String> = constant.into_iter().map(never).collect();
     match without_effect(plan, &drawn, isa) {
         Some(unseen) => notes.extend(unseen.into_iter().map(|parameter| {
-            format!("{parameter} does not affect any requested column (observe.groups), in the samples that were tried")
+            let does = if parameter.contains(", ") { "do" } else { "does" };
+            format!(
+                "{parameter} {does} not affect any requested column (observe.groups), in the samples that were tried"
+            )
         })),
         None if columns.is_empty() => {}
         None => {
@@ -51,18 +54,15 @@ pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
 }
 
 /// The names of the dispersed parameters of `plan`, or of their dispersed components, that leave every requested column as it is, bit for bit, when
-/// they change: alone from the nominal scene to their values of some samples, and back in these samples. Inputs of derived parameters have an
-/// effect; what no draw changes is not judged. `None` where the runs would take too long, or the nominal scene cannot be run.
+/// they change: alone from the nominal scene to their values of some samples, and back in these samples. Inputs of derived parameters and of
+/// `[[observable]]` have an effect; what no draw changes is not judged. `None` where the runs would take too long, or the nominal scene cannot be run.
 pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<String>> {
     let mut parameters: Vec<Parameter> = plan.dispersions.columns().iter().map(|column| column.parameter).collect();
     parameters.sort_unstable();
     parameters.dedup();
-    let inputs: Vec<Parameter> = plan
-        .derived
-        .iter()
-        .flat_map(|derivation| derivation.inputs(&plan.nominal))
-        .map(|(parameter, _)| parameter)
-        .collect();
+    let derivations = plan.derived.iter().flat_map(|derivation| derivation.inputs(&plan.nominal));
+    let observables = plan.analysis.derived.iter().flat_map(|observable| observable.parameters(&plan.nominal));
+    let inputs: Vec<Parameter> = derivations.chain(observables).map(|(parameter, _)| parameter).collect();
     parameters.retain(|parameter| !inputs.contains(parameter));
     if part_of_run(plan).is_some() {
         // what acts later would be said to have no effect

@@ -83,7 +83,10 @@ pub fn title(one: &Assessment) -> String {
             format!("{is} in {}%", percent(requirement.limit.fraction(p)))
         }
         Statement::Quantile(p) => format!("p{} of {is}", percent(p)),
-        Statement::Fraction(fraction) => format!("{is} in {}%", percent(fraction)),
+        Statement::Fraction(fraction) => {
+            let never = if requirement.never_meets { ", or never," } else { "" };
+            format!("{is}{never} in {}%", percent(fraction))
+        }
         Statement::Mean => {
             let range = requirement.bounded.map(|ends| ends.map(|end| written(one.shown.written(end))));
             let range = range.map(|[low, high]| format!(" (bounded = [{low}, {high}] {unit}"));

@@ -44,8 +44,8 @@ pub fn verdicts([first, second]: [Vec<EndVerdict>; 2], comparison: &Comparison) 
 }
 
 /// The probability that the data behind two verdicts on one requirement differ as much by chance: that of the share of
-/// runs that violate it (Fisher), or of its mean; of pairs also that of their differences, and of the runs without a
-/// value. The smallest of k counts k-fold.
+/// runs that violate it (Fisher), or of its mean; of pairs also that of their differences, of the runs without a value,
+/// and of those that failed, which violate it. The smallest of k counts k-fold.
 fn p_of_change((first, second): (&EndVerdict, &EndVerdict), comparison: &Comparison) -> Option<f64> {
     let is_its = |name: &str| first.observable.as_deref() == Some(name);
     let column = comparison.columns.iter().find(|column| is_its(column.quantity.name()));
@@ -56,6 +56,7 @@ fn p_of_change((first, second): (&EndVerdict, &EndVerdict), comparison: &Compari
         of_share.or_else(of_mean),
         of_pairs.and_then(|column| column.p_of_pairs()),
         of_pairs.map(|column| column.absence.p_value),
+        of_pairs.map(|_| comparison.failures.p_value),
     ];
     let count = tests.iter().flatten().count() as f64;
     tests.into_iter().flatten().reduce(f64::min).map(|smallest| (count * smallest).min(1.0))

@@ -58,7 +58,7 @@ fn not_computed(plan: &Plan, statistics: &Statistics, failures: &[InputSensitivi
     let share = missing as f64 / runs as f64;
     Some(format!(
         "NOT COMPUTED: {}, {} ({}). {others}{drivers}",
-        loss.counts(),
+        if plan.samples == 1 { "the only run".to_owned() } else { loss.counts() },
         with_interval([share; 2], [f64::NAN; 2]),
         ended.join(", ")
     ))

@@ -114,7 +114,7 @@ fn what_changes_nothing_is_noted() {
     }
 }
 
-/// Law: what has an effect in some draws alone, or through a derived parameter, or where other draws move it, has one.
+/// Law: what has an effect in some draws alone, or through a derived parameter or observable, or where other draws move it, has one.
 #[test]
 fn what_acts_in_some_draws_is_not_noted() {
     let tilt = dispersed("thrusters.p3.tilt_rad.1");
@@ -125,6 +125,8 @@ fn what_acts_in_some_draws_is_not_noted() {
         format!("{}thrust_scale = 0.0\n{on}{tilt}", arc(0.0)),
         format!("{}{}{derived}", arc(0.0), dispersed("thrusters.p2.thrust_scale")),
         format!("{}{off}", arc(0.3)),
+        dispersed("initial.position_m")
+            + "[[observable]]\nname = \"far\"\nexpression = \"2 * initial.position_m.x\"\n",
     ] {
         assert_eq!(notes(&text), [""; 0], "{text}");
     }

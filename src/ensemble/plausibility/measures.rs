@@ -166,10 +166,9 @@ pub fn radius_of_gyration(looked: &Looked<'_>, _: f64) -> Vec<Found> {
 pub fn flatness(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let note = |(_, moments @ [a, b, c]): (f64, [f64; 3])| {
         let shown = moments.map(digits).join(", ");
-        found(
-            (a + b - c) / c,
-            format!("principal moments [{shown}] kg m^2: the largest is almost the sum of the others"),
-        )
+        let excess = (a + b - c) / c;
+        let almost = if excess.abs() > 1e-12 { "almost " } else { "" };
+        found(excess, format!("principal moments [{shown}] kg m^2: the largest is {almost}the sum of the others"))
     };
     inertia(looked).map(note).unwrap_or_default()
 }

@@ -100,6 +100,106 @@ fn a_loss_is_said_first_and_is_not_random() {
     assert!(scratch.text("lost.xml").contains("two-sided 95% intervals"));
 }
 
+/// A spin that is drawn, thrust that ends at a time that is drawn, and steps of the size that an attitude of that rate
+/// needs: the fastest runs need the most.
+const FASTEST: &str = r#"
+[campaign]
+name = "fastest"
+samples = 401
+seed = 1
+duration_s = 8.0
+[observe]
+points = 17
+groups = ["motion"]
+[body]
+mass_kg = 100.0
+inertia_kg_m2 = [[10, 0, 0], [0, 10, 0], [0, 0, 20]]
+[integrator]
+method = "dop853"
+max_steps = 27
+[[thrusters]]
+name = "p1"
+position_m = [0, 0, 0]
+direction = [0, 0, 1]
+[[actuation]]
+name = "u"
+start_s = 0.0
+end_s = 8.0
+thrust_n = { p1 = 1.0 }
+[initial]
+angular_velocity_rad_s = [0.3, 0.0, 0.1]
+[[disperse]]
+parameter = "initial.angular_velocity_rad_s.x"
+distribution = "uniform"
+min = 0.0
+max = 1.97
+[[disperse]]
+parameter = "actuation.u.switch_off_delay_s"
+distribution = "uniform"
+min = -1
+max = 0
+[[observable]]
+name = "rate"
+expression = "initial.angular_velocity_rad_s.x + 0 * angular_rate_max_rad_s"
+[[require]]
+observable = "rate"
+fraction = 0.7
+at_most = 1.5
+[summary]
+columns = ["rate"]
+"#;
+
+/// Law: from the first lost run on, an interval holds whatever the values of the lost runs are: here they are known, from
+/// the same campaign without the limit of steps, and its intervals lie within. A mean has no interval without a range,
+/// and one around the known mean with it. A loss that makes a verdict worse is not put down to chance.
+#[test]
+fn intervals_hold_whatever_lost_runs_are() {
+    let scratch = ScratchFolder::new("few-lost");
+    let bounded = "[[require]]\nobservable = \"rate\"\nmean = true\nat_most = 1.9\nbounded = [0.0, 1.97]\n";
+    scratch.file("open.toml", FASTEST);
+    scratch.file("bounded.toml", &format!("{FASTEST}{bounded}"));
+    let outcome = |file: &str, seed: u64, steps: u64| {
+        let set =
+            format!("--set campaign.seed={seed} --set integrator.max_steps={steps} --no-report --out {file}{steps}");
+        let mut command = scratch.command(&format!("campaign {file}.toml --overwrite {set}"));
+        let out = command.output().expect("it runs");
+        assert!([0, 1, 3, 5].contains(&out.status.code().unwrap_or(-1)), "{out:?}");
+        let summary = scratch.summary(&format!("{file}{steps}"));
+        let lines = summary["observables"].as_array().expect("observables");
+        let line = lines.iter().find(|line| line["name"] == "rate").expect("the rate").clone();
+        let rows = ended(&scratch.rows(&format!("{file}{steps}")));
+        (line, rows.iter().filter(|(_, status)| status == "step_limit").count())
+    };
+    let ends = |value: &Value| {
+        let ends = value.as_array().expect("two");
+        [ends[0].as_f64().unwrap_or(f64::NEG_INFINITY), ends[1].as_f64().unwrap_or(f64::INFINITY)]
+    };
+    for seed in 1..=6 {
+        let (few, lost) = outcome("open", seed, 27);
+        let (all, none) = outcome("open", seed, 100);
+        assert!((1..20).contains(&lost) && none == 0, "seed {seed}: {lost} of 400 lost");
+        let quantiles = |line: &Value| line["quantiles"].as_array().expect("quantiles").clone();
+        let (mut bounded, mut wider) = (0, 0);
+        for (one, other) in quantiles(&few).iter().zip(&quantiles(&all)) {
+            assert_eq!(one["p"], other["p"]);
+            let ([low, high], [from, to]) = (ends(&one["interval"]), ends(&other["interval"]));
+            assert!(low <= from && to <= high, "seed {seed}, {}: {one} {other}", one["p"]);
+            bounded += usize::from(low.is_finite() && high.is_finite());
+            wider += usize::from(low < from || to < high);
+        }
+        assert!(bounded >= 3 && wider >= 5, "seed {seed}: {bounded} bounded, {wider} wider: {few}");
+        assert_eq!(ends(&few["mean_interval"]), [f64::NEG_INFINITY, f64::INFINITY], "seed {seed}");
+        let (ranged, _) = outcome("bounded", seed, 27);
+        let [low, high] = ends(&ranged["mean_interval"]);
+        let mean = number(&all, "/mean");
+        assert!(low < mean && mean < high && high - low < 0.5, "seed {seed}: {mean} [{low}, {high}]");
+    }
+    let (_, lost) = outcome("open", 6, 20);
+    assert!(lost > 100, "{lost}");
+    let said = scratch.prints("compare open100 open20", 3);
+    assert!(said.contains("WORSE"), "{said}");
+}
+
 /// A spin about the intermediate axis, which flips, seen at three points: the estimate of the error knows too little of the motion.
 const FLIPS: &str = r#"
 initial = { angular_velocity_rad_s = [1.0, 1e-6, 1e-6] }
