@@ -4,4 +4,4 @@
 mod client;
 
 pub use client::connect;
-use spindrift::storage::remote::{Address, Connected, Objects};
+use spindrift::storage::remote::address;
