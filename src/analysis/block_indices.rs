@@ -1,6 +1,5 @@
 //! First-order and total indices of Sobol, from the whole blocks of a `saltelli` design.
 
-use crate::analysis::first_rows::RowTable;
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::campaign::Plan;
 use crate::statistics::sensitivity::{Block, saltelli_indices};
@@ -23,19 +22,24 @@ fn factor_names(plan: &Plan) -> Vec<String> {
 }
 
 /// Indices from whole blocks of a `saltelli` design.
-pub(super) fn of_blocks(plan: &Plan, names: &[&str], table: &RowTable) -> Vec<InputSensitivity> {
+pub(super) fn of_blocks(
+    plan: &Plan,
+    names: &[&str],
+    samples: &[u64],
+    observables: &[Vec<f64>],
+) -> Vec<InputSensitivity> {
     let factors = factor_names(plan);
     let members = factors.len() + 2;
     let confidence = plan.analysis.confidence;
     let mut found = Vec::new();
-    for (observable, y) in names.iter().zip(&table.observables) {
+    for (observable, y) in names.iter().zip(observables) {
         // a block with a run that is missing, or has no value, has no part in any index
         let mut blocks: Vec<&[f64]> = Vec::new();
         let mut row = 0;
         while row + members <= y.len() {
-            let first = table.samples[row] - 1;
+            let first = samples[row] - 1;
             let is_whole = first.is_multiple_of(members as u64)
-                && table.samples[row + members - 1] == first + members as u64
+                && samples[row + members - 1] == first + members as u64
                 && y[row..row + members].iter().all(|value| value.is_finite());
             if is_whole {
                 blocks.push(&y[row..row + members]);
@@ -79,9 +83,8 @@ mod tests {
         let plan = small_plan(13, "design = { kind = \"saltelli\" }");
         // A = (0, 1), B = (1, 4); the second block lacks sample 6; A = (3, 1), B = (2, 0)
         let rows = [1.0, 2.0, 4.0, 5.0, 9.0, 9.0, 9.0, 4.0, 3.0, 3.0, 2.0];
-        let samples = (1..=12).filter(|sample| *sample != 6).collect();
-        let table = RowTable { samples, inputs: Vec::new(), observables: vec![rows.to_vec()] };
-        let found = of_blocks(&plan, &["x"], &table);
+        let samples: Vec<u64> = (1..=12).filter(|sample| *sample != 6).collect();
+        let found = of_blocks(&plan, &["x"], &samples, &[rows.to_vec()]);
         let inputs: Vec<(&str, u64)> = found.iter().map(|one| (one.input.as_str(), one.rows)).collect();
         let parameter = |axis: &str| format!("initial.angular_velocity_rad_s.{axis}");
         assert_eq!(inputs, [(parameter("x").as_str(), 8), (parameter("y").as_str(), 8)]);

@@ -10,7 +10,7 @@ use crate::statistics::correlation::Estimate;
 /// without which the standard deviation is 5% smaller.
 const LEAST_SHARE: f64 = 0.1;
 /// An interval of a share that is wider says so little that the share is not said.
-const MOST_WIDTH: f64 = 0.8;
+const MOST_WIDTH: f64 = 0.7;
 
 impl InputSensitivity {
     /// The share of the variance that the input explains: the total index, where the design gives it; else the
@@ -71,11 +71,21 @@ impl Ranked<'_> {
         self.effect.map_or(&self.input.instead, |effect| &effect.instead).as_deref()
     }
 
-    /// What inputs are ranked by: their shares; without shares their tests, then their rank correlations.
-    fn strength(&self) -> [f64; 2] {
-        let p_value = self.effect.map_or(self.input.p_value, |effect| Some(effect.p_value));
-        let rank = self.input.spearman.map_or(0.0, |r| r.value * r.value);
-        [self.share.map_or_else(|| -p_value.unwrap_or(1.0), |share| share.value), rank]
+    /// Whether its share is known, or all that there is.
+    fn has_share(&self) -> bool {
+        self.share.is_some_and(|share| is_known(&share) || share.lower.is_nan())
+    }
+
+    /// What inputs are ranked by: their shares if these are known (`by_share`), else what a parabola explains. For an
+    /// event, shares, if there are any, else tests.
+    fn strength(&self, by_share: bool) -> f64 {
+        let share = self.share.map(|share| share.value);
+        let found = match self.effect {
+            Some(effect) => share.or(Some(-effect.p_value)),
+            None if by_share => share,
+            None => self.input.parabola.or(share),
+        };
+        found.unwrap_or(f64::NEG_INFINITY)
     }
 }
 
@@ -113,11 +123,9 @@ pub fn rankings<'a>(all: &'a [InputSensitivity], outcome: &str, alpha: f64) -> V
         is_driver: input.drives_spread(alpha),
     };
     let sorted = |mut inputs: Vec<Ranked<'a>>| {
-        let key = |one: &Ranked<'_>| (one.is_driver, one.strength());
-        inputs.sort_by(|a, b| {
-            let ((a, [strength, rank]), (b, [other, other_rank])) = (key(a), key(b));
-            b.cmp(&a).then(other.total_cmp(&strength)).then(other_rank.total_cmp(&rank))
-        });
+        let by_share = inputs.iter().filter(|one| one.is_driver).all(Ranked::has_share);
+        let strength = |one: &Ranked<'_>| one.strength(by_share);
+        inputs.sort_by(|a, b| b.is_driver.cmp(&a.is_driver).then_with(|| strength(b).total_cmp(&strength(a))));
         inputs
     };
     let mut events: Vec<Event> = Vec::new();
@@ -132,7 +140,10 @@ pub fn rankings<'a>(all: &'a [InputSensitivity], outcome: &str, alpha: f64) -> V
     for event in events {
         let inputs = sorted(of().filter_map(|input| on_event(input, event)).collect());
         let drives_spread = |name: &str| spread.iter().any(|ranked| ranked.is_driver && ranked.input.input == name);
-        let is_new = |ranked: &Ranked<'_>| ranked.is_driver && !drives_spread(&ranked.input.input);
+        // what the rows do not tell from a driver of the spread is not new
+        let is_known =
+            |ranked: &Ranked<'_>| drives_spread(&ranked.input.input) || ranked.instead().is_some_and(drives_spread);
+        let is_new = |ranked: &Ranked<'_>| ranked.is_driver && !is_known(ranked);
         if !matches!(event.occurs, Occurs::Worst(_)) || inputs.iter().any(is_new) {
             found.push(Ranking { question: Question::Event(event), inputs });
         }

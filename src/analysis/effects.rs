@@ -107,6 +107,11 @@ impl TestedInput {
         Some(TestedInput { values: values.to_vec(), order: order.to_vec(), groups, ranks, distances })
     }
 
+    /// Whether its values are groups.
+    pub fn has_few_values(&self) -> bool {
+        self.groups.is_some()
+    }
+
     /// In how many runs of each group the event occurs.
     fn levels(&self, marked: &[bool]) -> Option<Vec<Level>> {
         let (groups, labels) = self.groups.as_ref()?;

@@ -1,7 +1,7 @@
 //! [`Event`]: what may or may not occur in a run, and is asked of an outcome beside its spread: whether a requirement is missed, a value of few, the tail.
 
 use crate::analysis::outcomes::is_worst_when_low;
-use crate::campaign::{Plan, Statement};
+use crate::campaign::{Plan, Requirement, Statement};
 use crate::statistics::contingency::Occurrence;
 use crate::statistics::correlation::ascending_order;
 
@@ -67,37 +67,49 @@ pub fn are_few(distinct: usize, rows: usize) -> bool {
     (2..=FEW).contains(&distinct) && rows >= ROWS_OF_EACH * distinct
 }
 
+/// Whether an outcome with these values in so many rows has few.
+fn has_few(known: &[(f64, usize)], rows: usize) -> bool {
+    are_few(known.len(), rows) || known.len() == 1
+}
+
 impl Event {
-    /// The events of the outcome `name` of `plan` with these values, row by row, and in which rows each occurs; none if
-    /// there is none to ask.
-    pub fn all(plan: &Plan, name: &str, values: &[f64]) -> Vec<(Event, Vec<bool>)> {
-        let known = distinct(values, &ascending_order(values));
-        let has_few_values = are_few(known.len(), values.len()) || known.len() == 1;
-        let requirements =
-            || plan.analysis.requirements.iter().enumerate().filter(|(_, one)| one.observable() == Some(name));
-        let event = |occurs: Occurs, marked: Vec<bool>| {
-            let events = marked.iter().filter(|is_marked| **is_marked).count() as u64;
-            (Event { occurs, of: Occurrence { events, runs: marked.len() as u64 }, has_few_values }, marked)
-        };
+    /// The events that runs miss requirements on the outcome `name` of `plan`, as verdicts count them, with these
+    /// values, row by row (`is_ok`: a run that is not misses all), and in which rows each occurs; none if there is none
+    /// to ask.
+    pub fn missed(plan: &Plan, name: &str, values: &[f64], is_ok: &[bool]) -> Vec<(Event, Vec<bool>)> {
+        let has_few_values = has_few(&distinct(values, &ascending_order(values)), values.len());
+        let of_runs =
+            |(_, one): &(usize, &Requirement)| one.observable() == Some(name) && one.statement != Statement::Mean;
         let mut missed: Vec<(usize, Vec<bool>)> = Vec::new();
-        for (requirement, one) in requirements().filter(|(_, one)| one.statement != Statement::Mean) {
-            let marked: Vec<bool> = values.iter().map(|value| !one.is_met(*value)).collect();
+        for (requirement, one) in plan.analysis.requirements.iter().enumerate().filter(of_runs) {
+            let marked: Vec<bool> = values.iter().zip(is_ok).map(|(y, is_ok)| !(*is_ok && one.is_met(*y))).collect();
             if !missed.iter().any(|(_, other)| *other == marked) {
                 missed.push((requirement, marked));
             }
         }
         let is_only = missed.len() == 1;
-        let missed =
-            missed.into_iter().map(|(place, marked)| event(Occurs::Missed { requirement: place, is_only }, marked));
         let least = if has_few_values { 1 } else { FEWEST as u64 };
+        let events = missed.into_iter().map(|(requirement, marked)| {
+            Self::occurring(Occurs::Missed { requirement, is_only }, marked, has_few_values)
+        });
         let is_asked = |found: &(Event, Vec<bool>)| {
             let Occurrence { events, runs } = found.0.of;
             events >= least && runs - events >= least
         };
-        let missed: Vec<_> = missed.filter(is_asked).collect();
-        if !missed.is_empty() {
-            return missed;
-        }
+        events.filter(is_asked).collect()
+    }
+
+    fn occurring(occurs: Occurs, marked: Vec<bool>, has_few_values: bool) -> (Event, Vec<bool>) {
+        let events = marked.iter().filter(|is_marked| **is_marked).count() as u64;
+        (Event { occurs, of: Occurrence { events, runs: marked.len() as u64 }, has_few_values }, marked)
+    }
+
+    /// The events of an outcome whose limits all meet, or all but a few; as [`Event::missed`].
+    pub fn of_values(plan: &Plan, name: &str, values: &[f64]) -> Vec<(Event, Vec<bool>)> {
+        let known = distinct(values, &ascending_order(values));
+        let has_few_values = has_few(&known, values.len());
+        let requirements = || plan.analysis.requirements.iter().filter(|one| one.observable() == Some(name));
+        let event = |occurs: Occurs, marked: Vec<bool>| Self::occurring(occurs, marked, has_few_values);
         if has_few_values {
             let frequent = known.iter().max_by_key(|(_, count)| *count).map_or(f64::NAN, |(value, _)| *value);
             let Some((other, _)) = known.iter().copied().find(|(value, _)| *value != frequent) else {
@@ -106,7 +118,7 @@ impl Event {
             let occurs = if known.len() == 2 { Occurs::Value(other) } else { Occurs::OtherThan(frequent) };
             return vec![event(occurs, values.iter().map(|value| *value != frequent && !value.is_nan()).collect())];
         }
-        let share = requirements().find_map(|(_, one)| match one.statement {
+        let share = requirements().find_map(|one| match one.statement {
             Statement::Quantile(p) => Some(1.0 - one.limit.fraction(p)),
             Statement::Fraction(fraction) => Some(1.0 - fraction),
             Statement::Mean => None,

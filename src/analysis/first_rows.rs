@@ -34,12 +34,14 @@ fn wanted(plan: &Plan) -> (Vec<String>, usize) {
     (of_motion, FEWER_ROWS)
 }
 
-/// The first rows of dispersed samples that are `ok`, in the order of the samples.
+/// The first rows of dispersed samples that are physical, in the order of the samples.
 #[derive(Clone, Debug, Default)]
 pub struct RowTable {
     pub(super) samples: Vec<u64>,
     pub(super) inputs: Vec<Vec<f64>>,
+    /// NaN in runs that are not `ok`.
     pub(super) observables: Vec<Vec<f64>>,
+    pub(super) is_ok: Vec<bool>,
 }
 
 /// Keeps the first rows: inputs, and the observables that a campaign file requires or names (the main ones, where it names none).
@@ -48,8 +50,6 @@ pub struct FirstRows {
     inputs: Vec<String>,
     pub(super) observed: Vec<Observed>,
     most: usize,
-    /// Whether it keeps rows of all physical samples with whether each is computed, in place of observables.
-    of_failures: bool,
     /// Whether the rows are there, so that no further part adds any.
     is_full: AtomicBool,
 }
@@ -64,12 +64,7 @@ impl FirstRows {
             Design::Saltelli(_) => (Vec::new(), MOST_ROWS),
             _ => (inputs(plan), most),
         };
-        FirstRows { inputs, observed, most, of_failures: false, is_full: AtomicBool::new(false) }
-    }
-
-    /// Of the campaign `plan`, for what decides whether a run is computed.
-    pub fn of_failures(plan: &Plan) -> Self {
-        FirstRows { observed: Vec::new(), most: FEWER_ROWS, of_failures: true, ..Self::new(plan) }
+        FirstRows { inputs, observed, most, is_full: AtomicBool::new(false) }
     }
 }
 
@@ -95,7 +90,8 @@ impl Accumulator for FirstRows {
         RowTable {
             samples: Vec::new(),
             inputs: empty(self.inputs.len()),
-            observables: empty(self.observed.len() + usize::from(self.of_failures)),
+            observables: empty(self.observed.len()),
+            is_ok: Vec::new(),
         }
     }
 
@@ -104,23 +100,26 @@ impl Accumulator for FirstRows {
             return Ok(self.nothing());
         }
         let (samples, statuses) = (part.samples()?, part.statuses()?);
-        let is_kept = |status| status == Status::Done || self.of_failures && status != Status::InvalidSample;
-        let of_population = |row: &usize| samples[*row].0 > 0 && is_kept(statuses[*row]);
+        let of_population = |row: &usize| samples[*row].0 > 0 && statuses[*row] != Status::InvalidSample;
         let rows: Vec<usize> = (0..samples.len()).filter(of_population).take(self.most).collect();
+        let is_ok: Vec<bool> = rows.iter().map(|row| statuses[*row] == Status::Done).collect();
         let taken = |column: Cow<'_, [f64]>| rows.iter().map(|row| column[*row]).collect::<Vec<f64>>();
+        let computed = |column: Cow<'_, [f64]>| {
+            let of_row = |(value, is_ok): (f64, &bool)| if *is_ok { value } else { f64::NAN };
+            taken(column).into_iter().zip(&is_ok).map(of_row).collect::<Vec<f64>>()
+        };
         Ok(RowTable {
             samples: rows.iter().map(|row| samples[*row].0).collect(),
             inputs: self.inputs.iter().map(|name| part.numbers(name).map(taken)).collect::<Result<_, _>>()?,
-            observables: match self.of_failures {
-                true => vec![rows.iter().map(|row| f64::from(u8::from(statuses[*row] == Status::Done))).collect()],
-                false => self.observed.iter().map(|one| one.column(part).map(taken)).collect::<Result<_, _>>()?,
-            },
+            observables: self.observed.iter().map(|one| one.column(part).map(computed)).collect::<Result<_, _>>()?,
+            is_ok,
         })
     }
 
     fn merge(&self, whole: &mut RowTable, part: RowTable) {
         let left = self.most - whole.samples.len();
         whole.samples.extend(part.samples.into_iter().take(left));
+        whole.is_ok.extend(part.is_ok.into_iter().take(left));
         let columns = whole.inputs.iter_mut().chain(&mut whole.observables);
         columns
             .zip(part.inputs.into_iter().chain(part.observables))

@@ -25,10 +25,10 @@ use crate::storage::bands_file;
 use crate::storage::part_sink::CountRows;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
-/// Everything that is gathered: statuses and audits, columns, requirements, the observable of `[stop]`, the first rows, those for what decides failures, retained runs, the page.
+/// Everything that is gathered: statuses and audits, columns, requirements, the observable of `[stop]`, the first rows, retained runs, the page.
 type Everything = (
     ((TallyColumns, Collector), (RequirementCounter, ObservedValues)),
-    (((FirstRows, FirstRows), Retained), (Surveyor, MissionCounter)),
+    ((FirstRows, Retained), (Surveyor, MissionCounter)),
 );
 
 /// Gathers everything that the end of a campaign needs.
@@ -47,8 +47,6 @@ pub struct Gathered {
     pub stop_values: StopValues,
     /// Inputs and main observables of the first rows.
     pub first_rows: RowTable,
-    /// Inputs of the first physical rows, and whether each was computed.
-    pub failure_rows: RowTable,
     /// Samples whose runs are retained, ascending.
     pub retained: Vec<SampleId>,
     pub survey: Survey,
@@ -68,18 +66,12 @@ impl RowsFold {
                 (TallyColumns::new(ensemble), columns),
                 (RequirementCounter::new(plan), ObservedValues::of_stop(plan, plan.samples)),
             ),
-            (
-                ((FirstRows::new(plan), FirstRows::of_failures(plan)), Retained::new(plan)),
-                (Surveyor::new(ensemble), MissionCounter::new(plan)),
-            ),
+            ((FirstRows::new(plan), Retained::new(plan)), (Surveyor::new(ensemble), MissionCounter::new(plan))),
         ))
     }
 
     fn gathered(self, whole: <Everything as Accumulator>::Whole, bands: Option<Bands>) -> Gathered {
-        let (
-            ((tally, columns), (requirements, stop_values)),
-            (((first_rows, failure_rows), retained), (survey, missions)),
-        ) = whole;
+        let (((tally, columns), (requirements, stop_values)), ((first_rows, retained), (survey, missions))) = whole;
         let (((_, collector), _), ((_, retention), (_, counter))) = self.0;
         Gathered {
             survey: survey.finished(tally.statuses.clone()),
@@ -88,7 +80,6 @@ impl RowsFold {
             requirements,
             stop_values,
             first_rows,
-            failure_rows,
             retained: retention.chosen(retained),
             missions: counter.finished(&missions),
             bands,

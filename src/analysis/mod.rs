@@ -23,8 +23,6 @@ pub mod comparison_of_known_truth;
 pub mod comparison_table;
 pub mod derived_table;
 pub mod drivers;
-#[cfg(test)]
-mod drivers_of_known_truth;
 pub mod effects;
 pub mod ending;
 pub mod event;

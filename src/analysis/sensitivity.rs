@@ -10,46 +10,73 @@ use crate::analysis::effects::{OnEvent, TestedInput, beside_others, on_event, on
 use crate::analysis::event::Event;
 use crate::analysis::first_rows::{FirstRows, RowTable, inputs};
 use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
-use crate::analysis::population::{LISTED, Population};
+use crate::analysis::population::{LISTED, Loss, Population};
 use crate::campaign::Plan;
 use crate::sampling::Design;
 use crate::statistics::correlation::{
     Estimate, ascending_order, correlation, matrix, mid_ranks, mid_ranks_in_order, standardised,
 };
 use crate::statistics::regression::{Regressors, independent_inputs};
-use crate::statistics::sensitivity::{Samples, first_order_index_in_order};
+use crate::statistics::sensitivity::{Samples, first_order_index_in_order, has_tails, share_of_parabola};
 use crate::storage::parallel::in_parallel;
 
 /// A rank correlation of two inputs above this, and above what chance makes, is told.
 const NOTABLE_CORRELATION: f64 = 0.05;
+/// Ranks steady the order of inputs whose shares are not known, unless the tail of an input decides it.
+const WEIGHT_OF_RANKS: f64 = 0.25;
 /// Standard deviations of a chance correlation, beyond which it is none: of 10,000 pairs one passes by chance in a thousand campaigns.
 const CHANCE: f64 = 5.5;
 
-/// What every input of `plan` means for the observables that its file requires or names (the main ones, where it names none), from its first rows.
-pub fn compute(plan: &Plan, table: &RowTable, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
+/// What every input of `plan` means for the observables that its file requires or names (the main ones, where it names
+/// none), from its first rows. After a big `loss` the rows that are `ok` are no sample of all, and have no intervals.
+pub fn compute(plan: &Plan, table: &RowTable, loss: Loss, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
     let observed = FirstRows::new(plan).observed;
     let names: Vec<&str> = observed.iter().map(|one| one.quantity.name()).collect();
-    of_table(plan, &names, table, threads)
+    let found = of_table(plan, &names, table, &table.observables, threads);
+    if loss.is_big() { found.into_iter().map(|one| one.without_intervals(true)).collect() } else { found }
 }
 
-/// What every input of `plan` means for whether a run is computed ([`COMPUTED`]), from the rows of [`FirstRows::of_failures`]; nothing where all are, or none.
+/// What every input of `plan` means for whether a run is computed ([`COMPUTED`]), from its first rows; nothing where all
+/// are, or none.
 pub fn of_failures(plan: &Plan, table: &RowTable, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
-    let varies = table.observables.iter().any(|flags| flags.iter().any(|flag| *flag != flags[0]));
-    if varies { of_table(plan, &[COMPUTED], table, threads) } else { Vec::new() }
+    let is_computed = table.is_ok.iter().map(|is_ok| f64::from(u8::from(*is_ok))).collect();
+    let varies = [true, false].iter().all(|flag| table.is_ok.contains(flag));
+    if varies { of_table(plan, &[COMPUTED], table, &[is_computed], threads) } else { Vec::new() }
 }
 
-fn of_table(plan: &Plan, names: &[&str], table: &RowTable, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
+fn of_table(
+    plan: &Plan,
+    names: &[&str],
+    table: &RowTable,
+    observables: &[Vec<f64>],
+    threads: Option<NonZeroUsize>,
+) -> Vec<InputSensitivity> {
     if let Design::Saltelli(_) = plan.design {
-        return of_blocks(plan, names, table);
+        return of_blocks(plan, names, &table.samples, observables);
     }
     let inputs = inputs(plan);
     if let Some(note) = plan.bound_inputs(table.samples.len() as u64) {
         return untold(names, &inputs, table.samples.len() as u64, &note);
     }
-    let prepared = Prepared::new(table.inputs.clone(), threads);
-    let of_observable = |(name, y): (&&str, &Vec<f64>)| prepared.explained(plan, &inputs, name, y);
-    let work: Vec<_> = names.iter().zip(&table.observables).collect();
+    let all = Prepared::new(table.inputs.clone(), threads);
+    // other rows have other ranks
+    let has_failed = names != [COMPUTED] && table.is_ok.contains(&false);
+    let ok: Vec<usize> = (0..table.is_ok.len()).filter(|row| table.is_ok[*row]).collect();
+    let computed = has_failed.then(|| all.of_rows(&ok, threads));
+    let of_observable = |(name, y): (&&str, &Vec<f64>)| match &computed {
+        None => all.explained(plan, &inputs, name, y),
+        Some(computed) => {
+            let missed = Event::missed(plan, name, y, &table.is_ok);
+            computed.explained_beside(plan, &inputs, name, &at(&ok, y), (&all, missed))
+        }
+    };
+    let work: Vec<_> = names.iter().zip(observables).collect();
     in_parallel(work, threads, of_observable).into_iter().flatten().collect()
+}
+
+/// The values of these rows.
+fn at(rows: &[usize], values: &[f64]) -> Vec<f64> {
+    rows.iter().map(|row| values[*row]).collect()
 }
 
 /// Inputs of which nothing is estimated, and why.
@@ -76,6 +103,8 @@ pub struct Prepared {
     regressors: [Option<Regressors>; 2],
     orders: Vec<Vec<usize>>,
     tested: Vec<Option<TestedInput>>,
+    /// Which have many values, and tails that the rows may not show.
+    with_tails: Vec<bool>,
     /// Rank correlations of the inputs.
     correlations: Vec<Vec<f64>>,
 }
@@ -122,6 +151,7 @@ impl Prepared {
             correlations: matrix(&ranks),
             kept: [values_kept, ranks_kept],
             orders,
+            with_tails: values.iter().zip(&tested).map(|(values, of)| tails_of(values, of.as_ref())).collect(),
             tested,
             values,
             standardised: scaled,
@@ -150,12 +180,16 @@ impl Prepared {
     }
 
     /// The first-order index of input `index`. Of an input that does not vary in these rows nothing is known, and so of
-    /// no share.
-    fn first_order(&self, plan: &Plan, index: usize, y: &[f64]) -> Option<Estimate> {
+    /// no share. Rows that are not seen of an input with tails may make the share of the others of an outcome that has
+    /// no bounds as small as can be.
+    fn first_order(&self, plan: &Plan, index: usize, y: &[f64], is_bounded: bool) -> Option<Estimate> {
         let (order, x) = (&self.orders[index], &self.values[index]);
         let found = first_order_index_in_order(order, x, y, samples(plan), plan.analysis.confidence)?;
         let all_vary = self.tested.iter().all(Option::is_some);
-        Some(if all_vary { found } else { Estimate { lower: 0.0, upper: 1.0, ..found } })
+        let is_hidden = |(other, has_tails): (usize, &bool)| other != index && *has_tails;
+        let has_hidden = !is_bounded && self.with_tails.iter().enumerate().any(is_hidden);
+        let lower = if has_hidden { found.lower.min(0.0) } else { found.lower };
+        Some(if all_vary { Estimate { lower, ..found } } else { Estimate { lower: 0.0, upper: 1.0, ..found } })
     }
 
     /// Tests of inputs that are correlated, one beside the others; and the names of those that the rows do not tell
@@ -173,29 +207,49 @@ impl Prepared {
         instead.into_iter().map(|other| other.map(|other| names[other].clone())).collect()
     }
 
+    /// The same of some of the rows.
+    fn of_rows(&self, rows: &[usize], threads: Option<NonZeroUsize>) -> Self {
+        Prepared::new(self.values.iter().map(|input| at(rows, input)).collect(), threads)
+    }
+
     /// What every input means for an observable with the values `y`, NaN where a row has none: for its spread, and for
     /// the event of it.
     pub fn explained(&self, plan: &Plan, names: &[String], observable: &str, y: &[f64]) -> Vec<InputSensitivity> {
+        let missed = Event::missed(plan, observable, y, &vec![true; y.len()]);
+        self.explained_beside(plan, names, observable, y, (self, missed))
+    }
+
+    /// The same, with the events that requirements are missed, in the rows of `all`.
+    fn explained_beside(
+        &self,
+        plan: &Plan,
+        names: &[String],
+        observable: &str,
+        y: &[f64],
+        (all, missed): (&Prepared, Vec<(Event, Vec<bool>)>),
+    ) -> Vec<InputSensitivity> {
         let has_tests = !matches!(Population::of(plan), Population::Chosen(_) | Population::Nominal);
-        let events = if has_tests { Event::all(plan, observable, y) } else { Vec::new() };
+        let (rows, events) = match missed {
+            _ if !has_tests => (self, Vec::new()),
+            none if none.is_empty() => (self, Event::of_values(plan, observable, y)),
+            missed => (all, missed),
+        };
         // the spread, and the events
         let asked = events.len() + usize::from(events.iter().all(|(event, _)| !event.has_few_values));
         let tests = has_tests.then_some(asked);
         let mut found = if y.iter().all(|value| value.is_finite()) {
             self.sensitivities(plan, names, observable, y, tests)
         } else {
-            // other rows have other ranks
-            let rows: Vec<usize> = (0..y.len()).filter(|row| y[*row].is_finite()).collect();
-            let y: Vec<f64> = rows.iter().map(|row| y[*row]).collect();
-            let of_rows = |input: &Vec<f64>| rows.iter().map(|row| input[*row]).collect();
-            let finite = Prepared::new(self.values.iter().map(of_rows).collect(), NonZeroUsize::new(1));
-            finite.sensitivities(plan, names, observable, &y, tests)
+            let finite: Vec<usize> = (0..y.len()).filter(|row| y[*row].is_finite()).collect();
+            let of_finite = self.of_rows(&finite, NonZeroUsize::new(1));
+            of_finite.sensitivities(plan, names, observable, &at(&finite, y), tests)
         };
         for (event, marked) in events {
-            let effects = self.on_event((plan, names), (event, &marked), asked);
+            let effects = rows.on_event((plan, names), (event, &marked), asked);
             found.iter_mut().zip(effects).for_each(|(one, effect)| one.on_events.extend(effect));
         }
-        found
+        // chosen samples have correlations with each other, and none in a population
+        if has_tests { found } else { found.into_iter().map(|one| one.without_intervals(false)).collect() }
     }
 
     /// The effects on an event that occurs in the rows that are marked, one of `asked` questions.
@@ -206,7 +260,7 @@ impl Prepared {
         asked: usize,
     ) -> Vec<Option<OnEvent>> {
         let indicator: Vec<f64> = marked.iter().map(|is_marked| f64::from(*is_marked)).collect();
-        let share = |input: usize| self.first_order(plan, input, &indicator);
+        let share = |input: usize| self.first_order(plan, input, &indicator, true);
         let mut effects = on_event(&self.tested, (event, marked), share, asked, plan.analysis.confidence);
         let mut p_values: Vec<Option<f64>> = effects.iter().map(|one| one.as_ref().map(|one| one.p_value)).collect();
         let instead = self.beside_others((plan, names), &indicator, &mut p_values, asked);
@@ -240,15 +294,10 @@ impl Prepared {
         let place = |which: usize, index: usize| {
             self.kept[which][index].then(|| self.kept[which][..index].iter().filter(|kept| **kept).count())
         };
-        // chosen samples have correlations with each other, and none in a population
-        let with_interval = |estimate: Estimate| match population {
-            Population::Chosen(_) | Population::Nominal => Estimate { lower: f64::NAN, upper: f64::NAN, ..estimate },
-            _ => estimate,
-        };
         let of_input = |(index, name): (usize, &String)| {
             let input_varies = self.standardised[index].iter().any(|value| *value != 0.0);
             let is_asked = varies && input_varies && self.rows > 3;
-            let correlated = |x: &[f64], y: &[f64]| is_asked.then(|| with_interval(correlation(x, y, 0, confidence)));
+            let correlated = |x: &[f64], y: &[f64]| is_asked.then(|| correlation(x, y, 0, confidence));
             let partial = rank.as_ref().zip(place(1, index)).map(|(of, at)| of.partial(at, confidence));
             let coefficient = linear.as_ref().zip(place(0, index)).map(|(of, at)| of.coefficient(at, confidence));
             let correlated_with = self.correlated_with(plan, names, index);
@@ -258,14 +307,19 @@ impl Prepared {
                 rows: self.rows as u64,
                 pearson: correlated(&self.standardised[index], &scaled),
                 spearman: correlated(&self.ranks[index], &ranked),
-                partial_rank: partial.map(with_interval),
+                partial_rank: partial,
                 // an end that the rows do not bound is none
-                regression: coefficient.map(with_interval).map(|of| {
+                regression: coefficient.map(|of| {
                     let [lower, upper] = [of.lower, of.upper].map(|end| if end.is_finite() { end } else { f64::NAN });
                     Estimate { lower, upper, ..of }
                 }),
-                r_squared: r_squared.map(with_interval),
-                first_order: self.first_order(plan, index, y).map(with_interval),
+                r_squared,
+                first_order: self.first_order(plan, index, y, false),
+                parabola: is_asked.then(|| {
+                    let of = |y: &[f64]| share_of_parabola(&self.standardised[index], y);
+                    let ranks = if self.with_tails.contains(&true) { 0.0 } else { WEIGHT_OF_RANKS };
+                    (1.0 - ranks) * of(&scaled) + ranks * of(&ranked)
+                }),
                 total: None,
                 note: note(population, varies, input_varies, self.kept[0][index], correlated_with.as_ref()),
                 correlated_with,
@@ -282,6 +336,12 @@ impl Prepared {
         };
         names.iter().enumerate().map(of_input).collect()
     }
+}
+
+/// Whether an input with these values has more than a few, and tails. Of many inputs one passes by chance: the limits
+/// are higher than those of the outcome.
+fn tails_of(values: &[f64], tested: Option<&TestedInput>) -> bool {
+    tested.is_some_and(|tested| !tested.has_few_values()) && has_tails(values, [1.5; 2])
 }
 
 /// How the samples of `plan` fill the space of the inputs.

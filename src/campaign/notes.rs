@@ -60,7 +60,7 @@ impl Plan {
         let [first, second, third] = self.design.bound(names.len(), runs)?.map(|dimension| names[dimension].as_str());
         let others = if second == third { second.to_owned() } else { format!("{second} and {third} together") };
         Some(format!(
-            "design \"{}\": in {runs} runs {first} varies as {others}, so that no driver is tested; design \"random\" or \"latin_hypercube\" tests them",
+            "design \"{}\": in {runs} runs {first} may vary as {others}, so that no driver is tested; design \"random\" or \"latin_hypercube\" tests them",
             self.design.name()
         ))
     }

@@ -35,7 +35,10 @@ pub fn outcomes<'a>(plan: &Plan, all: &'a [InputSensitivity]) -> Vec<&'a str> {
 
 /// Why no driver was tested ([`Plan::bound_inputs`]); `None` where all were, or there is nothing to test.
 pub fn refused(plan: &Plan, all: &[InputSensitivity]) -> Option<String> {
-    plan.bound_inputs(all.first()?.rows)
+    let rows = all.first()?.rows;
+    plan.bound_inputs(rows)?;
+    let design = plan.design.name();
+    Some(format!("no driver was tested: {rows} runs of design {design} bind inputs to each other, random ones do not"))
 }
 
 /// The rankings of an outcome, at the confidence of the plan; none where no driver was tested ([`refused`]).
@@ -145,7 +148,9 @@ fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ra
                 listed.insert(0, first);
                 let listed: Vec<String> = listed.into_iter().map(level).collect();
                 let end = |end: f64| if end.is_finite() { brief(end) } else { "no bound".to_owned() };
-                let times = if ratio.value.is_finite() {
+                let times = if ratio.lower.is_nan() && ratio.upper.is_nan() {
+                    format!("risk ratio {}", brief(ratio.value))
+                } else if ratio.value.is_finite() {
                     let [low, high] = outward([ratio.lower, ratio.upper], 3).map(end);
                     format!("risk ratio {} [{low}, {high}]", brief(ratio.value))
                 } else {

@@ -76,10 +76,10 @@ pub fn computed(
     let verdicts = verdicts.with_quantiles(&statistics);
     let audit = gathered.tally.audits.as_ref().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
     let failures = match statistics.loss().is_big() {
-        true => sensitivity::of_failures(plan, &gathered.failure_rows, threads),
+        true => sensitivity::of_failures(plan, &gathered.first_rows, threads),
         false => Vec::new(),
     };
-    let sensitivities = sensitivity::compute(plan, &gathered.first_rows, threads);
+    let sensitivities = sensitivity::compute(plan, &gathered.first_rows, statistics.loss(), threads);
     let refused = drivers_text::refused(plan, &sensitivities);
     Ok(Analysed {
         notes: filter_text::overconfident(&statistics).into_iter().chain(refused).collect(),

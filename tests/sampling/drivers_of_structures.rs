@@ -1,12 +1,11 @@
 //! What is said of drivers, over a list of causal structures of known truth, designs and numbers of runs.
 //!
-//! Each campaign is put into words as on the screen. H0 of each structure, design and number of runs, at alpha 1e-3 by
-//! the binomial distribution: an interval of a share that is said covers the truth in 95%; what is not a cause is named
-//! in 5% of the campaigns; and a cause that explains more than half is named first in 95% of those in which a test at
-//! 1e-4 sees it. Shares are known in closed form, unless the structure says how. Seeds are fixed. `cargo test --release
-//! --test sampling -- --ignored drivers_of_all_structures` has all designs and 300 campaigns of each.
-
-use core::f64::consts::{E, PI};
+//! Each campaign is put into words as on the screen, unless its design refuses drivers. H0 of each structure, design
+//! and number of runs, at alpha 1e-3 by the binomial distribution: an interval of a share that is said covers the truth
+//! in 95%; what is not a cause is named in 5% of the campaigns; and a cause that explains more than half is named first
+//! in 95% of those in which a test at 1e-4 sees it. No number of runs tells what a cause without a fourth moment
+//! explains; it has to be first where it varies more than the rest in the rows. Seeds are fixed. `cargo test --release --test sampling --
+//! --ignored drivers_of_all_structures` has all designs and 300 campaigns of each.
 
 use spindrift::Overrides;
 use spindrift::Plan;
@@ -15,380 +14,14 @@ use spindrift::analysis::sensitivity::Prepared;
 use spindrift::findings::names;
 use spindrift::math::normal::quantile;
 use spindrift::report::drivers_text;
-use spindrift::sampling::design::halton::Halton;
-use spindrift::sampling::design::latin::Permutation;
-use spindrift::sampling::design::sobol::Sobol;
 use spindrift::statistics::binomial;
 
-use crate::support::scenes::Uniform;
+use crate::causal_structures::{Structure, structures};
+use crate::false_names::numbers;
 
 const OUTCOME: &str = "energy_body_max_j";
 /// Probability of each of the tests under H0.
 const ALPHA: f64 = 1e-3;
-
-/// An outcome of inputs, from numbers uniform in (0, 1), one for each input.
-struct Structure {
-    name: &'static str,
-    inputs: usize,
-    /// Turns the numbers into the inputs, and gives the outcome.
-    of: fn(&mut [f64]) -> f64,
-    /// The causes, each with its first-order share; NaN if that is not known.
-    causes: &'static [(usize, f64)],
-    /// The shares of inputs that are no cause, but are correlated with one.
-    others: &'static [(usize, f64)],
-    /// Limit of a requirement on the outcome; the shares are those of whether it is missed.
-    limit: Option<f64>,
-    /// Whether most campaigns do not see the tail that gives the main cause its share: in their rows another cause is
-    /// the main one.
-    is_hidden: bool,
-}
-
-const fn structure(
-    name: &'static str,
-    inputs: usize,
-    of: fn(&mut [f64]) -> f64,
-    causes: &'static [(usize, f64)],
-) -> Structure {
-    Structure { name, inputs, of, causes, others: &[], limit: None, is_hidden: false }
-}
-
-/// Turns the first numbers into standard normal ones.
-fn normal<const N: usize>(u: &mut [f64]) -> [f64; N] {
-    u.iter_mut().take(N).for_each(|u| *u = quantile(*u));
-    core::array::from_fn(|input| u[input])
-}
-
-fn step(is: bool) -> f64 {
-    f64::from(u8::from(is))
-}
-
-/// 20 in 2% of the runs.
-fn jump(u: &mut f64) -> f64 {
-    *u = 20.0 * step(*u < 0.02);
-    *u
-}
-
-/// x + Pareto numbers of this index, of variance a/((a - 1)^2 (a - 2)).
-fn with_pareto(u: &mut [f64], index: f64) -> f64 {
-    let [x] = normal(u);
-    u[1] = u[1].powf(-1.0 / index);
-    x + u[1]
-}
-
-/// Student's t of 3 degrees, by its quantile: the root of p = 1/2 + (t/(3 + t^2) sqrt(3) + atan(t/sqrt(3)))/pi.
-fn student(p: f64) -> f64 {
-    let root = 3.0_f64.sqrt();
-    let mut ends = [-1e6, 1e6];
-    for _ in 0..80 {
-        let t: f64 = 0.5 * (ends[0] + ends[1]);
-        let below = 0.5 + (root * t / (3.0 + t * t) + (t / root).atan()) / PI < p;
-        ends[usize::from(!below)] = t;
-    }
-    ends[0]
-}
-
-fn ishigami(u: &mut [f64]) -> f64 {
-    u.iter_mut().take(3).for_each(|u| *u = PI * (2.0 * *u - 1.0));
-    u[0].sin() * (1.0 + 0.1 * u[2].powi(4)) + 7.0 * u[1].sin() * u[1].sin()
-}
-
-/// z = 0.8 x + 0.6 e, at the places 0 and 1.
-fn correlated(u: &mut [f64]) -> [f64; 2] {
-    let [x, e] = normal(u);
-    u[1] = 0.8 * x + 0.6 * e;
-    [x, u[1]]
-}
-
-fn structures() -> Vec<Structure> {
-    const LOG: f64 = E * (E - 1.0);
-    // 3^2 p (1 - p) of P(x > 1.5)
-    const STEP: f64 = 9.0 * 0.066_807_201_268_858_1 * 0.933_192_798_731_141_9;
-    vec![
-        structure(
-            "x + rare jump",
-            2,
-            |u| {
-                let [x] = normal(u);
-                x + jump(&mut u[1])
-            },
-            &[(0, 1.0 / 8.84), (1, 7.84 / 8.84)],
-        ),
-        structure(
-            "x + dead part",
-            2,
-            |u| {
-                let [x] = normal(u);
-                u[1] = step(u[1] < 0.04);
-                x + 3.0 * u[1]
-            },
-            &[(0, 1.0 / 1.3456), (1, 0.3456 / 1.3456)],
-        ),
-        Structure {
-            is_hidden: true,
-            ..structure(
-                "x + Pareto 2.2",
-                2,
-                |u| with_pareto(u, 2.2),
-                &[(0, 1.0 / 8.638_888_9), (1, 7.638_888_9 / 8.638_888_9)],
-            )
-        },
-        Structure {
-            is_hidden: true,
-            ..structure("x + Pareto 2.5", 2, |u| with_pareto(u, 2.5), &[(0, 9.0 / 29.0), (1, 20.0 / 29.0)])
-        },
-        structure("x + Pareto 4", 2, |u| with_pareto(u, 4.0), &[(0, 9.0 / 11.0), (1, 2.0 / 11.0)]),
-        structure(
-            "x + Student 3",
-            2,
-            |u| {
-                let [x] = normal(u);
-                u[1] = student(u[1]);
-                x + u[1]
-            },
-            &[(0, 0.25), (1, 0.75)],
-        ),
-        structure(
-            "|x|",
-            2,
-            |u| {
-                let [x, _] = normal(u);
-                x.abs()
-            },
-            &[(0, 1.0)],
-        ),
-        structure(
-            "x^2",
-            2,
-            |u| {
-                let [x, _] = normal(u);
-                x * x
-            },
-            &[(0, 1.0)],
-        ),
-        structure(
-            "x^2 + z",
-            3,
-            |u| {
-                let [x, z, _] = normal(u);
-                x * x + z
-            },
-            &[(0, 2.0 / 3.0), (1, 1.0 / 3.0)],
-        ),
-        structure(
-            "none of 50",
-            51,
-            |u| {
-                normal::<50>(u);
-                quantile(u[50])
-            },
-            &[(50, 1.0)],
-        ),
-        structure(
-            "one of 300",
-            300,
-            |u| {
-                normal::<300>(u);
-                u[7] + u[11]
-            },
-            &[(7, 0.5), (11, 0.5)],
-        ),
-        structure(
-            "XOR",
-            4,
-            |u| {
-                let [x, _, _, z] = normal(u);
-                step((x > 0.0) != (z > 0.0))
-            },
-            &[(0, 0.0), (3, 0.0)],
-        ),
-        structure(
-            "x z",
-            3,
-            |u| {
-                let [x, z, _] = normal(u);
-                x * z
-            },
-            &[(0, 0.0), (1, 0.0)],
-        ),
-        structure(
-            "product of the third and fourth of five",
-            5,
-            |u| {
-                let [_, _, x, z, _] = normal(u);
-                x * z
-            },
-            &[(2, 0.0), (3, 0.0)],
-        ),
-        structure(
-            "x + x z",
-            3,
-            |u| {
-                let [x, z, _] = normal(u);
-                x + x * z
-            },
-            &[(0, 0.5), (1, 0.0)],
-        ),
-        structure(
-            "3x + z",
-            3,
-            |u| {
-                let [x, z, _] = normal(u);
-                3.0 * x + z
-            },
-            &[(0, 0.9), (1, 0.1)],
-        ),
-        structure(
-            "x^3 + z",
-            3,
-            |u| {
-                let [x, z, _] = normal(u);
-                x.powi(3) + z
-            },
-            &[(0, 15.0 / 16.0), (1, 1.0 / 16.0)],
-        ),
-        structure(
-            "e^x + z",
-            3,
-            |u| {
-                let [x, z, _] = normal(u);
-                x.exp() + z
-            },
-            &[(0, LOG / (LOG + 1.0)), (1, 1.0 / (LOG + 1.0))],
-        ),
-        structure(
-            "e^(x + z)",
-            3,
-            |u| {
-                let [x, z, _] = normal(u);
-                (x + z).exp()
-            },
-            &[(0, 1.0 / (E + 1.0)), (1, 1.0 / (E + 1.0))],
-        ),
-        structure(
-            "x^2 + z^2",
-            3,
-            |u| {
-                let [x, z, _] = normal(u);
-                x * x + z * z
-            },
-            &[(0, 0.5), (1, 0.5)],
-        ),
-        structure(
-            "sum of five",
-            6,
-            |u| normal::<6>(u)[..5].iter().sum(),
-            &[(0, 0.2), (1, 0.2), (2, 0.2), (3, 0.2), (4, 0.2)],
-        ),
-        structure(
-            "five levels + z",
-            3,
-            |u| {
-                let level = (5.0 * u[2]).floor();
-                let [_, z] = normal(u);
-                u[2] = level;
-                level + z
-            },
-            &[(2, 2.0 / 3.0), (1, 1.0 / 3.0)],
-        ),
-        structure("five steps", 2, |u| (5.0 * u[0]).floor(), &[(0, 1.0)]),
-        structure(
-            "a step + z",
-            2,
-            |u| {
-                let [x, z] = normal(u);
-                3.0 * step(x > 1.5) + z
-            },
-            &[(0, STEP / (STEP + 1.0)), (1, 1.0 / (STEP + 1.0))],
-        ),
-        structure("two waves", 2, |u| (4.0 * PI * u[0]).sin(), &[(0, 1.0)]),
-        structure("Ishigami", 4, ishigami, &[(0, 0.313_905_191_147_811_46), (1, 0.442_411_144_790_040_73), (2, 0.0)]),
-        structure(
-            "x + 2|x| z",
-            3,
-            |u| {
-                let [x, z, _] = normal(u);
-                x + 2.0 * x.abs() * z
-            },
-            &[(0, 0.2), (1, 1.6 / PI)],
-        ),
-        Structure {
-            others: &[(1, 0.64)],
-            ..structure(
-                "x, and z correlated",
-                3,
-                |u| {
-                    let [x, _] = correlated(u);
-                    u[2] = quantile(u[2]);
-                    x
-                },
-                &[(0, 1.0)],
-            )
-        },
-        Structure {
-            others: &[(1, 0.512)],
-            ..structure(
-                "x + e, and z correlated",
-                3,
-                |u| {
-                    let [x, _] = correlated(u);
-                    u[2] = quantile(u[2]);
-                    x + 0.5 * u[2]
-                },
-                &[(0, 0.8), (2, 0.2)],
-            )
-        },
-        Structure {
-            others: &[(1, 0.409_6)],
-            ..structure(
-                "x^2, and z correlated",
-                3,
-                |u| {
-                    let [x, _] = correlated(u);
-                    x * x
-                },
-                &[(0, 1.0)],
-            )
-        },
-        Structure {
-            limit: Some(1.0),
-            ..structure(
-                "x > 1",
-                2,
-                |u| {
-                    let [x, _] = normal(u);
-                    x
-                },
-                &[(0, 1.0)],
-            )
-        },
-        Structure {
-            limit: Some(1.0),
-            ..structure(
-                "|x| > 1",
-                2,
-                |u| {
-                    let [x, _] = normal(u);
-                    x.abs()
-                },
-                &[(0, 1.0)],
-            )
-        },
-        Structure {
-            limit: Some(1.0),
-            others: &[(1, f64::NAN)],
-            ..structure(
-                "x > 1, and z correlated",
-                3,
-                |u| {
-                    let [x, _] = correlated(u);
-                    u[2] = quantile(u[2]);
-                    x
-                },
-                &[(0, 1.0)],
-            )
-        },
-    ]
-}
 
 fn plan(structure: &Structure, design: &str, runs: u64) -> Plan {
     let require = structure.limit.map_or_else(String::new, |limit| {
@@ -416,32 +49,10 @@ fn plan(structure: &Structure, design: &str, runs: u64) -> Plan {
 
 const DESIGNS: [&str; 4] = ["random", "latin_hypercube", "sobol", "halton"];
 
-/// The points of a design: for each run a number for each input.
-fn points(design: &str, seed: u64, inputs: usize, runs: u64) -> Vec<Vec<f64>> {
-    let names: Vec<String> = (0..inputs).map(|input| format!("x{input}")).collect();
-    let mut random = Uniform::new(seed);
-    let all = |of: &dyn Fn(usize, u64) -> f64| {
-        (0..runs).map(|run| (0..inputs).map(|input| of(input, run)).collect()).collect()
-    };
-    match design {
-        "random" => (0..runs).map(|_| (0..inputs).map(|_| random.uniform()).collect()).collect(),
-        "latin_hypercube" => {
-            let strata: Vec<_> = (0..inputs).map(|_| Permutation::new(runs, random.bits())).collect();
-            let places: Vec<Vec<f64>> = all(&|input, run| strata[input].image(run) as f64);
-            places
-                .into_iter()
-                .map(|row| row.into_iter().map(|at| (at + random.uniform()) / runs as f64).collect())
-                .collect()
-        }
-        "sobol" => {
-            let sobol = Sobol::new(seed, &names);
-            all(&|input, run| sobol.number(input, run))
-        }
-        _ => {
-            let halton = Halton::new(seed, &names);
-            all(&|input, run| halton.number(input, run))
-        }
-    }
+/// The sum of squares about the mean.
+fn square(column: &[f64]) -> f64 {
+    let mean = column.iter().sum::<f64>() / column.len() as f64;
+    column.iter().map(|value| (value - mean) * (value - mean)).sum()
 }
 
 fn is_yes_or_no(y: &[f64]) -> bool {
@@ -483,16 +94,18 @@ fn count(structure: &Structure, design: &str, runs: u64, campaigns: u64, seed: u
         structure.causes.iter().chain(structure.others).find(|(one, _)| *one == input).map_or(0.0, |(_, share)| *share)
     };
     let is_cause = |input: usize| structure.causes.iter().any(|(one, _)| *one == input);
-    let main = structure.causes.iter().find(|(_, share)| *share > 0.5 && !structure.is_hidden);
+    let main = structure.causes.iter().find(|(_, share)| *share > 0.5);
     let mut counts = Counts::default();
     for campaign in 0..campaigns {
-        let rows = points(design, seed + 7919 * campaign, structure.inputs, runs);
+        let uniform = numbers(&plan.design, seed + 7919 * campaign, structure.inputs, runs);
         let (mut values, mut y) = (vec![Vec::new(); structure.inputs], Vec::new());
-        for mut row in rows {
-            y.push((structure.of)(&mut row));
-            values.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
+        for run in 0..uniform[0].len() {
+            let u: Vec<f64> = uniform.iter().map(|column| column[run]).collect();
+            let mut x: Vec<f64> = u.iter().map(|u| quantile(*u)).collect();
+            y.push((structure.of)(&mut x, &u));
+            values.iter_mut().zip(x).for_each(|(column, value)| column.push(value));
         }
-        let found = Prepared::new(values, None).explained(&plan, &inputs, OUTCOME, &y);
+        let found = Prepared::new(values.clone(), None).explained(&plan, &inputs, OUTCOME, &y);
         let rankings = rankings(&found, OUTCOME, 0.05);
         let mut is_wrong = false;
         for ranking in &rankings {
@@ -516,7 +129,12 @@ fn count(structure: &Structure, design: &str, runs: u64, campaigns: u64, seed: u
                 counts.said[0] += u64::from(truth.is_finite());
                 counts.said[1] += u64::from(low > truth + 1e-9 || high < truth - 1e-9);
             }
-            if let (true, Some((main, _))) = (is_of_truth, main) {
+            // without a fourth moment, what the cause explains in these rows, beside the rest
+            let is_main = |main: usize| {
+                let rest: Vec<f64> = y.iter().zip(&values[main]).map(|(y, part)| y - part).collect();
+                !structure.has_tail || square(&values[main]) > square(&rest)
+            };
+            if let Some((main, _)) = main.filter(|(main, _)| is_of_truth && is_main(*main)) {
                 let p = |input: &spindrift::analysis::drivers::Ranked<'_>| {
                     input.effect.map_or(input.input.p_value, |effect| Some(effect.p_value))
                 };
@@ -533,38 +151,53 @@ fn count(structure: &Structure, design: &str, runs: u64, campaigns: u64, seed: u
     counts
 }
 
-fn hold(designs: &[&str], sizes: &[(u64, u64)]) {
-    let mut broken = Vec::new();
-    for (place, structure) in structures().iter().enumerate() {
-        for design in designs {
-            for (runs, campaigns) in sizes {
-                let campaigns = if structure.inputs > 100 { campaigns.div_ceil(5) } else { *campaigns };
-                let seed = 1_000_003 * place as u64 + 10_007 * runs;
-                let found = count(structure, design, *runs, campaigns, seed);
-                let Counts { said: [said, missed], wrong, seen: [seen, not_first] } = found;
-                let line = format!(
-                    "{}, {design}, {runs} runs: {said} said, {missed} miss; {wrong} of {campaigns} name no cause; \
-                     {seen} seen, {not_first} not first",
-                    structure.name
-                );
-                println!("{line}");
-                if missed > most(said, 0.05) || wrong > most(campaigns, 0.05) || not_first > most(seen, 0.05) {
-                    broken.push(line);
-                }
+/// Whether a campaign with this design may be, and tells drivers: `[[correlate]]` and strata exclude each other.
+fn tells(structure: &Structure, design: &str, runs: u64) -> bool {
+    let is_allowed = structure.others.is_empty() || design != "latin_hypercube";
+    is_allowed && plan(structure, design, runs).design.bound(structure.inputs, runs).is_none()
+}
+
+pub fn hold(all: &[(usize, &Structure)], designs: &[&str], sizes: &[(u64, u64)]) {
+    let (mut broken, mut total) = (Vec::new(), [0; 6]);
+    for (place, structure) in all {
+        for (design, (runs, campaigns)) in designs.iter().flat_map(|one| sizes.iter().map(move |size| (one, size))) {
+            if !tells(structure, design, *runs) {
+                continue;
+            }
+            let campaigns = if structure.inputs > 100 { campaigns.div_ceil(5) } else { *campaigns };
+            let seed = 1_000_003 * *place as u64 + 10_007 * runs;
+            let Counts { said: [said, missed], wrong, seen: [seen, not_first] } =
+                count(structure, design, *runs, campaigns, seed);
+            let line = format!(
+                "{}, {design}, {runs} runs: {said} said, {missed} miss; {wrong} of {campaigns} name no cause; \
+                 {seen} seen, {not_first} not first",
+                structure.name
+            );
+            println!("{line}");
+            let counts = [said, missed, campaigns, wrong, seen, not_first];
+            total.iter_mut().zip(counts).for_each(|(total, count)| *total += count);
+            if [0, 2, 4].iter().any(|at| counts[at + 1] > most(counts[*at], 0.05)) {
+                broken.push(line);
             }
         }
     }
+    println!("said, miss, campaigns, name no cause, seen, not first: {total:?}");
     assert!(broken.is_empty(), "{broken:#?}");
+}
+
+fn all_hold(designs: &[&str], sizes: &[(u64, u64)]) {
+    let list = structures();
+    hold(&list.iter().enumerate().collect::<Vec<_>>(), designs, sizes);
 }
 
 /// Law: intervals that are said cover, no other inputs than causes are named, and the main cause first.
 #[test]
 fn drivers_of_structures() {
-    hold(&["random"], &[(40, 30), (100, 30), (300, 10)]);
+    all_hold(&["random"], &[(40, 30), (100, 30), (300, 10)]);
 }
 
 #[test]
 #[ignore = "minutes"]
 fn drivers_of_all_structures() {
-    hold(&DESIGNS, &[(30, 300), (50, 300), (64, 300), (100, 300), (300, 300), (1000, 300)]);
+    all_hold(&DESIGNS, &[(30, 300), (50, 300), (64, 300), (100, 300), (300, 300), (1000, 300)]);
 }

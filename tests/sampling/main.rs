@@ -7,6 +7,7 @@ mod support;
 
 mod arcs;
 mod bootstrap;
+mod causal_structures;
 mod coverage;
 mod coverage_of_means;
 mod coverage_of_sensitivities;
@@ -14,6 +15,7 @@ mod dependence;
 mod designs;
 mod dispersable;
 mod distributions;
+mod drivers_of_known_truth;
 mod drivers_of_structures;
 mod effect;
 mod false_names;

@@ -17,6 +17,30 @@ use super::jackknife::{ends, of_whole, ratio, spaced_rows};
 use super::mean::one_sided;
 use super::moments::Moments;
 
+/// Share of the variance of `y` that a line in `x` explains, or a parabola where its bend is no noise: a measure that
+/// orders inputs, and no estimate of a first-order index. Both columns have the mean zero; of one that does not vary
+/// the share is zero.
+pub fn share_of_parabola(x: &[f64], y: &[f64]) -> f64 {
+    let n = x.len() as f64;
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let share = |of: &[f64]| {
+        let share = product(of, y) * product(of, y) / (product(of, of) * product(y, y));
+        if share.is_finite() { share } else { 0.0 }
+    };
+    let square = product(x, x);
+    let slope = x.iter().map(|x| x * x * x).sum::<f64>() / square;
+    let bent: Vec<f64> = x.iter().map(|x| x * x - square / n - slope * x).collect();
+    let line = share(x);
+    // of two values the parabola is the line
+    let has_bend = product(&bent, &bent) * n > 1e-9 * square * square;
+    let parabola = line + if has_bend { share(&bent) } else { 0.0 };
+    let is_bent = (parabola - line) * (n - 3.0) > CERTAIN_BEND * (1.0 - parabola);
+    if is_bent { parabola } else { line }
+}
+
+/// F of a bend (about the square of a normal number) above which it is no noise.
+const CERTAIN_BEND: f64 = 12.0;
+
 /// Values of one block of a Saltelli design for one input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
@@ -102,18 +126,17 @@ pub fn first_order_index_in_order(
     let unseen = UNSEEN * whole.iter().fold(0.0, |most: f64, one| most.max(*one)) / total;
     let ([share, up], [other, down]) = (of(least, false), of(most, true));
     let value = 1.0 - 0.5 * (share + other);
-    let kurtosis = |of: &[f64]| Moments::of_block(of).kurtosis().unwrap_or(f64::INFINITY);
-    let has_tails = |of: &[f64]| kurtosis(of) > MOST_KURTOSIS;
-    let rest_has_tails = kurtosis(&rests) > MOST_KURTOSIS * libm::pow(n / MIN_ROWS as f64, 0.25);
     let [smallest, largest] = y.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], y| [a.min(*y), b.max(*y)]);
     let is_yes_or_no = y.iter().all(|y| *y == smallest || *y == largest);
     let is_almost_all = share < ALMOST_ALL;
+    let more = libm::pow(n / MIN_ROWS as f64, 0.25);
+    let rest_has_tails = Moments::of_block(&rests).kurtosis().is_none_or(|kurtosis| kurtosis > more * MOST_KURTOSIS);
     let lower = if !is_almost_all && !is_yes_or_no && rest_has_tails {
         0.0
     } else {
         1.0 - up * (share + unseen) / (1.0 + unseen)
     };
-    let upper = if is_almost_all || has_tails(x) || has_tails(y) {
+    let upper = if is_almost_all || has_tails(x, [1.0, more]) || has_tails(y, [1.0, more]) {
         1.0
     } else {
         // cells that differ in their noise say how well it is known
@@ -141,6 +164,23 @@ const ALMOST_ALL: f64 = 0.06;
 /// explain may lower the share to 0, unless the observable has two values; more rows than [`MIN_ROWS`] show more of
 /// these tails, and the limit for them rises with the fourth root of the number of rows.
 const MOST_KURTOSIS: f64 = 4.5;
+
+/// Above this skewness of the input or the observable, the same: rows of a long tail on one side that happen to have
+/// none far out are still skewed. More rows show more of a tail: the limit rises too.
+const MOST_SKEWNESS: f64 = 0.6;
+
+/// Whether rows that are not seen may decide the variance of a column, by its kurtosis or its skewness: above so many
+/// times the limits.
+pub fn has_tails(column: &[f64], [kurtosis, skewness]: [f64; 2]) -> bool {
+    let moments = Moments::of_block(column);
+    let [smallest, largest] = [moments.min(), moments.max()];
+    // two values have no more values far out
+    let is_skewed = || {
+        let is_two = column.iter().all(|value| Some(*value) == smallest || Some(*value) == largest);
+        !is_two && moments.skewness().is_none_or(|found| found.abs() > skewness * MOST_SKEWNESS)
+    };
+    moments.kurtosis().is_none_or(|found| found > kurtosis * MOST_KURTOSIS) || is_skewed()
+}
 
 /// Fewer rows do not show a line in a few cells.
 pub const MIN_ROWS: usize = 64;

@@ -114,6 +114,18 @@ fn primes(count: usize) -> Vec<u64> {
     primes
 }
 
+/// The parts of a period of three dimensions that have to be there, or their effects are bound: measured over
+/// interactions of two (`false_names`), a third is named as seldom as stated from a quarter on.
+const PARTS: u64 = 4;
+
+/// Three of the first `dimensions` dimensions, the last, whose leading digits do not go evenly through their
+/// combinations in so many points: these come back after as many points as the product of the three bases.
+pub fn bound(dimensions: usize, points: u64) -> Option<[usize; 3]> {
+    let last: [usize; 3] = core::array::from_fn(|back| dimensions.wrapping_sub(1 + back));
+    let period: u64 = primes(dimensions).iter().rev().take(3).product();
+    (dimensions > 2 && period > PARTS * points).then_some(last)
+}
+
 /// The points of all replicates.
 #[derive(Clone, Debug)]
 pub struct HaltonPoints(Vec<Halton>);

@@ -78,11 +78,13 @@ impl Design {
         }
     }
 
-    /// Three of so many `dimensions` whose effects no test tells apart in `points` points ([`sobol::bound`]), where
-    /// there are such.
+    /// Three of so many `dimensions` whose effects no test tells apart in `points` points ([`sobol::bound`],
+    /// [`halton::bound`]), where there are such.
     pub fn bound(&self, dimensions: usize, points: u64) -> Option<[usize; 3]> {
+        let points = points / self.replicates();
         match self {
-            Design::Sobol(_) => sobol::bound(dimensions, points / self.replicates()),
+            Design::Sobol(_) => sobol::bound(dimensions, points),
+            Design::Halton(_) => halton::bound(dimensions, points),
             _ => None,
         }
     }

@@ -136,6 +136,13 @@ fn failed_runs_violate_what_their_values_keep() {
         assert_eq!(counts, [runs.len(), violations, failed], "{statement} {side} {limit}");
     }
     assert!(list[..3].iter().all(|one| one["verdict"] == "FAIL"), "{list:?}");
+    // what decides whether a requirement is missed is asked of the same runs; those that are ok are no sample of all
+    let inputs = scratch.table("r/sensitivity.parquet");
+    let of = |name: &str| floats(&inputs, name);
+    assert!(of("event_runs").iter().all(|runs| Some(*runs as u64) == list[0]["violations"].as_u64()));
+    let has = |name: &str| of(name).iter().any(|number| !number.is_nan());
+    let known = ["first_order", "event_share", "event_share_lower", "first_order_lower", "pearson_lower"].map(has);
+    assert_eq!(known, [true, true, true, false, false]);
     let xml = scratch.text("junit.xml");
     let failures = list.iter().filter(|one| one["verdict"] == "FAIL").count();
     assert_eq!(junit_counts(&xml)[1], failures + 1, "one more for the failed runs: {xml}");

@@ -1,37 +1,41 @@
 //! Tests of the rankings on runs whose causes are known.
 
-use crate::analysis::drivers::{Question, rankings};
-use crate::analysis::effects::{Dependence, Direction, TestedInput, on_event, on_spread};
-use crate::analysis::event::{Event, Occurs};
-use crate::analysis::input_sensitivity::InputSensitivity;
-use crate::analysis::observed::Observed;
-use crate::analysis::sensitivity::Prepared;
-use crate::analysis::small_plan::small_plan;
-use crate::campaign::Plan;
-use crate::statistics::contingency::Occurrence;
-use crate::statistics::correlation::ascending_order;
+use spindrift::analysis::drivers::{Question, rankings};
+use spindrift::analysis::effects::{Dependence, Direction, TestedInput, on_event, on_spread};
+use spindrift::analysis::event::{Event, Occurs};
+use spindrift::analysis::input_sensitivity::InputSensitivity;
+use spindrift::analysis::observed::Observed;
+use spindrift::analysis::sensitivity::Prepared;
+use spindrift::statistics::contingency::Occurrence;
+use spindrift::statistics::correlation::ascending_order;
+use spindrift::{Overrides, Plan};
 
-/// SplitMix64: uniform in [0, 1).
-struct Uniform(u64);
-
-impl Uniform {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ z >> 31) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
+use crate::support::scenes::Uniform;
 
 const ALPHA: f64 = 0.05;
 const MISSED: Occurs = Occurs::Missed { requirement: 0, is_only: true };
 
+/// A free body whose rates about two axes are dispersed, with one more line.
+fn small_plan(line: &str) -> Plan {
+    let disperse = |axis: &str| {
+        let parameter = format!("initial.angular_velocity_rad_s.{axis}");
+        format!("[[disperse]]\nparameter = \"{parameter}\"\ndistribution = \"normal\"\nstd = 0.05\n")
+    };
+    let text = format!(
+        "{line}\ninitial = {{ angular_velocity_rad_s = [0.0, 0.1, 0.5] }}\nobserve = {{ points = 11 }}\n[campaign]\n\
+         name = \"small\"\nseed = 1\nduration_s = 1.0\nsamples = 7\n[body]\nmass_kg = 500.0\n\
+         inertia_kg_m2 = [[120.0, 0.0, 0.0], [0.0, 150.0, 0.0], [0.0, 0.0, 90.0]]\n{}{}",
+        disperse("x"),
+        disperse("y")
+    );
+    Plan::from_text("small.toml", &text, Overrides::default()).expect("a plan")
+}
+
 /// The observable of the tests: the first of the plan, with a limit of 1 in 95% of the runs where there is to be one.
 fn plan(has_limit: bool) -> (Plan, String) {
-    let name = Observed::all(&small_plan(7, ""))[0].quantity.name().to_owned();
+    let name = Observed::all(&small_plan(""))[0].quantity.name().to_owned();
     let limit = format!("require = [{{ observable = \"{name}\", at_most = 1.0, fraction = 0.95 }}]");
-    (small_plan(7, if has_limit { &limit } else { "" }), name)
+    (small_plan(if has_limit { &limit } else { "" }), name)
 }
 
 /// What is found of the outcome `y` of the inputs.
@@ -53,8 +57,8 @@ fn drivers(inputs: &[Vec<f64>], y: &[f64], has_limit: bool) -> [Option<Vec<Strin
 
 /// A thousand runs of six inputs: uniform, but the last two, which are 0 in some of a hundred runs, else 1.
 fn inputs(random: &mut Uniform) -> Vec<Vec<f64>> {
-    let mut inputs: Vec<Vec<f64>> = (0..4).map(|_| (0..1000).map(|_| random.next()).collect()).collect();
-    inputs.extend((0..2).map(|_| (0..1000).map(|_| f64::from(random.next() > 0.014)).collect::<Vec<f64>>()));
+    let mut inputs: Vec<Vec<f64>> = (0..4).map(|_| (0..1000).map(|_| random.uniform()).collect()).collect();
+    inputs.extend((0..2).map(|_| (0..1000).map(|_| f64::from(random.uniform() > 0.014)).collect::<Vec<f64>>()));
     inputs
 }
 
@@ -95,11 +99,11 @@ fn causes_are_named() {
             Some(&["x0"]),
         ),
     ];
-    let mut random = Uniform(3);
+    let mut random = Uniform::new(3);
     let inputs = inputs(&mut random);
     for (what, of, has_limit, event, spread) in cases {
         let row = |row: usize| inputs.iter().map(|input| input[row]).collect::<Vec<f64>>();
-        let y: Vec<f64> = (0..1000).map(|at| of(&row(at), random.next())).collect();
+        let y: Vec<f64> = (0..1000).map(|at| of(&row(at), random.uniform())).collect();
         let [mut on_event, on_spread] = drivers(&inputs, &y, has_limit);
         on_event.iter_mut().for_each(|names| names.sort());
         let listed =
@@ -111,9 +115,9 @@ fn causes_are_named() {
 /// Law: levels are counted as they are, the one that differs most is the cause, and its risk ratio is that of the counts.
 #[test]
 fn levels_are_counts() {
-    let mut random = Uniform(8);
+    let mut random = Uniform::new(8);
     let inputs = inputs(&mut random);
-    let y: Vec<f64> = inputs[5].iter().map(|x| f64::from(*x > 0.5 && random.next() > 0.002)).collect();
+    let y: Vec<f64> = inputs[5].iter().map(|x| f64::from(*x > 0.5 && random.uniform() > 0.002)).collect();
     let (all, name) = explained(&inputs, &y, false);
     let ranking = rankings(&all, &name, ALPHA).remove(0);
     let first = ranking.inputs[0].input;
@@ -137,16 +141,16 @@ fn levels_are_counts() {
 /// variance 1/12, x has 2/3 of 2/3 + 1/12, and x^2 has 2/9 of 2/9 + 1/12. Directions: x rises, -x falls, x^2 does both.
 #[test]
 fn few_values_have_a_share_and_a_direction() {
-    let mut random = Uniform(21);
-    let levels: Vec<f64> = (0..1200).map(|_| (3.0 * random.next()).floor() - 1.0).collect();
-    let smooth: Vec<f64> = (0..1200).map(|_| 2.0 * random.next() - 1.0).collect();
+    let mut random = Uniform::new(21);
+    let levels: Vec<f64> = (0..1200).map(|_| (3.0 * random.uniform()).floor() - 1.0).collect();
+    let smooth: Vec<f64> = (0..1200).map(|_| 2.0 * random.uniform() - 1.0).collect();
     for (of, share, direction) in [
         ((|x| x) as fn(f64) -> f64, (2.0 / 3.0) / (2.0 / 3.0 + 1.0 / 12.0), Direction::Rises),
         (|x| -x, (2.0 / 3.0) / (2.0 / 3.0 + 1.0 / 12.0), Direction::Falls),
         (|x| x * x, (2.0 / 9.0) / (2.0 / 9.0 + 1.0 / 12.0), Direction::NotMonotonic),
     ] {
         for (x, share) in [(&levels, Some(share)), (&smooth, None)] {
-            let y: Vec<f64> = x.iter().map(|x| of(*x) + random.next()).collect();
+            let y: Vec<f64> = x.iter().map(|x| of(*x) + random.uniform()).collect();
             let (all, name) = explained(&[smooth.iter().rev().copied().collect(), x.clone()], &y, false);
             let rankings = rankings(&all, &name, ALPHA);
             let spread = rankings.last().expect("the spread");
@@ -165,11 +169,11 @@ fn few_values_have_a_share_and_a_direction() {
 /// zero; inputs are continuous, rare and in three levels. 120 studies each: 5% and three standard deviations are 13.
 #[test]
 fn noise_has_seldom_a_driver() {
-    let mut random = Uniform(77);
+    let mut random = Uniform::new(77);
     let mut wrong = [0; 3];
     for _ in 0..120 {
         let rows = 150;
-        let mut column = |of: &dyn Fn(f64) -> f64| (0..rows).map(|_| of(random.next())).collect::<Vec<f64>>();
+        let mut column = |of: &dyn Fn(f64) -> f64| (0..rows).map(|_| of(random.uniform())).collect::<Vec<f64>>();
         let inputs: Vec<Vec<f64>> = (0..40)
             .map(|input| match input % 4 {
                 0 => column(&|u| f64::from(u > 0.03)),
@@ -188,12 +192,12 @@ fn noise_has_seldom_a_driver() {
 /// Law: what a test does not show is no driver, whatever its share; a limit at which nothing fails is no event.
 #[test]
 fn limits_that_all_meet_have_no_causes() {
-    let mut random = Uniform(4);
+    let mut random = Uniform::new(4);
     let inputs = inputs(&mut random);
-    let y: Vec<f64> = inputs[0].iter().map(|x| 0.5 * x + 0.01 * random.next()).collect();
+    let y: Vec<f64> = inputs[0].iter().map(|x| 0.5 * x + 0.01 * random.uniform()).collect();
     assert_eq!(drivers(&inputs, &y, true), [None, Some(vec!["x0".to_owned()])]);
     let few: Vec<Vec<f64>> = inputs.iter().map(|input| input[..70].to_vec()).collect();
-    let noise: Vec<f64> = (0..70).map(|_| random.next()).collect();
+    let noise: Vec<f64> = (0..70).map(|_| random.uniform()).collect();
     assert_eq!(drivers(&few, &noise, false), [None, Some(Vec::new())]);
 }
 
@@ -209,12 +213,12 @@ fn effects_on_an_event_are_seldom_false() {
         3 => (u - 0.7).max(0.0),
         _ => u,
     };
-    let mut random = Uniform(11);
+    let mut random = Uniform::new(11);
     for kind in 0..5 {
         let mut found = 0;
         for _ in 0..CASES {
-            let values: Vec<f64> = (0..ROWS).map(|_| draw(kind, random.next())).collect();
-            let marked: Vec<bool> = (0..ROWS).map(|_| random.next() < 0.2).collect();
+            let values: Vec<f64> = (0..ROWS).map(|_| draw(kind, random.uniform())).collect();
+            let marked: Vec<bool> = (0..ROWS).map(|_| random.uniform() < 0.2).collect();
             let events = marked.iter().filter(|is_marked| **is_marked).count() as u64;
             let of = Occurrence { events, runs: ROWS as u64 };
             let event = Event { occurs: MISSED, of, has_few_values: false };
@@ -233,11 +237,11 @@ fn effects_on_an_event_are_seldom_false() {
 /// recomputed from all pairs, for events where the input is large and where it is small.
 #[test]
 fn shifts_are_medians_and_chances() {
-    let mut random = Uniform(5);
-    let values: Vec<f64> = (0..301).map(|_| random.next()).collect();
+    let mut random = Uniform::new(5);
+    let values: Vec<f64> = (0..301).map(|_| random.uniform()).collect();
     for is_large in [true, false] {
         let marked: Vec<bool> =
-            values.iter().map(|x| random.next() < 0.1 + 0.6 * if is_large { *x } else { 1.0 - x }).collect();
+            values.iter().map(|x| random.uniform() < 0.1 + 0.6 * if is_large { *x } else { 1.0 - x }).collect();
         let events = marked.iter().filter(|is_marked| **is_marked).count() as u64;
         let of = Occurrence { events, runs: 301 };
         let event = Event { occurs: MISSED, of, has_few_values: false };
@@ -265,9 +269,9 @@ fn shifts_are_medians_and_chances() {
 /// events and on the spread.
 #[test]
 fn questions_are_counted() {
-    let mut random = Uniform(6);
-    let values: Vec<f64> = (0..200).map(|_| random.next()).collect();
-    let y: Vec<f64> = values.iter().map(|x| 0.25 * x + random.next()).collect();
+    let mut random = Uniform::new(6);
+    let values: Vec<f64> = (0..200).map(|_| random.uniform()).collect();
+    let y: Vec<f64> = values.iter().map(|x| 0.25 * x + random.uniform()).collect();
     let marked: Vec<bool> = y.iter().map(|y| *y > 0.9).collect();
     let of = Occurrence { events: marked.iter().filter(|is_marked| **is_marked).count() as u64, runs: 200 };
     let event = Event { occurs: MISSED, of, has_few_values: false };
@@ -287,10 +291,10 @@ fn questions_are_counted() {
 }
 
 /// Law: each requirement has the event that some runs miss it, by the rows that its verdict counts: NaN misses, unless
-/// it is said to meet. Requirements that are missed by the same runs have one event.
+/// it is said to meet, and a run that is not `ok` misses in any case. Requirements that are missed by the same runs have one event.
 #[test]
 fn events_are_the_violations_of_requirements() {
-    let name = Observed::all(&small_plan(7, ""))[0].quantity.name().to_owned();
+    let name = Observed::all(&small_plan(""))[0].quantity.name().to_owned();
     let limit = |words: &str| format!("{{ observable = \"{name}\", {words} }}");
     let list = [
         limit("at_most = 0.75, fraction = 0.5"),
@@ -299,37 +303,39 @@ fn events_are_the_violations_of_requirements() {
         limit("at_least = 0.2, quantile = 0.5"),
         limit("at_most = 0.5, mean = true"),
     ];
-    let plan = small_plan(7, &format!("require = [{}]", list.join(", ")));
-    let mut random = Uniform(4);
-    let y: Vec<f64> = (0..300).map(|_| random.next()).map(|y| if y < 0.1 { f64::NAN } else { y }).collect();
-    let found = Event::all(&plan, &name, &y);
+    let plan = small_plan(&format!("require = [{}]", list.join(", ")));
+    let mut random = Uniform::new(4);
+    let y: Vec<f64> = (0..300).map(|_| random.uniform()).map(|y| if y < 0.1 { f64::NAN } else { y }).collect();
     let is_missed: [fn(f64) -> bool; 3] =
         [|y| y.is_nan() || y > 0.75, |y| y.is_nan() || y < 0.2, |y| !y.is_nan() && y < 0.2];
-    assert_eq!(found.len(), 3);
-    for (place, ((event, marked), is_missed)) in found.into_iter().zip(is_missed).enumerate() {
-        assert_eq!(event.occurs, Occurs::Missed { requirement: place, is_only: false });
-        let expected: Vec<bool> = y.iter().map(|y| is_missed(*y)).collect();
-        assert_eq!((event.of.events as usize, marked), (expected.iter().filter(|is| **is).count(), expected));
+    for is_ok in [vec![true; 300], (0..300).map(|row| row % 7 != 0).collect()] {
+        let found = Event::missed(&plan, &name, &y, &is_ok);
+        assert_eq!(found.len(), 3);
+        for (place, ((event, marked), is_missed)) in found.into_iter().zip(is_missed).enumerate() {
+            assert_eq!(event.occurs, Occurs::Missed { requirement: place, is_only: false });
+            let expected: Vec<bool> = y.iter().zip(&is_ok).map(|(y, is_ok)| !is_ok || is_missed(*y)).collect();
+            assert_eq!((event.of.events as usize, marked), (expected.iter().filter(|is| **is).count(), expected));
+        }
     }
-    let one = small_plan(7, &format!("require = [{}]", list[2]));
-    assert_eq!(Event::all(&one, &name, &y)[0].0.occurs, MISSED);
+    let one = small_plan(&format!("require = [{}]", list[2]));
+    assert_eq!(Event::missed(&one, &name, &y, &[true; 300])[0].0.occurs, MISSED);
 }
 
 /// Law: where no limit is missed, the worst runs are the twentieth with the largest values of an outcome that has to stay below a limit, with the smallest of
 /// one that has to stay above.
 #[test]
 fn the_worst_runs_are_on_the_side_of_the_limit() {
-    let name = Observed::all(&small_plan(7, ""))[0].quantity.name().to_owned();
-    let mut random = Uniform(9);
-    let y: Vec<f64> = (0..400).map(|_| random.next()).collect();
+    let name = Observed::all(&small_plan(""))[0].quantity.name().to_owned();
+    let mut random = Uniform::new(9);
+    let y: Vec<f64> = (0..400).map(|_| random.uniform()).collect();
     let mut sorted = y.clone();
     sorted.sort_by(f64::total_cmp);
     for (words, is_worst) in [
         ("at_most = 5.0", (|y, sorted| y >= sorted[380]) as fn(f64, &[f64]) -> bool),
         ("at_least = -5.0", |y, sorted| y <= sorted[19]),
     ] {
-        let plan = small_plan(7, &format!("require = [{{ observable = \"{name}\", {words}, fraction = 0.95 }}]"));
-        let (event, marked) = Event::all(&plan, &name, &y).remove(0);
+        let plan = small_plan(&format!("require = [{{ observable = \"{name}\", {words}, fraction = 0.95 }}]"));
+        let (event, marked) = Event::of_values(&plan, &name, &y).remove(0);
         assert!(matches!(event.occurs, Occurs::Worst(share) if (share - 0.05).abs() < 1e-12), "{event:?}");
         assert!(y.iter().zip(marked).all(|(y, is_marked)| is_worst(*y, &sorted) == is_marked), "{words}");
     }
