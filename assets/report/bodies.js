@@ -55,6 +55,19 @@ export function bodyGroup(three, scene, palette, color) {
   return group;
 }
 
+// The plates that air and light push, as squares of their areas; edges alone where `color` is given.
+export function plateGroup(three, scene, palette, color) {
+  const group = new three.Group();
+  for (const { side, normal, center } of scene.plates) {
+    const geometry = new three.PlaneGeometry(side, side);
+    const object = color ? edges(three, geometry, color) : edged(three, geometry, palette.quiet, 0.3, palette.text);
+    object.position.set(...center);
+    object.quaternion.copy(towards(three, normal));
+    group.add(object);
+  }
+  return group;
+}
+
 // A wheel whose turning is seen by its spokes.
 export function wheelGroup(three, wheel, index, palette) {
   const color = palette.hues[HUE_PLACES.wheels[index % HUE_PLACES.wheels.length]];

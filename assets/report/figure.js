@@ -37,6 +37,11 @@ function legendElement(figure) {
   return list;
 }
 
+// What a legend says, whatever the colour of the body is: neighbours that say the same share one.
+function legendKey(figure) {
+  return legendOf(figure, colors()).map(({ kind, label, dash, opacity }) => [kind, label, dash, opacity].join()).join(";");
+}
+
 // The plot of a figure within `box`, which follows the width of the page.
 export class FigureView {
   constructor(figure, echarts) {
@@ -68,9 +73,14 @@ export class FigureView {
     views.push(this);
   }
 
+  // Its legend, unless that of the figure before says it.
+  drawLegend() {
+    this.legend.replaceChildren(...(this.sharesLegend ? [] : [legendElement(this.figure)]));
+  }
+
   // Takes the room that the drawn figure needs: its legend, and the height of its plot.
   reserve() {
-    this.legend.replaceChildren(legendElement(this.figure));
+    this.drawLegend();
     this.plot.style.height = `${heightOf(this.figure, Math.max(240, Math.floor(this.plot.clientWidth || 560)))}px`;
   }
 
@@ -89,7 +99,7 @@ export class FigureView {
     // so that a printed page may scale it
     this.plot.querySelector("svg").setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.plot.append(this.tip, this.cursor);
-    this.legend.replaceChildren(legendElement(this.figure));
+    this.drawLegend();
     if (this.time !== undefined) this.moveCursor(this.time);
   }
 
@@ -191,13 +201,18 @@ export function showFigures(figures, echarts) {
     { rootMargin: "800px" },
   );
   const said = new Set();
+  const before = new Map();
   for (const figure of figures) {
     const view = new FigureView(figure, echarts);
     // what a section has said of bands need not be said at each of its figures, unless they mislead
     const caption = `${figure.section} ${figure.caption}`;
     view.box.querySelector("figcaption").hidden = figure.time && said.has(caption) && !figure.caption.includes("[bands]");
     said.add(caption);
-    (document.querySelector(`[data-figure~="${figure.name}"]`) ?? document.querySelector(`#${figure.section} .figures`)).append(view.box);
+    const place = document.querySelector(`[data-figure~="${figure.name}"]`) ?? document.querySelector(`#${figure.section} .figures`);
+    const key = legendKey(figure);
+    view.sharesLegend = before.get(place) === key;
+    before.set(place, key);
+    place.append(view.box);
   }
   // so that nothing moves when they are drawn: links land where they point
   for (const view of views) view.reserve();

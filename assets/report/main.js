@@ -5,7 +5,7 @@ import { startPairs } from "./pairs.js";
 import { embeddedData, embeddedText, library } from "./payload.js";
 import { startReplay } from "./replay.js";
 import { select, selected, startSelection } from "./select.js";
-import { startTables } from "./tables.js";
+import { startAnswers, startTables } from "./tables.js";
 import { startTheme } from "./theme.js";
 
 function startLicences() {
@@ -36,6 +36,7 @@ async function startPage() {
   startTheme(document.getElementById("theme"));
   const [data, echarts] = await Promise.all([embeddedData(), library("echarts")]);
   showFigures(data.figures, echarts);
+  startAnswers(drawAll);
   startPairs(data.pairs, echarts);
   const replay = replayOnDemand(data.replay);
   const show = async (sample) => {

@@ -7,7 +7,7 @@ import { Motion, rotated } from "./motion.js";
 import { Approach } from "./approach.js";
 import { LiveNumbers, PhaseMarks } from "./live.js";
 import { Sky, skyEntries } from "./sky.js";
-import { arrow, axes, bodyGroup, curve, debrisGroup, pointTo, quaternionOf, sphere, thrusterGroup, wheelGroup } from "./bodies.js";
+import { arrow, axes, bodyGroup, curve, debrisGroup, plateGroup, pointTo, quaternionOf, sphere, thrusterGroup, wheelGroup } from "./bodies.js";
 
 // the speed at first: all of the run in this time, s
 const WHOLE_IN = 20;
@@ -25,7 +25,7 @@ function control(tag, attributes, text) {
 // The size of the spacecraft, m: what fills the picture.
 function sizeOf(scene) {
   const reach = (position, size) => Math.hypot(...position.map((value, axis) => value - scene.center[axis])) + Math.max(0.05, ...size) * 0.7;
-  const all = [...scene.parts.map((part) => reach(part.position, part.size)), ...scene.wheels.map((wheel) => reach(wheel.position, [wheel.radius])), ...scene.thrusters.map((thruster) => reach(thruster.position, [0.1]))];
+  const all = [...scene.parts.map((part) => reach(part.position, part.size)), ...scene.plates.map((plate) => reach(plate.center, [plate.side])), ...scene.wheels.map((wheel) => reach(wheel.position, [wheel.radius])), ...scene.thrusters.map((thruster) => reach(thruster.position, [0.1]))];
   return Math.max(0.2, ...all);
 }
 
@@ -48,7 +48,8 @@ export class Replay {
     this.controls.addEventListener("change", () => this.render());
     this.build();
     this.layout();
-    this.choose(0);
+    // the worst run is the one to look at
+    this.choose(Math.min(1, data.runs.length - 1));
     this.view("inertial");
     onTheme(() => {
       this.build();
@@ -70,7 +71,7 @@ export class Replay {
     this.craft = new three.Group();
     const inner = new three.Group();
     inner.position.set(...data.scene.center.map((value) => -value));
-    inner.add(bodyGroup(three, data.scene, palette));
+    inner.add(bodyGroup(three, data.scene, palette), plateGroup(three, data.scene, palette));
     this.wheels = data.scene.wheels.map((wheel, index) => wheelGroup(three, wheel, index, palette));
     this.thrusters = data.scene.thrusters.map((thruster) => thrusterGroup(three, thruster, size, palette));
     for (const { group } of [...this.wheels, ...this.thrusters]) inner.add(group);
@@ -244,6 +245,7 @@ export class Replay {
     if (this.data.scene.is_equivalent) notes.push("The file gives the body by its inertia: the box shown has the same mass and inertia.");
     if (this.data.scene.thrusters.length > 0) notes.push(run.loop ? "Plumes show thrusters fired by the loop." : "Plumes show the nominal schedule.");
     if (run.goal) notes.push("Grey line: line of sight to the debris. Line at the debris: launch axis A_d.");
+    if (this.data.scene.plates.length > 0) notes.push("Squares have the areas of the plates that air and light push.");
     notes.push("Arrows show directions only; the sphere shows where s3 points in F_e.");
     if (this.approach) notes.push("The approach view is to scale, centred on the debris, with the axes of F_e.");
     if (run.sample !== 0 && this.nominal) notes.push("Grey edges: the nominal run at the same time.");

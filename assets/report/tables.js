@@ -1,4 +1,4 @@
-// Tables that can be sorted and searched, and texts that can be copied.
+// Tables that can be sorted and searched, answers that open to their figures, and texts that can be copied.
 
 function sortBy(table, column, ascending) {
   const body = table.tBodies[0];
@@ -43,6 +43,24 @@ function makeSearchable(table) {
     }
   });
   table.parentElement.before(input);
+}
+
+// An answer that opens shows its large figure, which goes back to its section when it closes.
+export function startAnswers(redraw) {
+  const homes = new Map();
+  for (const row of document.querySelectorAll("details.answer")) {
+    const place = row.querySelector("[data-shows]");
+    row.addEventListener("toggle", () => {
+      const figure = place && document.getElementById(place.dataset.shows);
+      if (!figure) return;
+      if (!homes.has(figure)) homes.set(figure, document.createComment(""));
+      const home = homes.get(figure);
+      if (!home.isConnected) figure.before(home);
+      if (row.open) place.append(figure);
+      else if (place.contains(figure)) home.after(figure);
+      redraw();
+    });
+  }
 }
 
 export function startTables() {

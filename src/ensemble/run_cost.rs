@@ -102,3 +102,23 @@ pub fn thread_seconds() -> f64 {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     START.elapsed().as_secs_f64()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: the runs that are flown again take no more than a tenth of the campaign's evaluations and the time of a page,
+    /// and one more would.
+    #[test]
+    fn replays_take_a_tenth() {
+        for rows in [1, 10, 128, 100_000] {
+            for evaluations in [1.0, 6.0, 6_000.0, 1e6] {
+                let each = evaluations * EVALUATION_BESIDE_OTHERS_S;
+                let allowed = 0.1 * rows as f64 * each + PAGE_S;
+                let flown = replays(rows, evaluations) as f64;
+                assert!(flown * each <= allowed * (1.0 + 1e-9), "{rows}, {evaluations}: {flown}");
+                assert!((flown + 1.0) * each > allowed * (1.0 - 1e-9), "{rows}, {evaluations}: {flown}");
+            }
+        }
+    }
+}

@@ -11,6 +11,7 @@ pub mod requirement;
 pub mod shell_word;
 
 use crate::campaign::ShownUnit;
+use crate::sampling::SampleId;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
@@ -63,10 +64,19 @@ pub struct Number {
 }
 
 impl Number {
+    /// A number in `unit`, shown in `shown`.
+    pub fn new(name: &str, (value, interval): (f64, [f64; 2]), of: u64, unit: &str, shown: &ShownUnit) -> Self {
+        let (name, unit, shown) = (name.to_owned(), unit.to_owned(), shown.clone());
+        Number { name, unit, value, interval, limit: None, of, shown }
+    }
+
     /// A share of `of` runs.
     pub fn share(name: &str, value: f64, interval: [f64; 2], of: u64) -> Self {
-        let (unit, shown) = ("%".to_owned(), ShownUnit::own("%"));
-        Number { name: name.to_owned(), unit, value, interval, limit: None, of, shown }
+        Number::new(name, (value, interval), of, "%", &ShownUnit::own("%"))
+    }
+
+    pub fn has_interval(&self) -> bool {
+        self.interval.iter().any(|end| end.is_finite())
     }
 
     /// In the unit in which it is shown: value, ends of the interval, limit. A share is in per cent.
@@ -105,11 +115,38 @@ pub struct Figures {
     pub large: Option<String>,
 }
 
-/// One thing that a campaign has found. A list of them is in the order of what matters: that is their rank.
+/// What a finding is about.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// To know before any number: the title says what it is about in capitals.
+    Warning,
+    Requirement,
+    /// What the verdicts say together.
+    Verdicts,
+    /// Whether `[stop]` has reached its goal.
+    Stop,
+    /// A reason for which runs have no numbers.
+    Loss,
+    /// A way in which the missions of a control loop ended.
+    Mission,
+    #[default]
+    Note,
+    /// How an outcome is distributed.
+    Outcome,
+    /// What an outcome, or an event of it, depends on.
+    Driver,
+    /// How well runs were computed.
+    Numerics,
+}
+
+/// One thing that a campaign has found. Lists of them are in the order of what matters.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Finding {
+    pub kind: Kind,
     /// The same for the same question in every result: `requirement_1`.
     pub id: String,
+    /// Where it is shown: on a screen (0), with all that is known (1), or in files only (2).
+    pub rank: u8,
     pub verdict: Option<Verdict>,
     /// What it is about, in a few words: "pointing error at launch <= 2 deg in 95%".
     pub title: String,
@@ -120,7 +157,59 @@ pub struct Finding {
     /// What else has to be known, each a sentence without its end, in the order of their worth.
     pub notes: Vec<String>,
     pub figures: Figures,
-    /// The command that shows more.
-    pub more: Option<String>,
+    /// The sample whose run shows it.
+    pub sample: Option<SampleId>,
     pub children: Vec<Finding>,
+}
+
+impl Finding {
+    /// The finding `id`, with its title and sentence.
+    pub fn new(kind: Kind, id: impl Into<String>, title: impl Into<String>, sentence: impl Into<String>) -> Self {
+        let (id, title, sentence) = (id.into(), title.into(), sentence.into());
+        Finding { kind, id, title, sentence, ..Finding::default() }
+    }
+
+    /// The number called `name`.
+    pub fn number(&self, name: &str) -> Option<&Number> {
+        self.numbers.iter().find(|number| number.name == name)
+    }
+
+    /// The command that shows its run; `file` is the campaign as a word of a command.
+    pub fn command(&self, file: &str) -> Option<String> {
+        self.sample.map(|sample| format!("spindrift simulate {file} --sample {sample}"))
+    }
+}
+
+/// What a campaign has found, in the order of what matters.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Findings {
+    pub list: Vec<Finding>,
+    /// The verdict on all requirements, where there are any.
+    pub verdict: Option<Verdict>,
+    /// Confidence of the intervals; `None` where no number has one.
+    pub confidence: Option<f64>,
+}
+
+impl Findings {
+    /// Those of a list; `confidence` is that of their intervals.
+    pub fn new(list: Vec<Finding>, confidence: f64) -> Self {
+        fn has_interval(one: &Finding) -> bool {
+            one.numbers.iter().any(Number::has_interval) || one.children.iter().any(has_interval)
+        }
+        let order = [Verdict::Fail, Verdict::Undecided, Verdict::Pass];
+        let verdict = order.into_iter().find(|one| list.iter().any(|finding| finding.verdict == Some(*one)));
+        let confidence = list.iter().any(has_interval).then_some(confidence);
+        Findings { list, verdict, confidence }
+    }
+
+    /// Those of a kind, in their order.
+    pub fn of(&self, kind: Kind) -> impl Iterator<Item = &Finding> {
+        self.list.iter().filter(move |one| one.kind == kind)
+    }
+
+    /// What the intervals in brackets are, once for all of them.
+    pub fn brackets(&self) -> Option<String> {
+        let confidence = self.confidence?;
+        Some(format!("two-sided {}% intervals (Clopper-Pearson for shares)", percent(confidence)))
+    }
 }

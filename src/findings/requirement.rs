@@ -6,7 +6,7 @@ use crate::analysis::statistics::Statistics;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, Statement};
 use crate::findings::number::{self, counted, outward, share, short, time, trimmed, written};
-use crate::findings::{Finding, Number, Verdict, names};
+use crate::findings::{Finding, Kind, Number, Verdict, names};
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
@@ -32,6 +32,7 @@ pub fn findings(plan: &Plan, verdicts: &Verdicts, statistics: &Statistics) -> Ve
 fn finding(plan: &Plan, place: usize, one: &Assessment, statistics: &Statistics) -> Finding {
     let numbers = numbers(one, statistics);
     Finding {
+        kind: Kind::Requirement,
         id: format!("requirement_{}", place + 1),
         verdict: Some(Verdict::of(one.gate.decision)),
         title: title(one),

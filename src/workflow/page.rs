@@ -11,9 +11,9 @@ use crate::ensemble::Ensemble;
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
 use crate::report::image::{self, PlotSize};
-use crate::report::page::gather::Analysis;
-use crate::report::page::runs::{KnownRow, listed};
-use crate::report::page::{Contents, Page};
+use crate::report::page::found::findings;
+use crate::report::page::runs::{KnownRow, asked as asked_of, listed};
+use crate::report::page::{Analysis, Contents, Page};
 use crate::report::summary::SummaryEnd;
 use crate::sampling::SampleId;
 use crate::storage::claim::open;
@@ -101,20 +101,35 @@ pub(super) fn made_page(
     scenes: Option<u64>,
 ) -> Result<(Page, Vec<NoiseShare>), WorkflowError> {
     let plan = ensemble.plan();
-    let listed = listed(plan, &analysed.survey);
-    let samples: Vec<SampleId> = listed.into_iter().map(|(sample, _)| sample).collect();
-    let rows = rows_of(ensemble, reader, records, &samples).map_err(WorkflowError::files)?;
-    let page = |noise: &[NoiseShare]| {
-        let made = page(ensemble, analysed, (&rows, records), noise);
-        made.left_out.iter().for_each(|text| session.watch.note(&format!("{REPORT}: {text}")));
-        made
-    };
-    let Some(scenes) = scenes else { return Ok((page(&[]), Vec::new())) };
     let machine = (session.isa, session.threads);
-    let noise = noise_shares(plan, &outcomes(plan), scenes, machine).map_err(WorkflowError::files)?;
-    let made = page(&noise);
-    let marked = format!("{BEFORE_MARK}{NOISE_MARK}{scenes}\">\n");
-    Ok((Page { html: made.html.replacen(BEFORE_MARK, &marked, 1), ..made }, noise))
+    let noise = scenes.map(|scenes| noise_shares(plan, &outcomes(plan), scenes, machine));
+    let noise = noise.transpose().map_err(WorkflowError::files)?.unwrap_or_default();
+    let of_page = Analysis {
+        survey: &analysed.survey,
+        statistics: &analysed.statistics,
+        verdicts: &analysed.verdicts,
+        sensitivities: &analysed.sensitivities,
+        missions: &analysed.missions,
+        bands: analysed.bands.as_ref(),
+        stopping: analysed.stopping.as_ref(),
+        warnings: &analysed.warnings,
+        notes: &analysed.notes,
+    };
+    let found = findings(plan, &of_page, &noise);
+    let listed = listed(plan, &analysed.survey, &asked_of(plan, &found));
+    let samples: Vec<SampleId> = listed.iter().map(|(sample, _)| *sample).collect();
+    let rows = rows_of(ensemble, reader, records, &samples).map_err(WorkflowError::files)?;
+    let files = records.iter().flat_map(|part| &part.files).map(|file| (file.name.clone(), file.sha256.clone()));
+    let contents = Contents { analysed: of_page, found: &found, listed, rows, files: files.collect() };
+    let mut page = Page::new(ensemble, &contents);
+    if let Some(text) = &page.left_out {
+        session.watch.note(&format!("{REPORT}: {text}"));
+    }
+    if let Some(scenes) = scenes {
+        let marked = format!("{BEFORE_MARK}{NOISE_MARK}{scenes}\">\n");
+        page.html = page.html.replacen(BEFORE_MARK, &marked, 1);
+    }
+    Ok((page, noise))
 }
 
 /// The rows of `samples`, from the parts that have them.
@@ -167,30 +182,6 @@ pub(super) fn noise_scenes(html: &[u8]) -> Option<u64> {
     let text = std::str::from_utf8(html).ok()?;
     let (_, after) = text.split_once(BEFORE_MARK)?;
     after.strip_prefix(NOISE_MARK)?.split('"').next()?.parse().ok()
-}
-
-/// The page of a result whose parts are `records`; `noise`: the share of noise in its outcomes, where it was measured.
-fn page(
-    ensemble: &Ensemble<'_>,
-    analysed: &Analysed,
-    (rows, records): (&[KnownRow], &[PartRecord]),
-    noise: &[NoiseShare],
-) -> Page {
-    let analysis = Analysis {
-        statistics: &analysed.statistics,
-        verdicts: &analysed.verdicts,
-        sensitivities: &analysed.sensitivities,
-        missions: &analysed.missions,
-        warnings: &analysed.warnings,
-        notes: &analysed.notes,
-        noise,
-        rows,
-        bands: analysed.bands.as_ref(),
-        stopping: analysed.stopping.as_ref(),
-    };
-    let files = records.iter().flat_map(|part| &part.files).map(|file| (file.name.clone(), file.sha256.clone()));
-    let contents = Contents::new(ensemble.plan(), analysed.survey.clone(), analysis, files.collect());
-    Page::new(ensemble, &contents)
 }
 
 /// Writes the figures of `page`, of the campaign `plan`, as files of this size into the folder of `place`, if one was named.

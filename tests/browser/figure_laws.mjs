@@ -62,7 +62,7 @@ export async function checkSaid(page, name) {
     const figureLaws = () => {
       const wrong = [];
       const dispersed = Number(document.querySelector(".facts").innerText.match(/^([\d,]+) dispersed runs/)?.[1].replaceAll(",", "") ?? NaN);
-      const isAll = document.querySelector("#status").innerText.startsWith("All");
+      const isAll = document.querySelector("#status").innerText.includes("All ");
       for (const { figure, chart, legend } of views) {
         const [xAxis, yAxis] = ["xAxis", "yAxis"].map((part) => chart?.getOption()[part][0]);
         for (const axis of [xAxis, yAxis]) if (axis?.name?.includes("\u2026")) wrong.push(`an axis of ${figure.name} is called "${axis.name}"`);
@@ -74,10 +74,10 @@ export async function checkSaid(page, name) {
         const bars = figure.marks.find((mark) => mark.kind === "bars" && mark.label === "runs");
         if (bars && isAll && figure.name.startsWith("histogram_")) {
           const shown = bars.heights.reduce((sum, height) => sum + height, 0);
-          const said = shown < dispersed ? `${shown.toLocaleString("en-US")} of ${dispersed.toLocaleString("en-US")} runs have this value.` : `${shown.toLocaleString("en-US")} runs.`;
+          const said = shown < dispersed ? `${shown} of ${dispersed} runs have this value.` : `${shown} runs.`;
           if (!figure.caption.startsWith(said)) wrong.push(`of ${shown} of ${dispersed} runs ${figure.name} says "${figure.caption}"`);
         }
-        // bands at fewer than four times in each oscillation say so
+        // no figure has bands at fewer than four times in each oscillation of the nominal run that is seen beside them
         const [median, nominal] = ["median", "nominal run"].map((label) => figure.marks.find((mark) => mark.kind === "line" && mark.label === label));
         const band = figure.marks.find((mark) => mark.kind === "band" && mark.label === "5 to 95%");
         const times = Number(figure.caption.match(/at each of (\d+) times/)?.[1] ?? Infinity);
@@ -88,8 +88,12 @@ export async function checkSaid(page, name) {
         const width = Math.max(...Array.from(band.high, (high, k) => high - band.low[k]));
         const [least, most] = [Math.min(...nominal.y), Math.max(...nominal.y)];
         const isCoarse = 4 * turns > 2.2 * (times - 1) && most - least > Math.max(0.1 * width, 1e-8 * Math.max(Math.abs(least), Math.abs(most)));
-        if (isCoarse && !figure.caption.includes("raise [bands] points")) wrong.push(`${figure.name} has bands at ${times} times for ${turns / 2} oscillations and says "${figure.caption}"`);
+        if (isCoarse) wrong.push(`${figure.name} has bands at ${times} times for ${turns / 2} oscillations`);
       }
+      // neighbours that say the same share one legend, and no other has none
+      const keys = views.map(({ figure }) => legendKey(figure));
+      const isRepeated = ({ box, legend }, k) => k > 0 && box.previousElementSibling === views[k - 1].box && keys[k] === keys[k - 1] && legend.textContent !== "";
+      if (views.some(isRepeated)) wrong.push(`the legend of ${views.find(isRepeated).figure.name} is that of the figure before it`);
       // what is saved of a strip says whose it is
       const phases = views.find(({ figure }) => figure.name === "phases");
       if (phases && !csvText(phases.figure).startsWith(`"name","begin: time (s)","end: time (s)"\n"${phases.figure.y.names[0]}",0,`)) wrong.push(`phases are saved as ${csvText(phases.figure).slice(0, 60)}`);

@@ -10,9 +10,9 @@ export async function checkWithoutScripts(browser, file, name) {
     const still = await page.$eval(".replay svg.still", (element) => element.getBoundingClientRect().height);
     if (still < 100) problems.push(`${name}: without scripts there is no still of the replay`);
   }
-  const cards = await page.$$eval(".card", (list) => list.map((card) => card.getBoundingClientRect().top));
-  if (cards.length === 0) problems.push(`${name}: there is no card`);
-  if (cards.some((top) => top > 900)) problems.push(`${name}: a card is below the first screen`);
+  const rows = await page.$$eval("details.answer", (list) => list.map((row) => row.getBoundingClientRect().bottom));
+  if (rows.length === 0) problems.push(`${name}: there is no answer`);
+  if (rows.slice(0, 6).some((bottom) => bottom > 900)) problems.push(`${name}: one of the first six answers is below the first screen`);
   await page.close();
 }
 
@@ -82,7 +82,7 @@ export async function checkNarrowTables(page, name) {
   problems.push(...wrong.map((text) => `${name}: ${text}`));
 }
 
-// On paper nothing can be opened: no caption is cut, no card loses an edge or a part of its scale, no word stands on another, and what only a screen needs is not there.
+// On paper nothing can be opened: no caption is cut, no answer loses an edge, no word of a picture stands on another, and what only a screen needs is not there.
 export async function checkPaper(page, name) {
   await page.setViewport({ width: 718, height: 1000 }); // A4 less its margins
   await page.emulateMediaType("print");
@@ -95,15 +95,14 @@ export async function checkPaper(page, name) {
     }
     for (const text of document.querySelectorAll("main p, .beside p")) if (isSeen(text) && /needs JavaScript/.test(text.textContent)) found.push(`it says "${text.textContent}"`);
     const width = document.documentElement.clientWidth;
-    for (const card of document.querySelectorAll(".card")) {
-      const box = card.getBoundingClientRect();
-      if (box.right > width - 1) found.push(`the edge of a card is at ${box.right} of ${width}`);
-      const lines = parseFloat(getComputedStyle(card.querySelector("h3")).lineHeight) / parseFloat(getComputedStyle(card.querySelector("h3")).fontSize);
-      if (lines > 1.5) found.push(`lines of the title of a card are ${lines} letters apart`);
-      const scale = card.querySelector(".scale");
-      const texts = Array.from(card.querySelectorAll(".scale text"), (text) => text.getBoundingClientRect());
-      if (scale && getComputedStyle(scale).overflow !== "visible" && texts.some((text) => text.top < scale.getBoundingClientRect().top - 0.5)) found.push("a word of a scale is cut");
-      if (texts.some((a, i) => texts.some((b, j) => i < j && Math.min(a.right, b.right) - Math.max(a.left, b.left) > -2 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 2))) found.push(`words of a scale stand on each other: ${scale.textContent}`);
+    for (const row of document.querySelectorAll("details.answer")) {
+      const box = row.getBoundingClientRect();
+      if (box.height < 10) found.push(`the answer ${row.id} is not printed`);
+      if (box.right > width) found.push(`the edge of an answer is at ${box.right} of ${width}`);
+      for (const picture of row.querySelectorAll("summary svg.scale, summary svg.small")) {
+        const texts = Array.from(picture.querySelectorAll("text"), (text) => text.getBoundingClientRect());
+        if (texts.some((a, i) => texts.some((b, j) => i < j && Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 2))) found.push(`words of a picture stand on each other: ${picture.textContent}`);
+      }
     }
     return found;
   });

@@ -7,10 +7,9 @@ use crate::ensemble::SingleRun;
 use crate::observables::Series;
 use crate::observables::request::NutationAxis;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
-use crate::report::over_time::envelope::{envelope, swing, turns};
+use crate::report::over_time::envelope::{envelope, swing, turns, within};
 use crate::report::over_time::figure_list::{ListedFigure, Place, Shows, Traits, figures_of};
 use crate::report::over_time::limits;
-use crate::report::page::readable::grouped;
 use crate::scene::Name;
 
 /// Quantiles of a series over time, of the runs that are ok.
@@ -44,6 +43,10 @@ pub struct Curves<'a> {
     pub(super) wheels: &'a [Name],
     pub(super) traits: Traits,
     place: Place,
+    /// What the figures bear on that come first.
+    order: Vec<String>,
+    /// The runs that were flown for the page, that of `run` among them.
+    flown: Vec<&'a SingleRun>,
 }
 
 /// Angles that are rounding, rad: some hundred roundings of a turn.
@@ -56,13 +59,43 @@ const SEEN_SWING: f64 = 0.05;
 impl<'a> Curves<'a> {
     /// On the page of `plan`: of the nominal run, where it could be run, and bands of the ensemble; `wheels` are those that turn.
     pub fn of_page(plan: &'a Plan, run: Option<&'a SingleRun>, bands: &'a [TimeBands], wheels: &'a [Name]) -> Self {
-        Curves { plan, run, bands, wheels, traits: Traits::of(plan, wheels), place: Place::Page }
+        Curves {
+            plan,
+            run,
+            bands,
+            wheels,
+            traits: Traits::of(plan, wheels),
+            place: Place::Page,
+            order: Vec::new(),
+            flown: Vec::new(),
+        }
+    }
+
+    /// The same with the figures that bear on the observables and series `asked` first, in their order.
+    #[must_use]
+    pub fn ordered_by(self, asked: &[String]) -> Self {
+        Curves { order: asked.to_vec(), ..self }
+    }
+
+    /// The same with all runs that were flown for the page.
+    #[must_use]
+    pub fn among(self, flown: Vec<&'a SingleRun>) -> Self {
+        Curves { flown, ..self }
     }
 
     /// In a plot of the run `run` of `plan`.
     pub fn of_plot(plan: &'a Plan, run: &'a SingleRun) -> Self {
         let wheels = &run.request.wheels[..];
-        Curves { plan, run: Some(run), bands: &[], wheels, traits: Traits::of(plan, wheels), place: Place::Plot }
+        Curves {
+            plan,
+            run: Some(run),
+            bands: &[],
+            wheels,
+            traits: Traits::of(plan, wheels),
+            place: Place::Plot,
+            order: Vec::new(),
+            flown: Vec::new(),
+        }
     }
 
     /// Whether they are in a plot of one run, and not on a page.
@@ -91,6 +124,9 @@ impl<'a> Curves<'a> {
     pub(super) fn marks(&self, name: &str, nominal: Vec<f64>, hue: Hue, of: &str) -> Vec<Mark> {
         let label = |text: &str| if of.is_empty() { text.to_owned() } else { format!("{of}, {text}") };
         let mut marks = Vec::new();
+        if let Some(bands) = self.band(name).filter(|bands| self.is_aliased(bands, &nominal)) {
+            return self.envelopes(name, bands, &nominal, hue, &label);
+        }
         if let Some(bands) = self.band(name) {
             let [p05, p25, p50, p75, p95] = &bands.quantiles;
             marks.extend(areas(&label("5 to 95%"), (hue, 0.15), &bands.times, [p05, p95]));
@@ -102,6 +138,46 @@ impl<'a> Curves<'a> {
             let (hue, dash) = if marks.is_empty() { (hue, Dash::Solid) } else { (Hue::Nominal, Dash::Dashed) };
             marks.extend(self.of_run(&label("nominal run"), (hue, dash), &nominal));
         }
+        marks
+    }
+
+    /// Whether the nominal run oscillates so that it is seen, and too fast for the instants of the bands.
+    fn is_aliased(&self, bands: &TimeBands, nominal: &[f64]) -> bool {
+        let ends = bands.quantiles[0].iter().zip(&bands.quantiles[4]);
+        let width = ends.map(|(low, high)| high - low).fold(0.0, f64::max);
+        let is_seen = is_coarse(turns(nominal), bands.times.len()) && swing(nominal) > SEEN_SWING * width;
+        is_seen && self.run.is_some_and(|run| run.grid.points() > bands.times.len())
+    }
+
+    /// In place of bands that would miss an oscillation: what the nominal run, and all that were flown for the page, reach
+    /// in each interval between the instants of the bands.
+    fn envelopes(
+        &self,
+        name: &str,
+        bands: &TimeBands,
+        nominal: &[f64],
+        hue: Hue,
+        label: &dyn Fn(&str) -> String,
+    ) -> Vec<Mark> {
+        let times = self.times();
+        let is_of_it = |(series, _): &&(Series, Vec<f64>)| {
+            series.quantity(self.wheels).is_some_and(|quantity| quantity.name() == name)
+        };
+        let of_run = |run: &&'a SingleRun| {
+            let (_, values) = run.series.iter().find(is_of_it)?;
+            Some(&values[..values.len().min(run.outcome.points)])
+        };
+        let all: Vec<&[f64]> = self.flown.iter().filter_map(of_run).collect();
+        let last = times.partition_point(|time| *time <= bands.times.last().copied().unwrap_or(0.0));
+        let area = |curves: &[&[f64]], label: String, opacity: f64, hue: Hue| {
+            let [x, low, high] = within(&times[..last], curves, &bands.times);
+            Mark::Band { label, hue, opacity, x, low, high, stacked: false }
+        };
+        let mut marks = Vec::new();
+        if all.len() > 1 {
+            marks.push(area(&all, label(&format!("envelope of {} runs", all.len())), 0.2, hue));
+        }
+        marks.push(area(&[nominal], label("envelope of the nominal run"), 0.4, Hue::Nominal));
         marks
     }
 
@@ -134,17 +210,15 @@ impl<'a> Curves<'a> {
     /// The same of a quantity with the values `nominal` in the nominal run.
     pub(super) fn caption_of(&self, name: &str, nominal: &[f64]) -> String {
         let Some(bands) = self.band(name) else { return "The nominal run.".to_owned() };
-        let points = self.run.map_or(0, |run| run.grid.points());
-        let width =
-            bands.quantiles[0].iter().zip(&bands.quantiles[4]).map(|(low, high)| high - low).fold(0.0, f64::max);
-        let is_seen = is_coarse(turns(nominal), bands.times.len()) && swing(nominal) > SEEN_SWING * width;
-        let aliased = if is_seen && points > bands.times.len() {
-            format!(
-                " Between these, fewer than {PER_TURN} in an oscillation, bands and median say nothing of how the runs oscillate: raise [bands] points.",
-            )
-        } else {
-            String::new()
-        };
+        if self.is_aliased(bands, nominal) {
+            return format!(
+                "Envelopes: from the smallest to the largest value in each of {} intervals of time, of the nominal run and of \
+                 the {} runs that were flown for this page, the worst ones. Quantiles at these instants, fewer than \
+                 {PER_TURN} in an oscillation, would miss it: raise [bands] points.",
+                bands.times.len().saturating_sub(1),
+                self.flown.len(),
+            );
+        }
         let left = match bands.in_flight.last() {
             Some(left) if *left < bands.runs => {
                 format!(" Bands end where fewer than {FEWEST} runs are left.")
@@ -155,16 +229,16 @@ impl<'a> Curves<'a> {
             let error = |p: f64| 100.0 * libm::sqrt(p * (1.0 - p) / bands.counted as f64);
             format!(
                 "the first {} of {} dispersed runs that were computed (standard error of these shares {:.2} and {:.2}%, of the median {:.2}%; bands.runs counts more)",
-                grouped(bands.counted),
-                grouped(bands.runs),
+                bands.counted,
+                bands.runs,
                 error(0.05),
                 error(0.25),
                 error(0.5)
             )
         } else {
-            format!("{} dispersed runs that were computed", grouped(bands.runs))
+            format!("{} dispersed runs that were computed", bands.runs)
         };
-        format!("Bands: 5 to 95% and 25 to 75% of {of}, at each of {} times.{aliased}{left}", bands.times.len())
+        format!("Bands: 5 to 95% and 25 to 75% of {of}, at each of {} times.{left}", bands.times.len())
     }
 
     /// Name and unit of a series.
@@ -180,9 +254,16 @@ impl<'a> Curves<'a> {
         telemetry.held_at(&self.times()).into_iter().nth(place)
     }
 
-    /// Every figure that the scene calls for, in the order of the list; those that have nothing to show are not visible.
+    /// Every figure that the scene calls for, those that bear on a requirement first, else in the order of the list; those
+    /// that have nothing to show are not visible.
     pub fn figures(&self) -> Vec<Figure> {
-        let figures = figures_of(&self.traits, self.place).flat_map(|listed| self.listed(listed));
+        let mut listed: Vec<&ListedFigure> = figures_of(&self.traits, self.place).collect();
+        let place = |listed: &&ListedFigure| {
+            let bears_on = |asked: &String| self.traits.judged(listed.judged_by).any(|name| name == *asked);
+            self.order.iter().position(bears_on).unwrap_or(usize::MAX)
+        };
+        listed.sort_by_key(place);
+        let figures = listed.into_iter().flat_map(|listed| self.listed(listed));
         figures.map(|figure| self.in_flight(figure)).collect()
     }
 
@@ -354,6 +435,11 @@ pub(super) fn over_time(name: &str, title: &str, caption: String, y: Axis, marks
 mod tests {
     use super::*;
     use crate::campaign::Overrides;
+    use crate::ensemble::single::SingleRuns;
+    use crate::math::Isa;
+    use crate::report::page::runs::GROUPS;
+    use crate::run::Grid;
+    use crate::sampling::SampleId;
 
     /// Law: times are too few for a curve exactly where fewer than four of them are in each of its oscillations, whatever the number of these.
     #[test]
@@ -372,6 +458,53 @@ mod tests {
         assert!(!is_coarse(0, 2));
     }
 
+    /// Law: where the nominal run oscillates faster than the instants of the bands, no band of instants is drawn: the
+    /// envelopes hold every value of the nominal run and of all flown runs; with bands at as many instants they are drawn.
+    #[test]
+    fn a_band_never_aliases() {
+        let text = include_str!("../../../campaigns/spin_sweep.toml");
+        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
+        let grid = Grid::uniform(plan.grid.duration(), 601);
+        let mut runs = SingleRuns::replays(&plan, grid, Isa::best(), &GROUPS);
+        let flown: Vec<SingleRun> =
+            runs.run_all(&[0, 1, 2].map(SampleId)).into_iter().map(|run| run.expect("physical")).collect();
+        let (series, nominal) = &flown[0].series[flown[0]
+            .series
+            .iter()
+            .position(|(series, values)| {
+                is_coarse(turns(values), 33) && swing(values) > 0.0 && series.quantity(&[]).is_some()
+            })
+            .expect("a series that oscillates")];
+        let name = series.quantity(&[]).expect("a name").name().to_owned();
+        let band = |points: usize| {
+            let times = (0..points).map(|k| plan.grid.duration() * k as f64 / (points - 1) as f64).collect::<Vec<_>>();
+            let quantiles = std::array::from_fn(|_| vec![nominal[0]; points]);
+            TimeBands { name: name.clone(), times, quantiles, runs: 99, counted: 99, in_flight: vec![99; points] }
+        };
+        for (points, is_envelope) in [(33, true), (601, false)] {
+            let bands = [band(points)];
+            let curves = Curves::of_page(&plan, Some(&flown[0]), &bands, &[]).among(flown.iter().collect());
+            let marks = curves.marks(&name, nominal.clone(), Hue::Total, "");
+            let is_instant = marks.iter().any(|mark| ["median", "5 to 95%"].contains(&mark.legend()));
+            assert_eq!(is_instant, !is_envelope, "{points}");
+            assert_eq!(curves.caption_of(&name, nominal).starts_with("Envelopes: "), is_envelope, "{points}");
+            if !is_envelope {
+                continue;
+            }
+            for (label, runs) in [("envelope of 3 runs", &flown[..]), ("envelope of the nominal run", &flown[..1])] {
+                let of_it = marks.iter().find(|mark| mark.legend() == label);
+                let Some(Mark::Band { x, low, high, .. }) = of_it else { panic!("no {label}: {marks:?}") };
+                for run in runs {
+                    let (_, values) = run.series.iter().find(|(other, _)| other == series).expect("the same series");
+                    for (time, value) in run.grid.times().iter().zip(values) {
+                        let at = x.partition_point(|end| end < time).clamp(1, x.len() - 1);
+                        assert!((low[at]..=high[at]).contains(value), "{label} at {time}: {value}");
+                    }
+                }
+            }
+        }
+    }
+
     /// Law: bands of the first runs say the standard errors sqrt(p (1 - p)/n) of their shares, of the n that are counted, whatever others there are; those of all
     /// runs say none.
     #[test]
@@ -382,7 +515,7 @@ mod tests {
             (
                 400,
                 10_000,
-                "the first 400 of 10,000 dispersed runs that were computed (standard error of these shares 1.09 and 2.17%, of the median 2.50%;",
+                "the first 400 of 10000 dispersed runs that were computed (standard error of these shares 1.09 and 2.17%, of the median 2.50%;",
             ),
             (
                 100,

@@ -1,70 +1,69 @@
-//! Figures of what drives the outcome: sensitivities with intervals, scatter plots of the strongest inputs.
+//! Figures of what decides the outcomes: shares of the variance with intervals, an outcome against its drivers, and the
+//! share of the runs in which an event occurs against them.
 
+use crate::analysis::drivers::{Question, Ranking};
+use crate::analysis::event::{Event, Occurs, distinct};
+use crate::analysis::input_sensitivity::InputSensitivity;
+use crate::analysis::order_statistics::share_interval;
 use crate::analysis::survey::{SCATTER, Survey, SurveyedOutcome, chosen};
 use crate::campaign::Plan;
 use crate::findings::names;
 use crate::findings::names::sentence;
-use crate::report::drivers_text::SEE_INTERACTIONS;
-use crate::report::escaped::escaped;
+use crate::findings::number::{significant, typeset};
+use crate::report::drivers_text::{outcomes, ranked, verb};
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
-use crate::report::page::errors::{having, magnitude, shown_rows};
+use crate::report::origin_text::unit_of;
+use crate::report::page::errors::{computed, having, interval_label, magnitude, of_runs, shown_rows};
 use crate::report::page::fates::{self, Fate};
 use crate::run::Quantity;
-use crate::sampling::Design;
+use crate::statistics::correlation::ascending_order;
 
-/// Inputs of a chart, at most; and at least, where there are so many: the strongest of those that are no drivers stand beside them.
+/// Inputs of a chart, at most; and at least, where there are so many: the strongest of those that are no drivers stand
+/// beside them.
 const MOST_INPUTS: usize = 12;
 const FEWEST_INPUTS: usize = 6;
 /// Drivers against which an outcome is plotted.
 const PLOTTED: usize = 2;
+/// Classes of an input with many values, of equally many runs; one with no more values has a class for each.
+const CLASSES: usize = 6;
 
-/// How strongly inputs act on an outcome.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Influence {
-    pub outcome: String,
-    /// Of a ranking for an event: what the runs do in which it occurs, and what its figures are called beside those of
-    /// the spread; `None` of the spread.
-    pub event: Option<(String, String)>,
-    /// What the numbers are, as an axis says it.
-    pub measure: String,
-    /// What they mean, in a sentence or two.
-    pub meaning: String,
-    /// Input column, share, lower and upper end of its interval (NaN if there is none), in the order of the ranking:
-    /// its drivers come first.
-    pub inputs: Vec<(String, [f64; 3])>,
-    /// How many of them are drivers.
-    pub shown: usize,
-    /// The strongest inputs in words.
-    pub drivers: String,
-}
-
-/// For each ranking with a driver a tornado, and the outcome against its strongest drivers, each once. Runs that miss several requirements are ranked once.
-pub fn figures(plan: &Plan, survey: &Survey, influences: &[Influence]) -> Vec<Figure> {
+/// For each ranking with a driver the outcome against its strongest drivers, each once, and the shares of all inputs.
+/// Runs that miss several requirements are ranked once.
+pub fn figures(plan: &Plan, survey: &Survey, all: &[InputSensitivity], has_intervals: bool) -> Vec<Figure> {
     let mut figures: Vec<Figure> = Vec::new();
-    let is_same =
-        |one: &Influence, other: &Influence| one.event.is_some() && other.event.is_some() && one.inputs == other.inputs;
-    for (place, influence) in influences.iter().enumerate().filter(|(_, influence)| influence.shown > 0) {
-        let Some((index, outcome)) = survey.outcome(&influence.outcome) else { continue };
-        if influences[..place].iter().any(|other| is_same(other, influence)) {
-            continue;
-        }
-        let same = influences[place + 1..].iter().filter(|other| is_same(other, influence));
-        let same: Vec<String> =
-            same.filter_map(|other| Some(names::of_quantity(&survey.outcome(&other.outcome)?.1.quantity))).collect();
-        let drivers = influence.inputs.iter().take(influence.shown.min(PLOTTED));
-        let strongest: Vec<usize> = drivers.filter_map(|(name, _)| names::place_of(plan, name)).collect();
-        let mut inputs = influence.inputs.clone();
-        inputs.truncate((influence.shown + 2).clamp(FEWEST_INPUTS, MOST_INPUTS));
-        // too few runs have no shares
-        if inputs.iter().any(|(_, share)| share[0].is_finite()) {
-            figures.push(tornado(plan, influence, (outcome, &same), &inputs, survey.thinned.inputs.len()));
-        }
-        // yes or no against a number says less than the counts in the sentence
-        let is_plotted = !outcome.is_yes_or_no(&survey.thinned.outcomes[index]);
-        for input in strongest.into_iter().filter(|_| is_plotted) {
-            let figure = scatter(plan, survey, input, index, outcome);
-            if !figures.iter().any(|other| other.name == figure.name) && is_spread(&figure) {
-                figures.push(figure);
+    let mut seen: Vec<Vec<(String, [u64; 3])>> = Vec::new();
+    for name in outcomes(plan, all) {
+        let Some((index, outcome)) = survey.outcome(name) else { continue };
+        for ranking in ranked(plan, all, name).iter().filter(|ranking| ranking.drivers().next().is_some()) {
+            let shares = shares(ranking);
+            if let Question::Event(_) = ranking.question {
+                let ranks: Vec<(String, [u64; 3])> =
+                    shares.iter().map(|(input, share)| (input.clone(), share.map(f64::to_bits))).collect();
+                if seen.contains(&ranks) {
+                    continue;
+                }
+                seen.push(ranks);
+            }
+            let drivers = ranking.drivers().take(PLOTTED);
+            for input in drivers.filter_map(|driver| names::place_of(plan, &driver.input.input)) {
+                let against = match &ranking.question {
+                    Question::Event(event) => conditional(plan, survey, input, (index, outcome), event, has_intervals),
+                    Question::Spread => None,
+                };
+                // yes or no against a number says less than the shares
+                let is_plotted = !outcome.is_yes_or_no(&survey.thinned.outcomes[index]);
+                let scatter = is_plotted.then(|| scatter(plan, survey, input, index, outcome)).filter(is_spread);
+                for figure in against.into_iter().chain(scatter) {
+                    if !figures.iter().any(|other| other.name == figure.name) {
+                        figures.push(figure);
+                    }
+                }
+            }
+            // too few runs have no shares, or show nothing of them
+            let is_known =
+                |(_, share): &(String, [f64; 3])| share[0].is_finite() && !(share[1] <= 0.0 && share[2] >= 1.0);
+            if shares.iter().any(is_known) {
+                figures.push(tornado(plan, (name, ranking), outcome, &shares));
             }
         }
     }
@@ -72,45 +71,21 @@ pub fn figures(plan: &Plan, survey: &Survey, influences: &[Influence]) -> Vec<Fi
     figures
 }
 
-/// What the section says: what the bars are, what a driver is, and which outcomes have none.
-pub fn lead(plan: &Plan, survey: &Survey, influences: &[Influence]) -> String {
-    let bars = match plan.design {
-        Design::Saltelli(_) => {
-            "Bars show how much of the variance each input explains together with its interactions.".to_owned()
-        }
-        _ => format!(
-            "Bars show how much of the variance each input explains alone, its first-order index; a bar from 0 to 1 means that the \
-             runs do not show it; {SEE_INTERACTIONS}."
-        ),
-    };
-    let noise = match plan.law {
-        Some(_) => {
-            " Noise in the loop is not an input; <code>spindrift report . --noise 256</code> measures its share."
-        }
-        None => "",
-    };
-    let without = without_driver(survey, influences);
-    format!(
-        "{} A driver is an input whose influence is significant among all inputs (Holm).{noise}{without}",
-        escaped(&bars)
-    )
+/// What the ranking of an event adds to the name of its outcome, in names of figures.
+pub fn part(event: &Event) -> String {
+    match event.occurs {
+        Occurs::Missed { requirement, is_only: false } => format!("_event_{}", requirement + 1),
+        _ if event.has_few_values => String::new(),
+        _ => "_event".to_owned(),
+    }
 }
 
-/// The outcomes of `influences` without any driver, in a sentence; nothing where all have one.
-fn without_driver(survey: &Survey, influences: &[Influence]) -> String {
-    let mut names: Vec<String> = Vec::new();
-    for influence in influences {
-        let is_driven = influences.iter().any(|other| other.outcome == influence.outcome && other.shown > 0);
-        let Some((_, outcome)) = survey.outcome(&influence.outcome).filter(|_| !is_driven) else { continue };
-        let name = names::of_quantity(&outcome.quantity);
-        if !names.contains(&name) {
-            names.push(name);
-        }
-    }
-    if names.is_empty() {
-        return String::new();
-    }
-    format!(" No significant driver was found for: {}.", names.join(", "))
+/// The share of each input with the ends of its interval, NaN where there is none, in the order of the ranking.
+fn shares(ranking: &Ranking<'_>) -> Vec<(String, [f64; 3])> {
+    let of = |share: Option<crate::statistics::correlation::Estimate>| {
+        share.map_or([f64::NAN; 3], |share| [share.value, share.lower, share.upper])
+    };
+    ranking.inputs.iter().map(|one| (one.input.input.clone(), of(one.share))).collect()
 }
 
 /// Whether the points of a scatter plot differ in their abscissae.
@@ -122,56 +97,110 @@ fn is_spread(figure: &Figure) -> bool {
 
 fn tornado(
     plan: &Plan,
-    influence: &Influence,
-    (outcome, same): (&SurveyedOutcome, &[String]),
-    inputs: &[(String, [f64; 3])],
-    all: usize,
+    (name, ranking): (&str, &Ranking<'_>),
+    outcome: &SurveyedOutcome,
+    shares: &[(String, [f64; 3])],
 ) -> Figure {
+    let (all, drivers) = (shares.len(), ranking.drivers().count());
+    let inputs = &shares[..all.min((drivers + 2).clamp(FEWEST_INPUTS, MOST_INPUTS))];
     // a share is between 0 and 1, whatever its estimate is; one that is not known stays so
     let column = |place: usize| inputs.iter().map(|(_, value)| value[place].clamp(0.0, 1.0)).collect::<Vec<f64>>();
-    let shares = [0, 1, 2].map(column);
-    let largest = shares.iter().flatten().copied().fold(0.0, f64::max);
+    let columns = [0, 1, 2].map(column);
+    let largest = columns.iter().flatten().copied().fold(0.0, f64::max);
     let end = (1.05 * largest).clamp(0.1, 1.0);
-    let mut note =
-        if inputs.len() < all { format!(" The strongest {} of {all} inputs.", inputs.len()) } else { String::new() };
-    if !same.is_empty() {
-        note += &format!(" The same runs miss: {}.", counted_list(same));
-    }
-    let name = outcome.quantity.name();
-    let (name, title) = match &influence.event {
-        None => (format!("influence_{name}"), format!("What drives {}", names::of_quantity(&outcome.quantity))),
-        Some((verb, part)) => (
-            format!("influence_{name}{part}"),
-            format!("{}: which runs {verb}", sentence(&names::of_quantity(&outcome.quantity))),
+    let first = ranking.inputs.first().map(|one| one.input);
+    let is_total = first.is_some_and(|one| one.total.is_some());
+    let (measure, meaning) = match is_total {
+        true => ("total Sobol index", "What each input explains together with its interactions"),
+        false => (
+            "share of the variance",
+            "What each input explains alone; an interval from 0 to 1: the runs do not show it",
         ),
     };
+    let strongest =
+        if inputs.len() < all { format!(" The strongest {} of {all} inputs.", inputs.len()) } else { String::new() };
+    let quantity = names::of_quantity(&outcome.quantity);
+    let (part, title) = match &ranking.question {
+        Question::Spread => (String::new(), format!("What drives {quantity}")),
+        Question::Event(event) => {
+            (part(event), format!("{}: which runs {}", sentence(&quantity), verb(plan, name, event, u64::MAX)))
+        }
+    };
     Figure {
-        name,
+        name: format!("influence_{name}{part}"),
         section: FigureSection::Influence,
         title,
-        caption: format!("{}{note}", influence.meaning),
+        caption: format!("{meaning}. Of {} runs.{strongest}", first.map_or(0, |one| one.rows)),
         columns: 4,
         is_over_time: false,
-        x: Axis::linear(influence.measure.clone(), "").within(0.0, end),
+        x: Axis::linear(measure, "").within(0.0, end),
         y: Axis::names(inputs.iter().map(|(name, _)| names::of_input_column(plan, name)).collect()),
         marks: vec![Mark::Whiskers {
-            label: crate::report::page::errors::interval_label(outcome.confidence),
+            label: interval_label(outcome.confidence),
             hue: Hue::Total,
-            x: shares[0].clone(),
-            low: shares[1].clone(),
-            high: shares[2].clone(),
+            x: columns[0].clone(),
+            low: columns[1].clone(),
+            high: columns[2].clone(),
         }],
     }
 }
 
-/// The first of `names`, and how many others there are.
-pub fn counted_list(names: &[String]) -> String {
-    match names {
-        [] => String::new(),
-        [one] => one.clone(),
-        [one, other] => format!("{one}, {other}"),
-        [one, others @ ..] => format!("{one} and {} others", others.len()),
+/// The share of the runs in which `event` of an outcome occurs, in classes of an input; `None` where the shown runs do
+/// not have it.
+fn conditional(
+    plan: &Plan,
+    survey: &Survey,
+    input: usize,
+    (index, outcome): (usize, &SurveyedOutcome),
+    event: &Event,
+    has_intervals: bool,
+) -> Option<Figure> {
+    let name = outcome.quantity.name();
+    let rows = shown_rows(survey);
+    let values: Vec<f64> = rows.iter().map(|row| survey.thinned.outcomes[index][*row]).collect();
+    let inputs: Vec<f64> = rows.iter().map(|row| survey.thinned.inputs[input][*row]).collect();
+    let all = Event::all(plan, name, &values);
+    let (_, occurs) = all.into_iter().find(|(other, _)| other.occurs == event.occurs)?;
+    let shown = unit_of(plan, input);
+    let amount = |value: f64| significant(shown.value(value), 3);
+    let mut classes: Vec<(String, [u64; 2])> = Vec::new();
+    let order = ascending_order(&inputs);
+    let levels = distinct(&inputs, &order);
+    let sizes: Vec<usize> = match levels.len() <= CLASSES {
+        true => levels.iter().map(|(_, count)| *count).collect(),
+        false => (0..CLASSES).map(|k| (k + 1) * order.len() / CLASSES - k * order.len() / CLASSES).collect(),
+    };
+    let mut from = 0;
+    for size in sizes.into_iter().filter(|size| *size > 0) {
+        let places = &order[from..from + size];
+        from += size;
+        let events = places.iter().filter(|place| occurs[**place]).count() as u64;
+        let [low, high] = [places[0], places[size - 1]].map(|place| inputs[place]);
+        let range =
+            if low == high { format!("= {}", amount(low)) } else { format!("{} to {}", amount(low), amount(high)) };
+        classes.push((typeset(&format!("{range}: {events} of {size}")), [events, size as u64]));
     }
+    let ends = classes.iter().map(|(_, [events, runs])| match has_intervals {
+        true => share_interval(*events, [*runs, 0], outcome.confidence),
+        false => [f64::NAN; 2],
+    });
+    let (low, high): (Vec<f64>, Vec<f64>) = ends.map(|[low, high]| (low, high)).unzip();
+    let x: Vec<f64> = classes.iter().map(|(_, [events, runs])| *events as f64 / *runs as f64).collect();
+    let largest = x.iter().chain(&high).copied().filter(|x| x.is_finite()).fold(0.0, f64::max);
+    let (verb, of_input) = (verb(plan, name, event, u64::MAX), names::of_input(plan, input));
+    let column = &plan.dispersions.columns()[input];
+    let unit = if shown.unit.is_empty() { String::new() } else { format!(", {}", shown.unit) };
+    Some(Figure {
+        name: format!("shares_{name}_{}", column.parameter.column_name(column.component)),
+        section: FigureSection::Influence,
+        title: format!("{} by {of_input}", sentence(&names::of_quantity(&outcome.quantity))),
+        caption: format!("{}, in classes of {of_input}{unit}.", of_runs(rows.len(), computed(survey))),
+        columns: 4,
+        is_over_time: false,
+        x: Axis::linear(format!("share of runs that {verb}"), "").within(0.0, (1.05 * largest).clamp(0.01, 1.0)),
+        y: Axis::names(classes.into_iter().map(|(name, _)| name).collect()),
+        marks: vec![Mark::Whiskers { label: interval_label(outcome.confidence), hue: Hue::Failed, x, low, high }],
+    })
 }
 
 /// An outcome against an input.
@@ -247,7 +276,7 @@ pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     if has_intervals && !bounded.is_empty() {
         let of = |place: usize| bounded.iter().map(|row| row[place]).collect::<Vec<f64>>();
         marks.push(Mark::Band {
-            label: crate::report::page::errors::interval_label(outcome.confidence),
+            label: interval_label(outcome.confidence),
             hue: Hue::Wheel(0),
             opacity: 0.15,
             x: of(0),

@@ -7,7 +7,6 @@ use crate::campaign::Plan;
 use crate::findings::names;
 use crate::report::figure::{Axis, Figure, FigureSection};
 use crate::report::origin_text::origin;
-use crate::report::page::readable::grouped;
 use crate::report::{drawn_figure, histogram, marginal};
 use crate::sampling::correlation::{Measure, Numbers};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
@@ -62,7 +61,7 @@ fn input(plan: &Plan, survey: &Survey, index: usize) -> Figure {
 
 /// A number, of how many where these are more.
 fn shown_of(shown: u64, all: u64) -> String {
-    if shown == all { grouped(all) } else { format!("{} of {}", grouped(shown), grouped(all)) }
+    if shown == all { all.to_string() } else { format!("{} of {}", shown, all) }
 }
 
 fn correlations(plan: &Plan, survey: &Survey) -> Vec<Figure> {
@@ -103,7 +102,7 @@ fn correlations(plan: &Plan, survey: &Survey) -> Vec<Figure> {
     }
     let caption = format!(
         "Spearman's coefficient of {} dispersed samples; of independent inputs up to \u{b1}{chance:.2} by chance (95%).{note}",
-        grouped(rows.len() as u64)
+        rows.len() as u64
     );
     figures.push(figure("correlation_achieved", "Rank correlation, achieved", caption, achieved));
     figures

@@ -188,7 +188,7 @@ fn sunlight(run: &SingleRun, points: usize) -> Option<LiveNumber> {
 /// The times at which the phases of a loop first began, and at which the mission or an event ended the run, with their names, by time.
 pub fn marks(plan: &Plan, row: &[(String, f64)]) -> Vec<Value> {
     let begins = |name: &str| Some((of_row(row, &format!("phase_{name}_begin_s"))?, name.to_owned()));
-    let spec = plan.loop_spec();
+    let spec = plan.law.as_ref().and_then(|law| law.spec());
     let phases = spec.iter().flat_map(|spec| &spec.phases);
     let mut marks: Vec<(f64, String)> = phases.filter_map(|phase| begins(phase.name.as_str())).collect();
     let end = of_row(row, "end_time_s").zip(mission_text::of_row(row));

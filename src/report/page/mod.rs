@@ -1,26 +1,28 @@
 //! [`Page`]: the report of a campaign as one HTML file that needs no network.
 //!
-//! It is a pure function of the plan and the rows (and what was computed from them): the same result gives the same bytes.
+//! It is a pure function of the plan and the rows (and what was computed from them): the same result gives the same
+//! bytes. What is said comes from [`crate::findings`]; here it is put in order, with figures beside it.
 //!
-//! - `runs`: the runs that are shown in full.
-//! - `errors`, [`influence`], `inputs`: the figures, with those of [`crate::report::over_time`]. - `figure_json`: what the scripts need to draw them.
-//! - [`gather`]: what statistics, verdicts, sensitivities and bands are on the page. - [`cards`], `first_screen`, [`tables`], `document`: the HTML. - `replay` (with `live`, `sky`, `still`): the 3D replay. - `payload`: numbers in the page.
+//! - [`answer`], `pictures`: the first screen. - `influence`, `outcomes`, `errors`, `inputs`: figures, with those of
+//!   [`crate::report::over_time`]. - `figure_json`: what the scripts need to draw them. - [`runs`], `replay` (with
+//!   `live`, `sky`, `still`): the runs to look at. - [`tables`], `document`: the rest of the HTML. - `payload`: numbers.
 //!
 //! The scripts and styles are in `assets/report/`.
 
-pub mod cards;
+pub mod answer;
+mod bands;
 mod document;
 mod errors;
 mod fates;
 mod figure_json;
-mod first_screen;
-pub mod gather;
+pub mod found;
 pub mod influence;
 mod input_rows;
 mod inputs;
 mod live;
 mod outcomes;
 mod payload;
+mod pictures;
 pub(in crate::report) mod readable;
 mod replay;
 pub mod runs;
@@ -30,63 +32,68 @@ pub mod tables;
 
 use serde_json::{Value, json};
 
-use self::cards::Card;
+use self::answer::full;
 use self::document::{PageSection, document};
 use self::fates::Fate;
 use self::figure_json::json_of;
-use self::influence::Influence;
 use self::payload::Payload;
-use self::runs::KnownRow;
+use self::runs::{KnownRow, ShownRun};
+use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::missions::Missions;
-use crate::analysis::population::Loss;
-use crate::analysis::statistics::ColumnStatistics;
+use crate::analysis::statistics::{ColumnStatistics, Statistics};
+use crate::analysis::stopping::Stopping;
 use crate::analysis::survey::{self, Survey};
+use crate::analysis::verdicts::Verdicts;
 use crate::campaign::Plan;
 use crate::campaign::event::Event;
-use crate::ensemble::Ensemble;
 use crate::ensemble::run_cost::replays;
-use crate::findings::names;
+use crate::ensemble::{Bands, Ensemble, SingleRun};
 use crate::findings::number::counted;
+use crate::findings::{Finding, Findings, Kind, names};
 use crate::report::figure::{Figure, FigureSection, Mark, Scale};
 use crate::report::mission_text;
 use crate::report::over_time::curves::{Curves, TimeBands};
 use crate::sampling::{Design, SampleId};
 
+/// What was computed of the rows.
+#[derive(Clone, Copy, Debug)]
+pub struct Analysis<'a> {
+    pub survey: &'a Survey,
+    pub statistics: &'a Statistics,
+    pub verdicts: &'a Verdicts,
+    /// What every input means for the main observables.
+    pub sensitivities: &'a [InputSensitivity],
+    /// How missions ended, under a control loop.
+    pub missions: &'a Missions,
+    /// Quantiles over time, where they were kept.
+    pub bands: Option<&'a Bands>,
+    /// The look that ended the campaign, where it has `[stop]`.
+    pub stopping: Option<&'a Stopping>,
+    /// What a reader has to know before any number.
+    pub warnings: &'a [String],
+    /// What the numbers leave unsaid.
+    pub notes: &'a [String],
+}
+
 /// What the page is made of.
 #[derive(Clone, Debug)]
-pub struct Contents {
-    /// What was taken from the rows.
-    pub survey: Survey,
-    /// How missions ended, under a control loop.
-    pub missions: Missions,
-    /// Quantiles over time; empty where they were not made.
-    pub bands: Vec<TimeBands>,
-    /// Of the observables that a run has.
-    pub statistics: Vec<ColumnStatistics>,
-    /// Confidence of their intervals; `None` where the design has none.
-    pub confidence: Option<f64>,
-    pub influences: Vec<Influence>,
-    /// What comes before every number; mostly nothing.
-    pub warnings: Vec<String>,
-    /// What the numbers leave unsaid.
-    pub notes: Vec<String>,
-    pub loss: Loss,
-    /// The verdicts of the requirements; empty where the file has none.
-    pub verdicts: Vec<Card>,
-    /// What `[stop]` and the verdicts together say, as sentences.
-    pub said: Vec<String>,
-    /// The rows of the runs that it lists ([`runs::listed`]).
+pub struct Contents<'a> {
+    pub analysed: Analysis<'a>,
+    /// What is said of it.
+    pub found: &'a Findings,
+    /// The runs that it lists, in their order, each with why it does ([`runs::listed`]).
+    pub listed: Vec<(SampleId, String)>,
+    /// Their rows.
     pub rows: Vec<KnownRow>,
     /// Names and SHA-256 of the files of the result.
     pub files: Vec<(String, String)>,
 }
 
-impl Contents {
+impl Contents<'_> {
     /// How many runs are flown again: of a campaign of one run that one, else as many as a page has the time for.
     fn replays(&self, plan: &Plan) -> usize {
-        let evaluations = self.statistics.iter().find(|row| row.quantity.name() == "evaluations");
-        replays(plan.rows(), evaluations.and_then(|row| row.moments.mean()).unwrap_or(0.0))
-            .max(usize::from(plan.rows() == 1))
+        let evaluations = self.analysed.statistics.column("evaluations").and_then(|row| row.moments.mean());
+        replays(plan.rows(), evaluations.unwrap_or(0.0)).max(usize::from(plan.rows() == 1))
     }
 }
 
@@ -121,38 +128,16 @@ fn event_times(plan: &Plan, statistics: &[ColumnStatistics]) -> Vec<Mark> {
 
 impl Page {
     /// The page of a campaign. Runs the nominal and the worst samples again, to show them over time.
-    pub fn new(ensemble: &Ensemble<'_>, contents: &Contents) -> Self {
-        let (plan, survey) = (ensemble.plan(), &contents.survey);
-        let has_intervals = is_independent(plan) && !contents.loss.is_big();
-        let list = runs::listed(plan, survey);
-        let shown = runs::shown_runs(plan, (&list, &contents.rows), contents.replays(plan), ensemble.isa());
+    pub fn new(ensemble: &Ensemble<'_>, contents: &Contents<'_>) -> Self {
+        let (plan, analysed, found) = (ensemble.plan(), &contents.analysed, contents.found);
+        let survey = analysed.survey;
+        let flown = contents.replays(plan);
+        let shown = runs::shown_runs(plan, (&contents.listed, &contents.rows), flown, ensemble.isa());
         let first = shown.iter().find(|run| run.sample == SampleId(0));
-        let nominal_end = first.and_then(|run| mission_text::of_run(&run.row));
         let nominal = first.and_then(|run| run.run.as_ref());
-        let wheels = ensemble.request().wheels.to_vec();
-        let curves = Curves::of_page(plan, nominal, &contents.bands, &wheels);
-        let mut figures = outcomes::figures(plan, survey, &contents.statistics, has_intervals);
-        let events = event_times(plan, &contents.statistics);
-        figures.extend(curves.figures().into_iter().map(|mut figure| {
-            // rows of names, as of phases, have no place for more words
-            let is_marked = figure.is_over_time && !matches!(figure.y.scale, Scale::Names(_));
-            figure.marks.extend(events.iter().filter(|_| is_marked).cloned());
-            figure
-        }));
-        figures.extend(curves.drift());
-        figures.extend(errors::figures(survey, has_intervals));
-        figures.extend(influence::figures(plan, survey, &contents.influences));
-        figures.extend(inputs::figures(plan, survey));
-        let main = survey
-            .outcomes
-            .iter()
-            .zip(&survey.thinned.outcomes)
-            .filter(|(outcome, values)| !outcome.is_yes_or_no(values))
-            .map(|(outcome, _)| outcome)
-            .filter(|outcome| contents.influences.iter().any(|influence| influence.outcome == outcome.quantity.name()));
-        figures.extend(main.map(|outcome| influence::convergence(outcome, has_intervals)));
-        figures.retain(Figure::is_visible);
-        let figures: Vec<Figure> = figures.into_iter().map(|figure| figure.in_units(&plan.analysis.display)).collect();
+        let bands = analysed.bands.map_or_else(Vec::new, bands::time_bands);
+        let flown: Vec<&SingleRun> = shown.iter().filter_map(|run| run.run.as_ref()).collect();
+        let figures = figures(ensemble, (analysed, found), (nominal, flown), &bands);
 
         let mut payload = Payload::default();
         let drawn: Vec<Value> = figures.iter().map(|figure| json_of(figure, &mut payload)).collect();
@@ -164,98 +149,163 @@ impl Page {
             "replay": has_replay.then(|| json!({ "scene": replay::scene(plan), "runs": motions })),
             "pairs": pairs(plan, survey, &mut payload),
         });
-        let cards = if contents.verdicts.is_empty() {
-            cards::findings(
-                survey,
-                (&contents.statistics, contents.confidence),
-                &contents.influences,
-                &plan.analysis.display,
-            )
-        } else {
-            contents.verdicts.clone()
-        };
-        let first = [
-            first_screen::header(plan, &contents.verdicts, survey, has_brackets(contents, &cards)),
-            first_screen::warnings(&contents.warnings),
-            first_screen::missions(&contents.missions, nominal_end.as_deref()),
-            first_screen::verdicts(&cards, !contents.verdicts.is_empty(), &contents.said),
-            first_screen::drivers(&cards, &contents.missions),
-            first_screen::notes(&contents.notes),
-            first_screen::status(plan, survey),
+        let end =
+            first.and_then(|run| mission_text::of_run(&run.row)).filter(|_| plan.law.is_some() && plan.rows() > 1);
+        let first_screen = [
+            answer::header(plan, found, survey),
+            answer::first(found),
+            answer::table(plan, found, &figures),
+            answer::ended(found, end.as_deref(), errors::is_above_tolerance(plan, survey)),
         ];
-        let word = match cards::overall(&contents.verdicts) {
-            Some(judged) => Some(judged.word()),
-            None => first_screen::is_mostly_lost(survey).then_some(first_screen::NOT_COMPUTED),
-        };
+        let word = answer::word(found, survey);
         let title = word.map_or_else(|| plan.name.clone(), |word| format!("{word}: {}", plan.name));
         let sections = sections(plan, contents, &shown, has_replay, &figures);
-        let html = document(&title, &first.concat(), &sections, &data, &payload.text());
+        let html = document(&title, &first_screen.concat(), &sections, &data, &payload.text());
         Page { html, figures, left_out: runs::left_out(&shown) }
     }
 }
 
-/// Whether the page has intervals, which stand in brackets.
-fn has_brackets(contents: &Contents, cards: &[Card]) -> bool {
-    let ends = contents.missions.iter().map(|one| one.interval).chain(cards.iter().map(|card| card.interval));
-    let quantiles =
-        contents.statistics.iter().flat_map(|row| row.quantile_numbers()).map(|[.., low, high]| [low, high]);
-    ends.chain(quantiles).flatten().any(f64::is_finite)
+/// The figures in the order of the page, in the units that people see.
+fn figures(
+    ensemble: &Ensemble<'_>,
+    (analysed, found): (&Analysis<'_>, &Findings),
+    (nominal, flown): (Option<&SingleRun>, Vec<&SingleRun>),
+    bands: &[TimeBands],
+) -> Vec<Figure> {
+    let (plan, survey, statistics) = (ensemble.plan(), analysed.survey, analysed.statistics);
+    let has_intervals = is_independent(plan) && !statistics.loss().is_big();
+    let wheels = ensemble.request().wheels.to_vec();
+    let curves = Curves::of_page(plan, nominal, bands, &wheels);
+    let curves = curves.among(flown).ordered_by(&runs::asked(plan, found));
+    let events = event_times(plan, &statistics.columns);
+    let marked = |mut figure: Figure| {
+        // rows of names, as of phases, have no place for more words
+        let is_marked = figure.is_over_time && !matches!(figure.y.scale, Scale::Names(_));
+        figure.marks.extend(events.iter().filter(|_| is_marked).cloned());
+        figure
+    };
+    let mut figures = influence::figures(plan, survey, analysed.sensitivities, has_intervals);
+    figures.extend(curves.figures().into_iter().map(marked));
+    figures.extend(curves.drift());
+    figures.extend(outcomes::figures(plan, survey, &statistics.columns, has_intervals));
+    figures.extend(errors::figures(survey, has_intervals));
+    if plan.rows() > 1 {
+        figures.extend(inputs::figures(plan, survey));
+    }
+    let converging = survey.outcomes.iter().zip(&survey.thinned.outcomes);
+    let converging = converging.filter(|(outcome, values)| outcome.is_outcome && !outcome.is_yes_or_no(values));
+    figures.extend(converging.map(|(outcome, _)| influence::convergence(outcome, has_intervals)));
+    figures.retain(Figure::is_visible);
+    figures.into_iter().map(|figure| figure.in_units(&plan.analysis.display)).collect()
 }
 
-/// The sections after the first screen; one that has nothing to show is left out.
+/// The sections after the first screen, in the order of what a reader asks next; one that has nothing to show is not
+/// there.
 fn sections(
     plan: &Plan,
-    contents: &Contents,
-    shown: &[runs::ShownRun],
+    contents: &Contents<'_>,
+    shown: &[ShownRun],
     has_replay: bool,
     drawn: &[Figure],
 ) -> Vec<PageSection> {
+    let (analysed, found) = (&contents.analysed, contents.found);
+    let (survey, statistics) = (analysed.survey, analysed.statistics);
     let has = |section: FigureSection| drawn.iter().any(|figure| figure.section == section);
-    let input_rows = input_rows::rows(plan, drawn);
-    let figures = |section: FigureSection, title, lead: &str, html: &str| {
-        let shown = PageSection {
-            anchor: section.anchor(),
-            title,
-            lead: lead.to_owned(),
-            html: html.to_owned(),
-            has_figures: true,
-            fold: None,
-        };
-        has(section).then_some(shown)
-    };
-    let plain = |anchor, title, lead: &str, html: String| {
-        Some(PageSection { anchor, title, lead: lead.to_owned(), html, has_figures: false, fold: None })
-    };
-    let pairs = "<details id=\"pairs\"><summary>Plot any two columns against each other</summary><div></div></details>";
-    let still = shown.iter().find_map(|run| run.run.as_ref()).map_or_else(String::new, |run| still::still(plan, run));
-    let replay = format!("<div class=\"replay\">{still}<p>The replay needs JavaScript and WebGL.</p></div>");
-    let table = tables::statistics(&contents.statistics, contents.confidence.is_some(), &plan.analysis.display);
-    let folded = |section: PageSection, is_open: bool| PageSection { fold: Some(is_open), ..section };
-    let inputs = input_rows + "<div class=\"figures\"></div>";
-    let influence = PageSection {
-        anchor: FigureSection::Influence.anchor(),
-        title: "What drives it",
-        lead: influence::lead(plan, &contents.survey, &contents.influences),
-        html: pairs.to_owned(),
+    let of = |anchor, title, lead: String, html: String| PageSection {
+        anchor,
+        title,
+        lead,
+        html,
         has_figures: false,
         fold: None,
     };
-    let is_off = first_screen::is_above_tolerance(plan, &contents.survey);
+    let figures = |section: FigureSection, title, lead: &str, html: String| {
+        has(section).then(|| PageSection { has_figures: true, ..of(section.anchor(), title, lead.to_owned(), html) })
+    };
+    let still = shown.iter().find_map(|run| run.run.as_ref()).map_or_else(String::new, |run| still::still(plan, run));
+    let still = format!("<div class=\"replay\">{still}<p>The replay needs JavaScript and WebGL.</p></div>");
+    let worst = if shown.len() > 1 { tables::worst_runs(plan, survey, shown) } else { String::new() };
+    let left_out = runs::left_out(shown).map_or_else(String::new, |text| format!(" {}", full(&text)));
+    let one = if plan.rows() == 1 {
+        "The run in three dimensions."
+    } else {
+        "The worst run in three dimensions; the next worst, and the nominal one, in the list."
+    };
+    let replay = of(
+        "replay",
+        "The run to look at",
+        format!("{one}{left_out}"),
+        if has_replay { still } else { String::new() } + &worst,
+    );
+    let errors = found.of(Kind::Numerics).filter(|one| one.rank < 2 && !one.sentence.is_empty());
+    let errors: String = errors
+        .map(|one| format!("{}: {}. ", answer::text(&names::sentence(&one.title)), answer::text(&one.sentence)))
+        .collect();
+    let is_off = errors::is_above_tolerance(plan, survey);
+    let table = tables::statistics(&statistics.columns, statistics.population.has_intervals(), &plan.analysis.display);
+    let inputs = input_rows::rows(plan, drawn) + "<div class=\"figures\"></div>";
     let curves = outcomes::folded_curves(drawn);
     [
-        figures(FigureSection::Outcome, "Outcome", "How each outcome is distributed over the runs.", &curves),
-        plain("replay", "Replay", &format!("The nominal run and the worst ones in three dimensions. {}", runs::left_out(shown).map_or_else(String::new, |text| text + ".")), replay).filter(|_| has_replay),
-        figures(FigureSection::Time, "Over time", "The nominal run, and where the dispersed runs are at each time. The slider of the replay moves a cursor through these figures; a click in one moves the replay.", ""),
-        Some(PageSection { has_figures: has(FigureSection::Influence), ..influence }),
-        plain("worst", "Worst runs", "The nominal run, runs that failed, and those with the worst outcomes. Run in the folder of this page, each command repeats its run bit for bit.", tables::worst_runs(plan, &contents.survey, shown)),
-        figures(FigureSection::Numerics, "Numerics", "How large the numerical errors are. They should be small and not grow over time.", "").map(|section| folded(section, is_off)),
-        figures(FigureSection::Inputs, "Inputs", "What was drawn, compared with the distributions of the campaign file.", &inputs).map(|section| PageSection { has_figures: false, ..folded(section, false) }),
-        Some(PageSection { anchor: "statistics", title: "Statistics", lead: String::new(), html: table, has_figures: has(FigureSection::Statistics), fold: Some(false) }),
-        plain("provenance", "Provenance", "", tables::provenance(plan, &contents.survey, &contents.files)),
+        decides(found, drawn).filter(|_| plan.rows() > 1),
+        (has_replay || !worst.is_empty()).then_some(replay),
+        figures(FigureSection::Time, "Over time", "The nominal run, and where the dispersed runs are at each time. The slider of the replay moves a cursor through these figures; a click in one moves the replay.", String::new()),
+        figures(FigureSection::Outcome, "How the outcomes are distributed", "", curves),
+        figures(FigureSection::Numerics, "Numerics", &errors, String::new()).map(|section| PageSection { fold: Some(is_off), ..section }),
+        figures(FigureSection::Inputs, "Inputs", "What was drawn, compared with the distributions of the campaign file.", inputs).map(|section| PageSection { has_figures: false, fold: Some(false), ..section }),
+        Some(PageSection { has_figures: has(FigureSection::Statistics), fold: Some(false), ..of("statistics", "Statistics", String::new(), table) }),
+        Some(of("provenance", "Provenance", String::new(), tables::provenance(plan, survey, &contents.files))),
     ]
     .into_iter()
     .flatten()
     .collect()
+}
+
+/// What decides the outcomes: one list, the strongest first, each with the figures that show it; `None` where nothing
+/// was asked.
+fn decides(found: &Findings, drawn: &[Figure]) -> Option<PageSection> {
+    let is_drawn = |name: &String| drawn.iter().any(|figure| figure.name == *name);
+    let mut placed: Vec<String> = Vec::new();
+    let mut entry = |one: &Finding| {
+        let of_inputs = one.children.iter().filter_map(|child| child.figures.small.as_ref());
+        let of_inputs = of_inputs.flat_map(|name| [name.replacen("scatter_", "shares_", 1), name.clone()]);
+        let mut names: Vec<String> = of_inputs.chain(one.figures.large.clone()).filter(is_drawn).collect();
+        names.retain(|name| !placed.contains(name));
+        placed.extend(names.iter().cloned());
+        let title = if one.title.is_empty() { String::new() } else { answer::text(&names::sentence(&one.title)) };
+        let said = full(&one.sentence);
+        match names.is_empty() {
+            true if title.is_empty() => format!("<p class=\"detail\">{said}</p>\n"),
+            true => format!("<p class=\"detail\"><b>{title}:</b> {said}</p>\n"),
+            false => format!(
+                "<article class=\"driver\"><h3>{title}</h3><p>{said}</p>\
+                 <div class=\"figures\" data-figure=\"{}\"></div></article>\n",
+                names.join(" ")
+            ),
+        }
+    };
+    let all: Vec<&Finding> = found.of(Kind::Driver).filter(|one| !one.sentence.is_empty()).collect();
+    if all.is_empty() {
+        return None;
+    }
+    // those with figures first; what was found of others, as of the same runs, follows in a line each, folded away
+    let (with, without): (Vec<String>, Vec<String>) =
+        all.into_iter().map(|one| entry(one)).partition(|said| said.starts_with("<article"));
+    let others = match with.is_empty() || without.is_empty() {
+        true => without.concat(),
+        false => {
+            format!("<details><summary>What was found of the other outcomes</summary>{}</details>", without.concat())
+        }
+    };
+    let list = with.concat();
+    let pairs = "<details id=\"pairs\"><summary>Plot any two columns against each other</summary><div></div></details>";
+    Some(PageSection {
+        anchor: FigureSection::Influence.anchor(),
+        title: "What decides it",
+        lead: String::new(),
+        html: format!("{list}{others}{pairs}"),
+        has_figures: false,
+        fold: None,
+    })
 }
 
 /// Columns that the reader may plot against each other: thinned, in single precision.

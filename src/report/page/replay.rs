@@ -18,7 +18,7 @@ use crate::report::page::runs::ShownRun;
 use crate::report::page::sky;
 use crate::run::StateField;
 use crate::scene::unit_quaternion::unit_quaternion;
-use crate::scene::{DebrisInput, PartInput, PartShape, Scene, SceneInput, WheelMode};
+use crate::scene::{DebrisInput, PartInput, PartShape, Plate, Scene, SceneInput, WheelMode};
 
 /// A part of the body as it is drawn.
 #[derive(Clone, Debug)]
@@ -56,9 +56,15 @@ pub fn scene(plan: &Plan) -> Value {
         "wheels": wheels(input),
         "thrusters": thrusters(input),
         "debris": input.debris.as_ref().map(debris),
+        "plates": resolved.iter().filter(|_| !input.plates.is_empty()).flat_map(|scene| &scene.plates).map(plate).collect::<Vec<_>>(),
         "arcs": arcs(&resolved),
         "keep_out": keep_out(plan),
     })
+}
+
+/// A written plate: a square of its area.
+fn plate(plate: &Plate) -> Value {
+    json!({ "side": libm::sqrt(plate.area), "normal": plate.normal, "center": plate.center })
 }
 
 fn part(part: &PartInput) -> ShownPart {
@@ -205,7 +211,7 @@ pub fn approach_goal(plan: &Plan, run: &SingleRun) -> Option<ApproachGoal> {
 
 /// The radius within which a mission fails, m; zero without one.
 pub fn keep_out(plan: &Plan) -> f64 {
-    let spec = plan.loop_spec();
+    let spec = plan.law.as_ref().and_then(|law| law.spec());
     if spec.is_some() { DebrisNumbers::of(&plan.nominal.control.law).keep_out } else { 0.0 }
 }
 

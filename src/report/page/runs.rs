@@ -5,7 +5,7 @@ use crate::analysis::worst_runs::WorstRuns;
 use crate::campaign::Plan;
 use crate::ensemble::single::SingleRuns;
 use crate::ensemble::{DrawnScenes, SingleRun};
-use crate::findings::names;
+use crate::findings::{Finding, Findings, Kind, names};
 use crate::math::Isa;
 use crate::observables::Group;
 use crate::report::failure_text::{readable, status_words};
@@ -76,10 +76,24 @@ impl ShownRun {
     }
 }
 
-/// The nominal run and the worst ones, in the order in which they are shown, each with why it is.
-pub fn listed(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
+/// What the requirements are about, the nearest to its limit first, each once.
+pub fn asked(plan: &Plan, found: &Findings) -> Vec<String> {
+    let place = |one: &Finding| one.id.strip_prefix("requirement_")?.parse::<usize>().ok()?.checked_sub(1);
+    let requirements = found.of(Kind::Requirement).filter_map(place);
+    let mut names: Vec<String> = Vec::new();
+    for one in requirements.filter_map(|place| plan.analysis.requirements.get(place)) {
+        if !names.iter().any(|name| name == one.name()) {
+            names.push(one.name().to_owned());
+        }
+    }
+    names
+}
+
+/// The nominal run and the worst ones, in the order in which they are shown, each with why it is: the worst of the
+/// requirement that is nearest to its limit first. `asked`: what the requirements are about ([`asked`]).
+pub fn listed(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, String)> {
     let mut list = vec![(SampleId(0), "nominal".to_owned())];
-    for (sample, why) in worst(plan, survey) {
+    for (sample, why) in worst(plan, survey, asked) {
         if !list.iter().any(|(other, _)| *other == sample) && list.len() <= WORST {
             list.push((sample, why));
         }
@@ -150,7 +164,7 @@ fn inputs(plan: &Plan, sample: SampleId) -> Vec<f64> {
 }
 
 /// Failed runs, the first of each kind first, then the worst values of each outcome in turn; of the errors where the campaign has no outcome.
-fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
+fn worst(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, String)> {
     let mut first: Vec<(usize, SampleId, String)> = Vec::new();
     for ended in survey.statuses.failed() {
         let of_kind = ended.first.iter().enumerate();
@@ -159,9 +173,12 @@ fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
     first.sort_by_key(|(place, sample, _)| (*place, *sample));
     let mut list: Vec<(SampleId, String)> =
         first.into_iter().take(MOST_FAILED).map(|(_, sample, why)| (sample, why)).collect();
-    let outcomes: Vec<_> = survey.outcomes.iter().filter(|outcome| outcome.is_outcome).collect();
+    let mut outcomes: Vec<_> = survey.outcomes.iter().filter(|outcome| outcome.is_outcome).collect();
+    let place = |name: &str| asked.iter().position(|one| one == name).unwrap_or(usize::MAX);
+    outcomes.sort_by_key(|outcome| place(outcome.quantity.name()));
     let errors: Vec<_> = survey.outcomes.iter().filter(|outcome| outcome.is_error && !outcome.is_outcome).collect();
     let outcomes = if outcomes.is_empty() { errors } else { outcomes };
+    let lost = list.len();
     let deepest = outcomes.iter().map(|outcome| outcome.worst.runs.len()).max().unwrap_or(0);
     for place in 0..deepest {
         for outcome in &outcomes {
@@ -195,6 +212,10 @@ fn worst(plan: &Plan, survey: &Survey) -> Vec<(SampleId, String)> {
                 list.push((*sample, format!("{rank} {name} ({value}{tie})")));
             }
         }
+    }
+    if !asked.is_empty() && list.len() > lost {
+        // what was asked for comes before what was not computed
+        list[..=lost].rotate_right(1);
     }
     list
 }
@@ -260,6 +281,34 @@ mod tests {
         assert_eq!(flown.grid.times()[flown.outcome.points - 1], end);
         assert_eq!(with_time(&flown.grid, end), None);
         assert_eq!(with_time(&flown.grid, 1e9), None);
+    }
+
+    /// Law: of the listed runs the first are flown, and how many are not is said, with the command that flies the first of
+    /// them; a run that ended in a panic is neither.
+    #[test]
+    fn runs_that_are_not_flown_are_counted() {
+        let text = include_str!("../../../campaigns/spin_sweep.toml");
+        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
+        let list: Vec<(SampleId, String)> = [0, 7, 3, 9].map(|sample| (SampleId(sample), String::new())).to_vec();
+        let row = |(sample, _): &(SampleId, String)| KnownRow {
+            sample: *sample,
+            status: if sample.0 == 7 { Status::InternalError } else { Status::Done },
+            reason: String::new(),
+            numbers: Vec::new(),
+        };
+        let rows: Vec<KnownRow> = list.iter().map(row).collect();
+        for (flown, said) in [(0, Some("3 of 4")), (1, Some("2 of 4")), (2, Some("1 of 4")), (3, None), (9, None)] {
+            let shown = shown_runs(&plan, (&list, &rows), flown, Isa::best());
+            assert_eq!(shown.iter().filter(|run| run.run.is_some()).count(), flown.min(3));
+            let left = left_out(&shown);
+            assert_eq!(left.is_some(), said.is_some(), "{left:?}");
+            let first = shown.iter().find(|run| run.run.is_none() && run.status == Status::Done);
+            let command = first.map(|run| format!("spindrift simulate plan.toml --sample {}", run.sample));
+            let is_said = |text: &str| {
+                said.is_some_and(|said| text.starts_with(said)) && text.ends_with(&command.clone().expect("a command"))
+            };
+            assert!(left.as_deref().is_none_or(is_said), "{left:?}");
+        }
     }
 
     /// Law: equal runs have the place of the first of them and say how many they are, at least where more than are kept may be equal; a run that is alone says nothing.

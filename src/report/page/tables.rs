@@ -4,13 +4,14 @@ use crate::analysis::order_statistics::QuantileStatistic;
 use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::Survey;
 use crate::campaign::{Display, Plan};
+use crate::control::ControlLaw;
 use crate::control::laws::asked;
 use crate::findings::names;
 use crate::findings::names::sentence;
 use crate::report::escaped::escaped;
 use crate::report::mission_text;
 use crate::report::origin_text::unit_of;
-use crate::report::page::readable::{grouped, in_brackets, number, with_unit};
+use crate::report::page::readable::{in_brackets, number, with_unit};
 use crate::report::page::runs::ShownRun;
 use crate::run::Status;
 use crate::sampling::Transform;
@@ -48,10 +49,10 @@ pub fn statistics(rows: &[ColumnStatistics], has_intervals: bool, display: &Disp
                 return "<td>-</td>".to_owned();
             }
             let value = shown.value(value);
-            let interval = in_brackets([low, high].map(|end| shown.value(end)));
-            let interval = match interval.is_empty() {
-                true => interval,
-                false => format!(" title=\"{}{interval}\"", number(value)),
+            let ends = [low, high].map(|end| shown.value(end));
+            let interval = match ends.iter().any(|end| end.is_finite()) {
+                true => format!(" title=\"{}\"", in_brackets(value, ends)),
+                false => String::new(),
             };
             let mark = if low.is_finite() && high.is_finite() { "" } else { "<sup>*</sup>" };
             format!("<td data-value=\"{value:e}\"{interval}>{}{mark}</td>", number(value))
@@ -148,7 +149,7 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
         );
     }
     format!(
-        "<div class=\"table\" tabindex=\"0\"><table><thead><tr><th>sample</th><th>why it is listed</th><th>inputs farthest from nominal</th><th>command</th><th>3D</th></tr></thead><tbody>\n{body}</tbody></table></div>\n"
+        "<div class=\"table\" id=\"worst\" tabindex=\"0\"><table><thead><tr><th>sample</th><th>why it is listed</th><th>inputs farthest from nominal</th><th>command</th><th>3D</th></tr></thead><tbody>\n{body}</tbody></table></div>\n"
     )
 }
 
@@ -184,7 +185,7 @@ pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> S
             )
         })
         .collect();
-    let kept = if plan.loop_spec().is_some_and(asked::is_law_of) {
+    let kept = if plan.law.as_ref().and_then(ControlLaw::spec).is_some_and(asked::is_law_of) {
         "The law of attitude is a function of Python, which is not part of the plan: the rows cannot be made again without it."
     } else {
         "Neither the number of threads nor the machine changes a bit of the rows, and the same rows give this page again, byte for byte."
@@ -195,7 +196,7 @@ pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> S
 <details><summary>The whole plan</summary><pre class=\"plan\"><code>{}</code></pre></details>{files}
 <details><summary>What the columns on this page mean</summary><dl class=\"glossary\">{glossary}</dl></details>
 <details><summary>Libraries in this page, and their licences</summary><p>Apache ECharts 6.1.0 (Apache-2.0) with ZRender (BSD-3-Clause) and tslib (0BSD) draws the plots, three.js 0.187.0 (MIT) the replay.</p><pre id=\"licences\" class=\"plan\"></pre></details>\n",
-        grouped(survey.statuses.runs()),
+        survey.statuses.runs(),
         plan.hash(),
         env!("CARGO_PKG_VERSION"),
         escaped(&plan.text()),

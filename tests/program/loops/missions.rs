@@ -1,7 +1,7 @@
 //! How missions ended: on the screen, in the summary and on the page, against the rows.
 
 use crate::commands::screen_numbers::{numbers, says};
-use crate::page::cards::between;
+use crate::page::answers::between;
 use crate::page::numbers::Found;
 use crate::support::scratch_folder::{ScratchFolder, column, ended};
 use spindrift::statistics::binomial::interval;

@@ -100,14 +100,13 @@ fn pages_of_failures() {
     scratch.prints("campaign thin.toml --samples 100 --out thin", 1);
     let found = page(&scratch, "thin");
     assert!(
-        visible(&found).contains("invalid: not physical")
-            && visible(&found).contains("spindrift simulate plan.toml --sample")
+        visible(&found).contains("invalid_sample") && visible(&found).contains("spindrift simulate plan.toml --sample")
     );
     scratch.file("short.toml", &campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1"));
     scratch.prints("campaign short.toml --samples 30 --out short", 1);
     scratch.prints("campaign small.toml --samples 1 --out one", 0);
     for (result, sentence) in [
-        ("short", "None of 30 runs was computed"),
+        ("short", "0 of 30 runs were computed"),
         ("one", "The run was computed."),
         ("thin", "of 100 runs were computed"),
     ] {
@@ -129,7 +128,7 @@ fn the_campaign_of_new_holds_its_tolerance() {
         let said = scratch.prints(&format!("campaign start.toml --verbose --out {folder}{change}"), 0);
         assert!(said.contains("largest errors, relative") && !said.contains("above"), "{said}");
         let page = page(&scratch, folder);
-        assert!(visible(&page).contains("Largest relative errors") && !page.contains(above), "{change}");
+        assert!(visible(&page).contains("Largest errors, relative") && !page.contains(above), "{change}");
     }
     let other =
         "--set integrator.method=dormand_prince --set integrator.tolerance=1e-6 --set campaign.duration_s=3000.0";
@@ -137,8 +136,8 @@ fn the_campaign_of_new_holds_its_tolerance() {
     assert!(page(&scratch, "d").contains(above));
 }
 
-/// Law: the page answers first: verdict in the title of the tab and beside the name, then the cards and what drives the outcome; the outcome comes before the
-/// replay, that before the motion over time, and what is seldom needed is folded away at the end.
+/// Law: the page answers first: verdict in the title of the tab and beside the name, then the answers, what decides them, the run
+/// to look at, the motion over time, and the distributions; what is seldom needed is folded away at the end.
 #[test]
 fn the_page_answers_first() {
     let scratch = ScratchFolder::new("page-order");
@@ -163,13 +162,12 @@ fn the_page_answers_first() {
             "<nav",
             "<h1>",
             "id=\"verdicts\"",
-            "id=\"drivers\"",
             "id=\"status\"",
-            "id=\"outcome\"",
-            "id=\"replay\"",
-            "id=\"time\"",
             "id=\"influence\"",
+            "id=\"replay\"",
             "id=\"worst\"",
+            "id=\"time\"",
+            "id=\"outcome\"",
             "id=\"numerics\"",
             "id=\"inputs\"",
             "id=\"statistics\"",

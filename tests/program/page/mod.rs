@@ -1,6 +1,6 @@
 //! The report page against rows and summary.
 
-pub mod cards;
+pub mod answers;
 pub mod document;
 pub mod loops;
 pub mod marks;

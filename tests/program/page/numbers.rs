@@ -299,7 +299,7 @@ fn an_undecided_requirement_is_an_error() {
 
 /// A number of the page: `1.23 x 10^-4` with superscripts, `1,234`.
 pub(crate) fn read_number(text: &str) -> f64 {
-    let plain = text.trim().replace([',', '\u{202f}', '\u{a0}'], "").replace("\u{d7}10", "e");
+    let plain = text.trim().replace('\u{2212}', "-").replace([',', '\u{202f}', '\u{a0}'], "").replace("\u{d7}10", "e");
     let digits = "⁰¹²³⁴⁵⁶⁷⁸⁹";
     let letter = |c: char| match digits.chars().position(|digit| digit == c) {
         Some(place) => char::from(b'0' + place as u8),
@@ -309,14 +309,14 @@ pub(crate) fn read_number(text: &str) -> f64 {
     plain.chars().map(letter).collect::<String>().parse().unwrap_or_else(|_| panic!("{text:?} is no number"))
 }
 
-/// Law: cards, the sentence on numerics and the table of statistics are the numbers of the rows, in the unit that is shown.
+/// Law: answers, the sentence on numerics and the table of statistics are the numbers of the rows, in the unit that is shown.
 #[test]
 fn static_numbers_are_those_of_the_rows() {
     let found = found("static", &motion());
     let page = found.scratch.text("r/report.html");
     let visible = page.split_once("<script").expect("scripts").0;
-    assert!(visible.contains(">at most 2,100\u{a0}deg/s</text>"), "the limit on the scale of the card");
-    let sentence = visible.split_once("Largest relative errors: energy ").expect("a sentence").1;
+    assert!(visible.contains(">2100 deg/s</text>"), "the limit on the scale");
+    let sentence = visible.split_once("Largest errors, relative: energy ").expect("a sentence").1;
     let largest = found.column("energy_error_max").into_iter().fold(0.0, f64::max);
     let shown = read_number(sentence.split(", angular").next().unwrap());
     assert!((shown / largest - 1.0).abs() < 0.02, "{shown} for {largest}");

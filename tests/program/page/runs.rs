@@ -2,11 +2,10 @@
 
 use serde_json::Value;
 
-use crate::commands::screen_numbers::{numbers, says, template};
+use crate::commands::screen_numbers::{says, template};
 use crate::page::numbers::{Found, degrees, found, motion, read_number};
 use crate::small_campaign::mixed_failures;
-use crate::support::scratch_folder::{ScratchFolder, floats};
-use arrow_array::cast::AsArray as _;
+use crate::support::scratch_folder::ScratchFolder;
 
 fn near(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((found - expected).abs() <= tolerance * expected.abs().max(1e-300), "{what}: {found} for {expected}");
@@ -195,7 +194,7 @@ fn intervals_are_in_order() {
         let value: f64 = cell.split('"').nth(1).unwrap().parse().unwrap();
         let words = cell.split_once(" [").unwrap().1.split(']').next().unwrap();
         let (low, high) = words.split_once(", ").unwrap();
-        let [low, high] = [low, high].map(|end| if end == "not bounded" { f64::NAN } else { read_number(end) });
+        let [low, high] = [low, high].map(|end| if end == "?" { f64::NAN } else { read_number(end) });
         // a missing end is NaN and above or below nothing; others are rounded outward
         assert!(!(low > value || high < value), "{value} in {low} to {high}");
     }
@@ -216,19 +215,11 @@ fn bars_of_influence_descend() {
         let said = format!("{first} explains {}% [", spindrift::report::share_text::percent(shares[0]));
         assert!(line.contains(&said), "{said}: {line}");
         assert_eq!(found.figure(&figure)["x"]["quantity"], "share of the variance");
-        // what a regression explains, in percent, and of how many runs
-        let table = found.scratch.table("r/sensitivity.parquet");
-        let observables = table.column_by_name("observable").expect("names").as_string::<i32>();
-        let row = observables.iter().position(|name| name == Some(outcome)).expect("a row");
-        let known = [299.0, 100.0 * floats(&table, "r_squared")[row]];
-        let meaning = found.figure(&figure)["caption"].as_str().expect("a caption");
-        says(meaning, "Of # runs", &known[..1]);
-        let share = numbers(meaning, "A linear regression on all inputs explains #%.")[0];
-        assert!((share - known[1]).abs() < 0.051, "{share}% for {known:?}");
+        says(found.figure(&figure)["caption"].as_str().expect("a caption"), "Of # runs", &[299.0]);
     }
 }
 
-/// Law: of a campaign in which runs failed in two ways the bar counts each, and the list of worst runs has the first of each with its reason, and
+/// Law: of a campaign in which runs failed in two ways each reason is counted, and the list of worst runs has the first of each with its reason, and
 /// then runs that are ok; a failed run is not among the points that are ok.
 #[test]
 fn two_statuses_are_told_apart() {
@@ -239,32 +230,22 @@ fn two_statuses_are_told_apart() {
     let summary = found.scratch.summary("r");
     let page = found.scratch.text("r/report.html");
     let visible = page.split_once("<script").expect("scripts").0;
-    let worst = crate::page::cards::between(visible, "id=\"worst\"", "</section>");
+    let worst = crate::page::answers::between(visible, "id=\"worst\"", "</section>");
     let rows: Vec<&str> = worst.split("<tr>").collect();
-    // the bars are side by side
-    let mut end = summary["statuses"]["ok"].as_f64().expect("a count") / 3.0;
-    for (status, words, said) in [
-        ("invalid_sample", "invalid: not physical", "Invalid: not physical"),
-        ("inaccurate", "inaccurate", "Inaccurate"),
-    ] {
-        let count = summary["statuses"][status].as_u64().expect("a count");
-        let share =
-            visible.split("<li>").skip(1).find(|item| item.contains(words) && item.contains("<b>")).expect(status);
-        assert!(share.contains(&format!("<b>{count}</b>")), "{status}: {share}");
-        says(share, "(#%)", &[count as f64 / 3.0]);
-        let bar =
-            numbers(&visible.replace("<rect", "\n<rect"), &format!("status {status}\" x=\"#%\" y=\"#\" width=\"#%"));
-        assert!((bar[0] - end).abs() < 2e-3 && (bar[2] - count as f64 / 3.0).abs() < 1e-3, "{bar:?} from {end} on");
-        end += bar[2];
+    for (status, said) in [("invalid_sample", "Invalid: not physical"), ("inaccurate", "Inaccurate")] {
         let reasons = summary["failure_reasons"].as_array().unwrap();
         let of = reasons.iter().filter(|one| one["status"] == status);
         let sample = of.map(|one| one["sample"].as_u64().expect("a sample")).min().expect("a reason");
         let row = rows.iter().find(|row| row.contains(&format!("<td class=\"text\">{said}<"))).expect("a row");
         assert!(row.contains(&format!("<b>{status}</b>: ")), "{row}");
         assert!(row.starts_with(&format!("<th scope=\"row\">{sample}</th>")), "{sample}: {row}");
-        let first = format!("first in sample {sample}: ");
-        let said = visible.split("<p class=\"reason\">").find(|said| said.contains(words) && said.contains(&first));
-        assert!(said.expect("the reason").contains(&format!("--sample {sample}</code>")), "{sample}");
+        let counts = reasons.iter().filter(|one| one["status"] == status);
+        for (count, first) in counts.map(|one| (&one["count"], &one["sample"])) {
+            let is_of_it = |said: &&str| {
+                said.contains(&format!("<b>{count} {status}</b>")) && said.contains(&format!("--sample {first}</code>"))
+            };
+            assert!(visible.split("<p class=\"reason\">").any(|said| is_of_it(&said)), "{count} {status}, {first}");
+        }
         // each replay command is that of its own row
         assert!(row.contains(&format!("--sample {sample}</code>")), "{row}");
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use crate::commands::screen_numbers::says;
-use crate::page::cards::same;
+use crate::page::answers::same;
 use crate::page::numbers::{Found, degrees, failing, found, motion, quantile};
 
 /// The unit of an axis over that of the column.
@@ -182,6 +182,40 @@ pub(crate) fn bands_are(found: &Found, figure: &Value) {
     }
 }
 
+/// Shares of the runs in which an event occurs, in classes of an input: each is that of the runs with the next greater
+/// values of the input, and its interval contains it.
+fn shares_are(found: &Found, figure: &Value) {
+    let mark = &figure["marks"][0];
+    let [x, low, high] = ["x", "low", "high"].map(|key| found.array(&mark[key]));
+    let counts = figure["y"]["names"].as_array().expect("names").iter().map(|name| {
+        let (_, counts) = name.as_str().and_then(|name| name.rsplit_once(": ")).expect("counts");
+        let (events, runs) = counts.split_once(" of ").expect("two counts");
+        [events, runs].map(|count| count.parse::<f64>().expect("a count"))
+    });
+    let counts: Vec<[f64; 2]> = counts.collect();
+    for (place, [events, runs]) in counts.iter().enumerate() {
+        assert_eq!(x[place], events / runs, "{figure}");
+        assert!(low[place].is_nan() || low[place] <= x[place] && x[place] <= high[place], "{figure}");
+    }
+    let name = text(figure, "name").strip_prefix("shares_").expect("a name").to_owned();
+    let summary = found.scratch.summary("r");
+    let outcomes = summary["observables"].as_array().expect("observables").iter().map(|one| text(one, "name"));
+    let column = outcomes.filter(|one| name.starts_with(one)).max_by_key(|one| one.len()).expect("an outcome");
+    let mut rows = found.rows(&[&name[column.len() + 1..], column]);
+    assert_eq!(counts.iter().map(|[_, runs]| runs).sum::<f64>(), rows.len() as f64, "{figure}");
+    rows.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
+    let limits = limits_on(found, column);
+    if !text(&figure["x"], "quantity").ends_with("miss the limit") {
+        return;
+    }
+    let mut rows = rows.iter();
+    for [events, runs] in counts {
+        let class = rows.by_ref().take(runs as usize);
+        let missed = class.filter(|(_, row)| limits.iter().any(|(limit, sign)| sign * (row[1] - limit) > 0.0));
+        assert_eq!(missed.count() as f64, events, "{figure}");
+    }
+}
+
 /// Points of an outcome against an input: each is the run of its sample, and one that failed is at the lower edge.
 fn scatter_is(found: &Found, figure: &Value, outcomes: &[&str]) {
     let name = text(figure, "name").strip_prefix("scatter_").expect("a scatter plot");
@@ -296,6 +330,10 @@ fn every_series_is_of_its_label() {
                 scatter_is(&found, figure, &outcomes);
                 *seen.entry("scatter_").or_default() += 1;
             }
+            if name.starts_with("shares_") {
+                shares_are(&found, figure);
+                *seen.entry("shares_").or_default() += 1;
+            }
             for kind in ["histogram_", "cumulative_", "tail_", "convergence_"] {
                 let Some(column) = name.strip_prefix(kind) else { continue };
                 let factor = scale(&figure[if kind == "convergence_" { "y" } else { "x" }]);
@@ -340,7 +378,7 @@ fn every_series_is_of_its_label() {
         let caption = format!("coefficient of {} dispersed samples", rows - 1);
         assert!(text(found.figure("correlation_achieved"), "caption").contains(&caption));
         says(&found.visible(), "<p># samples of plan", &[rows as f64]);
-        let kinds = ["bands", "histogram_", "cumulative_", "tail_", "convergence_", "input_", "scatter_"];
+        let kinds = ["bands", "histogram_", "cumulative_", "tail_", "convergence_", "input_", "scatter_", "shares_"];
         assert!(kinds.iter().all(|kind| seen.contains_key(kind)) && seen["histogram_"] >= least, "{seen:?}");
     }
 }

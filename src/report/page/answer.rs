@@ -1,0 +1,310 @@
+//! What the page answers first, as static HTML: name and verdict, what has to be known before any number, and one table
+//! with a row a requirement, or a row an outcome where nothing is required.
+
+use crate::analysis::survey::Survey;
+use crate::campaign::Plan;
+use crate::findings::names::sentence;
+use crate::findings::number::{time, trimmed, typeset};
+use crate::findings::{Finding, Findings, Kind, Verdict};
+use crate::report::escaped::escaped;
+use crate::report::figure::Figure;
+use crate::report::page::pictures::{self, HATCH};
+
+/// A requirement as an example, where the file has none.
+const EXAMPLE: &str = "[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.99\nat_most = 1e-9";
+/// Most outcomes in the table where nothing is required.
+const MOST_OUTCOMES: usize = 8;
+
+/// A text of a finding as it is shown.
+pub fn text(said: &str) -> String {
+    escaped(&typeset(said))
+}
+
+/// A sentence of a finding as it is shown, with its end; keys of the file in it as code.
+pub fn full(said: &str) -> String {
+    let said = text(sentence(said).trim_end_matches('.'));
+    let word = |word: &str| {
+        let key = word.trim_matches(|letter: char| !letter.is_ascii_alphanumeric());
+        // names of frames, as F_e, are no keys
+        match key.contains('_') && key.len() > "omega_es".len() {
+            true => word.replace(key, &format!("<code>{key}</code>")),
+            false => word.to_owned(),
+        }
+    };
+    format!("{}.", said.split(' ').map(word).collect::<Vec<_>>().join(" "))
+}
+
+/// A shape of its own for each verdict: a disc with a tick, a square with a cross, a diamond with a question mark.
+const fn shape(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => r#"<circle cx="12" cy="12" r="11"/><path class="sign" d="M6 12.5l4 4 8-9"/>"#,
+        Verdict::Fail => {
+            r#"<rect x="1.5" y="1.5" width="21" height="21" rx="2"/><path class="sign" d="M7 7l10 10M17 7L7 17"/>"#
+        }
+        Verdict::Undecided => {
+            r#"<path d="M12 0.5L23.5 12L12 23.5L0.5 12z"/><path class="sign" d="M9 10c0-4 6-4 6-1c0 2-3 2-3 4.5M12 16.2v1.2"/>"#
+        }
+    }
+}
+
+/// Its class in the style sheet.
+const fn class(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "pass",
+        Verdict::Fail => "fail",
+        Verdict::Undecided => "undecided",
+    }
+}
+
+/// What stands in the title of the browser's tab: the verdict on all, or that most runs have no numbers.
+pub fn word(found: &Findings, survey: &Survey) -> Option<&'static str> {
+    let lost = is_mostly_lost(survey).then_some("NOT COMPUTED");
+    found.verdict.map(Verdict::word).or(lost)
+}
+
+fn is_mostly_lost(survey: &Survey) -> bool {
+    2 * survey.statuses.ok() < survey.statuses.runs()
+}
+
+/// Name with the verdict, question, and the facts of the campaign.
+pub fn header(plan: &Plan, found: &Findings, survey: &Survey) -> String {
+    let dispersed = plan.dispersed_rows();
+    let runs = match (&plan.chosen, dispersed) {
+        (Some(_), _) => format!("{} chosen runs of {} samples", plan.rows(), plan.samples),
+        (None, 0) => "1 run, the nominal one".to_owned(),
+        (None, _) => format!("{dispersed} dispersed runs and the nominal one"),
+    };
+    let steps = match plan.step_s {
+        Some(step) => format!("steps of {} s", trimmed(step, 4)),
+        None => format!("tolerance {}", trimmed(plan.tolerance.relative, 4)),
+    };
+    let verdicts: Vec<Verdict> = found.of(Kind::Requirement).filter_map(|one| one.verdict).collect();
+    let count = |verdict: Verdict| verdicts.iter().filter(|one| **one == verdict).count();
+    let of = |verdict: Verdict| (count(verdict) > 0).then(|| format!("{} {}", count(verdict), verdict.word()));
+    let counts: Vec<String> = [Verdict::Pass, Verdict::Fail, Verdict::Undecided].into_iter().filter_map(of).collect();
+    let (class, counts) = match found.verdict {
+        Some(verdict) => (class(verdict), counts.join(", ")),
+        None => {
+            ("fail", format!("{} of {} runs", survey.statuses.runs() - survey.statuses.ok(), survey.statuses.runs()))
+        }
+    };
+    let verdict = word(found, survey).map_or_else(String::new, |word| {
+        format!(" <span class=\"overall {class}\">{word}</span> <span class=\"quiet counts\">{counts}</span>")
+    });
+    let question = plan.description.as_deref();
+    let question =
+        question.map_or_else(String::new, |said| format!("<p class=\"question\">{}</p>", escaped(&sentence(said))));
+    let hash = plan.hash();
+    let duration = time(plan.grid.duration());
+    let facts = [
+        runs,
+        format!("{duration} each"),
+        format!("{} design, seed {}", plan.design.name(), plan.seed),
+        format!("method {}, {steps}", plan.method.name()),
+        format!("spindrift {}", env!("CARGO_PKG_VERSION")),
+    ];
+    let brackets = found.brackets().map_or_else(String::new, |said| format!(" \u{b7} in brackets: {}", text(&said)));
+    format!(
+        "<h1>{}{verdict}</h1>{question}\n<p class=\"facts\">{} \u{b7} plan <button type=\"button\" class=\"hash\" \
+         data-copy=\"{hash}\" title=\"Copy the whole hash\">{}</button>{brackets}</p>\n",
+        escaped(&plan.name),
+        facts.map(|fact| text(&fact)).join(" \u{b7} "),
+        &hash[..8],
+    )
+}
+
+/// What comes before every number: warnings, and which runs were not computed, why, and the command that replays one.
+pub fn first(found: &Findings) -> String {
+    let warning = |one: &Finding| format!("<p><b>{}:</b> {}</p>", escaped(&one.title), full(&one.sentence));
+    let mut lines: String = found.of(Kind::Warning).map(warning).collect();
+    for lost in found.of(Kind::Loss).filter(|one| !one.children.is_empty()) {
+        lines += &format!("<p>{}</p>", full(&lost.sentence));
+        lines += &lost.children.iter().map(reason).collect::<String>();
+    }
+    if lines.is_empty() { lines } else { format!("<section id=\"warnings\" role=\"alert\">{lines}</section>\n") }
+}
+
+fn reason(one: &Finding) -> String {
+    let notes: String = one.notes.iter().map(|note| format!(" {}", full(note))).collect();
+    let command = one.command("plan.toml");
+    let command = command.map_or_else(String::new, |command| format!(" Replay: <code>{}</code>", escaped(&command)));
+    format!(
+        "<p class=\"reason\"><b>{}</b>: {}.{notes}{command}</p>",
+        text(&one.title),
+        text(one.sentence.trim_end_matches('.'))
+    )
+}
+
+/// A row of the table of answers.
+struct Row<'f> {
+    finding: &'f Finding,
+    /// How its outcome is distributed.
+    outcome: Option<&'f Finding>,
+    /// The large figure: of its outcome, or over time of what has to hold at each time.
+    figure: Option<&'f Figure>,
+    drivers: Vec<&'f Finding>,
+}
+
+impl<'f> Row<'f> {
+    fn of(plan: &Plan, found: &'f Findings, finding: &'f Finding, figures: &'f [Figure]) -> Self {
+        let place = finding.id.strip_prefix("requirement_").and_then(|place| place.parse::<usize>().ok());
+        let requirement = place.and_then(|place| plan.analysis.requirements.get(place - 1));
+        let name = requirement.map_or(finding.id.as_str(), |one| one.name());
+        let called = ["histogram_", "share_", ""].map(|kind| format!("{kind}{name}"));
+        let ranking = format!("drivers_{name}");
+        let is_of_it = |one: &&Finding| {
+            one.id.strip_prefix(&ranking).is_some_and(|rest| rest.is_empty() || rest.starts_with("_event"))
+        };
+        Row {
+            finding,
+            outcome: found.of(Kind::Outcome).find(|one| one.id == name),
+            figure: called.iter().find_map(|called| figures.iter().find(|figure| figure.name == *called)),
+            drivers: found.of(Kind::Driver).filter(is_of_it).collect(),
+        }
+    }
+
+    fn judged(&self) -> String {
+        let Some(verdict) = self.finding.verdict else { return String::new() };
+        format!(
+            "<svg class=\"verdict\" viewBox=\"0 0 24 24\" aria-hidden=\"true\">{}</svg><b class=\"word\">{}</b>",
+            shape(verdict),
+            verdict.word()
+        )
+    }
+
+    fn found(&self) -> String {
+        let Some(number) = self.finding.numbers.first() else { return String::new() };
+        let said = number.text();
+        let (value, rest) =
+            said.split_once(" [").map_or((said.as_str(), String::new()), |(value, rest)| (value, format!("[{rest}")));
+        let name = text(&number.name);
+        format!(
+            "<b>{}</b> <span class=\"quiet\">{}</span><br><span class=\"quiet\">{name}</span>",
+            text(value),
+            text(&rest)
+        )
+    }
+
+    /// The outcome as a small picture, and its numbers below.
+    fn picture(&self) -> String {
+        let yes = self.outcome.and_then(|one| one.number("yes"));
+        let picture = match (yes, self.figure) {
+            (Some(yes), _) => pictures::shares(yes),
+            (None, Some(figure)) => pictures::histogram(figure),
+            (None, None) => String::new(),
+        };
+        let below = self.outcome.map_or_else(String::new, pictures::said_of);
+        format!("{picture}<span class=\"quiet\">{}</span>", escaped(&below))
+    }
+
+    fn html(&self, scale: &str) -> String {
+        let finding = self.finding;
+        let line = |said: String| format!("<p class=\"detail\">{said}</p>");
+        let mut details: String = Some(&finding.sentence)
+            .into_iter()
+            .filter(|said| !said.is_empty())
+            .chain(&finding.notes)
+            .map(|said| line(full(said)))
+            .collect();
+        let driver = |one: &&Finding| line(format!("<b>{}:</b> {}", text(&sentence(&one.title)), full(&one.sentence)));
+        details += &self.drivers.iter().map(driver).collect::<String>();
+        if let Some(figure) = self.figure {
+            details += &format!("<div class=\"place\" data-shows=\"{}\"></div>", escaped(&figure.name));
+        }
+        format!(
+            "<details class=\"answer {}\" id=\"answer_{}\"><summary><span class=\"judged\">{}</span><span class=\"asked\">{}</span>\
+             <span class=\"number\">{}</span><span>{scale}</span><span>{}</span></summary>{details}</details>\n",
+            finding.verdict.map_or("finding", class),
+            escaped(&finding.id),
+            self.judged(),
+            text(&sentence(&finding.title).replace("<=", "\u{2264}").replace(">=", "\u{2265}")),
+            self.found(),
+            self.picture(),
+        )
+    }
+}
+
+/// The table of answers: a row a requirement, nearest to its limit first, else a row an outcome, and an example of a
+/// requirement; then what the verdicts say together, and what else the numbers leave unsaid.
+pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
+    let has_verdicts = found.verdict.is_some();
+    let outcomes = || found.of(Kind::Outcome).filter(|one| one.rank == 0 && !one.numbers.is_empty());
+    let shown: Vec<&Finding> = match has_verdicts {
+        true => found.of(Kind::Requirement).collect(),
+        false => outcomes().take(MOST_OUTCOMES).collect(),
+    };
+    let rows: Vec<Row<'_>> = shown.iter().map(|one| Row::of(plan, found, one, figures)).collect();
+    let scales = pictures::scales(&shown);
+    let body: String = rows.iter().zip(&scales).map(|(row, scale)| row.html(scale)).collect();
+    let (title, heads, example) = match has_verdicts {
+        true => (
+            "Requirements, nearest to their limit first",
+            ["required", "found", "limit dashed, what it asks for shaded", "runs, those that miss the limit hatched"],
+            String::new(),
+        ),
+        false => (
+            "What was found",
+            ["outcome", "found", "with its interval, from the smallest to the largest value", "runs"],
+            format!(
+                "<details class=\"example\"><summary>The campaign file has no requirement. Add one to get a verdict here</summary>\
+                 <pre><code>{}</code></pre></details>",
+                escaped(EXAMPLE)
+            ),
+        ),
+    };
+    let heads = heads.map(|head| format!("<span>{head}</span>")).concat();
+    let body = match body.is_empty() {
+        true => "<p>No results: no dispersed run produced a value for any outcome.</p>".to_owned(),
+        false => {
+            format!("{HATCH}<div class=\"answers\"><p class=\"answer head\"><span></span>{heads}</p>\n{body}</div>")
+        }
+    };
+    let notes = found.of(Kind::Stop).chain(found.of(Kind::Note)).map(|one| {
+        let title =
+            if one.title.is_empty() { String::new() } else { format!("<b>{}:</b> ", text(&sentence(&one.title))) };
+        format!("<p class=\"note\">{title}{}</p>", full(&one.sentence))
+    });
+    let unsaid = found.of(Kind::Outcome).filter(|one| one.rank == 0 && one.numbers.is_empty() && !shown.is_empty());
+    let unsaid = unsaid.map(|one| format!("<p class=\"caption\">{}</p>", full(&one.sentence)));
+    let together: String =
+        found.of(Kind::Verdicts).map(|one| format!("<p class=\"quiet\">{}</p>", full(&one.sentence))).collect();
+    let together = match together.is_empty() {
+        true => together,
+        false => format!("<details><summary>How to read these verdicts together</summary>{together}</details>"),
+    };
+    format!(
+        "<section id=\"verdicts\"><h2>{title}</h2>{body}{}{together}{example}</section>\n",
+        notes.chain(unsaid).collect::<String>()
+    )
+}
+
+/// How runs and missions ended, and how well they were computed, in a line each. `is_off`: errors are above what the
+/// tolerance promises.
+pub fn ended(found: &Findings, nominal_end: Option<&str>, is_off: bool) -> String {
+    let above = match is_off {
+        true => ": <b>above what the tolerance promises</b>, see <a href=\"#numerics\">Numerics</a>",
+        false => "",
+    };
+    let all: String =
+        found.of(Kind::Loss).filter(|one| one.children.is_empty()).map(|one| full(&one.sentence)).collect();
+    let errors = found.of(Kind::Numerics).find(|one| one.id == "errors");
+    let errors = errors
+        .map_or_else(String::new, |one| format!(" {}: {}{above}.", text(&sentence(&one.title)), text(&one.sentence)));
+    let mission = |one: &Finding| {
+        let share = one.numbers.first().filter(|number| number.value.is_finite());
+        let bar = share.map_or_else(String::new, |share| {
+            format!("<span class=\"bar\" style=\"--share: {:.3}\"></span>", share.value)
+        });
+        format!("<li class=\"{}\">{bar}{}</li>", escaped(&one.id), full(&one.sentence))
+    };
+    let missions: Vec<String> = found.of(Kind::Mission).map(mission).collect();
+    let missions =
+        if missions.is_empty() { String::new() } else { format!("<ul class=\"missions\">{}</ul>", missions.concat()) };
+    let nominal = nominal_end.map_or_else(String::new, |end| {
+        format!("<p class=\"caption\">The nominal run has no sensor noise; its {}.</p>", text(end))
+    });
+    if all.is_empty() && errors.is_empty() && missions.is_empty() {
+        return String::new();
+    }
+    format!("<section id=\"status\">{missions}{nominal}<p class=\"lead\">{all}{errors}</p></section>\n")
+}

@@ -1,0 +1,218 @@
+//! Pictures of a few lines' height beside a text: a histogram with its limit, an estimate with its interval on a scale.
+//! They are part of the static page, and are read before any script runs.
+
+use crate::findings::number::{significant, trimmed, typeset};
+use crate::findings::{Finding, Number};
+use crate::report::escaped::escaped;
+use crate::report::figure::{Axis, Figure, Hue, Mark, Scale};
+use crate::statistics::gate::GateLimit;
+
+/// Width of a small picture, pixels.
+pub const WIDTH: f64 = 220.0;
+/// Height of its bars, and of the words below them.
+const HEIGHT: f64 = 26.0;
+const WORDS: f64 = 13.0;
+/// Width of a letter of the words.
+const LETTER: f64 = 5.4;
+/// A limit that is farther from the runs than this many times their range is named at the edge.
+const FAR: f64 = 6.0;
+/// The bars that miss a limit are hatched with this pattern, which the page has once.
+pub const HATCH: &str = "<svg width=\"0\" height=\"0\" class=\"defs\" aria-hidden=\"true\"><defs><pattern id=\"hatch\" \
+    width=\"4\" height=\"4\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\"><rect class=\"ground\" \
+    width=\"4\" height=\"4\"/><line x1=\"0\" x2=\"0\" y1=\"0\" y2=\"4\"/></pattern></defs></svg>\n";
+
+/// A part of an axis on a picture's width.
+#[derive(Clone, Copy, Debug)]
+pub struct Span {
+    ends: [f64; 2],
+    is_log: bool,
+}
+
+impl Span {
+    /// From the first to the last of `values` that are finite, by decades where they are positive and span many; `None`
+    /// where they do not differ.
+    pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let known = values.into_iter().filter(|value| value.is_finite());
+        let [low, high] = known.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+        let is_log = low > 0.0 && high > 100.0 * low;
+        (low < high).then_some(Span { ends: [low, high], is_log })
+    }
+
+    /// The place of `value` on a width of one.
+    fn part(&self, value: f64) -> f64 {
+        let of = |value: f64| if self.is_log { libm::log10(value.max(f64::MIN_POSITIVE)) } else { value };
+        let [low, high] = self.ends.map(of);
+        (of(value) - low) / (high - low)
+    }
+}
+
+/// A text at `x` with its middle there, or its end where it would leave the picture.
+fn label(x: f64, y: f64, text: &str) -> String {
+    let half = 0.5 * LETTER * text.chars().count() as f64;
+    let (anchor, x) = match () {
+        () if x < half => ("start", x.max(0.0)),
+        () if x > WIDTH - half => ("end", x.min(WIDTH)),
+        () => ("middle", x),
+    };
+    format!("<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{}</text>", escaped(text))
+}
+
+fn dashed(x: f64, height: f64) -> String {
+    format!("<line class=\"limit\" x1=\"{x:.1}\" x2=\"{x:.1}\" y1=\"0\" y2=\"{height:.1}\"/>")
+}
+
+fn picture(class: &str, height: f64, name: &str, inside: &str) -> String {
+    let said = if name.is_empty() {
+        "aria-hidden=\"true\"".to_owned()
+    } else {
+        format!("role=\"img\" aria-label=\"{}\"", escaped(name))
+    };
+    format!("<svg class=\"{class}\" viewBox=\"0 0 {WIDTH} {height}\" {said}>{inside}</svg>")
+}
+
+/// The scales of the first numbers of `found`, those of one unit on one scale, in their order: dot and interval, the side
+/// of the limit that is asked for, the limit; without a limit the scale is as long as all numbers of the outcomes. Empty
+/// where there is nothing to compare.
+pub fn scales(found: &[&Finding]) -> Vec<String> {
+    let known = |number: &Number| {
+        let (value, [low, high], limit) = number.in_shown();
+        [value, low, high, limit.unwrap_or(f64::NAN)]
+    };
+    let unit = |number: &Number| (number.unit.clone(), number.shown.unit.clone());
+    let scale = |number: &Number| {
+        let of_unit = found.iter().filter(|one| one.numbers.first().is_some_and(|other| unit(other) == unit(number)));
+        let is_limited = number.limit.is_some();
+        let of_unit = of_unit.flat_map(|one| one.numbers.iter().take(if is_limited { 1 } else { usize::MAX }));
+        // a share ends at all, and the limits of shares are mostly near to it
+        let all = (number.unit == "%").then_some(100.0);
+        let span = Span::of(of_unit.flat_map(known).chain(all))?;
+        number.value.is_finite().then(|| of_number(number, span))
+    };
+    found.iter().map(|one| one.numbers.first().and_then(scale).unwrap_or_default()).collect()
+}
+
+fn of_number(number: &Number, span: Span) -> String {
+    const MARGIN: f64 = 14.0;
+    let at = |value: f64| MARGIN + (WIDTH - 2.0 * MARGIN) * span.part(value);
+    let (value, [low, high], limit) = number.in_shown();
+    let middle = 0.5 * HEIGHT;
+    let mut inside = String::new();
+    if let (Some(limit), Some(gate)) = (limit, number.limit) {
+        let [from, to] = if matches!(gate, GateLimit::AtLeast(_)) { [at(limit), WIDTH] } else { [0.0, at(limit)] };
+        inside += &format!("<rect class=\"within\" x=\"{from:.1}\" width=\"{:.1}\" height=\"{HEIGHT}\"/>", to - from);
+    }
+    inside += &format!("<line class=\"axis\" x1=\"0\" x2=\"{WIDTH}\" y1=\"{HEIGHT}\" y2=\"{HEIGHT}\"/>");
+    if number.has_interval() {
+        let end = |end: f64, edge: f64| if end.is_finite() { at(end) } else { edge };
+        let [from, to] = [end(low, 0.0), end(high, WIDTH)];
+        inside += &format!("<line class=\"whisker\" x1=\"{from:.1}\" x2=\"{to:.1}\" y1=\"{middle}\" y2=\"{middle}\"/>");
+    }
+    inside += &format!("<circle class=\"dot\" cx=\"{:.1}\" cy=\"{middle}\" r=\"4.5\"/>", at(value));
+    let words = HEIGHT + WORDS - 2.0;
+    match (limit, number.limit_text()) {
+        (Some(limit), Some(text)) => {
+            inside += &dashed(at(limit), HEIGHT);
+            inside += &label(at(limit), words, &typeset(&text));
+        }
+        _ => {
+            let ends = span.ends.map(|end| typeset(&format!("{} {}", trimmed(end, 4), number.shown.unit)));
+            inside += &label(0.0, words, ends[0].trim_end());
+            inside += &label(WIDTH, words, ends[1].trim_end());
+        }
+    }
+    picture("scale", HEIGHT + WORDS, &typeset(&format!("{} {}", number.name, number.text())), &inside)
+}
+
+/// A histogram as a small picture, with the limits on its axis and the runs that miss one in another colour; empty of
+/// another figure.
+pub fn histogram(figure: &Figure) -> String {
+    let limits = figure.marks.iter().filter_map(|mark| match mark {
+        Mark::Limit { label, at, vertical: true } if label.starts_with("at ") => Some(*at),
+        _ => None,
+    });
+    let limits: Vec<f64> = limits.collect();
+    let bars = figure.marks.iter().filter_map(|mark| match mark {
+        Mark::Bars { hue, edges, heights, .. } => Some((*hue, edges, heights)),
+        _ => None,
+    });
+    let bars: Vec<(Hue, &Vec<f64>, &Vec<f64>)> = bars.collect();
+    let Some((_, edges, heights)) = bars.first() else { return String::new() };
+    let highest = heights.iter().copied().fold(1.0, f64::max);
+    let [Some(first), Some(last)] = [edges.first(), edges.last()] else { return String::new() };
+    let reach = FAR * (last - first);
+    let is_near = |limit: &&f64| first - **limit <= reach && **limit - last <= reach;
+    let near = limits.iter().filter(is_near).copied();
+    let is_log = figure.x.scale == Scale::Log;
+    let Some(span) = Span::of([*first, *last].into_iter().chain(near)) else { return String::new() };
+    let span = Span { is_log, ..span };
+    let at = |value: f64| WIDTH * span.part(value).clamp(0.0, 1.0);
+    let mut inside = String::new();
+    for (hue, edges, heights) in &bars {
+        let class = if *hue == Hue::Failed { " class=\"missed\"" } else { "" };
+        for (ends, count) in edges.windows(2).zip(*heights).filter(|(_, count)| **count > 0.0) {
+            let (from, to) = (at(ends[0]), at(ends[1]));
+            // one run among many is still seen
+            let height = ((HEIGHT - 2.0) * count / highest).max(1.2);
+            inside += &format!(
+                "<rect{class} x=\"{from:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{height:.1}\"/>",
+                HEIGHT - height,
+                (to - from - 0.4).max(0.6),
+            );
+        }
+    }
+    inside += &format!("<line class=\"axis\" x1=\"0\" x2=\"{WIDTH}\" y1=\"{HEIGHT}\" y2=\"{HEIGHT}\"/>");
+    let is_shown = |limit: &&f64| (span.ends[0]..=span.ends[1]).contains(*limit);
+    for limit in limits.iter().filter(is_shown) {
+        inside += &dashed(at(*limit), HEIGHT + 3.0);
+    }
+    picture("small", HEIGHT + WORDS, "", &(inside + &ends(&figure.x, span, &limits, &at)))
+}
+
+/// The ends of an axis in words below it, and its limits, which have the room first.
+fn ends(axis: &Axis, span: Span, limits: &[f64], at: &dyn Fn(f64) -> f64) -> String {
+    let is_outside = |value: f64| value < span.ends[0] || value > span.ends[1];
+    let text = |value: f64| {
+        let arrow = if is_outside(value) { " \u{2192}" } else { "" };
+        let said = format!("{} {}", trimmed(value, 4), axis.unit);
+        typeset(said.trim_end()) + arrow
+    };
+    let width = |text: &str| LETTER * text.chars().count() as f64;
+    let mut said: Vec<(f64, String)> = Vec::new();
+    for value in limits.iter().copied().chain(span.ends) {
+        let (x, text) = (at(value).clamp(0.0, WIDTH), text(value));
+        let place = |x: f64, width: f64| (x - 0.5 * width).clamp(0.0, (WIDTH - width).max(0.0));
+        let from = place(x, width(&text));
+        let is_free = |(other, said): &(f64, String)| {
+            let start = place(*other, width(said));
+            from > start + width(said) + 4.0 || from + width(&text) + 4.0 < start
+        };
+        if said.iter().all(is_free) {
+            said.push((x, text));
+        }
+    }
+    said.iter().map(|(x, text)| label(*x, HEIGHT + WORDS - 2.0, text)).collect()
+}
+
+/// A bar of all runs with those that have not the outcome in another colour: of an outcome that is yes or no.
+pub fn shares(yes: &Number) -> String {
+    let width = WIDTH * yes.value.clamp(0.0, 1.0);
+    let count = libm::round(yes.value * yes.of as f64) as u64;
+    let inside = format!(
+        "<rect x=\"0\" y=\"8\" width=\"{width:.1}\" height=\"14\"/><rect class=\"missed\" x=\"{width:.1}\" y=\"8\" \
+         width=\"{:.1}\" height=\"14\"/>{}{}",
+        WIDTH - width,
+        label(0.0, HEIGHT + WORDS - 2.0, &count.to_string()),
+        label(WIDTH, HEIGHT + WORDS - 2.0, &format!("{} not", yes.of.saturating_sub(count)))
+    );
+    picture("small", HEIGHT + WORDS, "", &inside)
+}
+
+/// The numbers of an outcome below its picture: median, spread and extremes, as many as it has of them.
+pub fn said_of(outcome: &Finding) -> String {
+    let numbers = ["median", "p95", "max"].iter().filter_map(|name| outcome.number(name));
+    let known = numbers.filter(|number| number.value.is_finite());
+    let said = known.map(|number| (number, format!("{} {}", number.name, significant(number.in_shown().0, 3))));
+    let (numbers, said): (Vec<&Number>, Vec<String>) = said.unzip();
+    let unit = numbers.last().map_or("", |number| &number.shown.unit);
+    typeset(format!("{} {unit}", said.join(", ")).trim_end())
+}
