@@ -12,8 +12,9 @@ pub const WIDTH: f64 = 220.0;
 /// Height of its bars, and of the words below them.
 const HEIGHT: f64 = 26.0;
 const WORDS: f64 = 13.0;
-/// Width of a letter of the words.
+/// Width of a letter of the words, and on paper, where they are larger.
 const LETTER: f64 = 5.4;
+const LETTER_ON_PAPER: f64 = 6.8;
 /// A limit that is farther from the runs than this many times their range is named at the edge.
 const FAR: f64 = 6.0;
 /// The bars that miss a limit are hatched with this pattern, which the page has once.
@@ -176,7 +177,7 @@ fn ends(axis: &Axis, span: Span, limits: &[f64], at: &dyn Fn(f64) -> f64) -> Str
         let said = format!("{} {}", trimmed(value, 4), axis.unit);
         typeset(said.trim_end()) + arrow
     };
-    let width = |text: &str| LETTER * text.chars().count() as f64;
+    let width = |text: &str| LETTER_ON_PAPER * text.chars().count() as f64;
     let mut said: Vec<(f64, String)> = Vec::new();
     for value in limits.iter().copied().chain(span.ends) {
         let (x, text) = (at(value).clamp(0.0, WIDTH), text(value));

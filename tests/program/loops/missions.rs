@@ -1,6 +1,6 @@
 //! How missions ended: on the screen, in the summary and on the page, against the rows.
 
-use crate::commands::screen_numbers::{numbers, says};
+use crate::commands::screen_numbers::says;
 use crate::page::answers::between;
 use crate::page::numbers::Found;
 use crate::support::scratch_folder::{ScratchFolder, column, ended};
@@ -26,7 +26,7 @@ fn ends_are_those_of_the_rows() {
     let missions = scratch.summary("r")["missions"].as_array().expect("missions").clone();
     let found = Found::read(scratch, String::new());
     let page = found.visible();
-    let table = between(&page, "<section id=\"missions\">", "</section>");
+    let list = between(&page, "<ul class=\"missions\">", "</ul>");
     let mut all = 0.0;
     for (end, code, words) in
         [("not_failed", 0.0, "did not fail"), ("timeout", 1.0, "failed: a phase took too long (detumble)")]
@@ -47,17 +47,10 @@ fn ends_are_those_of_the_rows() {
         let percents = [share, low, high].map(|share| 100.0 * share);
         let counted = [&[count as f64, runs][..], &percents].concat();
         says(&said, &format!("# of # missions {words}: #% [#, #]"), &counted);
-        let row = table.split("<tr>").find(|row| row.contains(words)).expect("a row");
-        says(
-            row,
-            "<td class=\"number\">#</td><td class=\"number\">#% [#, #]</td>",
-            &[&[count as f64][..], &percents].concat(),
-        );
-        let places = numbers(row, "x1=\"#%\" x2=\"#%\"");
-        let width = numbers(between(row, "<rect", "/>"), "width=\"#%\"")[0];
-        for (place, known) in [(width, share), (places[0], low), (places[1], high)] {
-            assert!((place - 100.0 * known).abs() < 6e-4, "{place} for {known}: {row}");
-        }
+        let row = list.split("<li").find(|row| row.contains(words)).expect("a row");
+        says(row, &format!("# of # missions {words}: #% [#, #]"), &counted);
+        let bar: f64 = between(row, "--share: ", "\"").parse().expect("a share");
+        assert!((bar - share).abs() < 6e-4, "{bar} for {share}: {row}");
         all += count as f64;
     }
     assert!(all == runs && missions.len() == 2, "{missions:?}");
@@ -75,9 +68,9 @@ fn ends_are_those_of_the_rows() {
         assert_eq!(is_said, failures[sample] == 1.0, "{row}");
     }
     assert!(said.contains("all 40 runs were computed") && page.contains("All 40 runs were computed."), "{said}");
-    for (end, class) in [("did not fail", "ok"), ("failed: a phase took too long", "failed")] {
-        let row = table.split("<tr>").find(|row| row.contains(end)).expect("a row");
-        assert!(row.contains(&format!("class=\"mission {class}\"")), "{row}");
+    for (end, class) in [("did not fail", "mission_not_failed"), ("failed: a phase took too long", "mission_timeout")] {
+        let row = list.split("<li").find(|row| row.contains(end)).expect("a row");
+        assert!(row.contains(&format!("class=\"{class}\"")), "{row}");
     }
     assert!(failures[0] == 1.0 || failures[0] == 0.0);
 }
