@@ -125,8 +125,7 @@ fn what_acts_in_some_draws_is_not_noted() {
         format!("{}thrust_scale = 0.0\n{on}{tilt}", arc(0.0)),
         format!("{}{}{derived}", arc(0.0), dispersed("thrusters.p2.thrust_scale")),
         format!("{}{off}", arc(0.3)),
-        dispersed("initial.position_m")
-            + "[[observable]]\nname = \"far\"\nexpression = \"2 * initial.position_m.x\"\n",
+        dispersed("initial.position_m") + "[[observable]]\nname = \"far\"\nexpression = \"2 * initial.position_m.x\"\n",
     ] {
         assert_eq!(notes(&text), [""; 0], "{text}");
     }

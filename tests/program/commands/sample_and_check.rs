@@ -5,7 +5,6 @@ use std::process::Stdio;
 
 use spindrift::campaign::{Overrides, Plan};
 
-use crate::commands::screen_numbers::numbers;
 use crate::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder};
 use crate::support::campaigns::SPIN_DISPERSION;
 use crate::support::scratch_folder::floats;
@@ -82,46 +81,6 @@ fn sample_draws_the_rows_of_the_campaign() {
     scratch.prints("sample thin.toml --sample 600", 2);
     scratch.prints("sample thin.toml --out s.txt", 2);
     scratch.prints("sample thin.toml --samples 0", 2);
-}
-
-#[test]
-fn check_shows_what_would_run() {
-    let scratch = folder("check");
-    scratch.file("no_debris.toml", &campaign_without_debris());
-    let said = scratch.prints_wide("check small.toml --plan --verbose", 0);
-    for expected in [
-        "small: 600 runs of 1 s, method auto, tolerance 1e-10, no requirement\n",
-        "samples = 600",
-        "1982.77",
-        "3054.59",
-        "J_xy = -integral of x y dm",
-        "initial.angular_velocity_rad_s.x",
-        "needed by ",
-        "not computed: no requested observable needs it",
-        "inertia of the spacecraft, wheels locked,",
-        "angular momentum of the spacecraft about its centre of mass",
-        "== Estimate",
-    ] {
-        assert!(said.contains(expected), "{expected} in:\n{said}");
-    }
-    assert!(
-        said.contains("wheel rates: needed by ")
-            && said.contains("velocity of the debris: ")
-            && !said.contains("not computed: there is no"),
-        "{said}"
-    );
-    // masses add up, and the largest part has its share of them
-    let kg = |body: &str| {
-        let line = said.lines().find(|line| line.starts_with(&format!("{body} "))).expect(body);
-        line.split_whitespace().rev().nth(1).expect("a mass").parse::<f64>().expect("a number")
-    };
-    let [body, whole] = ["body", "spacecraft"].map(kg);
-    assert!((body + kg("wheel w1") + kg("wheel w2") - whole).abs() < 0.02, "{said}");
-    let share = numbers(&said, "largest part: body.parts.fuselage, # % of the mass of the spacecraft")[0];
-    assert!((share - 100.0 * body / whole).abs() < 0.051, "{share}: {said}");
-    let said = scratch.prints_wide("check no_debris.toml --verbose", 0);
-    assert!(said.contains("wheel rates: ") && !said.contains("of the debris"), "{said}");
-    assert!(!scratch.path("results").exists(), "check writes nothing");
 }
 
 /// Law: `check` of a scene has no line about what the scene and the method do not have.
@@ -242,57 +201,6 @@ fn check_fits_a_screen() {
     }
 }
 
-/// Known: a dispersed parameter has a line with its distribution and its nominal value, in the units of people; components that are drawn alike stand together.
-#[test]
-fn dispersions_are_said_in_a_line() {
-    let scratch = folder("check-lines");
-    let said = |campaign: &str| {
-        let said = scratch.says("check", campaign, "", 0);
-        said.split_whitespace().collect::<Vec<_>>().join(" ")
-    };
-    for (campaign, known) in [
-        ("net_launch.toml", "initial.position_m normal, std 1 m, nominal [-28, -14, 18] "),
-        (
-            "net_launch.toml",
-            "initial.attitude normal rotation from the nominal attitude, std 2 deg about each axis, nominal [1, 0, 0, 0] ",
-        ),
-        ("net_launch.toml", "initial.angular_velocity_rad_s normal, std 0.3 deg/s, nominal [0.4, -0.6, 0.8] "),
-        ("net_launch.toml", "thrusters.p1.tilt_rad normal, std 0.3 deg, nominal 0 "),
-        ("net_launch.toml", "thrusters.p2.thrust_scale 0 with probability 1%, else 1, nominal 1 "),
-        ("net_launch.toml", "sensors.gyro.bias_rad_s normal, std 2 deg/h, nominal 0 "),
-        ("spin_sweep.toml", "initial.angular_velocity_rad_s.x, y normal, std 28.65 deg/s, nominal [0, 180] "),
-        ("spin_sweep.toml", "initial.angular_velocity_rad_s.z normal, std 85.94 deg/s, nominal 1800 "),
-        ("spin_sweep.toml", "wheels.w1.rate_rad_s normal, std 60 rpm, nominal 3000 "),
-        ("spin_sweep.toml", "body.parts.fuselage.position_m.z = body.parts.fuselage.length_m / 2, nominal 1.5 m "),
-    ] {
-        let said = said(campaign);
-        assert!(said.contains(known), "{known} in:\n{said}");
-    }
-}
-
-/// Law: a duration that nobody means is named, whatever else is wrong with it; what fails comes before what would be estimated.
-#[test]
-fn check_says_what_is_wrong_with_an_endless_run() {
-    let scratch = folder("check-endless");
-    for seconds in ["1e30", "1e12"] {
-        let said = scratch.says(
-            "check",
-            "spin_sweep.toml",
-            &format!("--set campaign.duration_s={seconds}"),
-            if seconds == "1e30" { 1 } else { 0 },
-        );
-        let notes = said.split("== Notes").nth(1).expect("notes");
-        assert!(notes.trim_start().starts_with(&format!("campaign.duration_s = {seconds}: that is ")), "{said}");
-        assert!(!said.contains(" 0 points") && !said.contains("000000000"), "{said}");
-        if let Some(failing) = said.find("EVERY RUN FAILS") {
-            assert!(
-                failing < said.find("== Estimate").expect("an estimate") && !said.contains("requirement would"),
-                "{said}"
-            );
-        }
-    }
-}
-
 #[test]
 fn bad_input_ends_with_code_2_and_says_everything() {
     let scratch = folder("bad");
@@ -318,25 +226,6 @@ fn bad_input_ends_with_code_2_and_says_everything() {
     scratch.prints("", 2);
     assert!(!scratch.path("results").exists(), "nothing is written for bad input");
     assert!(scratch.prints("--help", 0).contains("Exit codes"));
-}
-
-/// Law: a setting whose key no file has is refused with the key that was probably meant, or with all that there are; it has no line and no mark.
-#[test]
-fn settings_that_no_file_has_are_told() {
-    let scratch = folder("settings");
-    for (setting, known) in [
-        ("scene.wheels.w1.rate_rad_s=0", "scene: not a key of a campaign file; did you mean wheels.w1.rate_rad_s?"),
-        ("wheel.w1.rate_rad_s=0", "wheel: not a key of a campaign file; did you mean wheels.w1.rate_rad_s?"),
-        (
-            "wheels.w1.rate_rads=0",
-            "wheels.w1.rate_rads = 0: not a key of [[wheels]] with name = \"w1\"; did you mean rate_rad_s?",
-        ),
-        ("campain.seed=1", "campain: not a key of a campaign file; did you mean campaign.seed?"),
-        ("xyzzy=1", "xyzzy = 1: not a key of a campaign file (wheels, thrusters, "),
-    ] {
-        let said = scratch.prints(&format!("check small.toml --set {setting}"), 2);
-        assert!(said.contains(known) && !said.contains('|') && said.lines().count() == 1, "{setting}: {said}");
-    }
 }
 
 /// Law: a reader that closes the pipe early is no error and no panic.
