@@ -539,6 +539,23 @@ fn numbers_of_a_filter_are_not_dispersed() {
         format!("{}[[derive]]\nparameter = \"{sigma}\"\nexpression = \"control.delay_s\"\n", drawn("control.delay_s"));
     let said = refused(&derived).to_string();
     assert!(said.contains("derive[0].parameter") && said.contains("believes the numbers"), "{said}");
+    let scratch = ScratchFolder::new("campaign-files-sigmas");
+    scratch.file("draws.csv", "delay,sigma\n0.01,0.01\n0.02,0.02\n");
+    let list = |name: &str| format!("file = \"draws.csv\"\nparameters = [\"control.delay_s\", \"{name}\"]\n");
+    // a design by a table has as many samples as the table
+    for (table, samples) in
+        [("[[disperse]]\ndistribution = \"bootstrap\"\n", "samples = 3\n"), ("[design]\nkind = \"table\"\n", "")]
+    {
+        let read = |name: &str| {
+            let columns = "columns = [\"delay\", \"sigma\"]\n";
+            let text = LOOP.replacen("samples = 1\n", samples, 1) + table + &list(name) + columns;
+            scratch.file("loop.toml", &text);
+            Plan::load(&scratch.path("loop.toml"), Overrides::default())
+        };
+        let said = read(sigma).expect_err(table).to_string();
+        assert!(said.contains(sigma) && said.contains("believes the numbers of the file in every run"), "{said}");
+        read("control.settling_band_rad").unwrap_or_else(|error| panic!("{table}: {error}"));
+    }
 }
 
 /// Law: on an orbit with an epoch a Sun sensor has the Sun of the date, and a direction beside it is refused; elsewhere

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use spindrift::campaign::{Overrides, Plan, settings};
 use spindrift::dynamics::effects::{Effect, ForceModel};
 use spindrift::ensemble::plausibility::looked::digits;
-use spindrift::ensemble::plausibility::rules::{Limit, RULES};
+use spindrift::ensemble::plausibility::{rule::Limit, rules::RULES};
 use spindrift::ensemble::{Ensemble, SingleRun};
 use spindrift::math::Isa;
 use spindrift::observables::band_series::band_series;

@@ -2,11 +2,12 @@
 //! revolutions per minute for radians per second, millimetres for metres, the scalar of a quaternion in the last
 //! place.
 //!
-//! [`rules::RULES`] is the list of what is noted; `measures` are the sizes that are no parameter of their own.
+//! [`rules::RULES`] is the list of what is noted, [`rule`] what a row of it says; `measures` are the sizes that are no parameter of their own.
 //! Nothing is refused.
 
 pub mod looked;
 mod measures;
+pub mod rule;
 pub mod rules;
 
 use std::collections::BTreeSet;
@@ -16,7 +17,8 @@ use crate::control::capacity::Capacity;
 
 use self::looked::Looked;
 pub use self::measures::ends_of_air;
-use self::rules::{RULES, Rule};
+use self::rule::Rule;
+use self::rules::RULES;
 
 /// The rules that something in `plan` breaks, each with its note.
 pub fn noted(plan: &Plan) -> Vec<(&'static Rule, String)> {
