@@ -159,8 +159,9 @@ fn conditional(
     let rows = shown_rows(survey);
     let values: Vec<f64> = rows.iter().map(|row| survey.thinned.outcomes[index][*row]).collect();
     let inputs: Vec<f64> = rows.iter().map(|row| survey.thinned.inputs[input][*row]).collect();
-    let all = Event::all(plan, name, &values);
-    let (_, occurs) = all.into_iter().find(|(other, _)| other.occurs == event.occurs)?;
+    let missed = Event::missed(plan, name, &values, &vec![true; values.len()]);
+    let mut all = missed.into_iter().chain(Event::of_values(plan, name, &values));
+    let (_, occurs) = all.find(|(other, _)| other.occurs == event.occurs)?;
     let shown = unit_of(plan, input);
     let amount = |value: f64| significant(shown.value(value), 3);
     let mut classes: Vec<(String, [u64; 2])> = Vec::new();
