@@ -4,7 +4,7 @@ use crate::control::STANDARD_GRAVITY;
 use crate::observables::Series;
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, Scale};
 use crate::report::over_time::curves::{Curves, areas, lines, over_time};
-use crate::report::over_time::figure_list::{ListedFigure, Shows};
+use crate::report::over_time::figure_list::{ListedFigure, Shows, WheelLimit};
 use crate::report::over_time::limits;
 use crate::report::page::readable::with_unit;
 
@@ -79,7 +79,7 @@ impl Curves<'_> {
     }
 
     /// A series of all wheels, with the limits of those that the loop drives.
-    pub(super) fn all_wheels(&self, listed: &ListedFigure, series: Series) -> Figure {
+    pub(super) fn all_wheels(&self, listed: &ListedFigure, series: Series, limit: WheelLimit) -> Figure {
         let mut marks = Vec::new();
         for (index, wheel) in self.wheels.iter().enumerate() {
             let (name, _) = self.name(series.of_wheel(index));
@@ -99,22 +99,18 @@ impl Curves<'_> {
             }
         }
         let (name, unit) = self.name(series);
-        let is_torque = series == Series::MotorTorque;
         let caption = self.caption(&name);
-        let (file, title) = match is_torque {
-            true => ("wheel_torque", "Torque of the wheels"),
-            false => ("wheel_speed", "Speed of the wheels"),
-        };
         if let Some(run) = self.run {
             let models = self.wheels.iter().zip(&run.scene.actuators.wheels);
-            let limits = models.map(|(wheel, model)| {
-                (wheel.to_string(), if is_torque { model.torque_limit } else { model.speed_limit })
-            });
+            let limits: Vec<_> = models.map(|(wheel, model)| (wheel.to_string(), limit.of(model))).collect();
             let shown = self.plan.analysis.display.of(&self.shown_as(listed, &name), &unit);
-            marks.extend(limits::of_actuators(&limits.collect::<Vec<_>>(), &shown, is_torque));
+            marks.extend(limits::of_actuators(&limits, &shown, limit == WheelLimit::Torque));
         }
-        let figure = self.judged(listed, (&name, &unit), (title, caption), marks);
-        Figure { name: file.to_owned(), ..figure }
+        // title and file say the same, since both are the row's
+        let title = format!("{} of the wheels", listed.title);
+        let file = format!("wheel_{}", listed.title.to_lowercase().replace(' ', "_"));
+        let figure = self.judged(listed, (&name, &unit), (&title, caption), marks);
+        Figure { name: file, ..figure }
     }
 
     /// The impulses of the thrusters up to the points of the run, N s: thruster by thruster.

@@ -294,8 +294,8 @@ impl<'a> Curves<'a> {
         match listed.shows {
             Shows::One(series) => self.single(listed, series).into_iter().collect(),
             Shows::Estimated(series, expected) => self.estimated(listed, series, expected).into_iter().collect(),
-            Shows::Wheels(series) if self.traits.has_loop => vec![self.all_wheels(listed, series)],
-            Shows::Wheels(series) => self.each_wheel(listed, series),
+            Shows::Wheels(series, limit) if self.traits.has_loop => vec![self.all_wheels(listed, series, limit)],
+            Shows::Wheels(series, _) => self.each_wheel(listed, series),
             Shows::State(field, components) => vec![self.state(listed, field, components)],
             Shows::GroundTrack => self.ground_track(listed).into_iter().collect(),
             Shows::Phases => self.phases(listed).into_iter().collect(),

@@ -6,7 +6,7 @@ use crate::campaign::Plan;
 use crate::observables::Series;
 use crate::report::figure::Hue;
 use crate::run::StateField;
-use crate::scene::Name;
+use crate::scene::{Name, WheelModel};
 
 #[derive(Clone, Debug)]
 pub struct Traits {
@@ -78,6 +78,33 @@ pub enum Place {
     Plot,
 }
 
+/// Which limit of the wheels of a loop holds for what a figure shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WheelLimit {
+    /// That of the motor's torque, N m, in both directions.
+    Torque,
+    /// That of the speed, rad/s, of its magnitude.
+    Speed,
+}
+
+impl WheelLimit {
+    /// The limit of `wheel`, N m or rad/s; infinite without one.
+    pub fn of(self, wheel: &WheelModel) -> f64 {
+        match self {
+            WheelLimit::Torque => wheel.torque_limit,
+            WheelLimit::Speed => wheel.speed_limit,
+        }
+    }
+
+    /// The unit of the limit, which is that of what the figure shows.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            WheelLimit::Torque => "N m",
+            WheelLimit::Speed => "rad/s",
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shows {
     /// A series of the observables.
@@ -85,7 +112,7 @@ pub enum Shows {
     /// The error of an estimate, with three times what the filter expects of it: the column of the telemetry.
     Estimated(Series, &'static str),
     /// A series of wheels: under a loop in one figure with their limits, else a figure for each.
-    Wheels(Series),
+    Wheels(Series, WheelLimit),
     /// Components of a state; of wheels all of them.
     State(StateField, &'static [&'static str]),
     /// The place on the Earth below the spacecraft.
@@ -221,8 +248,8 @@ pub const FIGURES: &[ListedFigure] = {
         figure(One(Series::SunHidden), ("Share of the Sun that the Earth hides", "share", Hue::Total), ON_ORBIT, &["sun_hidden_fraction"]),
         figure(GroundTrack, ("Ground track", "latitude", Hue::Total), |scene, _| scene.dated_orbit, &[]),
         // actuators
-        figure(Wheels(Series::MotorTorque), ("Torque", "torque", Hue::Wheel(0)), |scene, _| scene.drives, &["torque_{wheel}_n_m"]),
-        figure(Wheels(Series::WheelSpeed), ("Speed", "speed", Hue::Wheel(0)), |scene, place| scene.wheels && (scene.has_loop || place == Place::Page),
+        figure(Wheels(Series::MotorTorque, WheelLimit::Torque), ("Torque", "torque", Hue::Wheel(0)), |scene, _| scene.drives, &["torque_{wheel}_n_m"]),
+        figure(Wheels(Series::WheelSpeed, WheelLimit::Speed), ("Speed", "speed", Hue::Wheel(0)), |scene, place| scene.wheels && (scene.has_loop || place == Place::Page),
             &["speed_{wheel}_rad_s", "speed_{wheel}_max_rad_s", "speed_peak_{wheel}_rad_s"]),
         figure(State(StateField::WheelRates, &[]), ("Wheel rates", "rate", Hue::Wheel(0)), |scene, place| FREE_IN_PLOT(scene, place) && scene.wheels, &[]),
         figure(Thrust, ("Thrust", "thrust", Hue::Curve(0)), |scene, _| scene.fires, &[]),
@@ -238,3 +265,23 @@ pub const FIGURES: &[ListedFigure] = {
         figure(Balances, ("Relative errors of the balances", "", Hue::Curve(0)), |_, place| place == Place::Plot, &[]),
     ]
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: no two rows have one title, and the limit that a row of wheels states is of the quantity that it shows.
+    #[test]
+    fn rows_say_what_they_show() {
+        let names = [Name::new("w1").expect("a name")];
+        let mut wheels = 0;
+        for (place, row) in FIGURES.iter().enumerate() {
+            assert!(FIGURES[..place].iter().all(|other| other.title != row.title), "{} is there twice", row.title);
+            let Shows::Wheels(series, limit) = row.shows else { continue };
+            let quantity = series.of_wheel(0).quantity(&names).expect("a quantity");
+            assert_eq!(quantity.unit(), limit.unit(), "{}", row.title);
+            wheels += 1;
+        }
+        assert!(wheels > 1, "{wheels}");
+    }
+}
