@@ -12,8 +12,7 @@ use std::process::Command;
 
 use spindrift::observables::Group;
 use spindrift::report::figure::{Axis, Dash, Figure, Hue, Mark};
-use spindrift::report::image::PlotSize;
-use spindrift::report::sheet::Sheet;
+use spindrift::report::figure_files::FigureSheet;
 use spindrift::workflow::{Campaign, Quiet, Session};
 
 const FREE: &str = include_str!("../campaigns/no_debris.toml");
@@ -182,5 +181,6 @@ fn main() {
     let title = "Whole campaigns of no_debris.toml, one core";
     let mut drawn = Figure::new(title, Axis::log("rows", ""), Axis::log("CPU time", "s"), vec![mark]);
     drawn.name = "curves".to_owned();
-    Sheet::of(&drawn).save(path.as_ref(), PlotSize::default()).expect("a figure");
+    spindrift_figures::register();
+    FigureSheet { title: String::new(), figures: vec![drawn] }.save(path.as_ref()).expect("a figure");
 }

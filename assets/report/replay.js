@@ -399,7 +399,7 @@ export function startReplay(data, three) {
   try {
     return new Replay(data, three, place);
   } catch (error) {
-    place.querySelector(":scope > p:not(.still)").textContent = `This browser shows no 3D graphics (WebGL), so only a still of the replay is here.${/webgl/i.test(error.message) ? "" : ` (${error.message})`}`;
+    place.querySelector(":scope > p:not(.still)").textContent = `This browser shows no 3D graphics (WebGL), so the replay is left out.${/webgl/i.test(error.message) ? "" : ` (${error.message})`}`;
     return null;
   }
 }

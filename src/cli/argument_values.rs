@@ -46,16 +46,6 @@ pub fn setting(text: &str) -> Result<(String, String), String> {
         .ok_or_else(|| "must be KEY=VALUE, for instance campaign.duration_s=20".to_owned())
 }
 
-/// A width and a height, mm; otherwise the allowed form.
-///
-/// # Errors
-/// Where it is none.
-pub fn size(text: &str) -> Result<[f64; 2], String> {
-    let sides = text.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
-    let is_size = |sides: &[f64; 2]| sides.iter().all(|side| (20.0..=5000.0).contains(side));
-    sides.filter(is_size).ok_or_else(|| "must be WxH, each from 20 to 5000 mm, for instance 160x90".to_owned())
-}
-
 /// A shard, for instance 3/8; otherwise the allowed form.
 ///
 /// # Errors

@@ -6,11 +6,10 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::campaign::Overrides;
-use crate::cli::argument_values::{count, fraction, method, seconds, setting, shard, shift, size, threads, tolerance};
+use crate::cli::argument_values::{count, fraction, method, seconds, setting, shard, shift, threads, tolerance};
 use crate::cli::colour::Colour;
 use crate::cli::{help, screen};
 use crate::propagation::Method;
-use crate::report::image::{Letters, PlotSize};
 use crate::storage::claim::Shard;
 
 /// Monte Carlo analysis of spacecraft attitude dynamics.
@@ -82,31 +81,6 @@ impl Changed {
     }
 }
 
-/// Size of files of figures.
-#[derive(Args, Clone, Copy, Debug)]
-pub struct SizeOptions {
-    /// Width and height of each figure, mm [default: what its panels need]; text keeps its size.
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    pub size: Option<[f64; 2]>,
-    /// Dots per inch of PNG files.
-    #[arg(long, value_name = "N", default_value_t = 192, value_parser = clap::value_parser!(u16).range(24..=2400))]
-    pub dpi: u16,
-    /// Write the letters of SVG files as text, to be edited and searched, not as outlines: a reader's fonts then decide how they look.
-    #[arg(long)]
-    pub svg_text: bool,
-}
-
-impl SizeOptions {
-    /// The size that they ask for.
-    pub fn of(self) -> PlotSize {
-        PlotSize {
-            size_mm: self.size,
-            dpi: f64::from(self.dpi),
-            letters: if self.svg_text { Letters::Text } else { Letters::Outlines },
-        }
-    }
-}
-
 /// Arguments of `campaign`.
 #[derive(Debug, Args)]
 pub struct CampaignOptions {
@@ -154,12 +128,9 @@ pub struct CampaignOptions {
     /// Do not write report.html.
     #[arg(long)]
     pub no_report: bool,
-    /// Write every figure of the report to this folder as SVG and PNG.
+    /// Write every figure of the report to this folder: SVG where the program draws it, else a page.
     #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
     pub figures: Option<PathBuf>,
-    /// Size of figures.
-    #[command(flatten)]
-    pub size: SizeOptions,
 }
 
 /// Arguments of `report`.
@@ -168,12 +139,9 @@ pub struct ReportOptions {
     /// The result folder, with plan.toml and runs/.
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Write every figure to this folder as SVG and PNG.
+    /// Write every figure to this folder: SVG where the program draws it, else a page.
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
-    /// Size of figures.
-    #[command(flatten)]
-    pub size: SizeOptions,
     /// Run this many scenes of a control loop twice with different sensor noise, and report the share of the variance that is noise.
     #[arg(long, value_name = "SCENES", value_parser = clap::value_parser!(u64).range(2..))]
     pub noise: Option<u64>,
@@ -196,12 +164,9 @@ pub struct FinishOptions {
     /// Do not write report.html.
     #[arg(long)]
     pub no_report: bool,
-    /// Write every figure of the report to this folder as SVG and PNG.
+    /// Write every figure of the report to this folder: SVG where the program draws it, else a page.
     #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
     pub figures: Option<PathBuf>,
-    /// Size of figures.
-    #[command(flatten)]
-    pub size: SizeOptions,
     /// Number of threads, at most four per core [default: one per core].
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,
@@ -285,12 +250,9 @@ pub struct SimulateOptions {
     /// Write all columns to this file (.parquet or .csv).
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Plot states, energies and errors to this file (.svg or .png), on a fine grid or at --times.
+    /// Plot states, energies and errors to this file (.html, or .svg where the program draws it), on a fine grid or at --times.
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
-    /// Size of figures.
-    #[command(flatten)]
-    pub size: SizeOptions,
 }
 
 /// Arguments of `sample`.
@@ -316,12 +278,9 @@ pub struct SampleOptions {
     /// Write the dispersed parameters of every sample to this file (.parquet or .csv).
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Plot distributions and rank correlations to this file (.svg or .png).
+    /// Plot distributions and rank correlations to this file (.html, or .svg where the program draws it).
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
-    /// Size of figures.
-    #[command(flatten)]
-    pub size: SizeOptions,
 }
 
 /// Arguments of `index`.
@@ -365,9 +324,6 @@ pub struct PrecisionOptions {
     /// Result folder, whose files are replaced [default: results/NAME_precision].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Size of figures.
-    #[command(flatten)]
-    pub size: SizeOptions,
 }
 
 /// Arguments of `new`.

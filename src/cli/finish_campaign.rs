@@ -18,11 +18,8 @@ use crate::workflow::{Finished, Outputs, Session};
 pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
     let watch = Terminal::default();
     let root = &options.folder;
-    let outputs = Outputs {
-        without_page: options.no_report,
-        figures: options.figures.clone().map(|folder| (folder, options.size.of())),
-        junit: options.junit.clone(),
-    };
+    let outputs =
+        Outputs { without_page: options.no_report, figures: options.figures.clone(), junit: options.junit.clone() };
     let named = [("--junit", options.junit.as_deref()), ("--figures", options.figures.as_deref())];
     let finished = finish(&Session::new(&watch)?.on_threads(options.threads), root, &outputs, &|files| {
         refuse_inputs(&files.paths(), &named[..1])?;

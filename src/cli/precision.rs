@@ -14,6 +14,7 @@ use crate::ensemble::runner::start_threads;
 use crate::ensemble::settings::nominal;
 use crate::findings::number::counted;
 use crate::propagation::Method;
+use crate::report::figure_files::instead;
 use crate::report::precision_figure::precision_figure;
 use crate::report::precision_text;
 use crate::storage::precision_table::precision_table;
@@ -44,7 +45,7 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
     tolerances.dedup();
     let folder =
         options.out.clone().unwrap_or_else(|| PathBuf::from("results").join(format!("{}_precision", plan.name)));
-    for extension in ["parquet", "svg", "png"] {
+    for extension in ["parquet", "svg", "html"] {
         refuse_inputs(&files.paths(), &[("--out", Some(&folder.join(format!("precision.{extension}"))))])?;
     }
     Workload::of_precision(&Ensemble::new(&plan, isa), options.samples.get()).check(&folder, options.yes, false)?;
@@ -87,9 +88,13 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
     save(&folder, "parquet", |path| table_file::save(&plan, &table, path).map_err(Failure::files))?;
     let title = format!("{}: {}, {:?} s", plan.name, counted(precision.samples(), "sample"), plan.grid.duration());
     let figure = precision_figure(title, &measured);
-    for format in ["svg", "png"] {
-        save(&folder, format, |path| figure.save(path, options.size.of()).map_err(Failure::files))?;
-    }
+    let written = figure.save(&folder.join("precision.svg")).map_err(Failure::files)?;
+    let note = if written.extension().is_some_and(|found| found == "svg") {
+        written.display().to_string()
+    } else {
+        instead(&written)
+    };
+    screen::note(&note);
     Ok(CommandOutcome::Done)
 }
 

@@ -18,7 +18,7 @@ pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {
     let watch = Terminal::default();
     refuse_within(&options.folder, &[("--figures", options.figures.as_deref())])?;
     let session = Session::new(&watch)?.on_threads(options.threads);
-    let figures = options.figures.as_deref().map(|folder| (folder, options.size.of()));
+    let figures = options.figures.as_deref();
     let Remade { path, size, question, end, noise } = remade(&session, &options.folder, figures, options.noise)?;
     let question = completed_text::question(question.as_deref());
     let verdict = end.verdict_line(&path);

@@ -79,11 +79,8 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
 
 /// The campaign that the options mean.
 fn campaign<'a>(options: &CampaignOptions, session: Session<'a>) -> Campaign<'a> {
-    let outputs = Outputs {
-        without_page: options.no_report,
-        figures: options.figures.clone().map(|folder| (folder, options.size.of())),
-        junit: options.junit.clone(),
-    };
+    let outputs =
+        Outputs { without_page: options.no_report, figures: options.figures.clone(), junit: options.junit.clone() };
     let mut campaign = Campaign::from_file(&options.file, session).outputs(outputs);
     for (key, value) in &options.changed.settings {
         campaign = campaign.set(key, value);

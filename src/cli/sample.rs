@@ -11,7 +11,7 @@ use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::findings::number::counted;
 use crate::report::drawn_columns::DrawnColumns;
 use crate::report::drawn_figure::drawn_figure;
-use crate::report::image::PlotFormat;
+use crate::report::figure_files::{check_format, instead};
 use crate::sampling::SampleId;
 use crate::storage::drawn_table;
 use crate::storage::table_file::TableFormat;
@@ -28,7 +28,7 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
         TableFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
     }
     if let Some(path) = &options.plot {
-        PlotFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
+        check_format(path).map_err(|error| Failure::Input(error.to_string()))?;
     }
     let overrides = Overrides { samples: options.samples, seed: options.seed, ..options.changed.overrides() };
     let (plan, files) = plan_and_files(&options.file, overrides)?;
@@ -78,13 +78,16 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
             counted(dispersed.count(), "sample"),
             plan.design.name().replace('_', " ")
         );
-        drawn_figure(title, &shown)
+        let written = drawn_figure(title, &shown)
             .in_units(&plan.analysis.display)
-            .save(path, options.size.of())
+            .save(path)
             .map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
         let (numbers, samples) = (columns.len(), dispersed.count());
         let (numbers, samples) = (counted(numbers, "number"), counted(samples, "sample"));
-        screen::note(&format!("{}: {numbers} of {samples}", path.display()));
+        screen::note(&format!("{}: {numbers} of {samples}", written.display()));
+        if written != *path {
+            screen::note(&instead(&written));
+        }
     }
     Ok(CommandOutcome::Done)
 }

@@ -12,7 +12,7 @@ use crate::ensemble::audit::AuditValue;
 use crate::findings::number::{counted, short};
 use crate::math::Isa;
 use crate::report::failure_text::readable;
-use crate::report::image::PlotFormat;
+use crate::report::figure_files::{check_format, instead};
 use crate::report::mission_text;
 use crate::report::page::runs::GROUPS;
 use crate::report::simulation_figure::{left_out, simulation_figure};
@@ -39,7 +39,7 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
         TableFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
     }
     if let Some(path) = &options.plot {
-        PlotFormat::of(path).map_err(|error| Failure::Input(error.to_string()))?;
+        check_format(path).map_err(|error| Failure::Input(error.to_string()))?;
     }
     let (plan, files) = plan_and_files(&options.file, options.changed.overrides())?;
     refuse_inputs(&files.paths(), &[("--out", options.out.as_deref()), ("--plot", options.plot.as_deref())])?;
@@ -139,7 +139,7 @@ fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, run: &SingleRun) ->
         sample => format!("{}, sample {sample}", plan.name),
     };
     let figure = simulation_figure(title, plan, run).in_units(&plan.analysis.display);
-    figure.save(path, options.size.of()).map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
+    let written = figure.save(path).map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
     let points = run.outcome.points.min(run.grid.points());
     let empty = left_out(plan, run);
     let without = if empty.is_empty() {
@@ -147,8 +147,11 @@ fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, run: &SingleRun) ->
     } else {
         format!("; left out, zero or absent throughout: {}", empty.join(", "))
     };
-    let (figures, points) = (counted(figure.panels.len(), "figure"), counted(points, "point"));
-    screen::note(&format!("{}: {figures} of {points}{without}", path.display()));
+    let (figures, points) = (counted(figure.figures.len(), "figure"), counted(points, "point"));
+    screen::note(&format!("{}: {figures} of {points}{without}", written.display()));
+    if written != path && !path.ends_with(".html") {
+        screen::note(&instead(&written));
+    }
     Ok(())
 }
 

@@ -2,14 +2,14 @@
 
 use crate::report::drawn_columns::DrawnColumns;
 use crate::report::figure::{Axis, Figure, Mark};
+use crate::report::figure_files::FigureSheet;
 use crate::report::histogram;
-use crate::report::sheet::Sheet;
 
 /// With fewer samples than this, correlations of independent parameters beyond 0.14 are common.
 const FEW: usize = 200;
 
 /// The picture of drawn samples.
-pub fn drawn_figure(title: String, columns: &DrawnColumns<'_>) -> Sheet {
+pub fn drawn_figure(title: String, columns: &DrawnColumns<'_>) -> FigureSheet {
     let inputs = columns.names.iter().zip(&columns.drawn.columns).zip(columns.nominal.iter().zip(&columns.asked));
     let inputs = inputs.zip(&columns.parameters);
     let histograms = inputs.map(|(((name, values), (nominal, asked)), (parameter, unit))| {
@@ -19,7 +19,7 @@ pub fn drawn_figure(title: String, columns: &DrawnColumns<'_>) -> Sheet {
     let title_of_matrix = format!("Rank correlation{}", caution(columns.drawn.count()));
     let matrix = correlations(&title_of_matrix, &columns.names, columns.drawn.rank_correlations());
     let panels = histograms.chain([Figure { columns: 12, ..matrix }]).collect();
-    Sheet { title, width: 1240.0, panel_height: 200.0, has_common_legend: true, panels }
+    FigureSheet { title, figures: panels }
 }
 
 /// The figure of a matrix of correlations.

@@ -1,7 +1,6 @@
 //! [`Figure`]: what a figure shows, without saying how it is drawn.
 //!
-//! The page draws it interactively (`assets/report/chart.js`, what that needs: [`super::page`]), [`super::sheet`] as a file. Both take the same
-//! numbers and names from here.
+//! `assets/report/chart.js` draws it, on the page ([`super::page`]) and in files ([`super::figure_files`]).
 
 use crate::campaign::{Display, ShownUnit};
 use crate::findings::number::short;
@@ -100,8 +99,6 @@ pub struct Axis {
     pub range: Option<[f64; 2]>,
     /// The step between its ticks, where it does not follow from the range; a multiple where there is no room.
     pub step: Option<f64>,
-    /// Whether values decrease along it.
-    pub is_descending: bool,
     /// The column or parameter that it shows; empty where it shows none, or several.
     pub column: String,
 }
@@ -114,7 +111,6 @@ impl Axis {
             scale: Scale::Linear,
             range: None,
             step: None,
-            is_descending: false,
             column: String::new(),
         }
     }

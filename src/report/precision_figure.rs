@@ -1,11 +1,11 @@
 //! [`precision_figure`]: work-precision diagrams, CPU time of a run against its maximum error, both by decades.
 //!
-//! One panel for each error; errors decrease to the right, so that the better method is lower and further right.
+//! One panel for each error; the better method is lower and further left.
 
 use crate::ensemble::precision::{Deviation, Measurement};
 use crate::propagation::Method;
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape};
-use crate::report::sheet::Sheet;
+use crate::report::figure_files::FigureSheet;
 
 /// Errors below this are drawn here: they are rounding of the observation.
 const LEAST_ERROR: f64 = 1e-17;
@@ -24,18 +24,18 @@ const PANELS: [(&str, Pick); 4] = [
 ];
 
 /// Run time against error; errors that no method has are left out.
-pub fn precision_figure(title: String, measured: &[Measurement]) -> Sheet {
+pub fn precision_figure(title: String, measured: &[Measurement]) -> FigureSheet {
     let panel = |(title, pick): (&str, Pick)| {
         let marks: Vec<Mark> = Method::ALL
             .into_iter()
             .enumerate()
             .flat_map(|(index, method)| curve(measured, pick, index, method))
             .collect();
-        let x = Axis { is_descending: true, ..Axis::log("error, smaller to the right", "") };
+        let x = Axis::log("error", "");
         (!marks.is_empty()).then(|| Figure::new(title, x, Axis::log("CPU time of a run", "s"), marks))
     };
     let panels = PANELS.into_iter().filter_map(panel).collect();
-    Sheet { title, width: 1360.0, panel_height: 400.0, has_common_legend: true, panels }
+    FigureSheet { title, figures: panels }
 }
 
 /// The settings of a method, as a curve with points: it looks the same in all panels.
@@ -76,7 +76,7 @@ mod tests {
             })
             .to_vec();
         let sheet = precision_figure(String::new(), &measured);
-        let [panel] = &sheet.panels[..] else { panic!("one error has a panel") };
+        let [panel] = &sheet.figures[..] else { panic!("one error has a panel") };
         let curves = panel.marks.iter().filter_map(|mark| match mark {
             Mark::Line { x, y, .. } | Mark::Points { x, y, .. } => Some((x, y)),
             _ => None,

@@ -5,11 +5,11 @@
 use crate::campaign::Plan;
 use crate::ensemble::SingleRun;
 use crate::report::figure::Figure;
+use crate::report::figure_files::FigureSheet;
 use crate::report::over_time::curves::Curves;
-use crate::report::sheet::Sheet;
 
 /// The figure of a run of `plan`.
-pub fn simulation_figure(title: String, plan: &Plan, run: &SingleRun) -> Sheet {
+pub fn simulation_figure(title: String, plan: &Plan, run: &SingleRun) -> FigureSheet {
     let mut panels: Vec<Figure> = Curves::of_plot(plan, run).figures();
     panels.retain(has_values);
     if panels.len() % 2 == 1
@@ -17,8 +17,7 @@ pub fn simulation_figure(title: String, plan: &Plan, run: &SingleRun) -> Sheet {
     {
         last.columns = 12;
     }
-    let width = if panels.len() > 1 { 1280.0 } else { 720.0 };
-    Sheet { title, width, panel_height: 320.0, has_common_legend: false, panels }
+    FigureSheet { title, figures: panels }
 }
 
 /// The titles of the figures that its scene calls for and that are not drawn, since what they show is zero, or absent, throughout the run.
@@ -59,7 +58,7 @@ mod tests {
     fn curves_of_an_orbit_are_their_columns() {
         let (plan, run) = on_orbit(Grid::uniform(9000.0, 301));
         let series = time_series(SampleId(0), &run, |_| true);
-        let panels = simulation_figure("x".to_owned(), &plan, &run).panels;
+        let panels = simulation_figure("x".to_owned(), &plan, &run).figures;
         let panel =
             |title: &str| panels.iter().find(|panel| panel.title == title).unwrap_or_else(|| panic!("no {title}"));
         for (title, name) in [
@@ -92,7 +91,7 @@ mod tests {
             let plan = Plan::from_text("n", &text, overrides).unwrap_or_else(|error| panic!("{error}"));
             let run = SingleRun::with_series(&plan, SampleId(0), Grid::uniform(60.0, 61), Isa::best(), &GROUPS)
                 .expect("a run");
-            let panels = simulation_figure("x".to_owned(), &plan, &run).panels;
+            let panels = simulation_figure("x".to_owned(), &plan, &run).figures;
             for title in ["Thrust", "Impulse of the thrusters"] {
                 let panel = panels.iter().find(|panel| panel.title == title).expect(title);
                 let drawn: Vec<&str> = panel.marks.iter().map(Mark::legend).filter(|name| !name.is_empty()).collect();
@@ -114,7 +113,7 @@ mod tests {
         let plan = Plan::from_text("o", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
         let run =
             SingleRun::with_series(&plan, SampleId(0), Grid::uniform(9.0, 10), Isa::best(), &GROUPS).expect("a run");
-        let panels = simulation_figure("x".to_owned(), &plan, &run).panels;
+        let panels = simulation_figure("x".to_owned(), &plan, &run).figures;
         let rate = panels.iter().find(|panel| panel.title.starts_with("Angular velocity of the body")).expect("a rate");
         assert_eq!(rate.marks.iter().map(Mark::legend).collect::<Vec<_>>(), ["z"]);
         assert!(left_out(&plan, &run).contains(&"Linear momentum in F_e".to_owned()), "{:?}", left_out(&plan, &run));
@@ -125,7 +124,7 @@ mod tests {
     fn a_track_shows_what_can_be_seen() {
         let track = |grid| {
             let (plan, run) = on_orbit(grid);
-            let panels = simulation_figure("x".to_owned(), &plan, &run).panels;
+            let panels = simulation_figure("x".to_owned(), &plan, &run).figures;
             panels.into_iter().find(|panel| panel.title == "Ground track").expect("a track")
         };
         let points = |figure: &Figure| -> usize {
@@ -162,7 +161,7 @@ mod tests {
         };
         let bodies = ["body", "w1", "w2", "debris"].map(|body| format!("energy_{body}_j"));
         let mut seen = 0;
-        for panel in simulation_figure("x".to_owned(), &plan, &run).panels {
+        for panel in simulation_figure("x".to_owned(), &plan, &run).figures {
             let title = panel.title.split(" (").next().expect("a title").to_owned();
             let mut balance = vec![0.0; series.rows()];
             for mark in &panel.marks {

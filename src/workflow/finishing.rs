@@ -12,7 +12,6 @@ use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, PartId};
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
-use crate::report::image::PlotSize;
 use crate::report::summary::{Summary, SummaryEnd};
 use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
 use crate::storage::folder::Folder;
@@ -38,8 +37,8 @@ use crate::workflow::stored::{Stored, address};
 pub struct Outputs {
     /// Whether the page is left out.
     pub without_page: bool,
-    /// The folder of the figures of the page as files, and their size.
-    pub figures: Option<(PathBuf, PlotSize)>,
+    /// The folder of the figures of the page as files.
+    pub figures: Option<PathBuf>,
     /// The file of the verdicts as JUnit XML.
     pub junit: Option<PathBuf>,
 }
@@ -109,8 +108,7 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
         Derivation { session, ensemble: job.ensemble, reader: &reader, records: &records, page, retained: &retained };
     let Derived { analysed, page, summary } = derive(&derivation, gathered, folder)?;
     if let Some(page) = page {
-        let place = job.outputs.figures.as_ref().map(|(folder, size)| (folder.as_path(), *size));
-        page::save_figures(&session, plan, &page, place)?;
+        page::save_figures(&session, plan, &page, job.outputs.figures.as_deref())?;
     }
     write_junit(plan, &analysed, job.outputs.junit.as_deref())?;
     let end = analysed.end();

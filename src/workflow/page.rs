@@ -10,7 +10,7 @@ use crate::control::laws::asked;
 use crate::ensemble::Ensemble;
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
-use crate::report::image::{self, PlotSize};
+use crate::report::figure_files::FigureSheet;
 use crate::report::page::found::findings;
 use crate::report::page::runs::{KnownRow, asked as asked_of, listed};
 use crate::report::page::{Analysis, Contents, Page};
@@ -50,7 +50,7 @@ pub struct Remade {
 pub fn remade(
     session: &Session<'_>,
     root: &Path,
-    figures: Option<(&Path, PlotSize)>,
+    figures: Option<&Path>,
     noise: Option<u64>,
 ) -> Result<Remade, WorkflowError> {
     let (storage, threads, root) = (session.storage, session.threads, &*fetched(session, root)?);
@@ -184,7 +184,7 @@ pub(super) fn noise_scenes(html: &[u8]) -> Option<u64> {
     after.strip_prefix(NOISE_MARK)?.split('"').next()?.parse().ok()
 }
 
-/// Writes the figures of `page`, of the campaign `plan`, as files of this size into the folder of `place`, if one was named.
+/// Writes the figures of `page`, of the campaign `plan`, as files into `folder`, if one was named.
 ///
 /// # Errors
 /// Where a file cannot be written.
@@ -192,11 +192,12 @@ pub fn save_figures(
     session: &Session<'_>,
     plan: &Plan,
     page: &Page,
-    place: Option<(&Path, PlotSize)>,
+    folder: Option<&Path>,
 ) -> Result<(), WorkflowError> {
-    let Some((folder, size)) = place else { return Ok(()) };
+    let Some(folder) = folder else { return Ok(()) };
     let of = format!("{}: {}.", plan.name, counted(plan.rows(), "run"));
-    let count = image::save_all(&page.figures, &of, folder, size).map_err(WorkflowError::files)?;
-    session.watch.note(&format!("{}: {} of figures", folder.display(), counted(count, "file")));
+    let sheet = FigureSheet { title: of, figures: page.figures.clone() };
+    let (count, note) = sheet.save_all(folder).map_err(WorkflowError::files)?;
+    session.watch.note(&note.unwrap_or_else(|| format!("{}: {} of figures", folder.display(), counted(count, "file"))));
     Ok(())
 }

@@ -30,11 +30,10 @@ const LAYERS: [(&str, u32); 20] = [
 ];
 
 /// Crates that only these modules or files may use.
-const CRATES: [(&str, &[&str]); 5] = [
+const CRATES: [(&str, &[&str]); 4] = [
     ("clap", &["cli"]),
     ("fearless_simd", &["math", "dynamics", "ode", "propagation", "observables", "statistics"]),
     ("parquet", &["storage", "campaign/data_columns.rs"]),
-    ("resvg", &["report"]),
     ("rayon", &["ensemble"]),
 ];
 

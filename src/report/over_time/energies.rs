@@ -2,11 +2,13 @@
 
 use crate::findings::number::short;
 use crate::observables::Series;
-use crate::report::axis::ROUNDING;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
 use crate::report::over_time::curves::{Curves, over_time};
 use crate::report::over_time::figure_list::ListedFigure;
 use crate::report::over_time::spectrum::{amplitudes, dominant};
+
+/// A change by less than this fraction of a variable's magnitude is what rounding makes of a constant in some thousands of operations.
+const ROUNDING: f64 = 1e-12;
 
 impl Curves<'_> {
     /// The place of each body among `series`, that of the body and that of wheels; its name and its colour.

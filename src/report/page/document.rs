@@ -8,7 +8,8 @@ use crate::report::page::payload::{encoded, packed};
 
 const STYLE: &str = include_str!("../../../assets/report/page.css");
 const LICENCES: &str = include_str!("../../../assets/report/vendor/licences.txt");
-static ECHARTS: &[u8] = include_bytes!("../../../assets/report/vendor/echarts.js.gz");
+/// The library of charts, compressed.
+pub(in crate::report) static ECHARTS: &[u8] = include_bytes!("../../../assets/report/vendor/echarts.js.gz");
 static THREE: &[u8] = include_bytes!("../../../assets/report/vendor/three.js.gz");
 
 /// The modules of the page, each after those that it imports: they are put into one script, without their imports and exports.
@@ -51,12 +52,17 @@ pub struct PageSection {
 
 /// The modules as one script.
 fn script() -> String {
+    script_of(&MODULES.map(|(name, _)| name))
+}
+
+/// The modules of these names, each after those that it imports, as one script without imports and exports.
+pub(in crate::report) fn script_of(names: &[&str]) -> String {
     let line = |line: &str| {
         let line = line.strip_prefix("export ").unwrap_or(line);
         if line.starts_with("import ") { String::new() } else { format!("{line}\n") }
     };
     let module = |(name, text): &(&str, &str)| format!("// {name}\n{}", text.lines().map(line).collect::<String>());
-    let text: String = MODULES.iter().map(module).collect();
+    let text: String = MODULES.iter().filter(|(name, _)| names.contains(name)).map(module).collect();
     format!("\"use strict\";\n{text}")
 }
 
@@ -64,7 +70,9 @@ fn script() -> String {
 ///
 /// `title` is that of the browser's tab.
 pub fn document(title: &str, first_screen: &str, sections: &[PageSection], data: &Value, numbers: &str) -> String {
-    let links: String = [("verdicts", "Verdicts")]
+    // a page of figures alone has no answers
+    let answers = first_screen.contains("id=\"verdicts\"").then_some(("verdicts", "Verdicts"));
+    let links: String = answers
         .into_iter()
         .chain(sections.iter().map(|section| (section.anchor, section.title)))
         .map(|(anchor, title)| format!("<a href=\"#{anchor}\">{}</a>", escaped(title)))
@@ -100,7 +108,7 @@ pub fn document(title: &str, first_screen: &str, sections: &[PageSection], data:
         block("numbers", numbers),
         block("licence-texts", &packed(LICENCES.as_bytes())),
         block("echarts", &encoded(ECHARTS)),
-        block("three", &encoded(THREE)),
+        if data["replay"].is_null() { String::new() } else { block("three", &encoded(THREE)) },
         script(),
     )
 }

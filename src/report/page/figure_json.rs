@@ -4,10 +4,17 @@ use serde_json::{Value, json};
 
 use crate::report::figure::{Axis, Figure, Hue, Mark, PointShape, Scale};
 use crate::report::page::payload::Payload;
-use crate::report::shapes::bar_opacity;
+
+/// Opacity of bars.
+const BAR: f64 = 0.55;
+
+/// Opacity of bars in a colour: those of runs that miss a requirement stand in front of all runs, and are not mixed with their colour.
+fn bar_opacity(hue: Hue) -> f64 {
+    if hue == Hue::Failed { 1.0 } else { BAR }
+}
 
 /// What the page needs to draw `figure`.
-pub(super) fn json_of(figure: &Figure, payload: &mut Payload) -> Value {
+pub(in crate::report) fn json_of(figure: &Figure, payload: &mut Payload) -> Value {
     let marks: Vec<Value> = figure.marks.iter().map(|one| mark(one, payload)).collect();
     json!({
         "name": figure.name, "section": figure.section.anchor(), "title": figure.title, "caption": figure.caption,

@@ -5,29 +5,28 @@
 //!
 //! - [`answer`], `pictures`: the first screen. - `influence`, `outcomes`, `errors`, `inputs`: figures, with those of
 //!   [`crate::report::over_time`]. - `figure_json`: what the scripts need to draw them. - [`runs`], `replay` (with
-//!   `live`, `sky`, `still`): the runs to look at. - [`tables`], `document`: the rest of the HTML. - `payload`: numbers.
+//!   `live`, `sky`): the runs to look at. - [`tables`], `document`: the rest of the HTML. - `payload`: numbers.
 //!
 //! The scripts and styles are in `assets/report/`.
 
 pub mod answer;
 mod bands;
-mod document;
+pub(in crate::report) mod document;
 mod errors;
 mod fates;
-mod figure_json;
+pub(in crate::report) mod figure_json;
 pub mod found;
 pub mod influence;
 mod input_rows;
 mod inputs;
 mod live;
 mod outcomes;
-mod payload;
+pub(in crate::report) mod payload;
 mod pictures;
 pub(in crate::report) mod readable;
 mod replay;
 pub mod runs;
 mod sky;
-mod still;
 pub mod tables;
 
 use serde_json::{Value, json};
@@ -222,8 +221,7 @@ fn sections(
     let figures = |section: FigureSection, title, lead: &str, html: String| {
         has(section).then(|| PageSection { has_figures: true, ..of(section.anchor(), title, lead.to_owned(), html) })
     };
-    let still = shown.iter().find_map(|run| run.run.as_ref()).map_or_else(String::new, |run| still::still(plan, run));
-    let still = format!("<div class=\"replay\">{still}<p>The replay needs JavaScript and WebGL.</p></div>");
+    let replay = "<div class=\"replay\"><p>The replay needs JavaScript and WebGL.</p></div>".to_owned();
     let worst = if shown.len() > 1 { tables::worst_runs(plan, survey, shown) } else { String::new() };
     let left_out = runs::left_out(shown).map_or_else(String::new, |text| format!(" {}", full(&text)));
     let one = if plan.rows() == 1 {
@@ -235,7 +233,7 @@ fn sections(
         "replay",
         "The run to look at",
         format!("{one}{left_out}"),
-        if has_replay { still } else { String::new() } + &worst,
+        if has_replay { replay } else { String::new() } + &worst,
     );
     let errors = found.of(Kind::Numerics).filter(|one| one.rank < 2 && !one.sentence.is_empty());
     let errors: String = errors

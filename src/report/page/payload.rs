@@ -11,11 +11,21 @@ use serde_json::{Value, json};
 #[derive(Clone, Debug, Default)]
 pub struct Payload {
     doubles: Vec<u8>,
+    /// Whether numbers stand where they are used, and not here.
+    is_inline: bool,
 }
 
 impl Payload {
+    /// No payload: numbers stand where they are used.
+    pub fn inline() -> Self {
+        Payload { is_inline: true, ..Payload::default() }
+    }
+
     /// Adds numbers in full precision; returns the place where the page finds them.
     pub fn array(&mut self, values: &[f64]) -> Value {
+        if self.is_inline {
+            return json!(values);
+        }
         let at = self.doubles.len();
         values.iter().for_each(|value| self.doubles.extend((value + 0.0).to_le_bytes()));
         json!([at, values.len(), 8])

@@ -27,13 +27,6 @@ fn state(run: &SingleRun, point: usize) -> [[f64; 3]; 2] {
     [StateField::ComPosition, StateField::ComVelocity].map(|field| run.table.at::<3>(field, point))
 }
 
-/// Unit vectors of the directions at the start of `run`, with their names; none where there is no orbit.
-pub fn at_start(run: &SingleRun) -> impl Iterator<Item = (&'static str, [f64; 3])> {
-    let vectors = Surroundings::of(&run.scene).map(|around| vectors(&around, run.grid.times()[0], state(run, 0)));
-    let named = NAMES.into_iter().zip(vectors.into_iter().flatten());
-    named.filter_map(|(name, vector)| vector.map(|vector| (name, scaled(1.0 / norm(vector), vector))))
-}
-
 /// The directions at some of the first `points` points of `run`, and the hidden share of the Sun at each; `None` where there is no orbit.
 pub fn directions(run: &SingleRun, points: usize, payload: &mut Payload) -> Option<Value> {
     let (around, times) = (Surroundings::of(&run.scene)?, run.grid.times());

@@ -58,9 +58,9 @@ fn sample_holds_no_draws() {
     let written = peak(&scratch, &format!("sample {small} --samples 400000 --out s.parquet"));
     assert!(written < few + 40_000, "kB: {written}");
     // a figure shows the first 100,000 samples, 2e6 numbers of some 100 bytes; all of them would take 1 GB
-    let plotted = peak(&scratch, &format!("sample {small} --samples 500000 --plot s.svg"));
+    let plotted = peak(&scratch, &format!("sample {small} --samples 500000 --plot s.html"));
     assert!(plotted < few + 400_000, "kB: {plotted}");
-    assert!(scratch.text("s.svg").contains("first "));
+    assert!(scratch.text("s.html").contains("first "));
 }
 
 /// Law: the memory of a campaign does not grow with its samples, from where parts have their usual size: rows, bands and counts of parts are

@@ -1,10 +1,11 @@
 //! `spindrift sample`, `check`, and what all commands share: bad input, a closed pipe.
 
-use std::fs;
 use std::process::Stdio;
 
+use serde_json::Value;
 use spindrift::campaign::{Overrides, Plan};
 
+use crate::page::numbers::Found;
 use crate::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder};
 use crate::support::campaigns::SPIN_DISPERSION;
 use crate::support::scratch_folder::floats;
@@ -14,13 +15,13 @@ use crate::support::scratch_folder::floats;
 fn sample_draws_the_rows_of_the_campaign() {
     let scratch = folder("drawn");
     scratch.file("thin.toml", &(campaign() + NEGATIVE_WALLS));
-    let said = scratch.prints("sample thin.toml --out s.csv --plot s.svg", 0);
+    let said = scratch.prints("sample thin.toml --out s.csv --plot s.html", 0);
     for expected in
         ["of 599 draws", "body.parts.fuselage.wall_thickness_m", "uniform, -0.02", "initial.angular_velocity_rad_s.z"]
     {
         assert!(said.contains(expected), "{expected} in:\n{said}");
     }
-    scratch.prints("sample thin.toml --out s.parquet --plot s.png", 0);
+    scratch.prints("sample thin.toml --out s.parquet", 0);
     let text = scratch.text("s.csv");
     let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
     assert_eq!(names[..3], ["sample_id", "status", "initial_angular_velocity_x_rad_s"]);
@@ -41,8 +42,8 @@ fn sample_draws_the_rows_of_the_campaign() {
     }
     let invalid = text.lines().filter(|line| line.contains(",invalid_sample,")).count();
     assert!((100..300).contains(&invalid), "a third is thinner than nothing: {invalid}");
-    assert!(scratch.text("s.svg").contains("Rank correlation"));
-    assert!(fs::read(scratch.path("s.png")).unwrap().starts_with(b"\x89PNG"));
+    let shown = Found::shown_on(&scratch.text("s.html"));
+    assert!(shown.iter().any(|(title, _)| title.starts_with("Rank correlation")), "{shown:?}");
     let statuses: Vec<&str> = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
     let [mass, a, b, c] = [
         "mass_kg",
@@ -284,20 +285,24 @@ fn a_figure_of_samples_is_without_the_nominal_one() {
         scratch.file(&format!("{name}.toml"), &text);
     }
     let figure = |name: &str, options: &str| {
-        scratch.prints(&format!("sample {name}.toml --plot {name}.svg {options}"), 0);
-        let svg = scratch.text(&format!("{name}.svg"));
-        // outlines of letters: another number has other digits
-        let drawn = svg.lines().filter(|line| !line.starts_with("<path id")).map(str::to_owned);
-        let (notes, lines): (Vec<_>, Vec<_>) = drawn.partition(|line| line.contains("aria-label=\"nominal -"));
-        assert_eq!(notes.len(), 2, "both nominal values are far left of what is drawn");
-        (notes, lines)
+        scratch.prints(&format!("sample {name}.toml --plot {name}.html {options}"), 0);
+        let found = Found::of_page(&scratch.text(&format!("{name}.html")));
+        let figures = found.data["figures"].as_array().expect("figures").clone();
+        let marks = figures.iter().flat_map(|figure| figure["marks"].as_array().expect("marks").clone());
+        let (nominal, others): (Vec<Value>, Vec<Value>) = marks.partition(|mark| mark["label"] == "nominal");
+        assert_eq!(nominal.len(), 2);
+        let numbers = |mark: &Value| {
+            ["x", "y", "edges", "heights", "values"].map(|key| mark.get(key).map(|place| found.array(place)))
+        };
+        (nominal, others.iter().map(numbers).collect::<Vec<_>>())
     };
     for samples in [3, 40, 600] {
         let options = format!("--samples {samples}");
         let [near, far] = ["near", "far"].map(|name| figure(name, &options));
         assert_ne!(near.0, far.0);
-        assert!(near.1 == far.1, "{samples} samples");
-        assert!(near.1 != figure("near", &format!("{options} --seed 8")).1, "{samples} samples");
+        assert_eq!(format!("{:?}", near.1), format!("{:?}", far.1), "{samples} samples");
+        let other = figure("near", &format!("{options} --seed 8"));
+        assert_ne!(format!("{:?}", near.1), format!("{:?}", other.1), "{samples} samples");
     }
 }
 

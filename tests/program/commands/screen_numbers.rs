@@ -258,7 +258,7 @@ fn a_check_estimates_what_is_made() {
 fn samples_and_points_are_counted() {
     let scratch = ScratchFolder::new("screen-samples");
     scratch.file("c.toml", &failing());
-    let said = scratch.prints("sample c.toml --samples 300 --out s.csv --plot s.svg", 0);
+    let said = scratch.prints("sample c.toml --samples 300 --out s.csv --plot s.html", 0);
     let table = scratch.text("s.csv");
     let head: Vec<&str> = table.lines().next().expect("a head").split(',').collect();
     let invalid = table.lines().filter(|line| line.contains(",invalid_sample,")).count();
@@ -266,7 +266,7 @@ fn samples_and_points_are_counted() {
     says(&said, "s.csv: # samples, # columns", &[300.0, head.len() as f64]);
     says(&said, "# of # samples are not physical", &[invalid as f64, 300.0]);
     let numbers_drawn = head.iter().filter(|name| name.starts_with("initial_") || name.starts_with("body_")).count();
-    says(&said, "s.svg: # numbers of # samples", &[numbers_drawn as f64, 299.0]);
+    says(&said, "s.html: # numbers of # samples", &[numbers_drawn as f64, 299.0]);
 
     // rates in deg/s and wheel speeds in rpm, or as the file asks; the file of numbers stays in SI
     let (degrees, turns) = (180.0 / std::f64::consts::PI, 30.0 / std::f64::consts::PI);

@@ -1,8 +1,9 @@
 //! `report.html`: small, self-contained, safe against the text of the file, complete without runs that
 //! are ok. What a reader sees in it is tested in a browser (`.ci/browser`).
 
-use std::fs;
+use serde_json::Value;
 
+use crate::page::numbers::Found;
 use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
@@ -18,37 +19,28 @@ fn visible(page: &str) -> &str {
     page.split_once("<script").expect("a page has scripts").0
 }
 
-/// Law: `--no-report` leaves the page out, and `--figures` writes each figure as SVG and PNG.
+/// Law: `--no-report` leaves the page out, and `--figures` writes the figures of the page: without a way to draw SVG as a page, which says how to have that.
 #[test]
 fn figures_are_files_too() {
     let scratch = folder("page-figures");
     scratch.prints("campaign small.toml --samples 40 --out plain --no-report", 0);
     assert!(!scratch.path("plain/report.html").exists());
-    scratch.prints("report plain --figures figures", 0);
-    let names = |extension: &str| -> Vec<String> {
-        let entries =
-            fs::read_dir(scratch.path("figures")).expect("a folder").map(|entry| entry.expect("an entry").path());
-        let mut names: Vec<String> = entries
-            .filter(|path| path.extension().is_some_and(|found| found == extension))
-            .map(|path| path.file_stem().expect("a name").to_string_lossy().into_owned())
-            .collect();
-        names.sort();
-        names
+    let said = scratch.prints("report plain --figures figures", 0);
+    assert!(said.contains("figures.html") && said.contains("spindrift-figures"), "{said}");
+    let data = |page: &str| Found::data_of(&scratch.text(page))["figures"].clone();
+    let names = |figures: &Value| -> Vec<String> {
+        figures
+            .as_array()
+            .expect("figures")
+            .iter()
+            .map(|one| one["name"].as_str().unwrap_or_default().to_owned())
+            .collect()
     };
-    let (svg, png) = (names("svg"), names("png"));
-    assert_eq!(svg, png);
-    for expected in [
-        "drift_energy",
-        "energy_transfer",
-        "energy_phase",
-        "energy_spectrum",
-        "tail_energy_error_max",
-        "correlation_achieved",
-    ] {
-        assert!(svg.iter().any(|name| name == expected), "{expected} is not among {svg:?}");
+    let written = names(&data("figures/figures.html"));
+    assert_eq!(written, names(&data("plain/report.html")));
+    for expected in ["drift_energy", "energy_transfer", "tail_energy_error_max", "correlation_achieved"] {
+        assert!(written.iter().any(|name| name == expected), "{expected} is not among {written:?}");
     }
-    let text = scratch.text("figures/drift_energy.svg");
-    assert!(text.starts_with("<svg") && text.contains("Drift of energy"), "{text}");
     let said = scratch.prints("report campaigns", 2);
     assert!(said.contains("has no result of spindrift"), "{said}");
 }

@@ -74,9 +74,25 @@ impl Found {
         column["column"].as_str().expect("a column").to_owned()
     }
 
+    /// The figures of a page of figures alone.
+    pub fn of_page(page: &str) -> Self {
+        let scratch = ScratchFolder::new("page-of-figures");
+        Found { scratch, said: String::new(), data: Found::data_of(page), bytes: unpacked(page, "numbers") }
+    }
+
     /// The data of a page.
     pub fn data_of(page: &str) -> Value {
         serde_json::from_slice(&unpacked(page, "data")).expect("JSON")
+    }
+
+    /// The titles of the figures of a page, and the names of what they show.
+    pub fn shown_on(page: &str) -> Vec<(String, Vec<String>)> {
+        let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+        let labels =
+            |figure: &Value| figure["marks"].as_array().expect("marks").iter().map(|one| text(&one["label"])).collect();
+        let data = Found::data_of(page);
+        let figures = data["figures"].as_array().expect("figures");
+        figures.iter().map(|figure| (text(&figure["title"]), labels(figure))).collect()
     }
 
     pub fn array(&self, place: &Value) -> Vec<f64> {

@@ -119,54 +119,6 @@ fn arrows_point_where_the_run_has_them() {
     }
 }
 
-/// Law: the still, which paper and browsers without WebGL have, shows the same four directions at the start of the nominal run, at one scale, seen from the
-/// replay's camera, and its caption names them.
-#[test]
-fn the_still_has_the_arrows() {
-    let found = &*ORBIT;
-    let page = found.visible();
-    let (still, after) =
-        page.split_once("<svg class=\"still\"").expect("a still").1.split_once("</svg>").expect("an end");
-    assert!(after.contains("Arrows at the start: nadir, velocity, sun and field."), "{}", &after[..400]);
-    let camera = unit([0.75, 0.5, 0.42]);
-    let right = unit([-camera[1], camera[0], 0.0]);
-    let cross =
-        |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
-    let up = cross(camera, right);
-    let nominal = &runs(found)[0];
-    assert_eq!(nominal["sample"], 0);
-    let mut lengths = Vec::new();
-    for name in ["nadir", "velocity", "sun", "field"] {
-        assert!(still.contains(&format!(">{name}</text>")), "no label {name}");
-        let points = still
-            .split_once(&format!("<polyline class=\"{name}\" points=\""))
-            .expect(name)
-            .1
-            .split('"')
-            .next()
-            .unwrap();
-        let [[x, y], [tip_x, tip_y]]: [[f64; 2]; 2] = points
-            .split(' ')
-            .map(|point| {
-                point.split(',').map(|number| number.parse().unwrap()).collect::<Vec<f64>>().try_into().unwrap()
-            })
-            .collect::<Vec<_>>()
-            .try_into()
-            .unwrap();
-        let direction: [f64; 3] = found.array(&nominal["orbit"][name])[..3].try_into().unwrap();
-        let expected = [dot(direction, right), dot(direction, up)];
-        let (shown, length) = ([tip_x - x, y - tip_y], expected[0].hypot(expected[1]));
-        let drawn = shown[0].hypot(shown[1]);
-        // coordinates have one decimal
-        for axis in 0..2 {
-            let apart = shown[axis] / drawn - expected[axis] / length;
-            assert!(apart.abs() < 0.15 / drawn, "{name}: {shown:?} for {expected:?}");
-        }
-        lengths.push(drawn / length);
-    }
-    assert!(lengths.iter().all(|length| (length / lengths[0] - 1.0).abs() < 0.02), "{lengths:?}");
-}
-
 /// Sample `sample` again at `times`, with the series of the group `orbit`.
 fn observed(sample: u64, times: &[f64]) -> SingleRun {
     let plan = Plan::from_text("c", &text(), Overrides::default()).unwrap_or_else(|error| panic!("{error}"));

@@ -265,8 +265,6 @@ fn escapes_in_arguments_are_shown_as_text() {
         vec!["campaign", "small.toml", "--samples", hostile],
         vec!["campaign", "small.toml", "--seed", hostile],
         vec!["campaign", "small.toml", "--shard", hostile],
-        vec!["campaign", "small.toml", "--dpi", hostile],
-        vec!["campaign", "small.toml", "--size", hostile],
         vec!["check", "small.toml", "--set", hostile],
         vec!["precision", "small.toml", "--methods", hostile],
         vec!["verify", "r", "--fraction", hostile],
