@@ -142,24 +142,44 @@ fn principal_moments(key: &dyn Fn() -> Cow<'static, str>, numbers: &[f64], probl
     }
     let slack = INERTIA_SLACK * (a + b + c);
     if a > b + c + slack || b > a + c + slack || c > a + b + slack {
-        problems.add(
-            key(),
-            shown(numbers),
-            "such that no moment exceeds the sum of the other two",
+        let largest = a.max(b).max(c);
+        let (excess, remedy) = excess(
+            [a, b, c],
+            largest,
             "no distribution of mass has these moments; principal_second_moments_kg_m2 cannot fail in this way",
         );
+        let allowed = format!("such that no moment exceeds the sum of the other two ({excess})");
+        problems.add(key(), shown(numbers), allowed, remedy);
     }
+}
+
+/// A difference up to this fraction of the trace is taken for a rounding of written digits.
+const WRITTEN_ROUNDING: f64 = 1e-4;
+
+/// By how much the `largest` of three moments exceeds the sum of the other two, and what to do about it.
+fn excess(moments: [f64; 3], largest: f64, otherwise: &'static str) -> (String, &'static str) {
+    let trace = moments[0] + moments[1] + moments[2];
+    let beyond = largest - (trace - largest);
+    let remedy = if beyond <= WRITTEN_ROUNDING * trace {
+        "write more digits, or make the largest moment smaller by that"
+    } else {
+        otherwise
+    };
+    (format!("{largest:?} exceeds it by {beyond:.1e} kg m^2, {:.1e} of the trace", beyond / trace), remedy)
 }
 
 fn inertia(key: &dyn Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
     let &[xx, xy, xz, yx, yy, yz, zx, zy, zz] = numbers else { return };
     let tensor = [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]];
     let slack = INERTIA_SLACK * (xx.abs() + yy.abs() + zz.abs());
-    if [(xy, yx), (xz, zx), (yz, zy)].iter().any(|(upper, lower)| (upper - lower).abs() > slack) {
+    let pairs = [("xy", xy, yx), ("xz", xz, zx), ("yz", yz, zy)];
+    let apart = |(_, upper, lower): &(&str, f64, f64)| (upper - lower).abs();
+    let wrong = pairs.iter().filter(|pair| apart(pair) > slack);
+    if let Some((name, upper, lower)) = wrong.max_by(|one, other| apart(one).total_cmp(&apart(other))) {
         problems.add(
             key(),
             shown(numbers),
-            "symmetric",
+            format!("symmetric ({name} is {upper:?} above the diagonal and {lower:?} below)"),
             "write products of inertia equal on both sides of the diagonal",
         );
         return;
@@ -175,18 +195,51 @@ fn inertia(key: &dyn Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut 
             "check signs; products of inertia are minus the integrals of x y",
         );
     } else if largest > (moments[0] + moments[1] + moments[2] - largest) + slack {
-        problems.add(
-            key(),
-            shown(numbers),
-            format!("such that no principal moment exceeds the sum of the other two (they are {moments:?})"),
+        let (excess, remedy) = excess(
+            moments,
+            largest,
             "no distribution of mass has these moments; check units and the point they refer to",
         );
+        let allowed =
+            format!("such that no principal moment exceeds the sum of the other two (they are {moments:?}: {excess})");
+        problems.add(key(), shown(numbers), allowed, remedy);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Law: a tensor that is refused for little says by how much, and passes when it is changed by that; one that is
+    /// refused for much is not put down to digits.
+    #[test]
+    fn a_refused_tensor_says_by_how_much() {
+        let refused = |limit: Limit, numbers: &[f64]| {
+            let mut problems = Problems::default();
+            limit.check(|| Cow::Borrowed("key"), numbers, &mut problems);
+            problems.0.first().map(|problem| format!("{problem:?}"))
+        };
+        let tensor = |moments: [f64; 3]| [moments[0], 0.0, 0.0, 0.0, moments[1], 0.0, 0.0, 0.0, moments[2]];
+        for (moments, is_rounding) in [([1.0, 2.0, 3.00001], true), ([0.3, 0.6, 0.3], false), ([1.0, 1.2, 2.3], false)]
+        {
+            let sides = moments[0] + moments[1] + moments[2];
+            let largest = moments.iter().copied().fold(0.0, f64::max);
+            let beyond = 2.0 * largest - sides;
+            for said in [refused(Limit::PrincipalMoments, &moments), refused(Limit::Inertia, &tensor(moments))] {
+                if beyond <= INERTIA_SLACK * sides {
+                    assert_eq!(said, None, "{moments:?}");
+                    continue;
+                }
+                let said = said.unwrap_or_else(|| panic!("{moments:?} is accepted"));
+                assert!(said.contains(&format!("{beyond:.1e} kg m^2")), "{said}");
+                assert_eq!(said.contains("write more digits"), is_rounding, "{said}");
+            }
+            let mended = moments.map(|moment| if moment == largest { moment - 1.1 * beyond } else { moment });
+            assert_eq!(refused(Limit::PrincipalMoments, &mended), None, "{mended:?}");
+        }
+        let said = refused(Limit::Inertia, &[3.0, 0.1, 0.0, 0.1001, 3.0, 0.0, 0.0, 0.0, 2.0]).unwrap_or_default();
+        assert!(said.contains("xy is 0.1 above the diagonal and 0.1001 below"), "{said}");
+    }
 
     /// Law: what a message gives as an example is accepted.
     #[test]
