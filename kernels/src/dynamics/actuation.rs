@@ -1,16 +1,16 @@
 //! The actuation interface: what acts on a spacecraft, asked for at the start of every arc.
 //!
-//! A run consists of *arcs* of constant actuation. Where one ends, the engine asks the run's [`ActuationLaw`] what acts next and
-//! until when, and shows it the state there. A law sees its own run only: engines propagate several runs at once, and no value
-//! of one reaches another.
+//! A run consists of *arcs* of constant actuation. Where one ends, the engine asks the run's [`ActuationLaw`] what acts
+//! next and until when, and shows it the state there. A law sees its own run only: engines propagate several runs at
+//! once, and no value of one reaches another.
 //!
 //! - [`OpenLoop`]: the schedule of a scene, which depends on time alone. The default.
 //! - [`ZeroOrderHold`]: sampled-data control: a law is asked once per control period and its answer is held.
 //! - [`Sum`]: several sources at once.
 //! - A closure `|time, body, wheels| -> Actuation` is a law.
 //!
-//! Values are *applied* values: scales, delays and limits of actuators are the law's own matter. Not here: sensors, estimators
-//! and control laws proper, and the equations on which the values act.
+//! Values are *applied* values: scales, delays and limits of actuators are the law's own matter. Not here: sensors,
+//! estimators and control laws proper, and the equations on which the values act.
 
 use crate::run::Telemetry;
 use crate::scene::schedule::actuation_at;
@@ -48,20 +48,20 @@ impl WheelState {
 
 /// Decides what acts on one run, arc by arc.
 ///
-/// The answer may depend on everything that the law was told before, and on nothing else: then a run is a function of its scene
-/// and its law, whatever runs beside it.
+/// The answer may depend on everything that the law was told before, and on nothing else: then a run is a function of
+/// its scene and its law, whatever runs beside it.
 pub trait ActuationLaw {
-    /// What acts from `time` (s since the start of the run) on, given the state there: the arc ends at `until`, or earlier where
-    /// another source or the end of the run ends it. Called at time zero and at the end of every arc, in ascending order;
-    /// `until` must be after `time`.
+    /// What acts from `time` (s since the start of the run) on, given the state there: the arc ends at `until`, or
+    /// earlier where another source or the end of the run ends it. Called at time zero and at the end of every arc, in
+    /// ascending order; `until` must be after `time`.
     fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation;
 
-    /// The run has come to its end at `time`, where the state is this. Called once, after the last arc, of a run that reaches its end: a law that
-    /// works at ticks of its own can look at the state there. Nothing acts any more.
+    /// The run has come to its end at `time`, where the state is this. Called once, after the last arc, of a run that
+    /// reaches its end: a law that works at ticks of its own can look at the state there. Nothing acts any more.
     fn end(&mut self, _time: f64, _body: &BodyState, _wheels: &WheelState) {}
 
-    /// Writes what the law has to report when its run has ended: the values of the columns that it declares, in their order. All are NaN
-    /// before, which is a value that the run does not have.
+    /// Writes what the law has to report when its run has ended: the values of the columns that it declares, in their
+    /// order. All are NaN before, which is a value that the run does not have.
     fn report(&self, _values: &mut [f64]) {}
 
     /// Why the law has ended its run as [`crate::run::Status::Diverged`], where it has.

@@ -1,4 +1,5 @@
-//! The arc that a run flies next: by the schedule of its scene, or by a law, and the effects that are constant over an arc.
+//! The arc that a run flies next: by the schedule of its scene, or by a law, and the effects that are constant over an
+//! arc.
 
 use super::actuation::{ActuationLaw, BodyState, OpenLoop, WheelState};
 use super::effects::add_constant_effects;
@@ -13,7 +14,8 @@ pub fn scheduled_arc(scene: &Scene, time: f64, duration: f64) -> Arc {
     arc
 }
 
-/// The arc that a run of `scene` flies from `time` on: that of its schedule, or what its `law` answers to the `state` there.
+/// The arc that a run of `scene` flies from `time` on: that of its schedule, or what its `law` answers to the `state`
+/// there.
 ///
 /// # Panics
 /// Where the answer of a law ends before it starts: the run would never end.
@@ -29,8 +31,8 @@ pub fn next_arc(
     law_arc(scene, law, time, (&body, &wheels), duration)
 }
 
-/// The arc that `law` answers at `time`, where the state is `state`. The motor of a wheel that is missing, or whose speed is held,
-/// takes no command.
+/// The arc that `law` answers at `time`, where the state is `state`. The motor of a wheel that is missing, or whose
+/// speed is held, takes no command.
 ///
 /// # Panics
 /// Where the answer ends before it starts: the run would never end.

@@ -1,6 +1,7 @@
 //! [`ArcRecord`]: the arcs that a run has flown, as what changes from each to the next.
 //!
-//! A control loop flies an arc a tick, and of the numbers of an actuation few change: forty bytes an arc for three wheels, where an [`Arc`] has 264.
+//! A control loop flies an arc a tick, and of the numbers of an actuation few change: forty bytes an arc for three
+//! wheels, where an [`Arc`] has 264.
 
 use crate::scene::{Actuation, Arc, MAX_THRUSTERS, MAX_WHEELS};
 

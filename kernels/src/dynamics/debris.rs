@@ -1,6 +1,7 @@
 //! The debris D: a free rigid body in uniform translation, or beside an orbit ([`super::relative_orbit`]).
 //!
-//! An isotropic body (cube) turns at a constant rate about an axis fixed in it and in space, so its attitude has a closed form. A box is a gyrostat without wheels and is integrated as one; only its constants are made here.
+//! An isotropic body (cube) turns at a constant rate about an axis fixed in it and in space, so its attitude has a
+//! closed form. A box is a gyrostat without wheels and is integrated as one; only its constants are made here.
 
 use fearless_simd::Simd;
 
@@ -60,8 +61,8 @@ pub fn complete_translation<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table:
     }
 }
 
-/// The same where there is an orbit: `relative` is the motion of the debris, of the mass `mass` (kg), beside it. Adds gravity's work on it to that on the
-/// spacecraft.
+/// The same where there is an orbit: `relative` is the motion of the debris, of the mass `mass` (kg), beside it. Adds
+/// gravity's work on it to that on the spacecraft.
 pub fn complete_orbit(relative: &mut RelativeOrbit, mass: f64, grid: &Grid, table: &mut StateTable) {
     let (has_position, has_velocity) = (table.has(StateField::DebrisPosition), table.has(StateField::DebrisVelocity));
     let has_work = table.has(StateField::Work);
@@ -96,9 +97,11 @@ struct Line<V> {
     slope: V,
 }
 
-/// Fills attitude and rate of an isotropic debris in `table`: q_ed(t) = q_ed(0) (x) exp(omega t/2), omega constant in F_d.
+/// Fills attitude and rate of an isotropic debris in `table`: q_ed(t) = q_ed(0) (x) exp(omega t/2), omega constant in
+/// F_d.
 ///
-/// The angle is reduced to a part of a turn as a sum of two numbers, so that it is as accurate after 1e10 rad as at the start.
+/// The angle is reduced to a part of a turn as a sum of two numbers, so that it is as accurate after 1e10 rad as at the
+/// start.
 #[inline(always)]
 pub fn complete_isotropic<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &mut StateTable) {
     let omega = scene.initial.omega_de_d;

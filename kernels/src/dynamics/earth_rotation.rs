@@ -1,17 +1,18 @@
 //! How the Earth is turned at a date: the angle from e1, towards the vernal equinox, to the meridian of Greenwich.
 //!
-//! Where a date counts, F_e is the frame of the mean equator and equinox of the epoch: e3 along the Earth's axis, e1 towards the equinox. The rotation from
-//! Earth-fixed axes is then one about e3 by Greenwich mean sidereal time: the Earth rotation angle (N. Capitaine, B. Guinot, D. McCarthy, 2000, Astronomy
-//! and Astrophysics 355, 398, eq. 14) and the precession since J2000 (N. Capitaine, P. Wallace, J. Chapront, 2003, Astronomy and Astrophysics 412, 567,
-//! eq. 42; IAU 2006).
+//! Where a date counts, F_e is the frame of the mean equator and equinox of the epoch: e3 along the Earth's axis, e1
+//! towards the equinox. The rotation from Earth-fixed axes is then one about e3 by Greenwich mean sidereal time: the
+//! Earth rotation angle (N. Capitaine, B. Guinot, D. McCarthy, 2000, Astronomy and Astrophysics 355, 398, eq. 14) and
+//! the precession since J2000 (N. Capitaine, P. Wallace, J. Chapront, 2003, Astronomy and Astrophysics 412, 567, eq.
+//! 42; IAU 2006).
 //!
-//! Left out: UTC is taken as UT1 (0.9 s at most, 0.004 deg), the nutation of the axis (0.003 deg) and of the equinox (0.005 deg), polar motion
-//! (0.0002 deg), the precession since the epoch (0.00004 deg a day): below 0.01 deg in all.
+//! Left out: UTC is taken as UT1 (0.9 s at most, 0.004 deg), the nutation of the axis (0.003 deg) and of the equinox
+//! (0.005 deg), polar motion (0.0002 deg), the precession since the epoch (0.00004 deg a day): below 0.01 deg in all.
 
 use crate::scene::epoch::Epoch;
 
-/// Rotation of the Earth relative to the equinox of the epoch, turns/s: 1.00273781191135448 turns a day (Capitaine et al., 2000) and the precession
-/// in right ascension, 4612.156534 arcsec in a Julian century.
+/// Rotation of the Earth relative to the equinox of the epoch, turns/s: 1.00273781191135448 turns a day (Capitaine et
+/// al., 2000) and the precession in right ascension, 4612.156534 arcsec in a Julian century.
 pub const TURNS_PER_SECOND: f64 = (1.002_737_811_911_354_6 + 4_612.156_534 / (1_296_000.0 * 36_525.0)) / 86_400.0;
 
 /// Greenwich mean sidereal time at `epoch`, turns, from 0 to 1.
@@ -30,7 +31,8 @@ pub fn turns_at(epoch: Epoch) -> f64 {
 mod tests {
     use super::*;
 
-    /// Law: SOFA's `gmst06` (`erfa.gmst06(jd1, jd2, jd1, jd2 + 69/86400)` of pyerfa 2.0.1.5), rad, to rounding of the two Julian dates.
+    /// Law: SOFA's `gmst06` (`erfa.gmst06(jd1, jd2, jd1, jd2 + 69/86400)` of pyerfa 2.0.1.5), rad, to rounding of the
+    /// two Julian dates.
     #[test]
     fn sidereal_time_is_that_of_sofa() {
         for (text, expected) in [

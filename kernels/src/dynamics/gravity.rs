@@ -1,21 +1,23 @@
 //! [`Gravity`]: the pull of a central body, and how much another it is at an offset.
 //!
-//! With k = (3/2) J2 R^2 of a body that is flattened along e3 (D. Vallado, *Fundamentals of Astrodynamics and Applications*, 2013, (8-29) and (9-39); k is zero
-//! of a point mass):
+//! With k = (3/2) J2 R^2 of a body that is flattened along e3 (D. Vallado, *Fundamentals of Astrodynamics and
+//! Applications*, 2013, (8-29) and (9-39); k is zero of a point mass):
 //!
 //! ```text
 //! a = -mu/|r|^3 (1 + k/|r|^2 (1 - 5 z^2/|r|^2)) r - 2 mu k z/|r|^5 e3
 //! U = mu/|r| + mu k (1/3 - z^2/|r|^2)/|r|^3,   a = grad U
 //! ```
 //!
-//! At r = O + d the pull is another than at O by the tide (R. Battin, *An Introduction to the Mathematics and Methods of Astrodynamics*, 1999, section 8.4).
-//! With q = d . (d + 2 O)/|O|^2 and w_n = (|O|/|r|)^n - 1 = (1 + q)^(-n/2) - 1:
+//! At r = O + d the pull is another than at O by the tide (R. Battin, *An Introduction to the Mathematics and Methods
+//! of Astrodynamics*, 1999, section 8.4). With q = d . (d + 2 O)/|O|^2 and w_n = (|O|/|r|)^n - 1 = (1 + q)^(-n/2) - 1:
 //!
 //! ```text
-//! tide = -mu/|O|^3 (d + w3 r) - mu k/|O|^5 (s + 2 s_z e3) + 5 mu k/|O|^7 (O_z^2 d + (d_z (d_z + 2 O_z) + w7 r_z^2) r),   s = d + w5 r
+//! tide = -mu/|O|^3 (d + w3 r) - mu k/|O|^5 (s + 2 s_z e3) + 5 mu k/|O|^7 (O_z^2 d + (d_z (d_z + 2 O_z) + w7 r_z^2) r),
+//! s = d + w5 r
 //! ```
 //!
-//! Nothing cancels: of an offset of metres all digits count, although a distance of 7000 km has its last one at a nanometre.
+//! Nothing cancels: of an offset of metres all digits count, although a distance of 7000 km has its last one at a
+//! nanometre.
 
 use super::orbit_state::OrbitState;
 use crate::math::Real;
@@ -170,7 +172,8 @@ mod tests {
         [None, Some(k), Some(100.0 * k)].map(|oblateness| Gravity { mu: 3.986004418e14, oblateness })
     }
 
-    /// Law: the tide is the difference of two pulls, which double-double has with ten digits to spare, from millimetres to thousands of kilometres.
+    /// Law: the tide is the difference of two pulls, which double-double has with ten digits to spare, from millimetres
+    /// to thousands of kilometres.
     #[test]
     fn the_tide_is_a_difference_of_pulls() {
         for gravity in gravities() {
@@ -191,7 +194,8 @@ mod tests {
         }
     }
 
-    /// Law: the acceleration is the gradient of U, by central differences; above the equator it is mu/r^2 (1 + k/r^2), above a pole mu/r^2 (1 - 2 k/r^2).
+    /// Law: the acceleration is the gradient of U, by central differences; above the equator it is mu/r^2 (1 + k/r^2),
+    /// above a pole mu/r^2 (1 - 2 k/r^2).
     #[test]
     fn the_pull_is_the_gradient_of_the_potential() {
         let [_, gravity, flat] = gravities();

@@ -1,4 +1,5 @@
-//! [`OffsetSeries`]: the motion relative to a point on an orbit by Encke's method, as Taylor coefficients of the tide ([`super::gravity`]).
+//! [`OffsetSeries`]: the motion relative to a point on an orbit by Encke's method, as Taylor coefficients of the tide
+//! ([`super::gravity`]).
 
 use super::gravity::{Gravity, stronger, stronger_powers, twice_and};
 use super::orbit_series::{OrbitSeries, convolution, next_of_power};
@@ -74,7 +75,8 @@ impl<R: Real> OffsetSeries<R> {
         }
     }
 
-    /// Starts a step where the point on the orbit is at `position` with `velocity` (m per unit of time) in `gravity` (m^3 per unit squared).
+    /// Starts a step where the point on the orbit is at `position` with `velocity` (m per unit of time) in `gravity`
+    /// (m^3 per unit squared).
     #[inline(always)]
     pub fn begin(&mut self, gravity: Gravity<R>, position: [R; 3], velocity: [R; 3]) {
         self.orbit.begin(gravity, position, velocity);
@@ -134,7 +136,8 @@ impl<R: Real> OffsetSeries<R> {
 }
 
 impl<R: Real> Flattened<R> {
-    /// Coefficient n of what a flattened body adds to the tide, from those of the orbit, of d, 2 O + d and r, of q, and w3 at the start of the step.
+    /// Coefficient n of what a flattened body adds to the tide, from those of the orbit, of d, 2 O + d and r, of q, and
+    /// w3 at the start of the step.
     #[inline(always)]
     fn extend(
         &mut self,
@@ -191,7 +194,8 @@ fn power_of_ratio<R: Real>(alpha: f64, n: usize, ratio: &mut [R], power: &[R]) -
     next
 }
 
-/// The last coefficient of d + w r, from that of d, and those of r and of 1 + w, whose first is `nearer` without the one.
+/// The last coefficient of d + w r, from that of d, and those of r and of 1 + w, whose first is `nearer` without the
+/// one.
 #[inline(always)]
 fn stretched_offset<R: Real>(offset: [R; 3], nearer: R, power: &[R], place: &[[R; 3]]) -> [R; 3] {
     let n = place.len() - 1;

@@ -1,7 +1,7 @@
 //! [`KeplerOrbit`]: position and velocity on a two-body orbit at any time, in closed form.
 //!
-//! With E the eccentric anomaly and x = E - E0 its change since time zero (R. Battin, *An Introduction to the Mathematics and Methods of
-//! Astrodynamics*, 1999, section 4.3):
+//! With E the eccentric anomaly and x = E - E0 its change since time zero (R. Battin, *An Introduction to the
+//! Mathematics and Methods of Astrodynamics*, 1999, section 4.3):
 //!
 //! ```text
 //! r = F r0 + G v0,  v = F' r0 + G' v0,   |r| = a + (|r0| - a) cos x + sigma sqrt(a) sin x,   sigma = r0 . v0/sqrt(mu)
@@ -9,10 +9,11 @@
 //! F' = -sqrt(mu a)/(|r| |r0|) sin x,   G' = 1 - a/|r| (1 - cos x)
 //! ```
 //!
-//! Circles need no case of their own: no direction of a periapsis is used. E solves Kepler's equation E - e sin E = M, M = M0 + 2 pi t/P, in turns
-//! reduced to half a turn, so that a thousand orbits later only t/P is rounded.
+//! Circles need no case of their own: no direction of a periapsis is used. E solves Kepler's equation E - e sin E = M,
+//! M = M0 + 2 pi t/P, in turns reduced to half a turn, so that a thousand orbits later only t/P is rounded.
 //!
-//! Of an orbit about a flattened body this is the two-body orbit that touches it at time zero; its own motion is in [`super::orbit_path`].
+//! Of an orbit about a flattened body this is the two-body orbit that touches it at time zero; its own motion is in
+//! [`super::orbit_path`].
 //!
 //! Not here: the orbit at time zero from what is written (`scene::orbit`).
 
@@ -23,14 +24,15 @@ use crate::math::vector::{constant, dot, norm, scaled, sum};
 use crate::math::{Mask, Real};
 use crate::scene::Orbit;
 
-/// Newton's method has converged where its last correction of E is below this, rad: the next one would be e/(2 (1 - e)) times its square, below
-/// rounding up to e = 0.99.
+/// Newton's method has converged where its last correction of E is below this, rad: the next one would be e/(2 (1 - e))
+/// times its square, below rounding up to e = 0.99.
 const CONVERGED: f64 = 1e-9;
 
 /// Corrections at most: up to e = 0.999 measured 9.
 const MOST_CORRECTIONS: usize = 30;
 
-/// Danby's start of Newton's method, E = M + 0.85 e sign(sin M) (J. M. A. Danby, *Fundamentals of Celestial Mechanics*, 1988, section 6.6).
+/// Danby's start of Newton's method, E = M + 0.85 e sign(sin M) (J. M. A. Danby, *Fundamentals of Celestial Mechanics*,
+/// 1988, section 6.6).
 const START: f64 = 0.85;
 
 /// A two-body orbit, one per lane.
@@ -181,7 +183,8 @@ impl<R: Real> KeplerOrbit<R> {
         self.state_at([time, time.zero()])
     }
 
-    /// The state at a time that is the sum of two numbers, s: after 1,000 orbits a single one is rounded to 1e-12 rad of the orbit.
+    /// The state at a time that is the sum of two numbers, s: after 1,000 orbits a single one is rounded to 1e-12 rad
+    /// of the orbit.
     #[inline(always)]
     pub fn state_at(&self, [time, low]: [R; 2]) -> OrbitState<R> {
         let one = time.splat(1.0);
@@ -200,13 +203,15 @@ impl<R: Real> KeplerOrbit<R> {
         }
     }
 
-    /// The work of a point mass since time zero on a kilogram that is now `distance` from the central body: mu/|r| - mu/|r0|, J.
+    /// The work of a point mass since time zero on a kilogram that is now `distance` from the central body: mu/|r| -
+    /// mu/|r0|, J.
     #[inline(always)]
     pub fn work(&self, distance: R) -> R {
         self.pull * ((self.start - distance) / distance)
     }
 
-    /// E at the time `time + low`, turns, by Newton's method; a lane that has converged stays as it is, whatever the others do.
+    /// E at the time `time + low`, turns, by Newton's method; a lane that has converged stays as it is, whatever the
+    /// others do.
     #[inline(always)]
     fn eccentric_anomaly(&self, [time, low]: [R; 2]) -> R {
         let number = |value: f64| time.splat(value);
@@ -246,8 +251,8 @@ mod tests {
         Orbit { mu: MU, position: [radius, 0.0, 0.0], velocity, body_radius: 0.0, j2: None, epoch: None }
     }
 
-    /// Law: energy and angular momentum of the orbit are constant, |r| is the distance, and one period later the state is the same; from
-    /// circles to an eccentricity of 0.98.
+    /// Law: energy and angular momentum of the orbit are constant, |r| is the distance, and one period later the state
+    /// is the same; from circles to an eccentricity of 0.98.
     #[test]
     fn the_constants_of_the_orbit_are_constant() {
         for (speed, radial) in

@@ -1,13 +1,16 @@
-//! [`OrbitInBody`]: Taylor coefficients of where the central body is seen from a body that turns on its orbit, and of the products of its components.
+//! [`OrbitInBody`]: Taylor coefficients of where the central body is seen from a body that turns on its orbit, and of
+//! the products of its components.
 //!
-//! In the frame B of the body, with the rate omega, the position r and the velocity v on an orbit about a point mass follow
+//! In the frame B of the body, with the rate omega, the position r and the velocity v on an orbit about a point mass
+//! follow
 //!
 //! ```text
 //! r' = v - omega x r        v' = -s r - omega x v        s = mu rho^(-3/2)        rho = r . r
 //! ```
 //!
-//! without the attitude: 15 products of series, where turning a position of F_e by the quaternion of the body, q* (x) r (x) q, takes 32. Elsewhere, about a
-//! flattened body or beside the orbit, it is turned: in all lanes alike, since the runs of a plan all have a J2 or none.
+//! without the attitude: 15 products of series, where turning a position of F_e by the quaternion of the body, q* (x) r
+//! (x) q, takes 32. Elsewhere, about a flattened body or beside the orbit, it is turned: in all lanes alike, since the
+//! runs of a plan all have a J2 or none.
 
 use super::effects::within_arcs::MotionSeries;
 use super::orbit_series::next_of_power;

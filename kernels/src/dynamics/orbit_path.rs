@@ -1,7 +1,9 @@
-//! [`OrbitPath`]: where the point on an orbit is at any time: in closed form about a point mass, by Taylor series step by step about a flattened body.
+//! [`OrbitPath`]: where the point on an orbit is at any time: in closed form about a point mass, by Taylor series step
+//! by step about a flattened body.
 //!
-//! The steps depend on the orbit alone, and are kept: the same bits at the same time, whatever was asked before. Each is the series of
-//! [`super::orbit_series`] to order 22 over e^-2 of its radius of convergence (A. Jorba & M. Zou, Experimental Mathematics 14, 2005): the first term left out is e^-44.
+//! The steps depend on the orbit alone, and are kept: the same bits at the same time, whatever was asked before. Each
+//! is the series of [`super::orbit_series`] to order 22 over e^-2 of its radius of convergence (A. Jorba & M. Zou,
+//! Experimental Mathematics 14, 2005): the first term left out is e^-44.
 
 use std::sync::{Arc, OnceLock};
 
@@ -180,8 +182,8 @@ impl Step {
     }
 }
 
-/// What position and velocity change by until `within` seconds after the start of a step with these coefficients of the position, the second of which is
-/// rounded by `low`.
+/// What position and velocity change by until `within` seconds after the start of a step with these coefficients of the
+/// position, the second of which is rounded by `low`.
 pub(super) fn change(coefficients: &[[f64; 3]], low: [f64; 3], within: f64) -> [[f64; 3]; 2] {
     let (mut position, mut velocity) = ([0.0_f64; 3], [0.0_f64; 3]);
     for (n, coefficients) in coefficients.iter().enumerate().skip(2).rev() {
@@ -194,7 +196,8 @@ pub(super) fn change(coefficients: &[[f64; 3]], low: [f64; 3], within: f64) -> [
     [position, scaled(within, velocity)]
 }
 
-/// The step that the coefficient `term` of order `n` allows, where what is integrated has the size `size`: e^-2 of the radius of convergence.
+/// The step that the coefficient `term` of order `n` allows, where what is integrated has the size `size`: e^-2 of the
+/// radius of convergence.
 pub(super) fn step_length(n: usize, size: f64, term: [f64; 3]) -> f64 {
     let term = norm(term);
     let radius = if term > 0.0 { libm::pow(size / term, 1.0 / n as f64) } else { f64::INFINITY };
@@ -260,7 +263,8 @@ mod tests {
         }
     }
 
-    /// Law: a path is a function of the time alone, whatever was asked before; the same orbit keeps its steps, another one has its own.
+    /// Law: a path is a function of the time alone, whatever was asked before; the same orbit keeps its steps, another
+    /// one has its own.
     #[test]
     fn the_path_is_a_function_of_the_time() {
         let orbit = oblate([100.0, 7100.0, 2900.0]);
@@ -280,8 +284,8 @@ mod tests {
         assert!(!shared(&path, &late_first) && path.state(17.0) != late_first.state(17.0));
     }
 
-    /// Law: energy and the momentum about the body's axis are constant over a hundred orbits, and velocity and acceleration are slopes; the momentum across
-    /// the axis is not constant.
+    /// Law: energy and the momentum about the body's axis are constant over a hundred orbits, and velocity and
+    /// acceleration are slopes; the momentum across the axis is not constant.
     #[test]
     fn energy_and_momentum_about_the_axis_are_constant() {
         for velocity in [[100.0, 7100.0, 2900.0], [-500.0, 3000.0, 7900.0], [0.0, -7300.0, 0.0]] {

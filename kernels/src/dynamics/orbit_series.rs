@@ -1,8 +1,9 @@
 //! [`OrbitSeries`]: Taylor coefficients of an orbit by recurrences, and of powers of the distance.
 //!
-//! With rho = r . r and s = mu rho^(-3/2): r'' = -s r about a point mass, about a flattened body ([`super::gravity`]) r'' = -(s + f - g z^2) r - 2 f z e3 with
-//! f = mu k rho^(-5/2) and g = 5 mu k rho^(-7/2); and for any power alpha the coefficients of rho^alpha follow from those of rho
-//! (A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section 2.2):
+//! With rho = r . r and s = mu rho^(-3/2): r'' = -s r about a point mass, about a flattened body ([`super::gravity`])
+//! r'' = -(s + f - g z^2) r - 2 f z e3 with f = mu k rho^(-5/2) and g = 5 mu k rho^(-7/2); and for any power alpha the
+//! coefficients of rho^alpha follow from those of rho (A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section
+//! 2.2):
 //!
 //! ```text
 //! (rho^alpha)_n = sum over j < n of (alpha (n - j) - j) (rho^alpha)_j rho_(n-j) / (n rho_0)

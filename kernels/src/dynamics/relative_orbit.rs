@@ -1,7 +1,7 @@
 //! [`RelativeOrbit`]: a free body near a point on an orbit, at any time.
 //!
-//! The offset is integrated as such, by its Taylor series ([`super::offset_series`]) in steps that depend on the run alone: the same bits at the
-//! same time, whatever was asked before.
+//! The offset is integrated as such, by its Taylor series ([`super::offset_series`]) in steps that depend on the run
+//! alone: the same bits at the same time, whatever was asked before.
 
 use super::gravity::Gravity;
 use super::offset_series::OffsetSeries;
@@ -11,7 +11,8 @@ use crate::math::sums::two_sum;
 use crate::math::vector::{dot, norm, scaled, sum};
 use crate::scene::orbit::Offset;
 
-/// Order of the series: with the steps of A. Jorba & M. Zou (2005), e^-2 of the radius of convergence, the first term left out is e^-44.
+/// Order of the series: with the steps of A. Jorba & M. Zou (2005), e^-2 of the radius of convergence, the first term
+/// left out is e^-44.
 const ORDER: usize = 22;
 
 /// The motion of a free body beside an orbit.
@@ -175,7 +176,8 @@ mod tests {
     ///     F, G = -sqrt(mu*a)/(d*n0)*sin(x), 1 - a/d*(1 - cos(x))
     ///     return [f*p + g*q for p, q in zip(r, v)] + [F*p + G*q for p, q in zip(r, v)]
     /// r, v = [mpf(x) for x in (7e6, 1e6, -2e5)], [mpf(x) for x in (100, 7100, 2900)]
-    /// d, w = [mpf(x) for x in (-28, -14, 18)], [mpf(x) for x in (0.05, 0.02, -0.03)]   # and (0.05030686, 0.04178697, -0.0211011)
+    /// # w also (0.05030686, 0.04178697, -0.0211011)
+    /// d, w = [mpf(x) for x in (-28, -14, 18)], [mpf(x) for x in (0.05, 0.02, -0.03)]
     /// for t in (600, 6000, 86400):
     ///     a, b = at([p + q for p, q in zip(r, d)], [p + q for p, q in zip(v, w)], t), at(r, v, t)
     ///     print(t, [mp.nstr(p - q, 17) for p, q in zip(a, b)])

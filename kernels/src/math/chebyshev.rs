@@ -1,8 +1,9 @@
-//! [`Pieces`]: a smooth function on an interval as Chebyshev series, piece by piece: made once, evaluated in nanoseconds.
+//! [`Pieces`]: a smooth function on an interval as Chebyshev series, piece by piece: made once, evaluated in
+//! nanoseconds.
 //!
-//! A piece is halved until its last coefficients are below the tolerance (the rule of Chebfun, J. L. Aurentz & L. N. Trefethen,
-//! *Chopping a Chebyshev series*, ACM Trans. Math. Softw. 43 (2017), in its simplest form). Sums by Clenshaw's recurrence. Plain
-//! arithmetic and `libm`: the same bits everywhere.
+//! A piece is halved until its last coefficients are below the tolerance (the rule of Chebfun, J. L. Aurentz & L. N.
+//! Trefethen, *Chopping a Chebyshev series*, ACM Trans. Math. Softw. 43 (2017), in its simplest form). Sums by
+//! Clenshaw's recurrence. Plain arithmetic and `libm`: the same bits everywhere.
 
 use core::f64::consts::PI;
 

@@ -1,12 +1,13 @@
 //! [`DoubleDouble`]: a number as the unevaluated sum of two `f64`, 106 bits: the arithmetic of reference solutions.
 //!
-//! Source of the algorithms and of their error bounds: M. Joldes, J.-M. Muller & V. Popescu, ACM Trans. Math. Softw. 44(2), 2017
-//! (algorithms 6, 12, 18). Not a crate: the kernels need exactly [`Real`], with fused operations, and nothing else.
+//! Source of the algorithms and of their error bounds: M. Joldes, J.-M. Muller & V. Popescu, ACM Trans. Math. Softw.
+//! 44(2), 2017 (algorithms 6, 12, 18). Not a crate: the kernels need exactly [`Real`], with fused operations, and
+//! nothing else.
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-use super::Real;
 use super::sums;
+use crate::math::real::Real;
 
 /// `high + low` with |low| <= ulp(high)/2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -157,7 +158,8 @@ impl Real for DoubleDouble {
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
     }
-    /// Of the value rounded to `f64`: the sum with a large number, which rounds one `f64`, would keep the fraction of two.
+    /// Of the value rounded to `f64`: the sum with a large number, which rounds one `f64`, would keep the fraction of
+    /// two.
     #[inline(always)]
     fn nearest_integer(self) -> Self {
         DoubleDouble::exact(self.high.nearest_integer())

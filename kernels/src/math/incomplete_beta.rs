@@ -1,15 +1,16 @@
 //! The regularised incomplete beta function I_x(a, b) and its inverse, for shapes from 1e-3 to 1e15.
 //!
-//! I_x by a continued fraction (evaluated by the method of Lentz as modified by I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64
-//! (1986) 490), from the side where it converges. Its factor x^a (1-x)^b / B(a, b) by the saddle-point form of
-//! C. Loader, *Fast and Accurate Computation of Binomial Probabilities* (2000): the logarithms of gamma functions would lose as
-//! many digits as the shapes have. Elementary functions from `libm`.
+//! I_x by a continued fraction (evaluated by the method of Lentz as modified by I. J. Thompson & A. R. Barnett, *J.
+//! Comput. Phys.* 64 (1986) 490), from the side where it converges. Its factor x^a (1-x)^b / B(a, b) by the
+//! saddle-point form of C. Loader, *Fast and Accurate Computation of Binomial Probabilities* (2000): the logarithms of
+//! gamma functions would lose as many digits as the shapes have. Elementary functions from `libm`.
 
 use super::probability::{Probability, log_of_quantile};
 use super::saddle_point::{deviance, stirling_error};
 use core::f64::consts::PI;
 
-/// Terms after which the continued fraction is taken as converged; about 3 sqrt(max(a, b)) are needed in the worst place.
+/// Terms after which the continued fraction is taken as converged; about 3 sqrt(max(a, b)) are needed in the worst
+/// place.
 const MAX_TERMS: u32 = 100_000_000;
 /// Replaces a zero, so that Lentz's method continues (Thompson & Barnett).
 const TINY: f64 = 1e-300;
@@ -25,8 +26,8 @@ pub fn incomplete_beta(x: f64, y: f64, a: f64, b: f64) -> Probability {
         return Probability { lower: 1.0, upper: 0.0 };
     }
     let front = front(x, y, a, b);
-    // From the mean a/(a + b) to 0.1 (a + 1)/(a + b + 2), which is beyond it for a below 0.1, the fraction of the far side takes up to
-    // thousands of terms, that of the near one a few, and the complement loses less than two digits.
+    // From the mean a/(a + b) to 0.1 (a + 1)/(a + b + 2), which is beyond it for a below 0.1, the fraction of the far
+    // side takes up to thousands of terms, that of the near one a few, and the complement loses less than two digits.
     let is_short = |x: f64, a: f64, b: f64| front <= 0.98 * a && x * (a + b + 2.0) <= 0.1 * (a + 1.0);
     let is_lower = if b * x <= a * y { !is_short(y, b, a) } else { is_short(x, a, b) };
     if is_lower {
@@ -40,8 +41,8 @@ pub fn incomplete_beta(x: f64, y: f64, a: f64, b: f64) -> Probability {
 
 /// x with I_x(a, b) = `p`, for `p` in [0, 1] given with its complement `q` = 1 - p; returned with 1 - x.
 ///
-/// Bisection in the logarithm of the smaller of x and 1 - x brackets the root, Newton's method with the density as slope ends
-/// it; a Newton step that leaves the bracket is replaced by a bisection, so that it always converges.
+/// Bisection in the logarithm of the smaller of x and 1 - x brackets the root, Newton's method with the density as
+/// slope ends it; a Newton step that leaves the bracket is replaced by a bisection, so that it always converges.
 pub fn inverse_incomplete_beta(p: f64, q: f64, a: f64, b: f64) -> [f64; 2] {
     if p <= 0.0 {
         return [0.0, 1.0];
@@ -61,8 +62,8 @@ pub fn inverse_incomplete_beta(p: f64, q: f64, a: f64, b: f64) -> [f64; 2] {
     }
 }
 
-/// ln(x/(1 - x)) with I_x(a, b) = `p`, for `p` > 0 given with its complement `q` > 0: neither x nor 1 - x loses digits, and neither
-/// vanishes.
+/// ln(x/(1 - x)) with I_x(a, b) = `p`, for `p` > 0 given with its complement `q` > 0: neither x nor 1 - x loses digits,
+/// and neither vanishes.
 pub fn logit_quantile(p: f64, q: f64, a: f64, b: f64) -> f64 {
     let middle = incomplete_beta(0.5, 0.5, a, b);
     let below = if p <= q { p <= middle.lower } else { q >= middle.upper };
@@ -105,8 +106,9 @@ fn front(x: f64, y: f64, a: f64, b: f64) -> f64 {
 
 /// The continued fraction of x^a y^b / (B(a, b) I_x(a, b)), y = 1 - x, for x below about its mean a/(a + b).
 ///
-/// A. R. DiDonato & A. H. Morris, *Significant digit computation of the incomplete beta function ratios*, ACM Trans. Math. Softw. 18
-/// (1992) 360, equation (9). Where the shapes are large its terms do not cancel, as those of DLMF 8.17.22 do.
+/// A. R. DiDonato & A. H. Morris, *Significant digit computation of the incomplete beta function ratios*, ACM Trans.
+/// Math. Softw. 18 (1992) 360, equation (9). Where the shapes are large its terms do not cancel, as those of DLMF
+/// 8.17.22 do.
 fn continued_fraction(x: f64, y: f64, a: f64, b: f64) -> f64 {
     let nonzero = |value: f64| if value.abs() < TINY { TINY } else { value };
     let lambda = a * y - b * x;

@@ -1,13 +1,14 @@
 //! [`Isa`]: which instruction set the kernels run on, chosen once per process.
 //!
-//! One portable binary contains the kernels three times (AVX-512, AVX2 with FMA, plain), and every path gives the same bits:
-//! all arithmetic is IEEE 754, fused in [`super::Real::mul_add`] and nowhere else.
+//! One portable binary contains the kernels three times (AVX-512, AVX2 with FMA, plain), and every path gives the same
+//! bits: all arithmetic is IEEE 754, fused in [`super::Real::mul_add`] and nowhere else.
 
 use std::sync::OnceLock;
 
 use fearless_simd::{Level, Simd};
 
-use super::{Lanes, Real};
+use crate::math::lanes::Lanes;
+use crate::math::real::Real;
 
 /// The environment variable that forces a path (`avx512`, `avx2`, `plain`); for tests and for comparing paths.
 pub const VARIABLE: &str = "SPINDRIFT_ISA";
@@ -21,8 +22,8 @@ pub struct Isa {
 
 /// Work that is compiled once per instruction set; [`Isa::run`] calls the right one.
 ///
-/// A trait and not a closure, because a closure cannot be generic over the token. `run` should be `#[inline(always)]`, and
-/// so should everything hot that it calls, or it is compiled without the instructions it is meant to use.
+/// A trait and not a closure, because a closure cannot be generic over the token. `run` should be `#[inline(always)]`,
+/// and so should everything hot that it calls, or it is compiled without the instructions it is meant to use.
 pub trait Work {
     /// What the work returns.
     type Output;
@@ -30,9 +31,11 @@ pub trait Work {
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
-/// Work that is compiled for lanes on AVX2 and for one number at a time elsewhere; [`Isa::run_narrow`] calls the right one.
+/// Work that is compiled for lanes on AVX2 and for one number at a time elsewhere; [`Isa::run_narrow`] calls the right
+/// one.
 ///
-/// For methods that need not be the fastest: every further instruction set costs compile time, and the bits are the same.
+/// For methods that need not be the fastest: every further instruction set costs compile time, and the bits are the
+/// same.
 pub trait NarrowWork {
     /// What the work returns.
     type Output;
@@ -44,9 +47,9 @@ pub trait NarrowWork {
 
 /// Work in as many lanes as the instruction set has registers for; [`Isa::run_wide`] calls it.
 ///
-/// AVX-512 has thirty-two registers of eight lanes and takes sixteen lanes; AVX2 has sixteen of four and takes eight. The plain path
-/// of x86-64 takes one number at a time: nearly all its time is the fused operation, which SSE2 does not have and a library
-/// function computes for one number, and lanes cost several times as much machine code.
+/// AVX-512 has thirty-two registers of eight lanes and takes sixteen lanes; AVX2 has sixteen of four and takes eight.
+/// The plain path of x86-64 takes one number at a time: nearly all its time is the fused operation, which SSE2 does not
+/// have and a library function computes for one number, and lanes cost several times as much machine code.
 pub trait WideWork {
     /// What the work returns.
     type Output;
@@ -61,7 +64,8 @@ impl Isa {
         Self::named(level, "avx512").or_else(|| Self::named(level, "avx2")).unwrap_or_else(|| Self::plain(level))
     }
 
-    /// The path called `name` (`avx512`, `avx2`, `plain`), or `None` if this processor does not have it or the name is unknown.
+    /// The path called `name` (`avx512`, `avx2`, `plain`), or `None` if this processor does not have it or the name is
+    /// unknown.
     pub fn from_name(name: &str) -> Option<Self> {
         let level = Level::new();
         match name {
@@ -110,7 +114,8 @@ impl Isa {
         }
     }
 
-    /// The path that needs nothing beyond the target's baseline; on x86-64 every fused operation is then a library call.
+    /// The path that needs nothing beyond the target's baseline; on x86-64 every fused operation is then a library
+    /// call.
     fn plain(level: Level) -> Self {
         let _ = level;
         Isa { level: Level::baseline(), name: "plain" }
@@ -141,7 +146,7 @@ impl Isa {
                 "avx512" => {
                     if let Some(simd) = self.level.as_avx512() {
                         let zero = Lanes::broadcast(simd, 0.0);
-                        return work.run(simd, super::Pair(zero, zero));
+                        return work.run(simd, crate::math::pair::Pair(zero, zero));
                     }
                 }
                 "avx2" => {

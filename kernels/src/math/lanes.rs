@@ -7,7 +7,7 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use fearless_simd::{Bytes, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f64x8, mask64x8, u64x8};
 
 pub use super::real::TWO_52;
-use super::{Mask, Real};
+use crate::math::real::{Mask, Real};
 
 /// Number of lanes of [`Lanes`].
 pub const WIDTH: usize = 8;
@@ -82,8 +82,8 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
-/// The fused operation for an instruction set that has none: eight library calls, not inlined, because a kernel with all of them
-/// inlined takes minutes to compile.
+/// The fused operation for an instruction set that has none: eight library calls, not inlined, because a kernel with
+/// all of them inlined takes minutes to compile.
 #[cfg(target_arch = "x86_64")]
 #[inline(never)]
 fn plain_mul_add<S: Simd>(x: Lanes<S>, a: Lanes<S>, b: Lanes<S>) -> Lanes<S> {

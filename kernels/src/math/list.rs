@@ -1,7 +1,7 @@
 //! [`List`]: up to `N` values in place, for what a scene may have several of.
 //!
-//! Not a vector of the standard library, because every sample resolves a scene without allocating, and because its parts
-//! are copied as plain values.
+//! Not a vector of the standard library, because every sample resolves a scene without allocating, and because its
+//! parts are copied as plain values.
 
 use core::ops::{Deref, DerefMut};
 

@@ -4,8 +4,9 @@
 //! - [`double_double`]: 106 bits, for reference solutions.
 //! - [`lanes`]: [`Lanes`], eight `f64` in one vector of the chosen instruction set.
 //! - [`chebyshev`]: smooth functions as pieces of Chebyshev series.
-//! - [`incomplete_beta`], [`incomplete_gamma`], [`normal`]: distribution functions and their inverses, with what they share in
-//!   [`probability`] (a probability and its complement, the search for a quantile) and [`saddle_point`] (Loader's functions).
+//! - [`incomplete_beta`], [`incomplete_gamma`], [`normal`]: distribution functions and their inverses, with what they
+//!   share in [`probability`] (a probability and its complement, the search for a quantile) and [`saddle_point`]
+//!   (Loader's functions).
 //! - [`isa`]: the run-time choice of instruction set; the only file that reads `SPINDRIFT_ISA`.
 //! - [`list`]: a short list without allocation.
 //! - [`pair`]: [`Pair`], two numbers of one kind as one, to keep wide vector units busy.

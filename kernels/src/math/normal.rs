@@ -1,8 +1,8 @@
 //! The standard normal distribution: probability and quantile, in portable arithmetic.
 //!
 //! Quantile: M. J. Wichura, *Algorithm AS 241: The Percentage Points of the Normal Distribution*, Applied Statistics 37
-//! (1988) 477-484, routine PPND16 (relative error about 1e-16 by construction). `log`, `erfc` from `libm`, so the same bits
-//! everywhere; no fused operations, since outside a feature-enabled function they are library calls.
+//! (1988) 477-484, routine PPND16 (relative error about 1e-16 by construction). `log`, `erfc` from `libm`, so the same
+//! bits everywhere; no fused operations, since outside a feature-enabled function they are library calls.
 
 // The digits are those that the paper prints.
 #![allow(clippy::excessive_precision)]
@@ -91,8 +91,8 @@ pub fn quantile(p: f64) -> f64 {
     if q.abs() <= CENTRAL { q * ratio(&CENTER, 0.180_625 - q * q) } else { tail_quantile(p) }
 }
 
-/// [`quantile`] of eight numbers: the rational function about 1/2 for all of them side by side, which the compiler makes
-/// vectors of, and the tails (one in seven) one by one. The same bits as one at a time.
+/// [`quantile`] of eight numbers: the rational function about 1/2 for all of them side by side, which the compiler
+/// makes vectors of, and the tails (one in seven) one by one. The same bits as one at a time.
 #[inline]
 pub fn quantiles(p: &[f64; 8], z: &mut [f64; 8]) {
     for (z, p) in z.iter_mut().zip(p) {

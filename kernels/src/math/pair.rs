@@ -1,11 +1,12 @@
 //! [`Pair`]: two [`Real`]s of one kind as one, so that twice as many independent operations are in flight.
 //!
-//! A vector unit that starts two fused operations per cycle, each with a latency of four cycles, needs eight independent chains.
-//! A kernel with four sums per vector has them if it works on two vectors at a time. Lanes never mix, so pairing changes no bit.
+//! A vector unit that starts two fused operations per cycle, each with a latency of four cycles, needs eight
+//! independent chains. A kernel with four sums per vector has them if it works on two vectors at a time. Lanes never
+//! mix, so pairing changes no bit.
 
 use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
-use super::{Mask, Real};
+use crate::math::real::{Mask, Real};
 
 /// Two numbers (or two vectors of numbers) side by side; the lanes of the first come first.
 #[derive(Clone, Copy, Debug)]

@@ -1,12 +1,12 @@
 //! Fractional powers from [`Real`] operations alone: the same bits in a scalar and in every lane, on every platform.
 //!
-//! For step control. [`power`] has twelve digits: the logarithm is the series of artanh about the nearest power of two, the
-//! exponential a Taylor polynomial on half an octave on either side (Abramowitz & Stegun 1964, 4.1.27 and 4.2.1).
-//! [`log2_rough`] and [`exp2_rough`] have four and are the ones that a Taylor step needs. Not for values of a row: those use
-//! `libm`.
+//! For step control. [`power`] has twelve digits: the logarithm is the series of artanh about the nearest power of two,
+//! the exponential a Taylor polynomial on half an octave on either side (Abramowitz & Stegun 1964, 4.1.27 and 4.2.1).
+//! [`log2_rough`] and [`exp2_rough`] have four and are the ones that a Taylor step needs. Not for values of a row:
+//! those use `libm`.
 
-use super::Real;
 use super::real::NEAREST;
+use crate::math::real::Real;
 
 /// The smallest normal number: smaller arguments are replaced by it.
 const SMALLEST: f64 = f64::MIN_POSITIVE;
@@ -76,8 +76,8 @@ pub fn power<R: Real>(x: R, exponent: f64) -> R {
     exp2(log2(x) * x.splat(exponent))
 }
 
-/// Error bound of [`power`]: half a unit in the last place of log2 at the ends of the range (1.1e-13), and of its product with
-/// the exponent, times ln 2; rounded up.
+/// Error bound of [`power`]: half a unit in the last place of log2 at the ends of the range (1.1e-13), and of its
+/// product with the exponent, times ln 2; rounded up.
 pub const POWER_ERROR: f64 = 3e-13;
 
 /// log2 x with an absolute error of at most [`ROUGH_ERROR`] for positive normal x below 2^1022; about -1020 for zero.
@@ -96,7 +96,8 @@ pub fn log2_rough<R: Real>(x: R) -> R {
 /// 2^x with a relative error of at most [`ROUGH_ERROR`] for |x| < 1000.
 #[inline(always)]
 pub fn exp2_rough<R: Real>(x: R) -> R {
-    // in double-double the sum keeps the fraction, and the power is one of two: rough enough for steps, whose bits stay as they are
+    // in double-double the sum keeps the fraction, and the power is one of two: rough enough for steps, whose bits stay
+    // as they are
     let whole = (x + x.splat(NEAREST)) - x.splat(NEAREST);
     let rest = (x - whole) * x.splat(core::f64::consts::LN_2);
     let mut series = x.splat(1.0 / 120.0);
@@ -112,7 +113,7 @@ pub const ROUGH_ERROR: f64 = 1e-4;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Isa;
+    use crate::math::isa::Isa;
     use crate::math::isa::Work;
     use crate::math::lanes::{Lanes, WIDTH};
     use fearless_simd::Simd;

@@ -14,8 +14,9 @@ const MAX_STEPS: u32 = 200;
 
 /// ln x of the value x with the probability `target`, from the guess `log_x` between the ends of `bracket`.
 ///
-/// `at` gives the distribution function at ln x and its derivative with respect to ln x. Newton's method for the logarithm of the
-/// smaller of the two probabilities, which has the digits; a step that leaves the bracket is a bisection, so that it always converges.
+/// `at` gives the distribution function at ln x and its derivative with respect to ln x. Newton's method for the
+/// logarithm of the smaller of the two probabilities, which has the digits; a step that leaves the bracket is a
+/// bisection, so that it always converges.
 pub fn log_of_quantile(
     target: Probability,
     mut log_x: f64,

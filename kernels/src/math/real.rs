@@ -1,9 +1,9 @@
 //! [`Real`]: the arithmetic a kernel may use.
 //!
-//! One trait for a scalar and for eight lanes, so that a kernel is written once and lane `i` equals the scalar run bit for
-//! bit: every operation here is correctly rounded (IEEE 754) in both, and `mul_add` is always fused. Comparisons give a
-//! [`Mask`], one truth value per lane, which `&`, `|` and `!` combine. Elementary functions are *not* here: those that the
-//! values of a row depend on come from `libm` or are built from these operations.
+//! One trait for a scalar and for eight lanes, so that a kernel is written once and lane `i` equals the scalar run bit
+//! for bit: every operation here is correctly rounded (IEEE 754) in both, and `mul_add` is always fused. Comparisons
+//! give a [`Mask`], one truth value per lane, which `&`, `|` and `!` combine. Elementary functions are *not* here:
+//! those that the values of a row depend on come from `libm` or are built from these operations.
 
 use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
@@ -129,8 +129,9 @@ pub trait Real:
     /// Writes the numbers to the start of a slice, as [`Real::lane`] gives them.
     fn write(self, values: &mut [f64]);
 
-    /// What `work` returns. Of lanes it is a function of its own, compiled for their instruction set: for what is long and asked for in several places, each of which
-    /// would have a copy of it. `self` only determines the kind of number.
+    /// What `work` returns. Of lanes it is a function of its own, compiled for their instruction set: for what is long
+    /// and asked for in several places, each of which would have a copy of it. `self` only determines the kind of
+    /// number.
     #[inline(always)]
     fn apart<T>(self, work: impl FnOnce() -> T) -> T {
         work()

@@ -1,6 +1,6 @@
 //! Sine and cosine of an angle in turns, from [`Real`] operations alone: eight at a time, the same bits everywhere.
 
-use super::Real;
+use crate::math::real::Real;
 
 /// sin and cos of 2 pi `turns` for |turns| <= 1/2 (slightly more is allowed), each within 2 ulp of 1.
 ///

@@ -1,8 +1,9 @@
 //! Error-free sums: a rounded sum together with its rounding error, exactly, for any [`Real`].
 
-use super::Real;
+use crate::math::real::Real;
 
-/// The sum of any two numbers and its rounding error (D. E. Knuth, *The Art of Computer Programming*, vol. 2, 4.2.2, theorem B).
+/// The sum of any two numbers and its rounding error (D. E. Knuth, *The Art of Computer Programming*, vol. 2, 4.2.2,
+/// theorem B).
 #[inline(always)]
 pub fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
     let sum = a + b;

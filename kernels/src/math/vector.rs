@@ -4,7 +4,7 @@
 //! Written out and not with `map`: the closures of `[T; N]::map` are compiled outside the function that has the vector
 //! instructions, where every operation becomes a call (measured: twenty times slower).
 
-use super::Real;
+use crate::math::real::Real;
 
 /// The constant vector `v`; `like` determines the kind of number.
 #[inline(always)]
@@ -89,7 +89,8 @@ pub fn hamilton<R: Real>(p: [R; 4], q: [R; 4]) -> [R; 4] {
     ]
 }
 
-/// The DCM of a quaternion, by rows, in the homogeneous form: `|q|^2` times a rotation, so that a drift of the norm shows.
+/// The DCM of a quaternion, by rows, in the homogeneous form: `|q|^2` times a rotation, so that a drift of the norm
+/// shows.
 #[inline(always)]
 pub fn dcm_from_quaternion<R: Real>(q: [R; 4]) -> [[R; 3]; 3] {
     let [w, x, y, z] = q;
@@ -103,12 +104,12 @@ pub fn dcm_from_quaternion<R: Real>(q: [R; 4]) -> [[R; 3]; 3] {
     ]
 }
 
-/// A multiple of the quaternion of a DCM given by rows (one number per entry, not lanes), by Shepperd's method, and the index of
-/// its component of maximum magnitude: the quaternion is multiplied by four times that component, which is positive, so that
-/// nothing is divided and nothing cancels.
+/// A multiple of the quaternion of a DCM given by rows (one number per entry, not lanes), by Shepperd's method, and the
+/// index of its component of maximum magnitude: the quaternion is multiplied by four times that component, which is
+/// positive, so that nothing is divided and nothing cancels.
 ///
-/// S. W. Shepperd, J. Guidance and Control 1(3), 1978. The error of a matrix that is not quite orthonormal is left to the caller,
-/// who normalises.
+/// S. W. Shepperd, J. Guidance and Control 1(3), 1978. The error of a matrix that is not quite orthonormal is left to
+/// the caller, who normalises.
 #[inline(always)]
 pub fn scaled_quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> (usize, [R; 4]) {
     let (one, two) = (c[0][0].splat(1.0), c[0][0].splat(2.0));
@@ -127,7 +128,8 @@ pub fn scaled_quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> (usize, [R; 4]) {
     }
 }
 
-/// The quaternion of a DCM given by rows (one number per entry, not lanes) by [`scaled_quaternion_from_dcm`]; scalar part >= 0.
+/// The quaternion of a DCM given by rows (one number per entry, not lanes) by [`scaled_quaternion_from_dcm`]; scalar
+/// part >= 0.
 pub fn quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> [R; 4] {
     let half = c[0][0].splat(0.5);
     let (largest, scaled) = scaled_quaternion_from_dcm(c);

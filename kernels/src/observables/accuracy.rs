@@ -6,8 +6,8 @@ use super::reduction::ErrorStatistic;
 use super::request::Request;
 use super::table::{ColumnId, Series, error_id};
 
-/// The smallest estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate) of a run that is
-/// `inaccurate`.
+/// The smallest estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate)
+/// of a run that is `inaccurate`.
 pub const INACCURATE_STATE: f64 = 0.1;
 /// The smallest relative error of a balance - energy, linear or angular momentum - of a run that is `inaccurate`.
 pub const INACCURATE_BALANCE: f64 = 1e-2;
@@ -24,8 +24,8 @@ pub const BALANCES: [ColumnId; 5] = [
 /// The estimated errors of the rotational states of spacecraft and debris.
 pub const STATE_ERRORS: [ColumnId; 2] = [STATE_ERROR_ESTIMATE, DEBRIS_STATE_ERROR_ESTIMATE];
 
-/// The columns of a row that say how accurate its run is, and what they must stay below. Columns of groups that are not requested judge
-/// nothing.
+/// The columns of a row that say how accurate its run is, and what they must stay below. Columns of groups that are not
+/// requested judge nothing.
 #[derive(Clone, Debug)]
 pub struct Accuracy {
     limits: Vec<AccuracyLimit>,

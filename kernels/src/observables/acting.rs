@@ -92,8 +92,8 @@ impl<'a> Acting<'a> {
         }
     }
 
-    /// Upper bound of the torque on the body, N m: the magnitudes of thrusters, motors, effects and the arcs' own torque on
-    /// the body added.
+    /// Upper bound of the torque on the body, N m: the magnitudes of thrusters, motors, effects and the arcs' own
+    /// torque on the body added.
     #[inline(always)]
     pub(super) fn largest_torque(&self) -> f64 {
         let changing = largest_changing_torque(self.scene);

@@ -9,8 +9,8 @@ use crate::math::vector::{dcm_from_quaternion, difference, dot, sum};
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};
 
-/// The source of C_es: the DCM where the kernel integrates it, else the quaternion in its homogeneous form, so that an error of
-/// the norm shows in every rotated vector.
+/// The source of C_es: the DCM where the kernel integrates it, else the quaternion in its homogeneous form, so that an
+/// error of the norm shows in every rotated vector.
 #[derive(Clone, Copy)]
 pub(super) enum Attitude<'a> {
     Dcm([Column<'a>; 9]),
@@ -89,8 +89,9 @@ pub(super) fn attitude_series<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut
     }
 }
 
-/// tan^2 of half the angle between s3 and its initial direction: |a - b|^2/|a + b|^2 of two unit vectors, exact to rounding for
-/// small angles and near half a turn (W. Kahan, *How Futile are Mindless Assessments of Roundoff*, 2006, section 12).
+/// tan^2 of half the angle between s3 and its initial direction: |a - b|^2/|a + b|^2 of two unit vectors, exact to
+/// rounding for small angles and near half a turn (W. Kahan, *How Futile are Mindless Assessments of Roundoff*, 2006,
+/// section 12).
 #[inline(always)]
 fn spin_axis_angle<S: Simd>(simd: S, attitude: Attitude<'_>, [out]: [&mut [[f64; WIDTH]]; 1]) {
     let mut start = constant(simd, [0.0; 3]);

@@ -1,7 +1,9 @@
-//! [`BandReader`]: the numbers of a run at the points of its bands, and the buckets of their deviations from the nominal run.
+//! [`BandReader`]: the numbers of a run at the points of its bands, and the buckets of their deviations from the
+//! nominal run.
 //!
-//! Hundreds of numbers of every run of a campaign: loops without branches over flat arrays, compiled for each instruction set
-//! ([`crate::math::isa::Work`]). The operations are IEEE 754, so all instruction sets give the same buckets.
+//! Hundreds of numbers of every run of a campaign: loops without branches over flat arrays, compiled for each
+//! instruction set ([`crate::math::isa::Work`]). The operations are IEEE 754, so all instruction sets give the same
+//! buckets.
 //!
 //! Not here: counting the buckets (`ensemble`).
 
@@ -73,8 +75,8 @@ impl BandReader {
         }
     }
 
-    /// The numbers that are kept of the run with the states `table` that `observer` observed last; NaN at points that it did not reach, and from
-    /// point `end` on.
+    /// The numbers that are kept of the run with the states `table` that `observer` observed last; NaN at points that
+    /// it did not reach, and from point `end` on.
     pub fn kept(&mut self, observer: &Observer, table: &StateTable, end: usize) -> &[f64] {
         self.keep(observer, table, end);
         &self.kept

@@ -1,7 +1,7 @@
 //! [`BandSeries`]: the quantities over time whose quantiles over a campaign are bands.
 //!
-//! They are series of the table of observables, and changes of such series since the start (the energy transfer). Nothing is
-//! computed for them that the observed columns do not need, apart from |omega| at the points of the bands.
+//! They are series of the table of observables, and changes of such series since the start (the energy transfer).
+//! Nothing is computed for them that the observed columns do not need, apart from |omega| at the points of the bands.
 
 use super::group::Group;
 use super::law_columns::LawSeries;
@@ -11,7 +11,8 @@ use super::table::{CHANGES, Column, Series};
 use super::window::Window;
 use crate::run::{Quantity, StateField, StateTable};
 
-/// In what form a quantity is kept: so that it is cheap to compute at every point of every run, and a deviation of it to count.
+/// In what form a quantity is kept: so that it is cheap to compute at every point of every run, and a deviation of it
+/// to count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// The quantity itself.
@@ -24,8 +25,8 @@ pub enum Form {
 const VERTICAL: f64 = 1e100;
 
 impl Form {
-    /// The deviation of `kept` from `nominal`, in the same form. Of half tangents, tan(a - b) = (tan a - tan b)/(1 + tan a tan b);
-    /// a relative error of it is at least as large as that of the angle.
+    /// The deviation of `kept` from `nominal`, in the same form. Of half tangents, tan(a - b) = (tan a - tan b)/(1 +
+    /// tan a tan b); a relative error of it is at least as large as that of the angle.
     #[inline(always)]
     pub fn deviation(self, kept: f64, nominal: f64) -> f64 {
         match self {
@@ -64,8 +65,9 @@ pub struct BandSeries {
 /// The series that has bands where the columns need the states that it is computed from: |omega|.
 const OWN: Series = Series::RateSquare;
 
-/// The quantities of runs of `request` that have bands, those of them that are observed: conservation errors, energy of each body, energy
-/// transfer, angles, |omega|, wheel speeds, what a control loop records, and the orbit with what is around it.
+/// The quantities of runs of `request` that have bands, those of them that are observed: conservation errors, energy of
+/// each body, energy transfer, angles, |omega|, wheel speeds, what a control loop records, and the orbit with what is
+/// around it.
 pub fn band_series(request: &Request) -> Vec<BandSeries> {
     let errors = [Series::EnergyError, Series::LinearMomentumError, Series::AngularMomentumError];
     let energies = [Series::EnergyBody, Series::EnergyWheel];
@@ -97,8 +99,8 @@ pub fn band_series(request: &Request) -> Vec<BandSeries> {
     kinds.flat_map(|(series, is_change)| of_series(request, series, is_change)).collect()
 }
 
-/// The quantities of runs of `request` that events can be about: everything over time that is observed, except errors relative to the largest
-/// value of a run, which depend on the observation points.
+/// The quantities of runs of `request` that events can be about: everything over time that is observed, except errors
+/// relative to the largest value of a run, which depend on the observation points.
 pub fn event_series(request: &Request) -> Vec<BandSeries> {
     let of_values = Series::all().filter(|series| series.wheel().is_none_or(|wheel| wheel == 0));
     let of_changes = CHANGES.iter().map(|(series, ..)| (*series, true));
@@ -119,7 +121,8 @@ impl BandSeries {
         self.series == Series::FromNominal
     }
 
-    /// Its extreme in runs of `request`: the largest value over the points from one time to another, s, or the smallest.
+    /// Its extreme in runs of `request`: the largest value over the points from one time to another, s, or the
+    /// smallest.
     pub fn window(&self, request: &Request, is_highest: bool, times: [Option<f64>; 2]) -> Window {
         let shows = |column: &Column| column.value.of(self.series);
         let otherwise = if LawSeries::place(self.series).is_some() { Group::Control } else { Group::Motion };

@@ -1,36 +1,39 @@
-//! [`Conditioning`]: the estimated error of a run, and how much the motion amplifies small errors of its rotational state.
+//! [`Conditioning`]: the estimated error of a run, and how much the motion amplifies small errors of its rotational
+//! state.
 //!
-//! With H = K omega + wheels' momentum in the body's frame and A = K^-1, a small error eta of H obeys
-//! eta' = eta x omega + H x A eta. Without torque, H . eta and omega . eta are constant (the changes of |H|^2/2 and of the energy T;
-//! Zhukovskii's gyrostat is integrable: V. Volterra, Acta Math. 22, 1899). The error across the curve of H follows from them
-//! at any time; only the shift along the curve is integrated. With w the part of omega across H, and unit
-//! vectors along H, w and v = H x w, eta = X H/|H| + Y w/|w| + Z v/|v|:
+//! With H = K omega + wheels' momentum in the body's frame and A = K^-1, a small error eta of H obeys eta' = eta x
+//! omega + H x A eta. Without torque, H . eta and omega . eta are constant (the changes of |H|^2/2 and of the energy T;
+//! Zhukovskii's gyrostat is integrable: V. Volterra, Acta Math. 22, 1899). The error across the curve of H follows from
+//! them at any time; only the shift along the curve is integrated. With w the part of omega across H, and unit vectors
+//! along H, w and v = H x w, eta = X H/|H| + Y w/|w| + Z v/|v|:
 //!
 //! ```text
 //! X constant;   |w_i| Y_i = |w_k| Y_k + (mu_k - mu_i) |H| X,   mu = omega . H/|H|^2;   Z = alpha |H| |w|,
 //! alpha' = X A_wH/|w| + Y (A_ww - A_vv)/|w|      (alpha: the shift in time, s)
 //! ```
 //!
-//! Near an unstable equilibrium |w| stays small for a long time, and the shift grows like 1/|w|^2: that is the separatrix. The
-//! error of the attitude across L follows from eta, since L is constant in F_e. The error about L is the integral of
-//! H . A eta/|H|, in which the part of alpha, a derivative, is integrated by parts. [`super::error_sums`] has the sums.
+//! Near an unstable equilibrium |w| stays small for a long time, and the shift grows like 1/|w|^2: that is the
+//! separatrix. The error of the attitude across L follows from eta, since L is constant in F_e. The error about L is
+//! the integral of H . A eta/|H|, in which the part of alpha, a derivative, is integrated by parts.
+//! [`super::error_sums`] has the sums.
 //!
 //! The sums are made of:
-//! - the change of |H|^2 and of T - mu_0 |H|^2/2 since point 0 beyond rounding: the effect of truncation on the invariants, of any
-//!   method. The change of the second is |w| Y. mu_0 is mu where |w| is minimal: near a separatrix the second invariant is the
-//!   distance from it;
+//! - the change of |H|^2 and of T - mu_0 |H|^2/2 since point 0 beyond rounding: the effect of truncation on the
+//!   invariants, of any method. The change of the second is |w| Y. mu_0 is mu where |w| is minimal: near a separatrix
+//!   the second invariant is the distance from it;
 //! - rounding of each component, which the states do not show;
-//! - for a kernel whose other states feed back into omega, and for truncation near a separatrix, the errors that are too
-//!   small to show in the invariants, and those along the curve;
+//! - for a kernel whose other states feed back into omega, and for truncation near a separatrix, the errors that are
+//!   too small to show in the invariants, and those along the curve;
 //! - rounding of the wheels' momentum, which turns omega about it;
-//! - where torque acts, and there are no invariants, the truncation that the method estimates, in proportion to |w|; |w| is taken
-//!   as at least what the torque makes of it within a radian of rotation.
+//! - where torque acts, and there are no invariants, the truncation that the method estimates, in proportion to |w|;
+//!   |w| is taken as at least what the torque makes of it within a radian of rotation.
 //!
-//! Where H is small - at rest, and where the wheels' momenta cancel - no curve is well conditioned, but errors hardly grow either: the
-//! growth of |eta| is the symmetric part of H x A, which is at most |H| s with s the distance of A from a multiple of one. So
-//! |eta| is at most e^(integral of |H| s) times all that is made, and the attitude's error at most |A| times the integral of that. This
-//! bound is computed beside the sums, with errors made at the start, and the smaller of both is the estimate: there is no threshold between
-//! them. What is rounded is K omega, and the wheels' momenta, sum |h_i|, in H x omega.
+//! Where H is small - at rest, and where the wheels' momenta cancel - no curve is well conditioned, but errors hardly
+//! grow either: the growth of |eta| is the symmetric part of H x A, which is at most |H| s with s the distance of A
+//! from a multiple of one. So |eta| is at most e^(integral of |H| s) times all that is made, and the attitude's error
+//! at most |A| times the integral of that. This bound is computed beside the sums, with errors made at the start, and
+//! the smaller of both is the estimate: there is no threshold between them. What is rounded is K omega, and the wheels'
+//! momenta, sum |h_i|, in H x omega.
 //!
 //! Magnitudes are added, not signed numbers. Errors are assumed to arise evenly along the run.
 //!
@@ -48,8 +51,8 @@ use crate::math::vector::{constant, constant_matrix, cross, difference, dot, pro
 use crate::math::{Lanes, Real};
 use crate::run::{LocalErrors, StateField, StateTable, rate_scale};
 
-/// Maximum number of points of a run that are examined: enough to find the closest approach to a separatrix about as often as it
-/// occurs, few enough that the cost is negligible compared with the run.
+/// Maximum number of points of a run that are examined: enough to find the closest approach to a separatrix about as
+/// often as it occurs, few enough that the cost is negligible compared with the run.
 const POINTS: usize = 32;
 
 /// The same near a separatrix, where |w| is small for most of the time and grows or falls by orders of magnitude
@@ -68,8 +71,9 @@ const LEAST: f64 = 1e-17;
 /// The component along each of three axes of an error of magnitude one in a random direction: 1/sqrt(3).
 const PER_AXIS: f64 = 0.577_350_269_189_625_8;
 
-/// Safety factor on the sum of the contributions, from the runs of `tests/accuracy/error_estimate.rs`: with 1 the estimate is below
-/// the true error in up to half of the runs of a family (mostly by a third), with 2 in less than one of twenty.
+/// Safety factor on the sum of the contributions, from the runs of `tests/accuracy/error_estimate.rs`: with 1 the
+/// estimate is below the true error in up to half of the runs of a family (mostly by a third), with 2 in less than one
+/// of twenty.
 const SAFETY: f64 = 2.0;
 
 /// An estimate of half a turn means that nothing is known.
@@ -87,10 +91,11 @@ const TURNED: f64 = 4.0;
 /// What is known of the errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ErrorEstimate {
-    /// The estimated largest error of the rotational state: of omega over its [`rate_scale`], or of the attitude in rad.
+    /// The estimated largest error of the rotational state: of omega over its [`rate_scale`], or of the attitude in
+    /// rad.
     pub(super) error: f64,
-    /// The largest factor by which relative errors of omega, made evenly along the run and in every direction, grow; at least one,
-    /// at most 1e200.
+    /// The largest factor by which relative errors of omega, made evenly along the run and in every direction, grow; at
+    /// least one, at most 1e200.
     pub(super) amplification: f64,
 }
 
@@ -153,8 +158,8 @@ impl Conditioning {
         }
     }
 
-    /// The estimate for a run on which `acting` acts; `local` are the errors that the method estimates. `times` are those of the table's points; the
-    /// first `filled` >= 1 have states.
+    /// The estimate for a run on which `acting` acts; `local` are the errors that the method estimates. `times` are
+    /// those of the table's points; the first `filled` >= 1 have states.
     #[inline(always)]
     pub(super) fn estimate<S: Simd>(
         &mut self,
@@ -227,7 +232,8 @@ impl Conditioning {
         self.scale = scale;
         // relative to that, as all errors are from here on
         let local = LocalErrors { truncation: local.truncation / scale, feedback: local.feedback / scale, ..*local };
-        // where the torque follows the attitude, a motion in a plane is none: what a step leaves out turns the body further and further
+        // where the torque follows the attitude, a motion in a plane is none: what a step leaves out turns the body
+        // further and further
         let is_changed = acting.is_some_and(|acting| ForceModel::of(acting.scene()).changes_within_arcs());
         let curve = if widest <= STILL * largest && !is_changed {
             self.at_equilibrium(body, [count, stride, last], scale, table, &local)
@@ -323,8 +329,8 @@ impl Conditioning {
         (dot(w, slope) * per_w2).store(&mut self.widening[first..]);
         rate2.sqrt().store(&mut self.rate[first..]);
         wheels.larger(Lanes::broadcast(simd, body.wheels)).store(&mut self.wheels[first..]);
-        // the effect of relative errors of the components on H: in the axes of integration, or of any component where these axes
-        // are computed first
+        // the effect of relative errors of the components on H: in the axes of integration, or of any component where
+        // these axes are computed first
         let [[x, ..], [_, y, _], [.., z]] = body.inertia;
         let moments = constant(zero, [x, y, z]);
         let magnitudes = if body.is_principal {
@@ -433,7 +439,8 @@ impl Conditioning {
         dip([self.across[k - 1], self.across[k]], [self.widening[k - 1], self.widening[k]], step)
     }
 
-    /// Bounds of error and amplification of any motion, from the growth of |eta|; of little use where H turns by many radians.
+    /// Bounds of error and amplification of any motion, from the growth of |eta|; of little use where H turns by many
+    /// radians.
     #[inline(always)]
     fn bound(&self, body: &Body<'_>, count: usize, largest: f64, local: &LocalErrors) -> (f64, f64) {
         let (mut exponent, mut fastest, mut stirred) = (0.0, 0.0_f64, 0.0);

@@ -41,7 +41,8 @@ fn estimate(motion: &Motion, moments: [f64; 3], local: LocalErrors) -> ErrorEsti
     Isa::best().run(Estimate(motion, moments, local))
 }
 
-/// Euler's equations of a free body, by the classical Runge-Kutta method; `drift` is a relative error of the rates that grows to this value.
+/// Euler's equations of a free body, by the classical Runge-Kutta method; `drift` is a relative error of the rates that
+/// grows to this value.
 fn free(start: [f64; 3], duration: f64, drift: f64) -> Motion {
     const POINTS: usize = 41;
     const STEPS: usize = 200;
@@ -68,8 +69,9 @@ fn free(start: [f64; 3], duration: f64, drift: f64) -> Motion {
     Motion(times, rates)
 }
 
-/// Law: estimate and amplification have no unit: with another unit of time or of mass they are the same, to the bit where the units differ by
-/// powers of two; tumbling, near a separatrix, and in stable and unstable steady spins; of states with a drift or without.
+/// Law: estimate and amplification have no unit: with another unit of time or of mass they are the same, to the bit
+/// where the units differ by powers of two; tumbling, near a separatrix, and in stable and unstable steady spins; of
+/// states with a drift or without.
 #[test]
 fn estimates_have_no_unit() {
     for start in [[0.3, 0.5, 1.0], [1e-5, 1.0, 1e-5], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]] {
@@ -91,8 +93,9 @@ fn estimates_have_no_unit() {
     }
 }
 
-/// Law: the whole motion counts, also of two points. Known: in a steady spin about the axis of the largest moment of inertia the error of the
-/// rate turns the attitude by the angle turned, and no method error is amplified to a visible one.
+/// Law: the whole motion counts, also of two points. Known: in a steady spin about the axis of the largest moment of
+/// inertia the error of the rate turns the attitude by the angle turned, and no method error is amplified to a visible
+/// one.
 #[test]
 fn the_estimate_covers_the_whole_spin() {
     let spin = |duration: f64| Motion(vec![0.0, duration], vec![[0.0, 0.0, 1.0]; 2]);

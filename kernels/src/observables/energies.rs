@@ -1,9 +1,9 @@
 //! Kinetic energies, of each body and of all, in F_e and about the spacecraft's centre of mass c.
 //!
-//! With d_b = r_b - c in F_s and u = C_es^T v_c, body b moves with v_b = u + omega x d_b, so that (36) splits into the energy
-//! about c, a quadratic form of omega with constant coefficients, and what the motion of c adds:
-//! T_b = T_b^c + m_b (u . (omega x d_b) + u . u / 2). A wheel adds J_i Omega_i (omega . a_i + Omega_i / 2).
-//! Over the spacecraft the mixed terms cancel: T = T^c + m v_c . v_c / 2, which needs no attitude.
+//! With d_b = r_b - c in F_s and u = C_es^T v_c, body b moves with v_b = u + omega x d_b, so that (36) splits into the
+//! energy about c, a quadratic form of omega with constant coefficients, and what the motion of c adds: T_b = T_b^c +
+//! m_b (u . (omega x d_b) + u . u / 2). A wheel adds J_i Omega_i (omega . a_i + Omega_i / 2). Over the spacecraft the
+//! mixed terms cancel: T = T^c + m v_c . v_c / 2, which needs no attitude.
 #![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -369,8 +369,8 @@ mod tests {
         }
     }
 
-    /// Law: the energy of a rigid body is that of its centre of mass and of its rotation about it, (m v . v + omega . J omega)/2 with
-    /// v = u + omega x d, in all lanes.
+    /// Law: the energy of a rigid body is that of its centre of mass and of its rotation about it, (m v . v + omega . J
+    /// omega)/2 with v = u + omega x d, in all lanes.
     #[test]
     fn the_energy_of_a_body_is_that_of_its_motion() {
         let rotation = dot(OMEGA, product(INERTIA, OMEGA));

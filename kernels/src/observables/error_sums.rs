@@ -1,5 +1,5 @@
-//! [`Sums`]: errors of the rotational state, propagated along a motion in the axes H, w and v of [`super::conditioning`], which has
-//! the equations.
+//! [`Sums`]: errors of the rotational state, propagated along a motion in the axes H, w and v of
+//! [`super::conditioning`], which has the equations.
 
 use crate::math::Real;
 
@@ -76,13 +76,13 @@ impl Sums {
     }
 }
 
-/// Points that are more e-foldings of |w| apart do not follow the motion, and say nothing of a dip between them: a body at
-/// 1e4 rad/s, seen once a second, would have dips of thousands.
+/// Points that are more e-foldings of |w| apart do not follow the motion, and say nothing of a dip between them: a body
+/// at 1e4 rad/s, seen once a second, would have dips of thousands.
 const FOLLOWED: f64 = 16.0;
 
 /// The dip of |w| between two points `step` seconds apart, if it falls after the first and rises before the second: how
-/// long its bottom lasts, s, and |w| there. `across` is |w| at both, `widening` its relative slope, 1/s. Near an unstable
-/// equilibrium |w| is c cosh(lambda t), and the integral of its inverse square is 2/(lambda c^2).
+/// long its bottom lasts, s, and |w| there. `across` is |w| at both, `widening` its relative slope, 1/s. Near an
+/// unstable equilibrium |w| is c cosh(lambda t), and the integral of its inverse square is 2/(lambda c^2).
 pub(super) fn dip(across: [f64; 2], widening: [f64; 2], step: f64) -> Option<[f64; 2]> {
     let (falls, rises) = (-widening[0], widening[1]);
     if !(falls > 0.0 && rises > 0.0) {
@@ -102,9 +102,9 @@ pub(super) fn dip(across: [f64; 2], widening: [f64; 2], step: f64) -> Option<[f6
 mod tests {
     use super::*;
 
-    /// Truth: |w| = c cosh(lambda t) is c at its least, and the integral of its inverse square over the step is that of the
-    /// bottom. It has no dip if it falls or rises throughout.
-    /// The ends are taken for pure exponentials, which is off by e^(-2 lambda t) at the nearer one, 6e-4.
+    /// Truth: |w| = c cosh(lambda t) is c at its least, and the integral of its inverse square over the step is that of
+    /// the bottom. It has no dip if it falls or rises throughout. The ends are taken for pure exponentials, which is
+    /// off by e^(-2 lambda t) at the nearer one, 6e-4.
     #[test]
     fn the_dip_of_a_hyperbolic_cosine_is_found() {
         let (c, lambda) = (1e-6, 1.5);
@@ -136,8 +136,8 @@ mod tests {
         }
     }
 
-    /// Law: errors that arise at the first point, on the curve itself, grow as errors that are known at every point do: along H, and
-    /// across it with the balance |w| Y.
+    /// Law: errors that arise at the first point, on the curve itself, grow as errors that are known at every point do:
+    /// along H, and across it with the balance |w| Y.
     #[test]
     fn an_error_of_the_first_point_grows_as_a_known_one() {
         let (mut known, mut made) = (Sums::default(), Sums::default());
@@ -159,8 +159,8 @@ mod tests {
         assert!(known.most > 1e-5, "the counter-test: the error has grown: {:e}", known.most);
     }
 
-    /// Law: an error along H alone rotates the attitude about L at the rate A_HH and stays constant; one across H is sheared along
-    /// the curve, by shear t relative to itself where |w| is constant.
+    /// Law: an error along H alone rotates the attitude about L at the rate A_HH and stays constant; one across H is
+    /// sheared along the curve, by shear t relative to itself where |w| is constant.
     #[test]
     fn errors_grow_in_proportion_to_time() {
         let (mut along, mut across) = (Sums::default(), Sums::default());

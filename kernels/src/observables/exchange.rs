@@ -8,8 +8,8 @@ use super::spectrum::Spectrum;
 use super::weights::Weights;
 use crate::scene::MAX_WHEELS;
 
-/// Swing of a body's energy, relative to the total about the centre of mass, up to which the energy counts as constant: some
-/// dozens of roundings of the total, from its sum of squares and from the integration of omega.
+/// Swing of a body's energy, relative to the total about the centre of mass, up to which the energy counts as constant:
+/// some dozens of roundings of the total, from its sum of squares and from the integration of omega.
 pub const EXCHANGE_FLOOR: f64 = 64.0 * f64::EPSILON;
 
 /// The energy of a body about the centre of mass.
@@ -103,8 +103,8 @@ mod tests {
         Isa::best().run(Exchanged(&Weights::of(&grid), &mut spectrum, total, energies))
     }
 
-    /// Law: what one body gains the other loses, at the frequency of the swing; bodies at rest, and such as keep their energy,
-    /// exchange nothing.
+    /// Law: what one body gains the other loses, at the frequency of the swing; bodies at rest, and such as keep their
+    /// energy, exchange nothing.
     #[test]
     fn bodies_at_rest_exchange_nothing() {
         let (correlation, frequency) =

@@ -7,8 +7,8 @@ use crate::math::symmetric::principal_axes;
 use crate::run::{Outcome, StateField, StateTable};
 use crate::scene::MassProperties;
 
-/// An error of the state, from the rounding of the input alone, above which a run is ill conditioned: a thousandth of a radian or
-/// of the rate. No question that a campaign asks depends on less.
+/// An error of the state, from the rounding of the input alone, above which a run is ill conditioned: a thousandth of a
+/// radian or of the rate. No question that a campaign asks depends on less.
 const MEANINGLESS: f64 = 1e-3;
 
 /// A run as the direct values see it.
@@ -32,7 +32,8 @@ pub(super) struct FinishedRun<'a> {
     pub(super) moments: [f64; 3],
 }
 
-/// The principal moments of inertia of the spacecraft about its centre of mass, with locked wheels, in ascending order, kg m^2.
+/// The principal moments of inertia of the spacecraft about its centre of mass, with locked wheels, in ascending order,
+/// kg m^2.
 pub(super) fn principal_moments(mass: &MassProperties) -> [f64; 3] {
     let (mut moments, _) = principal_axes(mass.inertia);
     moments.sort_by(f64::total_cmp);

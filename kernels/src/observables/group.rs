@@ -23,14 +23,17 @@ pub enum Group {
     StepStatistics,
     /// Estimated error of the rotational state, and how much the motion amplifies errors.
     Numerics,
-    /// Angular rate, nutation, attitude relative to the nominal run, wheel speeds and momenta, direction of the debris. Only where a
-    /// campaign names it.
+    /// Angular rate, nutation, attitude relative to the nominal run, wheel speeds and momenta, direction of the debris.
+    /// Only where a campaign names it.
     Motion,
-    /// Mass, centre of mass and principal moments of inertia of the spacecraft, as dispersed. Only where a campaign names it.
+    /// Mass, centre of mass and principal moments of inertia of the spacecraft, as dispersed. Only where a campaign
+    /// names it.
     MassProperties,
-    /// Distance from the central body, angle of s3 from nadir, torque of the gravity gradient. Only where a campaign names it.
+    /// Distance from the central body, angle of s3 from nadir, torque of the gravity gradient. Only where a campaign
+    /// names it.
     Orbit,
-    /// What the control law of the campaign reports at the end of a run. There where the law has columns; a campaign cannot name it.
+    /// What the control law of the campaign reports at the end of a run. There where the law has columns; a campaign
+    /// cannot name it.
     Control,
     /// When events and failures happened in a run. There where the file has such tables; a campaign cannot name it.
     Events,
@@ -54,8 +57,8 @@ impl Group {
         Group::Orbit,
     ];
 
-    /// The groups of a campaign that names none: all but [`Group::Motion`] and [`Group::Orbit`], whose angles cost about as much as a run, and
-    /// [`Group::MassProperties`], which follow from the dispersed values.
+    /// The groups of a campaign that names none: all but [`Group::Motion`] and [`Group::Orbit`], whose angles cost
+    /// about as much as a run, and [`Group::MassProperties`], which follow from the dispersed values.
     pub const DEFAULT: [Group; 10] = {
         let [a, b, c, d, e, f, g, h, i, j, Group::Motion, Group::MassProperties, Group::Orbit] = Group::ALL else {
             panic!("the groups that a campaign must name are the last ones")

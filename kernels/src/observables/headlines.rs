@@ -11,7 +11,8 @@ pub const STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValu
 /// The estimated error of the rotation of the debris.
 pub const DEBRIS_STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValue::DebrisStateError);
 
-/// The columns of a summary, in its order: main errors, exchange, effort, numerics; those of wheels stand for those of each.
+/// The columns of a summary, in its order: main errors, exchange, effort, numerics; those of wheels stand for those of
+/// each.
 pub const HEADLINES: &[ColumnId] = &{
     use Group::{Attitude, Constraints, EnergiesCom, EnergyConservation, Exchange, MomentumConservation, Numerics};
     [

@@ -74,7 +74,8 @@ mod tests {
     use crate::observables::reduction::Stored;
     use crate::observables::table::all;
 
-    /// Law: every row of the tables of series and direct values is used by a column; what a control loop records over time is used by bands.
+    /// Law: every row of the tables of series and direct values is used by a column; what a control loop records over
+    /// time is used by bands.
     #[test]
     fn no_row_is_idle() {
         let used: Vec<Series> = all().flat_map(|column| column.value.inputs()).map(|(series, _)| series).collect();

@@ -1,6 +1,8 @@
-//! [`LawColumns`]: the columns of a row that a control law reports at the end of a run; [`LawSeries`]: the quantities that it records over time.
+//! [`LawColumns`]: the columns of a row that a control law reports at the end of a run; [`LawSeries`]: the quantities
+//! that it records over time.
 //!
-//! The observer does not know the values of the columns: whoever flies a run asks its law ([`crate::dynamics::actuation::ActuationLaw::report`]).
+//! The observer does not know the values of the columns: whoever flies a run asks its law
+//! ([`crate::dynamics::actuation::ActuationLaw::report`]).
 
 use std::sync::{Mutex, PoisonError};
 
@@ -30,7 +32,8 @@ impl LawSeries {
     pub const NONE: LawSeries = LawSeries(0);
     /// Every quantity.
     pub const ALL: LawSeries = LawSeries(u32::MAX);
-    /// How many there are, with one of each wheel that a spacecraft may have: a record has as many columns, in the order of the table.
+    /// How many there are, with one of each wheel that a spacecraft may have: a record has as many columns, in the
+    /// order of the table.
     pub const COUNT: usize = Series::MotorTorque.index() + MAX_WHEELS - Series::PointingError.index();
 
     /// The set with `series`.
@@ -53,8 +56,8 @@ impl LawSeries {
     }
 }
 
-/// What the control law of a campaign reports: the columns `list` of its rows, in this order, and quantities over time. NaN is a value that a run does
-/// not have.
+/// What the control law of a campaign reports: the columns `list` of its rows, in this order, and quantities over time.
+/// NaN is a value that a run does not have.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LawColumns {
     /// The columns.
@@ -77,7 +80,8 @@ impl LawColumns {
     /// A law that reports nothing, or no law.
     pub const NONE: LawColumns = LawColumns { list: &[], of_events: 0, over_time: LawSeries::NONE };
 
-    /// The columns `list`, known at run time only. Each list is kept once and for good: a program has as many as it opens kinds of campaigns.
+    /// The columns `list`, known at run time only. Each list is kept once and for good: a program has as many as it
+    /// opens kinds of campaigns.
     pub fn kept(list: Vec<LawColumn>) -> Self {
         static KEPT: Mutex<Vec<&'static [LawColumn]>> = Mutex::new(Vec::new());
         let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,7 +1,7 @@
 //! States to series: the computation of each source, where one of its series is observed.
 //!
-//! Not here: the computations ([`super::energies`], [`super::momenta`], [`super::attitude`], [`super::motion`], [`super::orbit`], [`super::surroundings`]), and the reduction of series to
-//! numbers ([`super::reduce`]).
+//! Not here: the computations ([`super::energies`], [`super::momenta`], [`super::attitude`], [`super::motion`],
+//! [`super::orbit`], [`super::surroundings`]), and the reduction of series to numbers ([`super::reduce`]).
 
 use fearless_simd::Simd;
 

@@ -1,21 +1,25 @@
 //! Layer 3: what is observed of a run.
 //!
 //! - [`group`]: the groups that a campaign asks for by name.
-//! - [`table`]: the one table of observables: series, direct values and the columns of a row; `rows`: what its rows consist of;
-//!   `inputs`: what each value is made of; [`headlines`]: the columns of a summary.
-//! - [`reduction`]: how a series becomes a number; `reduce`, `correlation`: the passes over series that compute it (`weights`).
+//! - [`table`]: the one table of observables: series, direct values and the columns of a row; `rows`: what its rows
+//!   consist of; `inputs`: what each value is made of; [`headlines`]: the columns of a summary.
+//! - [`reduction`]: how a series becomes a number; `reduce`, `correlation`: the passes over series that compute it
+//!   (`weights`).
 //! - [`request`]: what a campaign observes; from it the columns, and which fields of the state table they need and why.
-//! - [`observer`]: [`Observer`] reads a state table and writes a row, by a `row_plan` and with direct values of a `finished_run`.
-//! - `measure`: states to series, by `energies`, `momenta`, `attitude`, `motion`, `orbit` and `surroundings`, eight points at a time (`points`).
+//! - [`observer`]: [`Observer`] reads a state table and writes a row, by a `row_plan` and with direct values of a
+//!   `finished_run`.
+//! - `measure`: states to series, by `energies`, `momenta`, `attitude`, `motion`, `orbit` and `surroundings`, eight
+//!   points at a time (`points`).
 //! - [`nominal_attitude`]: the attitude of the nominal run, with which those of the others are compared.
 //! - `conditioning`, `error_sums`, `rotor`, `acting`: how much the motion amplifies errors of its state.
 //! - [`law_columns`]: the columns that a control law reports.
-//! - [`band_series`]: the quantities over time that have bands; [`band_reader`]: theirs of a run; [`window`]: their extremes in an interval of time.
+//! - [`band_series`]: the quantities over time that have bands; [`band_reader`]: theirs of a run; [`window`]: their
+//!   extremes in an interval of time.
 //! - `exchange`, `spectrum`: the exchange of energy between the bodies, and its frequency.
 //!
 //! Source of energies and momenta: Berdoz, *Final Report - ADR Spacecraft*, (36), and the balances of the gyrostat
-//! (Zhukovskii; Volterra 1899). Nothing here depends on how a run was integrated, and nothing is assumed to be conserved: every
-//! error is measured from the computed states.
+//! (Zhukovskii; Volterra 1899). Nothing here depends on how a run was integrated, and nothing is assumed to be
+//! conserved: every error is measured from the computed states.
 
 pub mod accuracy;
 mod acting;

@@ -1,10 +1,11 @@
 //! Linear and angular momenta of spacecraft and debris, and how far each departs from its first value.
 //!
-//! p = m v_c minus the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, J with wheels locked, minus the
-//! angular impulse of thrusters and torques on the body; of the debris m_d v_d and C_ed J_d omega_d, on which nothing acts.
+//! p = m v_c minus the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, J with wheels locked,
+//! minus the angular impulse of thrusters and torques on the body; of the debris m_d v_d and C_ed J_d omega_d, on which
+//! nothing acts.
 //!
-//! What an error is relative to is the sum of the magnitudes of these terms, which may cancel: |J omega| + sum |J_i Omega_i| + |impulse|
-//! and, where the velocity of p is integrated, m (|v_c| + |omega| |c - p|) + |impulse|.
+//! What an error is relative to is the sum of the magnitudes of these terms, which may cancel: |J omega| + sum |J_i
+//! Omega_i| + |impulse| and, where the velocity of p is integrated, m (|v_c| + |omega| |c - p|) + |impulse|.
 #![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;

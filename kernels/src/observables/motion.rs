@@ -1,8 +1,9 @@
-//! Angular rate, nutation, attitude relative to the nominal run and to the initial one, wheels, and the direction of the debris.
+//! Angular rate, nutation, attitude relative to the nominal run and to the initial one, wheels, and the direction of
+//! the debris.
 //!
-//! Angles between vectors are atan2(|a x b|, a . b), exact to rounding everywhere (W. Kahan, *How Futile are Mindless Assessments of
-//! Roundoff*, 2006, section 12). The angle of the rotation between two attitudes is kept as tan^2 of its half, |v|^2/s^2 of the
-//! quaternion conj(q_nominal) q = (s, v).
+//! Angles between vectors are atan2(|a x b|, a . b), exact to rounding everywhere (W. Kahan, *How Futile are Mindless
+//! Assessments of Roundoff*, 2006, section 12). The angle of the rotation between two attitudes is kept as tan^2 of its
+//! half, |v|^2/s^2 of the quaternion conj(q_nominal) q = (s, v).
 
 use fearless_simd::Simd;
 
@@ -49,7 +50,8 @@ fn rate<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     }
 }
 
-/// The angle of s3, or of another axis, from the angular momentum, squares of the wheels' rates and of their momenta J_i (Omega_i + a_i . omega).
+/// The angle of s3, or of another axis, from the angular momentum, squares of the wheels' rates and of their momenta
+/// J_i (Omega_i + a_i . omega).
 #[inline(always)]
 fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (mass, table, vectors) = (run.mass, run.table, run.vectors());

@@ -86,7 +86,8 @@ impl Observer {
         }
     }
 
-    /// The same, with the attitude of the nominal run on the same grid. Without it the angles from that attitude are NaN.
+    /// The same, with the attitude of the nominal run on the same grid. Without it the angles from that attitude are
+    /// NaN.
     #[must_use]
     pub fn with_nominal(self, nominal: Option<NominalAttitude>) -> Self {
         Observer { nominal, ..self }
@@ -97,19 +98,20 @@ impl Observer {
         &self.request
     }
 
-    /// Writes the values of [`Request::columns`], in that order, of the run of `scene` by its own schedule whose states are in `table`.
+    /// Writes the values of [`Request::columns`], in that order, of the run of `scene` by its own schedule whose states
+    /// are in `table`.
     ///
-    /// Returns the status of the run: that of `outcome`, or [`Status::Inaccurate`] of a run that reached its end with errors beyond any
-    /// use ([`super::accuracy`]); all of its columns have values.
+    /// Returns the status of the run: that of `outcome`, or [`Status::Inaccurate`] of a run that reached its end with
+    /// errors beyond any use ([`super::accuracy`]); all of its columns have values.
     ///
     /// A run that its law has ended ([`crate::scene::Actuation::ends_run`]) is one of the points up to there.
     ///
-    /// Of a run that is not [`Status::Done`] only step statistics, mass properties and final state are numbers, the last at the last point with
-    /// finite values; everything else is NaN. Counts are whole numbers.
+    /// Of a run that is not [`Status::Done`] only step statistics, mass properties and final state are numbers, the
+    /// last at the last point with finite values; everything else is NaN. Counts are whole numbers.
     ///
     /// # Panics
-    /// Where the table lacks a field of [`Request::fields`] or has other points than the grid, the scene has no debris although
-    /// the request says so, or `row` has another length than [`Request::columns`].
+    /// Where the table lacks a field of [`Request::fields`] or has other points than the grid, the scene has no debris
+    /// although the request says so, or `row` has another length than [`Request::columns`].
     pub fn observe(
         &mut self,
         isa: Isa,
@@ -121,9 +123,10 @@ impl Observer {
         self.observe_acting(isa, (Acting::scheduled(scene), &[]), table, outcome, row)
     }
 
-    /// The same of a run under an actuation law, in which `arcs` were flown: the schedule of `scene` did not act. The values are those
-    /// of [`Observer::observe`] of a scene with `arcs` as its schedule, where no environment acts. `of_law` is what the law has recorded at the points,
-    /// series by series ([`super::LawSeries`]); empty where it records nothing.
+    /// The same of a run under an actuation law, in which `arcs` were flown: the schedule of `scene` did not act. The
+    /// values are those of [`Observer::observe`] of a scene with `arcs` as its schedule, where no environment acts.
+    /// `of_law` is what the law has recorded at the points, series by series ([`super::LawSeries`]); empty where it
+    /// records nothing.
     ///
     /// # Panics
     /// As [`Observer::observe`].
@@ -188,7 +191,8 @@ impl Observer {
         if self.accuracy.holds(row) { Status::Done } else { Status::Inaccurate }
     }
 
-    /// Why the run of `row`, which ended with `status` (what [`Observer::observe`] returned), is not `ok`, in words; empty where it is.
+    /// Why the run of `row`, which ended with `status` (what [`Observer::observe`] returned), is not `ok`, in words;
+    /// empty where it is.
     pub fn reason(&self, status: Status, outcome: &Outcome, row: &[f64]) -> String {
         match status {
             Status::Inaccurate => self.accuracy.reason(row),

@@ -1,8 +1,9 @@
-//! Where a spacecraft on an orbit is and how it is turned to the central body: its distance, the angle of s3 from nadir, the torque of the gravity
-//! gradient, the magnetic field and its torque on the residual dipole and the torque rods.
+//! Where a spacecraft on an orbit is and how it is turned to the central body: its distance, the angle of s3 from
+//! nadir, the torque of the gravity gradient, the magnetic field and its torque on the residual dipole and the torque
+//! rods.
 //!
-//! Nadir is the direction from the centre of mass to the central body. The torque is that of [`crate::dynamics::effects::gravity_gradient`] at the
-//! states of the table.
+//! Nadir is the direction from the centre of mass to the central body. The torque is that of
+//! [`crate::dynamics::effects::gravity_gradient`] at the states of the table.
 
 use fearless_simd::Simd;
 

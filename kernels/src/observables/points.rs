@@ -18,8 +18,8 @@ use crate::run::{StateField, StateTable};
 use crate::scene::mass::{Body, MassProperties};
 use crate::scene::{MAX_WHEELS, Scene};
 
-/// A component of a field as vectors of eight neighbouring points. Columns with one common number of vectors need no check of
-/// bounds inside the loops.
+/// A component of a field as vectors of eight neighbouring points. Columns with one common number of vectors need no
+/// check of bounds inside the loops.
 pub(super) type Column<'a> = &'a [[f64; WIDTH]];
 
 /// A run as it is measured.
@@ -44,7 +44,8 @@ pub(super) struct MeasuredRun<'a> {
     pub(super) scene: &'a Scene,
     /// The observation times, s.
     pub(super) times: &'a [f64],
-    /// What the control law has recorded, series by series ([`super::law_columns::LawSeries`]) and point by point; empty where it records nothing.
+    /// What the control law has recorded, series by series ([`super::law_columns::LawSeries`]) and point by point;
+    /// empty where it records nothing.
     pub(super) of_law: &'a [f64],
     /// The states.
     pub(super) table: &'a StateTable,
@@ -71,8 +72,8 @@ impl MeasuredRun<'_> {
     }
 }
 
-/// The values of every series, each with one vector of padding more than a column of the state table (so that the neighbour of
-/// every point can be read).
+/// The values of every series, each with one vector of padding more than a column of the state table (so that the
+/// neighbour of every point can be read).
 #[derive(Clone, Debug)]
 pub(super) struct SeriesTable {
     columns: [Vec<[f64; WIDTH]>; Series::COUNT],
@@ -133,8 +134,8 @@ pub(super) fn each<const W: usize>(block: &mut [Vec<[f64; WIDTH]>], vectors: usi
     columns.each_mut().map(|column| &mut column[..vectors])
 }
 
-/// How many wheels a loop over arrays of `W` runs through: `W`, known when the program is compiled, or, of a loop for any number,
-/// as many as there are.
+/// How many wheels a loop over arrays of `W` runs through: `W`, known when the program is compiled, or, of a loop for
+/// any number, as many as there are.
 #[inline(always)]
 pub(super) fn count_of_wheels<const W: usize>(wheels: usize) -> usize {
     if W < MAX_WHEELS { W } else { wheels }
@@ -216,8 +217,8 @@ pub(super) fn needed<const N: usize>(table: &StateTable, field: StateField, vect
 mod tests {
     use super::*;
 
-    /// Law: what follows the last point repeats it, up to the end of the vector after the last; points, and series that are not observed,
-    /// are left as they are.
+    /// Law: what follows the last point repeats it, up to the end of the vector after the last; points, and series that
+    /// are not observed, are left as they are.
     #[test]
     fn the_last_point_is_repeated() {
         for points in [1, 7, 8, 9, 16, 21] {

@@ -1,9 +1,10 @@
 //! Passes over a series: extremes, means, errors, transfers, each in one fixed order of operations.
 //!
-//! Lane `i` of an accumulator gathers points `i`, `i + 8`, ...; the eight are then joined as a fixed tree, so that the bits
-//! depend on nothing but the values. Means are taken of the departures from the first value: with n points their rounding
-//! error is at most n/8 + 4 roundings of the largest *departure* (not of the value itself), which for any grid in use is far
-//! below one rounding of the value. The same holds for slopes, whose error series starts at zero. Weights are zero in the padding.
+//! Lane `i` of an accumulator gathers points `i`, `i + 8`, ...; the eight are then joined as a fixed tree, so that the
+//! bits depend on nothing but the values. Means are taken of the departures from the first value: with n points their
+//! rounding error is at most n/8 + 4 roundings of the largest *departure* (not of the value itself), which for any grid
+//! in use is far below one rounding of the value. The same holds for slopes, whose error series starts at zero. Weights
+//! are zero in the padding.
 
 use fearless_simd::Simd;
 
@@ -11,8 +12,8 @@ use super::reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Passes, 
 use super::weights::{Weights, largest, smallest, total, vectors};
 use crate::math::{Lanes, Real};
 
-/// Makes the passes over a series of numbers `stored`, and writes their values to `out` at [`Reduction::index`]: errors and the fraction
-/// over `scale`. `column` has one vector more than the weights, in which the last point is repeated.
+/// Makes the passes over a series of numbers `stored`, and writes their values to `out` at [`Reduction::index`]: errors
+/// and the fraction over `scale`. `column` has one vector more than the weights, in which the last point is repeated.
 #[inline(always)]
 pub(super) fn reduce<S: Simd>(
     simd: S,

@@ -1,7 +1,7 @@
 //! [`Reduction`]: how a series becomes a number.
 //!
-//! The reductions that one pass over a series yields together are one variant of [`Reduction`]. Each pass gives a value for every
-//! statistic of its list by an exhaustive `match`: a reduction that nothing computes does not compile.
+//! The reductions that one pass over a series yields together are one variant of [`Reduction`]. Each pass gives a value
+//! for every statistic of its list by an exhaustive `match`: a reduction that nothing computes does not compile.
 //!
 //! Not here: the passes (`reduce`).
 
@@ -23,7 +23,8 @@ macro_rules! statistics {
 }
 
 statistics! {
-    /// A statistic that is one of the values: cheap, and the same function of the values may be applied to it afterwards.
+    /// A statistic that is one of the values: cheap, and the same function of the values may be applied to it
+    /// afterwards.
     OrderStatistic {
         /// The first value.
         Initial,
@@ -159,8 +160,8 @@ impl Passes {
 
 /// What a series stores of the quantity that is shown: a monotone function that is cheap to compute at every point.
 ///
-/// Its inverse is applied to the order statistics and to the time series. Means, changes and errors of such a series would be
-/// those of the stored numbers: the table has none.
+/// Its inverse is applied to the order statistics and to the time series. Means, changes and errors of such a series
+/// would be those of the stored numbers: the table has none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stored {
     /// The quantity itself.

@@ -1,4 +1,5 @@
-//! [`Request`]: what a campaign observes of scenes of one kind: which columns, which series, which state fields and why.
+//! [`Request`]: what a campaign observes of scenes of one kind: which columns, which series, which state fields and
+//! why.
 
 use core::ops::Range;
 
@@ -140,7 +141,8 @@ impl Request {
         self.ids().position(|other| other == id)
     }
 
-    /// The rows of the table that [`Request::columns`] shows, each with its wheel: without the names, which take most of the time.
+    /// The rows of the table that [`Request::columns`] shows, each with its wheel: without the names, which take most
+    /// of the time.
     fn rows(&self) -> Vec<(&'static Column, Option<usize>)> {
         let is_asked = |column: &&Column| self.groups.contains(column.group) && self.includes(column.scenes);
         let mut rows = Vec::new();
@@ -191,7 +193,8 @@ impl Request {
         StateField::ALL.into_iter().filter_map(reason).collect()
     }
 
-    /// The series that the columns are made of, with those that set their scales, and those that the control law records.
+    /// The series that the columns are made of, with those that set their scales, and those that the control law
+    /// records.
     pub(super) fn observed(&self) -> SeriesSet {
         let of_columns = self.inputs().map(|(series, _)| series);
         of_columns.chain(self.of_law.over_time.series()).fold(SeriesSet::default(), SeriesSet::with)
@@ -385,8 +388,8 @@ mod tests {
         assert!(request.columns().iter().all(|column| column.quantity.name() != "work_motors_final_j"), "no wheel");
     }
 
-    /// Law: a linear momentum has an error where a velocity is integrated: of the spacecraft under thrust or with constraints, of the debris with
-    /// constraints. Elsewhere it would be zero in every row.
+    /// Law: a linear momentum has an error where a velocity is integrated: of the spacecraft under thrust or with
+    /// constraints, of the debris with constraints. Elsewhere it would be zero in every row.
     #[test]
     fn linear_momentum_has_an_error_where_a_velocity_is_integrated() {
         let none = Actuated::NONE;
@@ -418,7 +421,8 @@ mod tests {
         }
     }
 
-    /// Law: constraints between bodies have residuals where there are several bodies; that of the attitude is always there.
+    /// Law: constraints between bodies have residuals where there are several bodies; that of the attitude is always
+    /// there.
     #[test]
     fn residuals_are_of_bodies_that_are_joined() {
         let names = |debris: bool, wheels: &[&str]| -> Vec<String> {
@@ -435,7 +439,8 @@ mod tests {
         }
     }
 
-    /// Law: work and impulse are of what acts: no column, and no field, of a kind of actuation that a scene does not have.
+    /// Law: work and impulse are of what acts: no column, and no field, of a kind of actuation that a scene does not
+    /// have.
     #[test]
     fn work_is_that_of_what_acts() {
         let none = Actuated::NONE;

@@ -62,7 +62,8 @@ impl<'a> Body<'a> {
             row[i] -= mean;
             square += dot(row, row);
         }
-        // the largest eigenvalue of a symmetric matrix without a trace, whose squares have this sum: (2, -1, -1)/sqrt(6)
+        // the largest eigenvalue of a symmetric matrix without a trace, whose squares have this sum: (2, -1,
+        // -1)/sqrt(6)
         let spread = (2.0 / 3.0 * square).sqrt();
         Body {
             mass: None,
@@ -91,7 +92,8 @@ mod tests {
     /// A few roundings of entries of size one; none is measured.
     const ROUNDING: f64 = 1e-15;
 
-    /// Law: the inverse of a body's inertia times the inertia is one; a body is principal where no product of inertia is left.
+    /// Law: the inverse of a body's inertia times the inertia is one; a body is principal where no product of inertia
+    /// is left.
     #[test]
     fn the_inverse_inertia_is_the_inverse() {
         let inertia = [[3.0, 0.25, -0.5], [0.25, 2.0, 0.125], [-0.5, 0.125, 1.5]];

@@ -36,7 +36,8 @@ pub(super) enum Scenes {
     ConstrainedBodies,
     /// With a debris body, integrated with constraints.
     ConstrainedDebris,
-    /// With thrusters in the schedule, or integrated with constraints: elsewhere the velocity of c is constant, not integrated.
+    /// With thrusters in the schedule, or integrated with constraints: elsewhere the velocity of c is constant, not
+    /// integrated.
     IntegratedVelocity,
     /// Integrated without constraints.
     Unconstrained,
@@ -110,10 +111,12 @@ pub(super) const fn need(field: StateField, scenes: Scenes, why: &'static str) -
     Need { field, scenes, why }
 }
 
-/// The table of series: `name [how many]: source, what is stored, scale, needs, column of a time series, meaning`. A series of each wheel
-/// has as many places as a spacecraft may have wheels; its name and meaning have `{wheel}` where that of the wheel belongs.
+/// The table of series: `name [how many]: source, what is stored, scale, needs, column of a time series, meaning`. A
+/// series of each wheel has as many places as a spacecraft may have wheels; its name and meaning have `{wheel}` where
+/// that of the wheel belongs.
 macro_rules! series {
-    ($($name:ident [$count:expr]: $source:ident, $stored:ident, $scale:expr, [$($need:ident),*], $shown:expr, $meaning:literal;)*) => {
+    ($($name:ident [$count:expr]: $source:ident, $stored:ident, $scale:expr, [$($need:ident),*], $shown:expr,
+    $meaning:literal;)*) => {
         /// The rows of the table of series.
         #[derive(Clone, Copy)]
         enum SeriesKind { $($name,)* }
@@ -175,11 +178,15 @@ macro_rules! column {
 
 /// One column of a series.
 macro_rules! of {
-    ($group:ident, $scenes:ident, $series:ident, $reduction:ident, [$($name:expr),*], $unit:expr, [$($meaning:expr),*]) => {
-        column!($group, $scenes, Float, Value::Of(Series::$series, Reduction::$reduction), [$($name),*], $unit, [$($meaning),*])
+    ($group:ident, $scenes:ident, $series:ident, $reduction:ident, [$($name:expr),*], $unit:expr,
+    [$($meaning:expr),*]) => {
+        column!($group, $scenes, Float, Value::Of(Series::$series, Reduction::$reduction), [$($name),*], $unit,
+            [$($meaning),*])
     };
-    ($group:ident, $scenes:ident, $series:ident, $reduction:ident($statistics:ident::$statistic:ident), [$($name:expr),*], $unit:expr, [$($meaning:expr),*]) => {
-        column!($group, $scenes, Float, Value::Of(Series::$series, Reduction::$reduction($statistics::$statistic)), [$($name),*], $unit, [$($meaning),*])
+    ($group:ident, $scenes:ident, $series:ident, $reduction:ident($statistics:ident::$statistic:ident),
+    [$($name:expr),*], $unit:expr, [$($meaning:expr),*]) => {
+        column!($group, $scenes, Float, Value::Of(Series::$series, Reduction::$reduction($statistics::$statistic)),
+            [$($name),*], $unit, [$($meaning),*])
     };
 }
 
@@ -196,12 +203,17 @@ macro_rules! errors {
     ($group:ident, $scenes:ident, $series:ident, $name:literal, $what:literal) => {
         errors!($group, $scenes, $series, $name, ["", ""], ["1/s", "_per_s"], $what)
     };
-    ($group:ident, $scenes:ident, $series:ident, $name:literal, [$unit:literal, $suffix:literal], [$rate:literal, $rate_suffix:literal], $what:literal) => {
+    ($group:ident, $scenes:ident, $series:ident, $name:literal, [$unit:literal, $suffix:literal], [$rate:literal,
+    $rate_suffix:literal], $what:literal) => {
         &[
-            of!($group, $scenes, $series, Error(ErrorStatistic::Max), [$name, "_max", $suffix], $unit, ["Maximum magnitude of ", $what]),
-            of!($group, $scenes, $series, Error(ErrorStatistic::Final), [$name, "_final", $suffix], $unit, ["Final value of ", $what]),
-            of!($group, $scenes, $series, Error(ErrorStatistic::Rms), [$name, "_rms", $suffix], $unit, ["Root mean square over the points of ", $what]),
-            of!($group, $scenes, $series, Error(ErrorStatistic::Slope), [$name, "_rate", $rate_suffix], $rate, ["Least-squares slope over time of ", $what]),
+            of!($group, $scenes, $series, Error(ErrorStatistic::Max), [$name, "_max", $suffix], $unit,
+                ["Maximum magnitude of ", $what]),
+            of!($group, $scenes, $series, Error(ErrorStatistic::Final), [$name, "_final", $suffix], $unit,
+                ["Final value of ", $what]),
+            of!($group, $scenes, $series, Error(ErrorStatistic::Rms), [$name, "_rms", $suffix], $unit,
+                ["Root mean square over the points of ", $what]),
+            of!($group, $scenes, $series, Error(ErrorStatistic::Slope), [$name, "_rate", $rate_suffix], $rate,
+                ["Least-squares slope over time of ", $what]),
         ]
     };
 }
@@ -211,8 +223,10 @@ macro_rules! errors {
 macro_rules! scales {
     ($group:ident, $scenes:ident, $series:ident, $name:literal, [$unit:literal, $suffix:literal], $what:literal) => {
         &[
-            of!($group, $scenes, $series, Order(OrderStatistic::Initial), [$name, "_initial", $suffix], $unit, ["Initial ", $what, "."]),
-            of!($group, $scenes, $series, Order(OrderStatistic::Max), [$name, "_max", $suffix], $unit, ["Maximum ", $what, " on the grid."]),
+            of!($group, $scenes, $series, Order(OrderStatistic::Initial), [$name, "_initial", $suffix], $unit,
+                ["Initial ", $what, "."]),
+            of!($group, $scenes, $series, Order(OrderStatistic::Max), [$name, "_max", $suffix], $unit, ["Maximum ",
+                $what, " on the grid."]),
         ]
     };
 }
@@ -222,12 +236,18 @@ macro_rules! scales {
 macro_rules! energies {
     ($group:ident, $scenes:ident, $series:ident, $name:literal, $what:literal) => {
         &[
-            of!($group, $scenes, $series, Value(ValueStatistic::Initial), [$name, "_initial_j"], "J", ["Initial ", $what, "."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::Final), [$name, "_final_j"], "J", ["Final ", $what, "."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::Min), [$name, "_min_j"], "J", ["Minimum ", $what, " on the grid."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::Max), [$name, "_max_j"], "J", ["Maximum ", $what, " on the grid."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::Mean), [$name, "_mean_j"], "J", ["Mean over the points of the ", $what, "."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::PeakToPeak), [$name, "_peak_to_peak_j"], "J", ["Maximum minus minimum ", $what, " on the grid."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Initial), [$name, "_initial_j"], "J", ["Initial ",
+                $what, "."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Final), [$name, "_final_j"], "J", ["Final ", $what,
+                "."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Min), [$name, "_min_j"], "J", ["Minimum ", $what,
+                " on the grid."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Max), [$name, "_max_j"], "J", ["Maximum ", $what,
+                " on the grid."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::Mean), [$name, "_mean_j"], "J",
+                ["Mean over the points of the ", $what, "."]),
+            of!($group, $scenes, $series, Value(ValueStatistic::PeakToPeak), [$name, "_peak_to_peak_j"], "J",
+                ["Maximum minus minimum ", $what, " on the grid."]),
         ]
     };
 }
@@ -237,11 +257,20 @@ macro_rules! energies {
 macro_rules! exchange {
     ($series:ident, $scenes:ident, $body:literal, $what:literal) => {
         &[
-            of!(Exchange, $scenes, $series, Value(ValueStatistic::PeakToPeak), ["exchange_", $body, "_peak_to_peak_j"], "J", ["Maximum minus minimum of the kinetic energy of ", $what, " about the centre of mass."]),
-            of!(Exchange, $scenes, $series, Fraction, ["exchange_", $body, "_fraction"], "", ["Maximum minus minimum of the kinetic energy of ", $what, ", relative to the largest total energy about the centre of mass (0 if that is 0)."]),
-            of!(Exchange, $scenes, $series, Value(ValueStatistic::Net), ["exchange_", $body, "_net_j"], "J", ["Final minus initial kinetic energy of ", $what, " about the centre of mass."]),
-            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Gross), ["exchange_", $body, "_gross_j"], "J", ["Sum of |dT| from point to point, where T is the kinetic energy of ", $what, " about the centre of mass."]),
-            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Power), ["exchange_", $body, "_power_max_w"], "W", ["Maximum of |dT/dt| from point to point, where T is the kinetic energy of ", $what, " about the centre of mass."]),
+            of!(Exchange, $scenes, $series, Value(ValueStatistic::PeakToPeak), ["exchange_", $body,
+                "_peak_to_peak_j"], "J", ["Maximum minus minimum of the kinetic energy of ", $what,
+                    " about the centre of mass."]),
+            of!(Exchange, $scenes, $series, Fraction, ["exchange_", $body, "_fraction"], "", ["Maximum minus minimum \
+                of the kinetic energy of ", $what, ", relative to the largest total energy about the centre of mass (0 \
+                    if that is 0)."]),
+            of!(Exchange, $scenes, $series, Value(ValueStatistic::Net), ["exchange_", $body, "_net_j"], "J",
+                ["Final minus initial kinetic energy of ", $what, " about the centre of mass."]),
+            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Gross), ["exchange_", $body, "_gross_j"], "J",
+                ["Sum of |dT| from point to point, where T is the kinetic energy of ", $what,
+                " about the centre of mass."]),
+            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Power), ["exchange_", $body, "_power_max_w"],
+                "W", ["Maximum of |dT/dt| from point to point, where T is the kinetic energy of ", $what,
+                    " about the centre of mass."]),
         ]
     };
 }

@@ -1,13 +1,13 @@
 //! [`Spectrum`]: the dominant frequency of an evenly sampled series.
 //!
-//! Periodogram of the series minus its least-squares line, with Hann's window (Harris 1978) and padded with zeros to a power
-//! of two; the largest ordinate at one cycle per horizon or more, refined by the parabola through the logarithms of it and its
-//! neighbours (Gasior & Gonzalez 2004). Cost n log n with an own radix-2 transform of constant geometry (Pease, J. ACM 15, 1968:
-//! every stage reads two halves and writes them interleaved, so that all stages are vectors). The crates that were examined choose
-//! their algorithm by the machine, so that their bits differ.
+//! Periodogram of the series minus its least-squares line, with Hann's window (Harris 1978) and padded with zeros to a
+//! power of two; the largest ordinate at one cycle per horizon or more, refined by the parabola through the logarithms
+//! of it and its neighbours (Gasior & Gonzalez 2004). Cost n log n with an own radix-2 transform of constant geometry
+//! (Pease, J. ACM 15, 1968: every stage reads two halves and writes them interleaved, so that all stages are vectors).
+//! The crates that were examined choose their algorithm by the machine, so that their bits differ.
 //!
-//! The frequency of a tone is found within 0.05 of 1/duration (a test measures it) between one cycle per duration and half a cycle per
-//! interval; slower changes are reported as about one cycle per duration.
+//! The frequency of a tone is found within 0.05 of 1/duration (a test measures it) between one cycle per duration and
+//! half a cycle per interval; slower changes are reported as about one cycle per duration.
 
 use fearless_simd::Simd;
 
@@ -35,7 +35,8 @@ pub(super) struct Spectrum {
     size: usize,
     /// The place of coefficient k after the last stage.
     order: Vec<u32>,
-    /// exp(-2 pi i e / size), stage by stage; e is j with as many of its last bits cleared as there are earlier stages; j < size / 2.
+    /// exp(-2 pi i e / size), stage by stage; e is j with as many of its last bits cleared as there are earlier stages;
+    /// j < size / 2.
     stages: [Vec<f64>; 2],
     /// exp(-2 pi i k / (2 size)), k < size.
     turns: [Vec<f64>; 2],
@@ -93,8 +94,8 @@ impl Spectrum {
         })
     }
 
-    /// The dominant frequency, Hz, of `column` minus the line `mean + slope * (time - mean time)`; the column is padded to a
-    /// multiple of sixteen.
+    /// The dominant frequency, Hz, of `column` minus the line `mean + slope * (time - mean time)`; the column is padded
+    /// to a multiple of sixteen.
     #[inline(always)]
     pub(super) fn peak<S: Simd>(&mut self, simd: S, column: &[f64], mean: f64, slope: f64) -> f64 {
         self.fill(simd, column, mean, slope);
@@ -220,8 +221,9 @@ mod tests {
     use crate::math::Isa;
     use crate::math::isa::Work;
 
-    /// Largest error of a pure tone's frequency in units of 1/horizon: the parabola's own bias under Hann's window, measured
-    /// as 0.03 over the tones of the test (from two cycles per horizon on), with margin for interference of the mirror image.
+    /// Largest error of a pure tone's frequency in units of 1/horizon: the parabola's own bias under Hann's window,
+    /// measured as 0.03 over the tones of the test (from two cycles per horizon on), with margin for interference of
+    /// the mirror image.
     const BIN_ERROR: f64 = 0.05;
 
     struct Peak<'a>(&'a mut Spectrum, &'a [f64], f64, f64);

@@ -1,4 +1,5 @@
-//! What air and light do to a spacecraft at the states of the table: the density of the air, the hidden share of the Sun, and their torques.
+//! What air and light do to a spacecraft at the states of the table: the density of the air, the hidden share of the
+//! Sun, and their torques.
 
 use fearless_simd::Simd;
 

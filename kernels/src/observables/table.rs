@@ -1,16 +1,18 @@
 //! The one table of observables: every series, every direct value and every column of a row.
 //!
-//! A row of [`Series`] says where a series comes from, what of the state table it needs, and how a time series shows it. A row
-//! of the columns says group, kinds of scene, value, name, unit and meaning. Names, order, documentation and the Parquet schema
-//! follow from here. To add an observable, add its rows, and compute its series in the file of its `SeriesSource`.
+//! A row of [`Series`] says where a series comes from, what of the state table it needs, and how a time series shows
+//! it. A row of the columns says group, kinds of scene, value, name, unit and meaning. Names, order, documentation and
+//! the Parquet schema follow from here. To add an observable, add its rows, and compute its series in the file of its
+//! `SeriesSource`.
 //!
-//! The file is longer than others because the table is: some 200 lines of it are rows. The handles ([`ColumnId`], [`Series`]) stay with it, since
-//! where a handle points follows from the rows, and the rows are made of handles.
+//! The file is longer than others because the table is: some 200 lines of it are rows. The handles ([`ColumnId`],
+//! [`Series`]) stay with it, since where a handle points follows from the rows, and the rows are made of handles.
 //!
-//! An error column belongs to a signed series e(t) (energy) or to the norm e(t) of an error vector (momenta), measured from
-//! observation point 0. Errors are relative to the largest sum on the grid of the magnitudes of the terms that they are the balance of:
-//! energies of the bodies and work, momenta of body and wheels and impulse. The sum does not vanish where the terms cancel, at rest or where
-//! wheels turn against each other. Where it is exactly zero nothing moves, and the error is zero.
+//! An error column belongs to a signed series e(t) (energy) or to the norm e(t) of an error vector (momenta), measured
+//! from observation point 0. Errors are relative to the largest sum on the grid of the magnitudes of the terms that
+//! they are the balance of: energies of the bodies and work, momenta of body and wheels and impulse. The sum does not
+//! vanish where the terms cancel, at rest or where wheels turn against each other. Where it is exactly zero nothing
+//! moves, and the error is zero.
 
 use core::ops::Range;
 
@@ -171,7 +173,8 @@ impl Series {
         self.0 as usize
     }
 
-    /// The indices of the series and of those that follow it, `count` together: of the first wheels, where wheels have it.
+    /// The indices of the series and of those that follow it, `count` together: of the first wheels, where wheels have
+    /// it.
     pub(super) const fn block(self, count: usize) -> Range<usize> {
         self.index()..self.index() + count
     }
@@ -203,7 +206,8 @@ impl Series {
         &SERIES[self.place().0]
     }
 
-    /// The column of a time series that shows the series, where the wheels are called `wheels`; `None` for the scale of another series.
+    /// The column of a time series that shows the series, where the wheels are called `wheels`; `None` for the scale of
+    /// another series.
     pub fn quantity(self, wheels: &[Name]) -> Option<Quantity> {
         let shown = self.row().shown.as_ref()?;
         match self.wheel() {
@@ -213,7 +217,8 @@ impl Series {
     }
 }
 
-/// The change of a body's energy about the centre of mass since the start, for each body: series, name and meaning of the change.
+/// The change of a body's energy about the centre of mass since the start, for each body: series, name and meaning of
+/// the change.
 pub(super) const CHANGES: [(Series, &str, &str); 2] = [
     (
         Series::ComBody,
@@ -312,12 +317,14 @@ mod needs {
         need(StateField::Attitude, Scenes::Unconstrained, "velocities of bodies off the centre of mass"),
     ];
     pub(super) const TOTAL: &[Need] = &[need(StateField::ComVelocity, Scenes::All, "total energy in F_e")];
-    pub(super) const REDUNDANT: &[Need] = &[need(StateField::KineticEnergies, Scenes::Constrained, "energies of the redundant states")];
+    pub(super) const REDUNDANT: &[Need] = &[need(StateField::KineticEnergies, Scenes::Constrained,
+        "energies of the redundant states")];
     pub(super) const DEBRIS_ENERGY: &[Need] = &[
         need(StateField::DebrisVelocity, Scenes::Debris, "energy of the debris"),
         need(StateField::DebrisRate, Scenes::Debris, "energy of the debris"),
     ];
-    pub(super) const WORK: &[Need] = &[need(StateField::Work, Scenes::Actuated, "work of actuators and torques on the body")];
+    pub(super) const WORK: &[Need] = &[need(StateField::Work, Scenes::Actuated,
+        "work of actuators and torques on the body")];
     pub(super) const LINEAR: &[Need] = &[
         need(StateField::ComVelocity, Scenes::All, "linear momentum"),
         need(StateField::Impulse, Scenes::Thrusters, "impulse of the thrusters"),
@@ -327,9 +334,11 @@ mod needs {
     pub(super) const ANGULAR: &[Need] = &[
         need(StateField::Dcm, Scenes::Constrained, "angular momentum in F_e"),
         need(StateField::Attitude, Scenes::Unconstrained, "angular momentum in F_e"),
-        need(StateField::AngularImpulse, Scenes::ExternalTorque, "angular impulse of thrusters and torques on the body"),
+        need(StateField::AngularImpulse, Scenes::ExternalTorque,
+            "angular impulse of thrusters and torques on the body"),
     ];
-    pub(super) const DEBRIS_LINEAR: &[Need] = &[need(StateField::DebrisVelocity, Scenes::Debris, "linear momentum of the debris")];
+    pub(super) const DEBRIS_LINEAR: &[Need] = &[need(StateField::DebrisVelocity, Scenes::Debris,
+        "linear momentum of the debris")];
     pub(super) const DEBRIS_ANGULAR: &[Need] = &[
         need(StateField::DebrisRate, Scenes::Debris, "angular momentum of the debris"),
         need(StateField::DebrisAttitude, Scenes::Debris, "angular momentum of the debris in F_e"),
@@ -343,8 +352,10 @@ mod needs {
         need(StateField::Attitude, Scenes::Unconstrained, "direction of s3"),
     ];
     pub(super) const RATE: &[Need] = &[need(StateField::Rate, Scenes::All, "angular rate")];
-    pub(super) const FROM_NOMINAL: &[Need] = &[need(StateField::Attitude, Scenes::All, "attitude relative to the nominal run")];
-    pub(super) const FROM_INITIAL: &[Need] = &[need(StateField::Attitude, Scenes::All, "attitude relative to the initial one")];
+    pub(super) const FROM_NOMINAL: &[Need] = &[need(StateField::Attitude, Scenes::All,
+        "attitude relative to the nominal run")];
+    pub(super) const FROM_INITIAL: &[Need] = &[need(StateField::Attitude, Scenes::All,
+        "attitude relative to the initial one")];
     pub(super) const DEBRIS_DIRECTION: &[Need] = &[
         need(StateField::ComPosition, Scenes::Debris, "direction of the debris"),
         need(StateField::DebrisPosition, Scenes::Debris, "direction of the debris"),
@@ -367,7 +378,8 @@ mod needs {
         need(StateField::ComPosition, Scenes::SolarPressure, "shadow of the Earth"),
         need(StateField::Attitude, Scenes::SolarPressure, "plates in the light"),
     ];
-    pub(super) const RESIDUALS: &[Need] = &[need(StateField::Residuals, Scenes::Constrained, "residuals of the constraints")];
+    pub(super) const RESIDUALS: &[Need] = &[need(StateField::Residuals, Scenes::Constrained,
+        "residuals of the constraints")];
     pub(super) const FINAL_STATE: &[Need] = &[
         need(StateField::Attitude, Scenes::All, "attitude at the end"),
         need(StateField::Rate, Scenes::All, "angular velocity at the end"),
@@ -392,57 +404,116 @@ use needs::{
 
 #[rustfmt::skip]
 series! {
-    EnergyBody [1]: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_body_j", "J")), "Kinetic energy of the body in F_e.";
-    EnergyWheel [MAX_WHEELS]: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_{wheel}_j", "J")), "Kinetic energy of wheel {wheel} in F_e.";
-    EnergyDebris [1]: Energies, Quantity, None, [SPIN, DEBRIS_ENERGY], Some(("energy_debris_j", "J")), "Kinetic energy of the debris in F_e.";
-    EnergyTotal [1]: Energies, Quantity, None, [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY], Some(("energy_total_j", "J")), "Total kinetic energy (including the debris) in F_e.";
-    ComBody [1]: Energies, Quantity, None, [SPIN], Some(("energy_com_body_j", "J")), "Kinetic energy of the body about the spacecraft's centre of mass.";
-    ComWheel [MAX_WHEELS]: Energies, Quantity, None, [SPIN], Some(("energy_com_{wheel}_j", "J")), "Kinetic energy of wheel {wheel} about the spacecraft's centre of mass.";
-    ComWheels [1]: Energies, Quantity, None, [SPIN], Some(("energy_com_wheels_j", "J")), "Kinetic energy of all wheels together about the spacecraft's centre of mass.";
-    ComTotal [1]: Energies, Quantity, None, [SPIN], Some(("energy_com_total_j", "J")), "Kinetic energy of the spacecraft about its centre of mass.";
-    EnergyError [1]: Energies, Quantity, Some((Series::EnergyTerms, MAX)), [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY, WORK], Some(("energy_error", "")), "Change in total kinetic energy minus the work of actuators and torques on the body, relative to the largest sum of their magnitudes.";
-    EnergyTerms [1]: Energies, Quantity, None, [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY, WORK], NOT_SHOWN, "Total kinetic energy plus the magnitudes of all work, J.";
-    ComError [1]: Energies, Quantity, Some((Series::ComTotal, MAX)), [SPIN], Some(("energy_com_error", "")), "Change in the kinetic energy about the centre of mass, relative to its largest value (without actuators).";
-    LinearMomentumError [1]: LinearMomentum, Quantity, Some((Series::LinearMomentumTerms, MAX)), [LINEAR], Some(("linear_momentum_error", "")), "Change in the spacecraft's linear momentum minus the impulse, relative to the largest sum of their magnitudes.";
-    LinearMomentumTerms [1]: LinearMomentum, Quantity, None, [LINEAR], NOT_SHOWN, "Magnitudes of the terms of linear momentum and of the impulse added, N s.";
-    LinearMomentumSquare [1]: LinearMomentum, Square, None, [LINEAR], Some(("linear_momentum_n_s", "N s")), "Magnitude of the spacecraft's linear momentum in F_e.";
-    AngularMomentumError [1]: AngularMomentum, Quantity, Some((Series::AngularMomentumTerms, MAX)), [SPIN, ANGULAR], Some(("angular_momentum_error", "")), "Change in the spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse of thrusters and torques on the body, relative to the largest sum of the magnitudes of the momenta of body and wheels and of the impulse.";
-    AngularMomentumTerms [1]: AngularMomentum, Quantity, None, [SPIN, ANGULAR], NOT_SHOWN, "Magnitudes of the angular momenta of body and wheels and of the angular impulse added, N m s.";
-    AngularMomentumSquare [1]: AngularMomentum, Square, None, [SPIN, ANGULAR], Some(("angular_momentum_n_m_s", "N m s")), "Magnitude of the spacecraft's angular momentum about its centre of mass.";
-    DebrisLinearError [1]: DebrisMomenta, Quantity, Some((Series::DebrisLinearSquare, MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_linear_momentum_error", "")), "Change in the debris's linear momentum, relative to the largest.";
-    DebrisLinearSquare [1]: DebrisMomenta, Square, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's linear momentum, N^2 s^2.";
-    DebrisAngularError [1]: DebrisMomenta, Quantity, Some((Series::DebrisAngularSquare, MAX)), [DEBRIS_LINEAR, DEBRIS_ANGULAR], Some(("debris_angular_momentum_error", "")), "Change in the debris's angular momentum about its centre in F_e, relative to the largest.";
-    DebrisAngularSquare [1]: DebrisMomenta, Square, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN, "Square of the debris's angular momentum about its centre, N^2 m^2 s^2.";
-    Orthonormality [1]: Attitude, Quantity, None, [ORTHONORMALITY], Some(("dcm_orthonormality", "")), "Largest entry of |C_es^T C_es - 1|.";
-    SpinAxisAngle [1]: Attitude, HalfTangentSquare, None, [SPIN_AXIS], Some(("spin_axis_angle_rad", "rad")), "Angle of s3 from its initial direction in F_e.";
-    ResidualKinematic [1]: Residuals, Quantity, None, [RESIDUALS], Some(("residual_kinematic_m_s", "m/s")), "Residual of the kinematic constraints (angular components in rad/s).";
-    ResidualCollocation [1]: Residuals, Quantity, None, [RESIDUALS], Some(("residual_collocation_m", "m")), "Residual of the collocation constraints (tilts of wheel axes as sines).";
-    ResidualAttitude [1]: Residuals, Quantity, None, [RESIDUALS], Some(("residual_attitude", "")), "Residual of the attitude constraints.";
-    RateSquare [1]: Motion, Square, None, [RATE], Some(("angular_rate_rad_s", "rad/s")), "Magnitude of the angular velocity of the body relative to F_e.";
-    Nutation [1]: Motion, Quantity, None, [SPIN], Some(("nutation_angle_rad", "rad")), "Angle between s3 (or observe.nutation_axis) and the angular momentum of the spacecraft about its centre of mass.";
-    FromNominal [1]: Motion, HalfTangentSquare, None, [FROM_NOMINAL], Some(("attitude_from_nominal_rad", "rad")), "Rotation angle between the attitude and that of the nominal run at the same time.";
-    FromInitial [1]: Motion, HalfTangentSquare, None, [FROM_INITIAL], Some(("attitude_from_initial_rad", "rad")), "Rotation angle between the attitude and the initial attitude of the run.";
-    WheelSpeed [MAX_WHEELS]: Motion, Square, None, [SPIN], Some(("speed_{wheel}_rad_s", "rad/s")), "Magnitude of the rate of wheel {wheel} relative to the body.";
-    WheelMomentum [MAX_WHEELS]: Motion, Square, None, [SPIN], Some(("momentum_{wheel}_n_m_s", "N m s")), "Magnitude of the angular momentum of wheel {wheel} about its axis relative to F_e.";
-    DebrisDirection [1]: Motion, Quantity, None, [SPIN_AXIS, DEBRIS_DIRECTION], Some(("spin_axis_debris_angle_rad", "rad")), "Angle between s3 and the line from the spacecraft's centre of mass to the debris (0 where they coincide).";
-    OrbitDistance [1]: Orbit, Quantity, None, [ORBIT], Some(("orbit_distance_m", "m")), "Distance of the spacecraft's centre of mass from the centre of the central body.";
-    NadirAngle [1]: Orbit, Quantity, None, [ORBIT], Some(("nadir_angle_rad", "rad")), "Angle between s3 and nadir, the direction from the spacecraft's centre of mass to the central body.";
-    GradientTorqueSquare [1]: Orbit, Square, None, [ORBIT], Some(("gravity_gradient_torque_n_m", "N m")), "Magnitude of the torque of the gravity gradient on the spacecraft.";
-    FieldStrength [1]: Orbit, Quantity, None, [MAGNETISM], Some(("magnetic_field_t", "T")), "Magnitude of the Earth's magnetic field at the spacecraft.";
-    MagneticTorqueSquare [1]: Orbit, Square, None, [MAGNETISM], Some(("magnetic_torque_n_m", "N m")), "Magnitude of the torque of the magnetic field on the residual dipole and the torque rods of the spacecraft.";
-    AirDensity [1]: Surroundings, Quantity, None, [AIR], Some(("air_density_kg_m3", "kg/m^3")), "Air density at the spacecraft.";
-    DragTorqueSquare [1]: Surroundings, Square, None, [AIR], Some(("drag_torque_n_m", "N m")), "Magnitude of the torque of the air on the spacecraft.";
-    SunHidden [1]: Surroundings, Quantity, None, [LIGHT], Some(("sun_hidden_fraction", "")), "Fraction of the Sun's disc that the Earth hides: 0 in full light, 1 in full shadow.";
-    SolarTorqueSquare [1]: Surroundings, Square, None, [LIGHT], Some(("solar_pressure_torque_n_m", "N m")), "Magnitude of the torque of sunlight on the spacecraft.";
-    PointingError [1]: Law, Quantity, None, [], Some(("pointing_error_rad", "rad")), "Rotation angle from the true attitude to the target of the phase, at the last tick of the control loop; null in a phase without a target.";
-    AttitudeEstimateError [1]: Law, Quantity, None, [], Some(("attitude_estimate_error_rad", "rad")), "Angle between estimated and true attitude, at the last tick of the control loop.";
-    RateEstimateError [1]: Law, Quantity, None, [], Some(("rate_estimate_error_rad_s", "rad/s")), "Magnitude of the error in the estimated angular velocity, at the last tick of the control loop.";
-    PositionEstimateError [1]: Law, Quantity, None, [], Some(("relative_position_estimate_error_m", "m")), "Distance between estimated and true position relative to the debris, at the last tick of the control loop.";
-    VelocityEstimateError [1]: Law, Quantity, None, [], Some(("relative_velocity_estimate_error_m_s", "m/s")), "Magnitude of the error in the estimated velocity relative to the debris, at the last tick of the control loop.";
-    DebrisDistance [1]: Law, Quantity, None, [], Some(("debris_distance_m", "m")), "Distance from the spacecraft's centre of mass to the debris's, at the last tick of the control loop.";
-    DebrisSpeed [1]: Law, Quantity, None, [], Some(("debris_relative_speed_m_s", "m/s")), "Speed of the spacecraft's centre of mass relative to the debris's, at the last tick of the control loop.";
-    Impulse [1]: Law, Quantity, None, [], Some(("impulse_n_s", "N s")), "Sum of the impulses of all thrusters since the start, at the last tick of the control loop.";
-    MotorTorque [MAX_WHEELS]: Law, Quantity, None, [], Some(("torque_{wheel}_n_m", "N m")), "Torque of motor and bearing on wheel {wheel} along its axis, within limits, as the control loop applies it.";
+    EnergyBody [1]: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_body_j", "J")),
+        "Kinetic energy of the body in F_e.";
+    EnergyWheel [MAX_WHEELS]: Energies, Quantity, None, [SPIN, BODIES, REDUNDANT], Some(("energy_{wheel}_j", "J")),
+        "Kinetic energy of wheel {wheel} in F_e.";
+    EnergyDebris [1]: Energies, Quantity, None, [SPIN, DEBRIS_ENERGY], Some(("energy_debris_j", "J")),
+        "Kinetic energy of the debris in F_e.";
+    EnergyTotal [1]: Energies, Quantity, None, [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY], Some(("energy_total_j",
+        "J")), "Total kinetic energy (including the debris) in F_e.";
+    ComBody [1]: Energies, Quantity, None, [SPIN], Some(("energy_com_body_j", "J")),
+        "Kinetic energy of the body about the spacecraft's centre of mass.";
+    ComWheel [MAX_WHEELS]: Energies, Quantity, None, [SPIN], Some(("energy_com_{wheel}_j", "J")),
+        "Kinetic energy of wheel {wheel} about the spacecraft's centre of mass.";
+    ComWheels [1]: Energies, Quantity, None, [SPIN], Some(("energy_com_wheels_j", "J")),
+        "Kinetic energy of all wheels together about the spacecraft's centre of mass.";
+    ComTotal [1]: Energies, Quantity, None, [SPIN], Some(("energy_com_total_j", "J")),
+        "Kinetic energy of the spacecraft about its centre of mass.";
+    EnergyError [1]: Energies, Quantity, Some((Series::EnergyTerms, MAX)), [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY,
+        WORK], Some(("energy_error", "")), "Change in total kinetic energy minus the work of actuators and torques on \
+            the body, relative to the largest sum of their magnitudes.";
+    EnergyTerms [1]: Energies, Quantity, None, [SPIN, TOTAL, REDUNDANT, DEBRIS_ENERGY, WORK], NOT_SHOWN,
+        "Total kinetic energy plus the magnitudes of all work, J.";
+    ComError [1]: Energies, Quantity, Some((Series::ComTotal, MAX)), [SPIN], Some(("energy_com_error", "")),
+        "Change in the kinetic energy about the centre of mass, relative to its largest value (without actuators).";
+    LinearMomentumError [1]: LinearMomentum, Quantity, Some((Series::LinearMomentumTerms, MAX)), [LINEAR],
+        Some(("linear_momentum_error", "")), "Change in the spacecraft's linear momentum minus the impulse, relative \
+            to the largest sum of their magnitudes.";
+    LinearMomentumTerms [1]: LinearMomentum, Quantity, None, [LINEAR], NOT_SHOWN,
+        "Magnitudes of the terms of linear momentum and of the impulse added, N s.";
+    LinearMomentumSquare [1]: LinearMomentum, Square, None, [LINEAR], Some(("linear_momentum_n_s", "N s")),
+        "Magnitude of the spacecraft's linear momentum in F_e.";
+    AngularMomentumError [1]: AngularMomentum, Quantity, Some((Series::AngularMomentumTerms, MAX)), [SPIN, ANGULAR],
+        Some(("angular_momentum_error", "")), "Change in the spacecraft's angular momentum about its centre of mass in \
+            F_e minus the angular impulse of thrusters and torques on the body, relative to the largest sum of the \
+            magnitudes of the momenta of body and wheels and of the impulse.";
+    AngularMomentumTerms [1]: AngularMomentum, Quantity, None, [SPIN, ANGULAR], NOT_SHOWN,
+        "Magnitudes of the angular momenta of body and wheels and of the angular impulse added, N m s.";
+    AngularMomentumSquare [1]: AngularMomentum, Square, None, [SPIN, ANGULAR], Some(("angular_momentum_n_m_s",
+        "N m s")), "Magnitude of the spacecraft's angular momentum about its centre of mass.";
+    DebrisLinearError [1]: DebrisMomenta, Quantity, Some((Series::DebrisLinearSquare, MAX)), [DEBRIS_LINEAR,
+        DEBRIS_ANGULAR], Some(("debris_linear_momentum_error", "")),
+            "Change in the debris's linear momentum, relative to the largest.";
+    DebrisLinearSquare [1]: DebrisMomenta, Square, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN,
+        "Square of the debris's linear momentum, N^2 s^2.";
+    DebrisAngularError [1]: DebrisMomenta, Quantity, Some((Series::DebrisAngularSquare, MAX)), [DEBRIS_LINEAR,
+        DEBRIS_ANGULAR], Some(("debris_angular_momentum_error", "")),
+            "Change in the debris's angular momentum about its centre in F_e, relative to the largest.";
+    DebrisAngularSquare [1]: DebrisMomenta, Square, None, [DEBRIS_LINEAR, DEBRIS_ANGULAR], NOT_SHOWN,
+        "Square of the debris's angular momentum about its centre, N^2 m^2 s^2.";
+    Orthonormality [1]: Attitude, Quantity, None, [ORTHONORMALITY], Some(("dcm_orthonormality", "")),
+        "Largest entry of |C_es^T C_es - 1|.";
+    SpinAxisAngle [1]: Attitude, HalfTangentSquare, None, [SPIN_AXIS], Some(("spin_axis_angle_rad", "rad")),
+        "Angle of s3 from its initial direction in F_e.";
+    ResidualKinematic [1]: Residuals, Quantity, None, [RESIDUALS], Some(("residual_kinematic_m_s", "m/s")),
+        "Residual of the kinematic constraints (angular components in rad/s).";
+    ResidualCollocation [1]: Residuals, Quantity, None, [RESIDUALS], Some(("residual_collocation_m", "m")),
+        "Residual of the collocation constraints (tilts of wheel axes as sines).";
+    ResidualAttitude [1]: Residuals, Quantity, None, [RESIDUALS], Some(("residual_attitude", "")),
+        "Residual of the attitude constraints.";
+    RateSquare [1]: Motion, Square, None, [RATE], Some(("angular_rate_rad_s", "rad/s")),
+        "Magnitude of the angular velocity of the body relative to F_e.";
+    Nutation [1]: Motion, Quantity, None, [SPIN], Some(("nutation_angle_rad", "rad")), "Angle between s3 (or \
+        observe.nutation_axis) and the angular momentum of the spacecraft about its centre of mass.";
+    FromNominal [1]: Motion, HalfTangentSquare, None, [FROM_NOMINAL], Some(("attitude_from_nominal_rad", "rad")),
+        "Rotation angle between the attitude and that of the nominal run at the same time.";
+    FromInitial [1]: Motion, HalfTangentSquare, None, [FROM_INITIAL], Some(("attitude_from_initial_rad", "rad")),
+        "Rotation angle between the attitude and the initial attitude of the run.";
+    WheelSpeed [MAX_WHEELS]: Motion, Square, None, [SPIN], Some(("speed_{wheel}_rad_s", "rad/s")),
+        "Magnitude of the rate of wheel {wheel} relative to the body.";
+    WheelMomentum [MAX_WHEELS]: Motion, Square, None, [SPIN], Some(("momentum_{wheel}_n_m_s", "N m s")),
+        "Magnitude of the angular momentum of wheel {wheel} about its axis relative to F_e.";
+    DebrisDirection [1]: Motion, Quantity, None, [SPIN_AXIS, DEBRIS_DIRECTION], Some(("spin_axis_debris_angle_rad",
+        "rad")), "Angle between s3 and the line from the spacecraft's centre of mass to the debris (0 where they \
+        coincide).";
+    OrbitDistance [1]: Orbit, Quantity, None, [ORBIT], Some(("orbit_distance_m", "m")),
+        "Distance of the spacecraft's centre of mass from the centre of the central body.";
+    NadirAngle [1]: Orbit, Quantity, None, [ORBIT], Some(("nadir_angle_rad", "rad")),
+        "Angle between s3 and nadir, the direction from the spacecraft's centre of mass to the central body.";
+    GradientTorqueSquare [1]: Orbit, Square, None, [ORBIT], Some(("gravity_gradient_torque_n_m", "N m")),
+        "Magnitude of the torque of the gravity gradient on the spacecraft.";
+    FieldStrength [1]: Orbit, Quantity, None, [MAGNETISM], Some(("magnetic_field_t", "T")),
+        "Magnitude of the Earth's magnetic field at the spacecraft.";
+    MagneticTorqueSquare [1]: Orbit, Square, None, [MAGNETISM], Some(("magnetic_torque_n_m", "N m")),
+        "Magnitude of the torque of the magnetic field on the residual dipole and the torque rods of the spacecraft.";
+    AirDensity [1]: Surroundings, Quantity, None, [AIR], Some(("air_density_kg_m3", "kg/m^3")),
+        "Air density at the spacecraft.";
+    DragTorqueSquare [1]: Surroundings, Square, None, [AIR], Some(("drag_torque_n_m", "N m")),
+        "Magnitude of the torque of the air on the spacecraft.";
+    SunHidden [1]: Surroundings, Quantity, None, [LIGHT], Some(("sun_hidden_fraction", "")),
+        "Fraction of the Sun's disc that the Earth hides: 0 in full light, 1 in full shadow.";
+    SolarTorqueSquare [1]: Surroundings, Square, None, [LIGHT], Some(("solar_pressure_torque_n_m", "N m")),
+        "Magnitude of the torque of sunlight on the spacecraft.";
+    PointingError [1]: Law, Quantity, None, [], Some(("pointing_error_rad", "rad")), "Rotation angle from the true \
+        attitude to the target of the phase, at the last tick of the control loop; null in a phase without a target.";
+    AttitudeEstimateError [1]: Law, Quantity, None, [], Some(("attitude_estimate_error_rad", "rad")),
+        "Angle between estimated and true attitude, at the last tick of the control loop.";
+    RateEstimateError [1]: Law, Quantity, None, [], Some(("rate_estimate_error_rad_s", "rad/s")),
+        "Magnitude of the error in the estimated angular velocity, at the last tick of the control loop.";
+    PositionEstimateError [1]: Law, Quantity, None, [], Some(("relative_position_estimate_error_m", "m")),
+        "Distance between estimated and true position relative to the debris, at the last tick of the control loop.";
+    VelocityEstimateError [1]: Law, Quantity, None, [], Some(("relative_velocity_estimate_error_m_s", "m/s")),
+        "Magnitude of the error in the estimated velocity relative to the debris, at the last tick of the control \
+        loop.";
+    DebrisDistance [1]: Law, Quantity, None, [], Some(("debris_distance_m", "m")),
+        "Distance from the spacecraft's centre of mass to the debris's, at the last tick of the control loop.";
+    DebrisSpeed [1]: Law, Quantity, None, [], Some(("debris_relative_speed_m_s", "m/s")),
+        "Speed of the spacecraft's centre of mass relative to the debris's, at the last tick of the control loop.";
+    Impulse [1]: Law, Quantity, None, [], Some(("impulse_n_s", "N s")),
+        "Sum of the impulses of all thrusters since the start, at the last tick of the control loop.";
+    MotorTorque [MAX_WHEELS]: Law, Quantity, None, [], Some(("torque_{wheel}_n_m", "N m")),
+        "Torque of motor and bearing on wheel {wheel} along its axis, within limits, as the control loop applies it.";
 }
 
 /// A series that no time series shows: the scale of another one.
@@ -471,120 +542,215 @@ direct_values! {
     Amplification: NUMERICS, &[], false, "Estimated factor by which the motion amplifies errors.";
     IllConditioned: NUMERICS, &[], false, "1 where the rounding of the input alone makes the result meaningless.";
     DebrisStateError: DEBRIS_NUMERICS, &[], false, "Estimated error of the rotation of the debris.";
-    DebrisAmplification: DEBRIS_NUMERICS, &[], false, "Estimated factor by which the motion of the debris amplifies errors.";
-    DebrisIllConditioned: DEBRIS_NUMERICS, &[], false, "1 where the rounding of the input alone makes the rotation of the debris meaningless.";
+    DebrisAmplification: DEBRIS_NUMERICS, &[], false,
+        "Estimated factor by which the motion of the debris amplifies errors.";
+    DebrisIllConditioned: DEBRIS_NUMERICS, &[], false,
+        "1 where the rounding of the input alone makes the rotation of the debris meaningless.";
     Mass: &[], &[], true, "Mass of the spacecraft, kg.";
     CenterX: &[], &[], true, "Centre of mass of the spacecraft from p along s1, m.";
     CenterY: &[], &[], true, "Centre of mass of the spacecraft from p along s2, m.";
     CenterZ: &[], &[], true, "Centre of mass of the spacecraft from p along s3, m.";
-    SmallestMoment: &[], &[], true, "Smallest principal moment of inertia of the spacecraft about its centre of mass, kg m^2.";
-    MiddleMoment: &[], &[], true, "Middle principal moment of inertia of the spacecraft about its centre of mass, kg m^2.";
-    LargestMoment: &[], &[], true, "Largest principal moment of inertia of the spacecraft about its centre of mass, kg m^2.";
+    SmallestMoment: &[], &[], true, "Smallest principal moment of inertia of the spacecraft about its centre of mass, \
+        kg m^2.";
+    MiddleMoment: &[], &[], true, "Middle principal moment of inertia of the spacecraft about its centre of mass, kg \
+        m^2.";
+    LargestMoment: &[], &[], true, "Largest principal moment of inertia of the spacecraft about its centre of mass, kg \
+        m^2.";
 }
 
 /// The columns, family by family, in the order of a row.
 #[rustfmt::skip]
 static FAMILIES: &[&[Column]] = &[
-    errors!(EnergyConservation, All, EnergyError, "energy_error", "the error in total kinetic energy minus the work of actuators and torques on the body, relative to the largest sum of the energies of all bodies and the magnitudes of the work."),
-    scales!(EnergyConservation, All, EnergyTotal, "energy_total", ["J", "_j"], "total kinetic energy (including the debris) in F_e"),
+    errors!(EnergyConservation, All, EnergyError, "energy_error", "the error in total kinetic energy minus the work of \
+        actuators and torques on the body, relative to the largest sum of the energies of all bodies and the \
+        magnitudes of the work."),
+    scales!(EnergyConservation, All, EnergyTotal, "energy_total", ["J", "_j"],
+        "total kinetic energy (including the debris) in F_e"),
     &[
-        direct!(EnergyConservation, ExternalTorque, Float, WorkThrusters, "work_thrusters_final_j", "J", "Work done up to the last point by the thrusters and by the torques on the body that the environment or a control law applies; on an orbit also by gravity, including its work on the debris."),
-        direct!(EnergyConservation, Motors, Float, WorkMotors, "work_motors_final_j", "J", "Work done by the wheel motors up to the last point."),
+        direct!(EnergyConservation, ExternalTorque, Float, WorkThrusters, "work_thrusters_final_j", "J", "Work done up \
+            to the last point by the thrusters and by the torques on the body that the environment or a control law \
+            applies; on an orbit also by gravity, including its work on the debris."),
+        direct!(EnergyConservation, Motors, Float, WorkMotors, "work_motors_final_j", "J",
+            "Work done by the wheel motors up to the last point."),
     ],
-    errors!(MomentumConservation, IntegratedVelocity, LinearMomentumError, "linear_momentum_error", "the error vector of the spacecraft's linear momentum minus the impulse, relative to the largest sum of the magnitudes of its terms and the impulse."),
-    scales!(MomentumConservation, All, LinearMomentumSquare, "linear_momentum", ["N s", "_n_s"], "|p| of the spacecraft"),
-    errors!(MomentumConservation, All, AngularMomentumError, "angular_momentum_error", "the error vector of the spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse of thrusters and torques on the body, relative to the largest sum of the magnitudes of the momenta of body (|J omega|) and wheels (|J_i Omega_i|) and of the impulse."),
-    scales!(MomentumConservation, All, AngularMomentumSquare, "angular_momentum", ["N m s", "_n_m_s"], "|L| of the spacecraft about its centre of mass"),
-    errors!(MomentumConservation, ConstrainedDebris, DebrisLinearError, "debris_linear_momentum_error", "the error vector of the debris's linear momentum, relative to the largest |p|."),
-    scales!(MomentumConservation, Debris, DebrisLinearSquare, "debris_linear_momentum", ["N s", "_n_s"], "|p| of the debris"),
-    errors!(MomentumConservation, Debris, DebrisAngularError, "debris_angular_momentum_error", "the error vector of the debris's angular momentum about its centre in F_e, relative to the largest |L|."),
-    scales!(MomentumConservation, Debris, DebrisAngularSquare, "debris_angular_momentum", ["N m s", "_n_m_s"], "|L| of the debris about its centre"),
+    errors!(MomentumConservation, IntegratedVelocity, LinearMomentumError, "linear_momentum_error", "the error vector \
+        of the spacecraft's linear momentum minus the impulse, relative to the largest sum of the magnitudes of its \
+        terms and the impulse."),
+    scales!(MomentumConservation, All, LinearMomentumSquare, "linear_momentum", ["N s", "_n_s"],
+        "|p| of the spacecraft"),
+    errors!(MomentumConservation, All, AngularMomentumError, "angular_momentum_error", "the error vector of the \
+        spacecraft's angular momentum about its centre of mass in F_e minus the angular impulse of thrusters and \
+        torques on the body, relative to the largest sum of the magnitudes of the momenta of body (|J omega|) and \
+        wheels (|J_i Omega_i|) and of the impulse."),
+    scales!(MomentumConservation, All, AngularMomentumSquare, "angular_momentum", ["N m s", "_n_m_s"],
+        "|L| of the spacecraft about its centre of mass"),
+    errors!(MomentumConservation, ConstrainedDebris, DebrisLinearError, "debris_linear_momentum_error",
+        "the error vector of the debris's linear momentum, relative to the largest |p|."),
+    scales!(MomentumConservation, Debris, DebrisLinearSquare, "debris_linear_momentum", ["N s", "_n_s"],
+        "|p| of the debris"),
+    errors!(MomentumConservation, Debris, DebrisAngularError, "debris_angular_momentum_error",
+        "the error vector of the debris's angular momentum about its centre in F_e, relative to the largest |L|."),
+    scales!(MomentumConservation, Debris, DebrisAngularSquare, "debris_angular_momentum", ["N m s", "_n_m_s"],
+        "|L| of the debris about its centre"),
     errors!(Attitude, All, Orthonormality, "dcm_orthonormality", "the largest entry of |C_es^T C_es - 1|."),
     &[
-        of!(Attitude, All, SpinAxisAngle, Order(OrderStatistic::Max), ["spin_axis_angle_max_rad"], "rad", ["Maximum angle of s3 from its initial direction in F_e."]),
-        of!(Attitude, All, SpinAxisAngle, Order(OrderStatistic::Final), ["spin_axis_angle_final_rad"], "rad", ["Angle of s3 from its initial direction in F_e at the last point."]),
+        of!(Attitude, All, SpinAxisAngle, Order(OrderStatistic::Max), ["spin_axis_angle_max_rad"], "rad",
+            ["Maximum angle of s3 from its initial direction in F_e."]),
+        of!(Attitude, All, SpinAxisAngle, Order(OrderStatistic::Final), ["spin_axis_angle_final_rad"], "rad",
+            ["Angle of s3 from its initial direction in F_e at the last point."]),
     ],
-    errors!(Constraints, ConstrainedBodies, ResidualKinematic, "residual_kinematic", ["m/s", "_m_s"], ["m/s^2", "_m_s2"], "the residual of the kinematic constraints (angular components in rad/s)."),
-    errors!(Constraints, ConstrainedBodies, ResidualCollocation, "residual_collocation", ["m", "_m"], ["m/s", "_m_s"], "the residual of the collocation constraints (tilts of wheel axes as sines)."),
-    errors!(Constraints, Constrained, ResidualAttitude, "residual_attitude", "the residual of the attitude constraints."),
+    errors!(Constraints, ConstrainedBodies, ResidualKinematic, "residual_kinematic", ["m/s", "_m_s"], ["m/s^2",
+        "_m_s2"], "the residual of the kinematic constraints (angular components in rad/s)."),
+    errors!(Constraints, ConstrainedBodies, ResidualCollocation, "residual_collocation", ["m", "_m"], ["m/s",
+        "_m_s"], "the residual of the collocation constraints (tilts of wheel axes as sines)."),
+    errors!(Constraints, Constrained, ResidualAttitude, "residual_attitude",
+        "the residual of the attitude constraints."),
     energies!(Energies, All, EnergyBody, "energy_body", "kinetic energy of the body in F_e"),
     energies!(Energies, Wheels, EnergyWheel, "energy_{wheel}", "kinetic energy of wheel {wheel} in F_e"),
     energies!(Energies, Debris, EnergyDebris, "energy_debris", "kinetic energy of the debris in F_e"),
-    energies!(EnergiesCom, All, ComBody, "energy_com_body", "kinetic energy of the body about the spacecraft's centre of mass"),
-    energies!(EnergiesCom, Wheels, ComWheel, "energy_com_{wheel}", "kinetic energy of wheel {wheel} about the spacecraft's centre of mass"),
-    energies!(EnergiesCom, SeveralWheels, ComWheels, "energy_com_wheels", "kinetic energy of all wheels together about the spacecraft's centre of mass"),
-    scales!(EnergiesCom, All, ComTotal, "energy_com_total", ["J", "_j"], "kinetic energy of the spacecraft about its centre of mass"),
-    errors!(EnergiesCom, Free, ComError, "energy_com_error", "the change in the kinetic energy about the centre of mass, relative to its largest value (only without actuation)."),
+    energies!(EnergiesCom, All, ComBody, "energy_com_body",
+        "kinetic energy of the body about the spacecraft's centre of mass"),
+    energies!(EnergiesCom, Wheels, ComWheel, "energy_com_{wheel}",
+        "kinetic energy of wheel {wheel} about the spacecraft's centre of mass"),
+    energies!(EnergiesCom, SeveralWheels, ComWheels, "energy_com_wheels",
+        "kinetic energy of all wheels together about the spacecraft's centre of mass"),
+    scales!(EnergiesCom, All, ComTotal, "energy_com_total", ["J", "_j"],
+        "kinetic energy of the spacecraft about its centre of mass"),
+    errors!(EnergiesCom, Free, ComError, "energy_com_error", "the change in the kinetic energy about the centre of \
+        mass, relative to its largest value (only without actuation)."),
     exchange!(ComBody, Wheels, "body", "the body"),
     exchange!(ComWheel, Wheels, "{wheel}", "wheel {wheel}"),
     exchange!(ComWheels, SeveralWheels, "wheels", "all wheels together"),
-    &[direct!(Exchange, Wheels, Float, Correlation, "exchange_{wheel}_correlation", "", "Correlation over the points between the energies of the body and of wheel {wheel} about the centre of mass (0 if one of them is constant).")],
+    &[direct!(Exchange, Wheels, Float, Correlation, "exchange_{wheel}_correlation", "", "Correlation over the points \
+        between the energies of the body and of wheel {wheel} about the centre of mass (0 if one of them is \
+        constant).")],
     &[
-        direct!(Exchange, Wheels, Float, ExchangeFrequency, "exchange_frequency_hz", "Hz", "Dominant frequency of the body's energy about the centre of mass (null if it is constant, if its spectrum has no peak, or if the grid is uneven)."),
+        direct!(Exchange, Wheels, Float, ExchangeFrequency, "exchange_frequency_hz", "Hz", "Dominant frequency of the \
+            body's energy about the centre of mass (null if it is constant, if its spectrum has no peak, or if the \
+            grid is uneven)."),
         direct!(FinalState, All, Float, TimeReached, "time_reached_s", "s", "Time up to which the run was integrated."),
-        direct!(FinalState, All, Float, TimeFinal, "time_final_s", "s", "Time of the last finite state at an observation point; the other columns of this group show that state."),
-        direct!(FinalState, All, Float, AttitudeW, "q_es_w_final", "", "Attitude quaternion, scalar part, at the final time."),
-        direct!(FinalState, All, Float, AttitudeX, "q_es_x_final", "", "Attitude quaternion, first vector part, at the final time."),
-        direct!(FinalState, All, Float, AttitudeY, "q_es_y_final", "", "Attitude quaternion, second vector part, at the final time."),
-        direct!(FinalState, All, Float, AttitudeZ, "q_es_z_final", "", "Attitude quaternion, third vector part, at the final time."),
-        direct!(FinalState, All, Float, RateX, "omega_se_s_x_final_rad_s", "rad/s", "Angular velocity of the body about s1 at the final time."),
-        direct!(FinalState, All, Float, RateY, "omega_se_s_y_final_rad_s", "rad/s", "Angular velocity of the body about s2 at the final time."),
-        direct!(FinalState, All, Float, RateZ, "omega_se_s_z_final_rad_s", "rad/s", "Angular velocity of the body about s3 at the final time."),
+        direct!(FinalState, All, Float, TimeFinal, "time_final_s", "s",
+            "Time of the last finite state at an observation point; the other columns of this group show that state."),
+        direct!(FinalState, All, Float, AttitudeW, "q_es_w_final", "",
+            "Attitude quaternion, scalar part, at the final time."),
+        direct!(FinalState, All, Float, AttitudeX, "q_es_x_final", "",
+            "Attitude quaternion, first vector part, at the final time."),
+        direct!(FinalState, All, Float, AttitudeY, "q_es_y_final", "",
+            "Attitude quaternion, second vector part, at the final time."),
+        direct!(FinalState, All, Float, AttitudeZ, "q_es_z_final", "",
+            "Attitude quaternion, third vector part, at the final time."),
+        direct!(FinalState, All, Float, RateX, "omega_se_s_x_final_rad_s", "rad/s",
+            "Angular velocity of the body about s1 at the final time."),
+        direct!(FinalState, All, Float, RateY, "omega_se_s_y_final_rad_s", "rad/s",
+            "Angular velocity of the body about s2 at the final time."),
+        direct!(FinalState, All, Float, RateZ, "omega_se_s_z_final_rad_s", "rad/s",
+            "Angular velocity of the body about s3 at the final time."),
     ],
-    &[direct!(FinalState, Wheels, Float, WheelRate, "rate_{wheel}_final_rad_s", "rad/s", "Rate of wheel {wheel} relative to the body at the final time.")],
+    &[direct!(FinalState, Wheels, Float, WheelRate, "rate_{wheel}_final_rad_s", "rad/s",
+    "Rate of wheel {wheel} relative to the body at the final time.")],
     &[
         direct!(StepStatistics, All, Count, Steps, "steps", "", "Accepted steps."),
         direct!(StepStatistics, All, Count, Rejected, "steps_rejected", "", "Rejected steps."),
-        direct!(StepStatistics, All, Count, Evaluations, "evaluations", "", "Evaluations of the right-hand side (for Taylor methods: jets)."),
-        direct!(Numerics, All, Float, StateError, "state_error_estimate", "", "Estimated largest error in the body's rotation on the grid: in omega relative to the largest |omega| (or to one radian over the duration if that is more), or in the attitude in rad, whichever is larger."),
-        direct!(Numerics, All, Float, Amplification, "error_amplification", "", "Estimated factor by which the motion amplifies relative errors in the rotational state that arise evenly along the run."),
-        direct!(Numerics, All, Count, IllConditioned, "ill_conditioned", "", "1 if the rounding of the input alone may move the state by more than 1e-3 (error_amplification times 2^-52), else 0."),
-        direct!(Numerics, Debris, Float, DebrisStateError, "debris_state_error_estimate", "", "Estimated largest error in the debris's rotation on the grid: in omega relative to the largest |omega| (or to one radian over the duration if that is more), or in the attitude in rad, whichever is larger."),
-        direct!(Numerics, Debris, Float, DebrisAmplification, "debris_error_amplification", "", "Estimated factor by which the motion of the debris amplifies relative errors in its rotational state that arise evenly along the run."),
-        direct!(Numerics, Debris, Count, DebrisIllConditioned, "debris_ill_conditioned", "", "1 if the rounding of the input alone may move the rotation of the debris by more than 1e-3 (debris_error_amplification times 2^-52), else 0."),
+        direct!(StepStatistics, All, Count, Evaluations, "evaluations", "",
+            "Evaluations of the right-hand side (for Taylor methods: jets)."),
+        direct!(Numerics, All, Float, StateError, "state_error_estimate", "", "Estimated largest error in the body's \
+            rotation on the grid: in omega relative to the largest |omega| (or to one radian over the duration if that \
+            is more), or in the attitude in rad, whichever is larger."),
+        direct!(Numerics, All, Float, Amplification, "error_amplification", "", "Estimated factor by which the motion \
+            amplifies relative errors in the rotational state that arise evenly along the run."),
+        direct!(Numerics, All, Count, IllConditioned, "ill_conditioned", "", "1 if the rounding of the input alone may \
+            move the state by more than 1e-3 (error_amplification times 2^-52), else 0."),
+        direct!(Numerics, Debris, Float, DebrisStateError, "debris_state_error_estimate", "", "Estimated largest error \
+            in the debris's rotation on the grid: in omega relative to the largest |omega| (or to one radian over the \
+            duration if that is more), or in the attitude in rad, whichever is larger."),
+        direct!(Numerics, Debris, Float, DebrisAmplification, "debris_error_amplification", "", "Estimated factor by \
+            which the motion of the debris amplifies relative errors in its rotational state that arise evenly along \
+            the run."),
+        direct!(Numerics, Debris, Count, DebrisIllConditioned, "debris_ill_conditioned", "", "1 if the rounding of the \
+            input alone may move the rotation of the debris by more than 1e-3 (debris_error_amplification times \
+            2^-52), else 0."),
     ],
     &[
-        of!(Motion, All, RateSquare, Order(OrderStatistic::Max), ["angular_rate_max_rad_s"], "rad/s", ["Maximum magnitude of the angular velocity of the body relative to F_e."]),
-        of!(Motion, All, RateSquare, Order(OrderStatistic::Final), ["angular_rate_final_rad_s"], "rad/s", ["Magnitude of the angular velocity of the body relative to F_e at the last point."]),
-        of!(Motion, All, Nutation, Value(ValueStatistic::Max), ["nutation_angle_max_rad"], "rad", ["Maximum angle between s3 (or observe.nutation_axis) and the angular momentum of the spacecraft about its centre of mass."]),
-        of!(Motion, All, Nutation, Value(ValueStatistic::Min), ["nutation_angle_min_rad"], "rad", ["Minimum angle between s3 (or observe.nutation_axis) and the angular momentum of the spacecraft about its centre of mass."]),
-        of!(Motion, All, Nutation, Value(ValueStatistic::Mean), ["nutation_angle_mean_rad"], "rad", ["Mean over the points of the angle between s3 (or observe.nutation_axis) and the angular momentum of the spacecraft about its centre of mass."]),
-        of!(Motion, All, FromNominal, Order(OrderStatistic::Max), ["attitude_from_nominal_max_rad"], "rad", ["Maximum rotation angle between the attitude and that of the nominal run at the same time."]),
-        of!(Motion, All, FromNominal, Order(OrderStatistic::Final), ["attitude_from_nominal_final_rad"], "rad", ["Rotation angle between the attitude and that of the nominal run at the last point."]),
-        of!(Motion, All, FromInitial, Order(OrderStatistic::Max), ["attitude_from_initial_max_rad"], "rad", ["Maximum rotation angle between the attitude and the initial attitude of the run."]),
-        of!(Motion, All, FromInitial, Order(OrderStatistic::Final), ["attitude_from_initial_final_rad"], "rad", ["Rotation angle between the attitude at the last point and the initial attitude of the run."]),
+        of!(Motion, All, RateSquare, Order(OrderStatistic::Max), ["angular_rate_max_rad_s"], "rad/s",
+            ["Maximum magnitude of the angular velocity of the body relative to F_e."]),
+        of!(Motion, All, RateSquare, Order(OrderStatistic::Final), ["angular_rate_final_rad_s"], "rad/s",
+            ["Magnitude of the angular velocity of the body relative to F_e at the last point."]),
+        of!(Motion, All, Nutation, Value(ValueStatistic::Max), ["nutation_angle_max_rad"], "rad", ["Maximum angle \
+            between s3 (or observe.nutation_axis) and the angular momentum of the spacecraft about its centre of \
+            mass."]),
+        of!(Motion, All, Nutation, Value(ValueStatistic::Min), ["nutation_angle_min_rad"], "rad", ["Minimum angle \
+            between s3 (or observe.nutation_axis) and the angular momentum of the spacecraft about its centre of \
+            mass."]),
+        of!(Motion, All, Nutation, Value(ValueStatistic::Mean), ["nutation_angle_mean_rad"], "rad", ["Mean over the \
+            points of the angle between s3 (or observe.nutation_axis) and the angular momentum of the spacecraft about \
+            its centre of mass."]),
+        of!(Motion, All, FromNominal, Order(OrderStatistic::Max), ["attitude_from_nominal_max_rad"], "rad",
+            ["Maximum rotation angle between the attitude and that of the nominal run at the same time."]),
+        of!(Motion, All, FromNominal, Order(OrderStatistic::Final), ["attitude_from_nominal_final_rad"], "rad",
+            ["Rotation angle between the attitude and that of the nominal run at the last point."]),
+        of!(Motion, All, FromInitial, Order(OrderStatistic::Max), ["attitude_from_initial_max_rad"], "rad",
+            ["Maximum rotation angle between the attitude and the initial attitude of the run."]),
+        of!(Motion, All, FromInitial, Order(OrderStatistic::Final), ["attitude_from_initial_final_rad"], "rad",
+            ["Rotation angle between the attitude at the last point and the initial attitude of the run."]),
     ],
-    &[of!(Motion, Wheels, WheelSpeed, Order(OrderStatistic::Max), ["speed_{wheel}_max_rad_s"], "rad/s", ["Maximum magnitude of the rate of wheel {wheel} relative to the body."])],
-    &[of!(Motion, Wheels, WheelMomentum, Order(OrderStatistic::Max), ["momentum_{wheel}_max_n_m_s"], "N m s", ["Maximum magnitude of the angular momentum of wheel {wheel} about its axis relative to F_e."])],
+    &[of!(Motion, Wheels, WheelSpeed, Order(OrderStatistic::Max), ["speed_{wheel}_max_rad_s"], "rad/s",
+    ["Maximum magnitude of the rate of wheel {wheel} relative to the body."])],
+    &[of!(Motion, Wheels, WheelMomentum, Order(OrderStatistic::Max), ["momentum_{wheel}_max_n_m_s"], "N m s",
+    ["Maximum magnitude of the angular momentum of wheel {wheel} about its axis relative to F_e."])],
     &[
-        of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Max), ["spin_axis_debris_angle_max_rad"], "rad", ["Maximum angle between s3 and the line from the spacecraft's centre of mass to the debris."]),
-        of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Min), ["spin_axis_debris_angle_min_rad"], "rad", ["Minimum angle between s3 and the line from the spacecraft's centre of mass to the debris."]),
-        of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Final), ["spin_axis_debris_angle_final_rad"], "rad", ["Angle between s3 and the line from the spacecraft's centre of mass to the debris at the last point."]),
+        of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Max), ["spin_axis_debris_angle_max_rad"], "rad",
+            ["Maximum angle between s3 and the line from the spacecraft's centre of mass to the debris."]),
+        of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Min), ["spin_axis_debris_angle_min_rad"], "rad",
+            ["Minimum angle between s3 and the line from the spacecraft's centre of mass to the debris."]),
+        of!(Motion, Debris, DebrisDirection, Value(ValueStatistic::Final), ["spin_axis_debris_angle_final_rad"],
+            "rad", ["Angle between s3 and the line from the spacecraft's centre of mass to the debris at the last \
+            point."]),
     ],
     &[
         direct!(MassProperties, All, Float, Mass, "mass_kg", "kg", "Mass of the spacecraft with its wheels."),
-        direct!(MassProperties, All, Float, CenterX, "center_of_mass_x_m", "m", "Centre of mass of the spacecraft from p, component along s1."),
-        direct!(MassProperties, All, Float, CenterY, "center_of_mass_y_m", "m", "Centre of mass of the spacecraft from p, component along s2."),
-        direct!(MassProperties, All, Float, CenterZ, "center_of_mass_z_m", "m", "Centre of mass of the spacecraft from p, component along s3."),
-        direct!(MassProperties, All, Float, SmallestMoment, "principal_moment_smallest_kg_m2", "kg m^2", "Smallest principal moment of inertia of the spacecraft about its centre of mass, with locked wheels."),
-        direct!(MassProperties, All, Float, MiddleMoment, "principal_moment_middle_kg_m2", "kg m^2", "Middle principal moment of inertia of the spacecraft about its centre of mass, with locked wheels."),
-        direct!(MassProperties, All, Float, LargestMoment, "principal_moment_largest_kg_m2", "kg m^2", "Largest principal moment of inertia of the spacecraft about its centre of mass, with locked wheels."),
+        direct!(MassProperties, All, Float, CenterX, "center_of_mass_x_m", "m",
+            "Centre of mass of the spacecraft from p, component along s1."),
+        direct!(MassProperties, All, Float, CenterY, "center_of_mass_y_m", "m",
+            "Centre of mass of the spacecraft from p, component along s2."),
+        direct!(MassProperties, All, Float, CenterZ, "center_of_mass_z_m", "m",
+            "Centre of mass of the spacecraft from p, component along s3."),
+        direct!(MassProperties, All, Float, SmallestMoment, "principal_moment_smallest_kg_m2", "kg m^2",
+            "Smallest principal moment of inertia of the spacecraft about its centre of mass, with locked wheels."),
+        direct!(MassProperties, All, Float, MiddleMoment, "principal_moment_middle_kg_m2", "kg m^2",
+            "Middle principal moment of inertia of the spacecraft about its centre of mass, with locked wheels."),
+        direct!(MassProperties, All, Float, LargestMoment, "principal_moment_largest_kg_m2", "kg m^2",
+            "Largest principal moment of inertia of the spacecraft about its centre of mass, with locked wheels."),
     ],
     &[
-        of!(Orbit, Orbit, OrbitDistance, Value(ValueStatistic::Min), ["orbit_distance_min_m"], "m", ["Minimum distance of the spacecraft's centre of mass from the centre of the central body on the grid."]),
-        of!(Orbit, Orbit, OrbitDistance, Value(ValueStatistic::Max), ["orbit_distance_max_m"], "m", ["Maximum distance of the spacecraft's centre of mass from the centre of the central body on the grid."]),
-        of!(Orbit, Orbit, NadirAngle, Value(ValueStatistic::Max), ["nadir_angle_max_rad"], "rad", ["Maximum angle between s3 and nadir on the grid."]),
-        of!(Orbit, Orbit, NadirAngle, Value(ValueStatistic::Mean), ["nadir_angle_mean_rad"], "rad", ["Mean over the points of the angle between s3 and nadir."]),
-        of!(Orbit, Orbit, NadirAngle, Value(ValueStatistic::Final), ["nadir_angle_final_rad"], "rad", ["Angle between s3 and nadir at the last point."]),
-        of!(Orbit, GravityGradient, GradientTorqueSquare, Order(OrderStatistic::Max), ["gravity_gradient_torque_max_n_m"], "N m", ["Maximum magnitude of the gravity-gradient torque on the grid."]),
-        of!(Orbit, MagneticTorque, FieldStrength, Value(ValueStatistic::Max), ["magnetic_field_max_t"], "T", ["Maximum magnitude of the Earth's magnetic field on the grid."]),
-        of!(Orbit, MagneticTorque, FieldStrength, Value(ValueStatistic::Mean), ["magnetic_field_mean_t"], "T", ["Mean over the points of the magnitude of the Earth's magnetic field."]),
-        of!(Orbit, MagneticTorque, MagneticTorqueSquare, Order(OrderStatistic::Max), ["magnetic_torque_max_n_m"], "N m", ["Maximum magnitude of the magnetic torque on the residual dipole and the torque rods, on the grid."]),
-        of!(Orbit, Drag, AirDensity, Value(ValueStatistic::Max), ["air_density_max_kg_m3"], "kg/m^3", ["Maximum air density at the spacecraft on the grid."]),
-        of!(Orbit, Drag, AirDensity, Value(ValueStatistic::Mean), ["air_density_mean_kg_m3"], "kg/m^3", ["Mean over the points of the air density at the spacecraft."]),
-        of!(Orbit, Drag, DragTorqueSquare, Order(OrderStatistic::Max), ["drag_torque_max_n_m"], "N m", ["Maximum magnitude of the drag torque on the grid."]),
-        of!(Orbit, SolarPressure, SunHidden, Value(ValueStatistic::Mean), ["eclipse_fraction"], "", ["Mean over the points of the fraction of the Sun's disc that the Earth hides."]),
-        of!(Orbit, SolarPressure, SolarTorqueSquare, Order(OrderStatistic::Max), ["solar_pressure_torque_max_n_m"], "N m", ["Maximum magnitude of the torque from sunlight on the grid."]),
+        of!(Orbit, Orbit, OrbitDistance, Value(ValueStatistic::Min), ["orbit_distance_min_m"], "m",
+            ["Minimum distance of the spacecraft's centre of mass from the centre of the central body on the grid."]),
+        of!(Orbit, Orbit, OrbitDistance, Value(ValueStatistic::Max), ["orbit_distance_max_m"], "m",
+            ["Maximum distance of the spacecraft's centre of mass from the centre of the central body on the grid."]),
+        of!(Orbit, Orbit, NadirAngle, Value(ValueStatistic::Max), ["nadir_angle_max_rad"], "rad",
+            ["Maximum angle between s3 and nadir on the grid."]),
+        of!(Orbit, Orbit, NadirAngle, Value(ValueStatistic::Mean), ["nadir_angle_mean_rad"], "rad",
+            ["Mean over the points of the angle between s3 and nadir."]),
+        of!(Orbit, Orbit, NadirAngle, Value(ValueStatistic::Final), ["nadir_angle_final_rad"], "rad",
+            ["Angle between s3 and nadir at the last point."]),
+        of!(Orbit, GravityGradient, GradientTorqueSquare, Order(OrderStatistic::Max),
+            ["gravity_gradient_torque_max_n_m"], "N m",
+            ["Maximum magnitude of the gravity-gradient torque on the grid."]),
+        of!(Orbit, MagneticTorque, FieldStrength, Value(ValueStatistic::Max), ["magnetic_field_max_t"], "T",
+            ["Maximum magnitude of the Earth's magnetic field on the grid."]),
+        of!(Orbit, MagneticTorque, FieldStrength, Value(ValueStatistic::Mean), ["magnetic_field_mean_t"], "T",
+            ["Mean over the points of the magnitude of the Earth's magnetic field."]),
+        of!(Orbit, MagneticTorque, MagneticTorqueSquare, Order(OrderStatistic::Max), ["magnetic_torque_max_n_m"], "N \
+            m", ["Maximum magnitude of the magnetic torque on the residual dipole and the torque rods, on the grid."]),
+        of!(Orbit, Drag, AirDensity, Value(ValueStatistic::Max), ["air_density_max_kg_m3"], "kg/m^3",
+            ["Maximum air density at the spacecraft on the grid."]),
+        of!(Orbit, Drag, AirDensity, Value(ValueStatistic::Mean), ["air_density_mean_kg_m3"], "kg/m^3",
+            ["Mean over the points of the air density at the spacecraft."]),
+        of!(Orbit, Drag, DragTorqueSquare, Order(OrderStatistic::Max), ["drag_torque_max_n_m"], "N m",
+            ["Maximum magnitude of the drag torque on the grid."]),
+        of!(Orbit, SolarPressure, SunHidden, Value(ValueStatistic::Mean), ["eclipse_fraction"], "",
+            ["Mean over the points of the fraction of the Sun's disc that the Earth hides."]),
+        of!(Orbit, SolarPressure, SolarTorqueSquare, Order(OrderStatistic::Max), ["solar_pressure_torque_max_n_m"],
+            "N m", ["Maximum magnitude of the torque from sunlight on the grid."]),
     ],
 ];
 

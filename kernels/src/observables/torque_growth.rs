@@ -27,7 +27,8 @@ pub(super) const LARGEST_EXPONENT: f64 = 460.5;
 /// The largest amplification; beyond it the amplification counts as infinite.
 pub(super) const MOST: f64 = 1e200;
 
-/// Points of a run that are examined, at most: several in each half of a libration up to some orbits, a fair sample beyond.
+/// Points of a run that are examined, at most: several in each half of a libration up to some orbits, a fair sample
+/// beyond.
 const POINTS: usize = 128;
 
 /// The rotation, rad, over which a torque is differenced: the error is of its size, and rounding 1e-12.
@@ -332,8 +333,9 @@ mod tests {
     use super::*;
     use crate::dynamics::effects::gravity_gradient::GravityGradient;
 
-    /// Law: along the vertical the axis of the smallest moment is stable in pitch and roll, and that of the largest is not: there the growth is sqrt(3) of
-    /// the mean motion times the square root of a difference of moments over a moment.
+    /// Law: along the vertical the axis of the smallest moment is stable in pitch and roll, and that of the largest is
+    /// not: there the growth is sqrt(3) of the mean motion times the square root of a difference of moments over a
+    /// moment.
     #[test]
     fn a_body_on_its_long_axis_is_stable() {
         let moments = [90.0, 100.0, 40.0];

@@ -1,6 +1,8 @@
-//! [`Window`]: the extreme of a quantity over an interval of time, a column that only a requirement "at all times" asks for.
+//! [`Window`]: the extreme of a quantity over an interval of time, a column that only a requirement "at all times" asks
+//! for.
 //!
-//! Such a requirement is about each run as a whole, so it needs one number of each run; bands have numbers of all runs at each time.
+//! Such a requirement is about each run as a whole, so it needs one number of each run; bands have numbers of all runs
+//! at each time.
 
 use core::ops::Range;
 
@@ -94,7 +96,8 @@ impl Window {
         self.series
     }
 
-    /// The extreme over `points`, of the stored numbers `column` of a run, which are divided by `scale`; NaN where one is, or where there is none.
+    /// The extreme over `points`, of the stored numbers `column` of a run, which are divided by `scale`; NaN where one
+    /// is, or where there is none.
     pub(super) fn extreme(&self, column: &[f64], points: Range<usize>, scale: f64) -> f64 {
         let beyond = |a: f64, b: f64| if self.is_highest { a > b } else { a < b };
         let further = |found: f64, value: &f64| if found.is_nan() || beyond(found, *value) { found } else { *value };
@@ -116,7 +119,8 @@ mod tests {
         Window { is_highest, from_s, to_s, ..BLANK }
     }
 
-    /// Law: both ends of an interval belong to it; the extreme is of its points only, on the side asked for, and unknown where a value is.
+    /// Law: both ends of an interval belong to it; the extreme is of its points only, on the side asked for, and
+    /// unknown where a value is.
     #[test]
     fn an_extreme_is_of_the_points_of_its_interval() {
         let times = [0.0, 0.5, 1.0, 1.5];

@@ -8,7 +8,7 @@ use super::explicit::{Carried, Step, chosen};
 use super::step_control::{Control, shortest_step};
 use super::stepper::{Attempt, LaneMethod, Proposal, Stepper, StepperLane};
 use super::system::{System, Tolerance};
-use crate::math::{Mask, Real};
+use crate::math::real::{Mask, Real};
 
 /// The error of a step that is not finite: large enough for the strongest reduction of the step.
 const UNSOUND: f64 = 1e30;

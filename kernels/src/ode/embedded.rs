@@ -4,7 +4,7 @@ use super::error_model::StepErrors;
 use super::explicit::{Carried, Step};
 use super::step_control::Controller;
 use super::system::{System, Tolerance};
-use crate::math::Real;
+use crate::math::real::Real;
 
 /// An attempted step, apart from the state at its end.
 pub struct PairAttempt<R> {
@@ -64,7 +64,8 @@ pub trait Embedded: Copy {
         end: &mut Carried<R, N>,
     ) -> PairAttempt<R>;
 
-    /// Prepares [`Embedded::inside`] for the step that was attempted last; nothing, unless dense output has evaluations of its own.
+    /// Prepares [`Embedded::inside`] for the step that was attempted last; nothing, unless dense output has evaluations
+    /// of its own.
     #[inline(always)]
     fn prepare_inside<R: Real, Q: System<R, N>, const N: usize>(
         _system: &Q,

@@ -14,8 +14,8 @@ pub enum ErrorModel {
 pub struct StepErrors {
     /// Ratio of error to estimate at a tolerance of one.
     pub factor: f64,
-    /// One over the order of the estimate plus one: the step is continued with a formula of one order more than the estimate
-    /// (local extrapolation), so that its error is smaller by the step, which is the tolerance to this power.
+    /// One over the order of the estimate plus one: the step is continued with a formula of one order more than the
+    /// estimate (local extrapolation), so that its error is smaller by the step, which is the tolerance to this power.
     pub extrapolation: f64,
     /// Error of dense output in units of the tolerance; later steps do not start from it.
     pub dense: f64,
@@ -29,7 +29,8 @@ impl StepErrors {
 }
 
 impl ErrorModel {
-    /// How many times the estimate of a step counts where the right-hand side is not smooth: local extrapolation gains nothing there.
+    /// How many times the estimate of a step counts where the right-hand side is not smooth: local extrapolation gains
+    /// nothing there.
     pub(super) fn rough_weight(&self, tolerance: f64) -> f64 {
         match self {
             ErrorModel::Estimated(errors) => (1.0 / errors.gain(tolerance)).max(1.0),
@@ -38,7 +39,8 @@ impl ErrorModel {
     }
 }
 
-/// Error model of a method with a given step: the first term of the solution's Taylor series that its steps do not reproduce.
+/// Error model of a method with a given step: the first term of the solution's Taylor series that its steps do not
+/// reproduce.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Remainder {
     /// Order of the method.

@@ -1,6 +1,7 @@
 //! Stages of explicit Runge-Kutta methods from their tableaus, and the compensated step that all methods share.
 //!
-//! A step is y' = y + h sum_i b_i k_i; the rounding error of the sum is carried to the next step (Kahan 1965). The methods are in [`super::embedded`] and [`super::fixed`].
+//! A step is y' = y + h sum_i b_i k_i; the rounding error of the sum is carried to the next step (Kahan 1965). The
+//! methods are in [`super::embedded`] and [`super::fixed`].
 
 #![allow(clippy::needless_range_loop, reason = "iterators over lanes are not inlined always, see `each`")]
 
@@ -9,10 +10,11 @@ use core::marker::PhantomData;
 pub use super::step::Step;
 use super::system::System;
 use super::tableau::Tableau;
-use crate::math::Real;
+use crate::math::real::Real;
 use crate::math::sums::two_sum;
 
-/// Row `I` of a tableau as a constant of its own, so that the sum over it is unrolled and its zeros vanish at compile time.
+/// Row `I` of a tableau as a constant of its own, so that the sum over it is unrolled and its zeros vanish at compile
+/// time.
 struct Row<T, const S: usize, const I: usize>(PhantomData<T>);
 
 impl<T: Tableau<S>, const S: usize, const I: usize> Row<T, S, I> {
@@ -21,8 +23,9 @@ impl<T: Tableau<S>, const S: usize, const I: usize> Row<T, S, I> {
 
 /// A vector by its components.
 ///
-/// In place of `core::array::from_fn` and `map` in hot code: these are not always inlined, and are then compiled without the
-/// instructions of the chosen set (measured: thirty times slower). For the same reason every closure here is `inline(always)`.
+/// In place of `core::array::from_fn` and `map` in hot code: these are not always inlined, and are then compiled
+/// without the instructions of the chosen set (measured: thirty times slower). For the same reason every closure here
+/// is `inline(always)`.
 #[inline(always)]
 pub(super) fn each<R: Copy, const N: usize>(like: R, component: impl Fn(usize) -> R) -> [R; N] {
     let mut vector = [like; N];
@@ -60,8 +63,8 @@ pub(super) fn weighted<R: Real, const N: usize, const S: usize>(k: &[[R; N]; S],
     )
 }
 
-/// sum_j a_ij k_j for stage `stage`. One arm per stage: so the derivative is called in one place, in a loop, and is inlined once
-/// and not once per stage, which matters for kernels of 62 components.
+/// sum_j a_ij k_j for stage `stage`. One arm per stage: so the derivative is called in one place, in a loop, and is
+/// inlined once and not once per stage, which matters for kernels of 62 components.
 #[inline(always)]
 fn stage_slope<T, R, const N: usize, const S: usize>(stage: usize, k: &[[R; N]; S]) -> [R; N]
 where
@@ -135,7 +138,8 @@ pub(super) fn poison<R: Real, const N: usize>(values: &[R; N], sum: R) -> R {
     sum
 }
 
-/// Fills the stages `from..to` of `k` and puts the state at the end of the step, the argument of stage `closing`, into `end`.
+/// Fills the stages `from..to` of `k` and puts the state at the end of the step, the argument of stage `closing`, into
+/// `end`.
 ///
 /// Stage zero must be there. With a `closing` of `S` the end is left to the caller.
 #[inline(always)]

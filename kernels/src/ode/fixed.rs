@@ -1,21 +1,21 @@
 //! [`Fixed`]: one-step methods with a given step.
 //!
-//! An arc of length l is divided into ceil(l / step) equal steps; the last ends exactly at its end. An observation point
-//! inside a step is reached by a shorter step from the same start: as accurate as the method, and with the same invariants,
-//! which an interpolating polynomial does not have.
+//! An arc of length l is divided into ceil(l / step) equal steps; the last ends exactly at its end. An observation
+//! point inside a step is reached by a shorter step from the same start: as accurate as the method, and with the same
+//! invariants, which an interpolating polynomial does not have.
 
 use super::error_model::{ErrorModel, Remainder};
 use super::explicit::{Carried, Step};
 use super::step_control::Control;
 use super::stepper::{Attempt, LaneMethod, Proposal, Stepper, StepperLane};
 use super::system::{System, Tolerance};
-use crate::math::Real;
+use crate::math::real::Real;
 
 /// Steps per arc if the campaign gives no step.
 const DEFAULT_STEPS: f64 = 1000.0;
 
-/// A quotient of arc and step that exceeds an integer by less than this fraction counts as that integer: such excesses are
-/// rounding errors of decimal fractions (0.3 / 0.1 differs from 3 by one unit in the last place).
+/// A quotient of arc and step that exceeds an integer by less than this fraction counts as that integer: such excesses
+/// are rounding errors of decimal fractions (0.3 / 0.1 differs from 3 by one unit in the last place).
 const WHOLE: f64 = 4.0 * f64::EPSILON;
 
 /// A step of a fixed-step method, apart from the state at its end.
@@ -28,7 +28,8 @@ pub struct Advance<R> {
 
 /// A one-step method for steps of given length.
 ///
-/// The state at the end of a step is put into `end` and not returned, because every move of a state of many components is a copy.
+/// The state at the end of a step is put into `end` and not returned, because every move of a state of many components
+/// is a copy.
 pub trait FixedStep: Copy {
     /// The error of its steps.
     const REMAINDER: Remainder;

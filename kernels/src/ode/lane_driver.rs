@@ -1,9 +1,9 @@
 //! [`integrate`]: the driver of all methods. Runs in lanes, each with its own time, step, arc and error.
 //!
-//! A cycle of the driver: every lane *proposes* a step, *attempts* it, *records* the observation points inside it, and lanes
-//! whose run has ended *retire* it and load the next. How steps are proposed, attempted and accepted is the matter of a
-//! [`Stepper`]. All decisions are correctly rounded arithmetic on the lane's own numbers, so that lane i equals the scalar run
-//! bit for bit (`tests/determinism/lanes_runge_kutta.rs`). No allocation.
+//! A cycle of the driver: every lane *proposes* a step, *attempts* it, *records* the observation points inside it, and
+//! lanes whose run has ended *retire* it and load the next. How steps are proposed, attempted and accepted is the
+//! matter of a [`Stepper`]. All decisions are correctly rounded arithmetic on the lane's own numbers, so that lane i
+//! equals the scalar run bit for bit (`tests/determinism/lanes_runge_kutta.rs`). No allocation.
 
 use super::explicit::Carried;
 use super::lane_slot::LaneSlots;
@@ -13,15 +13,15 @@ use super::step_control::Control;
 use super::stepper::{LaneMethod, Stepper, StepperLane, of_lane};
 use super::switches::Switches;
 use super::system::System;
-use crate::math::{Mask, Real};
+use crate::math::real::{Mask, Real};
 
 /// Integrates all runs to the end of their last arcs.
 ///
 /// `zero` determines the kind of number: a scalar or lanes. At every observation time the recorder gets the integrated
-/// components: at time zero the initial state itself, at the end of a step the step's own state, elsewhere dense output. Steps end at switches. A run
-/// whose state becomes non-finite, whose step becomes too short or that takes more than `control.max_steps` steps ends there; one
-/// that cannot do with them ends as soon as that is clear.
-/// Call inside [`crate::math::Isa::run`].
+/// components: at time zero the initial state itself, at the end of a step the step's own state, elsewhere dense
+/// output. Steps end at switches. A run whose state becomes non-finite, whose step becomes too short or that takes more
+/// than `control.max_steps` steps ends there; one that cannot do with them ends as soon as that is clear. Call inside
+/// [`crate::math::Isa::run`].
 #[inline(always)]
 pub fn integrate<M, R, Q, O, const N: usize>(method: M, zero: R, runs: &mut Q, recorder: &mut O, control: &Control)
 where

@@ -1,8 +1,8 @@
 //! [`LaneSlots`]: which run is in which lane, and which run is next. No arithmetic of a method.
 
 use super::runs::{EndedRun, Recorder, Runs, Termination};
-use crate::math::Real;
 use crate::math::lanes::WIDEST;
+use crate::math::real::Real;
 
 /// The lanes and the queue of runs.
 pub(super) struct LaneSlots {

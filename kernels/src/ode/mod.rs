@@ -1,6 +1,7 @@
 //! Layer 1: integrators of ordinary differential equations. They know no physics and import [`crate::math`] only.
 //!
-//! - [`System`]: the right-hand side and the norm of its errors. [`Runs`]: where runs come from; [`Recorder`]: where states go.
+//! - [`System`]: the right-hand side and the norm of its errors. [`Runs`]: where runs come from; [`Recorder`]: where
+//!   states go.
 //! - [`integrate`]: the driver of all methods: runs in lanes, arc by arc.
 //! - [`integrators`]: the list of integrators. [`Adaptive`]: step control by the tolerance, for [`embedded`] pairs.
 //!   [`Fixed`]: equal steps.

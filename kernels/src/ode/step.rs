@@ -1,6 +1,6 @@
 //! [`Step`]: start, end and length of a step.
 
-use crate::math::Real;
+use crate::math::real::Real;
 
 /// Start, end and length of a step.
 #[derive(Clone, Copy)]

@@ -3,28 +3,32 @@
 //! The source of the constants is given with each method.
 
 use super::system::Tolerance;
-use crate::math::Real;
 use crate::math::power::power;
+use crate::math::real::Real;
 
 /// What a campaign asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
     /// Tolerance of the adaptive methods.
     pub tolerance: Tolerance,
-    /// Step of the methods with a fixed step, s; without it they take a thousandth of each arc. Adaptive methods ignore it.
+    /// Step of the methods with a fixed step, s; without it they take a thousandth of each arc. Adaptive methods ignore
+    /// it.
     pub step: Option<f64>,
-    /// A run ends after this number of attempted steps, accepted and rejected; earlier where it is out of reach ([`is_out_of_reach`]).
+    /// A run ends after this number of attempted steps, accepted and rejected; earlier where it is out of reach
+    /// ([`is_out_of_reach`]).
     pub max_steps: u64,
 }
 
 /// Steps in an arc after which its pace is judged: some 50 ms. A run that is limited to no more steps is not judged.
 pub const PACE_STEPS: u64 = 20_000;
 
-/// Factor between the steps that an arc needs and those that its pace lets expect, with a margin of two. Actuation is constant in an arc: steps
-/// follow a periodic motion, or a rate that grows. They become longer on the average where a torque brings a body to rest at the end of the arc, by two.
+/// Factor between the steps that an arc needs and those that its pace lets expect, with a margin of two. Actuation is
+/// constant in an arc: steps follow a periodic motion, or a rate that grows. They become longer on the average where a
+/// torque brings a body to rest at the end of the arc, by two.
 const UNEVEN: f64 = 4.0;
 
-/// Whether an arc of `length` cannot be finished in `most` steps, where its first [`PACE_STEPS`] steps lead to `time` after its start.
+/// Whether an arc of `length` cannot be finished in `most` steps, where its first [`PACE_STEPS`] steps lead to `time`
+/// after its start.
 pub fn is_out_of_reach(most: u64, time: f64, length: f64) -> bool {
     time * (most as f64 / PACE_STEPS as f64) * UNEVEN < length
 }
@@ -84,7 +88,8 @@ impl Controller {
 mod tests {
     use super::*;
 
-    /// Law: an arc is given up where it needs more than four times the steps that are left at its pace, whatever its numbers.
+    /// Law: an arc is given up where it needs more than four times the steps that are left at its pace, whatever its
+    /// numbers.
     #[test]
     fn an_arc_is_given_up_where_it_is_out_of_reach() {
         let most = 100 * PACE_STEPS;

@@ -1,4 +1,5 @@
-//! [`Stepper`]: how a method chooses and takes steps in lanes; [`StepperLane`]: the state of every lane, as far as it is common to all methods.
+//! [`Stepper`]: how a method chooses and takes steps in lanes; [`StepperLane`]: the state of every lane, as far as it
+//! is common to all methods.
 
 use super::error_model::ErrorModel;
 use super::explicit::{Carried, each};
@@ -7,7 +8,7 @@ use super::runs::{EndedRun, Termination};
 use super::step::Step;
 use super::step_control::{Control, PACE_STEPS, is_out_of_reach};
 use super::system::System;
-use crate::math::Real;
+use crate::math::real::Real;
 
 /// A method together with its step control.
 pub trait LaneMethod: Copy {
@@ -82,8 +83,8 @@ pub trait Stepper<R: Real, const N: usize> {
     /// The step that every lane takes next.
     fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) -> Proposal<R>;
 
-    /// Attempts the step and puts the state at its end into `end`, which is not returned because every move of a state of many
-    /// components is a copy.
+    /// Attempts the step and puts the state at its end into `end`, which is not returned because every move of a state
+    /// of many components is a copy.
     fn attempt<Q: System<R, N>>(
         &mut self,
         system: &Q,
@@ -118,8 +119,8 @@ pub trait Stepper<R: Real, const N: usize> {
     /// The derivatives at both ends of the step that was attempted last.
     fn slopes(&self) -> [&[R; N]; 2];
 
-    /// After [`Stepper::advance`]: the next step of the lanes `lanes` has the length `length`, s, and those after it the length of the step
-    /// that this one is to replace.
+    /// After [`Stepper::advance`]: the next step of the lanes `lanes` has the length `length`, s, and those after it
+    /// the length of the step that this one is to replace.
     fn cut(&mut self, lanes: R::Mask, length: R);
 
     /// Evaluates the derivative at the current time again in the lanes `lanes`, where its branches have changed.
@@ -205,7 +206,8 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         self.accepted.lane(lane) + self.rejected.lane(lane)
     }
 
-    /// Whether the run in lane `lane` has taken all steps that it may take, or cannot get to the end of its arc with them.
+    /// Whether the run in lane `lane` has taken all steps that it may take, or cannot get to the end of its arc with
+    /// them.
     #[cold]
     pub(super) fn gives_up(&mut self, lane: usize, max_steps: u64) -> bool {
         let (attempts, before) = (self.attempts(lane), self.before.lane(lane));

@@ -1,31 +1,37 @@
 //! Steps that end where the right-hand side changes its branch.
 //!
-//! A right-hand side with branches has switch functions, smooth functions of time and state whose signs say which branch is right. Within a step the
-//! branches are frozen: what is integrated is the smooth continuation of each, so that a method keeps its order and its error estimate means
-//! something (E. Hairer, S. Norsett & G. Wanner, *Solving Ordinary Differential Equations I*, 1993, section II.6; L. Shampine & S. Thompson, *Event
-//! location for ordinary differential equations*, Comput. Math. Appl. 39, 2000). A step at whose end a branch is wrong is not taken: the switch is located on
-//! its dense output, and a step that ends there takes its place. Then the branches are chosen again, by the signs a little later, so that it does not matter on
-//! which side of the switch the step has ended. A pair of switches within a step, after which all signs are as they were, is found by the derivatives
-//! at both ends ([`dip`]): the step ends first where the function is smallest.
+//! A right-hand side with branches has switch functions, smooth functions of time and state whose signs say which
+//! branch is right. Within a step the branches are frozen: what is integrated is the smooth continuation of each, so
+//! that a method keeps its order and its error estimate means something (E. Hairer, S. Norsett & G. Wanner, *Solving
+//! Ordinary Differential Equations I*, 1993, section II.6; L. Shampine & S. Thompson, *Event location for ordinary
+//! differential equations*, Comput. Math. Appl. 39, 2000). A step at whose end a branch is wrong is not taken: the
+//! switch is located on its dense output, and a step that ends there takes its place. Then the branches are chosen
+//! again, by the signs a little later, so that it does not matter on which side of the switch the step has ended. A
+//! pair of switches within a step, after which all signs are as they were, is found by the derivatives at both ends
+//! ([`dip`]): the step ends first where the function is smallest.
 //!
-//! Nothing here can hang: a switch function that is zero but for rounding does not count, a step is replaced eight times at most and then taken as
-//! it is, with the switch at its end, and every step that is taken counts against `max_steps`.
+//! Nothing here can hang: a switch function that is zero but for rounding does not count, a step is replaced eight
+//! times at most and then taken as it is, with the switch at its end, and every step that is taken counts against
+//! `max_steps`.
 
 use super::explicit::{Step, each};
 use super::runs::Runs;
 use super::step_control::Control;
 use super::stepper::{Attempt, Stepper, StepperLane};
 use super::system::System;
-use crate::math::{Mask, Real};
+use crate::math::real::{Mask, Real};
 
-/// A switch function below minus this has changed its sign; functions are of the order of one, and their rounding is some 1e-15.
+/// A switch function below minus this has changed its sign; functions are of the order of one, and their rounding is
+/// some 1e-15.
 const NOISE: f64 = 1e-12;
 
-/// The switch function at the end of a step to a switch may be below zero by this times the square root of the tolerance. What is missed is of the second
-/// order, 1e-4/2 of the tolerance; dense output is as accurate as the tolerance.
+/// The switch function at the end of a step to a switch may be below zero by this times the square root of the
+/// tolerance. What is missed is of the second order, 1e-4/2 of the tolerance; dense output is as accurate as the
+/// tolerance.
 const LANDED: f64 = 1e-2;
 
-/// Branches are chosen by the signs after this fraction of a step: more than the error of its location, and of no effect in the second order.
+/// Branches are chosen by the signs after this fraction of a step: more than the error of its location, and of no
+/// effect in the second order.
 const AHEAD: f64 = 1e-4;
 
 /// A switch is looked for after this fraction of the step. Before it are those that have just been passed.
@@ -40,8 +46,8 @@ const MOST_EVALUATIONS: usize = 40;
 /// A switch is located where its function is below this, or its time is known to this fraction of the step.
 const LOCATED: [f64; 2] = [1e-14, 1e-15];
 
-/// A function with a minimum within a step is looked at closer if the cubic through its ends leaves less than this share of the depth of the minimum. For a
-/// cosine the cubic is wrong by a tenth of it where the step is 2 rad long.
+/// A function with a minimum within a step is looked at closer if the cubic through its ends leaves less than this
+/// share of the depth of the minimum. For a cosine the cubic is wrong by a tenth of it where the step is 2 rad long.
 const DOUBT: f64 = 0.1;
 
 /// The part of a step between both times from which [`dip`] knows a derivative.
@@ -138,7 +144,8 @@ impl<R: Real> Switches<R> {
         self.cuts = R::select(attempt.accepted, zero, self.cuts + zero.indicator(cut));
     }
 
-    /// Has the next step end at the switch in the lanes where there is one, and says which they are; after [`Stepper::advance`].
+    /// Has the next step end at the switch in the lanes where there is one, and says which they are; after
+    /// [`Stepper::advance`].
     #[inline(always)]
     pub(super) fn cut<P: Stepper<R, N>, const N: usize>(&mut self, stepper: &mut P, attempt: &Attempt<R>) -> R::Mask {
         let ended = self.landing & attempt.accepted;
@@ -152,8 +159,9 @@ impl<R: Real> Switches<R> {
     }
 }
 
-/// The fraction of `step` at which its dense output reaches a switch in the lanes `over`, at whose end the margin is `last`: by false position, where the end
-/// that stays has its margin halved (M. Dowell & P. Jarratt, *A modified regula falsi method*, BIT 11, 1971).
+/// The fraction of `step` at which its dense output reaches a switch in the lanes `over`, at whose end the margin is
+/// `last`: by false position, where the end that stays has its margin halved (M. Dowell & P. Jarratt, *A modified
+/// regula falsi method*, BIT 11, 1971).
 #[inline(always)]
 fn locate<R, Q, P, const N: usize>(
     system: &Q,
@@ -205,7 +213,8 @@ where
     found
 }
 
-/// The times at which [`dip`] needs a switch function, and the states at the inner two, from the states and derivatives at both ends of `step`.
+/// The times at which [`dip`] needs a switch function, and the states at the inner two, from the states and derivatives
+/// at both ends of `step`.
 #[inline(always)]
 pub fn beside<R: Real, const N: usize>(step: Step<R>, ends: [[&[R; N]; 2]; 2]) -> ([R; 4], [[R; N]; 2]) {
     let short = step.length * step.length.splat(BESIDE);
@@ -220,8 +229,8 @@ pub fn beside<R: Real, const N: usize>(step: Step<R>, ends: [[&[R; N]; 2]; 2]) -
     (times, [state(ends[0], short), state(ends[1], -short)])
 }
 
-/// The fraction of a step at which a switch function may be below zero that is above at both ends, by the cubic through both; infinite where it
-/// is not. The function is known at the times of [`beside`].
+/// The fraction of a step at which a switch function may be below zero that is above at both ends, by the cubic through
+/// both; infinite where it is not. The function is known at the times of [`beside`].
 #[inline(always)]
 pub fn dip<R: Real>([start, after, before, end]: [R; 4]) -> R {
     let number = |value: f64| start.splat(value);
@@ -248,9 +257,12 @@ pub fn dip<R: Real>([start, after, before, end]: [R; 4]) -> R {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ode::{
-        Adaptive, Dop853, DormandPrince, EndedRun, LaneMethod, Recorder, Termination, Tolerance, integrate,
-    };
+    use crate::ode::adaptive::Adaptive;
+    use crate::ode::integrators::{Dop853, DormandPrince};
+    use crate::ode::lane_driver::integrate;
+    use crate::ode::runs::{EndedRun, Recorder, Termination};
+    use crate::ode::stepper::LaneMethod;
+    use crate::ode::system::Tolerance;
 
     /// y' = f(t, y) with one switch function g, the branch being g > 0.
     struct Case {
@@ -334,8 +346,8 @@ mod tests {
         Case { slope, switch: |_, [y, _]| *y, start: [0.0, 1.0], end, branch: true, chosen: 0 }
     }
 
-    /// Truth: in closed form. Law: across switches the error falls with the tolerance as it does without, to rounding, and is within it; each switch
-    /// costs less than two steps that are not taken.
+    /// Truth: in closed form. Law: across switches the error falls with the tolerance as it does without, to rounding,
+    /// and is within it; each switch costs less than two steps that are not taken.
     #[test]
     fn a_method_keeps_its_order_across_switches() {
         const PI: f64 = core::f64::consts::PI;
@@ -360,8 +372,8 @@ mod tests {
         }
     }
 
-    /// Truth: the integral of max(0, cos t - c) over ten turns. Law: pulses much shorter than a step, before and after which the branch is the same, are
-    /// all found.
+    /// Truth: the integral of max(0, cos t - c) over ten turns. Law: pulses much shorter than a step, before and after
+    /// which the branch is the same, are all found.
     #[test]
     fn short_pulses_within_a_step_are_found() {
         for depth in [0.3, 1e-2, 1e-4, 1e-6] {
@@ -391,8 +403,8 @@ mod tests {
         }
     }
 
-    /// Law: nothing hangs: a switch function that is zero but for rounding, one that only touches zero, one with a kink that no branch has, and one that is
-    /// wrong whatever is chosen, cost no more than some steps.
+    /// Law: nothing hangs: a switch function that is zero but for rounding, one that only touches zero, one with a kink
+    /// that no branch has, and one that is wrong whatever is chosen, cost no more than some steps.
     #[test]
     fn nothing_hangs() {
         let noisy = |t: f64, _: &[f64; 2]| 1e-15 * libm::sin(1e5 * t);

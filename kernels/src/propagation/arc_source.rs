@@ -40,8 +40,8 @@ impl<'a> ArcSource<'a> {
         }
     }
 
-    /// Starts the next arc of run `run` at `time`. `components` gives the integrated components there, SI, and is called only where
-    /// a law asks for the state.
+    /// Starts the next arc of run `run` at `time`. `components` gives the integrated components there, SI, and is
+    /// called only where a law asks for the state.
     ///
     /// # Panics
     /// Where a law's answer ends before it starts.

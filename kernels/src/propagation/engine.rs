@@ -15,8 +15,9 @@ pub struct CompletedRun<'a> {
     pub table: &'a StateTable,
     /// How the run ended.
     pub outcome: &'a Outcome,
-    /// The arcs that were flown, in order, from time zero without a gap, with the effects that are constant over an arc. As the schedule of a
-    /// scene with the other effects alone ([`crate::dynamics::effects::beside_arcs`]) they give the same run.
+    /// The arcs that were flown, in order, from time zero without a gap, with the effects that are constant over an
+    /// arc. As the schedule of a scene with the other effects alone ([`crate::dynamics::effects::beside_arcs`]) they
+    /// give the same run.
     pub arcs: &'a ArcRecord,
 }
 
@@ -28,16 +29,17 @@ pub trait Engine: Send {
     /// Whether the engine integrates every effect of `model`. Without a default: an engine says so for each effect.
     fn integrates(&self, model: ForceModel) -> bool;
 
-    /// Runs every scene once by the schedule of its own and passes it to `finish`, in the order in which the runs end; results depend
-    /// on the scene alone.
+    /// Runs every scene once by the schedule of its own and passes it to `finish`, in the order in which the runs end;
+    /// results depend on the scene alone.
     fn propagate(&mut self, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         self.propagate_under(Laws::OpenLoop, scenes, finish);
     }
 
-    /// The same under `laws`: each run asks its law for one arc after another; results depend on the scene and its law alone.
+    /// The same under `laws`: each run asks its law for one arc after another; results depend on the scene and its law
+    /// alone.
     ///
     /// # Panics
-    /// Where the settings are not for feedback ([`super::PropagationSettings::with_feedback`]) and a law is given, and where a law's answer
-    /// ends before it starts.
+    /// Where the settings are not for feedback ([`super::PropagationSettings::with_feedback`]) and a law is given, and
+    /// where a law's answer ends before it starts.
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>);
 }

@@ -117,8 +117,8 @@ fn gyrostat<S: Simd, R: Real + Send + 'static>(
         _ if settings.changes_within_arcs() => {
             integrator.visit(OnGyrostats { simd, zero, settings, effects: PhantomData::<Acting<R>> })
         }
-        // Only Dormand-Prince has a separate kernel for scenes without actuation: every kernel costs compile time, and the other
-        // integrators are for comparison.
+        // Only Dormand-Prince has a separate kernel for scenes without actuation: every kernel costs compile time, and
+        // the other integrators are for comparison.
         Integrator::DormandPrince if !(settings.thrust || settings.motors) => {
             Box::new(RungeKuttaEngine::<S, R, _, NoEffects, WITH_ANGLES>::new(
                 simd,

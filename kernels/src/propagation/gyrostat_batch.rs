@@ -1,7 +1,7 @@
 //! [`GyrostatBatch`]: a batch of scenes as gyrostats, and what completes their components to physical states.
 //!
-//! Shared by every method on the gyrostat: the runs of the spacecraft, the rotation of debris that is not isotropic (integrated
-//! first, as gyrostats without wheels), and the conversion to the state table.
+//! Shared by every method on the gyrostat: the runs of the spacecraft, the rotation of debris that is not isotropic
+//! (integrated first, as gyrostats without wheels), and the conversion to the state table.
 
 use fearless_simd::Simd;
 
@@ -106,7 +106,8 @@ pub struct DebrisRuns<'b> {
 }
 
 impl StateCompletion {
-    /// Completes run `index`, `run`, whose integrated components are `trajectory`, to physical states and passes it to `finish`.
+    /// Completes run `index`, `run`, whose integrated components are `trajectory`, to physical states and passes it to
+    /// `finish`.
     #[expect(clippy::too_many_arguments, reason = "one call per engine; a struct would be taken apart at once")]
     pub fn complete<S: Simd>(
         &mut self,

@@ -57,8 +57,8 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_
     }
 
     /// The largest component of the rate's error against |omega| (at least the run's own time scale, times
-    /// absolute/relative), of the attitude's against |q|, and of the offset from an orbit against that; the quadrature states do not count. Not a
-    /// number if any component is not finite.
+    /// absolute/relative), of the attitude's against |q|, and of the offset from an orbit against that; the quadrature
+    /// states do not count. Not a number if any component is not finite.
     #[inline(always)]
     fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R {
         let threshold = self.scale.splat(tolerance.absolute / tolerance.relative);

@@ -1,5 +1,5 @@
-//! Which forms of effects each kind of engine integrates: an answer for each form, without a default, so that a new form does not compile until every
-//! engine has said so.
+//! Which forms of effects each kind of engine integrates: an answer for each form, without a default, so that a new
+//! form does not compile until every engine has said so.
 //!
 //! A separate file, because the engines know the settings, and the settings do not know the engines.
 

@@ -57,8 +57,8 @@ impl Method {
         }
     }
 
-    /// The method that is used under the effects of `model`: of `auto`, which is a Taylor method, the fastest other one where Taylor series leave an
-    /// effect out; any other as it is.
+    /// The method that is used under the effects of `model`: of `auto`, which is a Taylor method, the fastest other one
+    /// where Taylor series leave an effect out; any other as it is.
     #[must_use]
     pub fn chosen(self, model: ForceModel) -> Method {
         if self != Method::Auto || model.is_integrated(by_taylor) {

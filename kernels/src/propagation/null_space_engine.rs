@@ -76,7 +76,8 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
     }
 }
 
-/// The error of a step, which local extrapolation continues with the formula of order five, grows with this power of the rate at which a body turns.
+/// The error of a step, which local extrapolation continues with the formula of order five, grows with this power of
+/// the rate at which a body turns.
 const ORDER: i32 = 6;
 
 /// The rates of a body at all points, where they are observed.
@@ -84,8 +85,8 @@ fn rates(table: &StateTable, field: StateField) -> impl Iterator<Item = [f64; 3]
     (0..if table.has(field) { table.points() } else { 0 }).map(move |point| table.at(field, point))
 }
 
-/// The errors of the debris in a run with the states `table`, whose steps, which are those of the faster body, are estimated to have made
-/// `errors`.
+/// The errors of the debris in a run with the states `table`, whose steps, which are those of the faster body, are
+/// estimated to have made `errors`.
 fn of_debris(errors: &LocalErrors, table: &StateTable) -> LocalErrors {
     let ratio = fastest(rates(table, StateField::DebrisRate)) / fastest(rates(table, StateField::Rate));
     let share = if ratio < 1.0 { (0..ORDER).fold(1.0, |power, _| power * ratio) } else { 1.0 };
@@ -93,8 +94,9 @@ fn of_debris(errors: &LocalErrors, table: &StateTable) -> LocalErrors {
     in_units(errors, rates(table, StateField::DebrisRate), 0.0)
 }
 
-/// The errors of the body in a run of `duration` seconds with the states `table`, whose steps are estimated to have made `errors`, mostly of wheels that
-/// turn faster: that of the attitude is at most in proportion to the angle by which the body turns, where that is below a radian.
+/// The errors of the body in a run of `duration` seconds with the states `table`, whose steps are estimated to have
+/// made `errors`, mostly of wheels that turn faster: that of the attitude is at most in proportion to the angle by
+/// which the body turns, where that is below a radian.
 fn of_body(errors: &LocalErrors, table: &StateTable, duration: f64) -> LocalErrors {
     let share = (fastest(rates(table, StateField::Rate)) * duration).min(1.0);
     let attitude = (share * errors.attitude).max(errors.rounding);

@@ -60,8 +60,8 @@ impl<const W: usize, const N: usize> System<f64, N> for NullSpaceRuns<'_, W> {
         self.kernel.derivative(state)
     }
 
-    /// As MATLAB's ode45: max |e_i| / (rtol max(|y_i|, |y_i new|, atol / rtol)) over the states (Shampine & Reichelt 1997);
-    /// the quadrature states do not count. Not a number if any component is not finite.
+    /// As MATLAB's ode45: max |e_i| / (rtol max(|y_i|, |y_i new|, atol / rtol)) over the states (Shampine & Reichelt
+    /// 1997); the quadrature states do not count. Not a number if any component is not finite.
     #[inline(always)]
     fn error_ratio(&self, error: &[f64; N], old: &[f64; N], new: &[f64; N], tolerance: Tolerance) -> f64 {
         let threshold = tolerance.absolute / tolerance.relative;

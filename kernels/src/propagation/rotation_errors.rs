@@ -1,4 +1,5 @@
-//! [`rotation_errors`]: the error of a run's rotation against its reference solution, in all digits of the reference solution.
+//! [`rotation_errors`]: the error of a run's rotation against its reference solution, in all digits of the reference
+//! solution.
 
 use super::taylor::reference_solution::ReferenceSolution;
 use crate::run::{Grid, StateField, StateTable, rate_scale};
@@ -6,11 +7,11 @@ use crate::run::{Grid, StateField, StateTable, rate_scale};
 /// The error of the rotation at one observation point, or the largest of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotationError {
-    /// |omega - reference|, relative to the largest |omega| of the run, or to one radian over its duration where that is more
-    /// ([`rate_scale`]).
+    /// |omega - reference|, relative to the largest |omega| of the run, or to one radian over its duration where that
+    /// is more ([`rate_scale`]).
     pub omega: f64,
-    /// Twice the distance of the attitude quaternions, the nearer sign, rad: the angle between the attitudes where the norm is
-    /// kept. Zero where the reference solution has no attitude.
+    /// Twice the distance of the attitude quaternions, the nearer sign, rad: the angle between the attitudes where the
+    /// norm is kept. Zero where the reference solution has no attitude.
     pub attitude: f64,
 }
 
@@ -34,7 +35,8 @@ fn larger_or_nan(a: f64, b: f64) -> f64 {
     if b.is_nan() || b > a { b } else { a }
 }
 
-/// The error at each point of `table`, which has the points of `grid`, the rate, and the attitude where `reference` has it.
+/// The error at each point of `table`, which has the points of `grid`, the rate, and the attitude where `reference` has
+/// it.
 pub fn rotation_errors<'a>(
     reference: &'a ReferenceSolution,
     grid: &Grid,
@@ -76,7 +78,8 @@ mod tests {
     use super::*;
     use crate::run::StateFields;
 
-    /// Rates and attitudes at three points; the middle one is off by `rate` and `turn`, and `sign` is that of its quaternion.
+    /// Rates and attitudes at three points; the middle one is off by `rate` and `turn`, and `sign` is that of its
+    /// quaternion.
     fn table([rate, turn, sign]: [f64; 3]) -> StateTable {
         let mut table = StateTable::new(StateFields::NONE.with(StateField::Rate).with(StateField::Attitude), 0, 3);
         for point in 0..3 {

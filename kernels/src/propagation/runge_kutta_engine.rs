@@ -64,7 +64,8 @@ impl<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize> RungeKut
             integrate_on::<S, R, M, E, N>((*simd, *zero, *method), runs, (grid, control), lanes, finish);
         };
         if let Some(DebrisRuns { runs, trajectories, outcomes }) = batch.load_debris(scenes) {
-            // the debris is a gyrostat without wheels; only its attitude is needed, but one kernel for both compiles faster
+            // the debris is a gyrostat without wheels; only its attitude is needed, but one kernel for both compiles
+            // faster
             let mut runs = GyrostatRuns::new(*zero, runs, ArcSource::free(duration));
             integrate(&mut runs, &mut |runs, index, trajectory, outcome| {
                 trajectories[index].copy_from(trajectory);
@@ -85,7 +86,8 @@ impl<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize> RungeKut
     }
 }
 
-/// The errors of a run, in units; steps are controlled relative to |omega| or to `threshold` times the rate of its time scale.
+/// The errors of a run, in units; steps are controlled relative to |omega| or to `threshold` times the rate of its time
+/// scale.
 fn errors_of(
     remainders: &mut Option<Remainders>,
     run: &Gyrostat<f64>,

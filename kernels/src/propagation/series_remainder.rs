@@ -61,7 +61,8 @@ impl Remainders {
         LocalErrors { truncation: all * changing, rounding, feedback: 0.0, attitude: attitude + all * turning }
     }
 
-    /// The series of the motion through point `point` of `states` at `time`, in seconds. No thrust bends the orbit over a step.
+    /// The series of the motion through point `point` of `states` at `time`, in seconds. No thrust bends the orbit over
+    /// a step.
     fn expand(&mut self, run: &Gyrostat<f64>, time: f64, states: &Trajectory, point: usize) {
         let arc = run.arc_index_at(time);
         let mut constants = Constants::of(run, arc, 1.0);

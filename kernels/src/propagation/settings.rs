@@ -28,7 +28,8 @@ pub struct PropagationSettings {
     pub thrust: bool,
     /// Whether motor torque may act.
     pub motors: bool,
-    /// Whether runs may have laws of their own ([`super::Engine::propagate_under`]): then all components are integrated.
+    /// Whether runs may have laws of their own ([`super::Engine::propagate_under`]): then all components are
+    /// integrated.
     pub feedback: bool,
 }
 
@@ -49,8 +50,8 @@ impl PropagationSettings {
         }
     }
 
-    /// The same settings for runs that have laws of their own, which command `commands` in addition to the schedules. A law sees the
-    /// whole state; integrals of thrust are made only where thrust or a torque on the body may act.
+    /// The same settings for runs that have laws of their own, which command `commands` in addition to the schedules. A
+    /// law sees the whole state; integrals of thrust are made only where thrust or a torque on the body may act.
     #[must_use]
     pub fn with_feedback(self, commands: Actuated) -> Self {
         let thrust = self.thrust || commands.external();

@@ -41,7 +41,8 @@ impl Grid {
         &self.times
     }
 
-    /// The times, padded as the columns of a [`super::StateTable`]: the last time is repeated up to a multiple of eight.
+    /// The times, padded as the columns of a [`super::StateTable`]: the last time is repeated up to a multiple of
+    /// eight.
     pub fn padded_times(&self) -> &[f64] {
         &self.padded
     }

@@ -1,6 +1,6 @@
 //! How a run ended and what it cost.
 
-use crate::math::Real;
+use crate::math::real::Real;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -108,16 +108,16 @@ impl Outcome {
     };
 }
 
-/// The rate, rad/s, that errors of omega are relative to in a run whose largest |omega| is `largest`: that, but at least one radian over
-/// the `duration`, s. A body that turns by less than a radian may have any rate, down to none: there an error of the rate is
-/// the angle, rad, that it adds up to.
+/// The rate, rad/s, that errors of omega are relative to in a run whose largest |omega| is `largest`: that, but at
+/// least one radian over the `duration`, s. A body that turns by less than a radian may have any rate, down to none:
+/// there an error of the rate is the angle, rad, that it adds up to.
 #[inline(always)]
 pub fn rate_scale(largest: f64, duration: f64) -> f64 {
     if duration > 0.0 { largest.larger(1.0 / duration) } else { 1.0 }
 }
 
-/// Estimated errors of the rotational state from all steps of a run, added as if all had the same direction, before the motion
-/// amplifies them. They are separated by what they are proportional to.
+/// Estimated errors of the rotational state from all steps of a run, added as if all had the same direction, before the
+/// motion amplifies them. They are separated by what they are proportional to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LocalErrors {
     /// Of omega, rad/s, proportional to its rate of change: truncation.

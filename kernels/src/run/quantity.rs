@@ -1,7 +1,7 @@
 //! [`Quantity`]: name, unit and meaning of a column of numbers.
 //!
-//! Every table that the program writes or prints describes its columns with this type: observables, time series, audits, drawn
-//! parameters, precision measurements.
+//! Every table that the program writes or prints describes its columns with this type: observables, time series,
+//! audits, drawn parameters, precision measurements.
 
 use std::borrow::Cow;
 
@@ -14,7 +14,8 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// A quantity of a table that is written in the source. `unit` is empty for a pure number; `meaning` is one sentence.
+    /// A quantity of a table that is written in the source. `unit` is empty for a pure number; `meaning` is one
+    /// sentence.
     pub const fn new(name: &'static str, unit: &'static str, meaning: &'static str) -> Self {
         Quantity { name: Cow::Borrowed(name), unit: Cow::Borrowed(unit), meaning: Cow::Borrowed(meaning) }
     }

@@ -16,7 +16,8 @@ pub enum StateField {
     ComPosition,
     /// Velocity of c in F_e, m/s (3).
     ComVelocity,
-    /// Work done since time zero: by the thrusters and torques on the body (on an orbit by gravity on all bodies too), by the wheel motors (relative to the body, tau_i Omega_i), J (2).
+    /// Work done since time zero: by the thrusters and torques on the body (on an orbit by gravity on all bodies too),
+    /// by the wheel motors (relative to the body, tau_i Omega_i), J (2).
     Work,
     /// Impulse of the thrusters since time zero in F_e, N s (3).
     Impulse,
@@ -34,7 +35,8 @@ pub enum StateField {
     Dcm,
     /// Residuals of the constraints: kinematic, collocation, attitude (3).
     Residuals,
-    /// Kinetic energies of body, each wheel, and debris in F_e, from methods with redundant states, J (2 and one per wheel).
+    /// Kinetic energies of body, each wheel, and debris in F_e, from methods with redundant states, J (2 and one per
+    /// wheel).
     KineticEnergies,
 }
 

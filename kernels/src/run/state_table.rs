@@ -1,10 +1,10 @@
 //! [`StateTable`]: the physical states of one run at its observation points, component by component.
 //!
-//! The interface between integrators and observables. A worker owns and reuses it; only the fields that were requested have
-//! columns. Reading or writing a field that the table does not have is an error of the caller and panics: no other column can
-//! answer for it.
+//! The interface between integrators and observables. A worker owns and reuses it; only the fields that were requested
+//! have columns. Reading or writing a field that the table does not have is an error of the caller and panics: no other
+//! column can answer for it.
 
-use super::{StateField, StateFields};
+use crate::run::state_field::{StateField, StateFields};
 
 /// States at the observation points: component by component, eight points to a vector.
 ///
@@ -32,7 +32,8 @@ fn refuse(field: StateField, component: usize, width: usize) -> ! {
 }
 
 impl StateTable {
-    /// A table of `points` >= 1 observation points with the given fields of a spacecraft with `wheels` wheels; all values zero.
+    /// A table of `points` >= 1 observation points with the given fields of a spacecraft with `wheels` wheels; all
+    /// values zero.
     pub fn new(fields: StateFields, wheels: usize, points: usize) -> Self {
         let stride = points.next_multiple_of(8);
         let mut columns = [ABSENT; StateField::ALL.len()];
@@ -125,8 +126,8 @@ impl StateTable {
         }
     }
 
-    /// Writes zero for the wheels from `first` on: a run with fewer wheels than the table has columns for leaves no number of an
-    /// earlier run behind. Without such wheels it writes nothing.
+    /// Writes zero for the wheels from `first` on: a run with fewer wheels than the table has columns for leaves no
+    /// number of an earlier run behind. Without such wheels it writes nothing.
     pub fn clear_wheels(&mut self, first: usize) {
         for wheel in first..self.wheels {
             for field in [StateField::WheelRates, StateField::WheelAngles] {

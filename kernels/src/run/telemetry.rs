@@ -1,6 +1,6 @@
 //! [`Telemetry`]: what a control law has recorded of a run, at times of its own.
 
-use super::Quantity;
+use crate::run::quantity::Quantity;
 
 /// Quantities over the times at which a law recorded them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -11,8 +11,8 @@ pub struct Telemetry {
     pub times: Vec<f64>,
     /// For each time one value of each column; NaN where there is none.
     pub rows: Vec<Vec<f64>>,
-    /// Times that differ by no more than this are one, s: a tick is a product of its number and a period, which rounds otherwise than the same time
-    /// on a grid.
+    /// Times that differ by no more than this are one, s: a tick is a product of its number and a period, which rounds
+    /// otherwise than the same time on a grid.
     pub same: f64,
 }
 
@@ -44,8 +44,8 @@ mod tests {
         assert_eq!(held[0][1..], [1.0, 1.0, 2.0, 2.0]);
     }
 
-    /// Law: tick k of a period of 0.1 s is at k times 0.1 and holds at the point of a grid that is meant by the same time, whichever of the two rounds
-    /// below the other; without the tolerance some points show the tick before.
+    /// Law: tick k of a period of 0.1 s is at k times 0.1 and holds at the point of a grid that is meant by the same
+    /// time, whichever of the two rounds below the other; without the tolerance some points show the tick before.
     #[test]
     fn rounding_shows_no_tick_before() {
         let ticks = 400;

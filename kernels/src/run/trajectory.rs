@@ -2,8 +2,8 @@
 
 /// The components that a method integrates, of one run at its observation points, component by component.
 ///
-/// A kernel completes it to a [`super::StateTable`]; the meaning of the components is defined by the kernel. The stride is a
-/// multiple of eight, so that eight points are one vector; the padding after the last point repeats that point.
+/// A kernel completes it to a [`super::StateTable`]; the meaning of the components is defined by the kernel. The stride
+/// is a multiple of eight, so that eight points are one vector; the padding after the last point repeats that point.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
     components: usize,

@@ -3,12 +3,13 @@
 use crate::math::Real;
 use crate::math::vector::{constant, cross, dot, norm, scaled, sum};
 
-/// The unit vector along `direction` (need not have length one), turned by the alignment error `tilt` (rad), in the number type of
-/// `one`.
+/// The unit vector along `direction` (need not have length one), turned by the alignment error `tilt` (rad), in the
+/// number type of `one`.
 ///
-/// `tilt` are the components, along [`across`], of the rotation vector theta that turns the nominal direction a_0 into the true one:
-/// a = cos|theta| a_0 + sin|theta|/|theta| theta x a_0 (O. Rodrigues, *Des lois geometriques qui regissent les deplacements d'un systeme
-/// solide*, 1840). The angle is good to `f64`, the length to all digits of the type; without a tilt an axis of F_s is exact.
+/// `tilt` are the components, along [`across`], of the rotation vector theta that turns the nominal direction a_0 into
+/// the true one: a = cos|theta| a_0 + sin|theta|/|theta| theta x a_0 (O. Rodrigues, *Des lois geometriques qui
+/// regissent les deplacements d'un systeme solide*, 1840). The angle is good to `f64`, the length to all digits of the
+/// type; without a tilt an axis of F_s is exact.
 pub fn aligned<R: Real>(direction: [f64; 3], tilt: [f64; 2], one: R) -> [R; 3] {
     if tilt == [0.0; 2] {
         let written = constant(one, direction);
@@ -22,8 +23,9 @@ pub fn aligned<R: Real>(direction: [f64; 3], tilt: [f64; 2], one: R) -> [R; 3] {
     turned(nominal(direction), theta, one)
 }
 
-/// The two unit vectors of F_s along which an alignment error of `direction` is written: across an axis of F_s the two others, in their
-/// order; across an oblique direction a the axis of F_s that is farthest from it, made orthogonal to it, and a x that.
+/// The two unit vectors of F_s along which an alignment error of `direction` is written: across an axis of F_s the two
+/// others, in their order; across an oblique direction a the axis of F_s that is farthest from it, made orthogonal to
+/// it, and a x that.
 pub fn across(direction: [f64; 3]) -> [[f64; 3]; 2] {
     if let Some((axis, _)) = along_axis(direction) {
         let others = [[1, 2], [0, 2], [0, 1]][axis];

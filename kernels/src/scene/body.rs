@@ -1,7 +1,7 @@
 //! Rigid bodies from their input: the parts of the spacecraft's body, the body as a whole, the debris.
 //!
-//! Source: Berdoz, *Final Report - ADR Spacecraft*, (60)-(67) for the solids ([`super::solids`]). Bodies are put together by sums over
-//! pairs, as in [`super::mass`].
+//! Source: Berdoz, *Final Report - ADR Spacecraft*, (60)-(67) for the solids ([`super::solids`]). Bodies are put
+//! together by sums over pairs, as in [`super::mass`].
 
 use super::input::SceneInput;
 use super::schema::{DebrisInput, MAX_WHEELS, PartInput, PartShape, WheelMode};
@@ -97,9 +97,9 @@ impl<R: Real> Body<R> {
 
     /// The body of `input`: its parts together, what is given in their place, and its errors.
     ///
-    /// Where only the mass is given, the inertia of the parts scales with it (same shape, another density); a centre of mass that is given
-    /// moves the centre and leaves the inertia about it as it was. Errors come last. Where the mass properties include the wheels, these are
-    /// taken out. The wheels that are locked are put in.
+    /// Where only the mass is given, the inertia of the parts scales with it (same shape, another density); a centre of
+    /// mass that is given moves the centre and leaves the inertia about it as it was. Errors come last. Where the mass
+    /// properties include the wheels, these are taken out. The wheels that are locked are put in.
     pub fn of_input(input: &SceneInput, one: R) -> Self {
         let (body, k) = (&input.body, |value: f64| one.splat(value));
         let mut whole = match &input.parts[..] {
@@ -176,7 +176,8 @@ mod tests {
     /// Four or five roundings of positive terms; none is measured.
     const ULPS: f64 = 1e-15;
 
-    /// Law: parts together have the inertia that the theorem of parallel axes gives, whatever their attitude; halves of a box are the box.
+    /// Law: parts together have the inertia that the theorem of parallel axes gives, whatever their attitude; halves of
+    /// a box are the box.
     #[test]
     fn halves_of_a_box_are_the_box() {
         let part = |size: [f64; 3], position_m: [f64; 3], attitude: [f64; 4]| PartInput {
@@ -200,7 +201,8 @@ mod tests {
             assert!((halves.mass / whole.mass - 1.0).abs() <= ULPS);
             assert!(norm(difference(halves.center, whole.center)) < 1e-15);
             for i in 0..3 {
-                // the sums over pairs and the turned tensor: some roundings of entries up to the largest; measured: 8.5e-17, and 3.4e-16 below
+                // the sums over pairs and the turned tensor: some roundings of entries up to the largest; measured:
+                // 8.5e-17, and 3.4e-16 below
                 assert!(norm(difference(halves.inertia[i], whole.inertia[i])) < 1e-15 * whole.inertia[2][2]);
             }
         }

@@ -15,7 +15,8 @@ use super::table::Table;
 use crate::math::symmetric::{is_positive_definite, principal_axes};
 use crate::math::vector::{difference, norm};
 
-/// Largest mass (kg) and moment of inertia (kg m^2) of a body: the product of two of them, as sums over pairs and determinants have it, is finite.
+/// Largest mass (kg) and moment of inertia (kg m^2) of a body: the product of two of them, as sums over pairs and
+/// determinants have it, is finite.
 const LARGEST: f64 = 1e150;
 
 /// Collects what the magnetic field of `input` needs and does not have.
@@ -131,7 +132,8 @@ fn states_of_an_orbit(initial: &InitialInput, problems: &mut Problems) {
     }
 }
 
-/// Collects what the initial state has twice: in F_e and relative to the local orbital frame, or, of debris, relative to the spacecraft.
+/// Collects what the initial state has twice: in F_e and relative to the local orbital frame, or, of debris, relative
+/// to the spacecraft.
 fn states_written_twice(initial: &InitialInput, has_debris: bool, problems: &mut Problems) {
     let default = InitialInput::DEFAULT;
     let mut refuse = |key: &str, numbers: &[f64], other: &str| {
@@ -252,8 +254,8 @@ fn commands(input: &SceneInput, index: usize, problems: &mut Problems) {
     }
 }
 
-/// Collects where delays make arcs end before they start, or overlap. Only the first is reported: most delays are common to
-/// all. The key is that of the arc where its own delays, or the next one's, do it.
+/// Collects where delays make arcs end before they start, or overlap. Only the first is reported: most delays are
+/// common to all. The key is that of the arc where its own delays, or the next one's, do it.
 fn switches(input: &SceneInput, problems: &mut Problems) {
     let delays = &input.actuators;
     let commanded = |index: usize| {
@@ -296,7 +298,10 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
             problems.add(
                 key(),
                 format!("{:?}", (mass, moments)),
-                format!("of a mass (kg) and moments of inertia (kg m^2) that are positive and finite numbers, at most {LARGEST:e}"),
+                format!(
+                    "of a mass (kg) and moments of inertia (kg m^2) that are positive and finite numbers, at most \
+                    {LARGEST:e}"
+                ),
                 "check the units of sizes and densities",
             );
         }
@@ -340,7 +345,8 @@ fn without_wheels(input: &SceneInput, own: f64, inertia: [[f64; 3]; 3], problems
     if !(smallest > 0.0 && largest <= (total - largest) + 2.0 * INERTIA_SLACK * total) {
         if let Some((centre, arm)) = distant_centre(input) {
             let allowed = format!(
-                "within a body's size of the wheels: it is {arm:.3} m from one of them, and what is left without the wheels is not the inertia of a body"
+                "within a body's size of the wheels: it is {arm:.3} m from one of them, and what is left without the \
+                wheels is not the inertia of a body"
             );
             let remedy = "check its unit (\"12 mm\"), the positions of the wheels, or set body.includes_wheels = false";
             problems.add("body.center_of_mass_m", shown(&centre), allowed, remedy);
@@ -348,15 +354,16 @@ fn without_wheels(input: &SceneInput, own: f64, inertia: [[f64; 3]; 3], problems
         }
         let allowed =
             "such that what is left without the wheels is the inertia of a body (the principal moments shown, kg m^2)";
-        let remedy = "check the inertias of body and wheels and the positions of the wheels, or set body.includes_wheels = false";
+        let remedy = "check the inertias of body and wheels and the positions of the wheels, or set \
+            body.includes_wheels = false";
         problems.add("body.inertia_kg_m2", format!("{moments:?}"), allowed, remedy);
         return false;
     }
     true
 }
 
-/// The centre of mass as written, with its distance from the farthest wheel, m, where that is beyond the size of any body of that mass and inertia:
-/// three times the largest radius of gyration.
+/// The centre of mass as written, with its distance from the farthest wheel, m, where that is beyond the size of any
+/// body of that mass and inertia: three times the largest radius of gyration.
 fn distant_centre(input: &SceneInput) -> Option<([f64; 3], f64)> {
     let (centre, mass, tensor) = (input.body.center_of_mass_m?, input.body.mass_kg?, input.body.inertia_kg_m2?);
     let (moments, _) = principal_axes(tensor);
@@ -373,7 +380,8 @@ fn free_inertia(overridden: bool, mass: &MassProperties, problems: &mut Problems
         problems.add(
             if overridden { "body.inertia_kg_m2" } else { "body" },
             format!("{:?}", mass.inertia_free),
-            "such that the spacecraft's inertia with freely turning wheels, J* (the value shown, kg m^2), is positive definite",
+            "such that the spacecraft's inertia with freely turning wheels, J* (the value shown, kg m^2), is positive \
+            definite",
             "check the inertia override, and the units of sizes and densities",
         );
     }

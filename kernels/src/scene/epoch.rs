@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-/// An instant in UTC. Days have 86,400 s: a leap second has no name here, and the seconds of a run are counted as if there were none.
+/// An instant in UTC. Days have 86,400 s: a leap second has no name here, and the seconds of a run are counted as if
+/// there were none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Epoch {
     /// Days from 2000-01-01 to the date.
@@ -24,7 +25,8 @@ impl Epoch {
     /// Julian date of 2000-01-01T00:00:00.
     const JULIAN_DATE: f64 = 2_451_544.5;
 
-    /// The instant that `text` writes as `2026-11-24T00:00:00Z`, the seconds with any number of decimals; `None` where it is none.
+    /// The instant that `text` writes as `2026-11-24T00:00:00Z`, the seconds with any number of decimals; `None` where
+    /// it is none.
     pub fn parse(text: &str) -> Option<Self> {
         let (date, time) = text.strip_suffix('Z')?.split_once('T')?;
         let digits = |text: &str, count: usize| -> Option<i32> {
@@ -91,7 +93,8 @@ fn day_of(year: i32, month: i32, day: i32) -> Option<i32> {
     Some(days + (153 * month + 2) / 5 + day - 1 - 730_425)
 }
 
-/// Year, month and day of a number of days since 2000-01-01 (E. G. Richards, Explanatory Supplement to the Astronomical Almanac, 2013, 15.11).
+/// Year, month and day of a number of days since 2000-01-01 (E. G. Richards, Explanatory Supplement to the Astronomical
+/// Almanac, 2013, 15.11).
 pub fn date_of(day: i32) -> (i32, i32, i32) {
     let julian = day + 2_451_545;
     let f = julian + 1401 + (4 * julian + 274_277) / 146_097 * 3 / 4 - 38;

@@ -1,4 +1,5 @@
-//! Failures of wheels and thrusters in a schedule: from their time on, the devices apply something else than what is commanded.
+//! Failures of wheels and thrusters in a schedule: from their time on, the devices apply something else than what is
+//! commanded.
 
 use super::schedule::{Actuation, Arc};
 use super::schema::failure::{Device, FailureInput};
@@ -68,8 +69,8 @@ mod tests {
         vec![arc(1.0, 2.0, 3.0), arc(4.0, 6.0, -4.0)]
     }
 
-    /// Law: at every time, what is applied is what was scheduled, and from the failure on that of the failed device alone is another; arcs stay in
-    /// order and end at the failure.
+    /// Law: at every time, what is applied is what was scheduled, and from the failure on that of the failed device
+    /// alone is another; arcs stay in order and end at the failure.
     #[test]
     fn what_a_failed_device_applies() {
         let wheel = FailureInput { device: Device::Wheel(0), torque_scale: Some(0.5), ..FailureInput::DEFAULT };

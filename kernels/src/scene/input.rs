@@ -1,8 +1,8 @@
 //! [`SceneInput`]: a scene as written, number by number, before anything is derived or checked.
 //!
-//! This is the content of a campaign file, and what a dispersion changes: plain SI numbers, no serde. The structures and their
-//! defaults come from [`super::schema`]. [`super::Scene::resolve`] turns a scene into a [`super::Scene`] or says why it is not
-//! physical.
+//! This is the content of a campaign file, and what a dispersion changes: plain SI numbers, no serde. The structures
+//! and their defaults come from [`super::schema`]. [`super::Scene::resolve`] turns a scene into a [`super::Scene`] or
+//! says why it is not physical.
 
 use super::name::Name;
 use super::schema::{
@@ -13,7 +13,8 @@ use crate::math::list::List;
 
 /// A scene as written: bodies, initial state, actuation.
 ///
-/// The default is a box of 1 m and 100 kg/m^3 alone, at rest at the inertial origin, without wheels, thrusters, debris and actuation.
+/// The default is a box of 1 m and 100 kg/m^3 alone, at rest at the inertial origin, without wheels, thrusters, debris
+/// and actuation.
 ///
 /// ```
 /// # extern crate spindrift_kernels as spindrift;
@@ -93,8 +94,8 @@ impl SceneInput {
         }
     }
 
-    /// The spacecraft of the paper (F. Berdoz, *Final Report - ADR Spacecraft*, Table II) at rest: a hollow cylinder, the wheels w1
-    /// about s2 and w2 about s3, the thrusters p1, p2, p3; without debris.
+    /// The spacecraft of the paper (F. Berdoz, *Final Report - ADR Spacecraft*, Table II) at rest: a hollow cylinder,
+    /// the wheels w1 about s2 and w2 about s3, the thrusters p1, p2, p3; without debris.
     pub fn report() -> Self {
         let fuselage = PartInput {
             name: Name::of("fuselage"),

@@ -1,7 +1,8 @@
-//! Mass properties of the spacecraft as a whole: its body ([`super::body`]) and the wheels that turn ([`super::wheel`]).
+//! Mass properties of the spacecraft as a whole: its body ([`super::body`]) and the wheels that turn
+//! ([`super::wheel`]).
 //!
-//! Sums over bodies use the distances between pairs, sum over i < j of m_i m_j / m times (r^2 1 - r r^T): no difference with the common
-//! centre, no cancellation.
+//! Sums over bodies use the distances between pairs, sum over i < j of m_i m_j / m times (r^2 1 - r r^T): no difference
+//! with the common centre, no cancellation.
 //!
 //! Generic over the number type, so that a reference solution in more digits starts from a J of as many digits.
 
@@ -34,7 +35,8 @@ pub struct MassProperties<R = f64> {
 }
 
 impl<R: Real> MassProperties<R> {
-    /// The mass properties of `input`, in the number type of `one`; meaningful where [`super::Scene::resolve`] accepts the input.
+    /// The mass properties of `input`, in the number type of `one`; meaningful where [`super::Scene::resolve`] accepts
+    /// the input.
     pub fn of(input: &SceneInput, one: R) -> Self {
         let body = Body::of_input(input, one);
         let mut wheels = List::empty(Wheel::blank(one));
@@ -68,7 +70,8 @@ impl<R: Real> MassProperties<R> {
         MassProperties { body, wheels, debris, total, center, inertia, inertia_free }
     }
 
-    /// The same spacecraft with the inertia `inertia` about c, wheels locked, F_s, kg m^2; the axial inertias of the wheels stay.
+    /// The same spacecraft with the inertia `inertia` about c, wheels locked, F_s, kg m^2; the axial inertias of the
+    /// wheels stay.
     #[must_use]
     pub fn with_inertia(self, inertia: [[R; 3]; 3]) -> Self {
         let less = |sum: [[R; 3]; 3], part: [[R; 3]; 3]| std::array::from_fn(|i| difference(sum[i], part[i]));

@@ -4,14 +4,17 @@
 //! - [`input`]: the scene as written. [`table`]: where in it the tables of the schema are.
 //! - [`second_moment`]: inertia by second moments of mass, and errors of a distribution of mass.
 //! - [`solids`]: mass, centre and inertia of homogeneous solids (Berdoz's (60)-(67), in closed form).
-//! - [`body`]: the body of the spacecraft and the debris from their input. [`wheel`]: wheels that turn. `tensor`: inertias by rows.
+//! - [`body`]: the body of the spacecraft and the debris from their input. [`wheel`]: wheels that turn. `tensor`:
+//!   inertias by rows.
 //! - [`mass`]: mass properties of the whole. [`orbit`]: the orbit at time zero. [`epoch`]: its date.
 //! - [`parameter`]: the numeric keys that can be dispersed.
-//! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not. `surroundings`: for air and light.
+//! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not.
+//!   `surroundings`: for air and light.
 //! - [`actuated`]: what acts on a spacecraft at any time of a run.
 //! - [`resolve`]: from an input to a [`Scene`].
 //! - [`plate`]: the plates that air and light push.
-//! - [`thruster`]: force and torque of thrusters. [`alignment`]: axes and directions, and their errors. [`name`]: names.
+//! - [`thruster`]: force and torque of thrusters. [`alignment`]: axes and directions, and their errors. [`name`]:
+//!   names.
 //! - [`unit_quaternion`]: the attitude that is used where one is written.
 //! - `failures`: what failures of actuators make of a schedule.
 //! - [`schedule`]: what the actuators make of the commands, and the arcs of constant actuation.
@@ -221,7 +224,8 @@ impl Scene {
         thruster::force_s(&self.thrusters, thrust)
     }
 
-    /// Torque of the thrusts `thrust` (N, in the order of the thrusters) about the spacecraft's centre of mass c, in F_s, N m (72).
+    /// Torque of the thrusts `thrust` (N, in the order of the thrusters) about the spacecraft's centre of mass c, in
+    /// F_s, N m (72).
     pub fn thruster_torque_s(&self, thrust: [f64; MAX_THRUSTERS]) -> [f64; 3] {
         thruster::torque_s(&self.thrusters, thrust, self.mass.center)
     }

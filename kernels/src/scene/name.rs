@@ -5,7 +5,8 @@ use std::fmt::{self, Debug, Display, Formatter};
 /// Largest number of letters of a name.
 pub const MAX_LETTERS: usize = 23;
 
-/// A name: a lower-case letter, then lower-case letters, digits and underscores. In place, so that scenes are copied without allocating.
+/// A name: a lower-case letter, then lower-case letters, digits and underscores. In place, so that scenes are copied
+/// without allocating.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Name {
     bytes: [u8; MAX_LETTERS],

@@ -1,7 +1,7 @@
 //! [`Orbit`]: the orbit of a scene at time zero, from position and velocity or from Keplerian elements.
 //!
-//! Formulas: D. Vallado, *Fundamentals of Astrodynamics and Applications*, 4th ed., 2013, sections 2.4 to 2.6. Not here: the motion along
-//! the orbit (`dynamics::orbit`).
+//! Formulas: D. Vallado, *Fundamentals of Astrodynamics and Applications*, 4th ed., 2013, sections 2.4 to 2.6. Not
+//! here: the motion along the orbit (`dynamics::orbit`).
 
 use super::epoch::Epoch;
 use super::error::Problems;
@@ -49,7 +49,8 @@ pub struct Offsets {
 }
 
 impl Offsets {
-    /// Those of `input`, where its bodies may leave the orbit: where it has thrusters or debris, or air and light move it.
+    /// Those of `input`, where its bodies may leave the orbit: where it has thrusters or debris, or air and light move
+    /// it.
     pub fn of(input: &SceneInput) -> Option<Self> {
         let InitialInput { position_m, velocity_m_s, debris_position_m, debris_velocity_m_s, .. } = input.initial;
         let moves = !input.thrusters.is_empty() || input.debris.is_some() || input.environment.moves();
@@ -62,8 +63,9 @@ impl Offsets {
     }
 }
 
-/// The local orbital frame F_o of a body: o3 points at the central body, o2 against the normal of the orbit, and o1 completes them, ahead on a circular
-/// orbit (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 2.2: roll, pitch and yaw axes).
+/// The local orbital frame F_o of a body: o3 points at the central body, o2 against the normal of the orbit, and o1
+/// completes them, ahead on a circular orbit (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978,
+/// section 2.2: roll, pitch and yaw axes).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalFrame {
     /// Its attitude, F_o -> F_e, scalar first.
@@ -139,8 +141,9 @@ impl Orbit {
         self.j2.map(|j2| 1.5 * j2 * self.body_radius * self.body_radius)
     }
 
-    /// Lower bound of the distance from the centre, m: the periapsis, from which the flattening takes some kilometres within a revolution; at most
-    /// 2 k/p, twice the largest term of the first order (D. Brouwer, Astronomical Journal 64, 1959).
+    /// Lower bound of the distance from the centre, m: the periapsis, from which the flattening takes some kilometres
+    /// within a revolution; at most 2 k/p, twice the largest term of the first order (D. Brouwer, Astronomical Journal
+    /// 64, 1959).
     pub fn lowest(&self) -> f64 {
         let periapsis = self.shape().periapsis;
         self.oblateness().map_or(periapsis, |k| periapsis - 2.0 * k / periapsis)
@@ -189,7 +192,8 @@ pub(super) fn check(scene: &SceneInput, input: &OrbitInput, problems: &mut Probl
         // NaN is refused by the limits of its key
         if shape.eccentricity >= 1.0 || shape.periapsis <= input.body_radius_m {
             let allowed = format!(
-                "an offset from [orbit] to an ellipse or a circle above body_radius_m = {:?}, position and velocity together (here the eccentricity {:.4}, the periapsis {:.0} m)",
+                "an offset from [orbit] to an ellipse or a circle above body_radius_m = {:?}, position and velocity \
+                together (here the eccentricity {:.4}, the periapsis {:.0} m)",
                 input.body_radius_m, shape.eccentricity, shape.periapsis
             );
             let remedy = "on an [orbit] positions and velocities of [initial] are relative to it: write them so";

@@ -1,7 +1,8 @@
-//! [`Parameter`]: a numeric key of scene or initial state that can be dispersed: a row of [`super::schema`] and an instance of
-//! its table.
+//! [`Parameter`]: a numeric key of scene or initial state that can be dispersed: a row of [`super::schema`] and an
+//! instance of its table.
 //!
-//! Not here: whether a change of it changes a run, which is found by running; the commands of `[[actuation]]`, which the keys of `[actuators]` distort for all arcs alike, and the errors of an arc for that arc.
+//! Not here: whether a change of it changes a run, which is found by running; the commands of `[[actuation]]`, which
+//! the keys of `[actuators]` distort for all arcs alike, and the errors of an arc for that arc.
 
 use super::input::SceneInput;
 use super::name::Name;
@@ -25,7 +26,8 @@ pub struct Parameter {
 const SYMMETRIC: [(usize, usize); 6] = [(0, 0), (1, 3), (2, 6), (4, 4), (5, 7), (8, 8)];
 
 impl Parameter {
-    /// All parameters that a scene with the tables of `scene` may have: table by table, instance by instance, in the order of the schema.
+    /// All parameters that a scene with the tables of `scene` may have: table by table, instance by instance, in the
+    /// order of the schema.
     pub fn all(scene: &SceneInput) -> impl Iterator<Item = Parameter> {
         let of = |table: Table, (instance, owner): (usize, Name)| {
             table.keys_in(scene, instance).map(move |key| Parameter { key, instance: instance as u32, owner })
@@ -37,7 +39,8 @@ impl Parameter {
         })
     }
 
-    /// The parameter of `scene` called `name`, and the component if the name ends in one (`.y`, or `.1` where the components have numbers).
+    /// The parameter of `scene` called `name`, and the component if the name ends in one (`.y`, or `.1` where the
+    /// components have numbers).
     pub fn find(scene: &SceneInput, name: &str) -> Option<(Parameter, Option<usize>)> {
         let whole = |name: &str| Self::all(scene).find(|parameter| parameter.name() == name);
         if let Some(parameter) = whole(name) {
@@ -83,7 +86,8 @@ impl Parameter {
         self.facts().shape
     }
 
-    /// The dotted name of a component: the parameter's name, `.`, the component's name; for a scalar the parameter's name.
+    /// The dotted name of a component: the parameter's name, `.`, the component's name; for a scalar the parameter's
+    /// name.
     pub fn component_name(self, component: usize) -> String {
         match self.components()[component] {
             "" => self.name(),
@@ -110,8 +114,8 @@ impl Parameter {
         self.key.read(scene, self.instance()).is_some()
     }
 
-    /// Makes `scene` have the key, if its table is there: an optional value, a way to describe a body. Its numbers are then
-    /// not numbers yet.
+    /// Makes `scene` have the key, if its table is there: an optional value, a way to describe a body. Its numbers are
+    /// then not numbers yet.
     pub fn open(self, scene: &mut SceneInput) {
         if !self.exists(scene) {
             self.key.open(scene, self.instance());
@@ -128,7 +132,8 @@ impl Parameter {
         })
     }
 
-    /// Changes a component, and with it its mirror image in a symmetric tensor; nothing where the scene has no such key.
+    /// Changes a component, and with it its mirror image in a symmetric tensor; nothing where the scene has no such
+    /// key.
     #[inline]
     pub fn set(self, scene: &mut SceneInput, component: usize, value: f64) {
         let Some(numbers) = self.key.write(scene, self.instance()) else { return };
@@ -164,10 +169,10 @@ impl Parameter {
         is_quaternion && self.key.read(scene, self.instance()).is_some_and(is_unit)
     }
 
-    /// Makes the value valid as a whole after its components were changed: a quaternion is divided by its norm (one of norm
-    /// zero or not finite is left as it is: the scene refuses it). An attitude twice: the second division removes what rounding left of
-    /// the first, and [`unit_quaternion`] then takes the numbers as they are, so that what is recorded is what is used. Principal
-    /// axes are taken as they are recorded.
+    /// Makes the value valid as a whole after its components were changed: a quaternion is divided by its norm (one of
+    /// norm zero or not finite is left as it is: the scene refuses it). An attitude twice: the second division removes
+    /// what rounding left of the first, and [`unit_quaternion`] then takes the numbers as they are, so that what is
+    /// recorded is what is used. Principal axes are taken as they are recorded.
     #[inline]
     pub fn normalise(self, scene: &mut SceneInput) {
         if self.shape() != Shape::Quaternion {
@@ -188,7 +193,8 @@ impl SceneInput {
     /// The same scene with other numbers for a parameter, whole or one component, by its name in campaign files.
     ///
     /// # Panics
-    /// Where there is no such parameter, the scene has no such key, or the number of values is not that of its components.
+    /// Where there is no such parameter, the scene has no such key, or the number of values is not that of its
+    /// components.
     pub fn with(mut self, name: &str, values: &[f64]) -> Self {
         let (parameter, component) =
             Parameter::find(&self, name).unwrap_or_else(|| panic!("{name} is a parameter of the schema"));
@@ -354,8 +360,8 @@ mod tests {
         assert_eq!(scene.initial.attitude, [0.6, 0.0, 0.0, 0.8]);
     }
 
-    /// Law: what was normalised once stays as it is, bit for bit, however often it is written and read again. Dividing again, as
-    /// before, changes a third of all quaternions.
+    /// Law: what was normalised once stays as it is, bit for bit, however often it is written and read again. Dividing
+    /// again, as before, changes a third of all quaternions.
     #[test]
     fn a_normalised_quaternion_keeps_its_bits() {
         let (attitude, _) = Parameter::find(&full(), "initial.attitude").expect("in the table");

@@ -1,8 +1,8 @@
 //! [`Plate`]: the plates of a spacecraft's surface, as written or from the parts of its body.
 //!
-//! From parts: a box has its six sides; a cylinder its two ends and, in place of its side, a prism of [`PRISM_SIDES`] plates of the same area, whose
-//! projection is that of the cylinder within 2.3% at any angle and the same on average. A part neither shades another nor hides a side of it: where that
-//! matters, write `[[plates]]`.
+//! From parts: a box has its six sides; a cylinder its two ends and, in place of its side, a prism of [`PRISM_SIDES`]
+//! plates of the same area, whose projection is that of the cylinder within 2.3% at any angle and the same on average.
+//! A part neither shades another nor hides a side of it: where that matters, write `[[plates]]`.
 
 use super::alignment::aligned;
 use super::input::SceneInput;
@@ -44,7 +44,8 @@ fn count(shape: PartShape) -> usize {
     }
 }
 
-/// Puts the plates of `input` in place of `plates`; none where nothing acts on them. At most [`MAX_PLATES`] once `input` is checked.
+/// Puts the plates of `input` in place of `plates`; none where nothing acts on them. At most [`MAX_PLATES`] once
+/// `input` is checked.
 pub(super) fn resolve_into(input: &SceneInput, plates: &mut Vec<Plate>) {
     plates.clear();
     let environment = &input.environment;
@@ -116,7 +117,8 @@ mod tests {
         Scene::resolve(&input).expect("a legal scene").plates
     }
 
-    /// Law: the plates close a surface: their areas times their normals add up to zero, those times their centres to three volumes (Gauss).
+    /// Law: the plates close a surface: their areas times their normals add up to zero, those times their centres to
+    /// three volumes (Gauss).
     #[test]
     fn the_plates_of_a_part_close() {
         let attitude = [0.5, 0.5, -0.5, 0.5];

@@ -41,8 +41,8 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The same into an existing scene, whose memory is reused: where `input` is physical and its schedule is no longer than
-    /// one this scene has held, nothing is allocated.
+    /// The same into an existing scene, whose memory is reused: where `input` is physical and its schedule is no longer
+    /// than one this scene has held, nothing is allocated.
     ///
     /// # Errors
     /// Everything about `input` that is not physical; the scene then stays as it was.
@@ -101,17 +101,19 @@ fn accepted(input: &SceneInput) -> Result<&SceneInput, Vec<SceneError>> {
     if problems.0.is_empty() { Ok(input) } else { Err(problems.0) }
 }
 
-/// That nothing which follows from an accepted input is unphysical. By reference: mass properties are some 600 bytes, and each
-/// copy of them shows in the time of a draw.
+/// That nothing which follows from an accepted input is unphysical. By reference: mass properties are some 600 bytes,
+/// and each copy of them shows in the time of a draw.
 fn checked(input: &SceneInput, mass: &MassProperties) -> Result<(), Vec<SceneError>> {
     let mut problems = Problems::default();
     check::derived(input, mass, &mut problems);
     if problems.0.is_empty() { Ok(()) } else { Err(problems.0) }
 }
 
-/// The state at time zero (59): debris q_ed = q_es (x) q_sd, omega^de = omega^ds + C_ds omega^se, where they are not written themselves.
+/// The state at time zero (59): debris q_ed = q_es (x) q_sd, omega^de = omega^ds + C_ds omega^se, where they are not
+/// written themselves.
 ///
-/// What is written relative to the local orbital frame of the spacecraft on `orbit`: q_es = q_eo (x) q_os, omega^se = omega^so + C_es^T omega^oe.
+/// What is written relative to the local orbital frame of the spacecraft on `orbit`: q_es = q_eo (x) q_os, omega^se =
+/// omega^so + C_es^T omega^oe.
 ///
 /// What belongs to debris that the scene does not have is zero (attitude: identity).
 fn initial_state(input: &SceneInput, orbit: Option<&Orbit>) -> InitialState {
@@ -235,8 +237,9 @@ mod tests {
         assert_eq!(scene, Scene::resolve(&input).expect("a legal scene"));
     }
 
-    /// Law: in the local orbital frame no rotation looks down with s3 and ahead with s1, and no rate turns once an orbit against the orbit's normal;
-    /// offsets of the spacecraft count. Independent truth: line of sight, direction of motion, central difference of the line of sight.
+    /// Law: in the local orbital frame no rotation looks down with s3 and ahead with s1, and no rate turns once an
+    /// orbit against the orbit's normal; offsets of the spacecraft count. Independent truth: line of sight, direction
+    /// of motion, central difference of the line of sight.
     #[test]
     fn the_local_orbital_frame_is_that_of_the_motion() {
         for offset in [[0.0; 3], [4.0e5, -2.0e5, 1.0e5]] {
@@ -301,7 +304,8 @@ mod tests {
         assert_eq!((state.q_ed, state.omega_de_d), ([1.0, 0.0, 0.0, 0.0], [0.0; 3]));
     }
 
-    /// Law: the motion of the debris in F_e is that which is written there, whatever that of the spacecraft is; written twice it is refused.
+    /// Law: the motion of the debris in F_e is that which is written there, whatever that of the spacecraft is; written
+    /// twice it is refused.
     #[test]
     fn debris_can_be_given_in_the_inertial_frame() {
         let mut input = samples::table_two();

@@ -12,7 +12,8 @@ pub struct Actuation {
     pub until: f64,
     /// Thrusts along the directions of the thrusters, in the order of [`super::Scene::thrusters`], N; zero beyond.
     pub thrust: [f64; MAX_THRUSTERS],
-    /// Motor torques on the wheels about their axes, in the order of the wheels, N m; the body feels the opposite. Zero beyond.
+    /// Motor torques on the wheels about their axes, in the order of the wheels, N m; the body feels the opposite. Zero
+    /// beyond.
     pub motor_torque: [f64; MAX_WHEELS],
     /// External torque on the spacecraft beside that of the thrusters, in F_s, N m.
     pub body_torque: [f64; 3],
@@ -101,8 +102,8 @@ pub fn thrusters(input: &SceneInput) -> impl Iterator<Item = Thruster> {
     })
 }
 
-/// What the commands of `schedule` (in order, not overlapping) apply at `time`, and until when: between them and after the last
-/// nothing acts. At the boundary of two arcs the later one applies.
+/// What the commands of `schedule` (in order, not overlapping) apply at `time`, and until when: between them and after
+/// the last nothing acts. At the boundary of two arcs the later one applies.
 #[inline]
 pub fn actuation_at(schedule: &[Arc], time: f64) -> Actuation {
     match schedule.get(schedule.partition_point(|arc| arc.end() <= time)) {

@@ -1,8 +1,9 @@
 //! Inertia by second moments of mass: S, the integral of r r^T dm about the centre of mass, and J = tr(S) 1 - S.
 //!
-//! A symmetric J is the inertia of some body exactly where S is positive semidefinite, which is what "positive moments, none above
-//! the sum of the other two" says. A change of S that keeps it positive semidefinite never gives an impossible body
-//! (C. Rucker & P. M. Wensing, *Smooth Parameterization of Rigid-Body Inertia*, IEEE Robotics and Automation Letters 7(2), 2022).
+//! A symmetric J is the inertia of some body exactly where S is positive semidefinite, which is what "positive moments,
+//! none above the sum of the other two" says. A change of S that keeps it positive semidefinite never gives an
+//! impossible body (C. Rucker & P. M. Wensing, *Smooth Parameterization of Rigid-Body Inertia*, IEEE Robotics and
+//! Automation Letters 7(2), 2022).
 //!
 //! Not here: bodies put together ([`super::mass`]), refusals ([`super::check`]).
 
@@ -25,8 +26,8 @@ pub fn inertia<R: Real>(s: [[R; 3]; 3]) -> [[R; 3]; 3] {
 }
 
 impl PrincipalInertia {
-    /// The tensor in the body's frame, kg m^2, by rows, in the number type of `one`: C diag(moments) C^T with C from the normalised
-    /// quaternion; without a rotation exactly diagonal.
+    /// The tensor in the body's frame, kg m^2, by rows, in the number type of `one`: C diag(moments) C^T with C from
+    /// the normalised quaternion; without a rotation exactly diagonal.
     pub fn tensor<R: Real>(&self, one: R) -> [[R; 3]; 3] {
         let zero = one.zero();
         let moments = match self.moments {
@@ -113,7 +114,8 @@ mod tests {
         assert_eq!(second.tensor(1.0), [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]]);
     }
 
-    /// Law: a factor of the inertia changes the inertia by that factor, and neither mass nor centre; one leaves every bit.
+    /// Law: a factor of the inertia changes the inertia by that factor, and neither mass nor centre; one leaves every
+    /// bit.
     #[test]
     fn a_factor_of_the_inertia_changes_nothing_else() {
         let nominal = solid_box([1.0, 2.0, 3.0], 10.0);
@@ -124,8 +126,8 @@ mod tests {
         assert_eq!((heavier.mass, heavier.inertia), (1.25 * nominal.mass, scaled.inertia));
     }
 
-    /// Law: a box whose matter is stretched is the stretched box; one that is sheared has the moments of the sheared box, by its
-    /// integrals (x, y, z independent and uniform: <x^2> = a^2/12).
+    /// Law: a box whose matter is stretched is the stretched box; one that is sheared has the moments of the sheared
+    /// box, by its integrals (x, y, z independent and uniform: <x^2> = a^2/12).
     #[test]
     fn stretched_and_sheared_matter_is_that_of_the_integrals() {
         let nominal = solid_box([1.0, 2.0, 3.0], 10.0);
@@ -164,7 +166,8 @@ mod tests {
             shear in prop::array::uniform3(-3.0f64..3.0),
             mass_scale in 0.1f64..10.0,
         ) {
-            let principal = PrincipalInertia { moments: PrincipalMoments::Second(moments), axes: [0.5, 0.5, -0.5, 0.5] };
+            let principal = PrincipalInertia { moments: PrincipalMoments::Second(moments), axes: [0.5, 0.5, -0.5,
+                0.5] };
             let body = Body { mass: 1.0, center: [0.0; 3], inertia: principal.tensor(1.0) };
             let errors = MassErrors { mass_scale, stretch_log, shear, ..MassErrors::NONE };
             let tensor = errors.applied(body).inertia;
@@ -172,7 +175,8 @@ mod tests {
             let trace: f64 = moments.iter().sum();
             prop_assert!(is_positive_definite(tensor));
             for moment in moments {
-                // the axes of the rotations, and the sums of three: some ulps of the trace; measured: less than the moments themselves
+                // the axes of the rotations, and the sums of three: some ulps of the trace; measured: less than the
+                // moments themselves
                 prop_assert!(moment <= trace - moment + 16.0 * f64::EPSILON * trace, "{:?}", moments);
             }
         }

@@ -1,8 +1,8 @@
 //! Mass, centre and inertia of homogeneous solids in closed form.
 //!
-//! Source: Berdoz, *Final Report - ADR Spacecraft*, (60)-(67). Every formula is a sum of positive parts (shell and end plates,
-//! never a large solid minus a small one), so that each result is good to a few units in the last place: after thousands of
-//! radians an error of J is an error of the attitude, multiplied.
+//! Source: Berdoz, *Final Report - ADR Spacecraft*, (60)-(67). Every formula is a sum of positive parts (shell and end
+//! plates, never a large solid minus a small one), so that each result is good to a few units in the last place: after
+//! thousands of radians an error of J is an error of the attitude, multiplied.
 //!
 //! Not here: bodies put together ([`super::body`], [`super::mass`]), and what sizes are allowed ([`super::check`]).
 
@@ -37,9 +37,9 @@ fn diagonal<R: Real>(diagonal: [R; 3]) -> [[R; 3]; 3] {
 
 /// A hollow cylinder with closed ends, axis s3, base centre at the origin (60)-(67).
 ///
-/// `wall` t_s of shell and end plates, outer `radius` rho_o, outer `length` l_s in m, `density` in kg/m^3. Shell between the
-/// plates and the two full plates are added; rho_o^2 - rho_i^2 = t (2 rho_o - t). About ten roundings, none amplified; test
-/// `closed_forms_equal_the_integrals`.
+/// `wall` t_s of shell and end plates, outer `radius` rho_o, outer `length` l_s in m, `density` in kg/m^3. Shell
+/// between the plates and the two full plates are added; rho_o^2 - rho_i^2 = t (2 rho_o - t). About ten roundings, none
+/// amplified; test `closed_forms_equal_the_integrals`.
 pub fn hollow_cylinder<R: Real>(wall: R, radius: R, length: R, density: R) -> Body<R> {
     let k = |value: f64| wall.splat(value);
     let (bore, height) = (radius - wall, length - k(2.0) * wall);
@@ -210,7 +210,8 @@ mod tests {
 
     #[test]
     fn a_thin_wall_keeps_its_digits() {
-        // as t -> 0 the shell's mass over t tends to density 2 pi rho (l + rho): big-minus-small would lose all digits here
+        // as t -> 0 the shell's mass over t tends to density 2 pi rho (l + rho): big-minus-small would lose all digits
+        // here
         let t = 1e-12;
         let body = hollow_cylinder(t, 1.0, 3.0, 2700.0);
         let expected = 2700.0 * std::f64::consts::TAU * 4.0 * t;

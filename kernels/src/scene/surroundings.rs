@@ -8,7 +8,8 @@ use super::schema::limit::shown;
 use super::schema::{EnvironmentInput, MAX_PLATES, PlateInput};
 use super::table::Table;
 
-/// Height above which the air is so thin that molecules hit a spacecraft and not one another, m: below it the drag is that of a flow around the body.
+/// Height above which the air is so thin that molecules hit a spacecraft and not one another, m: below it the drag is
+/// that of a flow around the body.
 const FREE_MOLECULAR: f64 = 100e3;
 
 /// The thinnest layer of a table of the air, m: steps end at its ends, and an orbit moves by kilometres in a second.
@@ -48,7 +49,8 @@ pub(super) fn check(input: &SceneInput, problems: &mut Problems) {
     // an orbit below the surface has its own message
     if environment.drag && height > 0.0 && height < FREE_MOLECULAR {
         let allowed = format!(
-            "false, or left out, on an orbit whose periapsis is less than 100 km above body_radius_m, here {:.1} km: the air there flows around a body",
+            "false, or left out, on an orbit whose periapsis is less than 100 km above body_radius_m, here {:.1} km: \
+            the air there flows around a body",
             1e-3 * height
         );
         problems.add("environment.drag".to_owned(), "true".to_owned(), allowed, "raise the orbit");

@@ -110,7 +110,10 @@ macro_rules! tables {
 
             /// Whether its keys can be dispersed.
             pub const fn is_dispersable(self) -> bool {
-                match self { $(Table::$Table => $dispersable,)+ Table::Control | Table::Sensors | Table::Guidance => true }
+                match self {
+                    $(Table::$Table => $dispersable,)+
+                    Table::Control | Table::Sensors | Table::Guidance => true,
+                }
             }
 
             /// Number of its keys that every scene has.
@@ -153,7 +156,8 @@ macro_rules! tables {
             /// Makes the scene have the key, if its table is there: an optional value, a way to describe a body.
             pub fn open(self, $scene: &mut SceneInput, $instance: usize) {
                 match self.table {
-                    $(Table::$Table => if let Some(table) = $get_mut { (row_of($parts, self.row as usize).open)(table) },)+
+                    $(Table::$Table => if let Some(table) = $get_mut { (row_of($parts,
+                        self.row as usize).open)(table) },)+
                     Table::Control | Table::Sensors | Table::Guidance => {}
                 }
             }
@@ -169,7 +173,8 @@ tables! {
     PartErrors, "body.parts", true, &[MassErrors::ROWS],
         scene.parts.get(instance).map(|part| &part.errors), scene.parts.get_mut(instance).map(|part| &mut part.errors);
     Wheel, "wheels", true, &[WheelInput::ROWS], scene.wheels.get(instance), scene.wheels.get_mut(instance);
-    Thruster, "thrusters", true, &[ThrusterInput::ROWS], scene.thrusters.get(instance), scene.thrusters.get_mut(instance);
+    Thruster, "thrusters", true, &[ThrusterInput::ROWS], scene.thrusters.get(instance),
+    scene.thrusters.get_mut(instance);
     TorqueRod, "torque_rods", true, &[TorqueRodInput::ROWS],
         scene.torque_rods.get(instance), scene.torque_rods.get_mut(instance);
     Debris, "debris", true, &[DebrisInput::ROWS], scene.debris.as_ref(), scene.debris.as_mut();
@@ -290,8 +295,8 @@ impl Key {
         }
     }
 
-    /// The numbers where the key is not written, as in a campaign file; `None` where it must be written, or where another
-    /// key takes its place.
+    /// The numbers where the key is not written, as in a campaign file; `None` where it must be written, or where
+    /// another key takes its place.
     pub fn default_text(self) -> Option<String> {
         match self.facts().presence {
             Presence::Required(_) => None,

@@ -15,10 +15,11 @@ pub struct Thruster {
 /// The directions of Berdoz's thrusters P1, P2, P3 in F_s (72).
 pub const REPORT_DIRECTIONS: [[f64; 3]; 3] = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, -1.0]];
 
-/// The distance rho_p of P2 and P3 from s3, m, where `thrusters` are Berdoz's, without alignment errors: P1 along s3 at p, P2 and
-/// P3 along -s3 at (0, -rho_p, l) and (0, +rho_p, l).
+/// The distance rho_p of P2 and P3 from s3, m, where `thrusters` are Berdoz's, without alignment errors: P1 along s3 at
+/// p, P2 and P3 along -s3 at (0, -rho_p, l) and (0, +rho_p, l).
 ///
-/// Force and torque of this arrangement are written out as in (72), so that equal thrusts P2 and P3 add up to exactly zero torque.
+/// Force and torque of this arrangement are written out as in (72), so that equal thrusts P2 and P3 add up to exactly
+/// zero torque.
 pub fn report_offset(thrusters: &[Thruster]) -> Option<f64> {
     let [p1, p2, p3] = thrusters else { return None };
     let ([_, offset, station], [_, opposite, other]) = (p3.position, p2.position);
@@ -41,7 +42,8 @@ pub fn force_s(thrusters: &[Thruster], thrust: [f64; MAX_THRUSTERS]) -> [f64; 3]
     total(thrusters.iter().zip(thrust).map(|(thruster, thrust)| scaled(thrust, thruster.direction)))
 }
 
-/// The torque of `thrusters` at the thrusts `thrust` (N, in their order) about the point `center` (from p in F_s, m), in F_s, N m.
+/// The torque of `thrusters` at the thrusts `thrust` (N, in their order) about the point `center` (from p in F_s, m),
+/// in F_s, N m.
 pub fn torque_s(thrusters: &[Thruster], thrust: [f64; MAX_THRUSTERS], center: [f64; 3]) -> [f64; 3] {
     if thrusters.is_empty() {
         return [0.0; 3];

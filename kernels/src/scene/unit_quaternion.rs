@@ -1,7 +1,8 @@
 //! [`unit_quaternion`]: the quaternion that is used where four numbers are written.
 
-/// How far the sum of the squares of four numbers that were divided by their norm may be from one: 6 rounding units by the usual
-/// bounds (two for the sum, one and a half for root and division, counted twice in a square; two for the sum again), measured 3.
+/// How far the sum of the squares of four numbers that were divided by their norm may be from one: 6 rounding units by
+/// the usual bounds (two for the sum, one and a half for root and division, counted twice in a square; two for the sum
+/// again), measured 3.
 const ROUNDED_UNIT: f64 = 8.0 * f64::EPSILON;
 
 /// Whether the norm of `q` is one to rounding.

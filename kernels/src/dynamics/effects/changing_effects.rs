@@ -1,16 +1,21 @@
-//! `changing_effects`: the effects that change within an arc as the equations of motion have them, from the list in the parent module.
+//! `changing_effects`: the effects that change within an arc as the equations of motion have them, from the list in the
+//! parent module.
 
-/// The effects that change within an arc, from the list of their files: those of the form `Series`, then those of the form `Evaluated`:
+/// The effects that change within an arc, from the list of their files: those of the form `Series`, then those of the
+/// form `Evaluated`:
 ///
 /// ```text
 /// series { file: Constants, Series; }
 /// evaluated { file: Constants; }
 /// ```
 ///
-/// `Constants<R>` has `NEEDS_ORBIT`, `none(zero)`, `set_lane(lane, &Constants<f64>)` and `torque(&Motion<R>)`, in B, N m; those of the form `Evaluated` have
-/// a force too, `force(&Motion<R>)`, in B, N, and branches ([`crate::ode::switches`]): `is_rough(zero)`, `switches(&[Motion<R>; M], visit)` and `choose_branches(lanes, &Motion<R>)`. `Series<R>` has `new(zero,
-/// order)`, `NEEDS_POSITION`, `begin(&Constants<R>, time, unit)` and `extend(n, &MotionSeries<R>)`, coefficient n of the torque in the unit of time. The file has `of(zero, scene, c_sb)`, the constants in the frame B that `c_sb` maps to F_s, `None` where the
-/// effect does not act; `largest_torque(scene)`, an upper bound, N m; and `largest_rate(scene)`, the fastest motion that it makes, rad/s.
+/// `Constants<R>` has `NEEDS_ORBIT`, `none(zero)`, `set_lane(lane, &Constants<f64>)` and `torque(&Motion<R>)`, in B, N
+/// m; those of the form `Evaluated` have a force too, `force(&Motion<R>)`, in B, N, and branches
+/// ([`crate::ode::switches`]): `is_rough(zero)`, `switches(&[Motion<R>; M], visit)` and `choose_branches(lanes,
+/// &Motion<R>)`. `Series<R>` has `new(zero, order)`, `NEEDS_POSITION`, `begin(&Constants<R>, time, unit)` and
+/// `extend(n, &MotionSeries<R>)`, coefficient n of the torque in the unit of time. The file has `of(zero, scene,
+/// c_sb)`, the constants in the frame B that `c_sb` maps to F_s, `None` where the effect does not act;
+/// `largest_torque(scene)`, an upper bound, N m; and `largest_rate(scene)`, the fastest motion that it makes, rad/s.
 macro_rules! changing_effects {
     (series { $($series:ident: $Of:ident, $Series:ident;)* } evaluated { $($evaluated:ident: $Evaluated:ident;)* }) => {
         changing_effects::changing_effects! { all { $($series: $Of;)* $($evaluated: $Evaluated;)* } }
@@ -71,7 +76,8 @@ macro_rules! changing_effects {
                 least
             }
 
-            /// The fraction of a step at which one of them may be below zero that is above at both ends ([`crate::ode::switches::dip`]).
+            /// The fraction of a step at which one of them may be below zero that is above at both ends
+            /// ([`crate::ode::switches::dip`]).
             #[inline(always)]
             pub fn dip(&self, motions: &[within_arcs::Motion<R>; 4]) -> R {
                 let mut first = motions[0].time.splat(f64::INFINITY);
@@ -123,8 +129,9 @@ macro_rules! changing_effects {
                 ChangingSeries { keeps_orbit: true, ..self }
             }
 
-            /// Starts a step of `acting` at `time` (s) in a unit of time of `unit` seconds. `place` is the gravity of the central body and
-            /// where the orbit is then (m, m/s), where it is needed; the spacecraft may leave it where `may_leave`.
+            /// Starts a step of `acting` at `time` (s) in a unit of time of `unit` seconds. `place` is the gravity of
+            /// the central body and where the orbit is then (m, m/s), where it is needed; the spacecraft may leave it
+            /// where `may_leave`.
             #[inline(always)]
             pub fn begin(
                 &mut self,
@@ -137,7 +144,8 @@ macro_rules! changing_effects {
                 self.has_orbit = place.is_some();
                 if let Some((gravity, place)) = place {
                     let velocity = $crate::math::vector::scaled(unit, place.velocity);
-                    let asks = self.keeps_orbit $(|| $series::$Series::<R>::NEEDS_POSITION && acting.$series.is_some())*;
+                    let asks = self.keeps_orbit
+                        $(|| $series::$Series::<R>::NEEDS_POSITION && acting.$series.is_some())*;
                     self.motion.begin_orbit(gravity.in_unit(unit), [place.position, velocity], may_leave, asks);
                 }
                 $(
@@ -148,8 +156,9 @@ macro_rules! changing_effects {
                 )*
             }
 
-            /// Coefficient n of the sum of the torques, given those of the motion: attitude, rate and offset from the orbit (m); call in ascending
-            /// order of `n`. `constant` is what acts beside them, for [`ChangingSeries::torque`].
+            /// Coefficient n of the sum of the torques, given those of the motion: attitude, rate and offset from the
+            /// orbit (m); call in ascending order of `n`. `constant` is what acts beside them, for
+            /// [`ChangingSeries::torque`].
             #[inline(always)]
             pub fn extend(
                 &mut self,

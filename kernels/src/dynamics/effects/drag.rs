@@ -1,8 +1,9 @@
 //! Drag: what the air turns, plate by plate.
 //!
-//! f = -rho/2 C_d A max(0, n . v) v with v the velocity relative to the air, which turns with the Earth, and n the outward normal; at the plate's centre
-//! (J. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 17.2.3; the velocity of the plate relative to the centre of mass, of the order
-//! of 1e-5 of v, is neglected). A plate that faces away feels nothing, and none shades another. The force changes the orbit where the file asks for it
+//! f = -rho/2 C_d A max(0, n . v) v with v the velocity relative to the air, which turns with the Earth, and n the
+//! outward normal; at the plate's centre (J. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section
+//! 17.2.3; the velocity of the plate relative to the centre of mass, of the order of 1e-5 of v, is neglected). A plate
+//! that faces away feels nothing, and none shades another. The force changes the orbit where the file asks for it
 //! (`environment.coupled`).
 
 use super::plates::{PlatesInLanes, largest_lever};
@@ -123,7 +124,8 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
     Some(Drag { plates: PlatesInLanes::of(zero, scene, c_sb, |plate| [plate.drag_coefficient]), air })
 }
 
-/// Upper bound of the torque on `scene`, N m: at the periapsis, against the Earth's rotation, all plates across the flow.
+/// Upper bound of the torque on `scene`, N m: at the periapsis, against the Earth's rotation, all plates across the
+/// flow.
 pub fn largest_torque(scene: &Scene) -> f64 {
     let Some((orbit, air)) = scene.orbit.as_ref().zip(air_of(scene)) else { return 0.0 };
     let lowest = orbit.lowest();
@@ -153,7 +155,8 @@ mod tests {
         Scene::resolve(&SceneInput { orbit, environment, plates, ..SceneInput::default() }).expect("a legal scene")
     }
 
-    /// Law: a plate across the flow has the force rho/2 C_d A v^2 against it; at 60 deg half of it; from behind none. The cube's centre of mass is p.
+    /// Law: a plate across the flow has the force rho/2 C_d A v^2 against it; at 60 deg half of it; from behind none.
+    /// The cube's centre of mass is p.
     #[test]
     fn a_plate_is_dragged_by_the_area_it_shows() {
         let plate = PlateInput {
@@ -178,7 +181,8 @@ mod tests {
         }
     }
 
-    /// Law: a closed convex surface that is symmetric about the centre of mass is not turned, whatever its attitude; and the bound holds.
+    /// Law: a closed convex surface that is symmetric about the centre of mass is not turned, whatever its attitude;
+    /// and the bound holds.
     #[test]
     fn a_cube_about_its_centre_is_not_turned() {
         let cube = scene(Vec::new());

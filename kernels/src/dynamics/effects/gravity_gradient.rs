@@ -1,7 +1,7 @@
 //! The gravity gradient: what the central body's pull, stronger on the near side, turns about the centre of mass.
 //!
-//! tau = 3 mu/|r|^5 r x (J r), with J about the centre of mass, wheels locked, and r from the central body, both in the same frame (P. Hughes,
-//! *Spacecraft Attitude Dynamics*, 1986, section 8.1: of first order in size over |r|).
+//! tau = 3 mu/|r|^5 r x (J r), with J about the centre of mass, wheels locked, and r from the central body, both in the
+//! same frame (P. Hughes, *Spacecraft Attitude Dynamics*, 1986, section 8.1: of first order in size over |r|).
 
 use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::orbit_in_body::OrbitInBody;
@@ -75,7 +75,8 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
 
 /// Taylor coefficients of the gravity gradient along a step, by recurrences.
 ///
-/// With r in B and s = mu rho^(-3/2), rho = r . r, the torque is 3 s/rho r x (J r): products of series ([`OrbitInBody`]).
+/// With r in B and s = mu rho^(-3/2), rho = r . r, the torque is 3 s/rho r x (J r): products of series
+/// ([`OrbitInBody`]).
 #[derive(Clone, Debug)]
 pub struct GradientSeries<R> {
     /// J in B, kg m^2.
@@ -125,7 +126,8 @@ impl<R: Real> GradientSeries<R> {
     }
 }
 
-/// Upper bound of the torque on `scene`, N m: at the periapsis, the axes of the largest and the smallest moment at 45 degrees to the vertical.
+/// Upper bound of the torque on `scene`, N m: at the periapsis, the axes of the largest and the smallest moment at 45
+/// degrees to the vertical.
 pub fn largest_torque(scene: &Scene) -> f64 {
     let Some(orbit) = scene.orbit.as_ref().filter(|_| scene.environment.gravity_gradient) else { return 0.0 };
     let lowest = orbit.lowest();
@@ -146,8 +148,8 @@ mod tests {
     use super::*;
     use crate::math::vector::norm;
 
-    /// Law: a dumbbell of two point masses m at distance d from the centre is turned by the difference of the pulls on them, to first order of
-    /// d/|r|, whatever the attitude; along the vertical and across it not at all.
+    /// Law: a dumbbell of two point masses m at distance d from the centre is turned by the difference of the pulls on
+    /// them, to first order of d/|r|, whatever the attitude; along the vertical and across it not at all.
     #[test]
     fn a_dumbbell_is_turned_by_the_pulls_on_its_ends() {
         const MU: f64 = 3.986004418e14;

@@ -1,7 +1,8 @@
-//! The magnetic torque: what the field of the central body turns a spacecraft by that is a magnet, by itself or by the current in its torque rods.
+//! The magnetic torque: what the field of the central body turns a spacecraft by that is a magnet, by itself or by the
+//! current in its torque rods.
 //!
-//! tau = m x B (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 17.2), with the dipole m fixed in the body over an arc and the
-//! field of [`crate::dynamics::magnetic_field`] at its place and time.
+//! tau = m x B (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 17.2), with the dipole m
+//! fixed in the body over an arc and the field of [`crate::dynamics::magnetic_field`] at its place and time.
 
 use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::magnetic_field::series::FieldSeries;
@@ -121,7 +122,8 @@ impl<R: Real> MagneticSeries<R> {
     }
 }
 
-/// Upper bound of the torque on `scene`, N m: the dipole with all rods at their limits across the largest field at the periapsis.
+/// Upper bound of the torque on `scene`, N m: the dipole with all rods at their limits across the largest field at the
+/// periapsis.
 pub fn largest_torque(scene: &Scene) -> f64 {
     let (Some(orbit), Some(dipole)) = (&scene.orbit, residual_dipole(scene)) else { return 0.0 };
     let stuck = scene.failures.iter().filter_map(|failure| failure.dipole_a_m2);
@@ -147,8 +149,8 @@ mod tests {
     use crate::math::vector::{difference, dot};
     use crate::scene::{Epoch, FieldModel};
 
-    /// Law: two poles of the charge q at +-d/2 in the field are pulled by +-q B: about the middle a couple of m x B with m = q d; none along the field; rods
-    /// add to the dipole.
+    /// Law: two poles of the charge q at +-d/2 in the field are pulled by +-q B: about the middle a couple of m x B
+    /// with m = q d; none along the field; rods add to the dipole.
     #[test]
     fn a_magnet_turns_towards_the_field() {
         let field = MagneticField::new(FieldModel::Igrf, Epoch::parse("2026-11-24T00:00:00Z").expect("a date"));

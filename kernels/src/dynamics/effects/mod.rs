@@ -1,17 +1,18 @@
 //! Effects: what acts on a spacecraft beside its actuators, under a schedule and under any law alike.
 //!
-//! Each effect is one file, and its lines in the list here; its parameters are keys of `[environment]` and `[orbit]` ([`crate::scene::schema`]).
-//! The effects that act in a run are its [`ForceModel`]. Every engine says which [`Form`]s of effects it integrates
-//! (`propagation::integrated_effects`); a run is not given to an engine that leaves one out.
+//! Each effect is one file, and its lines in the list here; its parameters are keys of `[environment]` and `[orbit]`
+//! ([`crate::scene::schema`]). The effects that act in a run are its [`ForceModel`]. Every engine says which [`Form`]s
+//! of effects it integrates (`propagation::integrated_effects`); a run is not given to an engine that leaves one out.
 //!
 //! - `constant_torque`: constant in F_s: a part of every arc of constant actuation, so that all methods have it.
 //! - [`gravity_gradient`]: depends on attitude and position.
 //! - [`magnetic_torque`]: depends on attitude, position, date and the torque rods.
 //! - [`drag`], [`solar_pressure`]: act on plates ([`plates`]), which turn on and off.
-//! - [`within_arcs`]: the effects that change within an arc, as the equations of motion have them, and what they depend on; `changing_effects` makes them from the list.
+//! - [`within_arcs`]: the effects that change within an arc, as the equations of motion have them, and what they depend
+//!   on; `changing_effects` makes them from the list.
 //!
-//! A scene without effects costs nothing: its kernel is compiled without them. A scene with effects evaluates only those that act, and its orbit
-//! only where one of them needs it.
+//! A scene without effects costs nothing: its kernel is compiled without them. A scene with effects evaluates only
+//! those that act, and its orbit only where one of them needs it.
 
 mod changing_effects;
 mod constant_torque;
@@ -97,7 +98,8 @@ impl Effect {
         }
     }
 
-    /// Whether it acts in `environment`: on an orbit or on none, which the bodies may leave or not, with torque rods or without.
+    /// Whether it acts in `environment`: on an orbit or on none, which the bodies may leave or not, with torque rods or
+    /// without.
     const fn acts_in(self, environment: &EnvironmentInput, [is_on_orbit, may_leave, has_rods]: [bool; 3]) -> bool {
         match self {
             Effect::ConstantTorque => environment.body_torque_n_m.is_some(),

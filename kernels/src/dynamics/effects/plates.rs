@@ -1,7 +1,7 @@
 //! [`PlatesInLanes`]: the plates of a spacecraft for one run per lane, in the frame B of the equations.
 //!
-//! The cosine between a plate's normal and what comes upon it is its switch function: below zero the plate faces away. Where steps end at switches the
-//! side is chosen once and then frozen.
+//! The cosine between a plate's normal and what comes upon it is its switch function: below zero the plate faces away.
+//! Where steps end at switches the side is chosen once and then frozen.
 
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
@@ -24,7 +24,8 @@ pub struct PlateInLanes<R, const K: usize> {
     pub arm: [R; 3],
     /// What acts on it, times its area.
     pub numbers: [R; K],
-    /// The least and the largest that it feels of the cosine: zero and infinity until its side is chosen, then minus infinity and infinity, or zero.
+    /// The least and the largest that it feels of the cosine: zero and infinity until its side is chosen, then minus
+    /// infinity and infinity, or zero.
     limits: [R; 2],
 }
 
@@ -99,22 +100,23 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
 }
 
 impl<R: Real, const K: usize> PlateInLanes<R, K> {
-    /// The cosine of the angle between the normal and the unit vector `direction`, zero where the plate faces away; on a side that was chosen the cosine
-    /// itself, or zero.
+    /// The cosine of the angle between the normal and the unit vector `direction`, zero where the plate faces away; on
+    /// a side that was chosen the cosine itself, or zero.
     #[inline(always)]
     pub fn facing(&self, direction: [R; 3]) -> R {
         dot(self.normal, direction).larger(self.limits[0]).smaller(self.limits[1])
     }
 }
 
-/// Sum of the areas of the plates of `scene` times their distances from the centre of mass, m^3, with `weight` of each: no torque of a pressure of one is
-/// larger.
+/// Sum of the areas of the plates of `scene` times their distances from the centre of mass, m^3, with `weight` of each:
+/// no torque of a pressure of one is larger.
 pub fn largest_lever(scene: &Scene, weight: impl Fn(&Plate) -> f64) -> f64 {
     let of = |plate: &Plate| weight(plate) * plate.area * norm(difference(plate.center, scene.mass.center));
     scene.plates.iter().map(of).sum()
 }
 
-/// The rate of oscillations of `scene` under a torque of `largest` N m, rad/s: it changes over an angle of one at the plates' distance.
+/// The rate of oscillations of `scene` under a torque of `largest` N m, rad/s: it changes over an angle of one at the
+/// plates' distance.
 pub(super) fn largest_rate(scene: &Scene, largest: f64) -> f64 {
     if largest == 0.0 {
         return 0.0;

@@ -1,10 +1,11 @@
 //! Solar radiation pressure: what sunlight turns, plate by plate.
 //!
-//! f = -P A cos(theta) ((1 - c_s) s + 2 (c_s cos(theta) + c_d/3) n) where cos(theta) = n . s > 0, with s the unit vector to the Sun and the shares c_s
-//! and c_d of the light that are reflected as by a mirror and in all directions (J. Wertz, *Spacecraft Attitude Determination and Control*, 1978,
-//! (17-27)..(17-30)); at the plate's centre. P falls with the square of the distance to the Sun and with the visible share of its disc
-//! ([`crate::dynamics::environment::shadow`]). No plate shades another; the light that the Earth reflects is neglected. The force
-//! changes the orbit where the file asks for it (`environment.coupled`).
+//! f = -P A cos(theta) ((1 - c_s) s + 2 (c_s cos(theta) + c_d/3) n) where cos(theta) = n . s > 0, with s the unit
+//! vector to the Sun and the shares c_s and c_d of the light that are reflected as by a mirror and in all directions
+//! (J. Wertz, *Spacecraft Attitude Determination and Control*, 1978, (17-27)..(17-30)); at the plate's centre. P falls
+//! with the square of the distance to the Sun and with the visible share of its disc
+//! ([`crate::dynamics::environment::shadow`]). No plate shades another; the light that the Earth reflects is neglected.
+//! The force changes the orbit where the file asks for it (`environment.coupled`).
 
 use super::plates::{PlateInLanes, PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
@@ -149,8 +150,8 @@ impl<R: Real> SolarPressure<R> {
     }
 }
 
-/// The cosine that `plate` shows to the Sun in the direction `sun`, B, and what light of one newton a square metre pushes it by against that direction, over the
-/// cosine, N.
+/// The cosine that `plate` shows to the Sun in the direction `sun`, B, and what light of one newton a square metre
+/// pushes it by against that direction, over the cosine, N.
 #[inline(always)]
 fn push<R: Real>(plate: &PlateInLanes<R, 3>, sun: [R; 3]) -> (R, [R; 3]) {
     let [along, mirrored, scattered] = plate.numbers;
@@ -209,8 +210,8 @@ mod tests {
         of(0.0, &Scene::resolve(&input).expect("a legal scene"), None).expect("light")
     }
 
-    /// Law: the momentum of light. Absorbed it pushes along the rays with P A cos; mirrored along the normal with 2 P A cos^2; scattered along the rays
-    /// and 2/3 of it along the normal; from behind not at all.
+    /// Law: the momentum of light. Absorbed it pushes along the rays with P A cos; mirrored along the normal with 2 P A
+    /// cos^2; scattered along the rays and 2/3 of it along the normal; from behind not at all.
     #[test]
     fn light_pushes_by_its_momentum() {
         let arm = [1.0, -2.0, 0.5];

@@ -1,8 +1,9 @@
-//! The effects that change within an arc: what they depend on ([`Motion`], [`MotionSeries`]), and as the equations of motion have them: none
-//! ([`NoEffects`]), or those of the list ([`ChangingEffects`], [`ChangingSeries`]).
+//! The effects that change within an arc: what they depend on ([`Motion`], [`MotionSeries`]), and as the equations of
+//! motion have them: none ([`NoEffects`]), or those of the list ([`ChangingEffects`], [`ChangingSeries`]).
 //!
-//! The file of such an effect has its constants for one run per lane, with the torque, and the series of the torque; the list in the parent module names
-//! both. `changing_effects` makes those from the list, and says what they must have.
+//! The file of such an effect has its constants for one run per lane, with the torque, and the series of the torque;
+//! the list in the parent module names both. `changing_effects` makes those from the list, and says what they must
+//! have.
 
 use super::ChangingEffects;
 use super::ChangingSeries;
@@ -44,7 +45,8 @@ pub struct Motion<R> {
     pub attitude: [R; 4],
     /// Angular velocity relative to F_e, B, rad/s.
     pub rate: [R; 3],
-    /// Where the spacecraft is on its orbit; known where an effect needs the orbit ([`ChangingEffects::needs_orbit`]), not a number elsewhere.
+    /// Where the spacecraft is on its orbit; known where an effect needs the orbit ([`ChangingEffects::needs_orbit`]),
+    /// not a number elsewhere.
     pub place: OrbitState<R>,
 }
 
@@ -58,7 +60,8 @@ impl<R: Real> Motion<R> {
     }
 }
 
-/// What the Taylor series of an effect may depend on: coefficients up to the order that is being computed, in the lanes' units of time.
+/// What the Taylor series of an effect may depend on: coefficients up to the order that is being computed, in the
+/// lanes' units of time.
 #[derive(Clone, Debug)]
 pub struct MotionSeries<R> {
     /// Of the attitude, B -> F_e.
@@ -91,8 +94,9 @@ impl<R: Real> MotionSeries<R> {
         }
     }
 
-    /// Starts a step where the point on the orbit is at `position` with `velocity` (m per unit of time) in `gravity` (m^3 per unit squared). The coefficients of
-    /// an orbit about a point mass are computed where somebody asks: `keeps_orbit`.
+    /// Starts a step where the point on the orbit is at `position` with `velocity` (m per unit of time) in `gravity`
+    /// (m^3 per unit squared). The coefficients of an orbit about a point mass are computed where somebody asks:
+    /// `keeps_orbit`.
     #[inline(always)]
     pub fn begin_orbit(
         &mut self,
@@ -172,7 +176,8 @@ pub trait WithinArcs<R: Real> {
     /// The smallest of their switch functions, where they act as in [`WithinArcs::act`].
     fn margin<const N: usize>(&self, time: R, state: &[R; N]) -> R;
 
-    /// The fraction of a step at which one of them may be below zero that is above at both ends ([`crate::ode::switches::dip`]), from the times and states at four fractions.
+    /// The fraction of a step at which one of them may be below zero that is above at both ends
+    /// ([`crate::ode::switches::dip`]), from the times and states at four fractions.
     fn dip<const N: usize>(&self, times: [R; 4], states: [&[R; N]; 4]) -> R;
 
     /// Chooses the branches in the lanes `lanes`.
@@ -181,8 +186,8 @@ pub trait WithinArcs<R: Real> {
     /// Where a spacecraft may leave its orbit: one over the time in which its offset changes, 1/s, and its mass, kg.
     fn scales_of_offset(&self) -> Option<[R; 2]>;
 
-    /// Their Taylor series from the time on that is the sum of `time` (s), begun in `memory`, in a unit of time of `unit` seconds; `None` where there are
-    /// none.
+    /// Their Taylor series from the time on that is the sum of `time` (s), begun in `memory`, in a unit of time of
+    /// `unit` seconds; `None` where there are none.
     fn series<'m>(&self, time: [R; 2], unit: R, memory: &'m mut ChangingSeries<R>)
     -> Option<&'m mut ChangingSeries<R>>;
 }
@@ -281,7 +286,8 @@ impl<R: Real> Acting<R> {
     }
 }
 
-/// Where a spacecraft is whose integrated components are `state`, beside the point `place` on its orbit, and what that point does.
+/// Where a spacecraft is whose integrated components are `state`, beside the point `place` on its orbit, and what that
+/// point does.
 #[inline(always)]
 pub fn beside_orbit<R: Real, const N: usize>(
     gravity: &Gravity<R>,

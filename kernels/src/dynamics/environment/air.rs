@@ -1,8 +1,9 @@
 //! [`Air`]: the density of the atmosphere by height, from a table or an exponential, and the velocity relative to it.
 //!
-//! Between two heights of an [`AirTable`] the density is exponential through both of its values; below the first and above the last the layer next to it
-//! goes on. [`AirTable::VALLADO`] is that of D. Vallado, *Fundamentals of Astrodynamics and Applications*, 4th ed., 2013, table 8-4: the US Standard
-//! Atmosphere (1976) up to 25 km, and CIRA-72 above. Vallado has rounded scale heights instead, at whose ends the density jumps by up to 0.14%; those
+//! Between two heights of an [`AirTable`] the density is exponential through both of its values; below the first and
+//! above the last the layer next to it goes on. [`AirTable::VALLADO`] is that of D. Vallado, *Fundamentals of
+//! Astrodynamics and Applications*, 4th ed., 2013, table 8-4: the US Standard Atmosphere (1976) up to 25 km, and
+//! CIRA-72 above. Vallado has rounded scale heights instead, at whose ends the density jumps by up to 0.14%; those
 //! jumps would be found by every step control, and are not in nature.
 
 use super::{EARTH_RATE, each_lane};
@@ -23,8 +24,8 @@ pub struct AirTable {
 /// Heights in the switch functions of the layers are in this unit, km.
 const SWITCH_UNIT: f64 = 100.0;
 
-/// A layer of a table: its base and its thickness, km, the density at its base, kg/m^3, and the logarithm of that at its top relative to it; then for
-/// its base and its top infinity where it goes on beyond, or zero.
+/// A layer of a table: its base and its thickness, km, the density at its base, kg/m^3, and the logarithm of that at
+/// its top relative to it; then for its base and its top infinity where it goes on beyond, or zero.
 type Layer<R> = [R; 6];
 
 impl AirTable {
@@ -109,8 +110,8 @@ pub struct Air<R> {
     pub scale: R,
     /// Radius of the Earth, m.
     pub surface: R,
-    /// Density of an exponential atmosphere at its base, kg/m^3, the height of the base, m, and the scale height, m; a scale height of zero where the
-    /// table is used.
+    /// Density of an exponential atmosphere at its base, kg/m^3, the height of the base, m, and the scale height, m; a
+    /// scale height of zero where the table is used.
     pub exponential: [R; 3],
     /// The table of each lane.
     tables: [AirTable; WIDEST],
@@ -154,7 +155,8 @@ impl<R: Real> Air<R> {
         }
     }
 
-    /// Gives `visit` the switch functions of the layer that was chosen, one for each of its ends, at `distance` m from the Earth's centre in `M` states.
+    /// Gives `visit` the switch functions of the layer that was chosen, one for each of its ends, at `distance` m from
+    /// the Earth's centre in `M` states.
     #[inline(always)]
     pub fn switches<const M: usize>(&self, distances: &[R; M], visit: &mut impl FnMut([R; M])) {
         let number = |value: f64| self.scale.splat(value);
@@ -243,8 +245,8 @@ mod tests {
         }
     }
 
-    /// Law: a table of two heights is one exponential, between them and beyond, which the three keys give too; of three heights the layers on both sides
-    /// of the second go on.
+    /// Law: a table of two heights is one exponential, between them and beyond, which the three keys give too; of three
+    /// heights the layers on both sides of the second go on.
     #[test]
     fn a_table_of_an_exponential_is_the_exponential() {
         let (base, scale) = (4e5, 6.1e4);
@@ -292,8 +294,8 @@ mod tests {
         Isa::best().run_wide(Lanes([bent, AirTable::VALLADO, thin]));
     }
 
-    /// Law: in a layer that was chosen the density is that of the table, beyond it that of the same exponential; and the switch functions are zero at its
-    /// ends, of which the last layer has one.
+    /// Law: in a layer that was chosen the density is that of the table, beyond it that of the same exponential; and
+    /// the switch functions are zero at its ends, of which the last layer has one.
     #[test]
     fn a_layer_that_was_chosen_goes_on() {
         let surface = 6.4e6;

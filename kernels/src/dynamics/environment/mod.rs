@@ -1,8 +1,9 @@
-//! What surrounds a spacecraft on an orbit about the Earth: [`air`] and its density, the direction of the [`sun`], and the Earth's [`shadow`].
+//! What surrounds a spacecraft on an orbit about the Earth: [`air`] and its density, the direction of the [`sun`], and
+//! the Earth's [`shadow`].
 //!
-//! In F_e the third axis is the Earth's axis of rotation, and the first points to the mean equinox of date. Each file works on numbers of any kind; functions that
-//! are not made of [`Real`] operations alone are evaluated lane by lane, so that a lane has the bits of a scalar, and more digits than those of
-//! `f64` are not to be had from them.
+//! In F_e the third axis is the Earth's axis of rotation, and the first points to the mean equinox of date. Each file
+//! works on numbers of any kind; functions that are not made of [`Real`] operations alone are evaluated lane by lane,
+//! so that a lane has the bits of a scalar, and more digits than those of `f64` are not to be had from them.
 //!
 //! Not here: the torques of air and light ([`super::effects`]).
 

@@ -1,13 +1,16 @@
-//! [`sun`]: where the Sun is, by the low-precision series of the *Astronomical Almanac* (page C5; also J. Meeus, *Astronomical Algorithms*, 1998, chapter 25).
+//! [`sun`]: where the Sun is, by the low-precision series of the *Astronomical Almanac* (page C5; also J. Meeus,
+//! *Astronomical Algorithms*, 1998, chapter 25).
 //!
-//! With n days since J2000.0, mean longitude L = 280.460 + 0.9856474 n, mean anomaly g = 357.528 + 0.9856003 n, all in degrees:
+//! With n days since J2000.0, mean longitude L = 280.460 + 0.9856474 n, mean anomaly g = 357.528 + 0.9856003 n, all in
+//! degrees:
 //!
 //! ```text
-//! lambda = L + 1.915 sin g + 0.020 sin 2g,   epsilon = 23.439 - 0.0000004 n,   R = 1.00014 - 0.01671 cos g - 0.00014 cos 2g  (au)
+//! lambda = L + 1.915 sin g + 0.020 sin 2g,   epsilon = 23.439 - 0.0000004 n,
+//! R = 1.00014 - 0.01671 cos g - 0.00014 cos 2g  (au)
 //! ```
 //!
-//! The direction is the apparent one, in the mean equator and equinox of date. The Almanac states an error of 0.01 deg from 1950 to 2050; the test below
-//! measures it.
+//! The direction is the apparent one, in the mean equator and equinox of date. The Almanac states an error of 0.01 deg
+//! from 1950 to 2050; the test below measures it.
 
 use crate::math::Real;
 use crate::math::sine::sin_cos_turns;
@@ -47,7 +50,8 @@ pub fn sun_after(epoch: Epoch, time: f64) -> Sun<f64> {
     sun(epoch.days_since_j2000() + time / 86_400.0)
 }
 
-/// An angle of `start` degrees that grows by `rate` degrees a day, in turns: whole ones are taken away before they cost digits.
+/// An angle of `start` degrees that grows by `rate` degrees a day, in turns: whole ones are taken away before they cost
+/// digits.
 #[inline(always)]
 fn turns<R: Real>(days: R, start: f64, rate: f64) -> R {
     let all = days.mul_add(days.splat(rate / 360.0), days.splat(start / 360.0));
@@ -60,7 +64,8 @@ mod tests {
     use crate::math::vector::{cross, dot, norm};
 
     /// Truth: astropy 8.0.2, `t = Time(2451545.0, n, format="jd", scale="utc")`,
-    /// `get_sun(t).transform_to(PrecessedGeocentric(equinox=t, obstime=t))`: n, the unit vector, and the distance in au.
+    /// `get_sun(t).transform_to(PrecessedGeocentric(equinox=t, obstime=t))`: n, the unit vector, and the distance in
+    /// au.
     const ASTROPY: [(f64, [f64; 3], f64); 12] = [
         (-18000.25, [-0.998_352_160, 0.052_647_105, 0.022_830_819], 1.0041826),
         (-5000.0, [0.828_884_621, 0.513_250_759, 0.222_539_755], 1.0057953),

@@ -40,7 +40,8 @@ pub fn components(has: impl Fn(StateField) -> bool, thrust: bool, motors: bool) 
 /// Fills the spacecraft's fields of `table` from the integrated components; fields that need components beyond those of
 /// `trajectory` are those of a run without thrust or motors.
 ///
-/// How many components there are is asked here and not a parameter of the type: one copy for all kernels, at no measurable cost.
+/// How many components there are is asked here and not a parameter of the type: one copy for all kernels, at no
+/// measurable cost.
 #[inline(always)]
 pub fn complete<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, grid: &Grid, table: &mut StateTable) {
     complete_rotation(simd, run, trajectory, table);
@@ -95,7 +96,8 @@ fn complete_rotation<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Traject
     }
 }
 
-/// Angular velocity in the body's frame at the eight points from `first` on, rad/s, converted from the principal frame B.
+/// Angular velocity in the body's frame at the eight points from `first` on, rad/s, converted from the principal frame
+/// B.
 #[inline(always)]
 pub fn body_rate<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, first: usize) -> [Lanes<S>; 3] {
     let chunk = Chunk { simd, first };

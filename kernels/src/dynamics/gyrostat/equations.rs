@@ -20,7 +20,8 @@ pub struct Constants<R> {
     pub torque: [R; 3],
     /// Force of the thrusters, B, N.
     pub force: [R; 3],
-    /// Velocity of c at time zero, F_e, m/s; zero where the components of the impulse are those of a motion relative to an orbit.
+    /// Velocity of c at time zero, F_e, m/s; zero where the components of the impulse are those of a motion relative to
+    /// an orbit.
     pub velocity: [R; 3],
     /// m, kg.
     pub mass: R,
@@ -91,7 +92,8 @@ impl<R: Real> Constants<R> {
 
     /// The constants of arc `arc` of one run in the run's own arithmetic; times and rates in units of `unit` seconds.
     ///
-    /// The same as [`Constants::set_run`] and [`Constants::set_arc`] put into a lane, for reference solutions in more digits.
+    /// The same as [`Constants::set_run`] and [`Constants::set_arc`] put into a lane, for reference solutions in more
+    /// digits.
     #[inline(always)]
     pub fn of(run: &Gyrostat<R>, arc: usize, unit: f64) -> Self {
         let arc = &run.arcs[arc];

@@ -2,28 +2,32 @@
 //!
 //! For balanced axisymmetric wheels with fixed centres the inertia in F_s is constant, and the spacecraft is a
 //! Zhukovskii-Volterra gyrostat (N. E. Zhukovskii, 1885; V. Volterra, Acta Math. 22, 1899; J. Wittenburg, *Dynamics of
-//! Multibody Systems*, 2008, section 4.6). About the centre of mass c, with J* = J - sum J_i a_i a_i^T over any number of wheels:
+//! Multibody Systems*, 2008, section 4.6). About the centre of mass c, with J* = J - sum J_i a_i a_i^T over any number
+//! of wheels:
 //!
 //! ```text
 //! H = J* omega + sum h_i a_i,    J* omega' = H x omega + tau_ext - sum tau_i a_i,    h_i' = tau_i
 //! ```
 //!
-//! A wheel whose motor holds its speed has other constants: its axial inertia stays in the inertia that resists a change of
-//! omega, and its momentum relative to the body, J_i Omega_i, is constant. With K = J* + sum over held wheels of J_i a_i a_i^T (all held: K = J) the same equations hold:
+//! A wheel whose motor holds its speed has other constants: its axial inertia stays in the inertia that resists a
+//! change of omega, and its momentum relative to the body, J_i Omega_i, is constant. With K = J* + sum over held wheels
+//! of J_i a_i a_i^T (all held: K = J) the same equations hold:
 //!
 //! ```text
 //! H = K omega + sum over free wheels h_i a_i + sum over held wheels J_i Omega_i a_i
 //! ```
 //!
-//! Its motor's torque is J_i omega' . a_i, and the work of that, Omega_i J_i (omega - omega(0)) . a_i, is known without a quadrature.
+//! Its motor's torque is J_i omega' . a_i, and the work of that, Omega_i J_i (omega - omega(0)) . a_i, is known without
+//! a quadrature.
 //!
-//! Everything here is written in the *principal frame* B of K (where J* is diagonal already, B is F_s), so that products of
-//! inertia cost nothing: omega_i' is one product of two rates plus linear terms. Between switches the torques and thrusts
-//! are constant, h_i is linear in time and is not integrated.
+//! Everything here is written in the *principal frame* B of K (where J* is diagonal already, B is F_s), so that
+//! products of inertia cost nothing: omega_i' is one product of two rates plus linear terms. Between switches the
+//! torques and thrusts are constant, h_i is linear in time and is not integrated.
 //!
 //! - [`Gyrostat`]: one run's constants, initial state and arcs. [`wheel`]: rate, momentum and angle of its wheels.
 //! - [`equations`]: the right-hand side, for Runge-Kutta methods in lanes.
-//! - [`completion`]: integrated components -> the physical [`crate::run::StateTable`]. [`observed`]: the state that a law sees.
+//! - [`completion`]: integrated components -> the physical [`crate::run::StateTable`]. [`observed`]: the state that a
+//!   law sees.
 //! - `time_scale`: the time in which the motion changes.
 //!
 //! Not here: Taylor recurrences of the same equations (`propagation::taylor`), the debris (`super::debris`).
@@ -114,13 +118,13 @@ pub struct Gyrostat<R> {
     pub v_co_e: [R; 3],
     /// The orbit of c, where it is on one: then it is not in the straight line of position and velocity at time zero.
     pub orbit: Option<OrbitPath>,
-    /// Where c may leave its orbit: its position (m) and velocity (m/s) relative to the point on the orbit at time zero, F_e. The components of the
-    /// impulse and its integral are then those of the relative motion, m d' and m d.
+    /// Where c may leave its orbit: its position (m) and velocity (m/s) relative to the point on the orbit at time
+    /// zero, F_e. The components of the impulse and its integral are then those of the relative motion, m d' and m d.
     pub offset: Option<[[R; 3]; 2]>,
     /// The effects that change within an arc, in B.
     pub effects: ChangingEffects<R>,
-    /// The arcs flown so far, which cover the time from zero to the end of the last without a gap; under a law only those with observation
-    /// points, and the last.
+    /// The arcs flown so far, which cover the time from zero to the end of the last without a gap; under a law only
+    /// those with observation points, and the last.
     pub arcs: Vec<GyrostatArc<R>>,
     /// All arcs flown under a law.
     pub flown: ArcRecord,
@@ -206,7 +210,8 @@ impl<R: Real> Gyrostat<R> {
         self.set_wheels(zero, scene);
     }
 
-    /// The integrated components of impulse and its integral at time zero, m d' (N s) and m d (kg m), where c may leave its orbit.
+    /// The integrated components of impulse and its integral at time zero, m d' (N s) and m d (kg m), where c may leave
+    /// its orbit.
     pub fn start_of_offset(&self) -> Option<[R; 6]> {
         self.offset.map(|[position, velocity]| {
             let [a, b, c] = scaled(self.mass, velocity);
@@ -351,7 +356,8 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// The motions of the wheels at `time` in the last arc (or zero before the first); zero beyond the wheels of the run.
+    /// The motions of the wheels at `time` in the last arc (or zero before the first); zero beyond the wheels of the
+    /// run.
     #[inline(always)]
     pub fn wheels_at(&self, time: f64) -> [WheelMotion<R>; MAX_WHEELS] {
         let zero = self.mass.zero();
@@ -386,8 +392,8 @@ impl<R: Real> Gyrostat<R> {
         arc.wheels[index].after(&self.wheels[index], torque, since)
     }
 
-    /// The sum of J_i Omega_i a_i over the wheels whose speed is held, B, N m s, where there are any. Since time zero their motors have
-    /// done the work of this vector . (omega - omega(0)).
+    /// The sum of J_i Omega_i a_i over the wheels whose speed is held, B, N m s, where there are any. Since time zero
+    /// their motors have done the work of this vector . (omega - omega(0)).
     pub fn held_momentum_b(&self) -> Option<[R; 3]> {
         let of = |wheel: &GyrostatWheel<R>| wheel.held.map(|rate| scaled(wheel.axial * rate, wheel.axis_b));
         self.wheels.iter().filter_map(of).reduce(sum)

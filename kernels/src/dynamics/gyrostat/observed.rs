@@ -7,9 +7,8 @@ use crate::math::Real;
 use crate::math::vector::{conjugate, hamilton, product, scaled, sum};
 use crate::scene::MAX_WHEELS;
 
-/// The state of `run` at `time`, the end of its last arc (or zero before the first), from the integrated components there, SI, in the
-/// order of the indices of the parent module.
-/// `motions` are those of the wheels there.
+/// The state of `run` at `time`, the end of its last arc (or zero before the first), from the integrated components
+/// there, SI, in the order of the indices of the parent module. `motions` are those of the wheels there.
 #[inline(always)]
 pub fn observed_state<R: Real>(
     run: &Gyrostat<R>,

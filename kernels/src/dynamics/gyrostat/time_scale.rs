@@ -17,7 +17,8 @@ fn smallest<R: Real>(moments: [R; 3]) -> f64 {
     moments[0].lane(0).min(moments[1].lane(0)).min(moments[2].lane(0))
 }
 
-/// The rate that the wheels' momentum `momentum_b` (N m s) adds to the motion of a body of principal moments `moments`, rad/s.
+/// The rate that the wheels' momentum `momentum_b` (N m s) adds to the motion of a body of principal moments `moments`,
+/// rad/s.
 #[inline(always)]
 pub(super) fn rate_of_momentum<R: Real>(moments: [R; 3], momentum_b: [R; 3]) -> f64 {
     largest(momentum_b) / smallest(moments)

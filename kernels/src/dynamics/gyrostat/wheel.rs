@@ -1,7 +1,7 @@
 //! [`GyrostatWheel`]: what is constant about one wheel of a run, and its rate, momentum and angle, in closed form.
 //!
-//! The only place where wheel rates and angles are derived: for a run's arcs, for observation points in lanes, for what a law sees
-//! and for reference solutions in more digits.
+//! The only place where wheel rates and angles are derived: for a run's arcs, for observation points in lanes, for what
+//! a law sees and for reference solutions in more digits.
 
 use crate::math::Real;
 use crate::math::vector::{constant, dot};
@@ -33,7 +33,8 @@ pub struct WheelMotion<R> {
 }
 
 impl<R: Real> WheelMotion<R> {
-    /// The motion of `wheel` after `since` seconds at the motor torque `torque` (N m), from this one on: h_i is linear in time.
+    /// The motion of `wheel` after `since` seconds at the motor torque `torque` (N m), from this one on: h_i is linear
+    /// in time.
     #[inline(always)]
     pub fn after(&self, wheel: &GyrostatWheel<R>, torque: R, since: R) -> Self {
         WheelMotion { momentum: self.momentum_after(torque, since), turn: self.turn_after(wheel, torque, since) }
@@ -66,8 +67,8 @@ impl<R: Real> GyrostatWheel<R> {
         WheelMotion { momentum: self.momentum, turn: self.momentum.zero() }
     }
 
-    /// Rate relative to the body, rad/s, of a wheel of momentum `momentum` while the body turns with `omega_b`: h_i/J_i - a_i . omega, or
-    /// what it is held at.
+    /// Rate relative to the body, rad/s, of a wheel of momentum `momentum` while the body turns with `omega_b`:
+    /// h_i/J_i - a_i . omega, or what it is held at.
     #[inline(always)]
     pub fn rate(&self, momentum: R, omega_b: [R; 3]) -> R {
         match self.held {
@@ -85,8 +86,8 @@ impl<R: Real> GyrostatWheel<R> {
         }
     }
 
-    /// Angle relative to the body at `time` (s), rad, not wrapped, where the integrals since time zero of h_i/J_i and of omega are
-    /// `turn` and `turned_b`.
+    /// Angle relative to the body at `time` (s), rad, not wrapped, where the integrals since time zero of h_i/J_i and
+    /// of omega are `turn` and `turned_b`.
     #[inline(always)]
     pub fn angle(&self, time: R, turn: R, turned_b: [R; 3]) -> R {
         match self.held {

@@ -1,10 +1,11 @@
 //! [`MagneticField`]: the Earth's magnetic field at a place and time, by IGRF-14 to degree 13 or by its dipole.
 //!
-//! The field turns with the Earth ([`super::earth_rotation`]). It is that of the date at time zero: its secular variation during a run, some 0.2 nT a day, is
-//! left out. The dipole is the part of degree 1, tilted by some 9 degrees against the Earth's axis.
+//! The field turns with the Earth ([`super::earth_rotation`]). It is that of the date at time zero: its secular
+//! variation during a run, some 0.2 nT a day, is left out. The dipole is the part of degree 1, tilted by some 9 degrees
+//! against the Earth's axis.
 //!
-//! With X = a x/r^2 and so on, a the radius of reference, the harmonics follow from V_00 = a/r by recurrences (O. Montenbruck & E. Gill, *Satellite Orbits*,
-//! 2000, eqs. 3.29 to 3.31):
+//! With X = a x/r^2 and so on, a the radius of reference, the harmonics follow from V_00 = a/r by recurrences (O.
+//! Montenbruck & E. Gill, *Satellite Orbits*, 2000, eqs. 3.29 to 3.31):
 //!
 //! ```text
 //! V_jj = (2j - 1) (X V_(j-1)(j-1) - Y W_(j-1)(j-1)),   W_jj = (2j - 1) (X W_(j-1)(j-1) + Y V_(j-1)(j-1))
@@ -168,8 +169,8 @@ fn turned<R: Real>(cos: R, sin: R, [x, y, z]: [R; 3]) -> [R; 3] {
     [cos * x - sin * y, sin * x + cos * y, z]
 }
 
-/// Upper bound of the field at a distance of at least `distance` m, T: 70,000 nT at the radius of reference, where IGRF-14 reaches 67,000 nT, and
-/// each degree falls at least as the dipole.
+/// Upper bound of the field at a distance of at least `distance` m, T: 70,000 nT at the radius of reference, where
+/// IGRF-14 reaches 67,000 nT, and each degree falls at least as the dipole.
 pub fn largest(distance: f64) -> f64 {
     let ratio = RADIUS / distance;
     let dipole = ratio * ratio * ratio;
@@ -182,9 +183,10 @@ pub(super) mod tests {
     use crate::math::isa::{Isa, WideWork};
     use crate::math::vector::{difference, norm};
 
-    /// Dates, times in s, positions in m, and the fields in nT in F_e of `pyIGRF14` 1.0.4 (`calculate.igrf12syn(year, 2, r, lat, lon)`, with years of their
-    /// own length as here), of `ppigrf` 2.1.0 (`igrf_gc(r, colatitude, lon, date)`, which interpolates in days: up to 0.2 nT apart) and of its degree 1
-    /// (`max_degree=1`), turned to F_e by `gmst06` of pyerfa 2.0.1.5.
+    /// Dates, times in s, positions in m, and the fields in nT in F_e of `pyIGRF14` 1.0.4 (`calculate.igrf12syn(year,
+    /// 2, r, lat, lon)`, with years of their own length as here), of `ppigrf` 2.1.0 (`igrf_gc(r, colatitude, lon,
+    /// date)`, which interpolates in days: up to 0.2 nT apart) and of its degree 1 (`max_degree=1`), turned to F_e by
+    /// `gmst06` of pyerfa 2.0.1.5.
     #[expect(clippy::type_complexity, reason = "rows of a table")]
     pub const TRUTH: [(&str, f64, [f64; 3], [f64; 3], [f64; 3], [f64; 3]); 5] = [
         (
@@ -233,8 +235,8 @@ pub(super) mod tests {
         Epoch::parse(text).expect(text)
     }
 
-    /// Law: two packages that are independent of each other give the same field, to 0.2 nT where their dates differ and to rounding of the Earth's angle
-    /// (1e-10) with the same dates.
+    /// Law: two packages that are independent of each other give the same field, to 0.2 nT where their dates differ and
+    /// to rounding of the Earth's angle (1e-10) with the same dates.
     #[test]
     fn the_field_is_that_of_two_packages() {
         for (date, time, position, field, other, dipole) in TRUTH {

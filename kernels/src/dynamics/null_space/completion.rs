@@ -11,8 +11,8 @@ use crate::scene::Scene;
 
 /// Fills the fields that `table` has from the integrated components of a run of `scene`, and pads them.
 ///
-/// Quaternions come from the integrated DCMs, of unit norm, with a sign that does not change from point to point, starting from
-/// the scene's own. Debris that the scene does not have is at rest. No allocation.
+/// Quaternions come from the integrated DCMs, of unit norm, with a sign that does not change from point to point,
+/// starting from the scene's own. Debris that the scene does not have is at rest. No allocation.
 #[inline(always)]
 pub fn complete<const W: usize, const N: usize>(
     scene: &Scene,

@@ -1,7 +1,7 @@
 //! Non-inertial terms and actuators, body by body: -M-dot nu - Omega M nu + a_non (39), and B u (26), (72)-(74).
 //!
-//! The three non-inertial terms are separate, as in the paper, although for the fuselage their sum is -omega x J omega and
-//! C omega x (c x omega): so each can be compared with Berdoz's.
+//! The three non-inertial terms are separate, as in the paper, although for the fuselage their sum is -omega x J omega
+//! and C omega x (c x omega): so each can be compared with Berdoz's.
 
 use super::kinematics::WheelMotion;
 use super::parameters::{Parameters, WheelParameters};
@@ -62,8 +62,8 @@ impl<const W: usize> Drive<W> {
 
 /// -M-dot nu - Omega M nu + a_non of the fuselage.
 ///
-/// With w = C_es^T v_p, M-dot nu = [-C omega x (c x omega); -c x (omega x w)], Omega M nu = [0; omega x (c x w + J omega)],
-/// a_non = [0; w x (c x omega)].
+/// With w = C_es^T v_p, M-dot nu = [-C omega x (c x omega); -c x (omega x w)], Omega M nu = [0; omega x (c x w + J
+/// omega)], a_non = [0; w x (c x omega)].
 #[inline(always)]
 pub fn fuselage_inertial<const W: usize>(parameters: &Parameters<W>, state: &State<W>) -> Wrench {
     let (omega, c) = (state.omega_s, parameters.fuselage_first);
@@ -99,8 +99,9 @@ pub fn wheel_wrench(wheel: &WheelParameters, motion: &WheelMotion, motor: f64) -
     }
 }
 
-/// The torque of the motor that keeps a wheel's rate constant, N m: a^T J C_ws omega_s-dot minus the `inertial` part of the wheel's
-/// row of (39). It has no effect on omega_s: its action on the wheel and on the fuselage cancels in Pi^T B u.
+/// The torque of the motor that keeps a wheel's rate constant, N m: a^T J C_ws omega_s-dot minus the `inertial` part of
+/// the wheel's row of (39). It has no effect on omega_s: its action on the wheel and on the fuselage cancels in Pi^T B
+/// u.
 #[inline(always)]
 pub fn holding_torque(wheel: &WheelParameters, motion: &WheelMotion, omega_s_dot: [f64; 3], inertial: f64) -> f64 {
     dot(product(wheel.inertia, wheel.axis), rotated(motion.c_ws, omega_s_dot)) - inertial

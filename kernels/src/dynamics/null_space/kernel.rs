@@ -14,7 +14,8 @@ pub struct Kernel<const W: usize> {
     parameters: Parameters<W>,
     drive: Drive<W>,
     debris_factor: Factor<3>,
-    /// J_d - J_d,11 1: a multiple of the unit matrix causes no torque, and so the rate of a cube is constant to the last bit.
+    /// J_d - J_d,11 1: a multiple of the unit matrix causes no torque, and so the rate of a cube is constant to the
+    /// last bit.
     debris_deviator: [[f64; 3]; 3],
 }
 

@@ -75,8 +75,8 @@ impl WheelMotion {
         }
     }
 
-    /// Pi^T of a force (in F_e) and torque (in the wheel's frame) on the wheel: the rows of omega_s and of the wheel's rate.
-    /// (The rows of v_p are the force itself.)
+    /// Pi^T of a force (in F_e) and torque (in the wheel's frame) on the wheel: the rows of omega_s and of the wheel's
+    /// rate. (The rows of v_p are the force itself.)
     #[inline(always)]
     pub fn reduced(&self, force: [f64; 3], torque: [f64; 3], axis: [f64; 3]) -> ([f64; 3], f64) {
         (sum(rotated_back(self.lever, force), rotated_back(self.c_ws, torque)), dot(axis, torque))
@@ -85,8 +85,8 @@ impl WheelMotion {
 
 /// Calls `body` with the index of each of `W` wheels, in order.
 ///
-/// Two wheels, Berdoz's, are written out: the compiler does not unroll a loop over so large a body, and what a loop indexes
-/// stays in memory.
+/// Two wheels, Berdoz's, are written out: the compiler does not unroll a loop over so large a body, and what a loop
+/// indexes stays in memory.
 #[inline(always)]
 pub fn for_each_wheel<const W: usize>(mut body: impl FnMut(usize)) {
     if W == 2 {

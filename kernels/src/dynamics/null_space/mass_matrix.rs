@@ -1,10 +1,11 @@
 //! M-hat = Pi^T M Pi (25) and its solution by Cholesky's method.
 //!
-//! M-hat is block diagonal: the spacecraft's (v_p, omega_s, wheel rates), m_d 1, J_d. In the spacecraft's the block of v_p is m 1, so that
-//! its part of the factor is sqrt(m) 1 and only the block of omega_s and the wheel rates remains to be factored.
+//! M-hat is block diagonal: the spacecraft's (v_p, omega_s, wheel rates), m_d 1, J_d. In the spacecraft's the block of
+//! v_p is m 1, so that its part of the factor is sqrt(m) 1 and only the block of omega_s and the wheel rates remains to
+//! be factored.
 //!
-//! The rate of a wheel of constant speed is not an unknown; its row and column are those of the unit matrix, so that its rate of
-//! change is zero.
+//! The rate of a wheel of constant speed is not an unknown; its row and column are those of the unit matrix, so that
+//! its rate of change is zero.
 
 #![expect(clippy::needless_range_loop, reason = "indices of a matrix, as in the formulas")]
 
@@ -27,8 +28,8 @@ pub struct SpacecraftMass<const W: usize> {
     pub rotation: RotationBlock<W>,
 }
 
-/// The block of omega_s and the wheel rates of a symmetric matrix, or of its lower triangular factor; kg m^2. Of the squares the lower
-/// triangle is filled.
+/// The block of omega_s and the wheel rates of a symmetric matrix, or of its lower triangular factor; kg m^2. Of the
+/// squares the lower triangle is filled.
 #[derive(Clone, Copy, Debug)]
 pub struct RotationBlock<const W: usize> {
     /// omega_s with omega_s.
@@ -78,7 +79,8 @@ impl<const W: usize> SpacecraftMass<W> {
         }
     }
 
-    /// Solves for (v_p-dot, omega_s-dot, the rates of change of the wheel rates), given the rows of v_p, omega_s and the wheel rates.
+    /// Solves for (v_p-dot, omega_s-dot, the rates of change of the wheel rates), given the rows of v_p, omega_s and
+    /// the wheel rates.
     #[inline(always)]
     pub fn solution(&self, force: [f64; 3], torque: [f64; 3], axial: [f64; W]) -> ([f64; 3], [f64; 3], [f64; W]) {
         let root = 1.0 / self.total.sqrt();
@@ -106,7 +108,8 @@ impl<const W: usize> SpacecraftMass<W> {
 }
 
 impl<const W: usize> RotationBlock<W> {
-    /// The Cholesky factor, with the reciprocals on its diagonal; the operations of [`cholesky`] on the whole block, in the same order.
+    /// The Cholesky factor, with the reciprocals on its diagonal; the operations of [`cholesky`] on the whole block, in
+    /// the same order.
     #[inline(always)]
     pub fn factor(&self) -> Self {
         let omega = cholesky(self.omega);

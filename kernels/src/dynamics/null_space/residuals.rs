@@ -8,7 +8,8 @@ use super::state::{Columns, State, rotated, rotated_back};
 use crate::math::vector::{cross, difference, dot, scaled, sum};
 use crate::scene::Scene;
 
-/// The largest residual of each kind in `state`: [kinematic, collocation, attitude]. Bodies that the scene does not have do not count.
+/// The largest residual of each kind in `state`: [kinematic, collocation, attitude]. Bodies that the scene does not
+/// have do not count.
 ///
 /// - kinematic (m/s and rad/s): Xi nu, with nu = Pi nu-hat: the wheel's centre moves as a point of the fuselage,
 ///   and the wheel turns against the fuselage about its axis only (both seen in F_s through the integrated DCMs);

@@ -24,8 +24,8 @@ pub const fn states(wheels: usize) -> usize {
     coordinates(wheels) + speeds(wheels)
 }
 
-/// Number of everything that is integrated with `wheels` wheels: the states, and the quadrature states, which are the work of
-/// thrusters and motors, impulse (3), angular impulse (3) and the angle of each wheel.
+/// Number of everything that is integrated with `wheels` wheels: the states, and the quadrature states, which are the
+/// work of thrusters and motors, impulse (3), angular impulse (3) and the angle of each wheel.
 pub const fn components(wheels: usize) -> usize {
     states(wheels) + 8 + wheels
 }
@@ -159,8 +159,8 @@ impl<const W: usize> State<W> {
 
 /// Sigma (59): the full state from the measurable one.
 ///
-/// C_es and C_ed from their quaternions; C_ew = C_es C_sw(angle) (42), (43); wheel centres r_p + C_es z_i; the integrals start at
-/// zero, the angles at their initial values. A missing wheel is at p and moves with the fuselage.
+/// C_es and C_ed from their quaternions; C_ew = C_es C_sw(angle) (42), (43); wheel centres r_p + C_es z_i; the
+/// integrals start at zero, the angles at their initial values. A missing wheel is at p and moves with the fuselage.
 pub fn sigma<const W: usize>(scene: &Scene) -> State<W> {
     let initial = &scene.initial;
     let c_es = transposed(dcm_from_quaternion(initial.q_es));
@@ -189,10 +189,11 @@ pub fn sigma<const W: usize>(scene: &Scene) -> State<W> {
     state
 }
 
-/// C_sw of a wheel that has turned by `angle` about the unit axis `axis`, by columns: the transposes of C_2 and C_3 in (42), (43).
+/// C_sw of a wheel that has turned by `angle` about the unit axis `axis`, by columns: the transposes of C_2 and C_3 in
+/// (42), (43).
 ///
-/// At angle zero the wheel's frame is F_s, whatever the alignment error of the axis: so the axis has the same components in both
-/// frames at any angle.
+/// At angle zero the wheel's frame is F_s, whatever the alignment error of the axis: so the axis has the same
+/// components in both frames at any angle.
 fn wheel_columns(axis: [f64; 3], angle: f64) -> Columns {
     let (sine, cosine) = libm::sincos(angle);
     let [x, y, z] = axis;
@@ -247,7 +248,8 @@ mod tests {
         for (columns, expected) in [(state.wheels[0].dcm, c2), (state.wheels[1].dcm, c3)] {
             for i in 0..3 {
                 for j in 0..3 {
-                    // sums of products of sines and cosines, which are the same here to the last digit; a few roundings are allowed
+                    // sums of products of sines and cosines, which are the same here to the last digit; a few roundings
+                    // are allowed
                     assert!((columns[i][j] - expected[i][j]).abs() < 1e-15);
                 }
             }

@@ -1,6 +1,6 @@
 //! Dormand-Prince 8(5,3) as in DOP853.
 
-use crate::math::Real;
+use crate::math::real::Real;
 use crate::math::power::power;
 use crate::ode::embedded::{Embedded, PairAttempt};
 use crate::ode::error_model::StepErrors;
@@ -30,7 +30,8 @@ impl Embedded for Dop853 {
         landing: 1.01,
         longest: 1.0,
     };
-    // The twelfth is the derivative at the end, evaluated for rejected steps too: lanes do not wait for each other's acceptance.
+    // The twelfth is the derivative at the end, evaluated for rejected steps too: lanes do not wait for each other's
+    // acceptance.
     const EVALUATIONS: f64 = 12.0;
     const START_EVALUATIONS: f64 = 2.0;
     const DENSE_EVALUATIONS: f64 = 3.0;
@@ -56,7 +57,8 @@ impl Embedded for Dop853 {
         &stages.k[12]
     }
 
-    /// HINIT of dop853.f (section II.4): a guess from |y|/|f|, then from an Euler step's estimate of the second derivative.
+    /// HINIT of dop853.f (section II.4): a guess from |y|/|f|, then from an Euler step's estimate of the second
+    /// derivative.
     #[inline(always)]
     fn first_step<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
@@ -89,7 +91,8 @@ impl Embedded for Dop853 {
         refined.smaller(longest.splat(100.0) * guess).smaller(longest)
     }
 
-    /// The error estimate combines the embedded solutions of order 5 and 3: e5^2 / sqrt(e5^2 + 0.01 e3^2) (section II.10).
+    /// The error estimate combines the embedded solutions of order 5 and 3: e5^2 / sqrt(e5^2 + 0.01 e3^2) (section
+    /// II.10).
     #[inline(always)]
     fn attempt<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,

@@ -1,6 +1,6 @@
 //! Dormand-Prince 5(4) as in ode45, and a variant that reaches points inside a step by a shorter step.
 
-use crate::math::Real;
+use crate::math::real::Real;
 use crate::math::power::power;
 use crate::ode::embedded::{Embedded, PairAttempt};
 use crate::ode::error_model::StepErrors;
@@ -18,8 +18,8 @@ pub struct DormandPrince;
 
 /// Dormand-Prince 5(4) that reaches a point inside a step by a shorter step from the same start.
 ///
-/// The steps are those of [`DormandPrince`], and so of ode45, whose interpolant (ntrp45) is of order 4, with an error of the
-/// size of the tolerance; a shorter step has order 5 at the point. It costs five evaluations per point.
+/// The steps are those of [`DormandPrince`], and so of ode45, whose interpolant (ntrp45) is of order 4, with an error
+/// of the size of the tolerance; a shorter step has order 5 at the point. It costs five evaluations per point.
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrinceRestepped;
 

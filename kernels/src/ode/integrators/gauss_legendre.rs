@@ -1,8 +1,10 @@
-//! Gauss-Legendre collocation of order 6 with a fixed step: symmetric, and exact in every quadratic invariant up to rounding.
+//! Gauss-Legendre collocation of order 6 with a fixed step: symmetric, and exact in every quadratic invariant up to
+//! rounding.
 //!
-//! The stages are found by fixed-point iteration to round-off (Hairer, McLachlan & Razakarivony 2008, *Achieving Brouwer's
-//! law with implicit Runge-Kutta methods*): until the change is zero or stops decreasing. Not by Newton's method: the
-//! rotations here are not stiff, and a few sweeps cost less than a Jacobian. Each lane stops by its own criterion.
+//! The stages are found by fixed-point iteration to round-off (Hairer, McLachlan & Razakarivony 2008, *Achieving
+//! Brouwer's law with implicit Runge-Kutta methods*): until the change is zero or stops decreasing. Not by Newton's
+//! method: the rotations here are not stiff, and a few sweeps cost less than a Jacobian. Each lane stops by its own
+//! criterion.
 
 #![allow(
     clippy::needless_range_loop,
@@ -14,13 +16,14 @@ use super::super::explicit::{Carried, Step, chosen, each, poison, scaled, weight
 use super::super::fixed::{Advance, FixedStep};
 use super::super::system::{System, Tolerance};
 use super::super::tableau::{GaussLegendreTableau, Tableau};
-use crate::math::{Mask, Real};
+use crate::math::real::{Mask, Real};
 
 /// Sweeps after which a step counts as too long for the iteration; a contraction by one half reaches round-off in 52.
 const MOST_SWEEPS: usize = 60;
 
-/// A change of the stages below this fraction of the state is near round-off: only there may the iteration end because the
-/// change stopped decreasing. Far above 2^-52, since the stages are sums of several roundings, and far below any tolerance.
+/// A change of the stages below this fraction of the state is near round-off: only there may the iteration end because
+/// the change stopped decreasing. Far above 2^-52, since the stages are sums of several roundings, and far below any
+/// tolerance.
 const NEAR_ROUND_OFF: f64 = 1e-12;
 
 /// The method; see the module.

@@ -1,7 +1,8 @@
-//! The list of integrators of ordinary differential equations: one row each, from which everything that enumerates them follows.
+//! The list of integrators of ordinary differential equations: one row each, from which everything that enumerates them
+//! follows.
 //!
-//! A row declares the integrator's own file and states its name in campaign files. To add one, write its file and its row: the
-//! names in messages, `spindrift precision` and the engine of each gyrostat follow.
+//! A row declares the integrator's own file and states its name in campaign files. To add one, write its file and its
+//! row: the names in messages, `spindrift precision` and the engine of each gyrostat follow.
 //!
 //! - [`DormandPrince`] behaves as ode45 does: Shampine & Reichelt 1997, *The MATLAB ODE Suite*, and ode45.m.
 //! - [`Dop853`] behaves as DOP853 does: Hairer, Norsett & Wanner 1993, sections II.4 to II.6, and dop853.f.
@@ -22,7 +23,8 @@ pub trait Visitor {
     fn visit<M: LaneMethod + Send + 'static>(self, method: M) -> Self::Output;
 }
 
-/// `Type, file, "name", its method with step control, "what it is";` for each integrator, in the order in which they are listed to a user.
+/// `Type, file, "name", its method with step control, "what it is";` for each integrator, in the order in which they
+/// are listed to a user.
 macro_rules! integrators {
     ($($Type:ident, $file:ident, $name:literal, $method:expr, $meaning:literal;)+) => {
         $(mod $file; pub use $file::$Type;)+
@@ -51,8 +53,10 @@ macro_rules! integrators {
 integrators! {
     DormandPrince, dormand_prince, "dormand_prince", Adaptive(DormandPrince), "Dormand-Prince 5(4)";
     Dop853, dop853, "dop853", Adaptive(Dop853), "Dormand-Prince 8(5,3)";
-    RungeKutta4, runge_kutta_4, "runge_kutta_4", Fixed(RungeKutta4), "The classical Runge-Kutta method of order 4 with a fixed step";
-    GaussLegendre, gauss_legendre, "gauss_legendre_6", Fixed(GaussLegendre), "Gauss-Legendre collocation of order 6 with a fixed step";
+    RungeKutta4, runge_kutta_4, "runge_kutta_4", Fixed(RungeKutta4),
+    "The classical Runge-Kutta method of order 4 with a fixed step";
+    GaussLegendre, gauss_legendre, "gauss_legendre_6", Fixed(GaussLegendre),
+    "Gauss-Legendre collocation of order 6 with a fixed step";
 }
 
 pub use dormand_prince::DormandPrinceRestepped;

@@ -5,7 +5,7 @@ use super::super::explicit::{Carried, Step, fill_stages, poison, weighted};
 use super::super::fixed::{Advance, FixedStep};
 use super::super::system::{System, Tolerance};
 use super::super::tableau::{RungeKutta4Tableau, Tableau};
-use crate::math::Real;
+use crate::math::real::Real;
 
 /// The classical Runge-Kutta method of order 4.
 #[derive(Clone, Copy, Debug)]

@@ -1,4 +1,5 @@
-//! Gauss-Legendre collocation with three stages, order 6: Butcher 1964, *Implicit Runge-Kutta processes*; Kuntzmann 1961.
+//! Gauss-Legendre collocation with three stages, order 6: Butcher 1964, *Implicit Runge-Kutta processes*;
+//! Kuntzmann 1961.
 //!
 //! Symmetric, symplectic, and with exact conservation of every quadratic invariant (Cooper 1987).
 

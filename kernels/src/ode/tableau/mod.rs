@@ -1,8 +1,8 @@
 //! Constant tableaus of Runge-Kutta methods, and the proof of their orders.
 //!
-//! Only numbers and their sources; steps are in [`super::explicit`] and in the methods' own files. The tests check every tableau
-//! against all conditions of its order, one for each rooted tree (Butcher 1963; Hairer, Norsett & Wanner 1993, theorem
-//! II.2.13): an error in any digit fails.
+//! Only numbers and their sources; steps are in [`super::explicit`] and in the methods' own files. The tests check
+//! every tableau against all conditions of its order, one for each rooted tree (Butcher 1963; Hairer, Norsett & Wanner
+//! 1993, theorem II.2.13): an error in any digit fails.
 
 mod butcher;
 mod dop853;
@@ -23,7 +23,8 @@ mod tests {
     use super::trees::{largest_defect, largest_defect_at};
     use super::*;
 
-    /// Round-off of the conditions: coefficients up to 50 in products of up to seven sums, in units of the last place. Measured: 5e-15.
+    /// Round-off of the conditions: coefficients up to 50 in products of up to seven sums, in units of the last place.
+    /// Measured: 5e-15.
     const ROUND_OFF: f64 = 4e-14;
 
     fn orders<T: Tableau<S>, const S: usize>(order: usize) {

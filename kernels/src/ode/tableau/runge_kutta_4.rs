@@ -1,4 +1,5 @@
-//! The classical method of order 4: Kutta 1901, *Beitrag zur naherungsweisen Integration totaler Differentialgleichungen*.
+//! The classical method of order 4: Kutta 1901, *Beitrag zur naherungsweisen Integration totaler
+//! Differentialgleichungen*.
 
 use super::butcher::Tableau;
 

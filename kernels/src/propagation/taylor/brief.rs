@@ -1,12 +1,13 @@
 //! [`BriefRule`]: arcs much shorter than a step, flown in one step of the order that their length needs.
 //!
-//! Let rho^2 = |omega|^2 + (|h|/J)^2 + (|torque| + |h'|)/J with the smallest moment J. With u = omega/rho and s = rho t the equations of motion are
-//! bounded by u' = u^2 + (|h|/(J rho)) u + (..)/rho^2, whose series has coefficients below one, and so that of the attitude, below one half. In an arc
-//! of length L the first neglected term is below y^(n+1) of rho, y = rho L, and of all arcs of a run together below the tolerance a radian where
-//! y^n is at most the tolerance: the order is the smallest such n, a function of the lane alone.
+//! Let rho^2 = |omega|^2 + (|h|/J)^2 + (|torque| + |h'|)/J with the smallest moment J. With u = omega/rho and s = rho t
+//! the equations of motion are bounded by u' = u^2 + (|h|/(J rho)) u + (..)/rho^2, whose series has coefficients below
+//! one, and so that of the attitude, below one half. In an arc of length L the first neglected term is below y^(n+1) of
+//! rho, y = rho L, and of all arcs of a run together below the tolerance a radian where y^n is at most the tolerance:
+//! the order is the smallest such n, a function of the lane alone.
 //!
-//! The coefficients are computed up to the largest order among the lanes, and those beyond a lane's own order are set to zero, so that
-//! what the lane adds up does not depend on its neighbours.
+//! The coefficients are computed up to the largest order among the lanes, and those beyond a lane's own order are set
+//! to zero, so that what the lane adds up does not depend on its neighbours.
 
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::math::vector::dot;
@@ -49,7 +50,8 @@ impl BriefRule {
         BriefRule { squares, full }
     }
 
-    /// The orders of the lanes whose arc begins now and lasts for `length`; `may` is one where that may be a brief one. `None` where none is.
+    /// The orders of the lanes whose arc begins now and lasts for `length`; `may` is one where that may be a brief one.
+    /// `None` where none is.
     #[inline(always)]
     pub(super) fn orders<R: Real>(
         &self,
@@ -120,7 +122,8 @@ mod tests {
     use crate::dynamics::gyrostat::{ATTITUDE, WITH_ATTITUDE};
     use crate::math::vector::norm;
 
-    /// Law: the neglected terms of a brief arc are below y times the tolerance, and the orders are not wasted: two less are not enough.
+    /// Law: the neglected terms of a brief arc are below y times the tolerance, and the orders are not wasted: two less
+    /// are not enough.
     #[test]
     fn the_order_is_what_the_arc_needs() {
         const N: usize = WITH_ATTITUDE;

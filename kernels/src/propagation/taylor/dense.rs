@@ -29,7 +29,8 @@ impl<R: Real, const J: usize> Segment<R, J> {
 
 /// All components of the series `jet`, each at the `U` times `x`.
 ///
-/// By groups of components, so that the sums of a group stay in registers and a coefficient that was loaded serves all times.
+/// By groups of components, so that the sums of a group stay in registers and a coefficient that was loaded serves all
+/// times.
 #[inline(always)]
 pub fn values<R: Real, const J: usize, const U: usize>(jet: &[[R; J]], x: [R; U]) -> [[R; J]; U] {
     let mut all = [jet[0]; U];
@@ -90,8 +91,8 @@ pub fn value_at<R: Real, const J: usize>(jet: &[[R; J]], component: usize, lane:
     sum
 }
 
-/// All components of the series in lane `lane`, each at eight times of this one lane in each of the `U` vectors `x`: a coefficient is broadcast from where
-/// it is among those of the other lanes. The operations are those of [`values`].
+/// All components of the series in lane `lane`, each at eight times of this one lane in each of the `U` vectors `x`: a
+/// coefficient is broadcast from where it is among those of the other lanes. The operations are those of [`values`].
 #[inline(always)]
 pub fn values_in_lane<S: Simd, R: Real, const J: usize, const U: usize>(
     jet: &[[R; J]],

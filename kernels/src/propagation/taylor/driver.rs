@@ -21,10 +21,11 @@ use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
 use crate::run::{Grid, Status};
 
-/// Integrates `runs`, whose arcs come from `arcs`, over `grid`; `finish` is called once for each, in the order in which they end.
+/// Integrates `runs`, whose arcs come from `arcs`, over `grid`; `finish` is called once for each, in the order in which
+/// they end.
 ///
-/// `N` components are integrated, the first `J` of them by series of their own. Every result is a function of the run and its law
-/// alone: lanes share no decision.
+/// `N` components are integrated, the first `J` of them by series of their own. Every result is a function of the run
+/// and its law alone: lanes share no decision.
 #[inline(always)]
 pub fn integrate<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>(
     simd: S,

@@ -90,8 +90,8 @@ impl<S: Simd, R: Real + Send + 'static, E: WithinArcs<R>, const N: usize, const 
     }
 }
 
-/// The integration, compiled for its instruction set. Not inlined: so the engines of all numbers of components share one kernel for
-/// the debris, which is that of spacecraft without actuators, and it is compiled once.
+/// The integration, compiled for its instruction set. Not inlined: so the engines of all numbers of components share
+/// one kernel for the debris, which is that of spacecraft without actuators, and it is compiled once.
 #[inline(never)]
 fn integrate_on<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>(
     simd: S,

@@ -76,7 +76,8 @@ impl FoldBuffer {
         self.count[..series * R::LANES].fill(0);
     }
 
-    /// Gives the `points` points of `lane`, whose series are numbered `series`, their places: those of a series are adjacent.
+    /// Gives the `points` points of `lane`, whose series are numbered `series`, their places: those of a series are
+    /// adjacent.
     #[inline(always)]
     pub(super) fn sort<R: Real>(&mut self, lane: usize, points: usize, series: core::ops::Range<usize>) {
         let first = &mut self.first[lane * (SERIES + 1)..];
@@ -101,7 +102,8 @@ impl FoldBuffer {
         }
     }
 
-    /// Evaluates series `number` of `lane`, which is `jet`, at its points: eight are a vector, two vectors share a coefficient.
+    /// Evaluates series `number` of `lane`, which is `jet`, at its points: eight are a vector, two vectors share a
+    /// coefficient.
     #[inline(always)]
     pub(super) fn evaluate<S: Simd, R: Real, const J: usize>(
         &mut self,

@@ -4,8 +4,8 @@
 //! (R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section 2).
 //! Written for the equations of [`crate::dynamics::gyrostat`]; components as there.
 //!
-//! The recurrences of thrust (impulses, works) serve [`super::reference_solution`] alone: integration in `f64` takes these integrals from
-//! [`super::thrust`], so that each tests the other.
+//! The recurrences of thrust (impulses, works) serve [`super::reference_solution`] alone: integration in `f64` takes
+//! these integrals from [`super::thrust`], so that each tests the other.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use crate::dynamics::effects::ChangingSeries;
@@ -22,8 +22,8 @@ pub const MAX_ORDER: usize = 40;
 
 /// 1/n as the sum of two `Real`, for n = 1 ..= order.
 ///
-/// A rounded 1/n is wrong in the same direction in every step: with it the quaternion's norm grew by 2e-17 a step, which
-/// added up (`tests/accuracy/round_off.rs`).
+/// A rounded 1/n is wrong in the same direction in every step: with it the quaternion's norm grew by 2e-17 a step,
+/// which added up (`tests/accuracy/round_off.rs`).
 #[derive(Clone, Debug)]
 pub struct Reciprocals<R>(Vec<[R; 2]>);
 
@@ -64,8 +64,9 @@ impl<R: Real> Scratch<R> {
 
 /// Fills `jet[1 ..= order]` with the Taylor coefficients of the first `N` components, given `jet[0]`, the state.
 ///
-/// `constants.momentum` is the wheels' momentum *at the start of the step*. Where `FORCED` is false, torques, thrusts and
-/// the rate of the momentum are taken as zero. `effects` are those that change within an arc, where there are any, begun at the start of the step.
+/// `constants.momentum` is the wheels' momentum *at the start of the step*. Where `FORCED` is false, torques, thrusts
+/// and the rate of the momentum are taken as zero. `effects` are those that change within an arc, where there are any,
+/// begun at the start of the step.
 #[inline(always)]
 pub fn expand<R: Real, const N: usize, const FORCED: bool>(
     constants: &Constants<R>,
@@ -226,8 +227,8 @@ struct Sums<R> {
 
 /// Coefficient n of the products, as far as the first `N` components go.
 ///
-/// One pass over both series, so that ten loads feed fifteen fused operations. The two products with the coefficient that was
-/// computed last come last: the others need not wait for it.
+/// One pass over both series, so that ten loads feed fifteen fused operations. The two products with the coefficient
+/// that was computed last come last: the others need not wait for it.
 #[inline(always)]
 fn cauchy_products<R: Real, const N: usize>(jet: &[[R; N]], n: usize) -> Sums<R> {
     let zero = jet[0][0].zero();

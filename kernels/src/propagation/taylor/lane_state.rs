@@ -88,15 +88,16 @@ impl SeriesLane {
         if (clock as u64) < begun + PACE_STEPS { limit.min(begun + PACE_STEPS) } else { limit }
     }
 
-    /// Whether the run has taken all steps that it may take by step `clock`, `time` units after the start of its arc, or cannot get to the end
-    /// of the arc with them.
+    /// Whether the run has taken all steps that it may take by step `clock`, `time` units after the start of its arc,
+    /// or cannot get to the end of the arc with them.
     pub(super) fn gives_up(&self, clock: usize, time: f64, max_steps: u64) -> bool {
         let steps = self.steps(clock);
         let is_judged = steps - self.steps_before == PACE_STEPS;
         steps >= max_steps || is_judged && is_out_of_reach(max_steps - self.steps_before, time, self.length)
     }
 
-    /// Time of the next observation point of the arc since its start, units; infinite where there is none or a return is looked for.
+    /// Time of the next observation point of the arc since its start, units; infinite where there is none or a return
+    /// is looked for.
     pub(super) fn next_point(&self, grid: &Grid) -> f64 {
         match grid.times().get(self.point) {
             Some(time) if !self.is_searching && (self.is_last || *time <= self.end) => (time - self.start) / self.unit,

@@ -71,7 +71,8 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
         components
     }
 
-    /// Changes the unit of time in `lane` from `old` to `new` seconds: both are powers of two, so that nothing is rounded.
+    /// Changes the unit of time in `lane` from `old` to `new` seconds: both are powers of two, so that nothing is
+    /// rounded.
     pub fn rescale(&mut self, lane: usize, old: f64, new: f64) {
         let (from, to) = (si_factors::<f64, N>(1.0 / old), si_factors::<f64, N>(1.0 / new));
         for i in 0..N {

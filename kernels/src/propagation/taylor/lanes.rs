@@ -178,7 +178,8 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         self.alarm = self.work.ring.clock + 1;
     }
 
-    /// Whether omega may come back to where it is in a free arc of length `length` that begins in `lane`: not where it does not turn by a radian.
+    /// Whether omega may come back to where it is in a free arc of length `length` that begins in `lane`: not where it
+    /// does not turn by a radian.
     #[inline(always)]
     fn may_return(&self, lane: usize, length: f64) -> bool {
         let LaneVectors { constants, .. } = &self.vectors;

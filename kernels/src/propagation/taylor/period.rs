@@ -1,10 +1,10 @@
 //! The period of omega, and folding time by it.
 //!
 //! Without torque omega(t) moves on a closed curve. A return is a crossing of the plane through omega(0) across its
-//! velocity, in the same sense, close to omega(0). Over one period P the attitude turns by a fixed rotation about the angular
-//! momentum L, which is constant in F_e (L. Poinsot, *Theorie nouvelle de la rotation des corps*, 1851; for gyrostats
-//! V. Volterra, 1899): q(t + n P) = r^n (x) q(t) with r = q(P) (x) q(0)*. Integrals of what is periodic grow by the same
-//! amount in every period.
+//! velocity, in the same sense, close to omega(0). Over one period P the attitude turns by a fixed rotation about the
+//! angular momentum L, which is constant in F_e (L. Poinsot, *Theorie nouvelle de la rotation des corps*, 1851; for
+//! gyrostats V. Volterra, 1899): q(t + n P) = r^n (x) q(t) with r = q(P) (x) q(0)*. Integrals of what is periodic grow
+//! by the same amount in every period.
 #![expect(clippy::needless_range_loop, reason = "components and orders are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -14,8 +14,8 @@ use crate::math::sine::sin_cos_turns;
 use crate::math::vector::{constant, hamilton, scaled};
 use crate::math::{Lanes, Real};
 
-/// How far a return may be off the start, as a share of the curve's extent: far below the distance of two branches of the
-/// curve, far above the round-off of one period.
+/// How far a return may be off the start, as a share of the curve's extent: far below the distance of two branches of
+/// the curve, far above the round-off of one period.
 const RETURN_OF_EXTENT: f64 = 1e-6;
 /// The same as a share of the rate itself: the round-off on a curve that is small compared with |omega|.
 const RETURN_OF_RATE: f64 = 1e-13;
@@ -35,7 +35,8 @@ pub struct Period {
     pub axis_e: [f64; 3],
 }
 
-/// The section across the curve of omega at the start of an arc; [`super::return_detector::ReturnDetector`] keeps it up to date.
+/// The section across the curve of omega at the start of an arc; [`super::return_detector::ReturnDetector`] keeps it up
+/// to date.
 #[derive(Clone, Copy, Debug)]
 pub struct PoincareSection {
     /// omega at the start.
@@ -60,8 +61,8 @@ impl PoincareSection {
         Some(PoincareSection { start: omega, direction: rate.map(|x| x * inverse), extent2: 0.0, side: 0.0 })
     }
 
-    /// The time within a step at which omega is back, given the step's series in lane `lane` and its length; `None` where the
-    /// crossing is on another branch of the curve.
+    /// The time within a step at which omega is back, given the step's series in lane `lane` and its length; `None`
+    /// where the crossing is on another branch of the curve.
     #[inline(always)]
     pub fn crossing<R: Real, const N: usize>(
         &self,

@@ -1,8 +1,9 @@
 //! The points of runs that wait with a known period: folded into it, evaluated together, unfolded.
 //!
-//! The points of a run, folded by its period, are scattered over the few steps of that period. They are sorted by series and evaluated
-//! eight at a time, one run after another; series by series for all lanes that wait, so that a series stays in the first-level cache.
-//! What follows is in order of time again, eight points to a vector: the rotation by whole periods and the growth of the integrals.
+//! The points of a run, folded by its period, are scattered over the few steps of that period. They are sorted by
+//! series and evaluated eight at a time, one run after another; series by series for all lanes that wait, so that a
+//! series stays in the first-level cache. What follows is in order of time again, eight points to a vector: the
+//! rotation by whole periods and the growth of the integrals.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -39,8 +40,8 @@ pub(super) type FoldedLanes = [Option<FoldedLane>; WIDEST];
 
 /// Whether the lanes that wait should be evaluated now, after step `clock` with series of the last `kept` steps.
 ///
-/// An evaluation costs the same for one lane as for all, so it waits for those that still look for their period, but not for
-/// long, and not beyond the series that are kept.
+/// An evaluation costs the same for one lane as for all, so it waits for those that still look for their period, but
+/// not for long, and not beyond the series that are kept.
 pub(super) fn is_due(lanes: &[Option<SeriesLane>; WIDEST], clock: usize, kept: usize) -> bool {
     let (mut waiting, mut searching) = (0, 0);
     let (mut patient, mut now) = (true, false);
@@ -85,7 +86,8 @@ pub(super) struct PeriodFolding<'a, S, R, const J: usize> {
 }
 
 impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
-    /// Fills the first `J` columns of the trajectories of `folded`. Not inlined: so it is compiled once for all numbers of components.
+    /// Fills the first `J` columns of the trajectories of `folded`. Not inlined: so it is compiled once for all numbers
+    /// of components.
     #[inline(never)]
     pub(super) fn evaluate(&mut self, folded: &FoldedLanes) {
         self.simd.vectorize(
@@ -207,8 +209,8 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
         }
     }
 
-    /// Fills the columns from `J` to `N`, those of quadrature states, of the trajectory of `share`. Apart from the others, so that
-    /// those are compiled once for all `N`.
+    /// Fills the columns from `J` to `N`, those of quadrature states, of the trajectory of `share`. Apart from the
+    /// others, so that those are compiled once for all `N`.
     #[inline(always)]
     pub(super) fn fill_quadratures<const N: usize>(&mut self, share: &FoldedLane) {
         let FoldedLane { lane, state, points, .. } = share;
@@ -291,8 +293,8 @@ fn times_from<S: Simd>(simd: S, padded: &[f64], first: usize) -> Lanes<S> {
     Lanes::load(simd, &times)
 }
 
-/// Writes up to eight points of component `component`: all eight where the column is long enough, since later points are written
-/// later.
+/// Writes up to eight points of component `component`: all eight where the column is long enough, since later points
+/// are written later.
 #[inline(always)]
 fn write_points<S: Simd>(trajectory: &mut Trajectory, component: usize, first: usize, count: usize, values: Lanes<S>) {
     let column = &mut trajectory.column_mut(component)[first..];

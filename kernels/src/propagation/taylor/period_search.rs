@@ -8,8 +8,8 @@ use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
 use crate::math::Real;
 use crate::math::vector::{dcm_from_quaternion, product};
 
-/// The section across the motion of `omega` in a free arc, per unit of time: `ratio` and `inverse` are those of the moments of inertia, `momentum` is that
-/// of the wheels.
+/// The section across the motion of `omega` in a free arc, per unit of time: `ratio` and `inverse` are those of the
+/// moments of inertia, `momentum` is that of the wheels.
 pub(super) fn section(
     ratio: [f64; 3],
     inverse: [f64; 3],
@@ -26,8 +26,8 @@ pub(super) fn section(
     PoincareSection::new(omega, rate)
 }
 
-/// The time within the last step, of length `length`, at which omega is where the arc began; `crossed` says whether the step
-/// may have come back through `section`.
+/// The time within the last step, of length `length`, at which omega is where the arc began; `crossed` says whether the
+/// step may have come back through `section`.
 #[inline(always)]
 pub(super) fn return_time<R: Real, const J: usize>(
     section: &PoincareSection,
@@ -48,7 +48,8 @@ pub(super) fn return_time<R: Real, const J: usize>(
     section.crossing(&ring.last().jet, lane, order, length, tolerance)
 }
 
-/// The period of the arc, whose last step comes back after `within` units; `momentum_b` is that of the wheels, B, per unit.
+/// The period of the arc, whose last step comes back after `within` units; `momentum_b` is that of the wheels, B, per
+/// unit.
 #[inline(always)]
 pub(super) fn period<R: Real, const J: usize>(
     run: &Gyrostat<f64>,

@@ -1,7 +1,9 @@
-//! [`PointRows`]: the last observation points of each lane, point by point, until eight of them go into the columns of its trajectory.
+//! [`PointRows`]: the last observation points of each lane, point by point, until eight of them go into the columns of
+//! its trajectory.
 //!
-//! The columns of a point are as many lines of memory as it has components. Those of all lanes together are more than the first cache
-//! holds: a point written straight into them waited for memory at every component, a tenth of the time of a run under thrust.
+//! The columns of a point are as many lines of memory as it has components. Those of all lanes together are more than
+//! the first cache holds: a point written straight into them waited for memory at every component, a tenth of the time
+//! of a run under thrust.
 
 use crate::math::lanes::{WIDEST, WIDTH};
 use crate::run::Trajectory;

@@ -36,7 +36,8 @@ pub(super) struct StepSeries<'a, R, const N: usize, const J: usize> {
 }
 
 impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
-    /// The components at the times `at` since the start of the arc, SI, lane by lane. The quadrature states only where `FORCED`.
+    /// The components at the times `at` since the start of the arc, SI, lane by lane. The quadrature states only where
+    /// `FORCED`.
     #[inline(always)]
     pub(super) fn components<const FORCED: bool>(&mut self, at: R, due: R::Mask) -> [[f64; WIDEST]; N] {
         let zero = at.zero();

@@ -1,4 +1,5 @@
-//! [`Integration`]: one run of a reference solution, whichever method integrates it; [`ReferenceOrbit`]: the orbit beside it.
+//! [`Integration`]: one run of a reference solution, whichever method integrates it; [`ReferenceOrbit`]: the orbit
+//! beside it.
 
 use super::step::StepRule;
 use crate::dynamics::actuation::ActuationLaw;
@@ -71,7 +72,8 @@ impl ReferenceOrbit {
         OrbitState { velocity: scaled(DoubleDouble::exact(1.0) / self.unit, place.velocity), ..place }
     }
 
-    /// Adds what gravity does to the components at `time`, s, where c is at `place`: its impulse, the integral of that, and its work.
+    /// Adds what gravity does to the components at `time`, s, where c is at `place`: its impulse, the integral of that,
+    /// and its work.
     pub(super) fn complete(&self, time: f64, place: &OrbitState<DoubleDouble>, values: &mut [DoubleDouble; N]) {
         let (mut start, mut place) = (self.start, *place);
         if let Some(offset) = self.offset {

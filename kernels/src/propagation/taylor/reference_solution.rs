@@ -1,14 +1,16 @@
-//! [`ReferenceSolution`]: the reference solution of any scene, by the same Taylor recurrences in double-double (106 bits).
+//! [`ReferenceSolution`]: the reference solution of any scene, by the same Taylor recurrences in double-double (106
+//! bits).
 //!
 //! One run at a time, every arc restarted exactly at its switch, order and step from a tolerance near the rounding of
-//! the arithmetic (A. Jorba & M. Zou, Experimental Mathematics 14, 2005). The debris is integrated in the same way as a gyrostat
-//! without wheels, a cube like any other box.
+//! the arithmetic (A. Jorba & M. Zou, Experimental Mathematics 14, 2005). The debris is integrated in the same way as a
+//! gyrostat without wheels, a cube like any other box.
 //!
-//! **What it is the solution of**: the mass properties and the initial state of a [`Scene`] are `f64` numbers, the same for every
-//! method. The reference solution is the exact motion for *those* numbers; the rounding in the computation of mass properties
-//! from dimensions and densities is not an error of integration and is not counted here.
+//! **What it is the solution of**: the mass properties and the initial state of a [`Scene`] are `f64` numbers, the same
+//! for every method. The reference solution is the exact motion for *those* numbers; the rounding in the computation of
+//! mass properties from dimensions and densities is not an error of integration and is not counted here.
 //!
-//! A scene with an effect that has no Taylor series is integrated by extrapolation in the same arithmetic (`switched_reference`).
+//! A scene with an effect that has no Taylor series is integrated by extrapolation in the same arithmetic
+//! (`switched_reference`).
 //!
 //! Not here: periodic folding (a solution that shared it could not judge it), lanes, failures as rows.
 
@@ -57,9 +59,9 @@ pub struct ReferenceSolution {
 }
 
 impl ReferenceSolution {
-    /// The motion of `scene` by its own schedule, observed at the times of `grid`, in the fields of `fields` that a gyrostat has
-    /// (all but [`StateField::Dcm`] and [`StateField::Residuals`], which stay zero). The debris is only integrated where it is
-    /// observed.
+    /// The motion of `scene` by its own schedule, observed at the times of `grid`, in the fields of `fields` that a
+    /// gyrostat has (all but [`StateField::Dcm`] and [`StateField::Residuals`], which stay zero). The debris is only
+    /// integrated where it is observed.
     ///
     /// # Errors
     /// [`Status::NonFinite`] or [`Status::StepLimit`], where the run does not reach its end.
@@ -90,7 +92,8 @@ impl ReferenceSolution {
         model.is_integrated(integrated_effects::by_reference)
     }
 
-    /// Its tolerance under `model`, where [`TOLERANCE`] is asked for: that, or what torques without a Taylor series allow.
+    /// Its tolerance under `model`, where [`TOLERANCE`] is asked for: that, or what torques without a Taylor series
+    /// allow.
     pub fn tolerance(model: ForceModel) -> f64 {
         if model.is_integrated(integrated_effects::by_taylor) { TOLERANCE } else { switched_reference::TOLERANCE }
     }
@@ -326,7 +329,8 @@ impl Integration<'_, '_> {
             let start = DoubleDouble::exact(bounds.start);
             let length = (DoubleDouble::exact(bounds.end()) - start) * per_second;
             let is_forced = turns || arc.force_b.iter().chain(&arc.torque_b).any(|component| component.high != 0.0);
-            // a thrust turns with omega where the quaternion turns with omega/2: the series of its integrals need half the step
+            // a thrust turns with omega where the quaternion turns with omega/2: the series of its integrals need half
+            // the step
             let share = DoubleDouble::exact(if is_forced { 0.5 } else { 1.0 });
             let mut time = zero;
             let mut lands = false;

@@ -1,7 +1,7 @@
 //! [`ReturnDetector`]: looking for the period of omega, all lanes at once.
 //!
-//! The [`super::period::PoincareSection`]s of all lanes: where omega started, in which direction it moved, and on which side of the
-//! plane across that direction it is.
+//! The [`super::period::PoincareSection`]s of all lanes: where omega started, in which direction it moved, and on which
+//! side of the plane across that direction it is.
 
 use super::period::PoincareSection;
 use crate::math::Real;
@@ -45,7 +45,8 @@ impl<R: Real> ReturnDetector<R> {
         }
     }
 
-    /// Updates the sections with omega at the end of a step; true where the step may have come back through the section.
+    /// Updates the sections with omega at the end of a step; true where the step may have come back through the
+    /// section.
     #[inline(always)]
     pub fn passes(&mut self, omega: [R; 3]) -> R::Mask {
         let zero = self.side.zero();

@@ -1,17 +1,18 @@
 //! Order and step size from the tolerance (A. Jorba & M. Zou, Experimental Mathematics 14, 2005, sections 3.1 and 3.2).
 //!
-//! The order of Jorba & Zou, 1 - ln(tolerance)/2, costs least where a step costs as much as its Cauchy products. Here it does not: points,
-//! integrals of thrust and the search for a period cost the same at any order. `MORE_ORDERS` make the steps longer at the
-//! same truncation.
+//! The order of Jorba & Zou, 1 - ln(tolerance)/2, costs least where a step costs as much as its Cauchy products. Here
+//! it does not: points, integrals of thrust and the search for a period cost the same at any order. `MORE_ORDERS` make
+//! the steps longer at the same truncation.
 //!
-//! **The attitude.** Where omega is below w/(1 - t/rho) coefficient by coefficient, with rho the radius of convergence, q' = q (x) omega/2 gives
-//! q below (1 - t/rho)^(-s), s = w rho/2, whose coefficient n is binomial(s + n - 1, n)/rho^n. The root of order n of that binomial is
-//! at most 1.04 (1 + s/(n!)^(1/n)) up to n = 27, and near that for s > 3. So the first neglected term, of order n, meets the tolerance where
-//! tolerance^(1/n)/h = 1/rho + w/(2 (n!)^(1/n)): the reciprocals of the step that the radius allows and of the one that turning at a
-//! constant rate allows add up. The coefficients of omega are below the majorant's: a share of `RADIUS_SHARE` of the first is enough.
+//! **The attitude.** Where omega is below w/(1 - t/rho) coefficient by coefficient, with rho the radius of convergence,
+//! q' = q (x) omega/2 gives q below (1 - t/rho)^(-s), s = w rho/2, whose coefficient n is binomial(s + n - 1, n)/rho^n.
+//! The root of order n of that binomial is at most 1.04 (1 + s/(n!)^(1/n)) up to n = 27, and near that for s > 3. So
+//! the first neglected term, of order n, meets the tolerance where tolerance^(1/n)/h = 1/rho + w/(2 (n!)^(1/n)): the
+//! reciprocals of the step that the radius allows and of the one that turning at a constant rate allows add up. The
+//! coefficients of omega are below the majorant's: a share of `RADIUS_SHARE` of the first is enough.
 //!
-//! Decided from the angular velocity alone, so that a campaign that asks for the attitude and one that does not take the same
-//! steps and get the same bits.
+//! Decided from the angular velocity alone, so that a campaign that asks for the attitude and one that does not take
+//! the same steps and get the same bits.
 
 use crate::dynamics::gyrostat::{ANGULAR_IMPULSE, IMPULSE};
 use crate::math::Real;
@@ -32,27 +33,31 @@ pub struct StepRule {
     turn: f64,
     /// log2 of twice that.
     log_slowest: f64,
-    /// log2 of the time, s, at which the series of exp(alpha t^2/4) up to the order meets the tolerance for |alpha| = 1 rad/s^2.
+    /// log2 of the time, s, at which the series of exp(alpha t^2/4) up to the order meets the tolerance for |alpha| = 1
+    /// rad/s^2.
     log_growth: f64,
 }
 
-/// Tolerances below the rounding of the arithmetic are met with a margin: truncation has a sign and rounding has none, so that
-/// the remaining truncation adds up in every step. At the tolerance itself energy drifted by 6e-19 and the quaternion's norm by 8.3e-17 a
-/// step (`tests/accuracy/round_off.rs`): two orders more, and this share of the tolerance for the series of the attitude.
+/// Tolerances below the rounding of the arithmetic are met with a margin: truncation has a sign and rounding has none,
+/// so that the remaining truncation adds up in every step. At the tolerance itself energy drifted by 6e-19 and the
+/// quaternion's norm by 8.3e-17 a step (`tests/accuracy/round_off.rs`): two orders more, and this share of the
+/// tolerance for the series of the attitude.
 const BELOW_ROUNDING: f64 = 1.0 / 4096.0;
-/// The orders that go with it. Larger steps than these add more rounding, and the margin is larger than the attitude's own term.
+/// The orders that go with it. Larger steps than these add more rounding, and the margin is larger than the attitude's
+/// own term.
 const MORE_BELOW_ROUNDING: usize = 2;
-/// Orders beyond that of Jorba & Zou. The forced scene of `benches/peers/run.sh` takes 112 steps at 1e-4 instead of 295, and 0.57 of the time;
-/// 128 at 1e-10 instead of 199, and 0.85. Orders 2, 6 and 8 beyond are within the noise of 4, or slower.
+/// Orders beyond that of Jorba & Zou. The forced scene of `benches/peers/run.sh` takes 112 steps at 1e-4 instead of
+/// 295, and 0.57 of the time; 128 at 1e-10 instead of 199, and 0.85. Orders 2, 6 and 8 beyond are within the noise of
+/// 4, or slower.
 const MORE_ORDERS: usize = 4;
-/// How much of the majorant's reciprocal radius counts: with it the attitude's error is at most four tolerances in the file of `spindrift
-/// new` (12 to 44 without the term), and one in `detumble` (17 to 40).
+/// How much of the majorant's reciprocal radius counts: with it the attitude's error is at most four tolerances in the
+/// file of `spindrift new` (12 to 44 without the term), and one in `detumble` (17 to 40).
 const RADIUS_SHARE: f64 = 0.6;
 
-/// The product of two series has the tail of both: where the time of the rate and that of the angular acceleration are equal, the step
-/// is this (log2) shorter than either, and less for every octave between them. Exact sums of the neglected coefficients at the orders 13
-/// and 22 ask for 0.71 at equal times and 0.3 an octave apart; two octaves apart they are 3 to 12 times the tolerance of the
-/// attitude's series, which is far below that of the rates.
+/// The product of two series has the tail of both: where the time of the rate and that of the angular acceleration are
+/// equal, the step is this (log2) shorter than either, and less for every octave between them. Exact sums of the
+/// neglected coefficients at the orders 13 and 22 ask for 0.71 at equal times and 0.3 an octave apart; two octaves
+/// apart they are 3 to 12 times the tolerance of the attitude's series, which is far below that of the rates.
 const EQUAL_TIMES: f64 = 0.75;
 /// How much less, for an octave.
 const AN_OCTAVE: f64 = 0.375;
@@ -73,7 +78,8 @@ impl StepRule {
         }
     }
 
-    /// Order `optimal` + `more`, with the last term of omega's series as small as at the order `optimal`, and `radius_share` as [`RADIUS_SHARE`].
+    /// Order `optimal` + `more`, with the last term of omega's series as small as at the order `optimal`, and
+    /// `radius_share` as [`RADIUS_SHARE`].
     fn with_order(optimal: usize, more: usize, radius_share: f64, tolerance: f64) -> Self {
         let order = optimal + more;
         let factorial: f64 = (1..=order + 1).map(|n| n as f64).product();
@@ -100,9 +106,10 @@ impl StepRule {
     /// The size against which the tail of the series is held is that of the rate and of its change over a unit of time,
     /// which the caller chooses near the time scale of the motion.
     ///
-    /// The attitude's series limits the step too, and alone where the rate is a polynomial of low order: at a constant rate
-    /// omega that of exp(omega t/2), at a constant angular acceleration alpha that of exp(alpha t^2/4). Constant torques make the
-    /// second: `alpha` is what they add to the acceleration, `None` of free runs. See `EQUAL_TIMES` for where both count.
+    /// The attitude's series limits the step too, and alone where the rate is a polynomial of low order: at a constant
+    /// rate omega that of exp(omega t/2), at a constant angular acceleration alpha that of exp(alpha t^2/4). Constant
+    /// torques make the second: `alpha` is what they add to the acceleration, `None` of free runs. See `EQUAL_TIMES`
+    /// for where both count.
     #[inline(always)]
     pub fn step<R: Real, const N: usize>(&self, jet: &[[R; N]], alpha: Option<[R; 3]>) -> R {
         let scale = rate_squared(&jet[0]) + rate_squared(&jet[1]);
@@ -134,8 +141,8 @@ impl StepRule {
         clamped_exp2(from_last.smaller(from_before) + number(self.log_safety))
     }
 
-    /// The step that the angular impulse allows, whose series the jet has: the torque of an effect turns up to twice as fast as the body, which
-    /// shows in omega only where it is strong.
+    /// The step that the angular impulse allows, whose series the jet has: the torque of an effect turns up to twice as
+    /// fast as the body, which shows in omega only where it is strong.
     #[inline(always)]
     pub fn step_of_impulse<R: Real, const N: usize>(&self, jet: &[[R; N]]) -> R {
         let size = |n: usize| {
@@ -145,7 +152,8 @@ impl StepRule {
         self.step_of_series([size(1), size(self.order - 1), size(self.order)])
     }
 
-    /// The step that the motion relative to an orbit allows, of a spacecraft of the mass `mass`: the series of its momentum.
+    /// The step that the motion relative to an orbit allows, of a spacecraft of the mass `mass`: the series of its
+    /// momentum.
     #[inline(always)]
     pub fn step_of_offset<R: Real, const N: usize>(&self, jet: &[[R; N]], mass: R) -> R {
         let size = |n: usize| {

@@ -1,8 +1,10 @@
-//! The states of a reference solution under effects that have branches and no Taylor series: by extrapolation ([`crate::ode::extrapolation`]) in
-//! double-double, with steps that end at switches, which are located by steps of other lengths from the same start.
+//! The states of a reference solution under effects that have branches and no Taylor series: by extrapolation
+//! ([`crate::ode::extrapolation`]) in double-double, with steps that end at switches, which are located by steps of
+//! other lengths from the same start.
 //!
-//! Shadows, densities and the direction of the Sun are numbers of `f64` in any arithmetic ([`crate::dynamics::environment`]); they make the torque of air and
-//! light uncertain by some 1e-16 of itself. The tolerance is [`TOLERANCE`].
+//! Shadows, densities and the direction of the Sun are numbers of `f64` in any arithmetic
+//! ([`crate::dynamics::environment`]); they make the torque of air and light uncertain by some 1e-16 of itself. The
+//! tolerance is [`TOLERANCE`].
 //!
 //! The orbit is integrated with the attitude: no closed form, so that it can judge one.
 
@@ -24,7 +26,8 @@ use crate::ode::switches::beside;
 use crate::ode::{System, Tolerance};
 use crate::run::Status;
 
-/// Relative tolerance of a step: below what the torques are uncertain by, where they change the rate by some percent within a step.
+/// Relative tolerance of a step: below what the torques are uncertain by, where they change the rate by some percent
+/// within a step.
 pub const TOLERANCE: f64 = 1e-17;
 
 /// Components of position and velocity on the orbit, after those of the gyrostat.
@@ -32,7 +35,8 @@ const POSITION: usize = N;
 const VELOCITY: usize = N + 3;
 const ALL: usize = N + 6;
 
-/// A switch function below minus this has changed its sign, and a switch is located where it is smaller: its rounding is 1e-16 to 1e-15.
+/// A switch function below minus this has changed its sign, and a switch is located where it is smaller: its rounding
+/// is 1e-16 to 1e-15.
 const NOISE: f64 = 1e-13;
 
 /// Branches are chosen by the signs after this fraction of a step. What is missed is of the second order, 1e-18.
@@ -55,7 +59,8 @@ const SMALLEST_OFFSET: f64 = 1e-3;
 
 type State = [DoubleDouble; ALL];
 
-/// The equations of motion of an arc. In double-double they are long: each of their functions is one, compiled for the instruction set of `simd`, and not a copy in every place that calls it.
+/// The equations of motion of an arc. In double-double they are long: each of their functions is one, compiled for the
+/// instruction set of `simd`, and not a copy in every place that calls it.
 struct Motions<S> {
     simd: S,
     constants: Constants<DoubleDouble>,

@@ -1,14 +1,15 @@
 //! Integrals of the thrust along a step, by Gauss quadrature of the attitude's own series.
 //!
-//! A thrust turns with omega where the quaternion turns with omega/2: as Taylor series these integrals (impulse, its own
-//! integral, angular impulse, works) would need half the step, and two more Cauchy products of quaternions. But within a step the
-//! attitude is known as a polynomial, exact to the tolerance, so the integrals are taken from it at the nodes of
-//! Gauss-Legendre quadrature: m nodes integrate exp(i Omega t) over h to (Omega h)^2m (m!)^4/((2m+1) (2m)!^3)
-//! (P. J. Davis & P. Rabinowitz, *Methods of Numerical Integration*, 2nd ed. 1984, section 2.7), and m is chosen from the
-//! largest turn that a step may have. Force and torque are constant in B, so that it is the direction cosine matrix that is
-//! integrated: ten sums of products of the quaternion's components.
+//! A thrust turns with omega where the quaternion turns with omega/2: as Taylor series these integrals (impulse, its
+//! own integral, angular impulse, works) would need half the step, and two more Cauchy products of quaternions. But
+//! within a step the attitude is known as a polynomial, exact to the tolerance, so the integrals are taken from it at
+//! the nodes of Gauss-Legendre quadrature: m nodes integrate exp(i Omega t) over h to (Omega h)^2m (m!)^4/((2m+1)
+//! (2m)!^3) (P. J. Davis & P. Rabinowitz, *Methods of Numerical Integration*, 2nd ed. 1984, section 2.7), and m is
+//! chosen from the largest turn that a step may have. Force and torque are constant in B, so that it is the direction
+//! cosine matrix that is integrated: ten sums of products of the quaternion's components.
 //!
-//! An observation point inside a step is reached from whichever end of the step is nearer, with the nodes that half a step needs.
+//! An observation point inside a step is reached from whichever end of the step is nearer, with the nodes that half a
+//! step needs.
 
 use super::step::StepRule;
 use crate::dynamics::gyrostat::equations::Constants;
@@ -46,7 +47,8 @@ pub struct Push<R> {
 }
 
 impl<R: Real> Quadrature<R> {
-    /// The smallest number of nodes that integrates a turning vector over the largest step of `rule` to the tolerance; `zero` says in how many lanes.
+    /// The smallest number of nodes that integrates a turning vector over the largest step of `rule` to the tolerance;
+    /// `zero` says in how many lanes.
     pub fn new(zero: R, rule: &StepRule, tolerance: f64) -> Self {
         let nodes = |turn: f64| -> Vec<(f64, f64)> {
             let enough = (2..MOST_NODES).find(|m| error(*m, turn) <= SHARE * tolerance).unwrap_or(MOST_NODES);
@@ -96,14 +98,15 @@ impl<R: Real> Push<R> {
         Push { impulse: [zero; 3], path: [zero; 3], angular: [zero; 3] }
     }
 
-    /// The increase of the components from [`MOTOR_WORK`] on from the start of a step to `x` after it, zero in the others.
+    /// The increase of the components from [`MOTOR_WORK`] on from the start of a step to `x` after it, zero in the
+    /// others.
     ///
-    /// `start` is the whole state at the start of the step, and `angle` the increase of the angle until `x`. `constants` are those of
-    /// the start of the step.
+    /// `start` is the whole state at the start of the step, and `angle` the increase of the angle until `x`.
+    /// `constants` are those of the start of the step.
     ///
-    /// Only `N` = [`WITH_THRUST`] has the components of thrust. Their work needs no quadrature of its own: Gauss collocation
-    /// conserves quadratic invariants (J. M. Sanz-Serna, BIT 28, 1988), so that the sum over the nodes of force times
-    /// impulse is half the change of the impulse's square.
+    /// Only `N` = [`WITH_THRUST`] has the components of thrust. Their work needs no quadrature of its own: Gauss
+    /// collocation conserves quadratic invariants (J. M. Sanz-Serna, BIT 28, 1988), so that the sum over the nodes of
+    /// force times impulse is half the change of the impulse's square.
     #[inline(always)]
     pub fn growth<const N: usize>(&self, constants: &Constants<R>, start: &[R; N], angle: [R; 3], x: R) -> [R; N] {
         let half = x.splat(0.5);

@@ -9,7 +9,8 @@ use crate::math::vector::{dcm_from_quaternion, dot, norm, product, scaled, sum};
 use crate::propagation::local_error::rounding;
 use crate::run::LocalErrors;
 
-/// What the rest of omega's series amounts to in a brief step, as a share of the last term that it keeps: terms fall by e^-2 or more.
+/// What the rest of omega's series amounts to in a brief step, as a share of the last term that it keeps: terms fall by
+/// e^-2 or more.
 const BRIEF_REST: f64 = 0.15;
 
 /// The sums of one run.
@@ -23,16 +24,17 @@ pub(super) struct TruncationSums {
 
 /// Sums over the steps of a run, in lanes.
 ///
-/// Where effects act within arcs, and a run has librations and turns by the hundred, what steps leave out of omega has every direction, and magnitudes
-/// that are added are far from the error. There each step counts as a vector: as the angular momentum that it leaves out, which lasts in inertial axes. The
-/// sum of a run is the largest magnitude that the sum of vectors has had, and the root of the sum of squares: a step's direction is only estimated. It is
-/// that of the last two terms of even and odd order together, with the sign that the term after them has: terms of a series alternate as those two
-/// orders apart do.
+/// Where effects act within arcs, and a run has librations and turns by the hundred, what steps leave out of omega has
+/// every direction, and magnitudes that are added are far from the error. There each step counts as a vector: as the
+/// angular momentum that it leaves out, which lasts in inertial axes. The sum of a run is the largest magnitude that
+/// the sum of vectors has had, and the root of the sum of squares: a step's direction is only estimated. It is that of
+/// the last two terms of even and odd order together, with the sign that the term after them has: terms of a series
+/// alternate as those two orders apart do.
 ///
-/// The first term left out of a series is estimated from the series: the last one kept, times the root of what that is of
-/// the term two orders before; or the one before the last, times what that is of the term two orders before it, whichever is larger: from
-/// rest at a constant acceleration all terms of odd order of the attitude are zero. Where only rates are integrated the attitude counts as turning
-/// with constant omega, (|omega| h/2)^(p+1)/(p+1)!.
+/// The first term left out of a series is estimated from the series: the last one kept, times the root of what that is
+/// of the term two orders before; or the one before the last, times what that is of the term two orders before it,
+/// whichever is larger: from rest at a constant acceleration all terms of odd order of the attitude are zero. Where
+/// only rates are integrated the attitude counts as turning with constant omega, (|omega| h/2)^(p+1)/(p+1)!.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Truncation<R> {
     order: usize,
@@ -44,7 +46,8 @@ pub(super) struct Truncation<R> {
     rate: R,
     /// First terms left out of the attitude, added up, rad.
     turn: R,
-    /// What is left out of the angular momentum where effects act within arcs, over the mean moment of inertia, added up in inertial axes.
+    /// What is left out of the angular momentum where effects act within arcs, over the mean moment of inertia, added
+    /// up in inertial axes.
     momentum: [R; 3],
     /// The largest square of that so far.
     farthest: R,
@@ -101,7 +104,8 @@ impl<R: Real> Truncation<R> {
         self.add_turn(jet, length);
     }
 
-    /// The same where effects act within arcs, in lanes of the constants `constants`: the rate's part with its direction.
+    /// The same where effects act within arcs, in lanes of the constants `constants`: the rate's part with its
+    /// direction.
     #[inline(always)]
     pub(super) fn add_directed<const N: usize>(&mut self, jet: &[[R; N]], length: R, constants: &Constants<R>) {
         let rate = self.left_out_of_rate(jet, length);
@@ -144,7 +148,8 @@ impl<R: Real> Truncation<R> {
 }
 
 impl<R: Real> Truncation<R> {
-    /// Adds the step of length `length` of the lanes in `brief`, along the series `jet`: what they leave out is bounded by their last two terms.
+    /// Adds the step of length `length` of the lanes in `brief`, along the series `jet`: what they leave out is bounded
+    /// by their last two terms.
     #[inline(always)]
     pub(super) fn add_brief<const N: usize>(&mut self, jet: &[[R; N]], length: R, brief: &Brief<R>) {
         let zero = length.zero();
@@ -176,8 +181,8 @@ impl TruncationSums {
     }
 }
 
-/// The first term left out of a series of order p in a step of length `length`, over `length` to the power p - 1; `sizes` are those of the coefficients
-/// p - 3 to p.
+/// The first term left out of a series of order p in a step of length `length`, over `length` to the power p - 1;
+/// `sizes` are those of the coefficients p - 3 to p.
 #[inline(always)]
 fn left_out<R: Real>(sizes: [R; 4], length: R) -> R {
     let [third, second, before, last] = sizes;

@@ -1,11 +1,11 @@
-//! `[[actuation]]`: the schedule, one arc of constant thrust and torque each; commands, which are not dispersed, and how the arc differs
-//! from them, which is.
+//! `[[actuation]]`: the schedule, one arc of constant thrust and torque each; commands, which are not dispersed, and
+//! how the arc differs from them, which is.
 
 use super::components::SCALAR;
 use super::limit::Limit;
 use super::numbers::Numbers;
 use super::rows::rows;
-use super::{MAX_THRUSTERS, MAX_WHEELS};
+use super::sizes::{MAX_THRUSTERS, MAX_WHEELS};
 use crate::scene::name::Name;
 
 rows! {
@@ -14,10 +14,11 @@ rows! {
     start_s: f64 = 0.0, "s", "Start of the arc", SCALAR, Plain, Limit::Finite, (required "0.0");
     end_s: f64 = 1.0, "s", "End of the arc", SCALAR, Plain, Limit::Finite, (required "1.0");
     } others {
-        /// Thrusts in the order of the thrusters, never negative, N; zero beyond. In a file a table by name, `thrust_n = { p1 = 100.0 }`.
+        /// Thrusts in the order of the thrusters, never negative, N; zero beyond. In a file a table by name,
+        /// `thrust_n = { p1 = 100.0 }`.
         thrust_n: [f64; MAX_THRUSTERS] = [0.0; MAX_THRUSTERS],
-        /// Motor torques on the wheels about their axes, in the order of the wheels, N m; the body feels the opposite. In a file a table
-        /// by name, `torque_n_m = { w1 = 0.5 }`.
+        /// Motor torques on the wheels about their axes, in the order of the wheels, N m; the body feels the opposite.
+        /// In a file a table by name, `torque_n_m = { w1 = 0.5 }`.
         torque_n_m: [f64; MAX_WHEELS] = [0.0; MAX_WHEELS],
         /// The name; of an arc without one its number is used, from 0.
         name: Name = Name::NONE,
@@ -27,15 +28,18 @@ rows! {
 }
 
 rows! {
-    /// How an arc differs from its command, beyond what thrusters, wheels and `[actuators]` have in all arcs: factors multiply theirs, delays
-    /// add to theirs.
+    /// How an arc differs from its command, beyond what thrusters, wheels and `[actuators]` have in all arcs: factors
+    /// multiply theirs, delays add to theirs.
     pub struct ArcErrors in ActuationInput [table => table.errors] {
     thrust_scale: f64 = 1.0, "1", "Scale factor for the commanded thrusts of this arc", SCALAR, Plain,
         Limit::Thrust("write zero for an arc that does not ignite"), (optional);
-    torque_scale: f64 = 1.0, "1", "Scale factor for the commanded motor torques of this arc", SCALAR, Plain, Limit::Finite, (optional);
-    switch_on_delay_s: f64 = 0.0, "s", "Delay of the start of this arc, added to that of the actuators", SCALAR, Plain, Limit::Finite, (optional);
+    torque_scale: f64 = 1.0, "1", "Scale factor for the commanded motor torques of this arc", SCALAR, Plain,
+        Limit::Finite, (optional);
+    switch_on_delay_s: f64 = 0.0, "s", "Delay of the start of this arc, added to that of the actuators", SCALAR,
+        Plain, Limit::Finite, (optional);
     switch_off_delay_s: f64 = 0.0, "s",
-        "Delay of the end of this arc, added to that of the actuators; no effect if the next arc starts as this one ends", SCALAR, Plain,
+        "Delay of the end of this arc, added to that of the actuators; no effect if the next arc starts as this one \
+        ends", SCALAR, Plain,
         Limit::Finite, (optional);
     } others {}
 }

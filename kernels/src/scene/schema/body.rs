@@ -1,4 +1,5 @@
-//! `[body]`: the body's mass properties, given directly or in place of what its parts give, and errors of the true ones.
+//! `[body]`: the body's mass properties, given directly or in place of what its parts give, and errors of the true
+//! ones.
 
 use super::components::{AXES, SCALAR, SYMMETRIC, WXYZ, XYZ};
 use super::limit::Limit;
@@ -12,8 +13,8 @@ use crate::scene::error::Problems;
 rows! {
     /// The body: everything of the spacecraft but the wheels that turn.
     ///
-    /// Where there are parts ([`super::PartInput`]), a mass that is given scales their inertia, a centre of mass moves it as it is, and a
-    /// tensor or principal moments replace it. The errors are applied last.
+    /// Where there are parts ([`super::PartInput`]), a mass that is given scales their inertia, a centre of mass moves
+    /// it as it is, and a tensor or principal moments replace it. The errors are applied last.
     pub struct BodyInput in BodyInput [table => table] {
     mass_kg: Option<f64> = None, "kg", "Mass, in place of that of the parts", SCALAR, Plain, Limit::Positive,
         (optional);

@@ -1,7 +1,8 @@
 //! `[control]`, `[[sensors]]`, `[[guidance]]`: the parameters of a control law, as the law and its parts declare them.
 //!
-//! A law is a part of a program (`dynamics::actuation`); which numbers it has, it says itself, in the terms of every other key of a scene:
-//! unit, meaning, limit, default. So they are read, checked, dispersed and written as those are, under names such as `control.gain_n_m`.
+//! A law is a part of a program (`dynamics::actuation`); which numbers it has, it says itself, in the terms of every
+//! other key of a scene: unit, meaning, limit, default. So they are read, checked, dispersed and written as those are,
+//! under names such as `control.gain_n_m`.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -20,7 +21,8 @@ pub struct LawParameter {
 }
 
 impl LawParameter {
-    /// A number that a campaign file must give. `unit` is that of the key, as in its name (`gain_n_m`: `N m`), `1` for a pure number.
+    /// A number that a campaign file must give. `unit` is that of the key, as in its name (`gain_n_m`: `N m`), `1` for
+    /// a pure number.
     pub const fn number(key: &'static str, unit: &'static str, meaning: &'static str, limit: Limit) -> Self {
         let facts = Facts {
             key,
@@ -52,8 +54,8 @@ impl LawParameter {
     }
 }
 
-/// The list of the parameters of `parts`, one after the other, which is known at run time only. Each list is kept once and for good: a program has
-/// as many as there are kinds of tables.
+/// The list of the parameters of `parts`, one after the other, which is known at run time only. Each list is kept once
+/// and for good: a program has as many as there are kinds of tables.
 pub fn kept(parts: &[&[LawParameter]]) -> &'static [LawParameter] {
     static KEPT: Mutex<Vec<&'static [LawParameter]>> = Mutex::new(Vec::new());
     let list: Vec<LawParameter> = parts.concat();
@@ -144,7 +146,8 @@ impl DeclaredTable {
     }
 }
 
-/// The parameters of a control law and their values: its own, those of its sensors, and those of the phases of its guidance.
+/// The parameters of a control law and their values: its own, those of its sensors, and those of the phases of its
+/// guidance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ControlInput {
     /// `[control]`.
@@ -216,7 +219,8 @@ mod tests {
         LawParameter::number("ratio", "1", "Ratio", Limit::Positive).or(&[0.7]),
     ];
 
-    /// Law: parameters of a law are keys as all others: found by name and component, read and set, checked by their limits.
+    /// Law: parameters of a law are keys as all others: found by name and component, read and set, checked by their
+    /// limits.
     #[test]
     fn parameters_of_a_law_are_keys_of_the_scene() {
         let mut scene = SceneInput { control: ControlInput::of(&DECLARED), ..SceneInput::default() };

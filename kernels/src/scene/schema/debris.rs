@@ -50,7 +50,8 @@ fn is_irregular(debris: &DebrisInput) -> bool {
 }
 
 macro_rules! debris {
-    ($key:ident, $unit:literal, $meaning:expr, $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+), $open:expr,
+    ($key:ident, $unit:literal, $meaning:expr, $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+),
+    $open:expr,
         $pattern:pat => $value:ident) => {
         row!($key, $unit, $meaning, $components, $shape, $limit, ($($presence)+), $open, $pattern => $value)
     };
@@ -76,10 +77,12 @@ const ROWS: &[Row<DebrisInput>] = &[
         DebrisInput::Tensor { inertia_kg_m2: value, .. } => value),
     debris!(principal_moments_kg_m2, "kg m^2", MOMENTS, AXES, Plain, Limit::PrincipalMoments, (optional),
         |debris| *debris = DebrisInput::Principal { mass_kg: NAN, principal: PrincipalInertia::BLANK },
-        DebrisInput::Principal { principal: PrincipalInertia { moments: PrincipalMoments::Inertia(value), .. }, .. } => value),
+        DebrisInput::Principal { principal: PrincipalInertia { moments: PrincipalMoments::Inertia(value), .. },
+            .. } => value),
     debris!(principal_second_moments_kg_m2, "kg m^2", SECOND, AXES, Plain, Limit::Positive, (optional),
         |debris| *debris = DebrisInput::Principal { mass_kg: NAN, principal: PrincipalInertia::BLANK_SECOND },
-        DebrisInput::Principal { principal: PrincipalInertia { moments: PrincipalMoments::Second(value), .. }, .. } => value),
+        DebrisInput::Principal { principal: PrincipalInertia { moments: PrincipalMoments::Second(value), .. },
+            .. } => value),
     debris!(principal_axes, "1", AXES_MEANING, WXYZ, Quaternion, Limit::UnitQuaternion, (optional), |_| {},
         DebrisInput::Principal { principal: PrincipalInertia { axes: value, .. }, .. } => value),
 ];

@@ -8,20 +8,26 @@ use super::rows::rows;
 rows! {
     /// Effects of the environment on the spacecraft. An effect that is not written does not act.
     pub struct EnvironmentInput in EnvironmentInput [table => table] {
-    body_torque_n_m: Option<[f64; 3]> = None, "N m", "Constant torque on the spacecraft, in F_s", XYZ, Plain, Limit::Finite,
+    body_torque_n_m: Option<[f64; 3]> = None, "N m", "Constant torque on the spacecraft, in F_s", XYZ, Plain,
+        Limit::Finite,
         (optional);
-    magnetic_dipole_a_m2: Option<[f64; 3]> = None, "A m^2", "Residual magnetic dipole of the spacecraft, in F_s", XYZ, Plain,
+    magnetic_dipole_a_m2: Option<[f64; 3]> = None, "A m^2", "Residual magnetic dipole of the spacecraft, in F_s",
+        XYZ, Plain,
         Limit::Finite, (optional);
     density_scale: f64 = 1.0, "1", "Scale factor for the air density", SCALAR, Plain, Limit::NotNegative, (optional);
-    base_density_kg_m3: Option<f64> = None, "kg/m^3", "Density of an exponential atmosphere at base_height_m, in place of the table",
+    base_density_kg_m3: Option<f64> = None, "kg/m^3",
+        "Density of an exponential atmosphere at base_height_m, in place of the table",
         SCALAR, Plain, Limit::NotNegative, (optional);
-    base_height_m: Option<f64> = None, "m", "Height above body_radius_m of the density base_density_kg_m3", SCALAR, Plain,
+    base_height_m: Option<f64> = None, "m", "Height above body_radius_m of the density base_density_kg_m3", SCALAR,
+        Plain,
         Limit::Finite, (optional);
     scale_height_m: Option<f64> = None, "m", "Height over which the density falls by a factor of e", SCALAR, Plain,
         Limit::Positive, (optional);
-    solar_pressure_n_m2: f64 = 4.56e-6, "N/m^2", "Pressure of sunlight at 1 au on a surface that absorbs it", SCALAR, Plain,
+    solar_pressure_n_m2: f64 = 4.56e-6, "N/m^2", "Pressure of sunlight at 1 au on a surface that absorbs it", SCALAR,
+        Plain,
         Limit::NotNegative, (optional);
-    area_scale: f64 = 1.0, "1", "Scale factor for the areas of all plates", SCALAR, Plain, Limit::NotNegative, (optional);
+    area_scale: f64 = 1.0, "1", "Scale factor for the areas of all plates", SCALAR, Plain, Limit::NotNegative,
+        (optional);
     } others {
         /// Whether the torque of the gravity gradient acts; it needs an orbit.
         gravity_gradient: bool = false,
@@ -33,7 +39,8 @@ rows! {
         solar_pressure: bool = false,
         /// Whether the forces of air and light move the spacecraft, which leaves its orbit by them.
         coupled: bool = false,
-        /// Heights above `body_radius_m` at which the density of the air is given, m, in place of Vallado's table; kept for good ([`super::numbers::kept`]).
+        /// Heights above `body_radius_m` at which the density of the air is given, m, in place of Vallado's table; kept
+        /// for good ([`super::numbers::kept`]).
         air_heights_m: Option<&'static [f64]> = None,
         /// The density at each of them, kg/m^3.
         air_densities_kg_m3: Option<&'static [f64]> = None,

@@ -9,22 +9,30 @@ use crate::scene::name::Name;
 rows! {
     /// A device that fails at a time of a run. Control software is not told.
     pub struct FailureInput in FailureInput [table => table] {
-    at_s: f64 = 0.0, "s", "Time at which the device fails; after the end of the run it has no effect", SCALAR, Plain, Limit::NotNegative,
+    at_s: f64 = 0.0, "s", "Time at which the device fails; after the end of the run it has no effect", SCALAR, Plain,
+        Limit::NotNegative,
         (required "100.0");
     torque_scale: Option<f64> = None, "1",
-        "For a wheel: factor on the torque that its motor gives within its limit, from then on; 0 for a dead motor", SCALAR,
+        "For a wheel: factor on the torque that its motor gives within its limit, from then on; 0 for a dead motor",
+            SCALAR,
         Plain, Limit::Finite, (optional);
-    coulomb_friction_n_m: Option<f64> = None, "N m", "For a wheel under a control loop: its bearing friction from then on, independent of the rate",
+    coulomb_friction_n_m: Option<f64> = None, "N m",
+        "For a wheel under a control loop: its bearing friction from then on, independent of the rate",
         SCALAR, Plain, Limit::NotNegative, (optional);
     viscous_friction_n_m_s: Option<f64> = None, "N m s",
-        "For a wheel under a control loop: its bearing friction from then on, proportional to the rate", SCALAR, Plain, Limit::NotNegative,
+        "For a wheel under a control loop: its bearing friction from then on, proportional to the rate", SCALAR,
+            Plain, Limit::NotNegative,
         (optional);
-    thrust_n: Option<f64> = None, "N", "For a thruster: its thrust from then on, whatever is commanded; 0 if it is stuck off", SCALAR, Plain,
+    thrust_n: Option<f64> = None, "N", "For a thruster: its thrust from then on, whatever is commanded; 0 if it is \
+        stuck off", SCALAR, Plain,
         Limit::NotNegative, (optional);
-    dipole_a_m2: Option<f64> = None, "A m^2", "For a torque rod: its dipole from then on, whatever is commanded; 0 if it is dead", SCALAR, Plain,
+    dipole_a_m2: Option<f64> = None, "A m^2", "For a torque rod: its dipole from then on, whatever is commanded; 0 if \
+        it is dead", SCALAR, Plain,
         Limit::Finite, (optional);
-    bias_rad_s: Option<[f64; 3]> = None, "rad/s", "For a rate gyro: the change in its bias", XYZ, Plain, Limit::Finite, (optional);
-    bias_rad: Option<[f64; 3]> = None, "rad", "For a star tracker: the change in its bias", XYZ, Plain, Limit::Finite, (optional);
+    bias_rad_s: Option<[f64; 3]> = None, "rad/s", "For a rate gyro: the change in its bias", XYZ, Plain,
+        Limit::Finite, (optional);
+    bias_rad: Option<[f64; 3]> = None, "rad", "For a star tracker: the change in its bias", XYZ, Plain,
+        Limit::Finite, (optional);
     } others {
         /// The name.
         name: Name = Name::NONE,

@@ -4,11 +4,12 @@ use crate::math::symmetric::{is_positive_definite, principal_axes};
 use crate::scene::error::Problems;
 use std::borrow::Cow;
 
-/// How far the norm of a written attitude quaternion may be from one: six written digits make 1e-6; it is then normalised.
+/// How far the norm of a written attitude quaternion may be from one: six written digits make 1e-6; it is then
+/// normalised.
 pub const UNIT_NORM_TOLERANCE: f64 = 1e-6;
 
-/// Slack of symmetry and triangle inequality, relative to the trace: the rounding of a tensor that was computed elsewhere
-/// (rotated, shifted to another centre), and no more.
+/// Slack of symmetry and triangle inequality, relative to the trace: the rounding of a tensor that was computed
+/// elsewhere (rotated, shifted to another centre), and no more.
 pub const INERTIA_SLACK: f64 = 16.0 * f64::EPSILON;
 
 /// What the numbers of a key must satisfy; all must be finite.
@@ -26,7 +27,8 @@ pub enum Limit {
     Direction,
     /// A quaternion of norm one, to [`UNIT_NORM_TOLERANCE`].
     UnitQuaternion,
-    /// An inertia tensor about a centre of mass: symmetric, positive definite, triangle inequality, to [`INERTIA_SLACK`].
+    /// An inertia tensor about a centre of mass: symmetric, positive definite, triangle inequality, to
+    /// [`INERTIA_SLACK`].
     Inertia,
     /// Principal moments of inertia: above zero, none above the sum of the other two.
     PrincipalMoments,

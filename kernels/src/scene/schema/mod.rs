@@ -1,16 +1,21 @@
 //! The schema of scene parameters: one row for each numeric key of a campaign file that describes the scene.
 //!
-//! A row states key, type, unit, meaning, default, limit, and whether the key must be written. From it follow the field of the input structure, reading a campaign file, its canonical text, the checks, the
-//! dispersable [`super::Parameter`]s and the table of keys in the documents. To add a parameter, add a row here and use the
-//! field where it acts.
+//! A row states key, type, unit, meaning, default, limit, and whether the key must be written. From it follow the field
+//! of the input structure, reading a campaign file, its canonical text, the checks, the dispersable
+//! [`super::Parameter`]s and the table of keys in the documents. To add a parameter, add a row here and use the field
+//! where it acts.
 //!
-//! - [`body`], [`part`], [`mass_errors`], [`wheel`], [`thruster`], [`torque_rod`], [`debris`], [`initial`], [`orbit`], [`environment`], [`plate`],
-//!   [`actuators`], [`actuation`], [`failure`]: the rows, table by table; [`control`]: those that a control law declares.
-//! - [`row`]: what a row is. [`limit`]: what a value must satisfy. [`numbers`]: values seen as plain numbers.
+//! - [`body`], [`part`], [`mass_errors`], [`wheel`], [`thruster`], [`torque_rod`], [`debris`], [`initial`], [`orbit`],
+//!   [`environment`], [`plate`], [`actuators`], [`actuation`], [`failure`]: the rows, table by table; [`control`]:
+//!   those that a control law declares.
+//! - [`row`]: what a row is. [`sizes`]: how many devices there are at most. [`limit`]: what a value must satisfy.
+//!   [`numbers`]: values seen as plain numbers.
 //!
-//! A row knows its own table only; [`super::table`] says where in a scene the tables are. A table may have several instances.
+//! A row knows its own table only; [`super::table`] says where in a scene the tables are. A table may have several
+//! instances.
 //!
-//! Not here: conditions on several keys together ([`super::check`]), keys that are not numbers (`mode`, `shape`, names).
+//! Not here: conditions on several keys together ([`super::check`]), keys that are not numbers (`mode`, `shape`,
+//! names).
 
 pub mod actuation;
 pub mod actuators;
@@ -30,6 +35,7 @@ pub mod plate;
 pub mod principal;
 pub mod row;
 mod rows;
+pub mod sizes;
 pub mod thruster;
 pub mod torque_rod;
 pub mod wheel;
@@ -49,13 +55,7 @@ pub use part::{PartInput, PartShape};
 pub use plate::{MAX_PLATES, PlateInput};
 pub use principal::{PrincipalInertia, PrincipalMoments};
 pub use row::{Facts, Needs, Presence, Row, Shape};
+pub use sizes::{MAX_THRUSTERS, MAX_TORQUE_RODS, MAX_WHEELS};
 pub use thruster::ThrusterInput;
 pub use torque_rod::TorqueRodInput;
 pub use wheel::{WheelInput, WheelMode};
-
-/// Largest number of wheels of a spacecraft.
-pub const MAX_WHEELS: usize = 8;
-/// Largest number of thrusters of a spacecraft.
-pub const MAX_THRUSTERS: usize = 16;
-/// Largest number of torque rods of a spacecraft.
-pub const MAX_TORQUE_RODS: usize = 8;

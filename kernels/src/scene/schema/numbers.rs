@@ -14,7 +14,8 @@ pub(in crate::scene) trait Numbers {
     fn open(&mut self) {}
 }
 
-/// `numbers`, kept once and for good: for structures that are copied with every sample. A program has as many lists as its files have.
+/// `numbers`, kept once and for good: for structures that are copied with every sample. A program has as many lists as
+/// its files have.
 pub fn kept(numbers: &[f64]) -> &'static [f64] {
     static KEPT: Mutex<Vec<&'static [f64]>> = Mutex::new(Vec::new());
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);

@@ -9,13 +9,16 @@ use crate::scene::epoch::Epoch;
 rows! {
     /// An orbit, given by position and velocity or by Keplerian elements at time zero.
     pub struct OrbitInput in OrbitInput [table => table] {
-    mu_m3_s2: f64 = 3.986004418e14, "m^3/s^2", "Gravitational parameter of the central body", SCALAR, Plain, Limit::Positive,
+    mu_m3_s2: f64 = 3.986004418e14, "m^3/s^2", "Gravitational parameter of the central body", SCALAR, Plain,
+        Limit::Positive,
         (optional);
     body_radius_m: f64 = 6_378_137.0, "m", "Radius of the central body; the orbit must stay above it", SCALAR, Plain,
         Limit::NotNegative, (optional);
-    j2: Option<f64> = None, "1", "Second zonal harmonic of the central body, relative to body_radius_m; if omitted, the body is a point mass", SCALAR,
+    j2: Option<f64> = None, "1", "Second zonal harmonic of the central body, relative to body_radius_m; if omitted, \
+        the body is a point mass", SCALAR,
         Plain, Limit::NotNegative, (optional);
-    position_m: Option<[f64; 3]> = None, "m", "Position of the centre of mass from the central body, in F_e", XYZ, Plain,
+    position_m: Option<[f64; 3]> = None, "m", "Position of the centre of mass from the central body, in F_e", XYZ,
+        Plain,
         Limit::Finite, (optional);
     velocity_m_s: Option<[f64; 3]> = None, "m/s", "Velocity of the centre of mass relative to F_e, in F_e", XYZ, Plain,
         Limit::Finite, (optional);

@@ -10,11 +10,15 @@ use crate::scene::name::Name;
 rows! {
     /// A rigid homogeneous part of the body, with its centre of mass at `position_m`.
     pub struct PartInput in PartInput [table => table] {
-    outer_radius_m: Option<f64> = None, "m", "Outer radius of a hollow cylinder", SCALAR, Plain, Limit::Positive, (optional);
-    wall_thickness_m: Option<f64> = None, "m", "Thickness of the shell and the end plates of a hollow cylinder", SCALAR, Plain,
+    outer_radius_m: Option<f64> = None, "m", "Outer radius of a hollow cylinder", SCALAR, Plain, Limit::Positive,
+        (optional);
+    wall_thickness_m: Option<f64> = None, "m", "Thickness of the shell and the end plates of a hollow cylinder",
+        SCALAR, Plain,
         Limit::Positive, (optional);
-    radius_m: Option<f64> = None, "m", "Radius of a solid cylinder or a sphere", SCALAR, Plain, Limit::Positive, (optional);
-    length_m: Option<f64> = None, "m", "Outer length of a cylinder, along the third axis of the part's frame", SCALAR, Plain,
+    radius_m: Option<f64> = None, "m", "Radius of a solid cylinder or a sphere", SCALAR, Plain, Limit::Positive,
+        (optional);
+    length_m: Option<f64> = None, "m", "Outer length of a cylinder, along the third axis of the part's frame",
+        SCALAR, Plain,
         Limit::Positive, (optional);
     size_m: Option<[f64; 3]> = None, "m", "Sides of a box along the axes of its frame", XYZ, Plain, Limit::Positive,
         (optional);
@@ -22,7 +26,8 @@ rows! {
     mass_kg: Option<f64> = None, "kg", "Mass, instead of the density", SCALAR, Plain, Limit::Positive, (optional);
     position_m: [f64; 3] = [0.0; 3], "m", "Centre of the part from p, in F_s", XYZ, Plain, Limit::Finite, (optional);
     attitude: [f64; 4] = [1.0, 0.0, 0.0, 0.0], "1",
-        "Attitude of the part's frame: quaternion that maps its components to those of F_s, scalar first", WXYZ, Quaternion,
+        "Attitude of the part's frame: quaternion that maps its components to those of F_s, scalar first", WXYZ,
+            Quaternion,
         Limit::UnitQuaternion, (optional);
     } others {
         /// The name.

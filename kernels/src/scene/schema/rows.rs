@@ -1,4 +1,5 @@
-//! The macros that turn rows of the schema into an input structure, its defaults, its checks and its [`super::row::Row`]s.
+//! The macros that turn rows of the schema into an input structure, its defaults, its checks and its
+//! [`super::row::Row`]s.
 
 /// Whether a key must be written, as in a row.
 macro_rules! presence {
@@ -44,8 +45,8 @@ macro_rules! facts {
 /// key: type = default, "unit", "meaning", components, shape, limit, (presence);
 /// ```
 ///
-/// `in Table [table => table.part]` says where in the structure of the whole table this one is; `others` lists fields that are not
-/// numbers.
+/// `in Table [table => table.part]` says where in the structure of the whole table this one is; `others` lists fields
+/// that are not numbers.
 macro_rules! rows {
     (
         $(#[$doc:meta])*
@@ -82,8 +83,8 @@ macro_rules! rows {
                 },
             )* ];
 
-            /// Notes which values violate their limits; `name` makes a dotted name of the key. Without a loop over rows: every draw is
-            /// checked.
+            /// Notes which values violate their limits; `name` makes a dotted name of the key. Without a loop over
+            /// rows: every draw is checked.
             #[inline(always)]
             pub(in crate::scene) fn check(
                 &self,
@@ -94,7 +95,7 @@ macro_rules! rows {
                 $( if $crate::scene::schema::rows::gate!($($presence)+).are_met(has_debris)
                     && let Some(numbers) = Numbers::numbers(&self.$key)
                 {
-                    const LIMIT: $crate::scene::schema::Limit = $limit;
+                    const LIMIT: $crate::scene::schema::limit::Limit = $limit;
                     LIMIT.check(|| name(stringify!($key)), numbers, problems);
                 } )*
             }

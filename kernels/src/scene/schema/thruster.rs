@@ -11,16 +11,20 @@ rows! {
     pub struct ThrusterInput in ThrusterInput [table => table] {
     position_m: [f64; 3] = [0.0; 3], "m", "Point of application from p, in F_s", XYZ, Plain, Limit::Finite,
         (required "[0, 0, 0]");
-    direction: [f64; 3] = [0.0, 0.0, 1.0], "1", "Direction of the force on the spacecraft, in F_s; need not have length one",
+    direction: [f64; 3] = [0.0, 0.0, 1.0], "1", "Direction of the force on the spacecraft, in F_s; need not have \
+        length one",
         XYZ, Plain, Limit::Direction, (required "[0, 0, 1]");
     tilt_rad: [f64; 2] = [0.0; 2], "rad",
-        "Alignment error: components of the rotation vector that turns the nominal direction into the true one, along the two axes of F_s perpendicular to it (oblique directions: docs/campaign-files.md)",
+        "Alignment error: components of the rotation vector that turns the nominal direction into the true one, along \
+        the two axes of F_s perpendicular to it (oblique directions: docs/campaign-files.md)",
         ACROSS, Plain, Limit::Finite, (optional);
     thrust_scale: f64 = 1.0, "1", "Scale factor for the commanded thrust", SCALAR, Plain,
         Limit::Thrust("write zero for a thruster that does not work"), (optional);
-    max_thrust_n: Option<f64> = None, "N", "Largest thrust that a control loop commands; for an on-off thruster, its thrust", SCALAR,
+    max_thrust_n: Option<f64> = None, "N", "Largest thrust that a control loop commands; for an on-off thruster, its \
+        thrust", SCALAR,
         Plain, Limit::Positive, (optional);
-    min_on_time_s: Option<f64> = None, "s", "Shortest firing of an on-off thruster, under a control loop", SCALAR, Plain,
+    min_on_time_s: Option<f64> = None, "s", "Shortest firing of an on-off thruster, under a control loop", SCALAR,
+        Plain,
         Limit::NotNegative, (optional);
     } others {
         /// The name.

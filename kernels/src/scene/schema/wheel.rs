@@ -21,22 +21,29 @@ rows! {
     axial_inertia_kg_m2: Option<f64> = None, "kg m^2", "Moment of inertia about the spin axis", SCALAR, Plain,
         Limit::Positive, (optional);
     transverse_inertia_kg_m2: Option<f64> = None, "kg m^2",
-        "Moment of inertia about any axis through the centre perpendicular to the spin axis", SCALAR, Plain, Limit::Positive, (optional);
+        "Moment of inertia about any axis through the centre perpendicular to the spin axis", SCALAR, Plain,
+            Limit::Positive, (optional);
     tilt_rad: [f64; 2] = [0.0; 2], "rad",
-        "Alignment error of the spin axis: components of the rotation vector that turns the nominal axis into the true one, along the two axes of F_s perpendicular to it (oblique axes: docs/campaign-files.md)",
+        "Alignment error of the spin axis: components of the rotation vector that turns the nominal axis into the true \
+        one, along the two axes of F_s perpendicular to it (oblique axes: docs/campaign-files.md)",
         ACROSS, Plain, Limit::Finite, (optional);
     rate_rad_s: f64 = 0.0, "rad/s", "Rate relative to the body at the start", SCALAR, Plain, Limit::Finite, (optional);
     angle_rad: f64 = 0.0, "rad", "Angle relative to the body at the start", SCALAR, Plain, Limit::Finite, (optional);
-    torque_scale: f64 = 1.0, "1", "Scale factor for the commanded motor torque", SCALAR, Plain, Limit::Finite, (optional);
+    torque_scale: f64 = 1.0, "1", "Scale factor for the commanded motor torque", SCALAR, Plain, Limit::Finite,
+        (optional);
     torque_bias_n_m: f64 = 0.0, "N m", "Torque added to the scaled torque whenever the commanded torque is not zero",
         SCALAR, Plain, Limit::Finite, (optional);
-    torque_limit_n_m: Option<f64> = None, "N m", "Largest motor torque in either direction, under a control loop", SCALAR, Plain,
+    torque_limit_n_m: Option<f64> = None, "N m", "Largest motor torque in either direction, under a control loop",
+        SCALAR, Plain,
         Limit::Positive, (optional);
-    speed_limit_rad_s: Option<f64> = None, "rad/s", "Largest rate relative to the body, in either direction, to which a control loop drives the wheel",
+    speed_limit_rad_s: Option<f64> = None, "rad/s",
+        "Largest rate relative to the body, in either direction, to which a control loop drives the wheel",
         SCALAR, Plain, Limit::Positive, (optional);
-    coulomb_friction_n_m: Option<f64> = None, "N m", "Bearing friction that does not depend on the rate, under a control loop",
+    coulomb_friction_n_m: Option<f64> = None, "N m",
+        "Bearing friction that does not depend on the rate, under a control loop",
         SCALAR, Plain, Limit::NotNegative, (optional);
-    viscous_friction_n_m_s: Option<f64> = None, "N m s", "Bearing friction proportional to the rate, under a control loop",
+    viscous_friction_n_m_s: Option<f64> = None, "N m s",
+        "Bearing friction proportional to the rate, under a control loop",
         SCALAR, Plain, Limit::NotNegative, (optional);
     } others {
         /// The name.
@@ -56,7 +63,8 @@ impl WheelInput {
     pub const DRIVE: [&'static str; 4] =
         ["torque_limit_n_m", "speed_limit_rad_s", "coulomb_friction_n_m", "viscous_friction_n_m_s"];
 
-    /// Berdoz's wheel (Table II: 0.25 m, 0.1 m, 2700 kg/m^3) called `name` about `axis` with its centre at `position_m`.
+    /// Berdoz's wheel (Table II: 0.25 m, 0.1 m, 2700 kg/m^3) called `name` about `axis` with its centre at
+    /// `position_m`.
     ///
     /// # Panics
     /// Where `name` is no name.
