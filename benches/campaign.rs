@@ -1,7 +1,7 @@
 //! The parts of a campaign, each alone, and the whole.
 //!
-//! `cargo bench -p spindrift-benches --bench campaign`. One thread; `campaigns/no_debris.toml`, which is `spin_sweep` without the debris, `auto` at
-//! 1e-10. Throughput is in samples per second.
+//! `cargo bench -p spindrift-benches --bench campaign`. One thread; `campaigns/no_debris.toml`, which is `spin_sweep`
+//! without the debris, `auto` at 1e-10. Throughput is in samples per second.
 //!
 //! - `sampling`: samples, and mass properties and initial state from them;
 //! - `observation`: the observables of a run in the state table: all, those about the centre of mass with the

@@ -1,8 +1,9 @@
 //! A control loop: what a tick costs, law included.
 //!
-//! `cargo bench -p spindrift-benches --bench control`. One thread; 600 s at a control period of 0.1 s (6,000 ticks), three wheels, feedback of the
-//! modified Rodrigues parameters: the spacecraft, wheels, gains and initial state of Basilisk's `scenarioAttitudeFeedbackRW`, without its thruster, orbit
-//! and integral term; initial rates are dispersed. Throughput is in runs per second.
+//! `cargo bench -p spindrift-benches --bench control`. One thread; 600 s at a control period of 0.1 s (6,000 ticks),
+//! three wheels, feedback of the modified Rodrigues parameters: the spacecraft, wheels, gains and initial state of
+//! Basilisk's `scenarioAttitudeFeedbackRW`, without its thruster, orbit and integral term; initial rates are dispersed.
+//! Throughput is in runs per second.
 //!
 //! - `engine`: propagation alone, with attitude, rates and wheel rates at the points;
 //! - `rows`: the campaign, all default columns, bands included.

@@ -1,9 +1,11 @@
-//! What a campaign costs against what it has: CPU time and memory against rows, columns, points, dispersions, wheels, ticks of a loop and threads. Tables with slopes, and a figure.
+//! What a campaign costs against what it has: CPU time and memory against rows, columns, points, dispersions, wheels,
+//! ticks of a loop and threads. Tables with slopes, and a figure.
 //!
-//! `cargo bench -p spindrift-benches --bench curves -- ../docs/figures/curves.svg rows=1000000 rows=10000000`; without `rows=` the curve of rows ends at 400,000. Each campaign is whole, without the
-//! page, and runs in a process of its own, with its start-up: CPU time and largest memory are those of the process. Medians of three rounds; a campaign of more than a
-//! million rows runs once. The slope is d ln(time)/d ln(x) from the line before: 0 where x costs nothing, 1 where the
-//! time is proportional to it. A slope above 1 is a defect with its reason beside it.
+//! `cargo bench -p spindrift-benches --bench curves -- ../docs/figures/curves.svg rows=1000000 rows=10000000`; without
+//! `rows=` the curve of rows ends at 400,000. Each campaign is whole, without the page, and runs in a process of its
+//! own, with its start-up: CPU time and largest memory are those of the process. Medians of three rounds; a campaign of
+//! more than a million rows runs once. The slope is d ln(time)/d ln(x) from the line before: 0 where x costs nothing, 1
+//! where the time is proportional to it. A slope above 1 is a defect with its reason beside it.
 
 #![allow(clippy::disallowed_methods)] // digits of no row: the elementary functions of the platform will do
 
@@ -65,7 +67,8 @@ fn with_dispersions(count: usize) -> String {
 fn with_wheels(count: usize) -> String {
     let wheel = |k: usize| {
         format!(
-            "[[wheels]]\nname = \"w{k}\"\naxis = [{}, {}, 1]\nposition_m = [0, 0, {}]\nradius_m = 0.25\nlength_m = 0.1\ndensity_kg_m3 = 2700.0\nrate_rad_s = {}\n\n",
+            "[[wheels]]\nname = \"w{k}\"\naxis = [{}, {}, 1]\nposition_m = [0, 0, {}]\nradius_m = 0.25\nlength_m = \
+            0.1\ndensity_kg_m3 = 2700.0\nrate_rad_s = {}\n\n",
             k % 3,
             k % 2,
             0.5 + 0.2 * k as f64,

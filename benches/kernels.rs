@@ -1,18 +1,21 @@
 //! The parts of a run: right-hand sides, steps, runs.
 //!
-//! `cargo bench -p spindrift-benches --bench kernels` (all), the same with ` -- run` (one group). One thread. Throughput is in
-//! evaluations, steps or runs per second.
+//! `cargo bench -p spindrift-benches --bench kernels` (all), the same with ` -- run` (one group). One thread.
+//! Throughput is in evaluations, steps or runs per second.
 //!
-//! - `right-hand side`: a chain of evaluations, each from the previous one as in an integration; the gyrostat with attitude and wheel
-//!   angles, in lanes (eight runs at once) and one at a time, and the null-space kernel (62 states and 10 integrals).
+//! - `right-hand side`: a chain of evaluations, each from the previous one as in an integration; the gyrostat with
+//!   attitude and wheel angles, in lanes (eight runs at once) and one at a time, and the null-space kernel (62 states
+//!   and 10 integrals).
 //! - `step`: a whole run without observation points, divided by its accepted steps.
-//! - `peak`: fused operations alone, sixteen independent chains, in flop/s: the maximum of one core on each instruction set.
-//! - `taylor`: the arithmetic of Taylor steps alone (rate and attitude, free of torque), in flop/s, on each instruction set and
-//!   for several tolerances, to compare with the peak.
-//! - `run`: 128 samples of `campaigns/no_debris.toml` (`spin_sweep` without the debris: 10 s, 101 points), with all that its
-//!   rows need.
+//! - `peak`: fused operations alone, sixteen independent chains, in flop/s: the maximum of one core on each instruction
+//!   set.
+//! - `taylor`: the arithmetic of Taylor steps alone (rate and attitude, free of torque), in flop/s, on each instruction
+//!   set and for several tolerances, to compare with the peak.
+//! - `run`: 128 samples of `campaigns/no_debris.toml` (`spin_sweep` without the debris: 10 s, 101 points), with all
+//!   that its rows need.
 //!
-//! Through [`Engine`]s, which the library has compiled already: a driver instantiated in the bench would take minutes to build.
+//! Through [`Engine`]s, which the library has compiled already: a driver instantiated in the bench would take minutes
+//! to build.
 
 #![allow(clippy::disallowed_methods)] // digits of no row: the elementary functions of the platform will do
 
@@ -273,11 +276,12 @@ fn peak(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Floating-point operations of one step of one run of rate and attitude by a series of order `p`; a fused one counts two.
+/// Floating-point operations of one step of one run of rate and attitude by a series of order `p`; a fused one counts
+/// two.
 ///
-/// Cauchy products: fifteen fused operations for each pair of coefficients. For each order: h x omega (9), the rate (9), its
-/// division by the order (3), that of the attitude (4). Then the value at the end of the step, two for each coefficient, and
-/// the step size, less than a hundred, which is omitted.
+/// Cauchy products: fifteen fused operations for each pair of coefficients. For each order: h x omega (9), the rate
+/// (9), its division by the order (3), that of the attitude (4). Then the value at the end of the step, two for each
+/// coefficient, and the step size, less than a hundred, which is omitted.
 fn flops_of_step(p: u64) -> u64 {
     2 * 15 * p * (p + 1) / 2 + p * (9 + 9 + 3 + 4) + 2 * 7 * p
 }

@@ -1,7 +1,9 @@
-//! Rows a second of one core against the number of columns and of observation points: a table, and the figure of `docs/performance.md`.
+//! Rows a second of one core against the number of columns and of observation points: a table, and the figure of
+//! `docs/performance.md`.
 //!
-//! `cargo bench -p spindrift-benches --bench rows -- ../docs/figures/rows.svg`. Each campaign is `no_debris.toml`, whole: drawn, propagated, observed, into bands,
-//! statistics and Parquet, without the page. The number is the median of three rounds, each of all campaigns in turn, of rows over CPU time of the process.
+//! `cargo bench -p spindrift-benches --bench rows -- ../docs/figures/rows.svg`. Each campaign is `no_debris.toml`,
+//! whole: drawn, propagated, observed, into bands, statistics and Parquet, without the page. The number is the median
+//! of three rounds, each of all campaigns in turn, of rows over CPU time of the process.
 
 #![allow(clippy::disallowed_methods)] // digits of no row: the elementary functions of the platform will do
 

@@ -1,7 +1,8 @@
-//! A stored campaign under a control law of one's own: a spacecraft is held at an attitude by three wheels, with a rate sensor that is noisy.
+//! A stored campaign under a control law of one's own: a spacecraft is held at an attitude by three wheels, with a rate
+//! sensor that is noisy.
 //!
-//! Gains and noise are parameters that the law declares: keys of `[control]`, dispersed as every other key is. The campaign is stored, so that it can be
-//! interrupted and continued, and read again.
+//! Gains and noise are parameters that the law declares: keys of `[control]`, dispersed as every other key is. The
+//! campaign is stored, so that it can be interrupted and continued, and read again.
 //!
 //! `cargo run --release --example control_campaign`
 

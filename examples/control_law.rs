@@ -1,4 +1,5 @@
-//! A control law of one's own: a spinning spacecraft is turned to a target attitude by a sampled proportional-derivative law.
+//! A control law of one's own: a spinning spacecraft is turned to a target attitude by a sampled
+//! proportional-derivative law.
 //!
 //! `cargo run --release --example control_law`
 

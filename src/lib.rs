@@ -1,8 +1,8 @@
 //! spindrift: Monte Carlo analysis of spacecraft attitude dynamics.
 //!
-//! A campaign file becomes a [`Plan`]. The plan and a [`SampleId`] determine a [`Scene`]; an
-//! [`Engine`] integrates it to a [`StateTable`], and [`observables`] reduce that to a row. **A row is a pure function of
-//! (plan, sample id)**: threads, lanes, parts and order cannot change a bit of it.
+//! A campaign file becomes a [`Plan`]. The plan and a [`SampleId`] determine a [`Scene`]; an [`Engine`] integrates it
+//! to a [`StateTable`], and [`observables`] reduce that to a row. **A row is a pure function of (plan, sample id)**:
+//! threads, lanes, parts and order cannot change a bit of it.
 //!
 //! ```
 //! use spindrift::{Isa, Overrides, Plan, SampleId, SingleRun, StateField, Status};
@@ -34,9 +34,9 @@
 //! # Ok::<(), spindrift::CampaignError>(())
 //! ```
 //!
-//! A stored campaign is a [`Campaign`], and what it has made are [`Results`]. The names on this page are the interface; modules are its inside, which may change.
-//! The programs in `examples/` show campaigns in memory and on disk, and control laws. `ARCHITECTURE.md` shows the data flow, the layers and a glossary,
-//! `docs/model.md` the equations.
+//! A stored campaign is a [`Campaign`], and what it has made are [`Results`]. The names on this page are the interface;
+//! modules are its inside, which may change. The programs in `examples/` show campaigns in memory and on disk, and
+//! control laws. `ARCHITECTURE.md` shows the data flow, the layers and a glossary, `docs/model.md` the equations.
 
 #![forbid(unsafe_code)]
 // failures are values; a printing macro panics where the pipe is closed

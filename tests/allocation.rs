@@ -43,7 +43,8 @@ fn count() {
     COUNT.with(|count| count.set(count.get() + 1));
 }
 
-// SAFETY: everything is handed on to the system's allocator unchanged; the counter is a plain number that needs no memory.
+// SAFETY: everything is handed on to the system's allocator unchanged; the counter is a plain number that needs no
+// memory.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count();
@@ -249,8 +250,8 @@ fn a_worker() {
     }
 }
 
-/// Law: bands allocate only where a deviation is in an octave that no earlier one was in: the same part again allocates nothing, and a later
-/// part less than once in a column.
+/// Law: bands allocate only where a deviation is in an octave that no earlier one was in: the same part again allocates
+/// nothing, and a later part less than once in a column.
 #[test]
 fn a_worker_with_bands() {
     let plan = plan("spin_sweep", "auto");
@@ -304,8 +305,9 @@ fn added(samples: u64, first: u64) -> Added {
     Added { allocations, rows: bytes[0], bands: bytes[1] }
 }
 
-/// Law: a row costs no more where there are many. Counted in place of clocks: its bytes on the disk, and allocations of encoding and statistics. A part
-/// beyond those that bands count adds extremes only; sketches of a large campaign allocate no more than lists of values of a small one.
+/// Law: a row costs no more where there are many. Counted in place of clocks: its bytes on the disk, and allocations of
+/// encoding and statistics. A part beyond those that bands count adds extremes only; sketches of a large campaign
+/// allocate no more than lists of values of a small one.
 #[test]
 fn a_row_of_many() {
     let (few, many) = (added(100_000, 50_000), added(1_000_000, 500_000));

@@ -1,6 +1,7 @@
 //! MRP feedback, as `mrp_feedback.c`, in Rust.
 //!
-//! rustc --edition 2024 --target wasm32-unknown-unknown --crate-type cdylib -O -C panic=abort -C strip=symbols -o mrp_feedback_rust.wasm mrp_feedback.rs
+//! rustc --edition 2024 --target wasm32-unknown-unknown --crate-type cdylib -O -C panic=abort -C strip=symbols -o
+//! mrp_feedback_rust.wasm mrp_feedback.rs
 #![no_std]
 
 use core::cell::UnsafeCell;

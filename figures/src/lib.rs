@@ -1,4 +1,5 @@
-//! Draws figures as SVG: the charts of the report page, run by QuickJS without a browser. So a figure in a file is the one on the page.
+//! Draws figures as SVG: the charts of the report page, run by QuickJS without a browser. So a figure in a file is the
+//! one on the page.
 
 use std::io;
 

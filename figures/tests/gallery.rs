@@ -31,7 +31,8 @@ fn draw(figures: &str) -> Result<Vec<String>, String> {
     list.iter().map(drawn).collect()
 }
 
-/// The campaigns of a gallery, each with the figure of its entry (after it: settings of the campaign, KEY=VALUE) and its picture.
+/// The campaigns of a gallery, each with the figure of its entry (after it: settings of the campaign, KEY=VALUE) and
+/// its picture.
 fn entries(gallery: &str) -> Vec<[&str; 3]> {
     let (mut list, mut name, mut figure) = (Vec::new(), "", "");
     for line in gallery.lines() {
@@ -95,7 +96,8 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Counter-test: the figure of an entry is the one that stands in it, and an entry without one is not given that of another.
+/// Counter-test: the figure of an entry is the one that stands in it, and an entry without one is not given that of
+/// another.
 #[test]
 fn the_figures_of_entries_are_found() {
     let text = "### a.toml\n\n<!-- picture: rate.svg -->\n\n![A](figures/gallery/a.svg)\n### b.toml\n![B](b.svg)\n";

@@ -1,4 +1,5 @@
-//! Any parameters of distributions, designs and correlations: errors, or samples that do not depend on the order in which they are drawn.
+//! Any parameters of distributions, designs and correlations: errors, or samples that do not depend on the order in
+//! which they are drawn.
 
 #![no_main]
 

@@ -1,4 +1,5 @@
-//! Any bytes as a table of samples (CSV or Parquet) and as a file of rows: errors, or numbers; never a panic that is not caught.
+//! Any bytes as a table of samples (CSV or Parquet) and as a file of rows: errors, or numbers; never a panic that is
+//! not caught.
 
 #![no_main]
 
@@ -24,7 +25,8 @@ static FOLDER: OnceLock<PathBuf> = OnceLock::new();
 
 fuzz_target!(
     init: {
-        // the Parquet reader panics on some damaged files, which the program catches; the hook of the loop would end it before
+        // the Parquet reader panics on some damaged files, which the program catches; the hook of the loop would end it
+        // before
         std::panic::set_hook(Box::new(|_| {}));
         let folder = std::env::temp_dir().join(format!("spindrift-fuzz-{}", std::process::id()));
         std::fs::create_dir_all(&folder).expect("a folder");

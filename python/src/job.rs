@@ -170,7 +170,8 @@ impl Job {
         self.shared.abandon.store(true, Ordering::SeqCst);
     }
 
-    /// How it ended, once: `None` where all rows are there; the samples of the campaign and those that are left where it was stopped.
+    /// How it ended, once: `None` where all rows are there; the samples of the campaign and those that are left where
+    /// it was stopped.
     fn ended(&self, py: Python<'_>) -> PyResult<Option<(u64, u64)>> {
         let thread = locked(&self.thread).take();
         let Some(thread) = thread else { return Ok(None) };

@@ -1,7 +1,8 @@
 //! [`Law`]: a law of attitude in Python, asked once per control tick for all runs that are flown side by side.
 //!
-//! Runs take turns on the thread that flies them, each on a stack of its own (the crate `generator`): one that asks its law leaves the thread to the others, and
-//! when all of them wait, the function answers for all at once. A run that is flown alone (the nominal one of bands and pages, a replay) is asked about alone.
+//! Runs take turns on the thread that flies them, each on a stack of its own (the crate `generator`): one that asks its
+//! law leaves the thread to the others, and when all of them wait, the function answers for all at once. A run that is
+//! flown alone (the nominal one of bands and pages, a replay) is asked about alone.
 
 use std::cell::RefCell;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};

@@ -118,7 +118,8 @@ impl Plan {
         })
     }
 
-    /// Starts to run what is not there yet; the result goes to the folder `out`. `control`: the function that is the law of attitude.
+    /// Starts to run what is not there yet; the result goes to the folder `out`. `control`: the function that is the
+    /// law of attitude.
     #[pyo3(signature = (samples, out, threads, overwrite, page, yes, control=None))]
     #[expect(clippy::too_many_arguments, reason = "the keywords of Python's function")]
     fn run(

@@ -1,4 +1,5 @@
-//! [`Results`]: a finished result in a folder. Every look at it compares its checksums, and that it is still the same; none of them keeps it locked.
+//! [`Results`]: a finished result in a folder. Every look at it compares its checksums, and that it is still the same;
+//! none of them keeps it locked.
 
 use std::path::PathBuf;
 

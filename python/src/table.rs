@@ -1,6 +1,8 @@
-//! [`ArrowTable`]: a table as Arrow's arrays: columns with units and meanings, which Arrow's C interface hands over without a copy.
+//! [`ArrowTable`]: a table as Arrow's arrays: columns with units and meanings, which Arrow's C interface hands over
+//! without a copy.
 //!
-//! Apache Arrow, *The Arrow PyCapsule Interface*: polars, pyarrow, pandas, DuckDB and others take an object with `__arrow_c_stream__`.
+//! Apache Arrow, *The Arrow PyCapsule Interface*: polars, pyarrow, pandas, DuckDB and others take an object with
+//! `__arrow_c_stream__`.
 
 use std::collections::HashMap;
 use std::sync::Arc;

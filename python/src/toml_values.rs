@@ -9,7 +9,8 @@ use crate::SpindriftError;
 /// Most lists and dicts within each other: a campaign file has six, and the parser of TOML takes 80.
 const MOST_NESTED: usize = 64;
 
-/// `object` as TOML: numbers, texts, truth values, lists and dicts of them, and what NumPy makes of these. `key` names it in messages.
+/// `object` as TOML: numbers, texts, truth values, lists and dicts of them, and what NumPy makes of these. `key` names
+/// it in messages.
 ///
 /// # Errors
 /// Where it is something else.

@@ -1,6 +1,7 @@
 //! [`Accumulator`]: what is gathered from rows in one pass over their parts.
 //!
-//! A part is counted on any thread, and merged in the order of the parts: no bit depends on threads, nor on where the rows are read from.
+//! A part is counted on any thread, and merged in the order of the parts: no bit depends on threads, nor on where the
+//! rows are read from.
 
 use std::num::NonZeroUsize;
 

@@ -10,18 +10,20 @@ use crate::statistics::quantile::percent;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assessment {
     pub requirement: Requirement,
-    /// The confidence of a pass and of the bounds, and that of a failure, after corrections for several looks and several requirements.
+    /// The confidence of a pass and of the bounds, and that of a failure, after corrections for several looks and
+    /// several requirements.
     pub confidences: [f64; 2],
     /// Unit of its limit; empty for a pure number.
     pub unit: String,
     /// The unit in which people see it.
     pub shown: ShownUnit,
-    /// What is decided, and from which estimate with which one-sided bounds: of the fraction of runs within the limit, or of the mean.
+    /// What is decided, and from which estimate with which one-sided bounds: of the fraction of runs within the limit,
+    /// or of the mean.
     pub gate: Gate,
     /// The two-sided interval of what is estimated, at the confidence of the statistics; NaN where there is none.
     pub interval: [f64; 2],
-    /// The quantile, of which runs without a value violate the limit, or the mean over the runs that have a value; `None` for fractions, and where the quantile is
-    /// a run without a value.
+    /// The quantile, of which runs without a value violate the limit, or the mean over the runs that have a value;
+    /// `None` for fractions, and where the quantile is a run without a value.
     pub value: Option<f64>,
     /// Runs that count: dispersed and physical.
     pub runs: u64,
@@ -39,8 +41,10 @@ pub struct Assessment {
     pub note: Option<String>,
 }
 
-/// An event that N runs show fewer than so many times, on average, is rare: what it adds to a mean these runs do not tell. Measured (`rare_events_are_what_a_mean_assumes`): of
-/// events that ten runs have on average a bound for 5% misses in 0 to 3%, of one that two to four have in 7 to 21%, of one that one has in 20 to 38%, of rarer ones in up to 96%.
+/// An event that N runs show fewer than so many times, on average, is rare: what it adds to a mean these runs do not
+/// tell. Measured (`rare_events_are_what_a_mean_assumes`): of events that ten runs have on average a bound for 5%
+/// misses in 0 to 3%, of one that two to four have in 7 to 21%, of one that one has in 20 to 38%, of rarer ones in up
+/// to 96%.
 pub const RARE: u64 = 10;
 
 /// The point of time at which the fewest runs are within the limit, the first of them.
@@ -50,7 +54,8 @@ pub struct WorstPoint {
     pub time_s: f64,
     /// At how many points the requirement was tested.
     pub points: usize,
-    /// Runs that are in one bucket with the limit, so that the bands do not tell on which side of it they are. Counted as violations.
+    /// Runs that are in one bucket with the limit, so that the bands do not tell on which side of it they are. Counted
+    /// as violations.
     pub unresolved: u64,
 }
 
@@ -64,7 +69,8 @@ impl Assessment {
         }
     }
 
-    /// Of a mean that is decided without bounds of its values: by how much at most rare events ([`RARE`]) may move it, so that the decision holds.
+    /// Of a mean that is decided without bounds of its values: by how much at most rare events ([`RARE`]) may move it,
+    /// so that the decision holds.
     pub fn room_for_rare_events(&self) -> Option<f64> {
         let [lower, upper] = self.gate.bounds;
         let requirement = &self.requirement;
@@ -79,8 +85,9 @@ impl Assessment {
         (assumes && self.reason.is_none()).then_some((limit - bound).abs())
     }
 
-    /// The bound on one side by which it passed or failed, where its interval has the limit in it and so seems to say that nothing is decided; of the fraction of runs within the limit, or
-    /// of the mean: the bound and the limit. `true`: a lower bound.
+    /// The bound on one side by which it passed or failed, where its interval has the limit in it and so seems to say
+    /// that nothing is decided; of the fraction of runs within the limit, or of the mean: the bound and the limit.
+    /// `true`: a lower bound.
     pub fn hidden_bound(&self) -> Option<([f64; 2], bool)> {
         let [low, high] = self.interval;
         let (limit, is_least) = match (self.requirement.statement, self.requirement.limit) {

@@ -9,12 +9,12 @@ use crate::statistics::spread::Spread;
 /// Errors above this are no longer small, and soon bounded: an estimate above half of this counts as covering them.
 pub const SMALL: f64 = 0.1;
 
-/// The share of runs, at least, in which an estimate of the error covers the true one: what the documents promise of every method, and the
-/// tests of the estimates measure (`error_estimate`).
+/// The share of runs, at least, in which an estimate of the error covers the true one: what the documents promise of
+/// every method, and the tests of the estimates measure (`error_estimate`).
 pub const PROMISED_COVERAGE: f64 = 0.95;
 
-/// The probability, at most, with which the audits of an estimate that keeps this promise are said to break it. None of two audits that is covered
-/// breaks it, 1 of 4, 15 of 20, 88 of 100 that are covered do; one audit never does.
+/// The probability, at most, with which the audits of an estimate that keeps this promise are said to break it. None of
+/// two audits that is covered breaks it, 1 of 4, 15 of 20, 88 of 100 that are covered do; one audit never does.
 pub const FALSE_ALARM: f64 = 0.01;
 
 /// How an estimate compares with the true error.
@@ -84,7 +84,8 @@ impl AuditTally {
         self.coverage.excess() + self.debris_coverage.excess()
     }
 
-    /// Counts the audits of a part, without those of samples that are left out; `indices` are the indices of the observables in a row.
+    /// Counts the audits of a part, without those of samples that are left out; `indices` are the indices of the
+    /// observables in a row.
     pub fn add(
         &mut self,
         audits: &[(SampleId, Option<Audit>)],
@@ -185,8 +186,8 @@ mod tests {
         assert_eq!((tally.debris.count(), tally.debris_coverage.ratio.count()), (2, 2));
     }
 
-    /// Law: an error is covered by an estimate that is as large, and by none that is just below it. A large error, which is
-    /// bounded by half a turn, is covered by every large estimate.
+    /// Law: an error is covered by an estimate that is as large, and by none that is just below it. A large error,
+    /// which is bounded by half a turn, is covered by every large estimate.
     #[test]
     fn an_estimate_just_below_the_error_does_not_cover_it() {
         let covered = |error: f64, estimate: f64| tally(&[Some((error, estimate))]).coverage.covered == 1;
@@ -196,8 +197,8 @@ mod tests {
         assert!(!covered(f64::NAN, 1e-9), "an error that is NaN is not covered");
     }
 
-    /// Law: the promise is broken where so few covered runs are improbable under it, by the binomial sum written out; an audit that nothing
-    /// covers once is no proof, twice it is.
+    /// Law: the promise is broken where so few covered runs are improbable under it, by the binomial sum written out;
+    /// an audit that nothing covers once is no proof, twice it is.
     #[test]
     fn a_promise_is_broken_where_chance_is_no_explanation() {
         let excess = |covered: u64, audited: u64| Coverage { audited, covered, ..Coverage::default() }.excess();

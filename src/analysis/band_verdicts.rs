@@ -1,7 +1,8 @@
 //! Requirements at each time: what the bands of a campaign say of them.
 //!
-//! A limit holds at every point of the bands in an interval for a share of the runs, which may be other runs at another point. How many runs are within it at a point is known up to
-//! the bucket that the limit is in: both bounds must decide, so that no verdict rests on where in a bucket a run is.
+//! A limit holds at every point of the bands in an interval for a share of the runs, which may be other runs at another
+//! point. How many runs are within it at a point is known up to the bucket that the limit is in: both bounds must
+//! decide, so that no verdict rests on where in a bucket a run is.
 
 use crate::analysis::assessment::{Assessment, WorstPoint};
 use crate::analysis::order_statistics::among_values;

@@ -1,7 +1,7 @@
 //! [`Collector`]: counts the values of observables, part by part.
 //!
-//! A part is counted on any thread, from its file or from the rows in memory. What it adds is merged in the order of the parts, and the
-//! contents of sketches are counts, which have no order: no bit depends on threads.
+//! A part is counted on any thread, from its file or from the rows in memory. What it adds is merged in the order of
+//! the parts, and the contents of sketches are counts, which have no order: no bit depends on threads.
 
 use std::borrow::Cow;
 use std::sync::{Mutex, PoisonError};
@@ -52,7 +52,8 @@ pub struct PartCounts {
     lost: Vec<u64>,
 }
 
-/// What a part adds to an observable: the runs without a value, and for each group its moments, and its values where they are kept.
+/// What a part adds to an observable: the runs without a value, and for each group its moments, and its values where
+/// they are kept.
 #[derive(Clone, Debug)]
 struct PartColumn {
     without_value: u64,
@@ -62,12 +63,13 @@ struct PartColumn {
 /// Rows from whose values the references of sketches are taken: the first of a campaign, without the nominal one.
 pub const REFERENCE_ROWS: usize = 16;
 
-/// The range of these values, over their median, below which they are sketched about it. Others are told apart by themselves, to a hundredth of
-/// their standard deviation, with a third of the memory.
+/// The range of these values, over their median, below which they are sketched about it. Others are told apart by
+/// themselves, to a hundredth of their standard deviation, with a third of the memory.
 const CLOSE: f64 = 0.25;
 
-/// What the values of `observed` are sketched about: for each the median of its values in the first rows of a campaign, which are in `parts`; zero
-/// where these have none, or differ by more than a quarter of it. The value of the nominal run was rejected: it may be far from those of the others.
+/// What the values of `observed` are sketched about: for each the median of its values in the first rows of a campaign,
+/// which are in `parts`; zero where these have none, or differ by more than a quarter of it. The value of the nominal
+/// run was rejected: it may be far from those of the others.
 ///
 /// # Errors
 /// Where a column cannot be read.
@@ -112,7 +114,8 @@ const VALUES_AT_A_TIME: u64 = 8 << 20;
 /// Sketches that are held at a time: mostly below 0.1 MB each.
 const SKETCHES_AT_A_TIME: u64 = 512;
 
-/// All observables of `plan`, those together that are counted in one pass over the rows: memory does not depend on their number.
+/// All observables of `plan`, those together that are counted in one pass over the rows: memory does not depend on
+/// their number.
 pub fn batches(plan: &Plan) -> Vec<Vec<Observed>> {
     let at_a_time = if is_exact(plan) {
         VALUES_AT_A_TIME / plan.rows().max(1)
@@ -132,7 +135,8 @@ pub struct Collector {
 }
 
 impl Collector {
-    /// Counts `observed` of a `population`; values are sketched about `references` ([`references`]), or kept where there are none.
+    /// Counts `observed` of a `population`; values are sketched about `references` ([`references`]), or kept where
+    /// there are none.
     pub fn new(observed: Vec<Observed>, population: Population, references: Option<Vec<f64>>) -> Self {
         let is_exact = references.is_none();
         let references = references.unwrap_or_else(|| vec![0.0; observed.len()]);
@@ -140,7 +144,8 @@ impl Collector {
         Collector { observed, population, is_exact, sketches: references.into_iter().map(sketches).collect() }
     }
 
-    /// The moments of `values` of group `index`, and the values where they are kept; else they are added to the sketch of the group.
+    /// The moments of `values` of group `index`, and the values where they are kept; else they are added to the sketch
+    /// of the group.
     fn group(&self, values: Cow<'_, [f64]>, sketches: &Mutex<Vec<Sketch>>, index: usize) -> (Moments, Vec<f64>) {
         let moments = Moments::of_block(&values);
         if self.is_exact {

@@ -1,8 +1,9 @@
-//! [`Comparison`]: two results compared, observable by observable: shifts of their statistics, and tests whether chance explains them.
+//! [`Comparison`]: two results compared, observable by observable: shifts of their statistics, and tests whether chance
+//! explains them.
 //!
-//! Where both results drew the same samples, about whichever nominal values, they are compared sample by sample (common random numbers): a
-//! difference that is small beside the spread of the runs is then seen. Statistics are of all rows, tests of distributions and of pairs of
-//! the first [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) samples.
+//! Where both results drew the same samples, about whichever nominal values, they are compared sample by sample (common
+//! random numbers): a difference that is small beside the spread of the runs is then seen. Statistics are of all rows,
+//! tests of distributions and of pairs of the first [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) samples.
 //!
 //! An observable of independent samples has two tests, of its mean and of its distribution: its p-value is twice the
 //! smaller of both (Bonferroni). Of pairs it has that of its distribution in both results ([`marginals`]): a mean of
@@ -91,7 +92,8 @@ impl Absence {
 pub struct ColumnComparison {
     /// Name, unit and meaning.
     pub quantity: Quantity,
-    /// What shifts are relative to: the standard deviation in the first result; where that is 0 the magnitude of its mean, or 1.
+    /// What shifts are relative to: the standard deviation in the first result; where that is 0 the magnitude of its
+    /// mean, or 1.
     pub scale: f64,
     /// The shift of each statistic that both results have.
     pub shifts: Vec<Shift>,
@@ -153,7 +155,8 @@ pub struct Comparison {
     pub pairs: u64,
     /// Dispersed runs that are physical and not `ok`.
     pub failures: Absence,
-    /// The observables that both have: the most significant first, and before all others those that a requirement names.
+    /// The observables that both have: the most significant first, and before all others those that a requirement
+    /// names.
     pub columns: Vec<ColumnComparison>,
     /// The observables that only one has: of the first, of the second.
     pub alone: [Vec<String>; 2],
@@ -166,13 +169,14 @@ impl Comparison {
         second - first
     }
 
-    /// Whether any statistic, or the fraction of runs that are `ok`, is shifted by more than `tolerance`; what is not a number in one
-    /// result only is.
+    /// Whether any statistic, or the fraction of runs that are `ok`, is shifted by more than `tolerance`; what is not a
+    /// number in one result only is.
     pub fn is_beyond(&self, tolerance: f64) -> bool {
         self.shift_of_ok().abs() > tolerance || self.columns.iter().any(|column| column.is_beyond(tolerance))
     }
 
-    /// The probability that any observable is called shifted where none is: one less the confidence of the intervals, and at most a tenth.
+    /// The probability that any observable is called shifted where none is: one less the confidence of the intervals,
+    /// and at most a tenth.
     pub fn level(&self) -> f64 {
         (1.0 - self.statistics[0].confidence).min(MOST_LEVEL)
     }
@@ -262,7 +266,8 @@ pub fn compare(
     Ok(Comparison { statistics, pairs: pairs.len() as u64, failures, columns, alone })
 }
 
-/// The values of observables for the first samples, indexed by sample; NaN for a run without one or one that is not `ok`.
+/// The values of observables for the first samples, indexed by sample; NaN for a run without one or one that is not
+/// `ok`.
 fn values<'o>(
     result: ResultRows<'_>,
     observed: impl Iterator<Item = &'o Observed> + Clone,
@@ -371,7 +376,8 @@ pub(super) fn tested(
     }
 }
 
-/// The p-value of two tests of one hypothesis. A test of means that saw no spread has none to judge a shift by: then the other one decides.
+/// The p-value of two tests of one hypothesis. A test of means that saw no spread has none to judge a shift by: then
+/// the other one decides.
 pub(super) fn of_both(mean: Option<Difference>, distribution: Option<f64>) -> Option<f64> {
     let mean = mean.filter(|found| found.shift.value == 0.0 || found.shift.lower < found.shift.upper);
     match (mean.map(|found| found.p_value), distribution) {
@@ -380,7 +386,8 @@ pub(super) fn of_both(mean: Option<Difference>, distribution: Option<f64>) -> Op
     }
 }
 
-/// Adjusts the p-values of `columns` for their number, those of each question for itself, and sorts them: required ones first, then by significance, then by the largest shift.
+/// Adjusts the p-values of `columns` for their number, those of each question for itself, and sorts them: required ones
+/// first, then by significance, then by the largest shift.
 pub(super) fn adjust(columns: &mut [ColumnComparison], failures: &mut Absence) {
     let absences = || columns.iter().map(|column| column.absence.p_value).chain([failures.p_value]);
     let absences = holm(&absences().collect::<Vec<f64>>());

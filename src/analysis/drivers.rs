@@ -1,5 +1,5 @@
-//! What drives an outcome: the ranking of its inputs, for its spread and for an event of it. What screen, cards and charts say follows from
-//! [`rankings`] alone.
+//! What drives an outcome: the ranking of its inputs, for its spread and for an event of it. What screen, cards and
+//! charts say follows from [`rankings`] alone.
 
 use crate::analysis::effects::{Dependence, OnEvent};
 use crate::analysis::event::{Event, Occurs};
@@ -38,7 +38,8 @@ pub fn is_known(share: &Estimate) -> bool {
     share.upper - share.lower <= MOST_WIDTH
 }
 
-/// Least risk ratio, or its inverse, of a value that is called a driver of an event: of many runs small ratios are certain, and matter to nobody.
+/// Least risk ratio, or its inverse, of a value that is called a driver of an event: of many runs small ratios are
+/// certain, and matter to nobody.
 const LEAST_RATIO: f64 = 1.5;
 /// The same of the chance of [`Dependence::Shift`], as its distance from one half.
 const LEAST_CHANCE: f64 = 0.1;

@@ -1,5 +1,5 @@
-//! Whether inputs act on an outcome, tested: on its spread, and on an [`Event`] of it. Tests by ranks and of tables, which assume nothing of any
-//! distribution; p-values are those of all inputs together (Holm).
+//! Whether inputs act on an outcome, tested: on its spread, and on an [`Event`] of it. Tests by ranks and of tables,
+//! which assume nothing of any distribution; p-values are those of all inputs together (Holm).
 
 use crate::analysis::event::{Event, are_few, distinct};
 use crate::statistics::conditional::conditional_test;
@@ -8,9 +8,11 @@ use crate::statistics::correlation::{Estimate, ascending_order, mid_ranks, mid_r
 use crate::statistics::rank_tests::{kruskal_wallis, mann_whitney, spearman_test, turns};
 use crate::statistics::two_sample::holm;
 
-/// Cells of an input with many values, at most, in which the observable's ranks are compared; and rows in a cell, at least.
+/// Cells of an input with many values, at most, in which the observable's ranks are compared; and rows in a cell, at
+/// least.
 const CELLS: [usize; 2] = [9, 8];
-/// Share of equal values of an observable above which ranks tell little: the test then asks whether it is another one, and exactly.
+/// Share of equal values of an observable above which ranks tell little: the test then asks whether it is another one,
+/// and exactly.
 const MANY_EQUAL: f64 = 0.1;
 /// The same of an input: all other values are one group.
 const MOSTLY_EQUAL: f64 = 0.5;
@@ -36,7 +38,8 @@ pub struct Level {
 /// How an event depends on an input.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Dependence {
-    /// Of an input with few values: each in ascending order; which of them differs most from the others, and the risk ratio of that.
+    /// Of an input with few values: each in ascending order; which of them differs most from the others, and the risk
+    /// ratio of that.
     Levels {
         levels: Vec<Level>,
         /// The index of the one that differs most.
@@ -171,7 +174,8 @@ impl TestedInput {
         conditional_test(y_ranks, &[&self.ranks, &self.distances], &given)
     }
 
-    /// How the observable with these values goes with the input; `None` where the rows do not show it at the level `alpha`.
+    /// How the observable with these values goes with the input; `None` where the rows do not show it at the level
+    /// `alpha`.
     pub fn direction(&self, y: &[f64], alpha: f64) -> Option<Direction> {
         if turns(&self.order, &self.values, y, alpha) {
             return Some(Direction::NotMonotonic);
@@ -215,8 +219,8 @@ fn rest(levels: &[Level], but: usize) -> Occurrence {
     })
 }
 
-/// Which level differs most from the others together, and the p-value of a difference like that of any of them: Fisher's exact test of each against
-/// the rest, by Bonferroni where there are more than two.
+/// Which level differs most from the others together, and the p-value of a difference like that of any of them:
+/// Fisher's exact test of each against the rest, by Bonferroni where there are more than two.
 fn of_levels(levels: &[Level]) -> (usize, f64) {
     let share = |place: usize| levels[place].of.events as f64 / levels[place].of.runs.max(1) as f64;
     if levels.len() == 2 {
@@ -234,7 +238,8 @@ fn of_all(p_values: &[Option<f64>], asked: usize) -> Vec<Option<f64>> {
     p_values.iter().map(|p| p.and_then(|_| adjusted.next())).collect()
 }
 
-/// The p-value of each input's influence on the spread of an observable with the values `y`; `asked` questions are asked of the same runs.
+/// The p-value of each input's influence on the spread of an observable with the values `y`; `asked` questions are
+/// asked of the same runs.
 pub fn on_spread(inputs: &[Option<TestedInput>], y: &[f64], asked: usize) -> Vec<Option<f64>> {
     let Some(y) = TestedSpread::new(y) else { return vec![None; inputs.len()] };
     let p_values: Vec<Option<f64>> =

@@ -1,4 +1,5 @@
-//! [`ending`]: how a campaign ended, from its rows alone: what its exit code and its list of verdicts follow from. It reads a few columns.
+//! [`ending`]: how a campaign ended, from its rows alone: what its exit code and its list of verdicts follow from. It
+//! reads a few columns.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;

@@ -1,4 +1,5 @@
-//! [`Event`]: what may or may not occur in a run, and is asked of an outcome beside its spread: whether a requirement is missed, a value of few, the tail.
+//! [`Event`]: what may or may not occur in a run, and is asked of an outcome beside its spread: whether a requirement
+//! is missed, a value of few, the tail.
 
 use crate::analysis::outcomes::is_worst_when_low;
 use crate::campaign::{Plan, Requirement, Statement};
@@ -9,7 +10,8 @@ use crate::statistics::correlation::ascending_order;
 pub const FEW: usize = 5;
 /// Rows for each of few values, at least: fewer runs have few values of anything.
 const ROWS_OF_EACH: usize = 4;
-/// Fewer events show the influence of no input that has many values ([`crate::statistics::rank_tests`]): the tail is asked instead.
+/// Fewer events show the influence of no input that has many values ([`crate::statistics::rank_tests`]): the tail is
+/// asked instead.
 const FEWEST: usize = 4;
 /// Rows from which on a tail is asked, and the least number of rows in it.
 const ROWS_OF_TAIL: [usize; 2] = [100, 5];

@@ -1,4 +1,5 @@
-//! [`FirstRows`]: the first rows of a campaign, from which follows which input matters: inputs, and the outcomes that are asked about.
+//! [`FirstRows`]: the first rows of a campaign, from which follows which input matters: inputs, and the outcomes that
+//! are asked about.
 
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -44,7 +45,8 @@ pub struct RowTable {
     pub(super) is_ok: Vec<bool>,
 }
 
-/// Keeps the first rows: inputs, and the observables that a campaign file requires or names (the main ones, where it names none).
+/// Keeps the first rows: inputs, and the observables that a campaign file requires or names (the main ones, where it
+/// names none).
 #[derive(Debug)]
 pub struct FirstRows {
     inputs: Vec<String>,

@@ -1,5 +1,5 @@
-//! [`Gathered`]: everything that the end of a campaign needs of its rows, by one fold over the parts: of rows in memory while the campaign runs
-//! ([`RunningFold`]), or of their files ([`Gathered::of_files`]). Both give the same bits.
+//! [`Gathered`]: everything that the end of a campaign needs of its rows, by one fold over the parts: of rows in memory
+//! while the campaign runs ([`RunningFold`]), or of their files ([`Gathered::of_files`]). Both give the same bits.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -25,7 +25,8 @@ use crate::storage::bands_file;
 use crate::storage::part_sink::CountRows;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
-/// Everything that is gathered: statuses and audits, columns, requirements, the observable of `[stop]`, the first rows, retained runs, the page.
+/// Everything that is gathered: statuses and audits, columns, requirements, the observable of `[stop]`, the first rows,
+/// retained runs, the page.
 type Everything = (
     ((TallyColumns, Collector), (RequirementCounter, ObservedValues)),
     ((FirstRows, Retained), (Surveyor, MissionCounter)),
@@ -92,7 +93,8 @@ fn first_batch(plan: &Plan) -> Vec<Observed> {
 }
 
 impl Gathered {
-    /// What the files of rows of `ensemble`, and those of its `bands`, have, on `threads` threads (`None`: one per core).
+    /// What the files of rows of `ensemble`, and those of its `bands`, have, on `threads` threads (`None`: one per
+    /// core).
     ///
     /// # Errors
     /// Where a file cannot be read.
@@ -111,10 +113,11 @@ impl Gathered {
     }
 }
 
-/// Folds rows while they are in memory, part by part in any order, so that they need not be read again when a campaign ends.
+/// Folds rows while they are in memory, part by part in any order, so that they need not be read again when a campaign
+/// ends.
 ///
-/// Only of a campaign that one process runs from its start: what a resumed one, or shards, have made before is on the disk, and then everything
-/// is read from there.
+/// Only of a campaign that one process runs from its start: what a resumed one, or shards, have made before is on the
+/// disk, and then everything is read from there.
 #[derive(Debug)]
 pub struct RunningFold {
     names: RowNames,

@@ -28,7 +28,8 @@ pub struct InputSensitivity {
     pub parabola: Option<f64>,
     /// Total index: share that this input and its interactions explain.
     pub total: Option<Estimate>,
-    /// Probability of an influence on the spread as strong as this one where no input has any, of all inputs together (Holm).
+    /// Probability of an influence on the spread as strong as this one where no input has any, of all inputs together
+    /// (Holm).
     pub p_value: Option<f64>,
     /// How the observable goes with the input, where it is a driver of the spread and the rows show it.
     pub direction: Option<Direction>,

@@ -1,4 +1,5 @@
-//! [`Missions`]: how the missions of a campaign under a control loop ended: launched, failed for a reason, or neither, each a share of the runs with its interval.
+//! [`Missions`]: how the missions of a campaign under a control loop ended: launched, failed for a reason, or neither,
+//! each a share of the runs with its interval.
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::order_statistics::share_interval;
@@ -13,7 +14,8 @@ use crate::storage::rows_reader::RowsError;
 /// One way in which missions ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MissionShare {
-    /// `launched`, the name of a failure, or `flying` where the run ended before either; `not_failed` in a loop that launches nothing.
+    /// `launched`, the name of a failure, or `flying` where the run ended before either; `not_failed` in a loop that
+    /// launches nothing.
     pub end: &'static str,
     /// Of `timeout`: the phases that took too long, with how many runs each, where that is known.
     pub phases: Vec<(Name, u64)>,
@@ -21,7 +23,8 @@ pub struct MissionShare {
     pub runs: u64,
     /// Runs of those that were not computed, which may have ended in this way or not.
     pub missing: u64,
-    /// The interval of the share at the confidence of the statistics, whatever the missing runs would have done; NaN where samples are not independent.
+    /// The interval of the share at the confidence of the statistics, whatever the missing runs would have done; NaN
+    /// where samples are not independent.
     pub interval: [f64; 2],
 }
 

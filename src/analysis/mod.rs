@@ -1,13 +1,18 @@
 //! Layer 8: what the rows say.
 //!
-//! - [`fold`]: one pass over the parts, of rows in memory or in files ([`part_columns`]), in which everything that follows gathers what it needs, each
-//!   by an [`accumulator`].
-//! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`], [`order_statistics`]); [`tally`]: how runs ended ([`statuses`]), the worst ones ([`worst_runs`]), audits ([`audit_tally`]).
-//! - [`verdicts`]: of the requirements, each an [`assessment`] (of a number of each run: `row_verdicts`; over time: `band_verdicts`); [`mod@stopping`]: whether the rows are enough. [`mod@ending`]: how the campaign ended.
-//! - [`sensitivity`]: which input matters ([`input_sensitivity`]), from the [`first_rows`] (`block_indices`: of a `saltelli` design); [`effects`]: tests whether it does, also of an [`event`];
-//!   [`drivers`]: the ranking of what the rows show; [`noise_share`]: what noise within loops does. - [`statistics_table`], [`sensitivity_table`]: both as files.
+//! - [`fold`]: one pass over the parts, of rows in memory or in files ([`part_columns`]), in which everything that
+//!   follows gathers what it needs, each by an [`accumulator`].
+//! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`], [`order_statistics`]);
+//!   [`tally`]: how runs ended ([`statuses`]), the worst ones ([`worst_runs`]), audits ([`audit_tally`]).
+//! - [`verdicts`]: of the requirements, each an [`assessment`] (of a number of each run: `row_verdicts`; over time:
+//!   `band_verdicts`); [`mod@stopping`]: whether the rows are enough. [`mod@ending`]: how the campaign ended.
+//! - [`sensitivity`]: which input matters ([`input_sensitivity`]), from the [`first_rows`] (`block_indices`: of a
+//!   `saltelli` design); [`effects`]: tests whether it does, also of an [`event`]; [`drivers`]: the ranking of what the
+//!   rows show; [`noise_share`]: what noise within loops does.
+//! - [`statistics_table`], [`sensitivity_table`]: both as files.
 //! - [`comparison`]: two results, by the samples that both drew ([`pairing`]); [`comparison_table`]: as a file.
-//! - [`trajectories`]: which runs are retained, and their time series. - [`survey`]: what the page shows of the rows.
+//! - [`trajectories`]: which runs are retained, and their time series.
+//! - [`survey`]: what the page shows of the rows.
 //!
 //! Not here: files and their protocol (`storage`), formulas of statistics (`statistics`), text and figures (`report`).
 

@@ -1,4 +1,5 @@
-//! Which share of the variance of the outcomes the noise within control loops makes: scenes of a campaign, each flown twice with noise of its own.
+//! Which share of the variance of the outcomes the noise within control loops makes: scenes of a campaign, each flown
+//! twice with noise of its own.
 //!
 //! Noise is no input: it is part of no first-order index, and of every total one.
 
@@ -30,7 +31,8 @@ pub struct NoiseShare {
 /// Samples of noise of which no campaign has scenes: those of the second flights.
 const SECOND: u64 = 1 << 63;
 
-/// The shares of the outcomes `names` of `plan`, by `scenes` of its dispersed samples, evenly spaced (all, where it has no more).
+/// The shares of the outcomes `names` of `plan`, by `scenes` of its dispersed samples, evenly spaced (all, where it has
+/// no more).
 ///
 /// # Errors
 /// Where threads could not be started.

@@ -1,4 +1,5 @@
-//! [`Observed`]: an observable of a campaign with the way to its values in the files of rows: a column, or an expression over columns.
+//! [`Observed`]: an observable of a campaign with the way to its values in the files of rows: a column, or an
+//! expression over columns.
 //!
 //! A run that is `ok` has no value of it where what it is about never happened, or where it is not a number
 //! ([`Observed::undefined`]).

@@ -1,4 +1,5 @@
-//! Quantiles of a column and their intervals from its order statistics: of few rows the values themselves, of many those of sketches.
+//! Quantiles of a column and their intervals from its order statistics: of few rows the values themselves, of many
+//! those of sketches.
 
 use crate::analysis::population::Population;
 use crate::campaign::Plan;
@@ -117,8 +118,9 @@ pub struct AskedQuantile {
     lost: u64,
 }
 
-/// The probability of the quantile of `count` values, at least one, that is the `p`-quantile of these and of `missing` ones that violate `limit`, each more than any of
-/// these does; `None` where that is a missing one. Quantiles are of type 7.
+/// The probability of the quantile of `count` values, at least one, that is the `p`-quantile of these and of `missing`
+/// ones that violate `limit`, each more than any of these does; `None` where that is a missing one. Quantiles are of
+/// type 7.
 pub fn among_values(p: f64, count: u64, missing: u64, limit: GateLimit) -> Option<f64> {
     if missing == 0 {
         return Some(p);
@@ -151,7 +153,8 @@ impl AskedQuantile {
         AskedQuantile { ranks, lost, ..self }
     }
 
-    /// The same of `count` values and of `missing` runs without one, which violate `limit`; `ranks` are those of all of them.
+    /// The same of `count` values and of `missing` runs without one, which violate `limit`; `ranks` are those of all of
+    /// them.
     #[must_use]
     pub fn with_missing(self, count: u64, missing: u64, limit: GateLimit) -> Self {
         let shift = if matches!(limit, GateLimit::AtLeast(_)) { missing } else { 0 };
@@ -219,8 +222,9 @@ fn too_few(p: f64, confidence: f64) -> String {
 mod tests {
     use super::*;
 
-    /// Law: with missing values that violate the limit a quantile is that of all of them, the missing ones infinite on the wrong side, and so are the ends of
-    /// its interval; none where it is a missing one. The counter-test: of the values alone it is another one.
+    /// Law: with missing values that violate the limit a quantile is that of all of them, the missing ones infinite on
+    /// the wrong side, and so are the ends of its interval; none where it is a missing one. The counter-test: of the
+    /// values alone it is another one.
     #[test]
     fn missing_values_violate() {
         let values: Vec<f64> = (1..=40).map(f64::from).collect();

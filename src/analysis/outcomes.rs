@@ -3,7 +3,8 @@
 use crate::campaign::{Plan, Requirement};
 use crate::statistics::gate::GateLimit;
 
-/// The outcomes of a campaign whose file names none, in the order of their worth: how energy moved, how the axis moved, what the body ends with.
+/// The outcomes of a campaign whose file names none, in the order of their worth: how energy moved, how the axis moved,
+/// what the body ends with.
 pub const OF_MOTION: [&str; 8] = [
     "exchange_body_peak_to_peak_j",
     "nutation_angle_max_rad",
@@ -18,7 +19,8 @@ pub const OF_MOTION: [&str; 8] = [
 /// How many of them are the outcomes.
 const FEW: usize = 3;
 
-/// The observables that the file of `plan` requires, names for the summary, or derives, and the times of its events; each once, in this order.
+/// The observables that the file of `plan` requires, names for the summary, or derives, and the times of its events;
+/// each once, in this order.
 pub fn named(plan: &Plan) -> Vec<String> {
     let required = plan.analysis.requirements.iter().filter_map(Requirement::observable).map(str::to_owned);
     let asked = plan.analysis.summary_columns.iter().cloned();

@@ -35,7 +35,8 @@ pub fn pairs(
     Ok(shared)
 }
 
-/// Whether all dispersed values of the rows `shared` have the same bits in both results: drawn by other plans, or from the same table.
+/// Whether all dispersed values of the rows `shared` have the same bits in both results: drawn by other plans, or from
+/// the same table.
 fn drew_same_values(first: ResultRows<'_>, second: ResultRows<'_>, shared: &[[usize; 2]]) -> Result<bool, RowsError> {
     let names = |plan: &Plan| -> Vec<String> {
         let columns = plan.dispersions.columns().iter();
@@ -101,7 +102,8 @@ mod tests {
     use super::*;
     use crate::analysis::small_plan::small_plan;
 
-    /// Law: the rows of the same dispersed sample are compared, as many as both campaigns have; the nominal sample is not.
+    /// Law: the rows of the same dispersed sample are compared, as many as both campaigns have; the nominal sample is
+    /// not.
     #[test]
     fn rows_of_the_same_sample_are_paired() {
         let plan = |samples: u64| small_plan(samples, "");

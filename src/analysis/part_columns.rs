@@ -1,4 +1,5 @@
-//! [`PartColumns`]: the columns of one part by name, from its file or from the rows in memory. Both give the same numbers.
+//! [`PartColumns`]: the columns of one part by name, from its file or from the rows in memory. Both give the same
+//! numbers.
 
 use std::borrow::Cow;
 use std::collections::HashMap;

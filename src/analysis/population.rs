@@ -7,7 +7,8 @@ use crate::sampling::{Design, SampleId};
 /// Stands for a design where `campaign.only` lists the samples.
 pub const LISTED: &str = "campaign.only";
 
-/// Runs of a population that have no numbers, because they were not computed to their end or not accurately. Samples that are not physical are no part of it.
+/// Runs of a population that have no numbers, because they were not computed to their end or not accurately. Samples
+/// that are not physical are no part of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Loss {
     pub missing: u64,
@@ -17,8 +18,9 @@ pub struct Loss {
 }
 
 impl Loss {
-    /// From this share of missing runs on a loss is big: not even the 95%-quantile of an outcome, the usual one, is then bounded by the runs that are
-    /// there, since all that are missing may be beyond it. Below, an interval takes the loss for random.
+    /// From this share of missing runs on a loss is big: not even the 95%-quantile of an outcome, the usual one, is
+    /// then bounded by the runs that are there, since all that are missing may be beyond it. Below, an interval takes
+    /// the loss for random.
     pub const BIG: f64 = 0.05;
 
     /// Of the numbers of runs that ended with each status, in the order of [`Status::ALL`].
@@ -31,7 +33,8 @@ impl Loss {
         })
     }
 
-    /// How many of how many are missing, with what these are: neither the nominal run nor a sample that is not physical is one of them.
+    /// How many of how many are missing, with what these are: neither the nominal run nor a sample that is not physical
+    /// is one of them.
     pub fn counts(self) -> String {
         let which = if self.outside > 0 { " that are physical" } else { "" };
         format!("{} of {} dispersed runs{which}", self.missing, self.runs)
@@ -112,13 +115,16 @@ impl Population {
     pub fn intervals(self) -> String {
         match self {
             Population::Independent => {
-                "of independent samples: quantiles by order statistics, mean by Student's t and, if wider, by Hall's for skewed numbers".to_owned()
+                "of independent samples: quantiles by order statistics, mean by Student's t and, if wider, by Hall's \
+                for skewed numbers"
+                    .to_owned()
             }
             Population::Replicated(replicates) => {
                 format!("of {replicates} independent replicates, by Student's t and, for means, by Hall's if wider")
             }
             Population::Dependent(design) => format!(
-                "none: samples of design \"{design}\" are not independent of each other; [design] replicates = 16 gives intervals"
+                "none: samples of design \"{design}\" are not independent of each other; [design] replicates = 16 \
+                gives intervals"
             ),
             Population::Chosen(LISTED) => {
                 "none: the samples that run are chosen (campaign.only), not drawn from a population".to_owned()
@@ -138,7 +144,8 @@ impl Population {
 mod tests {
     use super::*;
 
-    /// Law: a loss is big from a twentieth of the physical runs on, whatever their failure; then, and only then, an independent population has no intervals.
+    /// Law: a loss is big from a twentieth of the physical runs on, whatever their failure; then, and only then, an
+    /// independent population has no intervals.
     #[test]
     fn a_big_loss_leaves_no_intervals() {
         let place = |status: Status| Status::ALL.iter().position(|one| *one == status).expect("a status");
@@ -158,7 +165,8 @@ mod tests {
         }
     }
 
-    /// Law: statistics are about the dispersed samples, about the nominal one only where it is all there is; each sample is in one group.
+    /// Law: statistics are about the dispersed samples, about the nominal one only where it is all there is; each
+    /// sample is in one group.
     #[test]
     fn the_nominal_sample_is_no_part_of_a_population() {
         let [nominal, first] = [SampleId(0), SampleId(1)];

@@ -265,8 +265,9 @@ mod tests {
         assert_eq!(of(0, 0).reason.as_deref(), Some("there are no runs that count"));
     }
 
-    /// Law: of 400 runs, however many are within, a bound is named exactly where the verdict is decided while the two-sided interval has the limit in it; it is on the side of the limit that
-    /// decides, and so it is for means on both sides of a limit.
+    /// Law: of 400 runs, however many are within, a bound is named exactly where the verdict is decided while the
+    /// two-sided interval has the limit in it; it is on the side of the limit that decides, and so it is for means on
+    /// both sides of a limit.
     #[test]
     fn hidden_bounds_are_those_that_decide() {
         let p95 = requirement(Statement::Fraction(0.95), GateLimit::AtMost(1.0));
@@ -312,8 +313,8 @@ mod tests {
         }
     }
 
-    /// Law: a run without a value violates a requirement on the mean; designs without a population decide nothing, nor do equal values of
-    /// an observable that need not be constant.
+    /// Law: a run without a value violates a requirement on the mean; designs without a population decide nothing, nor
+    /// do equal values of an observable that need not be constant.
     #[test]
     fn what_numbers_cannot_say_is_not_decided_by_them() {
         let mean = requirement(Statement::Mean, GateLimit::AtMost(9.0));
@@ -384,7 +385,8 @@ mod tests {
         assert_eq!(independent.word(), "PASS", "the counter-test");
     }
 
-    /// Law: the interval of a share is Clopper and Pearson's, two-sided, whatever the confidence of the requirement; that of the verdict is its own.
+    /// Law: the interval of a share is Clopper and Pearson's, two-sided, whatever the confidence of the requirement;
+    /// that of the verdict is its own.
     #[test]
     fn intervals_are_two_sided() {
         let p95 = Requirement { confidence: 0.99, ..requirement(Statement::Fraction(0.95), GateLimit::AtMost(1.0)) };
@@ -400,8 +402,9 @@ mod tests {
         assert!((crate::statistics::binomial::at_least(490, 499, found.gate.bounds[0]) - 0.01).abs() < 1e-9);
     }
 
-    /// Law: bounds of the values decide a mean whatever its tail, also without a spread, and say nothing of a tail; a value outside of them fails it, and says so. Without
-    /// bounds the decision names the room that it leaves for rare events: from its bound to the limit.
+    /// Law: bounds of the values decide a mean whatever its tail, also without a spread, and say nothing of a tail; a
+    /// value outside of them fails it, and says so. Without bounds the decision names the room that it leaves for rare
+    /// events: from its bound to the limit.
     #[test]
     fn bounded_means_assume_no_tail() {
         let mean = |bounded, limit| Requirement { bounded, ..requirement(Statement::Mean, GateLimit::AtMost(limit)) };

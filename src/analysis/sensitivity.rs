@@ -1,7 +1,7 @@
 //! Which input of a campaign matters for which observable, from the files of its rows.
 //!
-//! Correlations, regression and given-data indices from the runs that are `ok`, in the order of their samples; first-order and total indices of
-//! Sobol from the blocks of a `saltelli` design. A pure function of plan and files.
+//! Correlations, regression and given-data indices from the runs that are `ok`, in the order of their samples;
+//! first-order and total indices of Sobol from the blocks of a `saltelli` design. A pure function of plan and files.
 
 use std::num::NonZeroUsize;
 
@@ -24,7 +24,8 @@ use crate::storage::parallel::in_parallel;
 const NOTABLE_CORRELATION: f64 = 0.05;
 /// Ranks steady the order of inputs whose shares are not known, unless the tail of an input decides it.
 const WEIGHT_OF_RANKS: f64 = 0.25;
-/// Standard deviations of a chance correlation, beyond which it is none: of 10,000 pairs one passes by chance in a thousand campaigns.
+/// Standard deviations of a chance correlation, beyond which it is none: of 10,000 pairs one passes by chance in a
+/// thousand campaigns.
 const CHANCE: f64 = 5.5;
 
 /// What every input of `plan` means for the observables that its file requires or names (the main ones, where it names
@@ -36,8 +37,8 @@ pub fn compute(plan: &Plan, table: &RowTable, loss: Loss, threads: Option<NonZer
     if loss.is_big() { found.into_iter().map(|one| one.without_intervals(true)).collect() } else { found }
 }
 
-/// What every input of `plan` means for whether a run is computed ([`COMPUTED`]), from its first rows; nothing where all
-/// are, or none.
+/// What every input of `plan` means for whether a run is computed ([`COMPUTED`]), from its first rows; nothing where
+/// all are, or none.
 pub fn of_failures(plan: &Plan, table: &RowTable, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
     let is_computed = table.is_ok.iter().map(|is_ok| f64::from(u8::from(*is_ok))).collect();
     let varies = [true, false].iter().all(|flag| table.is_ok.contains(flag));
@@ -272,7 +273,8 @@ impl Prepared {
         effects
     }
 
-    /// What every input means for an observable with the values `y`, one of `asked` questions; without tests where that is `None`.
+    /// What every input means for an observable with the values `y`, one of `asked` questions; without tests where that
+    /// is `None`.
     fn sensitivities(
         &self,
         plan: &Plan,
@@ -370,7 +372,8 @@ fn note(
     }
     if let Some((other, r)) = correlated {
         notes.push(format!(
-            "correlated with {other} (rank correlation {r:.2}): correlations and first-order index contain its effect, and indices do not add up; the partial correlation holds it fixed"
+            "correlated with {other} (rank correlation {r:.2}): correlations and first-order index contain its effect, \
+            and indices do not add up; the partial correlation holds it fixed"
         ));
     }
     match population {

@@ -40,7 +40,8 @@ const MEASURES: [Measure; 9] = [
     }),
     (
         "event_ratio",
-        "Risk ratio of the event at event_level against the other runs, by Koopman's score test; null if the input has many values, if the event occurs in no other run, and at an end without a bound",
+        "Risk ratio of the event at event_level against the other runs, by Koopman's score test; null if the input has \
+        many values, if the event occurs in no other run, and at an end without a bound",
         |one| match one.on_events.first()?.dependence {
             Dependence::Levels { ratio, .. } => {
                 let [value, lower, upper] =

@@ -1,9 +1,10 @@
 //! [`Statistics`]: what the runs of a campaign say of every observable, from the files of its rows.
 //!
-//! A pure function of plan and files: it can be made again without running anything. Counts and extremes are exact. Moments are merged in
-//! the order of the parts, and the contents of sketches are counts, so that no bit depends on threads. Up to [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) rows quantiles
-//! are those of the values themselves; beyond, those of sketches, with their bound. A few columns are read at a time: memory
-//! does not depend on the number of rows.
+//! A pure function of plan and files: it can be made again without running anything. Counts and extremes are exact.
+//! Moments are merged in the order of the parts, and the contents of sketches are counts, so that no bit depends on
+//! threads. Up to [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) rows quantiles are those of the values
+//! themselves; beyond, those of sketches, with their bound. A few columns are read at a time: memory does not depend on
+//! the number of rows.
 //!
 //! The nominal sample 0 is no part of it where there are others. A run that is not `ok` is counted and has no part in
 //! any estimate, but in the quantiles of requirements, which it violates. Intervals hold whatever its value would have
@@ -48,7 +49,8 @@ pub struct ColumnStatistics {
     pub mean_error: Option<f64>,
     /// Ends of the interval of the standard deviation, as of independent samples; `None` as for the mean.
     pub deviation_interval: [Option<f64>; 2],
-    /// What keeps these runs from telling mean and standard deviation: no spread, few runs for the skewness, a heavy tail.
+    /// What keeps these runs from telling mean and standard deviation: no spread, few runs for the skewness, a heavy
+    /// tail.
     pub note: Option<String>,
     /// The quantiles of the plan, ascending.
     pub quantiles: Vec<QuantileStatistic>,
@@ -76,8 +78,8 @@ pub struct Statistics {
     pub confidence: f64,
     /// How many of the samples that statistics are about ended with each status, in the order of [`Status::ALL`].
     pub statuses: [u64; Status::ALL.len()],
-    /// Bound of the error of quantiles, relative to their magnitude or to their distance from a typical value, whichever is smaller; 0 where
-    /// they are exact.
+    /// Bound of the error of quantiles, relative to their magnitude or to their distance from a typical value,
+    /// whichever is smaller; 0 where they are exact.
     pub quantile_error: f64,
     pub columns: Vec<ColumnStatistics>,
 }
@@ -129,8 +131,8 @@ impl Statistics {
     }
 }
 
-/// The statistics of `plan`, whose runs ended as `ended` says: of what was counted of the first of the [`batches`] of its observables, if it was, and else from the files of its rows, on
-/// `threads` threads (`None`: one per core).
+/// The statistics of `plan`, whose runs ended as `ended` says: of what was counted of the first of the [`batches`] of
+/// its observables, if it was, and else from the files of its rows, on `threads` threads (`None`: one per core).
 ///
 /// # Errors
 /// Where a file cannot be read.
@@ -344,7 +346,8 @@ fn note(moments: &Moments, mean_interval: [Option<f64>; 2]) -> Option<String> {
         ),
         [Some(_), Some(_)] if share <= MOST_SHARE => None,
         [Some(_), Some(_)] => Some(format!(
-            "heavy tail: one run makes {:.0}% of the variance, and intervals of mean and standard deviation may be too narrow",
+            "heavy tail: one run makes {:.0}% of the variance, and intervals of mean and standard deviation may be too \
+            narrow",
             100.0 * share
         )),
         _ => Some(format!("too few runs for their skewness of {skewness:.1}: the mean is not bounded on every side")),
@@ -392,7 +395,8 @@ mod tests {
         }
     }
 
-    /// Law: statistics are those of the values of dispersed runs that are ok; the nominal run and failed runs are left out, and counted.
+    /// Law: statistics are those of the values of dispersed runs that are ok; the nominal run and failed runs are left
+    /// out, and counted.
     #[test]
     fn statistics_are_of_dispersed_runs_that_are_ok() {
         let plan = small_plan(7, "");
@@ -417,8 +421,9 @@ mod tests {
         assert_eq!(found.treatment(), "1 of 6 dispersed runs were not computed and are left out");
     }
 
-    /// Law: beyond the exact ones, quantiles are within a hundredth of a standard deviation, whatever the offset of the values is, also far from the
-    /// value of the nominal run; a median of zeros is zero; the order in which parts are counted changes no bit.
+    /// Law: beyond the exact ones, quantiles are within a hundredth of a standard deviation, whatever the offset of the
+    /// values is, also far from the value of the nominal run; a median of zeros is zero; the order in which parts are
+    /// counted changes no bit.
     #[test]
     fn many_rows_with_an_offset_have_their_quantiles() {
         const ROWS: usize = 120_000;

@@ -136,8 +136,8 @@ impl Accumulator for StatusCounter {
 mod tests {
     use super::*;
 
-    /// Law: every sample is counted; the first failed ones are listed by number with their reasons, whatever the order of the rows is; statistics
-    /// are about the dispersed ones.
+    /// Law: every sample is counted; the first failed ones are listed by number with their reasons, whatever the order
+    /// of the rows is; statistics are about the dispersed ones.
     #[test]
     fn samples_are_counted_and_the_first_failed_ones_listed() {
         let mut statuses = Statuses::none(Population::Independent);

@@ -105,8 +105,8 @@ impl Accumulator for ObservedValues {
     }
 }
 
-/// Looks at the rows of the campaign `plan`, which are those of the samples below one of its [`Plan::looks`], and the files of their bands. `None`
-/// without `[stop]`.
+/// Looks at the rows of the campaign `plan`, which are those of the samples below one of its [`Plan::looks`], and the
+/// files of their bands. `None` without `[stop]`.
 ///
 /// # Errors
 /// Where a file cannot be read.
@@ -130,8 +130,8 @@ pub fn look(
     }
 }
 
-/// What a look at `samples` samples finds, of the `values` of the observable that `[stop]` is about, or of the `verdicts` on the requirements. `None`
-/// without `[stop]`.
+/// What a look at `samples` samples finds, of the `values` of the observable that `[stop]` is about, or of the
+/// `verdicts` on the requirements. `None` without `[stop]`.
 pub fn stopping(plan: &Plan, samples: u64, values: &StopValues, verdicts: &Verdicts) -> Option<Stopping> {
     let (stop, looks) = (plan.analysis.stop.as_ref()?, plan.looks());
     let found = match &stop.when {

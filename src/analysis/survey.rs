@@ -1,7 +1,9 @@
-//! [`Survey`]: what the page takes from the rows: counts, a thinned table, exceedance of the main outcomes, the worst runs.
+//! [`Survey`]: what the page takes from the rows: counts, a thinned table, exceedance of the main outcomes, the worst
+//! runs.
 //!
-//! Its memory does not depend on the number of parts. Rows of the thinned table are chosen by a hash of the
-//! sample's number: neither a design's order nor the number of parts matters, and the same samples are chosen of the same campaign.
+//! Its memory does not depend on the number of parts. Rows of the thinned table are chosen by a hash of the sample's
+//! number: neither a design's order nor the number of parts matters, and the same samples are chosen of the same
+//! campaign.
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::first_rows::explained;
@@ -43,7 +45,8 @@ pub struct SurveyedOutcome {
     pub is_outcome: bool,
     /// Whether it is an error of the computation.
     pub is_error: bool,
-    /// Its magnitudes if it is an error, else its values, about that of the nominal run; over the dispersed runs that are ok.
+    /// Its magnitudes if it is an error, else its values, about that of the nominal run; over the dispersed runs that
+    /// are ok.
     pub sketch: Sketch,
     pub worst: WorstRuns,
     /// Its value in the nominal run; NaN where that has none.
@@ -123,8 +126,8 @@ pub fn chosen(samples: &[u64], most: usize) -> Vec<usize> {
     order
 }
 
-/// The names of the outcomes: those that the campaign is about, those whose inputs are estimated, those of a summary, and the motion's; and how many of
-/// them the first ones are.
+/// The names of the outcomes: those that the campaign is about, those whose inputs are estimated, those of a summary,
+/// and the motion's; and how many of them the first ones are.
 fn wanted(ensemble: &Ensemble<'_>) -> (Vec<String>, usize) {
     let plan = ensemble.plan();
     let columns = ensemble.request().columns();
@@ -386,7 +389,8 @@ impl Thinning {
 mod tests {
     use super::*;
 
-    /// Law: the interval is made of the order statistics that the binomial distribution names; too few values have no end.
+    /// Law: the interval is made of the order statistics that the binomial distribution names; too few values have no
+    /// end.
     #[test]
     fn intervals_are_order_statistics() {
         let mut sketch = Sketch::default();
@@ -411,7 +415,8 @@ mod tests {
         assert!(Thinning::of(1 << 40).keeps(SampleId(0)));
     }
 
-    /// Law: a chosen subset does not follow the order of a low-discrepancy design: the chosen numbers have no common low bits.
+    /// Law: a chosen subset does not follow the order of a low-discrepancy design: the chosen numbers have no common
+    /// low bits.
     #[test]
     fn chosen_samples_have_no_period() {
         let samples: Vec<u64> = (0..65_536).collect();

@@ -1,7 +1,8 @@
 //! [`Tally`]: how the runs of a campaign ended, which are the worst, and what audits found, counted part by part.
 //!
-//! Only counts, extremes and the numbers of samples are kept and no floating-point sums, so that they do not depend on the order of the parts.
-//! Sample 0 is the nominal scene: where there are others, the worst runs and the audits are those of the others.
+//! Only counts, extremes and the numbers of samples are kept and no floating-point sums, so that they do not depend on
+//! the order of the parts. Sample 0 is the nominal scene: where there are others, the worst runs and the audits are
+//! those of the others.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -38,7 +39,8 @@ pub struct Worst {
 #[derive(Clone, Debug)]
 pub struct Tally {
     pub statuses: Statuses,
-    /// Whether the statistics are those of the dispersed samples, without the nominal one; otherwise the nominal sample is the only one.
+    /// Whether the statistics are those of the dispersed samples, without the nominal one; otherwise the nominal sample
+    /// is the only one.
     pub without_nominal: bool,
     /// The runs with the greatest errors, where the campaign observes those errors.
     pub worst: Vec<Worst>,
@@ -47,7 +49,8 @@ pub struct Tally {
     /// How many runs have left the heights of the table of the air; `None` where there is no table of the file, or no
     /// distance is observed.
     pub beyond_air: Option<u64>,
-    /// The observables whose numerical errors the audits measure, in the order of [`crate::observables::headlines`]: their names.
+    /// The observables whose numerical errors the audits measure, in the order of [`crate::observables::headlines`]:
+    /// their names.
     pub headlines: Vec<String>,
 }
 

@@ -1,7 +1,8 @@
 //! Full time series of the runs that `[retain]` asks for: `trajectories/sample-000012.parquet`.
 //!
-//! A row is a pure function of plan and sample, so the runs are chosen when the rows are there, and made once more: bit for bit the
-//! run behind the row, in the file that `simulate --sample 12 --out` writes. Runs that nobody asked for cost nothing.
+//! A row is a pure function of plan and sample, so the runs are chosen when the rows are there, and made once more: bit
+//! for bit the run behind the row, in the file that `simulate --sample 12 --out` writes. Runs that nobody asked for
+//! cost nothing.
 
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
@@ -51,7 +52,8 @@ pub fn file_name(sample: SampleId) -> String {
     format!("sample-{:06}.parquet", sample.0)
 }
 
-/// Chooses the samples whose runs are retained: a function of the plan and its rows. Samples whose scene is not physical have no run and are left out.
+/// Chooses the samples whose runs are retained: a function of the plan and its rows. Samples whose scene is not
+/// physical have no run and are left out.
 #[derive(Clone, Debug)]
 pub struct Retained {
     retention: Retention,
@@ -141,7 +143,8 @@ fn chosen(plan: &Plan, count: u64) -> BTreeSet<SampleId> {
 /// Takes a file of a dataset: its name and its bytes.
 pub type TakeFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StorageError> + Sync + 'a;
 
-/// Makes the time series of `samples` of `plan`, and gives each to `take` as a file of a dataset. The bytes are those of `simulate --sample K --out`.
+/// Makes the time series of `samples` of `plan`, and gives each to `take` as a file of a dataset. The bytes are those
+/// of `simulate --sample K --out`.
 ///
 /// # Errors
 /// The first file that could not be taken; no run is started after it.

@@ -1,13 +1,15 @@
 //! [`Verdicts`]: what the runs of a campaign say of its requirements, from the files of its rows.
 //!
-//! Quantiles and fractions are decided by exact counts, never by a sketch. Outside of the population, and so of every count, are samples that are
-//! not physical; any other run that is not `ok` violates every requirement, and so does one in which what it is about
-//! never happened, unless its `never` says that this meets it. A run whose value is not a number neither meets nor
-//! violates it.
+//! Quantiles and fractions are decided by exact counts, never by a sketch. Outside of the population, and so of every
+//! count, are samples that are not physical; any other run that is not `ok` violates every requirement, and so does one
+//! in which what it is about never happened, unless its `never` says that this meets it. A run whose value is not a
+//! number neither meets nor violates it.
 //!
-//! Each look of a campaign with `[stop]` has its share of the errors (Bonferroni), and so has each requirement of those of a failure ([`failing_together`]).
+//! Each look of a campaign with `[stop]` has its share of the errors (Bonferroni), and so has each requirement of those
+//! of a failure ([`failing_together`]).
 //!
-//! Not here: what the counts of one requirement say (`row_verdicts`), and requirements at each time (`band_verdicts`). Those at all times are about a column of the rows.
+//! Not here: what the counts of one requirement say (`row_verdicts`), and requirements at each time (`band_verdicts`).
+//! Those at all times are about a column of the rows.
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::assessment::Assessment;

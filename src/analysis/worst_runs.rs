@@ -2,8 +2,8 @@
 
 use crate::sampling::SampleId;
 
-/// The runs with the greatest magnitudes, in descending order, or, where small values are the bad ones, with the smallest values, in ascending
-/// order; equal ones by ascending number.
+/// The runs with the greatest magnitudes, in descending order, or, where small values are the bad ones, with the
+/// smallest values, in ascending order; equal ones by ascending number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorstRuns {
     most: usize,
@@ -41,7 +41,8 @@ impl WorstRuns {
 mod tests {
     use super::*;
 
-    /// Law: the worst are listed, the worst first, equal ones by number, whatever the order in which they come; NaN is none.
+    /// Law: the worst are listed, the worst first, equal ones by number, whatever the order in which they come; NaN is
+    /// none.
     #[test]
     fn the_worst_are_listed() {
         let mut values = [(4, 7.0), (0, -99.0), (1, 2.0), (3, 7.0), (5, 1.0), (6, f64::NAN), (7, -8.0)];

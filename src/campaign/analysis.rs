@@ -1,4 +1,5 @@
-//! [`Analysis`]: what is made of the rows: `[statistics]`, `[summary]`, `[[observable]]`, `[[require]]`, `[stop]`, `[display]`. No row depends on it.
+//! [`Analysis`]: what is made of the rows: `[statistics]`, `[summary]`, `[[observable]]`, `[[require]]`, `[stop]`,
+//! `[display]`. No row depends on it.
 
 use super::derived_observable::{self, DerivedObservable};
 use super::display::{self, Display};

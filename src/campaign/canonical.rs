@@ -1,10 +1,12 @@
-//! A plan as text: every key with its value, defaults too, in one order and one spelling; it reads back to the same plan.
+//! A plan as text: every key with its value, defaults too, in one order and one spelling; it reads back to the same
+//! plan.
 //!
-//! Its SHA-256 (FIPS 180-4) is the plan's identity, which `sha256sum` reproduces. Floats are written with the fewest digits
-//! that read back to the same bits.
+//! Its SHA-256 (FIPS 180-4) is the plan's identity, which `sha256sum` reproduces. Floats are written with the fewest
+//! digits that read back to the same bits.
 //!
-//! The row plan is the part of it that changes rows or their encoding: without the campaign's name, and with the number of samples only
-//! where the design's points depend on it. Two campaigns with the same row hash have the same rows, sample by sample.
+//! The row plan is the part of it that changes rows or their encoding: without the campaign's name, and with the number
+//! of samples only where the design's points depend on it. Two campaigns with the same row hash have the same rows,
+//! sample by sample.
 
 use super::draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
 use super::lines::Lines;

@@ -1,7 +1,7 @@
 //! [`Chosen`]: the samples that a campaign runs, where it does not run all of them (`campaign.only`).
 //!
-//! The rows of such a campaign are those samples in ascending order, each the same pure function of the plan and its number as in the whole
-//! campaign. Which sample a row is: `plan_rows`.
+//! The rows of such a campaign are those samples in ascending order, each the same pure function of the plan and its
+//! number as in the whole campaign. Which sample a row is: `plan_rows`.
 
 use std::sync::Arc;
 

@@ -1,4 +1,5 @@
-//! The columns of the rows of a plan: what its runs are observed for ([`request`]), and what is drawn ([`parameter_quantity`]).
+//! The columns of the rows of a plan: what its runs are observed for ([`request`]), and what is drawn
+//! ([`parameter_quantity`]).
 
 use super::event::Event;
 use super::event_columns;
@@ -12,8 +13,8 @@ use crate::propagation::Method;
 use crate::run::Quantity;
 use crate::scene::{Actuated, Parameter, SceneInput};
 
-/// The observables of campaigns with these groups and this method; `acting` is the nominal scene with the commands that act in a run, to which those of
-/// `law` add; the runs are watched for events, and for extremes.
+/// The observables of campaigns with these groups and this method; `acting` is the nominal scene with the commands that
+/// act in a run, to which those of `law` add; the runs are watched for events, and for extremes.
 pub fn request(
     groups: &[Group],
     acting: &SceneInput,

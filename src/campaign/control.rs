@@ -1,5 +1,5 @@
-//! `[control]`: a control loop as a campaign file says it, and as canonical text. Its sensors are read by [`super::sensor_tables`], its phases by
-//! [`super::phase_tables`].
+//! `[control]`: a control loop as a campaign file says it, and as canonical text. Its sensors are read by
+//! [`super::sensor_tables`], its phases by [`super::phase_tables`].
 
 use super::lines::Lines;
 use super::module_key::{self, ModuleKey};
@@ -25,9 +25,11 @@ use crate::scene::{BodyInput, DeclaredTable, Name, Scene, SceneError, SceneInput
 
 const MOST_PHASES: usize = 64;
 
-/// Reads the control loop of a file that has `[control]`; its numbers become parameters of `scene`. `None` where something is wrong.
+/// Reads the control loop of a file that has `[control]`; its numbers become parameters of `scene`. `None` where
+/// something is wrong.
 ///
-/// Where a word that other keys depend on is wrong, these are read as if each were right, so that the file is told of its own mistakes alone.
+/// Where a word that other keys depend on is wrong, these are read as if each were right, so that the file is told of
+/// its own mistakes alone.
 pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option<ControlLaw> {
     let has_debris = scene.debris.is_some();
     let craft = Scene::resolve(scene).ok();
@@ -173,8 +175,8 @@ pub(super) fn turning(scene: &SceneInput) -> Vec<Option<Name>> {
     turning.map(|wheel| (wheel.mode == WheelMode::Free).then_some(wheel.name)).collect()
 }
 
-/// The places of the actuators that `key` names, ascending; `known` are those that are there, `None` where one cannot be driven. `None` where the names
-/// are wrong.
+/// The places of the actuators that `key` names, ascending; `known` are those that are there, `None` where one cannot
+/// be driven. `None` where the names are wrong.
 fn actuators(section: &mut Section<'_, '_>, key: &str, known: &[Option<Name>], what: &str) -> Option<Vec<usize>> {
     if !section.has(key) {
         section.know(key);

@@ -1,9 +1,9 @@
-//! [`DataFile`]: named columns of numbers in a CSV or Parquet file that a campaign names: values of an empirical distribution, rows that
-//! are drawn or are a table of samples.
+//! [`DataFile`]: named columns of numbers in a CSV or Parquet file that a campaign names: values of an empirical
+//! distribution, rows that are drawn or are a table of samples.
 //!
-//! A path counts from the folder of the campaign file. What a plan keeps of a file is its name and the SHA-256 of its bytes,
-//! so that a plan's identity includes its data. Only the columns that are used are read, and how much memory they take is known before
-//! anything is decompressed.
+//! A path counts from the folder of the campaign file. What a plan keeps of a file is its name and the SHA-256 of its
+//! bytes, so that a plan's identity includes its data. Only the columns that are used are read, and how much memory
+//! they take is known before anything is decompressed.
 
 use super::data_columns::{ReadError, TextCells, csv_columns, parquet_columns};
 use super::input_file::{self, InputError};
@@ -29,9 +29,11 @@ pub fn bytes(file: &Path) -> Result<Vec<u8>, InputError> {
     input_file::read(file, LARGEST_FILE)
 }
 
-/// Most numbers of all files of a campaign: 160 MB. A compressed column of equal values can be a thousand times as large as its file.
+/// Most numbers of all files of a campaign: 160 MB. A compressed column of equal values can be a thousand times as
+/// large as its file.
 pub const MOST_NUMBERS: u64 = 20_000_000;
-/// Most tables of a campaign file that name a file of numbers: each is read for its table, in time that a user waits for.
+/// Most tables of a campaign file that name a file of numbers: each is read for its table, in time that a user waits
+/// for.
 pub const MOST_FILES: usize = 100;
 /// Largest file, bytes: [`MOST_NUMBERS`] in 25 characters each.
 const LARGEST_FILE: u64 = 25 * MOST_NUMBERS;
@@ -137,7 +139,8 @@ impl DataFile {
         self.columns.iter().flatten().map(|cells| cells.numbers.len() as u64).sum()
     }
 
-    /// The numbers of the column called `name`, all finite; `None` where there is no such column, or it was not to be read.
+    /// The numbers of the column called `name`, all finite; `None` where there is no such column, or it was not to be
+    /// read.
     ///
     /// # Errors
     /// The first cell that is not a finite number, or that there is none.
@@ -251,7 +254,8 @@ mod tests {
         for bytes in [&small(Compression::UNCOMPRESSED), &small(Compression::SNAPPY), &gzip] {
             assert_eq!(read("codec", bytes), Ok(vec![1.5, 2.5]));
         }
-        // nothing here writes brotli: the footer of the gzip file is changed to name it (thrift's zigzag numbers 4 = 2 x 2, 8 = 2 x 4)
+        // nothing here writes brotli: the footer of the gzip file is changed to name it (thrift's zigzag numbers 4 = 2
+        // x 2, 8 = 2 x 4)
         let codecs = |bytes: &[u8]| {
             let path = std::env::temp_dir().join(format!("spindrift-{}-footer.parquet", std::process::id()));
             std::fs::write(&path, bytes).expect("written");

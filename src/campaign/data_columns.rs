@@ -1,7 +1,7 @@
 //! [`csv_columns`], [`parquet_columns`]: the columns of a table that are used, as numbers.
 //!
-//! A file may be small and have much: what a column or a row takes is limited before it is decompressed, or kept. Not here: files, and what is said
-//! of them ([`super::data`]).
+//! A file may be small and have much: what a column or a row takes is limited before it is decompressed, or kept. Not
+//! here: files, and what is said of them ([`super::data`]).
 
 use parquet::basic::{Compression, Repetition, Type as PhysicalType};
 use parquet::file::metadata::ParquetMetaData;
@@ -13,8 +13,8 @@ use std::io::{self, Read};
 
 /// Most bytes of a row of a CSV file, with the comments before it.
 const LONGEST_ROW: usize = 1 << 20;
-/// Most bytes of a column of a Parquet file when it is decompressed, for each of its rows: the widest number has eight, as a value and once more in a
-/// dictionary; a place in the dictionary, and whether there is a value, have fewer.
+/// Most bytes of a column of a Parquet file when it is decompressed, for each of its rows: the widest number has eight,
+/// as a value and once more in a dictionary; a place in the dictionary, and whether there is a value, have fewer.
 const MOST_BYTES_OF_A_ROW: u64 = 24;
 /// The same of the headers of its pages, in each group of rows.
 const MOST_BYTES_OF_HEADERS: u64 = 1 << 20;

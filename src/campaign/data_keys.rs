@@ -78,7 +78,8 @@ fn file(table: &mut Section<'_, '_>, used: &dyn Fn(&str) -> bool) -> Option<(Str
     Some((name, data))
 }
 
-/// The file `name`, whose path counts from `folder`; where it is not there, the copy of the file of this checksum that a result has.
+/// The file `name`, whose path counts from `folder`; where it is not there, the copy of the file of this checksum that
+/// a result has.
 pub(super) fn found(folder: &Path, name: &str, sha256: Option<&str>) -> PathBuf {
     let path = folder.join(name);
     let is_checksum = |sha256: &&str| sha256.len() == 64 && sha256.bytes().all(|byte| byte.is_ascii_hexdigit());
@@ -86,8 +87,8 @@ pub(super) fn found(folder: &Path, name: &str, sha256: Option<&str>) -> PathBuf 
     copy.filter(|copy| !path.exists() && copy.is_file()).unwrap_or(path)
 }
 
-/// The columns of a file that are parameters: those that are listed, else all but `sample_id`; under names of their own, if `columns`
-/// lists these.
+/// The columns of a file that are parameters: those that are listed, else all but `sample_id`; under names of their
+/// own, if `columns` lists these.
 pub(super) fn columns(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
     let listed = table.texts("parameters", "[\"wheels.w1.radius_m\"]");
     let own = table.texts("columns", "[\"radius\"]");

@@ -32,7 +32,8 @@ const NAME: TextLimit = TextLimit {
 /// The keys of the table.
 #[rustfmt::skip]
 pub const ROWS: [Row; 3] = [
-    Row::new("name", Kind::Text(NAME), "Its name, which must not be that of a column").required_as(NAME.allowed, "\"pointing_error_deg\""),
+    Row::new("name", Kind::Text(NAME), "Its name, which must not be that of a column").required_as(NAME.allowed,
+        "\"pointing_error_deg\""),
     Row::new("unit", Kind::Text(ANY_TEXT), "Its unit; default: a pure number"),
     Row::new("expression", Kind::Expression, "Arithmetic over columns of the rows and dispersed parameters")
         .required_as("arithmetic over columns and dispersed parameters", "\"2 * energy_error_max\""),
@@ -141,7 +142,8 @@ impl DerivedObservable {
     }
 }
 
-/// The value of an expression in the nominal scene; `None` where it depends on a run, or on a parameter that the scene does not have.
+/// The value of an expression in the nominal scene; `None` where it depends on a run, or on a parameter that the scene
+/// does not have.
 fn nominal_value(expression: &Expression, scene: &SceneInput, known: &KnownColumns) -> Option<f64> {
     let value = |name: &String| match variable(name, scene, known)? {
         Variable::Parameter(parameter, component) => parameter.value(scene, component),

@@ -22,8 +22,9 @@ pub(super) fn in_one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The question of a campaign that is made of `sources`, in which `written` is the value of `campaign.description`: as it was set beside the files, else that of the first file that
-/// has one, by its key or its first comment. What a file asks is not what the file asks that it extends.
+/// The question of a campaign that is made of `sources`, in which `written` is the value of `campaign.description`: as
+/// it was set beside the files, else that of the first file that has one, by its key or its first comment. What a file
+/// asks is not what the file asks that it extends.
 pub(super) fn of_sources(sources: &Sources, written: Option<String>) -> Option<String> {
     if sources.list.iter().any(|source| source.key.as_deref() == Some("campaign.description")) {
         return written;
@@ -39,8 +40,8 @@ fn of_key(text: &str) -> Option<String> {
     Some(in_one_line(campaign.get("description")?.get_ref().as_str()?))
 }
 
-/// The first sentence of the comments that a file begins with, without "Question:"; `None` where it begins with something else than that, blank lines, or what it extends. Lines that
-/// are indented continue a sentence.
+/// The first sentence of the comments that a file begins with, without "Question:"; `None` where it begins with
+/// something else than that, blank lines, or what it extends. Lines that are indented continue a sentence.
 fn of_comment(text: &str) -> Option<String> {
     let is_before = |line: &&str| line.trim().is_empty() || line.starts_with("extends");
     let comments = text.lines().skip_while(is_before).map_while(|line| line.trim_start().strip_prefix('#'));
@@ -73,7 +74,8 @@ mod tests {
         assert_eq!(of_comment("\nextends = \"b.toml\"\n\n# Question: and faster?\n").as_deref(), Some("and faster?"));
     }
 
-    /// Law: a file has its own question, by key or comment, before that of the file that it extends, which it has where it says none; what is set beside the files comes first.
+    /// Law: a file has its own question, by key or comment, before that of the file that it extends, which it has where
+    /// it says none; what is set beside the files comes first.
     #[test]
     fn a_variant_has_its_own_question() {
         let folder = std::env::temp_dir().join(format!("spindrift-question-{}", std::process::id()));

@@ -1,4 +1,5 @@
-//! [`differences`], [`text_differences`]: the keys in which two plans differ; [`said`]: a value of such a key as a person says it.
+//! [`differences`], [`text_differences`]: the keys in which two plans differ; [`said`]: a value of such a key as a
+//! person says it.
 
 use super::display::ShownUnit;
 use super::plan::Plan;
@@ -42,8 +43,8 @@ pub fn text_differences(first: &str, second: &str) -> Vec<KeyDifference> {
     gone.chain(new).collect()
 }
 
-/// Every key of a canonical text with its value. A table of a list has its name, as `--set` writes it, or the parameter that it is about; one without
-/// either has its number.
+/// Every key of a canonical text with its value. A table of a list has its name, as `--set` writes it, or the parameter
+/// that it is about; one without either has its number.
 fn keys(text: &str) -> Vec<(String, String)> {
     let mut table = String::new();
     // lists, how many tables of each were read, and what the last one is called
@@ -74,7 +75,8 @@ fn keys(text: &str) -> Vec<(String, String)> {
     found
 }
 
-/// What a table of `list` that has the keys in the first of `lines` is called: `guidance.coast`, `disperse[wheels.w1.rate_rad_s]`; `None` without a name.
+/// What a table of `list` that has the keys in the first of `lines` is called: `guidance.coast`,
+/// `disperse[wheels.w1.rate_rad_s]`; `None` without a name.
 fn called<'t>(list: &str, lines: impl Iterator<Item = &'t str>) -> Option<String> {
     let pairs = lines.take_while(|line| !line.starts_with('[')).filter_map(|line| line.split_once(" = "));
     let word = |value: &str| Some(value.strip_prefix('"')?.strip_suffix('"')?.to_owned());
@@ -86,8 +88,9 @@ fn called<'t>(list: &str, lines: impl Iterator<Item = &'t str>) -> Option<String
     })
 }
 
-/// The values of a key of two `plans`, which canonical text has in SI units: both in the unit in which people see them where they are shorter so (5 deg for
-/// 0.08726646259971647), each with that unit, or with its own where the key does not name it. Without plans only the numbers are written as people write them.
+/// The values of a key of two `plans`, which canonical text has in SI units: both in the unit in which people see them
+/// where they are shorter so (5 deg for 0.08726646259971647), each with that unit, or with its own where the key does
+/// not name it. Without plans only the numbers are written as people write them.
 pub fn said(plans: Option<[&Plan; 2]>, key: &str, values: [Option<&str>; 2]) -> [Option<String>; 2] {
     let units = [0, 1].map(|side| values[side].and(unit_of(plans?[side], key)));
     let [first, second] = units.each_ref().map(|unit| unit.as_ref().map(|(unit, ..)| *unit));
@@ -151,8 +154,8 @@ mod tests {
     use super::*;
     use crate::campaign::Overrides;
 
-    /// Known: numbers of dispersions and limits have the unit of what they are of, in which they were written; of other keys a number is in the unit of the key's name, unless it
-    /// is shorter in that of people. What is no number stays.
+    /// Known: numbers of dispersions and limits have the unit of what they are of, in which they were written; of other
+    /// keys a number is in the unit of the key's name, unless it is shorter in that of people. What is no number stays.
     #[test]
     fn values_are_said_in_the_units_of_people() {
         let text = include_str!("../../campaigns/net_launch.toml");
@@ -180,8 +183,8 @@ mod tests {
         assert_eq!(said(None, "campaign.duration_s", [Some("600.0"), None])[0].as_deref(), Some("600"));
     }
 
-    /// Law: both values of a key are in one unit, in which they differ, and both say it or, where the key names it, neither; those of requirements about different quantities
-    /// are each in its own.
+    /// Law: both values of a key are in one unit, in which they differ, and both say it or, where the key names it,
+    /// neither; those of requirements about different quantities are each in its own.
     #[test]
     fn both_values_are_in_one_unit() {
         let text = include_str!("../../campaigns/net_launch.toml");
@@ -226,7 +229,8 @@ mod tests {
         );
         assert!(text_differences(first, first).is_empty());
         let names = |text: &str| keys(text).into_iter().map(|(key, _)| key).collect::<Vec<_>>();
-        let text = "[[guidance]]\nuntil = \"launch\"\nphase = \"coast\"\n[[disperse]]\nparameter = \"w.x\"\n[[require]]\nat_most = 1\n[[require]]\nat_most = 2\n";
+        let text = "[[guidance]]\nuntil = \"launch\"\nphase = \"coast\"\n[[disperse]]\nparameter = \
+            \"w.x\"\n[[require]]\nat_most = 1\n[[require]]\nat_most = 2\n";
         assert_eq!(
             names(text),
             [

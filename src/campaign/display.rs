@@ -1,6 +1,8 @@
-//! [`Display`]: in which units numbers are shown: `[display]`, and the units in which limits and dispersions are written.
+//! [`Display`]: in which units numbers are shown: `[display]`, and the units in which limits and dispersions are
+//! written.
 //!
-//! Rows, and every file of numbers, stay in the units of their columns; the screen, verdicts, cards, JUnit and figures show these.
+//! Rows, and every file of numbers, stay in the units of their columns; the screen, verdicts, cards, JUnit and figures
+//! show these.
 
 use std::collections::BTreeMap;
 
@@ -33,7 +35,8 @@ impl ShownUnit {
         ShownUnit { unit: unit.to_owned(), size: [1.0; 2] }
     }
 
-    /// The same, or hours or days in place of seconds: the unit in which a person says a time as long as `longest`, if `limit` is a short number in it.
+    /// The same, or hours or days in place of seconds: the unit in which a person says a time as long as `longest`, if
+    /// `limit` is a short number in it.
     #[must_use]
     pub fn of_time(self, longest: f64, limit: Option<f64>) -> Self {
         /// A limit with more digits in a unit is not said in it.
@@ -58,7 +61,8 @@ impl ShownUnit {
         if self.is_own() { value } else { value * self.size[1] / self.size[0] }
     }
 
-    /// The same with the rounding of the way there and back taken away: what was written as 5 deg is 5. What was written in another unit has five digits.
+    /// The same with the rounding of the way there and back taken away: what was written as 5 deg is 5. What was
+    /// written in another unit has five digits.
     pub fn written(&self, value: f64) -> f64 {
         /// Nobody writes a number with more digits.
         const WRITTEN: usize = 9;
@@ -85,13 +89,15 @@ pub const ROWS: [Row; 2] = [
     Row::new(
         "units",
         Kind::Units,
-        "Units in which numbers are shown, one for each kind of quantity; default: deg and deg/s, and rpm for wheel speeds",
+        "Units in which numbers are shown, one for each kind of quantity; default: deg and deg/s, and rpm for wheel \
+        speeds",
     ),
     Row::new("columns", Kind::UnitsByName, "Units of individual columns and parameters, by name"),
 ];
 
 impl Display {
-    /// Reads `[display]`; `written` are units in which limits and dispersions are written, by the name of what they are of.
+    /// Reads `[display]`; `written` are units in which limits and dispersions are written, by the name of what they are
+    /// of.
     pub(super) fn read(section: &mut Section<'_, '_>, written: Vec<(String, &'static str)>) -> Self {
         let found = section.right_rows(&ROWS);
         section.finish();
@@ -132,8 +138,9 @@ impl Display {
     }
 }
 
-/// Whether a column, quantity over time or parameter in rad/s is the speed of a wheel: `rate_<wheel>_...`, `speed_<wheel>_...` or a key of the wheel. No other
-/// rate is called a speed; the rates of estimates are those of the body.
+/// Whether a column, quantity over time or parameter in rad/s is the speed of a wheel: `rate_<wheel>_...`,
+/// `speed_<wheel>_...` or a key of the wheel. No other rate is called a speed; the rates of estimates are those of the
+/// body.
 fn is_wheel_speed(name: &str) -> bool {
     let is_rate = name.starts_with("rate_") && !name.starts_with("rate_estimate") && !name.starts_with("rate_expected");
     name.starts_with("wheels.") || is_rate || (name.contains("speed_") && name.ends_with("_rad_s"))
@@ -227,7 +234,8 @@ mod tests {
         assert_eq!(Display::default().of("x", "rad/s").unit, "deg/s");
     }
 
-    /// Law: speeds of wheels are in rpm, and rates of bodies in deg/s, whether the file says so or nothing; one that asks for another unit of rates gets it.
+    /// Law: speeds of wheels are in rpm, and rates of bodies in deg/s, whether the file says so or nothing; one that
+    /// asks for another unit of rates gets it.
     #[test]
     fn wheel_speeds_are_in_rpm() {
         let said = Display { units: vec!["deg", "deg/s"], ..Display::default() };

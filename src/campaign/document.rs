@@ -1,8 +1,8 @@
-//! [`Document`]: a TOML document that is read key by key, collects everything that is wrong, and remembers the line of each
-//! key. Its tables are read by [`super::section`].
+//! [`Document`]: a TOML document that is read key by key, collects everything that is wrong, and remembers the line of
+//! each key. Its tables are read by [`super::section`].
 //!
-//! A number that is missing or wrong is read as NaN and reported once; so the lower layers can still check the rest, and
-//! what they report about a key that was reported already is dropped ([`Document::add_from_below`]).
+//! A number that is missing or wrong is read as NaN and reported once; so the lower layers can still check the rest,
+//! and what they report about a key that was reported already is dropped ([`Document::add_from_below`]).
 
 use super::excerpt::Excerpt;
 use super::known_columns::KnownColumns;
@@ -25,7 +25,8 @@ const NOTED: usize = 10 * SHOWN;
 /// What is said of a text that is not TOML, and has no table of a campaign.
 const NO_CAMPAIGN_FILE: &str = "there is no [campaign] table: is this a campaign file?";
 
-/// What syntax errors say of a word without quotes; of one that begins with t, f, n or i, that it is not `true`, `false`, `nan` or `inf`.
+/// What syntax errors say of a word without quotes; of one that begins with t, f, n or i, that it is not `true`,
+/// `false`, `nan` or `inf`.
 const WORDS: [&str; 4] = ["must be quoted", "invalid boolean", "expected `nan`", "expected `inf`"];
 
 /// What to do about the syntax error `message`.
@@ -120,7 +121,8 @@ impl<'a> Document<'a> {
     /// Parses the texts, and lays what is set over the file, and the file over those that it extends.
     ///
     /// # Errors
-    /// Where a text is too large or has too many keys; where it is no TOML, its first syntax error alone; where a setting leads nowhere.
+    /// Where a text is too large or has too many keys; where it is no TOML, its first syntax error alone; where a
+    /// setting leads nowhere.
     pub fn parse(&mut self) -> Result<DeTable<'a>, CampaignError> {
         let mut whole = DeTable::new();
         for source in self.sources.list.iter().filter(|source| source.key.is_none()).rev() {
@@ -225,8 +227,8 @@ impl<'a> Document<'a> {
         });
     }
 
-    /// The written key that the key of what is set at the byte `offset` probably means: it, or what follows a table that
-    /// no file has.
+    /// The written key that the key of what is set at the byte `offset` probably means: it, or what follows a table
+    /// that no file has.
     pub(super) fn setting_meant(&self, offset: usize) -> Option<Meant<'_>> {
         let written = self.sources.at(offset).key.as_deref()?;
         let (_, rest) = written.split_once('.')?;

@@ -12,7 +12,8 @@ pub fn draw(plan: &Plan, sample: SampleId) -> Result<Scene, Vec<SceneError>> {
     SceneDraws::new(plan).scene(sample)
 }
 
-/// Draws the scenes of a plan; owned by one worker. A scene depends on the plan and the sample alone, not on earlier draws.
+/// Draws the scenes of a plan; owned by one worker. A scene depends on the plan and the sample alone, not on earlier
+/// draws.
 #[derive(Debug)]
 pub struct SceneDraws<'p> {
     sampler: Sampler<'p>,

@@ -1,5 +1,6 @@
-//! What is drawn: `[design]`, `[[disperse]]`, `[[correlate]]` and `[[derive]]`, read and as canonical text. The keys of a design and of a distribution are in their
-//! own files ([`crate::sampling::design`], [`crate::sampling::distribution`]).
+//! What is drawn: `[design]`, `[[disperse]]`, `[[correlate]]` and `[[derive]]`, read and as canonical text. The keys of
+//! a design and of a distribution are in their own files ([`crate::sampling::design`],
+//! [`crate::sampling::distribution`]).
 
 use super::lines::Lines;
 use super::numbers::MAX_SAMPLES;

@@ -73,12 +73,14 @@ const WHICH: [&str; 3] = [Which::ALL[0].0, Which::ALL[1].0, Which::ALL[2].0];
 /// The keys of the table.
 #[rustfmt::skip]
 pub const ROWS: [Row; 6] = [
-    Row::new("name", Kind::Text(NAME), "Its name, with which the names of its columns begin").required_as(NAME.allowed, "\"settled\""),
+    Row::new("name", Kind::Text(NAME), "Its name, with which the names of its columns \
+        begin").required_as(NAME.allowed, "\"settled\""),
     Row::new("quantity", Kind::Expression, "An observed quantity over time, or an expression of several")
         .required_as("a quantity over time, or an expression of some", "\"angular_rate_rad_s\""),
     Row::new("value", Kind::Amount, "The value that it crosses").required_as(FINITE.allowed, "0.1"),
     Row::new("direction", Kind::Word(&DIRECTIONS), "Direction of the crossing"),
-    Row::new("which", Kind::Word(&WHICH), "Which crossing gives its time; `stays`: the last one, if the quantity then stays on that side to the end of the run"),
+    Row::new("which", Kind::Word(&WHICH), "Which crossing gives its time; `stays`: the last one, if the quantity then \
+        stays on that side to the end of the run"),
     Row::new("ends_run", Kind::Flag, "Whether the run ends at its first crossing; default: false"),
 ];
 
@@ -144,7 +146,8 @@ impl Event {
         Some(Event { name, quantity, value: rest.number("value")?, direction, which, ends_run })
     }
 
-    /// The expression, and the quantities that are its variables, of runs of `request`; `None` only for what [`Event::read_all`] refuses.
+    /// The expression, and the quantities that are its variables, of runs of `request`; `None` only for what
+    /// [`Event::read_all`] refuses.
     pub fn parsed(&self, series: &[BandSeries]) -> Option<(Expression, Vec<BandSeries>)> {
         watched_quantity::parsed(&self.quantity, series)
     }
@@ -168,7 +171,8 @@ impl Event {
             Which::Last => format!("When {says} for the last time; null if it never does."),
             Which::Stays => {
                 format!(
-                    "When {says} and stays there to the end of the run, 0 if it is there all the time; null if it does not."
+                    "When {says} and stays there to the end of the run, 0 if it is there all the time; null if it does \
+                    not."
                 )
             }
         };
@@ -180,8 +184,8 @@ impl Event {
         ]
     }
 
-    /// What ends runs that are watched for `events`, in the order of the codes of the column [`ENDED_BY`], where the law of a mission `ends` some, too;
-    /// nothing where no event does.
+    /// What ends runs that are watched for `events`, in the order of the codes of the column [`ENDED_BY`], where the
+    /// law of a mission `ends` some, too; nothing where no event does.
     pub fn ends(events: &[Event], ends: bool) -> Vec<&str> {
         let of_events = events.iter().filter(|event| event.ends_run).map(|event| event.name.as_str());
         let others = ["duration", "mission"];

@@ -36,7 +36,8 @@ fn column(name: String, unit: &str, meaning: String, kind: ColumnKind) -> LawCol
     LawColumn { quantity: Quantity::named(name, unit.to_owned(), meaning), kind, codes: &[] }
 }
 
-/// The columns of `events`, [`EACH`] of each, and where one ends runs what has ended them: also the law of a mission, where there is one.
+/// The columns of `events`, [`EACH`] of each, and where one ends runs what has ended them: also the law of a mission,
+/// where there is one.
 pub(super) fn of_events(events: &[Event], has_law: bool) -> Vec<LawColumn> {
     let kinds = [ColumnKind::Float, ColumnKind::Count];
     let of = |event: &Event| {

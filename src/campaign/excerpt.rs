@@ -1,4 +1,5 @@
-//! [`Excerpt`]: a line of a campaign file with a mark under what is wrong in it. [`printable`]: text of a file that no terminal obeys.
+//! [`Excerpt`]: a line of a campaign file with a mark under what is wrong in it. [`printable`]: text of a file that no
+//! terminal obeys.
 
 use std::borrow::Cow;
 use std::fmt::{self, Display, Formatter, Write};
@@ -58,7 +59,8 @@ impl Display for Excerpt {
     }
 }
 
-/// Whether a terminal may obey `letter`, or it changes the order of what is read: control characters, and marks of writing direction.
+/// Whether a terminal may obey `letter`, or it changes the order of what is read: control characters, and marks of
+/// writing direction.
 fn is_unsafe(letter: char) -> bool {
     letter.is_control() || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

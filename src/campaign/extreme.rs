@@ -1,4 +1,5 @@
-//! [`Extreme`]: an `[[extreme]]` table, the largest or smallest value of a quantity over time, between observation points too.
+//! [`Extreme`]: an `[[extreme]]` table, the largest or smallest value of a quantity over time, between observation
+//! points too.
 
 use super::event::Event;
 use super::meaning::meant;
@@ -40,16 +41,19 @@ const WHICH: [&str; 2] = ["max", "min"];
 /// The keys of the table.
 #[rustfmt::skip]
 pub const ROWS: [Row; 5] = [
-    Row::new("name", Kind::Text(NAME), "The name of its column").required_as(NAME.allowed, "\"angular_rate_after_max_rad_s\""),
+    Row::new("name", Kind::Text(NAME), "The name of its column").required_as(NAME.allowed,
+        "\"angular_rate_after_max_rad_s\""),
     Row::new("quantity", Kind::Expression, "An observed quantity over time, or an expression of several")
         .required_as("a quantity over time, or an expression of some", "\"angular_rate_rad_s\""),
     Row::new("which", Kind::Word(&WHICH), "Whether to take the largest value or the smallest"),
-    Row::new("after", Kind::Text(ANY_TEXT), "The name of the `[[event]]` after which it is taken; default: from the start of the run"),
+    Row::new("after", Kind::Text(ANY_TEXT), "The name of the `[[event]]` after which it is taken; default: from the \
+        start of the run"),
     Row::new("delay_s", Kind::Number, "Delay from that time; default: 0").not_negative(),
 ];
 
 impl Extreme {
-    /// Reads the tables; what is wrong is noted, and left out here. `observed` is what the rows have without them, `events` among it.
+    /// Reads the tables; what is wrong is noted, and left out here. `observed` is what the rows have without them,
+    /// `events` among it.
     pub(super) fn read_all(root: &mut Section<'_, '_>, observed: &Request, events: &[Event]) -> Vec<Extreme> {
         if !root.has("extreme") {
             root.know("extreme");

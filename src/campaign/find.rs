@@ -37,7 +37,8 @@ fn find_in(start: &Path, name: &Path) -> Result<PathBuf, Vec<PathBuf>> {
     }
 }
 
-/// The campaign file that `name` probably means: the nearest name among those in its folder, and for a bare name also among the shipped ones.
+/// The campaign file that `name` probably means: the nearest name among those in its folder, and for a bare name also
+/// among the shipped ones.
 pub fn nearest_file(name: &Path) -> Option<PathBuf> {
     nearest_in(Path::new(""), name)
 }

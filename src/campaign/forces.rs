@@ -18,7 +18,8 @@ pub fn allowed_methods(method: Method, model: ForceModel) -> Option<String> {
     Some(format!("a method that integrates {}: one of {}", left_out.join(" and "), able.join(", ")))
 }
 
-/// Refuses a method that leaves out an effect on `scene`, which is `input`, and a transfer that its orbit does not allow.
+/// Refuses a method that leaves out an effect on `scene`, which is `input`, and a transfer that its orbit does not
+/// allow.
 pub(super) fn check(input: &SceneInput, scene: &Scene, method: Method, document: &mut Document<'_>) {
     let model = ForceModel::of(scene);
     if let Some(allowed) = allowed_methods(method, model) {

@@ -1,7 +1,8 @@
-//! [`open`]: files that are handed to the program: regular ones of a bounded size, and nothing that waits or never ends.
+//! [`open`]: files that are handed to the program: regular ones of a bounded size, and nothing that waits or never
+//! ends.
 //!
-//! A link to such a file is followed; what it leads to is what counts. What is opened is what was looked at: the kind and the size are those
-//! of the open file.
+//! A link to such a file is followed; what it leads to is what counts. What is opened is what was looked at: the kind
+//! and the size are those of the open file.
 
 use std::fs::{File, FileType, OpenOptions};
 use std::io::{self, Read};
@@ -85,7 +86,8 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, InputError> {
 mod tests {
     use super::*;
 
-    /// Law: folders, devices and pipes are refused by kind without waiting, a file by its size, and a link to a good file is followed.
+    /// Law: folders, devices and pipes are refused by kind without waiting, a file by its size, and a link to a good
+    /// file is followed.
     #[cfg(unix)]
     #[test]
     fn only_regular_files_are_read() {

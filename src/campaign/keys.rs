@@ -14,8 +14,8 @@ use crate::sampling::keys::{
 use crate::sampling::{DistributionKind, WrittenDistribution};
 
 impl Section<'_, '_> {
-    /// What the table says of the keys `rows`, which have to do with each other what `rules` say; `None` where something is wrong, which is then
-    /// noted.
+    /// What the table says of the keys `rows`, which have to do with each other what `rules` say; `None` where
+    /// something is wrong, which is then noted.
     pub(super) fn rows(&mut self, rows: &[Row], rules: &[Rule]) -> Option<Written> {
         let mut is_right = true;
         for rule in rules {
@@ -177,8 +177,8 @@ impl Section<'_, '_> {
         Some(names)
     }
 
-    /// Remembers the unit in which what the table is about is written, the first one, where that is not its own: it is shown in it, and so is what it
-    /// is over time.
+    /// Remembers the unit in which what the table is about is written, the first one, where that is not its own: it is
+    /// shown in it, and so is what it is over time.
     fn note_unit(&mut self, key: &str) {
         if let Some(unit) = self.unit_written(key).filter(|unit| *unit != self.unit)
             && let Some(name) = self.about.take()

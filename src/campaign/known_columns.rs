@@ -1,4 +1,5 @@
-//! [`KnownColumns`]: the columns of the rows of a plan by name: what requirements, expressions and lists of columns in a campaign file mean.
+//! [`KnownColumns`]: the columns of the rows of a plan by name: what requirements, expressions and lists of columns in
+//! a campaign file mean.
 
 use super::meaning::meant;
 use super::units;

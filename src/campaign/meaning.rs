@@ -302,8 +302,8 @@ fn own_part(written: &str, candidate: &str) -> usize {
     shared.map_or(written, |(_, key)| key).chars().count()
 }
 
-/// Whether a word of `written` is replaced by another one in `candidate` that it does not misspell: `min` and `max`, `mean`
-/// and `true`, `inner` and `outer` differ in meaning.
+/// Whether a word of `written` is replaced by another one in `candidate` that it does not misspell: `min` and `max`,
+/// `mean` and `true`, `inner` and `outer` differ in meaning.
 fn is_another_word(written: &str, candidate: &str) -> bool {
     let words = |name: &str| name.split(['_', '.']).map(str::to_owned).collect::<Vec<_>>();
     let (written, candidate) = (words(written), words(candidate));

@@ -1,25 +1,30 @@
-//! Layer 5: campaign files. What was written ([`Spec`]) -> what will run ([`Plan`]), or every reason why not ([`CampaignError`]).
+//! Layer 5: campaign files. What was written ([`Spec`]) -> what will run ([`Plan`]), or every reason why not
+//! ([`CampaignError`]).
 //!
 //! - [`problem`]: one reason, with file, line, key, value, allowed range and remedy. [`excerpt`]: the line with a mark.
 //!   [`meaning`]: what an unknown name probably means.
 //! - [`input_file`]: regular files of bounded size. [`size`]: how large a campaign file may be.
-//! - [`document`], [`section`], [`numbers`], [`lists`]: a TOML document that is read key by key and remembers the lines. By hand and not by
-//!   serde's derive, which stops at the first error and knows no line of a key that passed.
-//! - [`spec`]: a campaign file as written; [`settings`]: keys that are no part of the scene; `scene`: those of the scene, from [`crate::scene::schema`]; `control`, `sensor_tables`, `phase_tables`: those of
-//!   a control loop; `failure_tables`: devices that fail; [`draws`]: those
-//!   that say what is drawn; `keys`: rows of keys, read and written;
-//!   [`data`], `data_columns`, `data_keys`: files of numbers; `parameter`: names of parameters; [`bands`].
-//! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`known_columns`]: what they can name; [`columns`]: what runs are observed for;
-//!   [`event`]: quantities that cross a value; [`extreme`]: their largest values; `watched_quantity`: which there are; [`event_columns`]: when events and failures happened.
+//! - [`document`], [`section`], [`numbers`], [`lists`]: a TOML document that is read key by key and remembers the
+//!   lines. By hand and not by serde's derive, which stops at the first error and knows no line of a key that passed.
+//! - [`spec`]: a campaign file as written; [`settings`]: keys that are no part of the scene; `scene`: those of the
+//!   scene, from [`crate::scene::schema`]; `control`, `sensor_tables`, `phase_tables`: those of a control loop;
+//!   `failure_tables`: devices that fail; [`draws`]: those that say what is drawn; `keys`: rows of keys, read and
+//!   written; [`data`], `data_columns`, `data_keys`: files of numbers; `parameter`: names of parameters; [`bands`].
+//! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`known_columns`]: what
+//!   they can name; [`columns`]: what runs are observed for; [`event`]: quantities that cross a value; [`extreme`]:
+//!   their largest values; `watched_quantity`: which there are; [`event_columns`]: when events and failures happened.
 //!   [`retention`]: which runs keep their time series.
-//! - [`plan`]: defaults filled in, scene and dispersions checked against each other. - [`chosen`], `plan_rows`: which samples are its rows.
+//! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
+//! - [`chosen`], `plan_rows`: which samples are its rows.
 //! - `units`: units in values.
 //! - [`notes`]: what is allowed and probably not meant.
 //! - [`mod@draw`]: from a plan and the number of a sample to its scene.
 //! - [`canonical`], `lines`: the plan as text that reads back to the same plan, and its hash.
-//! - [`difference`]: the keys in which two plans differ; [`common_draws`]: whether they draw the same samples. - [`mod@find`]: which file a name means.
+//! - [`difference`]: the keys in which two plans differ; [`common_draws`]: whether they draw the same samples.
+//! - [`mod@find`]: which file a name means.
 //!
-//! Not here: what is physical ([`crate::scene`]) and what can be drawn ([`crate::sampling`]); their errors get lines here.
+//! Not here: what is physical ([`crate::scene`]) and what can be drawn ([`crate::sampling`]); their errors get lines
+//! here.
 
 pub mod analysis;
 pub mod bands;

@@ -73,7 +73,8 @@ pub(super) fn check_sensors(root: &mut Section<'_, '_>, module: &ModuleSpec, sen
     }
 }
 
-/// The module in the file called `name`, of which `sha256` is the checksum that is written; or the key that is wrong, what is allowed, and the remedy.
+/// The module in the file called `name`, of which `sha256` is the checksum that is written; or the key that is wrong,
+/// what is allowed, and the remedy.
 fn module(
     section: &mut Section<'_, '_>,
     name: &str,
@@ -108,7 +109,8 @@ fn module(
         let unit = units::in_name(key);
         if written != unit {
             let allowed = format!(
-                "a module whose parameters and telemetry have the unit that their key ends in ({key:?} ends in {unit:?}, and says {written:?})"
+                "a module whose parameters and telemetry have the unit that their key ends in ({key:?} ends in \
+                {unit:?}, and says {written:?})"
             );
             return Err(of_file(allowed, "rename the key: stiffness_n_m in N m, ratio in 1"));
         }

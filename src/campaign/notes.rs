@@ -1,4 +1,5 @@
-//! [`Plan::notes`]: what is allowed in a campaign file, and is probably not what was meant, as far as the file alone says.
+//! [`Plan::notes`]: what is allowed in a campaign file, and is probably not what was meant, as far as the file alone
+//! says.
 
 use super::plan::{Plan, ROUNDING_OF_PLATES};
 use super::requirement::{Requirement, Subject};
@@ -19,13 +20,15 @@ impl Plan {
         notes.extend(self.bound_inputs(self.samples - 1));
         for replaced in self.dispersions.replaced_correlations() {
             notes.push(format!(
-                "nearest_psd: the correlations of {} cannot be had; `check`, plan.toml and summary.json state those used",
+                "nearest_psd: the correlations of {} cannot be had; `check`, plan.toml and summary.json state those \
+                used",
                 replaced.names.join(", ")
             ));
         }
         if Accuracy::new(&self.request()).is_blind() {
             notes.push(
-                "no requested column says how accurate a run is, so none can end as inaccurate; add \"energy_conservation\", \"momentum_conservation\" or \"numerics\" to observe.groups"
+                "no requested column says how accurate a run is, so none can end as inaccurate; add \
+                \"energy_conservation\", \"momentum_conservation\" or \"numerics\" to observe.groups"
                     .to_owned(),
             );
         }
@@ -33,7 +36,8 @@ impl Plan {
         let (runs, last) = (self.samples - 1, self.last_counted().0);
         if runs > last && self.analysis.requirements.iter().any(is_of_bands) {
             notes.push(format!(
-                "quantiles over time are of the first {last} runs, and a requirement at each time may stay undecided; bands.runs = {runs} counts all"
+                "quantiles over time are of the first {last} runs, and a requirement at each time may stay undecided; \
+                bands.runs = {runs} counts all"
             ));
         }
         let is_of_plates = |effect: &Effect| effect.form() == Form::Evaluated;
@@ -41,7 +45,8 @@ impl Plan {
             ForceModel::of_input(&self.nominal).effects().filter(is_of_plates).map(Effect::key).collect();
         if !of_plates.is_empty() && self.tolerance.relative < ROUNDING_OF_PLATES {
             notes.push(format!(
-                "at tolerances below {ROUNDING_OF_PLATES:e} the rounding of {} counts, which state_error_estimate does not know: errors can be thirty times as large",
+                "at tolerances below {ROUNDING_OF_PLATES:e} the rounding of {} counts, which state_error_estimate does \
+                not know: errors can be thirty times as large",
                 of_plates.join(" and ")
             ));
         }
@@ -60,7 +65,8 @@ impl Plan {
         let [first, second, third] = self.design.bound(names.len(), runs)?.map(|dimension| names[dimension].as_str());
         let others = if second == third { second.to_owned() } else { format!("{second} and {third} together") };
         Some(format!(
-            "design \"{}\": in {runs} runs {first} may vary as {others}, so that no driver is tested; design \"random\" or \"latin_hypercube\" tests them",
+            "design \"{}\": in {runs} runs {first} may vary as {others}, so that no driver is tested; design \
+            \"random\" or \"latin_hypercube\" tests them",
             self.design.name()
         ))
     }

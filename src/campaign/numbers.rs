@@ -35,7 +35,8 @@ impl Section<'_, '_> {
         self.every.unwrap_or_else(|| units::in_name(key))
     }
 
-    /// The plain number of `key`, if one was written, whether it is allowed or not: for examples near what else was written.
+    /// The plain number of `key`, if one was written, whether it is allowed or not: for examples near what else was
+    /// written.
     pub fn written(&self, key: &str) -> Option<f64> {
         number(self.value(key)?.get_ref(), self.unit_of(key))
     }
@@ -62,7 +63,8 @@ impl Section<'_, '_> {
         }
     }
 
-    /// Notes that `value` of `key`, in `unit`, is no number or numbers: what is wrong with a unit in it, if there is one, else `allowed` and `remedy`.
+    /// Notes that `value` of `key`, in `unit`, is no number or numbers: what is wrong with a unit in it, if there is
+    /// one, else `allowed` and `remedy`.
     pub(super) fn refuse_number(
         &mut self,
         key: &str,
@@ -82,8 +84,9 @@ impl Section<'_, '_> {
         self.require(key, &numbers_in_words(count), example);
     }
 
-    /// Fills `numbers` with the finite numbers of `key`: one, a list, or for nine of them three rows; whether the key was
-    /// written. What is wrong is noted, with numbers as `limit` allows them for example, and the numbers are then NaN.
+    /// Fills `numbers` with the finite numbers of `key`: one, a list, or for nine of them three rows; whether the key
+    /// was written. What is wrong is noted, with numbers as `limit` allows them for example, and the numbers are then
+    /// NaN.
     pub(super) fn fill(&mut self, key: &str, numbers: &mut [f64], limit: Limit) -> bool {
         let Some(value) = self.take(key) else { return false };
         let unit = self.unit_of(key);

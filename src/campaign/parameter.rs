@@ -27,7 +27,8 @@ pub(super) fn without_effect(table: &Section<'_, '_>, parameter: Parameter) -> O
     kind.parameters.iter().any(is_own).then(|| {
         let name = kind.name;
         let allowed = format!(
-            "a parameter that acts: the filter of control.estimator = {name:?} believes the numbers of the file in every \
+            "a parameter that acts: the filter of control.estimator = {name:?} believes the numbers of the file in \
+            every \
              run"
         );
         (allowed, "delete this table, and fly the campaign once for each value, by --set")

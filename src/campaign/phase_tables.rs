@@ -52,7 +52,8 @@ fn law(section: &mut Section<'_, '_>, kinds: &[&'static LawKind], module: &Modul
     }
 }
 
-/// One table of `[[guidance]]`; its name joins `taken`. `None` where its name is wrong, or a word that other keys depend on, which are then not known.
+/// One table of `[[guidance]]`; its name joins `taken`. `None` where its name is wrong, or a word that other keys
+/// depend on, which are then not known.
 pub(super) fn read_phase(
     section: &mut Section<'_, '_>,
     scene: &mut SceneInput,

@@ -1,5 +1,5 @@
-//! [`Plan`]: what will run. Defaults are filled in, scene and dispersions are checked; a row is a pure function of the plan and
-//! a sample's id.
+//! [`Plan`]: what will run. Defaults are filled in, scene and dispersions are checked; a row is a pure function of the
+//! plan and a sample's id.
 
 use super::analysis::Analysis;
 use super::bands;
@@ -36,13 +36,15 @@ use std::path::{Path, PathBuf};
 pub struct Plan {
     /// Name of the campaign and of its results folder.
     pub name: String,
-    /// The question that the campaign answers: `campaign.description`, else the first sentence of the comments above the file's tables; of a file that says none, that of the file that it extends.
+    /// The question that the campaign answers: `campaign.description`, else the first sentence of the comments above
+    /// the file's tables; of a file that says none, that of the file that it extends.
     pub description: Option<String>,
     /// Number of samples, at least 1; sample 0 is the nominal scene.
     pub samples: u64,
     /// The samples that run, where these are not all.
     pub chosen: Option<Chosen>,
-    /// The number of samples that the file says, where the campaign has ended at another one (`[stop]`); the plan as text says this one.
+    /// The number of samples that the file says, where the campaign has ended at another one (`[stop]`); the plan as
+    /// text says this one.
     pub written_samples: Option<u64>,
     pub seed: u64,
     /// The times at which each run is observed.
@@ -126,11 +128,11 @@ pub struct Overrides {
 
 /// Observation points where the file does not say.
 const POINTS: u64 = 101;
-/// The tolerance down to which the error estimate of runs with plates covers their errors (`tests/accuracy/error_estimate.rs`): beyond it the rounding of drag
-/// and light counts.
+/// The tolerance down to which the error estimate of runs with plates covers their errors
+/// (`tests/accuracy/error_estimate.rs`): beyond it the rounding of drag and light counts.
 pub(super) const ROUNDING_OF_PLATES: f64 = 1e-12;
-/// Tolerance where the file does not say. A Taylor series of higher order costs little: a run at 1e-14 takes about a tenth longer than one
-/// at 1e-10, and its errors are near rounding. Runge-Kutta methods pay with many more steps.
+/// Tolerance where the file does not say. A Taylor series of higher order costs little: a run at 1e-14 takes about a
+/// tenth longer than one at 1e-10, and its errors are near rounding. Runge-Kutta methods pay with many more steps.
 fn default_tolerance(method: Method, scene: &SceneInput) -> f64 {
     match method {
         // a Runge-Kutta method is what integrates them
@@ -148,8 +150,8 @@ impl Plan {
         self.law.as_ref().and_then(ControlLaw::spec)
     }
 
-    /// The plan of a campaign that `[stop]` looks at when it has `samples` samples, or at the next number of samples of a look; the same without
-    /// `[stop]`.
+    /// The plan of a campaign that `[stop]` looks at when it has `samples` samples, or at the next number of samples of
+    /// a look; the same without `[stop]`.
     #[must_use]
     pub fn at_look(self, samples: u64) -> Plan {
         let look = self.looks().into_iter().find(|look| *look >= samples);
@@ -205,7 +207,8 @@ impl Plan {
         self.request_over(self.grid.duration())
     }
 
-    /// The observables that it requests of runs of `duration` seconds, which decides which commands of the schedule act.
+    /// The observables that it requests of runs of `duration` seconds, which decides which commands of the schedule
+    /// act.
     pub fn request_over(&self, duration: f64) -> Request {
         let acting = acting_scene(duration, &self.nominal, &self.dispersions);
         let mut request =
@@ -239,7 +242,8 @@ fn read(folder: &Path, file: &str, text: &str, overrides: Overrides) -> Result<(
     Ok((Plan { description, ..plan }, FilesRead { campaign: PathBuf::new(), extended: sources.extended, data }))
 }
 
-/// The nominal scene with the commands that may act in a run of `duration` seconds: without arcs that start later, unless draws move them.
+/// The nominal scene with the commands that may act in a run of `duration` seconds: without arcs that start later,
+/// unless draws move them.
 fn acting_scene(duration: f64, scene: &SceneInput, dispersions: &Dispersions) -> SceneInput {
     let mut acting = scene.clone();
     if !dispersions.columns().iter().any(|column| column.parameter.facts().key.ends_with("_delay_s")) {
@@ -292,7 +296,8 @@ fn override_spec(spec: &mut Spec, overrides: &Overrides, document: &mut Document
     overrides.audit_fraction.into_iter().for_each(|fraction| spec.set("audit", "fraction", fraction));
 }
 
-/// Fills in the defaults, checks what needs several keys, and calls the checks of the layers below; `None` where something is wrong.
+/// Fills in the defaults, checks what needs several keys, and calls the checks of the layers below; `None` where
+/// something is wrong.
 fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
     let (campaign, integrator) = (spec.settings("campaign"), spec.settings("integrator"));
     let (seed, duration_s, step_s) =

@@ -1,4 +1,5 @@
-//! The rows of a [`Plan`]: how many there are, and which sample each is. They are all samples in order, or those of `campaign.only`.
+//! The rows of a [`Plan`]: how many there are, and which sample each is. They are all samples in order, or those of
+//! `campaign.only`.
 //!
 //! Parts count rows; a sample is drawn by its number.
 
@@ -24,13 +25,15 @@ impl Plan {
         self.rows() - u64::from(self.rows() > 0 && self.sample(0) == SampleId(0))
     }
 
-    /// The last sample that is counted in quantiles over time: the first ones are, where they represent the others, else all.
+    /// The last sample that is counted in quantiles over time: the first ones are, where they represent the others,
+    /// else all.
     pub fn last_counted(&self) -> SampleId {
         let are_alike = self.chosen.is_none() && self.design.begins_as_it_goes_on();
         SampleId(if are_alike { self.band_runs } else { u64::MAX })
     }
 
-    /// The numbers of samples, sample 0 included, at which it is looked at; the last one ends it. Without `[stop]` it is one.
+    /// The numbers of samples, sample 0 included, at which it is looked at; the last one ends it. Without `[stop]` it
+    /// is one.
     pub fn looks(&self) -> Vec<u64> {
         match &self.analysis.stop {
             Some(stop) => looks(self.first_samples(), stop.max_samples),
@@ -74,7 +77,8 @@ mod tests {
             .map_err(|e| e.to_string())
     }
 
-    /// Law: without a list every sample is a row; with one the listed ones are, and the list is a part of what the rows are.
+    /// Law: without a list every sample is a row; with one the listed ones are, and the list is a part of what the rows
+    /// are.
     #[test]
     fn rows_are_the_listed_samples() {
         let (all, some) = (plan("").expect("a plan"), plan("only = [0, 17, 99]").expect("a plan"));

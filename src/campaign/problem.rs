@@ -17,7 +17,8 @@ pub struct Problem {
     pub key: String,
     /// The value as written; `None` where the key is missing.
     pub value: Option<String>,
-    /// What it must be (to follow the words `must be`); of a key that is unknown, what has no such key (to follow `not a key of`).
+    /// What it must be (to follow the words `must be`); of a key that is unknown, what has no such key (to follow `not
+    /// a key of`).
     pub allowed: String,
     pub remedy: String,
     /// Whether it is the key that is wrong: nothing has it.

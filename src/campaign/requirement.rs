@@ -66,7 +66,8 @@ pub struct Requirement {
     pub limit: GateLimit,
     /// Of a mean: between which values every value is known to be.
     pub bounded: Option<[f64; 2]>,
-    /// Of a fraction: whether a run without a value, of something that never happens, meets it; otherwise it violates it.
+    /// Of a fraction: whether a run without a value, of something that never happens, meets it; otherwise it violates
+    /// it.
     pub never_meets: bool,
     pub confidence: f64,
 }
@@ -89,14 +90,16 @@ pub const ROWS: [Row; 13] = [
     Row::new("band", Kind::Band, "The quantity over time that must keep the limit"),
     Row::new("from_s", Kind::Number, "Start of the time interval; default: the start of the run"),
     Row::new("to_s", Kind::Number, "End of the time interval; default: the end of the run"),
-    Row::new("at_all_times", Kind::Flag, "Whether each run must keep the limit at all times, instead of the runs at each time separately; default: false"),
+    Row::new("at_all_times", Kind::Flag, "Whether each run must keep the limit at all times, instead of the runs at \
+        each time separately; default: false"),
     Row::new("quantile", Kind::Number, "The quantile of the runs that must keep the limit").limited(PROBABILITY),
     Row::new("fraction", Kind::Number, "The fraction of the runs that must keep the limit").limited(PROBABILITY),
     Row::new("mean", Kind::Yes, "Whether the mean of the runs must keep the limit"),
     Row::new("at_most", Kind::Amount, "Upper limit, in the unit of the observable or quantity"),
     Row::new("at_least", Kind::Amount, "Lower limit, in the unit of the observable or quantity"),
     Row::new("bounded", Kind::Numbers(BOUNDS), "For a mean: two values between which every run is known to lie"),
-    Row::new("never", Kind::Word(&NEVER), "For a fraction: whether a run without a value, because the event never happens, meets the limit"),
+    Row::new("never", Kind::Word(&NEVER), "For a fraction: whether a run without a value, because the event never \
+        happens, meets the limit"),
     Row::new("confidence", Kind::Number, "Confidence of the verdict")
         .limited(CONFIDENCE)
         .or(Presence::Or(DEFAULT_CONFIDENCE)),
@@ -202,7 +205,8 @@ impl Requirement {
         }
     }
 
-    /// When the limit holds, in words: in each run at all times, or at each time, at which other runs may be beyond it; empty without times.
+    /// When the limit holds, in words: in each run at all times, or at each time, at which other runs may be beyond it;
+    /// empty without times.
     pub fn times(&self) -> String {
         let Some(band) = self.band() else { return String::new() };
         let which = if self.window().is_some() { "at all times" } else { "at each time" };

@@ -24,7 +24,8 @@ const ALLOWED: &str = "\"none\", \"all\", \"failed\", \"worst:20 by energy_error
 pub const ROWS: [Row; 1] = [Row::new(
     KEY,
     Kind::Text(ANY_TEXT),
-    "Runs whose full time series are kept: `none` (default), `all`, `failed`, `worst:20 by energy_error_max`, `sample:100`",
+    "Runs whose full time series are kept: `none` (default), `all`, `failed`, `worst:20 by energy_error_max`, \
+    `sample:100`",
 )];
 /// Most runs of `worst` and `sample`.
 const MOST: u64 = 1_000_000;

@@ -1,7 +1,7 @@
 //! The tables that describe the scene: which keys, with which defaults, says [`crate::scene::schema`].
 //!
-//! Here is what no single row can say: names, which ways to describe a body exclude each other, what belongs to a body that is not
-//! there, and keys that are no numbers.
+//! Here is what no single row can say: names, which ways to describe a body exclude each other, what belongs to a body
+//! that is not there, and keys that are no numbers.
 
 use super::control;
 use super::failure_tables;

@@ -1,4 +1,5 @@
-//! [`Section`]: one table of a [`Document`] while it is read, key by key: tables, texts and names. Numbers are in [`super::numbers`].
+//! [`Section`]: one table of a [`Document`] while it is read, key by key: tables, texts and names. Numbers are in
+//! [`super::numbers`].
 
 use super::document::{Document, Spans};
 use super::meaning::meant;
@@ -129,7 +130,8 @@ impl<'d, 'a> Section<'d, 'a> {
         }
     }
 
-    /// The tables `[[key]]`, in order, each read by `read`; of more than `most` the first ones, after the others were refused.
+    /// The tables `[[key]]`, in order, each read by `read`; of more than `most` the first ones, after the others were
+    /// refused.
     pub fn sections<T>(&mut self, key: &str, most: usize, mut read: impl FnMut(&mut Section<'_, 'a>) -> T) -> Vec<T> {
         let Some(value) = self.take(key) else { return Vec::new() };
         let tables: Option<Vec<_>> = value.get_ref().as_array().and_then(|list| {
@@ -245,7 +247,8 @@ impl<'d, 'a> Section<'d, 'a> {
         parsed
     }
 
-    /// A list of different names that `parse` knows, if it was written; an empty one is told what it is without the key.
+    /// A list of different names that `parse` knows, if it was written; an empty one is told what it is without the
+    /// key.
     pub fn names<T: PartialEq>(
         &mut self,
         key: &str,
@@ -287,7 +290,8 @@ impl<'d, 'a> Section<'d, 'a> {
         self.value(key)?.get_ref().as_str()
     }
 
-    /// Lets `keys` be there without effect: they are those of `owner`, and this table says `chosen`. A note says which were written.
+    /// Lets `keys` be there without effect: they are those of `owner`, and this table says `chosen`. A note says which
+    /// were written.
     pub(super) fn ignore(&mut self, keys: impl Iterator<Item = &'static str>, owner: &str, chosen: &str) {
         let written: Vec<&str> =
             keys.filter(|key| self.has(key) && !self.known.iter().any(|known| known == key)).collect();

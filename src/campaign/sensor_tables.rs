@@ -57,7 +57,8 @@ pub(super) fn read_sensor(
     Some(SensorSpec { name, kind, period: own_period.unwrap_or(f64::NAN), latency })
 }
 
-/// Notes where a sensor that measures every `own` seconds and delivers after `latency` seconds does not fit into a loop of this period.
+/// Notes where a sensor that measures every `own` seconds and delivers after `latency` seconds does not fit into a loop
+/// of this period.
 fn check_times(section: &mut Section<'_, '_>, period: f64, own: f64, latency: f64) {
     let is_near = period / own <= MOST_TICKS && own / period <= MOST_PERIODS;
     if !is_near || !is_whole(own / period) && !is_whole(period / own) {
@@ -118,7 +119,8 @@ pub(super) fn check_sensors(
         let fastest = sensors.iter().min_by(|a, b| a.period.total_cmp(&b.period));
         if let Some(fastest) = fastest {
             let allowed = format!(
-                "such that all sensors measure at whole multiples of a tick, at most {MOST_TICKS} of which make control.period_s ({period:?})"
+                "such that all sensors measure at whole multiples of a tick, at most {MOST_TICKS} of which make \
+                control.period_s ({period:?})"
             );
             let path = format!("sensors.{}.period_s", fastest.name);
             let remedy = "write periods of which the shorter one divides the longer one";

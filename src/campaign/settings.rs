@@ -1,5 +1,6 @@
-//! The keys of `[campaign]`, `[integrator]`, `[observe]`, `[audit]`, `[bands]` and `[output]` as rows, from which reading, messages, canonical text
-//! and the table in the documents follow. What needs several keys is checked in [`super::plan`].
+//! The keys of `[campaign]`, `[integrator]`, `[observe]`, `[audit]`, `[bands]` and `[output]` as rows, from which
+//! reading, messages, canonical text and the table in the documents follow. What needs several keys is checked in
+//! [`super::plan`].
 
 use super::bands::{FEWEST_RUNS as FEWEST_BAND_RUNS, MOST_POINTS as MOST_BAND_POINTS};
 use super::chosen::MOST_CHOSEN;
@@ -48,16 +49,20 @@ pub const HEAD: [(&str, &[Row]); 3] = [
         Row::new("name", Kind::Text(NAME), "Name of the campaign and of its results folder")
             .required_as(NAME.allowed, "\"my_campaign\""),
         Row::new("description", Kind::Text(description::LIMIT),
-            "The question that the campaign answers; default: the first sentence of the comments at the top of the file"),
+            "The question that the campaign answers; default: the first sentence of the comments at the top of the \
+            file"),
         Row::new("samples", Kind::Count([1, MAX_SAMPLES]),
             "Number of samples, including the nominal one; may be omitted if the design has a size of its own"),
         Row::new("only", Kind::Samples(MOST_CHOSEN), "The numbers of the samples to run; default: all"),
-        Row::new("seed", Kind::Count([0, LARGEST_SEED]), "Seed of every draw").required_as("a whole number of at least 0", "1"),
-        Row::new("duration_s", Kind::Number, "Duration of each run").limited(POSITIVE).required_as(POSITIVE.allowed, "10.0"),
+        Row::new("seed", Kind::Count([0, LARGEST_SEED]),
+            "Seed of every draw").required_as("a whole number of at least 0", "1"),
+        Row::new("duration_s", Kind::Number, "Duration of each run").limited(POSITIVE).required_as(POSITIVE.allowed,
+            "10.0"),
     ]),
     ("integrator", &[
         Row::new("method", Kind::Word(&METHODS), "Equations and integrator"),
-        Row::new("tolerance", Kind::Number, "Sets both of the following; default: 1e-14 for auto and taylor (1e-12 for auto with drag or sunlight), 1e-10 for other methods")
+        Row::new("tolerance", Kind::Number, "Sets both of the following; default: 1e-14 for auto and taylor (1e-12 for \
+            auto with drag or sunlight), 1e-10 for other methods")
             .limited(TOLERANCE),
         Row::new("relative_tolerance", Kind::Number, "Relative tolerance for local errors").limited(TOLERANCE),
         Row::new("absolute_tolerance", Kind::Number, "Absolute tolerance for local errors").limited(TOLERANCE),
@@ -78,19 +83,23 @@ pub const HEAD: [(&str, &[Row]); 3] = [
 #[rustfmt::skip]
 pub const TAIL: [(&str, &[Row]); 3] = [
     ("audit", &[
-        Row::new("fraction", Kind::Number, "Fraction of the samples that are compared with a reference solution; default: 0")
+        Row::new("fraction", Kind::Number, "Fraction of the samples that are compared with a reference solution; \
+            default: 0")
             .limited(FRACTION),
     ]),
     ("bands", &[
         Row::new("points", Kind::Count([0, MOST_BAND_POINTS]),
-            "Number of points in time at which quantiles are counted, 0 for none; default: all points of a grid of up to 65, else 33; under a control loop, all points of a grid of up to 257, else 201"),
+            "Number of points in time at which quantiles are counted, 0 for none; default: all points of a grid of up \
+            to 65, else 33; under a control loop, all points of a grid of up to 257, else 201"),
         Row::new("runs", Kind::Count([FEWEST_BAND_RUNS, MAX_SAMPLES]),
-            "How many of the dispersed runs, counted from the first, enter these quantiles; default: 131,072, or all runs of a grid and of other lists of samples"),
+            "How many of the dispersed runs, counted from the first, enter these quantiles; default: 131,072, or all \
+            runs of a grid and of other lists of samples"),
     ]),
     ("output", &[Row::new("compression", Kind::Word(&COMPRESSIONS), "Compression of the row files")]),
 ];
 
-/// The tables of events and extremes, of what is made of the rows, and of what is kept of runs, with what their keys have to do with each other.
+/// The tables of events and extremes, of what is made of the rows, and of what is kept of runs, with what their keys
+/// have to do with each other.
 pub const ANALYSIS: [(&str, &[Row], &[Rule]); 9] = [
     ("[[event]]", &event::ROWS, &[]),
     ("[[extreme]]", &extreme::ROWS, &[]),

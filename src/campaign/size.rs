@@ -1,4 +1,5 @@
-//! How large a campaign file may be: bytes, keys, and tables within tables. Tables of numbers belong into files of their own.
+//! How large a campaign file may be: bytes, keys, and tables within tables. Tables of numbers belong into files of
+//! their own.
 
 use super::input_file::{self, InputError};
 use super::problem::{CampaignError, Problem};
@@ -9,8 +10,8 @@ use toml::de::{DeTable, DeValue};
 pub const MOST_BYTES: u64 = 8 << 20;
 /// Most keys of a campaign file. A schedule of 20,000 arcs has 100,000.
 pub const MOST_KEYS: usize = 400_000;
-/// Most tables of a list such as `[[disperse]]` or `[[require]]`, each of which may be about any other. (Lists that a scene limits have their own
-/// limits, and `[[actuation]]` has none.)
+/// Most tables of a list such as `[[disperse]]` or `[[require]]`, each of which may be about any other. (Lists that a
+/// scene limits have their own limits, and `[[actuation]]` has none.)
 pub const MOST_TABLES: usize = 1000;
 /// Most levels of tables and arrays within one another, which the TOML parser has.
 const MOST_LEVELS: usize = 80;

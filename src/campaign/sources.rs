@@ -1,5 +1,6 @@
-//! [`Sources`]: the texts that a campaign is made of: its file, the files that this extends (`extends = "base.toml"`), and what is set beside them
-//! (`--set campaign.duration_s=20`). They are parsed one by one and laid over one another as one table, in which every value keeps its place.
+//! [`Sources`]: the texts that a campaign is made of: its file, the files that this extends (`extends = "base.toml"`),
+//! and what is set beside them (`--set campaign.duration_s=20`). They are parsed one by one and laid over one another
+//! as one table, in which every value keeps its place.
 
 use super::input_file::is_unreadable;
 use super::problem::{CampaignError, Problem};
@@ -35,7 +36,8 @@ pub(super) struct Sources {
 }
 
 impl Sources {
-    /// The text of `file` in `folder`, the files that it extends, and `settings`, each a dotted key and its value as text.
+    /// The text of `file` in `folder`, the files that it extends, and `settings`, each a dotted key and its value as
+    /// text.
     ///
     /// # Errors
     /// Where a file that is extended cannot be read.
@@ -139,8 +141,8 @@ pub(super) fn value_at<'a>(text: &'a str, by: usize) -> Spanned<DeValue<'a>> {
     moved(DeValue::parse_recoverable(text).0, by)
 }
 
-/// Lays `over` over `base`: tables key by key; lists of tables by `name`, `parameter` or `phase`; a table with another `kind`, `distribution` or `shape`, and
-/// everything else, takes the place of what is below.
+/// Lays `over` over `base`: tables key by key; lists of tables by `name`, `parameter` or `phase`; a table with another
+/// `kind`, `distribution` or `shape`, and everything else, takes the place of what is below.
 pub(super) fn lay_over<'a>(base: &mut DeTable<'a>, over: DeTable<'a>) {
     for (key, value) in over {
         let place = base.remove(key.get_ref().as_ref());
@@ -196,8 +198,8 @@ fn is_named(list: &[Spanned<DeValue<'_>>]) -> bool {
     list.iter().all(|item| identity(item).is_some())
 }
 
-/// Puts `value` where the dotted `path` leads: through tables, and through lists of tables by name (`wheels.w1.rate_rad_s`) or by number from zero
-/// (`require[0].at_most`). Tables that are not there are made.
+/// Puts `value` where the dotted `path` leads: through tables, and through lists of tables by name
+/// (`wheels.w1.rate_rad_s`) or by number from zero (`require[0].at_most`). Tables that are not there are made.
 ///
 /// # Errors
 /// What is not there, in words.
@@ -272,17 +274,19 @@ mod tests {
         }
     }
 
-    /// Law: a key of the file takes the place of the same key below; other keys stay; tables of lists are found by name or parameter; another kind
-    /// is another table.
+    /// Law: a key of the file takes the place of the same key below; other keys stay; tables of lists are found by name
+    /// or parameter; another kind is another table.
     #[test]
     fn files_are_laid_over_one_another() {
         let mut base = table(
-            "[a]\nx = 1\ny = 2\n[[w]]\nname = \"one\"\nx = 1\ny = 1\n[[w]]\nname = \"two\"\nx = 2\n[d]\nkind = \"grid\"\nlevels = 3\n[[r]]\nx = 1\n[[r]]\nx = 2",
+            "[a]\nx = 1\ny = 2\n[[w]]\nname = \"one\"\nx = 1\ny = 1\n[[w]]\nname = \"two\"\nx = 2\n[d]\nkind = \
+            \"grid\"\nlevels = 3\n[[r]]\nx = 1\n[[r]]\nx = 2",
         );
         lay_over(
             &mut base,
             table(
-                "[a]\nx = 5\n[[w]]\nname = \"two\"\nx = 7\n[[w]]\nname = \"three\"\nx = 8\n[d]\nkind = \"random\"\n[[r]]\nx = 9",
+                "[a]\nx = 5\n[[w]]\nname = \"two\"\nx = 7\n[[w]]\nname = \"three\"\nx = 8\n[d]\nkind = \
+                \"random\"\n[[r]]\nx = 9",
             ),
         );
         let found = |path: &[&str]| shown(&base, path);

@@ -1,7 +1,7 @@
 //! [`Spec`]: a campaign file as written, key by key.
 //!
-//! Every key of the file is read here (those of `[[disperse]]` in [`super::draws`]); a number that is missing or wrong is
-//! NaN here and noted in the document. What is left out stays `None`: the plan fills it in.
+//! Every key of the file is read here (those of `[[disperse]]` in [`super::draws`]); a number that is missing or wrong
+//! is NaN here and noted in the document. What is left out stays `None`: the plan fills it in.
 
 use super::analysis::Analysis;
 use super::columns::request;

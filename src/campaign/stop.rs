@@ -31,12 +31,15 @@ pub struct Stop {
 /// The keys of the table; those between the first and the last one are of a goal.
 #[rustfmt::skip]
 pub const ROWS: [Row; 6] = [
-    Row::new("when", Kind::Word(&["precise", "decided"]), "What ends the campaign: a quantile is known precisely enough, or no requirement is undecided"),
-    Row::new("observable", Kind::Observable, "The observable").required_as("the name of an observable", "\"energy_error_max\""),
+    Row::new("when", Kind::Word(&["precise", "decided"]),
+        "What ends the campaign: a quantile is known precisely enough, or no requirement is undecided"),
+    Row::new("observable", Kind::Observable, "The observable").required_as("the name of an observable",
+        "\"energy_error_max\""),
     Row::new("quantile", Kind::Number, "Which of its quantiles")
         .limited(PROBABILITY)
         .required_as(PROBABILITY.allowed, "0.95"),
-    Row::new("half_width", Kind::Amount, "The half-width that the interval of the quantile must reach, in the unit of the observable")
+    Row::new("half_width", Kind::Amount, "The half-width that the interval of the quantile must reach, in the unit of \
+        the observable")
         .limited(POSITIVE).required_as(POSITIVE.allowed, "1e-12"),
     Row::new("confidence", Kind::Number, "Confidence of the interval")
         .limited(CONFIDENCE)

@@ -1,4 +1,5 @@
-//! What the tables of the scene and of its control loop have in common: their names, and numbers as the schema has them.
+//! What the tables of the scene and of its control loop have in common: their names, and numbers as the schema has
+//! them.
 
 use super::section::Section;
 use crate::scene::table::Table;
@@ -43,7 +44,8 @@ pub(super) fn read_name(section: &mut Section<'_, '_>, table: Table, taken: &[Na
     name
 }
 
-/// Lets the keys of the kinds other than that of place `chosen` be there without effect: of a file in which another one is tried.
+/// Lets the keys of the kinds other than that of place `chosen` be there without effect: of a file in which another one
+/// is tried.
 pub(super) fn ignore_others(
     section: &mut Section<'_, '_>,
     word: &str,

@@ -1,4 +1,5 @@
-//! Units in values: `"5 deg/s"` where a key asks for rad/s, `"5 deg/s / 3"` too. Plain numbers are in the unit of the key, and need none.
+//! Units in values: `"5 deg/s"` where a key asks for rad/s, `"5 deg/s / 3"` too. Plain numbers are in the unit of the
+//! key, and need none.
 
 use core::f64::consts::PI;
 
@@ -138,7 +139,8 @@ pub(super) struct UnitProblem {
 /// In place of the SI unit of what is not known: every unit is accepted.
 pub(super) const UNKNOWN: &str = "";
 
-/// The number that `text`, a number and a unit, means in the SI unit `unit`; with [`UNKNOWN`], in the SI unit of what is written.
+/// The number that `text`, a number and a unit, means in the SI unit `unit`; with [`UNKNOWN`], in the SI unit of what
+/// is written.
 ///
 /// # Errors
 /// What is wrong, where it is no number and unit of that kind.
@@ -154,7 +156,8 @@ pub(super) fn parsed(text: &str, unit: &str) -> Result<f64, UnitProblem> {
     Err(UnitProblem { allowed: allowed(unit), remedy: "do not divide by zero".to_owned() })
 }
 
-/// The quantity at the start of a text, and the numbers by which it is then multiplied or (`true`) divided, in their order.
+/// The quantity at the start of a text, and the numbers by which it is then multiplied or (`true`) divided, in their
+/// order.
 fn factors(text: &str) -> (&str, Vec<(bool, f64)>) {
     let (mut head, mut found) = (text.trim(), Vec::new());
     while let Some(at) = head.rfind(['*', '/'])

@@ -69,7 +69,8 @@ pub fn threads(text: &str) -> Result<NonZeroUsize, String> {
     let most = MOST_THREADS_OF_A_CORE * cores;
     let allowed = || {
         format!(
-            "must be a whole number from 1 to {most}: {MOST_THREADS_OF_A_CORE} for each core that this process has ({cores})"
+            "must be a whole number from 1 to {most}: {MOST_THREADS_OF_A_CORE} for each core that this process has \
+            ({cores})"
         )
     };
     text.parse().ok().filter(|number: &NonZeroUsize| number.get() <= most).ok_or_else(allowed)

@@ -20,7 +20,8 @@ pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,
     /// Colour verdicts, help and notes; `auto` does on a terminal, unless NO_COLOR is set.
-    #[arg(long, value_name = "WHEN", global = true, value_enum, default_value_t = Colour::Auto, hide_possible_values = true)]
+    #[arg(long, value_name = "WHEN", global = true, value_enum, default_value_t = Colour::Auto,
+        hide_possible_values = true)]
     pub color: Colour,
 }
 
@@ -68,8 +69,8 @@ pub enum Command {
 /// Overrides of a campaign file.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Changed {
-    /// Override a key, KEY as shown in error messages: --set campaign.duration_s=20, --set "wheels.w1.rate_rad_s=20 rpm"; may be
-    /// repeated.
+    /// Override a key, KEY as shown in error messages: --set campaign.duration_s=20, --set "wheels.w1.rate_rad_s=20
+    /// rpm"; may be repeated.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     pub settings: Vec<(String, String)>,
 }
@@ -142,7 +143,8 @@ pub struct ReportOptions {
     /// Write every figure to this folder: SVG where the program draws it, else a page.
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
-    /// Run this many scenes of a control loop twice with different sensor noise, and report the share of the variance that is noise.
+    /// Run this many scenes of a control loop twice with different sensor noise, and report the share of the variance
+    /// that is noise.
     #[arg(long, value_name = "SCENES", value_parser = clap::value_parser!(u64).range(2..))]
     pub noise: Option<u64>,
     /// Number of threads, at most four per core [default: one per core]; the page does not depend on it.
@@ -193,7 +195,8 @@ pub struct VerifyOptions {
 pub struct CheckOptions {
     /// The campaign file.
     pub file: PathBuf,
-    /// Show all that is known, not one screen of it: percentiles of the draws, masses, momenta, what is integrated and why.
+    /// Show all that is known, not one screen of it: percentiles of the draws, masses, momenta, what is integrated and
+    /// why.
     #[arg(long)]
     pub verbose: bool,
     /// Show the plan too: every key, with the defaults.
@@ -211,8 +214,8 @@ pub struct CompareOptions {
     pub first: PathBuf,
     /// The result folder to compare with it.
     pub second: PathBuf,
-    /// Exit with code 3 if a statistic is shifted by more than this fraction of the standard deviation in the baseline; 0
-    /// allows no difference.
+    /// Exit with code 3 if a statistic is shifted by more than this fraction of the standard deviation in the baseline;
+    /// 0 allows no difference.
     #[arg(long, value_name = "F", value_parser = shift)]
     pub tolerance: Option<f64>,
     /// Exit with code 3 for every verdict that is worse, also where the data differ by no more than chance makes.
@@ -250,7 +253,8 @@ pub struct SimulateOptions {
     /// Write all columns to this file (.parquet or .csv).
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Plot states, energies and errors to this file (.html, or .svg where the program draws it), on a fine grid or at --times.
+    /// Plot states, energies and errors to this file (.html, or .svg where the program draws it), on a fine grid or at
+    /// --times.
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
 }
@@ -347,7 +351,8 @@ pub struct ColumnsOptions {
     pub campaign: Option<PathBuf>,
 }
 
-/// What `words` mean, the name of the program first; invalid ones end the process with a message and code 2, and a request for help ends it with code 0.
+/// What `words` mean, the name of the program first; invalid ones end the process with a message and code 2, and a
+/// request for help ends it with code 0.
 pub fn arguments(words: impl Iterator<Item = OsString>) -> Arguments {
     Arguments::try_parse_from(words).unwrap_or_else(|error| {
         // the parser would print names as they are, with what a terminal obeys
@@ -372,7 +377,8 @@ mod tests {
         Arguments::command().debug_assert();
     }
 
-    /// Law: the exit codes stand in the help of the program alone, and that of every command has two examples of it, which are valid.
+    /// Law: the exit codes stand in the help of the program alone, and that of every command has two examples of it,
+    /// which are valid.
     #[test]
     fn every_help_has_what_it_promises() {
         let mut command = Arguments::command();

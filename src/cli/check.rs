@@ -193,7 +193,8 @@ fn happenings(text: &mut String, plan: &Plan) -> std::fmt::Result {
     let spacing = trimmed(spacing, 6);
     writeln!(
         text,
-        "seen at {points} points, {spacing} s apart: two crossings between neighbouring points are not seen (observe.points)"
+        "seen at {points} points, {spacing} s apart: two crossings between neighbouring points are not seen \
+        (observe.points)"
     )
 }
 
@@ -287,7 +288,8 @@ fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
             String::new()
         };
         return format!(
-            "\n== Estimate\ntime and disk space cannot be estimated: sample {sample} needs more than {PACE_STEPS} steps, which lead to {} s of {} s{end}\n",
+            "\n== Estimate\ntime and disk space cannot be estimated: sample {sample} needs more than {PACE_STEPS} \
+            steps, which lead to {} s of {} s{end}\n",
             trimmed(reached, 6),
             trimmed(duration, 6)
         );
@@ -354,7 +356,8 @@ mod tests {
     use super::*;
     use crate::campaign::Overrides;
 
-    /// Law: `check` says at how many points events are looked for, and the time between neighbouring ones, which is that of the grid.
+    /// Law: `check` says at how many points events are looked for, and the time between neighbouring ones, which is
+    /// that of the grid.
     #[test]
     fn the_points_of_events_are_those_of_the_grid() {
         let event =

@@ -1,4 +1,5 @@
-//! Colour on the terminal: verdicts, headings of help, notes. Words stay as they are; a pipe gets no colour unless it is asked for.
+//! Colour on the terminal: verdicts, headings of help, notes. Words stay as they are; a pipe gets no colour unless it
+//! is asked for.
 
 use std::io::IsTerminal;
 
@@ -134,7 +135,8 @@ mod tests {
         [RED, GREEN, YELLOW, BOLD, DIM, RESET].iter().fold(text.to_owned(), |text, code| text.replace(code, ""))
     }
 
-    /// Law: each verdict has its colour, as a whole word only; the words of a text stay as they are, and whatever begins ends in its line.
+    /// Law: each verdict has its colour, as a whole word only; the words of a text stay as they are, and whatever
+    /// begins ends in its line.
     #[test]
     fn words_stay_and_verdicts_are_coloured() {
         let text = "3 PASS, 1 FAIL -> results/x/report.html\n  UNDECIDED  p95 of PASSED_s\n\nUsage: spindrift check\n";
@@ -151,8 +153,8 @@ mod tests {
         assert_eq!(coloured("a note\n", Kind::Note), format!("{DIM}a note{RESET}\n"));
     }
 
-    /// Law: with `auto` a terminal has colour and a pipe has none; NO_COLOR and a dumb terminal take it away, an empty NO_COLOR does not; `always` and `never`
-    /// are stronger than both.
+    /// Law: with `auto` a terminal has colour and a pipe has none; NO_COLOR and a dumb terminal take it away, an empty
+    /// NO_COLOR does not; `always` and `never` are stronger than both.
     #[test]
     fn a_pipe_has_no_colour() {
         let on = |colour: Colour, is_terminal: bool, no_color: Option<&str>, term: Option<&str>| {

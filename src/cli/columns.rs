@@ -116,7 +116,8 @@ fn about(title: &str) -> (&'static str, &'static str) {
 /// What groups need that no campaign observes unless it says so.
 const NAMED: &str = "in observe.groups";
 
-/// The group called `word`; or of all groups the columns with the word in their name, their unit or their meaning. `None` where there is none.
+/// The group called `word`; or of all groups the columns with the word in their name, their unit or their meaning.
+/// `None` where there is none.
 fn found(all: &[ListedColumn], word: &str) -> Option<Vec<ListedColumn>> {
     let lower = word.to_lowercase();
     let has = |column: &&ListedColumn| {

@@ -35,8 +35,9 @@ impl CommandOutcome {
         Self::of_campaign(end.failed + end.not_covered, end.count("FAIL"), undecided)
     }
 
-    /// The outcome of a campaign with so many runs (those that broke the promise of their audits among them) and requirements that failed, and requirements that are undecided. A requirement that failed
-    /// matters most, then one that is undecided, then failed runs.
+    /// The outcome of a campaign with so many runs (those that broke the promise of their audits among them) and
+    /// requirements that failed, and requirements that are undecided. A requirement that failed matters most, then one
+    /// that is undecided, then failed runs.
     pub fn of_campaign(failed_runs: u64, failed: usize, undecided: usize) -> Self {
         match (failed, undecided, failed_runs) {
             (0, 0, 0) => CommandOutcome::Done,
@@ -86,7 +87,8 @@ mod tests {
         }
     }
 
-    /// Law: whatever makes a finished result no success gives its code, each alone: runs that failed, audits beyond their estimates, verdicts, a precision that was not reached.
+    /// Law: whatever makes a finished result no success gives its code, each alone: runs that failed, audits beyond
+    /// their estimates, verdicts, a precision that was not reached.
     #[test]
     fn every_shortfall_has_its_code() {
         let end = |failed, not_covered, word: &str, is_reached| SummaryEnd {

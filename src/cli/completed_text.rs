@@ -15,7 +15,8 @@ use crate::workflow::Completed;
 /// Lines of a screen without `--verbose`.
 const SCREEN: usize = 24;
 
-/// The result in words, on one screen or with all that is known of it; `replayed` is the campaign file as a word of the command `simulate`.
+/// The result in words, on one screen or with all that is known of it; `replayed` is the campaign file as a word of the
+/// command `simulate`.
 pub fn text(completed: &Completed, replayed: &str, is_verbose: bool) -> String {
     let Completed { plan, summary, sensitivities, .. } = completed;
     let head = question(plan.description.as_deref()) + &headline(completed);

@@ -20,7 +20,8 @@ const DRAWS: u64 = 10_000;
 /// Fewer draws have a range and no percentiles.
 const FEW: u64 = 100;
 
-/// Nominal value and distribution of each dispersed parameter, a line each: its components together where they have one distribution.
+/// Nominal value and distribution of each dispersed parameter, a line each: its components together where they have one
+/// distribution.
 ///
 /// # Errors
 /// What writing to `text` returns.
@@ -153,7 +154,8 @@ fn correlations(text: &mut String, plan: &Plan) -> std::fmt::Result {
     Ok(())
 }
 
-/// The rows of the table: the columns in their order, each magnitude, which are counted after them, below the last component of its parameter.
+/// The rows of the table: the columns in their order, each magnitude, which are counted after them, below the last
+/// component of its parameter.
 fn order(plan: &Plan, magnitudes: &[Magnitude]) -> Vec<usize> {
     let columns = plan.dispersions.columns();
     let mut rows = Vec::with_capacity(columns.len() + magnitudes.len());
@@ -166,7 +168,8 @@ fn order(plan: &Plan, magnitudes: &[Magnitude]) -> Vec<usize> {
     rows
 }
 
-/// The numbers that sample `sample` applies beside the nominal ones, in the units in which they are shown. Nothing where nothing is dispersed.
+/// The numbers that sample `sample` applies beside the nominal ones, in the units in which they are shown. Nothing
+/// where nothing is dispersed.
 pub fn shown(plan: &Plan, sample: SampleId) -> String {
     let mut draws = SceneDraws::new(plan);
     // a sample that is not physical applies its numbers too
@@ -185,8 +188,8 @@ pub fn shown(plan: &Plan, sample: SampleId) -> String {
 /// Digits of a number that a sample applies: what is measured has no more.
 const SHOWN_DIGITS: usize = 6;
 
-/// The numbers that sample `sample` applies, in all digits; with the mass properties that follow from them, where they are
-/// physical. Nothing where nothing is dispersed.
+/// The numbers that sample `sample` applies, in all digits; with the mass properties that follow from them, where they
+/// are physical. Nothing where nothing is dispersed.
 pub fn applied(plan: &Plan, sample: SampleId) -> String {
     let columns = plan.dispersions.columns();
     let mut draws = SceneDraws::new(plan);

@@ -27,7 +27,8 @@ pub fn run(options: &NewOptions) -> Result<CommandOutcome, Failure> {
         .map_err(|error| Failure::Files(format!("{}: {}", path.display(), atomic::explained(path, error))))?;
     let file = quoted_path(path);
     screen::print(&format!(
-        "{file}: a campaign to start from; its comments say what can be changed\n  spindrift check {file}\n  spindrift campaign {file}\n"
+        "{file}: a campaign to start from; its comments say what can be changed\n  spindrift check {file}\n  spindrift \
+        campaign {file}\n"
     ))?;
     Ok(CommandOutcome::Done)
 }

@@ -1,12 +1,12 @@
-//! [`refuse_inputs`]: a file that a command writes is never one that it reads. [`refuse_within`]: nor one in the folder of a result, which
-//! has the files of a dataset and no others.
+//! [`refuse_inputs`]: a file that a command writes is never one that it reads. [`refuse_within`]: nor one in the folder
+//! of a result, which has the files of a dataset and no others.
 
 use std::path::{Path, PathBuf};
 
 use crate::cli::command_outcome::Failure;
 
-/// Refuses those of `outputs`, each with the option that names it, that are one of the files `inputs`: by the same path, through a link, or
-/// by another name of the same file.
+/// Refuses those of `outputs`, each with the option that names it, that are one of the files `inputs`: by the same
+/// path, through a link, or by another name of the same file.
 ///
 /// # Errors
 /// The first such output.
@@ -15,7 +15,8 @@ pub fn refuse_inputs(inputs: &[PathBuf], outputs: &[(&str, Option<&Path>)]) -> R
         let Some(output) = output else { continue };
         if let Some(input) = inputs.iter().find(|input| is_same(input, output)) {
             return Err(Failure::Input(format!(
-                "{option} {}: must be a file that this command does not read, and `{}` is the same file; choose another name",
+                "{option} {}: must be a file that this command does not read, and `{}` is the same file; choose \
+                another name",
                 output.display(),
                 input.display()
             )));

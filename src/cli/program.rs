@@ -1,4 +1,5 @@
-//! [`run`]: the program: selects the command. The binary calls it, and so does the command that comes with the Python package.
+//! [`run`]: the program: selects the command. The binary calls it, and so does the command that comes with the Python
+//! package.
 
 use std::ffi::OsString;
 

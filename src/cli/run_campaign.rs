@@ -45,7 +45,8 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
                 _ => String::new(),
             };
             let there = format!(
-                "{}: already complete in {} ({}{failed}), every checksum verified; nothing to do. --overwrite runs it again.\n",
+                "{}: already complete in {} ({}{failed}), every checksum verified; nothing to do. --overwrite runs it \
+                again.\n",
                 plan.name,
                 campaign.named().display(),
                 counted(end.rows, "sample"),
@@ -120,7 +121,8 @@ fn check(options: &CampaignOptions, campaign: &PreparedCampaign<'_>) -> Result<(
 
 fn ended_by(name: &str, failed: &FailedRun, root: &Path) -> String {
     format!(
-        "{name}: sample {} failed ({}), and --fail-fast ends the campaign; what is done is safe. The same command without it continues.\n  that run again: spindrift simulate {} --sample {}",
+        "{name}: sample {} failed ({}), and --fail-fast ends the campaign; what is done is safe. The same command \
+        without it continues.\n  that run again: spindrift simulate {} --sample {}",
         failed.sample,
         failed.what,
         quoted_path(&root.join(PLAN)),
@@ -139,8 +141,8 @@ fn shard_is_done(name: &str, shard: Shard, root: &Path, made: Made) -> String {
     )
 }
 
-/// The campaign file as a word of the command `simulate`: the file of this command, or the plan in the result where options replaced its
-/// numbers.
+/// The campaign file as a word of the command `simulate`: the file of this command, or the plan in the result where
+/// options replaced its numbers.
 fn replayed(options: &CampaignOptions, root: &Path) -> String {
     let is_changed = !options.changed.settings.is_empty()
         || options.samples.is_some()

@@ -85,11 +85,13 @@ pub fn masses(text: &mut String, input: &SceneInput, mass: &MassProperties) -> R
     }
     writeln!(
         text,
-        "Convention: tensors in F_s, whose origin is p; off-diagonal entries are those of the tensor, J_xy = -integral of x y dm."
+        "Convention: tensors in F_s, whose origin is p; off-diagonal entries are those of the tensor, J_xy = -integral \
+        of x y dm."
     )
 }
 
-/// Angular momenta at the start about the centre of mass, those of the wheels, and the torque of each thruster at one newton.
+/// Angular momenta at the start about the centre of mass, those of the wheels, and the torque of each thruster at one
+/// newton.
 pub fn momenta(text: &mut String, input: &SceneInput, scene: &Scene, display: &Display) -> Result {
     let (mass, initial) = (&scene.mass, &scene.initial);
     let total = momentum(scene);
@@ -146,7 +148,8 @@ mod tests {
     use super::*;
     use crate::scene::{SceneInput, ThrusterInput};
 
-    /// Law: the momentum is J omega + sum J_i rate_i a_i, and a thruster's torque is its arm from the centre of mass times its direction.
+    /// Law: the momentum is J omega + sum J_i rate_i a_i, and a thruster's torque is its arm from the centre of mass
+    /// times its direction.
     #[test]
     fn momenta_and_torques_are_those_of_the_scene() {
         let mut input = SceneInput::report();

@@ -1,4 +1,5 @@
-//! Printing. Characters of files and names that a terminal would obey are shown as escapes. The standard macros panic where the reader has closed the pipe (`spindrift check x | head`); these do not.
+//! Printing. Characters of files and names that a terminal would obey are shown as escapes. The standard macros panic
+//! where the reader has closed the pipe (`spindrift check x | head`); these do not.
 
 use std::io::{self, IsTerminal, Write};
 
@@ -24,8 +25,8 @@ pub fn print(text: &str) -> io::Result<()> {
 /// Width of a terminal that is not known, characters.
 const UNKNOWN_WIDTH: usize = 100;
 
-/// Number of characters in a line of standard output: as the variable COLUMNS says (POSIX.1-2017, section 8.3), else as the terminal says,
-/// else 100.
+/// Number of characters in a line of standard output: as the variable COLUMNS says (POSIX.1-2017, section 8.3), else as
+/// the terminal says, else 100.
 pub fn width() -> usize {
     width_of(&io::stdout()).unwrap_or(UNKNOWN_WIDTH)
 }

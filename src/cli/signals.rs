@@ -1,7 +1,8 @@
 //! [`watch`]: signals that ask the program to stop.
 //!
-//! The first one lets parts under way end if they can within [`GRACE`]; the second one ends the program at once. Either way what is
-//! committed stays, and the same command continues. A signal that was ignored when the program started (`nohup`) stays ignored.
+//! The first one lets parts under way end if they can within [`GRACE`]; the second one ends the program at once. Either
+//! way what is committed stays, and the same command continues. A signal that was ignored when the program started
+//! (`nohup`) stays ignored.
 
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::time::Duration;
@@ -52,8 +53,8 @@ pub fn asked() -> &'static Signals {
     &ASKED
 }
 
-/// Makes the write that exceeds the file size that the process may have (`ulimit -f`) fail with an error, which is then told as any other. Without a handler
-/// the system would end the program.
+/// Makes the write that exceeds the file size that the process may have (`ulimit -f`) fail with an error, which is then
+/// told as any other. Without a handler the system would end the program.
 #[cfg(unix)]
 pub fn report_file_limit() {
     // where it cannot be registered, only that message is lost
@@ -64,7 +65,8 @@ pub fn report_file_limit() {
 #[cfg(not(unix))]
 pub fn report_file_limit() {}
 
-/// Starts to watch for signals, once. Where its thread cannot be started, the program ends: it would not end at a signal.
+/// Starts to watch for signals, once. Where its thread cannot be started, the program ends: it would not end at a
+/// signal.
 #[cfg(unix)]
 pub fn watch() -> &'static Signals {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1};

@@ -1,4 +1,5 @@
-//! [`Terminal`]: what a command tells while it works: notes, and on a terminal a bar with rate and remaining time. Signals stop it.
+//! [`Terminal`]: what a command tells while it works: notes, and on a terminal a bar with rate and remaining time.
+//! Signals stop it.
 
 use std::fmt::Write;
 use std::sync::atomic::AtomicBool;

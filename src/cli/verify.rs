@@ -29,14 +29,19 @@ pub fn run(options: &VerifyOptions) -> Result<CommandOutcome, Failure> {
         (None, true, _) => "sound".to_owned(),
         (None, false, _) if *missing > 0 => {
             let parts = counted(*missing, "part");
-            format!("what was compared is sound, and the result is not finished: {parts} not made yet; the \
-                     campaign's command makes the rest")
+            format!(
+                "what was compared is sound, and the result is not finished: {parts} not made yet; the \
+                     campaign's command makes the rest"
+            )
         }
         (None, false, _) if unchecked.is_empty() => {
-            "what was compared is sound, and the result is not finished: _SUCCESS is missing, or not empty; the campaign's command finishes it".to_owned()
+            "what was compared is sound, and the result is not finished: _SUCCESS is missing, or not empty; the \
+            campaign's command finishes it"
+                .to_owned()
         }
         (None, false, _) => format!(
-            "what was compared is sound, and the result is not finished; not compared, since nothing says what should be in them: {}; the campaign's command finishes it and makes them again",
+            "what was compared is sound, and the result is not finished; not compared, since nothing says what should \
+            be in them: {}; the campaign's command finishes it and makes them again",
             unchecked.join(", ")
         ),
     };

@@ -1,14 +1,17 @@
 //! [`Auditor`]: the true error of a run, from a comparison with the reference solution of its scene.
 //!
-//! The reference solution is the Taylor solution in double-double ([`crate::propagation::taylor::reference_solution`]), which shares neither
-//! method nor periodic folding with the audited run. Where the run is too long for that, it is the Taylor method at 1e-16 in plain
-//! doubles, and the row says so ([`Audit::reference_tolerance`]); there is none of drag and sunlight, which have no Taylor series. The audited run is repeated with the states that the comparison
-//! needs; an audit does not change the row of the campaign.
+//! The reference solution is the Taylor solution in double-double ([`crate::propagation::taylor::reference_solution`]),
+//! which shares neither method nor periodic folding with the audited run. Where the run is too long for that, it is the
+//! Taylor method at 1e-16 in plain doubles, and the row says so ([`Audit::reference_tolerance`]); there is none of drag
+//! and sunlight, which have no Taylor series. The audited run is repeated with the states that the comparison needs; an
+//! audit does not change the row of the campaign.
 //!
-//! An audit has a limit: where a body turns so fast that its reference solution would take longer than the whole audit of other runs, there
-//! is none, and the row says so ([`NoAudit`]). The limit counts units of time of the motion, not seconds of a clock.
+//! An audit has a limit: where a body turns so fast that its reference solution would take longer than the whole audit
+//! of other runs, there is none, and the row says so ([`NoAudit`]). The limit counts units of time of the motion, not
+//! seconds of a clock.
 //!
-//! Which samples are audited is drawn from a stream of its own, `audit`: it does not depend on threads, parts or other draws.
+//! Which samples are audited is drawn from a stream of its own, `audit`: it does not depend on threads, parts or other
+//! draws.
 
 use thiserror::Error;
 
@@ -31,12 +34,13 @@ use crate::run::{Grid, LocalErrors, Outcome, Quantity, StateField, StateFields, 
 use crate::sampling::{SampleId, Stream};
 use crate::scene::Scene;
 
-/// A run of more units of time ([`Gyrostat::time_unit`]) than this is audited in plain doubles: double-double takes some
-/// five steps per unit of some 40 us each, so that an audit takes one second at most.
+/// A run of more units of time ([`Gyrostat::time_unit`]) than this is audited in plain doubles: double-double takes
+/// some five steps per unit of some 40 us each, so that an audit takes one second at most.
 const MOST_UNITS: f64 = 4096.0;
 
-/// Debris that turns for more units of time than this, and is integrated in double-double, is not audited: as `MOST_UNITS`, some four seconds.
-/// Its rotation has a closed form or costs little in a campaign, whatever its rate, so that an audit alone would take hours.
+/// Debris that turns for more units of time than this, and is integrated in double-double, is not audited: as
+/// `MOST_UNITS`, some four seconds. Its rotation has a closed form or costs little in a campaign, whatever its rate, so
+/// that an audit alone would take hours.
 const MOST_UNITS_OF_DEBRIS: f64 = 16_384.0;
 
 /// Tolerance of the reference solution in plain doubles: the smallest that a campaign may ask for.
@@ -64,27 +68,32 @@ static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
     Quantity::new(
         "audit_state_error",
         "",
-        "True largest error of the body's rotation on the grid, which state_error_estimate estimates: the larger of the next two.",
+        "True largest error of the body's rotation on the grid, which state_error_estimate estimates: the larger of \
+        the next two.",
     ),
     Quantity::new(
         "audit_omega_error",
         "",
-        "True largest error of omega on the grid, relative to the largest |omega|, or to one radian over the duration where that is more.",
+        "True largest error of omega on the grid, relative to the largest |omega|, or to one radian over the duration \
+        where that is more.",
     ),
     Quantity::new(
         "audit_attitude_error_rad",
         "rad",
-        "True largest error of the attitude on the grid, twice the distance of the quaternions: the angle where the norm is kept.",
+        "True largest error of the attitude on the grid, twice the distance of the quaternions: the angle where the \
+        norm is kept.",
     ),
     Quantity::new(
         "audit_debris_error",
         "",
-        "True largest error of the debris's rotation on the grid: of its omega relative to the largest |omega| (or to one radian over the duration where that is more), or of its attitude in rad, whichever is larger.",
+        "True largest error of the debris's rotation on the grid: of its omega relative to the largest |omega| (or to \
+        one radian over the duration where that is more), or of its attitude in rad, whichever is larger.",
     ),
     Quantity::new(
         "audit_truth_tolerance",
         "",
-        "Tolerance of the reference solution that the run was compared with: 1e-31 in double-double, 1e-17 there with drag or sunlight, 1e-16 in plain doubles where the run was too long for double-double.",
+        "Tolerance of the reference solution that the run was compared with: 1e-31 in double-double, 1e-17 there with \
+        drag or sunlight, 1e-16 in plain doubles where the run was too long for double-double.",
     ),
     Quantity::new(
         "audit_state_error_estimate",
@@ -129,7 +138,8 @@ impl AuditValue {
 /// What an audit found of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Audit {
-    /// Largest error of omega on the grid, over the largest |omega|, or over one radian per duration where that is more.
+    /// Largest error of omega on the grid, over the largest |omega|, or over one radian per duration where that is
+    /// more.
     pub omega: f64,
     /// Largest error of the attitude on the grid, rad.
     pub attitude: f64,
@@ -141,8 +151,8 @@ pub struct Audit {
     pub debris_estimate: f64,
     /// Tolerance of the reference solution.
     pub reference_tolerance: f64,
-    /// |observed - true| of each observable, in the order of the request's columns; NaN where the reference solution has no such
-    /// value (step statistics, for example).
+    /// |observed - true| of each observable, in the order of the request's columns; NaN where the reference solution
+    /// has no such value (step statistics, for example).
     pub observables: Vec<f64>,
 }
 
@@ -177,7 +187,8 @@ pub enum NoAudit {
     Reference(Status),
     /// It is beyond the limit of work.
     #[error(
-        "the {body} turns for {units:e} units of time (powers of two near the inverse of its rate), more than the {most} that an audit integrates in double-double"
+        "the {body} turns for {units:e} units of time (powers of two near the inverse of its rate), more than the \
+        {most} that an audit integrates in double-double"
     )]
     Limit {
         /// The debris, or the spacecraft where there is no Taylor series of its motion.
@@ -276,7 +287,8 @@ impl Auditor {
         self.compare(scene, scene)
     }
 
-    /// Audits the run of `run` against the reference solution of `scene`. Both are the same scene, except in tests of a wrong kernel.
+    /// Audits the run of `run` against the reference solution of `scene`. Both are the same scene, except in tests of a
+    /// wrong kernel.
     ///
     /// # Errors
     /// As [`Auditor::audit`].

@@ -1,11 +1,13 @@
-//! [`Bands`]: quantiles over a campaign of quantities over time; [`PartBands`]: what one part contributes, while it is run.
+//! [`Bands`]: quantiles over a campaign of quantities over time; [`PartBands`]: what one part contributes, while it is
+//! run.
 //!
 //! At each of some observation points the deviations of the runs from the nominal run are counted in buckets
-//! ([`crate::statistics::deviation`]): a relative error of a large energy would hide its spread. Counts of parts add up to those of the
-//! campaign in any order, and memory does not grow with the number of runs. Only dispersed runs with status `ok` count.
+//! ([`crate::statistics::deviation`]): a relative error of a large energy would hide its spread. Counts of parts add up
+//! to those of the campaign in any order, and memory does not grow with the number of runs. Only dispersed runs with
+//! status `ok` count.
 //!
-//! Extremes and the number of runs with a value are those of all runs. Quantiles of a large campaign are those of its first runs
-//! ([`crate::campaign::Plan::last_counted`]).
+//! Extremes and the number of runs with a value are those of all runs. Quantiles of a large campaign are those of its
+//! first runs ([`crate::campaign::Plan::last_counted`]).
 
 use std::sync::Arc;
 
@@ -19,15 +21,16 @@ use crate::sampling::SampleId;
 use crate::statistics::deviation::{Code, ZERO, ends, ranks};
 use crate::statistics::gate::GateLimit;
 
-/// The runs whose codes are kept before they are counted, so that the counts of a column, which the runs between have driven out of the
-/// second-level cache, are fetched seldom.
+/// The runs whose codes are kept before they are counted, so that the counts of a column, which the runs between have
+/// driven out of the second-level cache, are fetched seldom.
 const PENDING: usize = 2048;
 
-/// The runs whose codes are kept run by run before they are moved to their columns: those of a column are then a cache line, and the codes
-/// of all columns stay in the first-level cache.
+/// The runs whose codes are kept run by run before they are moved to their columns: those of a column are then a cache
+/// line, and the codes of all columns stay in the first-level cache.
 const RECENT: usize = 32;
 
-/// Bound of the rounding of a value that is put together from the nominal one and a deviation: some units in the last place.
+/// Bound of the rounding of a value that is put together from the nominal one and a deviation: some units in the last
+/// place.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -65,8 +68,8 @@ impl BandLayout {
     }
 }
 
-/// The bands of one part while it is run. Reused from part to part; adding a run allocates only where a deviation is in an octave
-/// that no earlier one was in.
+/// The bands of one part while it is run. Reused from part to part; adding a run allocates only where a deviation is in
+/// an octave that no earlier one was in.
 #[derive(Clone, Debug)]
 pub struct PartBands {
     layout: Arc<BandLayout>,
@@ -88,7 +91,8 @@ pub struct PartBands {
 }
 
 impl PartBands {
-    /// Of runs that `reader` reads, whose nominal run is that of `layout`; those up to the sample `last_counted` are counted.
+    /// Of runs that `reader` reads, whose nominal run is that of `layout`; those up to the sample `last_counted` are
+    /// counted.
     ///
     /// # Panics
     /// Where the layout has other series or points.
@@ -184,7 +188,8 @@ impl PartBands {
         [self.runs, self.counted]
     }
 
-    /// A column, of the series times points, after [`PartBands::count`], and its buckets that are not empty, in ascending order of their codes.
+    /// A column, of the series times points, after [`PartBands::count`], and its buckets that are not empty, in
+    /// ascending order of their codes.
     ///
     /// # Panics
     /// Where runs are pending.
@@ -271,7 +276,8 @@ impl Bands {
         self.runs.iter_mut().zip(runs).for_each(|(sum, runs)| *sum += runs);
     }
 
-    /// Adds to a column, of the series times points, what is known of all runs, and the buckets of those that were counted.
+    /// Adds to a column, of the series times points, what is known of all runs, and the buckets of those that were
+    /// counted.
     pub fn add_column(&mut self, index: usize, all: RunsOfColumn, buckets: impl Iterator<Item = (Code, u64)>) {
         let column = &mut self.columns[index];
         column.all.add(all);
@@ -337,10 +343,11 @@ impl Bands {
         column.all.extremes.map(|extremes| extremes.map(|kept| self.layout.form(index).shown(kept)))
     }
 
-    /// The `p`-quantile, 0 <= p <= 1, of type 7, of the runs that are [counted](Bands::counted); `None` where none of them has a value.
+    /// The `p`-quantile, 0 <= p <= 1, of type 7, of the runs that are [counted](Bands::counted); `None` where none of
+    /// them has a value.
     ///
-    /// Within [`crate::statistics::deviation::RELATIVE_ERROR`] of its deviation from the nominal run (of the larger deviation of the two
-    /// neighbours between which it is interpolated), and never beyond the extremes.
+    /// Within [`crate::statistics::deviation::RELATIVE_ERROR`] of its deviation from the nominal run (of the larger
+    /// deviation of the two neighbours between which it is interpolated), and never beyond the extremes.
     pub fn quantile(&self, series: usize, point: usize, p: f64) -> Option<f64> {
         self.quantiles(series, point, [p])[0]
     }
@@ -358,8 +365,8 @@ impl Bands {
         })
     }
 
-    /// At least and at most how many runs are within `limit` at a point, of all runs. They differ by the runs in the bucket that the limit is in, and by those that are not counted; a run
-    /// without a value is not within it.
+    /// At least and at most how many runs are within `limit` at a point, of all runs. They differ by the runs in the
+    /// bucket that the limit is in, and by those that are not counted; a run without a value is not within it.
     pub fn within(&self, series: usize, point: usize, limit: GateLimit) -> [u64; 2] {
         let (index, column) = self.column(series, point);
         let (form, reference) = (self.layout.form(index), self.layout.reference(index));

@@ -76,7 +76,8 @@ pub(super) struct Batch<'p> {
 }
 
 impl<'p> Batch<'p> {
-    /// An empty one, observed on `grid`. Allocates; running scenes in it does not, once it is warm, unless an event ends them.
+    /// An empty one, observed on `grid`. Allocates; running scenes in it does not, once it is warm, unless an event
+    /// ends them.
     pub fn new(means: Means<'p>, grid: Grid) -> Self {
         // first: the engine of the nominal run is gone before that of the runs is made
         let observer = means.observer(&grid);
@@ -132,8 +133,8 @@ impl<'p> Batch<'p> {
         }
     }
 
-    /// Runs the scenes of the batch. Where the program panics, those that had not ended are run again one by one in new memory, so that
-    /// the panic is the end of one run only.
+    /// Runs the scenes of the batch. Where the program panics, those that had not ended are run again one by one in new
+    /// memory, so that the panic is the end of one run only.
     pub fn propagate(&mut self, rows: &mut Rows, report: &mut Report<'_>) {
         self.flown.iter_mut().for_each(Vec::clear);
         self.is_done.clear();
@@ -173,7 +174,8 @@ impl<'p> Batch<'p> {
         self.observer = self.means.observer(&self.grid);
     }
 
-    /// Writes what the laws of the runs that have just ended report: those of the scenes `which` of the batch, flown together.
+    /// Writes what the laws of the runs that have just ended report: those of the scenes `which` of the batch, flown
+    /// together.
     fn report_laws(&mut self, which: Range<usize>, rows: &mut Rows) {
         let place = self.places_of_law.clone();
         for (run, scene) in which.enumerate().filter(|(_, scene)| self.is_done[*scene]) {
@@ -246,7 +248,8 @@ impl<'p> Batch<'p> {
         }
     }
 
-    /// Runs those of the scenes `which` again that an event ends, up to there: each as the one scene of a batch of its own.
+    /// Runs those of the scenes `which` again that an event ends, up to there: each as the one scene of a batch of its
+    /// own.
     fn end_runs(&mut self, which: Range<usize>, rows: &mut Rows, report: &mut Report<'_>) {
         for scene in which {
             let Some(end) = self.ends[scene].filter(|_| !self.is_done[scene]) else { continue };

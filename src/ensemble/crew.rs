@@ -2,8 +2,8 @@
 
 /// Does the work of a thread, for instance several times side by side.
 pub trait Crew: Sync {
-    /// Calls `work`, which flies parts until none is left, at least once, on this thread; returns when all calls have. Calls may take turns: a run leaves the
-    /// thread to the others only where it asks its law.
+    /// Calls `work`, which flies parts until none is left, at least once, on this thread; returns when all calls have.
+    /// Calls may take turns: a run leaves the thread to the others only where it asks its law.
     fn work(&self, work: &(dyn Fn() + Sync));
 }
 

@@ -1,15 +1,18 @@
-//! Where a quantity crosses zero between two times, from its values at [`nodes`]: interpolated where that is exact, narrowed down where it is not.
+//! Where a quantity crosses zero between two times, from its values at [`nodes`]: interpolated where that is exact,
+//! narrowed down where it is not.
 
 use core::f64::consts::PI;
 
-/// The degree of the polynomial through the nodes: exact to rounding for motions of up to about a turn between the times.
+/// The degree of the polynomial through the nodes: exact to rounding for motions of up to about a turn between the
+/// times.
 const DEGREE: usize = 16;
 /// Rounding of a quantity, over its largest value.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Halvings of an interval until its ends are neighbours.
 const HALVINGS: usize = 60;
 
-/// The extreme points of the Chebyshev polynomial of degree [`DEGREE`] on [`start`, `end`], ascending, with both ends exactly.
+/// The extreme points of the Chebyshev polynomial of degree [`DEGREE`] on [`start`, `end`], ascending, with both ends
+/// exactly.
 pub(super) fn nodes(start: f64, end: f64) -> impl Iterator<Item = f64> {
     (0..=DEGREE).map(move |k| match k {
         0 => start,
@@ -51,7 +54,8 @@ impl Wanted {
     }
 }
 
-/// The crossing of a quantity that is held from one of `times` to the next, with these `values` there; `is_next` says whether there is none between two times.
+/// The crossing of a quantity that is held from one of `times` to the next, with these `values` there; `is_next` says
+/// whether there is none between two times.
 pub(super) fn of_steps(times: &[f64], values: &[f64], wanted: Wanted, is_next: impl Fn(f64, f64) -> bool) -> Found {
     match wanted.place(values) {
         Some(place) if !is_next(times[place], times[place + 1]) => Found::Between(times[place], times[place + 1]),
@@ -60,7 +64,8 @@ pub(super) fn of_steps(times: &[f64], values: &[f64], wanted: Wanted, is_next: i
     }
 }
 
-/// The crossing of a quantity with these `values` at the [`nodes`] `times`, by interpolation where that moves it by no more than `error`, s.
+/// The crossing of a quantity with these `values` at the [`nodes`] `times`, by interpolation where that moves it by no
+/// more than `error`, s.
 pub(super) fn of_curve(times: &[f64], values: &[f64], wanted: Wanted, error: f64) -> Found {
     let Some(place) = wanted.place(values) else { return Found::At(nearest(times, values)) };
     let [start, end] = [times[place], times[place + 1]];
@@ -147,8 +152,8 @@ mod tests {
         panic!("no end")
     }
 
-    /// Law: the crossing of a smooth quantity is found at once, to rounding, also over a whole turn; the first and the last of several; that of a
-    /// corner and of a jump by narrowing.
+    /// Law: the crossing of a smooth quantity is found at once, to rounding, also over a whole turn; the first and the
+    /// last of several; that of a corner and of a jump by narrowing.
     #[test]
     fn crossings_are_located() {
         for (f, exact, wanted) in [
@@ -173,7 +178,8 @@ mod tests {
         }
     }
 
-    /// Law: a quantity that is held changes at the later of two neighbouring times; where there are others between them, these are looked at.
+    /// Law: a quantity that is held changes at the later of two neighbouring times; where there are others between
+    /// them, these are looked at.
     #[test]
     fn steps_are_at_the_later_time() {
         let (times, values) = ([0.0, 1.0, 3.0, 4.0], [-1.0, -2.0, 5.0, 6.0]);

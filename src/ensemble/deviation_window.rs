@@ -30,7 +30,8 @@ impl<C: Copy + Default + Into<u64>> DeviationWindow<C> {
         self.counts.get_mut(usize::from(code.wrapping_sub(self.first)))
     }
 
-    /// The counter of a bucket beyond the window, which is widened; `None` for what is not a number, which is in no bucket.
+    /// The counter of a bucket beyond the window, which is widened; `None` for what is not a number, which is in no
+    /// bucket.
     #[inline(never)]
     fn counter_beyond(&mut self, code: Code) -> Option<&mut C> {
         match code {
@@ -129,8 +130,8 @@ mod tests {
         codes.chunk_by(|a, b| a == b).map(|run| (run[0], run.len() as u64)).collect()
     }
 
-    /// Law: a window counts every code once, in whichever order they come and however it has to grow; zero is counted, what is not a
-    /// number is not.
+    /// Law: a window counts every code once, in whichever order they come and however it has to grow; zero is counted,
+    /// what is not a number is not.
     #[test]
     fn a_window_counts_every_code() {
         let values = [1.0, -1.0, 1e-9, 0.0, f64::NAN, 1e12, -3e-200, 1.0, 1e77, f64::INFINITY, 0.0, 1e-77, -1e-77];
@@ -145,8 +146,8 @@ mod tests {
         }
     }
 
-    /// Law: however deviations are divided into parts, and in whichever order the parts are added, the sums are the same; they go on
-    /// beyond 2^32.
+    /// Law: however deviations are divided into parts, and in whichever order the parts are added, the sums are the
+    /// same; they go on beyond 2^32.
     #[test]
     fn adding_has_no_order() {
         let value = |k: u32| libm::sin(f64::from(k)) * libm::exp2(f64::from(k % 90) - 60.0);

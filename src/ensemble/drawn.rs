@@ -17,8 +17,8 @@ pub struct DrawnScenes {
     pub physical: Vec<bool>,
     /// The applied values, column by column as [`crate::sampling::Dispersions::columns`] has them.
     pub columns: Vec<Vec<f64>>,
-    /// Mass properties of the spacecraft, column by column as [`MASS_COLUMNS`] has them; empty where they were not asked. NaN where a
-    /// sample is not physical.
+    /// Mass properties of the spacecraft, column by column as [`MASS_COLUMNS`] has them; empty where they were not
+    /// asked. NaN where a sample is not physical.
     pub mass: Vec<Vec<f64>>,
     /// Magnitudes of vectors and attitudes, column by column as [`magnitudes`] has them.
     pub magnitudes: Vec<Vec<f64>>,
@@ -77,8 +77,8 @@ impl DrawnScenes {
         drawn
     }
 
-    /// Draws `count` dispersed samples of `plan`: the first ones, or those of a design with points of its own, as a grid, from all over it (one
-    /// at a pseudo-random place in each of `count` equal parts).
+    /// Draws `count` dispersed samples of `plan`: the first ones, or those of a design with points of its own, as a
+    /// grid, from all over it (one at a pseudo-random place in each of `count` equal parts).
     pub fn spread(plan: &Plan, count: u64) -> Self {
         let dispersed = plan.samples.saturating_sub(1);
         let has_points = plan.design.size(plan.dispersions.dimensions().len()) != Size::Any;
@@ -95,7 +95,8 @@ impl DrawnScenes {
         drawn
     }
 
-    /// Draws all samples of `plan`, at most [`CHUNK`] at a time, and shows them to `seen`; with their mass properties if `with_mass`.
+    /// Draws all samples of `plan`, at most [`CHUNK`] at a time, and shows them to `seen`; with their mass properties
+    /// if `with_mass`.
     ///
     /// # Errors
     /// The first error of `seen`, after which nothing is drawn.
@@ -144,7 +145,8 @@ impl DrawnScenes {
         self.physical.len()
     }
 
-    /// Spearman's rank correlation of each pair of columns; 0 for a column that does not vary. Equal values share their mean rank.
+    /// Spearman's rank correlation of each pair of columns; 0 for a column that does not vary. Equal values share their
+    /// mean rank.
     pub fn rank_correlations(&self) -> Vec<Vec<f64>> {
         let scores: Vec<Vec<f64>> = self.columns.iter().map(|column| standardised(&mid_ranks(column))).collect();
         matrix(&scores)
@@ -167,7 +169,8 @@ mod tests {
         }
     }
 
-    /// Law: some samples of a grid are spread over all of it: both parameters have all their range; those of a random design are the first ones.
+    /// Law: some samples of a grid are spread over all of it: both parameters have all their range; those of a random
+    /// design are the first ones.
     #[test]
     fn samples_are_spread_over_a_grid() {
         let scene: String = include_str!("../../campaigns/no_debris.toml")

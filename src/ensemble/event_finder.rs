@@ -1,8 +1,9 @@
 //! [`EventFinder`]: the times at which quantities of runs cross values, and how often.
 //!
-//! A crossing shows in the values of a run at two neighbouring observation points. Where its time is asked for, values at times between these two are
-//! (`lookup`), and it is located among them (`crossing`): a run without a crossing costs nothing. Where the quantity is
-//! not a number at some point, nobody knows what it crosses: its time and its count are null.
+//! A crossing shows in the values of a run at two neighbouring observation points. Where its time is asked for, values
+//! at times between these two are (`lookup`), and it is located among them (`crossing`): a run without a crossing costs
+//! nothing. Where the quantity is not a number at some point, nobody knows what it crosses: its time and its count are
+//! null.
 
 use crate::campaign::event::{Event, Which};
 use crate::campaign::{Plan, event_columns};
@@ -107,8 +108,9 @@ impl<'p> EventFinder<'p> {
         self.extremes.restart(runs);
     }
 
-    /// Looks at `run`, which `observer` has observed last with `status`. Returns whether an event ends it: then nothing else is looked for in it, and
-    /// [`EventFinder::end`] knows when, after [`EventFinder::locate`]. A run that fails may do so after its end.
+    /// Looks at `run`, which `observer` has observed last with `status`. Returns whether an event ends it: then nothing
+    /// else is looked for in it, and [`EventFinder::end`] knows when, after [`EventFinder::locate`]. A run that fails
+    /// may do so after its end.
     pub fn look(&mut self, run: &CompletedRun<'_>, observer: &Observer, status: Status) -> bool {
         let events = &self.plan.events;
         let values = self.lookup.read(observer, run.table);
@@ -181,7 +183,8 @@ impl<'p> EventFinder<'p> {
         earliest.map(|(event, (found, _))| RunEnd { event, time: found.time.max(SHORTEST * self.grid.duration()) })
     }
 
-    /// Locates the crossings of the runs that were looked at, and their extremes: those of `scenes`, with the draws of their laws.
+    /// Locates the crossings of the runs that were looked at, and their extremes: those of `scenes`, with the draws of
+    /// their laws.
     pub fn locate(&mut self, scenes: &[Scene], draws: &[LawDraw]) {
         let events = self.plan.events.len();
         for _ in 0..MOST_FLIGHTS {

@@ -1,9 +1,9 @@
 //! [`ExtremeFinder`]: the largest and smallest values of quantities of runs, between observation points too.
 //!
-//! A largest value lies beside a point at which the quantity is larger than at its neighbours, or at the ends of the interval of time. There the same sample is
-//! flown again, with observation points between (`peak`); a quantity of a control loop is looked at at every tick. An
-//! extreme is a value of the quantity itself. It is null where the quantity is not a number at a point from the start
-//! of its interval on.
+//! A largest value lies beside a point at which the quantity is larger than at its neighbours, or at the ends of the
+//! interval of time. There the same sample is flown again, with observation points between (`peak`); a quantity of a
+//! control loop is looked at at every tick. An extreme is a value of the quantity itself. It is null where the quantity
+//! is not a number at a point from the start of its interval on.
 
 use crate::campaign::Plan;
 use crate::campaign::extreme::Extreme;
@@ -25,8 +25,8 @@ const TICKS: usize = 4096;
 const MOST_FLIGHTS: usize = 24;
 /// Errors of a largest value over its size: that of the integration, but within these limits.
 const ERRORS: [f64; 2] = [1e-13, 1e-9];
-/// A quantity is beyond its value at a point by an eighth of its second difference there, where it is a parabola; it is looked at where four times that
-/// could make it the largest.
+/// A quantity is beyond its value at a point by an eighth of its second difference there, where it is a parabola; it is
+/// looked at where four times that could make it the largest.
 const BEYOND: f64 = 0.5;
 
 /// Where an extreme is looked for.
@@ -106,7 +106,8 @@ impl<'p> ExtremeFinder<'p> {
         }
     }
 
-    /// Locates the extremes of the runs that were looked at: those of `scenes`, with the draws of their laws; `time_of` is when an event of a run happened.
+    /// Locates the extremes of the runs that were looked at: those of `scenes`, with the draws of their laws; `time_of`
+    /// is when an event of a run happened.
     pub fn locate(&mut self, of_runs: (&[Scene], &[LawDraw]), time_of: &dyn Fn(usize, usize) -> f64) {
         let mut pending = Vec::new();
         for run in 0..self.ends.len() {
@@ -131,7 +132,8 @@ impl<'p> ExtremeFinder<'p> {
         }
     }
 
-    /// Where the largest value of an extreme of a run can be between `start` and `end`; what is known at points is taken.
+    /// Where the largest value of an extreme of a run can be between `start` and `end`; what is known at points is
+    /// taken.
     fn places(&mut self, run: usize, extreme: usize, [start, end]: [f64; 2]) -> Vec<[f64; 2]> {
         if let Some(period) = self.lookup.period(extreme) {
             let ticks = ticks(period, start, end, f64::INFINITY);

@@ -79,8 +79,8 @@ mod tests {
     use super::*;
     use crate::ensemble::{Part, PartId, Shape};
 
-    /// Law: reasons that differ in numbers only are one, those that differ in a name are not; the example is that of the smallest sample,
-    /// whatever the order of the rows.
+    /// Law: reasons that differ in numbers only are one, those that differ in a name are not; the example is that of
+    /// the smallest sample, whatever the order of the rows.
     #[test]
     fn reasons_are_counted_without_their_numbers() {
         let part = |first: u64, reasons: &[(Status, &str)]| {

@@ -1,4 +1,5 @@
-//! [`Flights`]: propagates runs of a plan, each under the control law of the plan where it has one; nothing else of the ensemble flies a run.
+//! [`Flights`]: propagates runs of a plan, each under the control law of the plan where it has one; nothing else of the
+//! ensemble flies a run.
 
 use crate::campaign::{Plan, event_columns};
 use crate::control::loop_record::SharedRecord;
@@ -48,7 +49,8 @@ pub struct Flights<'p> {
     ends_at_surface: bool,
 }
 
-/// Receives a run that has ended, and what its law has recorded at the observation points ([`crate::observables::LawSeries`]).
+/// Receives a run that has ended, and what its law has recorded at the observation points
+/// ([`crate::observables::LawSeries`]).
 pub type FlightCallback<'a> = dyn FnMut(CompletedRun<'_>, &[f64]) + 'a;
 
 impl<'p> Flights<'p> {
@@ -78,7 +80,8 @@ impl<'p> Flights<'p> {
         self.laws.as_ref()?.0.telemetry(run)
     }
 
-    /// Flies `scenes` and passes each to `finish`. `draws` are those of the laws, one for each scene, and nothing where the plan has no law.
+    /// Flies `scenes` and passes each to `finish`. `draws` are those of the laws, one for each scene, and nothing where
+    /// the plan has no law.
     pub fn fly(&mut self, scenes: &[Scene], draws: &[LawDraw], finish: &mut FlightCallback<'_>) {
         let (plan, times, engines, ends_at_surface) = (self.plan, &self.times, self.engines, self.ends_at_surface);
         let at_surface = |run: &CompletedRun<'_>| {
@@ -222,8 +225,8 @@ pub fn nominal_attitude(plan: &Plan, request: &Request, grid: &Grid, isa: Isa) -
     found
 }
 
-/// Observes a run of `plan` into `row`: what acted on it are the arcs that it has flown, where they followed a law, or its schedule; and which of its
-/// devices have failed.
+/// Observes a run of `plan` into `row`: what acted on it are the arcs that it has flown, where they followed a law, or
+/// its schedule; and which of its devices have failed.
 pub fn observe(
     plan: &Plan,
     observer: &mut Observer,
@@ -256,8 +259,8 @@ pub fn end_of(run: &CompletedRun<'_>) -> f64 {
     of_law.map_or(run.outcome.time, |end| end.min(run.outcome.time))
 }
 
-/// The scene whose schedule is what a run of `scene` under a law has flown, constant effects included: its open loop is that run, bit for
-/// bit. Effects that change within an arc act on it as on the run.
+/// The scene whose schedule is what a run of `scene` under a law has flown, constant effects included: its open loop is
+/// that run, bit for bit. Effects that change within an arc act on it as on the run.
 pub fn replayed(scene: &Scene, arcs: &[Arc]) -> Scene {
     Scene {
         schedule: arcs.to_vec(),

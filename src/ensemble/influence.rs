@@ -1,6 +1,6 @@
-//! [`notes`]: which dispersed parameters change nothing, or no requested column, found by running the nominal scene and some samples with one
-//! parameter changed at a time. What follows from the equations (a position changes no energy of rotation, a thruster that is never fired
-//! changes nothing) need not be listed anywhere.
+//! [`notes`]: which dispersed parameters change nothing, or no requested column, found by running the nominal scene and
+//! some samples with one parameter changed at a time. What follows from the equations (a position changes no energy of
+//! rotation, a thruster that is never fired changes nothing) need not be listed anywhere.
 
 use std::time::Instant;
 
@@ -53,9 +53,10 @@ pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
     notes
 }
 
-/// The names of the dispersed parameters of `plan`, or of their dispersed components, that leave every requested column as it is, bit for bit, when
-/// they change: alone from the nominal scene to their values of some samples, and back in these samples. Inputs of derived parameters and of
-/// `[[observable]]` have an effect; what no draw changes is not judged. `None` where the runs would take too long, or the nominal scene cannot be run.
+/// The names of the dispersed parameters of `plan`, or of their dispersed components, that leave every requested column
+/// as it is, bit for bit, when they change: alone from the nominal scene to their values of some samples, and back in
+/// these samples. Inputs of derived parameters and of `[[observable]]` have an effect; what no draw changes is not
+/// judged. `None` where the runs would take too long, or the nominal scene cannot be run.
 pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<String>> {
     let mut parameters: Vec<Parameter> = plan.dispersions.columns().iter().map(|column| column.parameter).collect();
     parameters.sort_unstable();
@@ -91,16 +92,17 @@ pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<
     Some(unseen)
 }
 
-/// Whether a row differs where `parameter` has its values among `applied`, those of a sample, in place of the nominal ones: in the nominal scene,
-/// whose row is `nominal`, or in that sample. A value that makes a scene unphysical has an effect.
+/// Whether a row differs where `parameter` has its values among `applied`, those of a sample, in place of the nominal
+/// ones: in the nominal scene, whose row is `nominal`, or in that sample. A value that makes a scene unphysical has an
+/// effect.
 fn is_seen(plan: &Plan, isa: Isa, parameter: Parameter, applied: &[f64], nominal: &[u64]) -> bool {
     let row_with = |is_applied: &dyn Fn(Parameter) -> bool| row_with(plan, isa, applied, is_applied);
     row_with(&|other| other == parameter).is_none_or(|row| row != nominal)
         || row_with(&|_| true).is_some_and(|row| row_with(&|other| other != parameter).is_none_or(|other| other != row))
 }
 
-/// The bits of the requested columns of the nominal scene with those parameters that are applied at their values among `applied`; `None` where it
-/// is not physical, or takes too long.
+/// The bits of the requested columns of the nominal scene with those parameters that are applied at their values among
+/// `applied`; `None` where it is not physical, or takes too long.
 fn row_with(plan: &Plan, isa: Isa, applied: &[f64], is_applied: &dyn Fn(Parameter) -> bool) -> Option<Vec<u64>> {
     let mut changed = plan.clone();
     for (column, value) in plan.dispersions.columns().iter().zip(applied).filter(|(c, _)| is_applied(c.parameter)) {

@@ -1,7 +1,8 @@
 //! [`Lookup`]: quantities of runs at their observation points, and at any other times.
 //!
-//! For other times the same sample is flown again with observation points there: what is observed does not change how a run is integrated, so that this
-//! works for every engine, effect and control loop. Runs are flown again in lanes, a few at a time, since each brings its own times.
+//! For other times the same sample is flown again with observation points there: what is observed does not change how a
+//! run is integrated, so that this works for every engine, effect and control loop. Runs are flown again in lanes, a
+//! few at a time, since each brings its own times.
 
 use crate::campaign::Plan;
 use crate::ensemble::flights::{Flights, LawDraw, nominal_attitude, observe};
@@ -157,7 +158,8 @@ impl<'p> Lookup<'p> {
         PointValues { quantities: &self.quantities, sources: &self.sources, kept, points }
     }
 
-    /// Answers each of `asked`, in the order of their runs, those of `scenes` with the draws of their laws: with its number and the values at its times.
+    /// Answers each of `asked`, in the order of their runs, those of `scenes` with the draws of their laws: with its
+    /// number and the values at its times.
     pub fn answer(&self, asked: &[Asked], of_runs: (&[Scene], &[LawDraw]), take: &mut dyn FnMut(usize, &[f64])) {
         let mut first = 0;
         while first < asked.len() {

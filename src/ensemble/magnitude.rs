@@ -1,5 +1,5 @@
-//! [`Magnitude`]: the one number by which a person judges a vector or an attitude: the length of a rate or of an alignment error, the angle
-//! of an attitude from the nominal one.
+//! [`Magnitude`]: the one number by which a person judges a vector or an attitude: the length of a rate or of an
+//! alignment error, the angle of an attitude from the nominal one.
 
 use crate::math::vector::{conjugate, hamilton, norm};
 use crate::scene::parameter::{Parameter, Shape};
@@ -50,7 +50,8 @@ impl Magnitude {
 mod tests {
     use super::*;
 
-    /// Law: rates and alignment errors have their length, attitudes the angle between them, whatever the sign of the quaternion.
+    /// Law: rates and alignment errors have their length, attitudes the angle between them, whatever the sign of the
+    /// quaternion.
     #[test]
     fn magnitudes_are_lengths_and_angles() {
         let magnitude = |scene: &SceneInput, name: &str| Magnitude::of(Parameter::find(scene, name).expect(name).0);

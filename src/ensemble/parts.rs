@@ -1,9 +1,10 @@
 //! [`Parts`]: the samples of a campaign divided into parts of consecutive samples.
 //!
-//! A part is the unit of work of a thread, the content of a file, and the unit in which a campaign is resumed or divided among machines.
-//! Its boundaries depend on what the rows are and on nothing else: not on threads, machine or shards, and not on the number of samples, so
-//! that a campaign with more samples has the same parts and some more. Parts grow with their number: those of a small campaign are small
-//! enough for all threads to have work, those of a large one large enough for files to be few.
+//! A part is the unit of work of a thread, the content of a file, and the unit in which a campaign is resumed or
+//! divided among machines. Its boundaries depend on what the rows are and on nothing else: not on threads, machine or
+//! shards, and not on the number of samples, so that a campaign with more samples has the same parts and some more.
+//! Parts grow with their number: those of a small campaign are small enough for all threads to have work, those of a
+//! large one large enough for files to be few.
 
 use crate::sampling::SampleId;
 
@@ -16,8 +17,9 @@ const LARGEST: u64 = 16_384;
 /// After so many parts of one size, parts are twice as large.
 const OF_ONE_SIZE: u64 = 16;
 
-/// The size at which parts stay for [`OF_THE_USUAL_SIZE`] parts: rows of two threads then fit in a shared cache, and memory is the same for
-/// campaigns from a hundred thousand to ten million samples. Only beyond them the number of files matters more.
+/// The size at which parts stay for [`OF_THE_USUAL_SIZE`] parts: rows of two threads then fit in a shared cache, and
+/// memory is the same for campaigns from a hundred thousand to ten million samples. Only beyond them the number of
+/// files matters more.
 const USUAL: u64 = 4096;
 
 /// Parts of the size [`USUAL`].

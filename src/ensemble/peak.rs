@@ -1,4 +1,5 @@
-//! The largest value of a quantity between two times, from its values at [`super::crossing::nodes`]: interpolated where that is exact, narrowed down where it is not.
+//! The largest value of a quantity between two times, from its values at [`super::crossing::nodes`]: interpolated where
+//! that is exact, narrowed down where it is not.
 
 use super::crossing::{ROUNDING, Series};
 
@@ -81,7 +82,8 @@ mod tests {
         panic!("no end")
     }
 
-    /// Law: the largest value of a smooth quantity is found at once, to rounding, within the interval or at its ends; that at a corner and at a jump by narrowing.
+    /// Law: the largest value of a smooth quantity is found at once, to rounding, within the interval or at its ends;
+    /// that at a corner and at a jump by narrowing.
     #[test]
     fn peaks_are_located() {
         for (f, exact) in [

@@ -6,8 +6,8 @@ use crate::sampling::SampleId;
 use crate::statistics::quantile::quantile;
 use crate::statistics::sketch::Sketch;
 
-/// Quantiles of the columns of the samples of a plan, and after these of their magnitudes ([`magnitudes`]), collected as they are drawn.
-/// The nominal sample 0 does not count.
+/// Quantiles of the columns of the samples of a plan, and after these of their magnitudes ([`magnitudes`]), collected
+/// as they are drawn. The nominal sample 0 does not count.
 #[derive(Clone, Debug)]
 pub struct Percentiles {
     count: u64,
@@ -69,14 +69,14 @@ impl Percentiles {
         self.invalid
     }
 
-    /// Whether quantiles are those of the values themselves; else they are within 0.05% of their distance from the nominal value
-    /// ([`crate::statistics::sketch::RELATIVE_ERROR`]).
+    /// Whether quantiles are those of the values themselves; else they are within 0.05% of their distance from the
+    /// nominal value ([`crate::statistics::sketch::RELATIVE_ERROR`]).
     pub fn is_exact(&self) -> bool {
         matches!(self.columns, HeldColumns::Values(_))
     }
 
-    /// Quantiles of each column and magnitude at the fractions `p`, of type 7 of R. J. Hyndman & Y. Fan (*Am. Stat.* 50 (1996) 361): linear
-    /// between neighbours; none where there are no samples.
+    /// Quantiles of each column and magnitude at the fractions `p`, of type 7 of R. J. Hyndman & Y. Fan (*Am. Stat.* 50
+    /// (1996) 361): linear between neighbours; none where there are no samples.
     pub fn quantiles(&self, p: &[f64]) -> Vec<Option<Vec<f64>>> {
         let all = |of: &dyn Fn(f64) -> Option<f64>| p.iter().map(|p| of(*p)).collect();
         match &self.columns {
@@ -101,7 +101,8 @@ mod tests {
         Percentiles { count: 0, invalid: 0, nominal: vec![10.0], columns }
     }
 
-    /// Law: sketches give the quantiles of the values, to 0.05% of the distance from the nominal value; sample 0 does not count.
+    /// Law: sketches give the quantiles of the values, to 0.05% of the distance from the nominal value; sample 0 does
+    /// not count.
     #[test]
     fn sketches_agree_with_values() {
         let mut both = [
@@ -122,7 +123,8 @@ mod tests {
         assert_eq!(both.each_ref().map(Percentiles::count), [2999; 2]);
         let [exact, near] = both.map(|one| one.quantiles(&[0.01, 0.25, 0.99]).remove(0).expect("values"));
         for (exact, near) in exact.into_iter().zip(near) {
-            // the stated relative error of the sketch from its centre, 1e-3, and a spacing of the values; measured: 0.5 of that
+            // the stated relative error of the sketch from its centre, 1e-3, and a spacing of the values; measured: 0.5
+            // of that
             assert!((exact - near).abs() < 1e-3 * (exact - 10.0).abs() + 1e-3, "{exact} {near}");
         }
     }

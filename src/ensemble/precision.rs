@@ -1,8 +1,9 @@
 //! [`Precision`]: run time against error, method by method and setting by setting, on samples of a campaign.
 //!
-//! Errors are measured against the [`ReferenceSolution`] in double-double. Time is the CPU time of one thread that propagates
-//! batches as a campaign does, including the states at every observation point, without observation and files. Work-precision diagrams: E. Hairer,
-//! S. P. Norsett & G. Wanner, *Solving Ordinary Differential Equations I*, 1993, section II.10.
+//! Errors are measured against the [`ReferenceSolution`] in double-double. Time is the CPU time of one thread that
+//! propagates batches as a campaign does, including the states at every observation point, without observation and
+//! files. Work-precision diagrams: E. Hairer, S. P. Norsett & G. Wanner, *Solving Ordinary Differential Equations I*,
+//! 1993, section II.10.
 
 use rayon::prelude::*;
 
@@ -44,7 +45,8 @@ pub struct Deviation {
     pub rms: f64,
 }
 
-/// What was measured of one method at one setting. Errors are `None` where their states are not integrated or all runs failed.
+/// What was measured of one method at one setting. Errors are `None` where their states are not integrated or all runs
+/// failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
     pub method: Method,
@@ -135,8 +137,8 @@ impl<'p> Precision<'p> {
         self.scenes.len()
     }
 
-    /// The settings of `method` that correspond to `tolerances`: these, or as many fixed steps, each half of the one before, the
-    /// first the power of two near the time scale of the first sample's motion.
+    /// The settings of `method` that correspond to `tolerances`: these, or as many fixed steps, each half of the one
+    /// before, the first the power of two near the time scale of the first sample's motion.
     pub fn settings(&self, method: Method, tolerances: &[f64]) -> Vec<Setting> {
         if !method.has_fixed_step() {
             return tolerances.iter().map(|tolerance| Setting::Tolerance(*tolerance)).collect();
@@ -153,8 +155,8 @@ impl<'p> Precision<'p> {
             .collect()
     }
 
-    /// Measures `method` at `settings`, from coarse to fine, until a pass over the samples is predicted to take longer than
-    /// the limit. `report` receives each measurement as it is made. Returns what was skipped.
+    /// Measures `method` at `settings`, from coarse to fine, until a pass over the samples is predicted to take longer
+    /// than the limit. `report` receives each measurement as it is made. Returns what was skipped.
     pub fn sweep(
         &self,
         method: Method,
@@ -268,8 +270,8 @@ impl<'p> Precision<'p> {
     }
 }
 
-/// The predicted time of the next pass: the last one times the ratio of the last two (1.5 after the first), at most three times
-/// the last.
+/// The predicted time of the next pass: the last one times the ratio of the last two (1.5 after the first), at most
+/// three times the last.
 fn prediction(passes: &[f64]) -> f64 {
     match passes {
         [] => 0.0,

@@ -1,4 +1,5 @@
-//! [`RunProbe`], [`AuditProbe`]: the time of a run and of an audit, measured on the first samples of a campaign, in about a second whatever these are.
+//! [`RunProbe`], [`AuditProbe`]: the time of a run and of an audit, measured on the first samples of a campaign, in
+//! about a second whatever these are.
 
 use std::time::Instant;
 

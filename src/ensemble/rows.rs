@@ -1,7 +1,7 @@
 //! [`Rows`]: the rows of one part, column by column.
 //!
-//! A worker owns one block and reuses it from part to part, so that memory does not grow with the campaign. The meaning of the
-//! columns is in the plan's dispersions and in the table of observables; here they are numbers by index.
+//! A worker owns one block and reuses it from part to part, so that memory does not grow with the campaign. The meaning
+//! of the columns is in the plan's dispersions and in the table of observables; here they are numbers by index.
 
 use crate::ensemble::audit::Audit;
 use crate::ensemble::bands::PartBands;
@@ -25,8 +25,8 @@ pub struct Rows {
     part: Part,
     shape: Shape,
     capacity: usize,
-    /// Distance of neighbouring columns: not a multiple of a large power of two, which would map all columns of a row to few
-    /// cache sets.
+    /// Distance of neighbouring columns: not a multiple of a large power of two, which would map all columns of a row
+    /// to few cache sets.
     stride: usize,
     samples: Vec<SampleId>,
     statuses: Vec<Status>,

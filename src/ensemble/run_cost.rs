@@ -1,7 +1,7 @@
 //! [`parts`]: the parts of a plan, sized by what its runs cost.
 //!
-//! The cost of a run is the work of the nominal one, which the machine does not change, times what a unit of work takes at most on a slow
-//! core. A clock would give other parts on another machine, or on the same one an hour later.
+//! The cost of a run is the work of the nominal one, which the machine does not change, times what a unit of work takes
+//! at most on a slow core. A clock would give other parts on another machine, or on the same one an hour later.
 
 use crate::campaign::Plan;
 use crate::control::laws::asked::is_law_of;
@@ -17,7 +17,8 @@ use crate::run::{Grid, Outcome};
 const LOST_S: f64 = 10.0;
 /// Most steps of the nominal run whose work is counted; a longer one is extrapolated, and its pace is not judged.
 const COUNTED_STEPS: u64 = PACE_STEPS;
-/// Time of an evaluation, s, three times that of one alone in its vector on the reference machine (`cargo bench -p spindrift-benches --bench kernels`).
+/// Time of an evaluation, s, three times that of one alone in its vector on the reference machine (`cargo bench -p
+/// spindrift-benches --bench kernels`).
 const fn evaluation_seconds(method: Method) -> f64 {
     match method {
         Method::NullSpace => 6e-6,
@@ -31,10 +32,12 @@ const POINT_S: f64 = 5e-7;
 /// Work of an audit over the work of its run: a reference solution in double-double at a tolerance of 1e-28.
 const AUDIT: f64 = 300.0;
 
-/// Samples of a part under a law that is asked for many runs at once: parts are flown side by side, and the more there are the more runs it is asked about.
+/// Samples of a part under a law that is asked for many runs at once: parts are flown side by side, and the more there
+/// are the more runs it is asked about.
 const ASKED: u64 = 64;
 
-/// Whether the law of `plan` is asked for many runs at once. Its work is not that of the plan, and nothing is known of it where nobody answers.
+/// Whether the law of `plan` is asked for many runs at once. Its work is not that of the plan, and nothing is known of
+/// it where nobody answers.
 fn is_asked(plan: &Plan) -> bool {
     plan.loop_spec().is_some_and(is_law_of)
 }
@@ -107,8 +110,8 @@ pub fn thread_seconds() -> f64 {
 mod tests {
     use super::*;
 
-    /// Law: the runs that are flown again take no more than a tenth of the campaign's evaluations and the time of a page,
-    /// and one more would.
+    /// Law: the runs that are flown again take no more than a tenth of the campaign's evaluations and the time of a
+    /// page, and one more would.
     #[test]
     fn replays_take_a_tenth() {
         for rows in [1, 10, 128, 100_000] {

@@ -1,7 +1,8 @@
 //! [`RunEnd`]: the event that ends a run.
 //!
-//! Where a run ends is found in one that goes on to the end of the campaign. It is then flown again up to there, so that its row is the one that it would have
-//! in a campaign of that duration, observed at the same points and at its end.
+//! Where a run ends is found in one that goes on to the end of the campaign. It is then flown again up to there, so
+//! that its row is the one that it would have in a campaign of that duration, observed at the same points and at its
+//! end.
 
 use crate::run::Grid;
 
@@ -28,7 +29,8 @@ impl RunEnd {
 mod tests {
     use super::*;
 
-    /// Law: a run that ends is observed at the points before its end, and there; a point at the end itself is one of the campaign.
+    /// Law: a run that ends is observed at the points before its end, and there; a point at the end itself is one of
+    /// the campaign.
     #[test]
     fn the_last_point_is_the_end() {
         let grid = Grid::uniform(10.0, 11);

@@ -1,8 +1,8 @@
 //! [`run`]: parts of a campaign over threads.
 //!
 //! A free thread takes the next part in order, and works in memory of its own. Nothing in a row depends on the thread.
-//! Rayon's parallel iterators, which split ranges in halves, were rejected: the parts completed at any moment would be scattered
-//! over the campaign instead of being its first ones, apart from those under way.
+//! Rayon's parallel iterators, which split ranges in halves, were rejected: the parts completed at any moment would be
+//! scattered over the campaign instead of being its first ones, apart from those under way.
 
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use std::num::NonZeroUsize;
@@ -39,8 +39,8 @@ pub fn start_threads() -> Result<(), ThreadPoolBuildError> {
     ThreadPoolBuilder::new().build_global()
 }
 
-/// Runs `parts` of `ensemble` and passes the rows to `sink`, each part once. `asked` threads work on them, but no more than there are
-/// parts ([`threads`]).
+/// Runs `parts` of `ensemble` and passes the rows to `sink`, each part once. `asked` threads work on them, but no more
+/// than there are parts ([`threads`]).
 ///
 /// # Errors
 /// Where threads could not be started, or the first error of the sink; no part is started after it.
@@ -75,7 +75,8 @@ pub fn run<S: Sink>(
     };
     pool.broadcast(|_| {
         if !parts.is_empty() {
-            // the bands need the nominal run: before the worker's memory is there, on its thread, which uses the memory again, and where runs take no turns
+            // the bands need the nominal run: before the worker's memory is there, on its thread, which uses the memory
+            // again, and where runs take no turns
             ensemble.bands();
         }
         supervision.crew.work(&share);
@@ -88,8 +89,8 @@ pub fn run<S: Sink>(
 
 /// Takes the rows of finished parts.
 ///
-/// Called from several threads, with parts in any order. Each part is offered once; what the sink does with it must not depend
-/// on the parts before it.
+/// Called from several threads, with parts in any order. Each part is offered once; what the sink does with it must not
+/// depend on the parts before it.
 pub trait Sink: Sync {
     type Error: Send;
 

@@ -20,7 +20,8 @@ const SEEN_BY_LAWS: StateFields = StateFields::NONE
     .with(StateField::ComPosition)
     .with(StateField::ComVelocity);
 
-/// The settings for scenes of `plan` with states `fields` at the times of `grid`, and under a law with those that it is told at the end.
+/// The settings for scenes of `plan` with states `fields` at the times of `grid`, and under a law with those that it is
+/// told at the end.
 pub fn propagator(plan: &Plan, grid: Grid, fields: StateFields) -> PropagationSettings {
     let control = Control { tolerance: plan.tolerance, step: plan.step_s, max_steps: plan.max_steps };
     let settings = |fields| PropagationSettings::new(plan.method, control, grid, fields, &nominal(plan));

@@ -55,7 +55,8 @@ pub struct SingleRun {
 }
 
 impl SingleRun {
-    /// Runs sample `sample` of `plan`, observed at the times of `grid` (which may reach beyond the campaign's duration).
+    /// Runs sample `sample` of `plan`, observed at the times of `grid` (which may reach beyond the campaign's
+    /// duration).
     ///
     /// # Errors
     /// Why the drawn scene is not physical.
@@ -79,8 +80,8 @@ impl SingleRun {
 }
 
 impl SingleRun {
-    /// Audits the run of `plan`: compares it, on its own grid, with the reference solution. Of a run under a control law, what the law decided is part
-    /// of the run: the reference solution flies its arcs.
+    /// Audits the run of `plan`: compares it, on its own grid, with the reference solution. Of a run under a control
+    /// law, what the law decided is part of the run: the reference solution flies its arcs.
     ///
     /// # Errors
     /// Where the run or its reference solution fails, or is beyond the limit of work.
@@ -128,7 +129,8 @@ impl<'p> SingleRuns<'p> {
         SingleRuns { ends: EndFinder::new(plan, (isa, None)), ..Self::observing(plan, grid, isa, [request, shown]) }
     }
 
-    /// The same without what only a row has: differences from the nominal run, and the times of events. The rows are known.
+    /// The same without what only a row has: differences from the nominal run, and the times of events. The rows are
+    /// known.
     pub fn replays(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
         let request = plan.request_over(grid.duration());
         let shown = Request { groups: groups.iter().copied().collect(), ..request };
@@ -191,7 +193,8 @@ impl<'p> SingleRuns<'p> {
         Ok(ended.fly(&[scene], draw.as_slice()).swap_remove(0))
     }
 
-    /// Runs samples side by side, which takes a fraction of the time of one after another; each is the same bit for bit.
+    /// Runs samples side by side, which takes a fraction of the time of one after another; each is the same bit for
+    /// bit.
     pub fn run_all(&mut self, samples: &[SampleId]) -> Vec<Result<SingleRun, Vec<SceneError>>> {
         if self.ends.is_some() {
             return samples.iter().map(|sample| self.run(*sample)).collect();
@@ -280,8 +283,8 @@ impl<'p> SingleRuns<'p> {
     }
 }
 
-/// What `job` makes of each of `samples`, in their order, with memory for runs of `plan` on its own grid; on `threads` threads (`None`: one per core),
-/// in any order.
+/// What `job` makes of each of `samples`, in their order, with memory for runs of `plan` on its own grid; on `threads`
+/// threads (`None`: one per core), in any order.
 ///
 /// # Errors
 /// Where threads could not be started, or the first error of `job`, after which none is started.

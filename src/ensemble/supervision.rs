@@ -17,8 +17,8 @@ pub struct Supervision<'a> {
     pub crew: &'a dyn Crew,
 }
 
-/// Evaluations of equations of motion after which the runs that have ended are told: some 10 ms. Telling each run of a fast campaign would
-/// cost more than it is worth.
+/// Evaluations of equations of motion after which the runs that have ended are told: some 10 ms. Telling each run of a
+/// fast campaign would cost more than it is worth.
 const TOLD_AFTER: u64 = 4096;
 
 /// The samples of a batch as they are completed.
@@ -85,7 +85,8 @@ mod tests {
         told.into_inner().unwrap()
     }
 
-    /// Law: every sample is told once; long runs one by one, short ones together, and samples without a run with the last.
+    /// Law: every sample is told once; long runs one by one, short ones together, and samples without a run with the
+    /// last.
     #[test]
     fn progress_follows_the_work() {
         assert_eq!(told(3, &[u64::MAX, TOLD_AFTER, TOLD_AFTER + 1]), [1, 1, 1]);

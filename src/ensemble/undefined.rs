@@ -68,7 +68,8 @@ pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
     let note = |((table, name, quantity), found): (&(&str, &String, &String), &Option<Undefined>)| {
         let Undefined { runs, sample, time_s } = (*found)?;
         Some(format!(
-            "[[{table}]] {name}: {quantity} is not a number in {runs} of the first {tried} samples, first in sample {sample} at {time_s} s: the values of such a run \
+            "[[{table}]] {name}: {quantity} is not a number in {runs} of the first {tried} samples, first in sample \
+            {sample} at {time_s} s: the values of such a run \
              are null, and leave a requirement undecided"
         ))
     };

@@ -22,8 +22,8 @@ use crate::observables::band_series::band_series;
 use crate::propagation::PropagationSettings;
 use crate::sampling::SampleId;
 
-/// Scenes that are drawn and propagated together: enough that lanes seldom wait for work (each of eight lanes is loaded 16 times), few
-/// enough that scenes and workspace stay in the second-level cache.
+/// Scenes that are drawn and propagated together: enough that lanes seldom wait for work (each of eight lanes is loaded
+/// 16 times), few enough that scenes and workspace stay in the second-level cache.
 pub const BATCH: usize = 128;
 
 /// A plan made ready to run.
@@ -47,8 +47,8 @@ impl<'p> Ensemble<'p> {
         Ensemble { plan, isa, request, propagator, own_engines: None, bands: OnceLock::new() }
     }
 
-    /// The same, with every run (the nominal one of the bands included) made by engines of the caller's own. Audits keep their reference
-    /// solution. An engine must give a run that depends on its scene alone.
+    /// The same, with every run (the nominal one of the bands included) made by engines of the caller's own. Audits
+    /// keep their reference solution. An engine must give a run that depends on its scene alone.
     pub fn with_engines(mut self, new_engine: EngineMaker) -> Self {
         self.own_engines = Some(new_engine);
         self

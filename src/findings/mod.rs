@@ -1,9 +1,10 @@
 //! Layer 9: what a campaign has found, in words and numbers, once. Screen, page, JSON, JUnit and notebook choose from
 //! it by rank and width, and compose nothing.
 //!
-//! - [`requirement`]: a finding for each requirement, the nearest to its limit first. - [`number`]: numbers in text,
-//!   the one formatter. - [`names`]: names of columns
-//!   and parameters in words. - [`shell_word`]: words of commands.
+//! - [`requirement`]: a finding for each requirement, the nearest to its limit first.
+//! - [`number`]: numbers in text, the one formatter.
+//! - [`names`]: names of columns and parameters in words.
+//! - [`shell_word`]: words of commands.
 
 pub mod names;
 pub mod number;

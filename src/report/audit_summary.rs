@@ -76,7 +76,8 @@ pub struct AuditSummary {
     pub audited: u64,
     /// Selected runs that did not reach their end, or whose reference solution did not.
     pub failed: u64,
-    /// Audited runs with a reference solution in double-double; the others have one in plain doubles with tolerance 1e-16.
+    /// Audited runs with a reference solution in double-double; the others have one in plain doubles with tolerance
+    /// 1e-16.
     pub in_double_double: u64,
     /// Maximum of the next two.
     pub state_error: Quantiles,
@@ -109,7 +110,8 @@ impl Estimate {
 }
 
 impl Numerics {
-    /// Errors of the observable `index` among those with statistics, beside the `spread` of its values; `None` where there are no errors.
+    /// Errors of the observable `index` among those with statistics, beside the `spread` of its values; `None` where
+    /// there are no errors.
     pub fn new(audits: &AuditTally, index: usize, spread: f64) -> Option<Self> {
         let errors = &audits.observables[index];
         let p95 = errors.quantile(0.95)?;
@@ -162,12 +164,15 @@ impl AuditSummary {
         self.estimates().map(line).collect()
     }
 
-    /// The estimates that cover the true error in fewer runs than promised, each as a sentence; none where chance may be why.
+    /// The estimates that cover the true error in fewer runs than promised, each as a sentence; none where chance may
+    /// be why.
     pub fn broken_promises(&self) -> Vec<String> {
         let broken = self.estimates().filter(|(_, estimate)| estimate.excess > 0);
         let sentence = |(name, one): (&str, Estimate)| {
             format!(
-                "AUDIT FAILED: {name} covers the true error in {} of {} audited runs, at least {}% are promised; with that promise kept, so few or fewer would have the probability {}. The numerical errors of these runs are larger than their estimates",
+                "AUDIT FAILED: {name} covers the true error in {} of {} audited runs, at least {}% are promised; with \
+                that promise kept, so few or fewer would have the probability {}. The numerical errors of these runs \
+                are larger than their estimates",
                 one.covered,
                 one.audited,
                 percent(one.promised),
@@ -228,7 +233,8 @@ mod tests {
     use super::*;
     use crate::statistics::sketch::RELATIVE_ERROR;
 
-    /// Law: the screen says how many runs were compared, how many of them in double-double, how many in plain doubles, and how many failed.
+    /// Law: the screen says how many runs were compared, how many of them in double-double, how many in plain doubles,
+    /// and how many failed.
     #[test]
     fn every_selected_run_is_accounted_for() {
         let line = |audited: u64, in_double_double: u64, failed: u64| {
@@ -267,7 +273,8 @@ mod tests {
         assert_eq!(cost([3.0, 1.0]), format!("{} s of CPU time, 25.0% of the total", short(1.0)));
     }
 
-    /// Law: an estimate whose promise is broken is named with its counts, each estimate by its own runs; none is where the promise may be kept.
+    /// Law: an estimate whose promise is broken is named with its counts, each estimate by its own runs; none is where
+    /// the promise may be kept.
     #[test]
     fn broken_promises_are_named() {
         let of = |state: [u64; 2], debris: [u64; 2]| {

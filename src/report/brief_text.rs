@@ -1,4 +1,5 @@
-//! What a campaign has come to, on one screen: verdicts, outcomes in one line each, and what drives them. Everything else is in `summary_text`.
+//! What a campaign has come to, on one screen: verdicts, outcomes in one line each, and what drives them. Everything
+//! else is in `summary_text`.
 
 use crate::analysis::assessment::Assessment;
 use crate::analysis::drivers::Question;
@@ -25,7 +26,8 @@ const DRIVEN: usize = 3;
 /// Most quantiles beside the median.
 const MOST_QUANTILES: usize = 2;
 
-/// The text for at most `most` lines of `width` characters, where outcomes can be left out for that. `file` is the campaign as a word of the commands that show a run.
+/// The text for at most `most` lines of `width` characters, where outcomes can be left out for that. `file` is the
+/// campaign as a word of the commands that show a run.
 pub fn text(plan: &Plan, summary: &Summary, all: &[InputSensitivity], file: &str, [most, width]: [usize; 2]) -> String {
     let mut text = wrapped(warnings::text(&summary.warnings).trim_start_matches('\n'), width);
     let is_warned = !summary.warnings.is_empty();
@@ -202,7 +204,8 @@ fn outcome_table(summary: &Summary, shown: &[&ObservableLine], ps: &[f64], with_
     table
 }
 
-/// Whether the quantile `p` is required of an outcome and a run without a value, which is not within the limit: that of the runs with a value would look as if it were.
+/// Whether the quantile `p` is required of an outcome and a run without a value, which is not within the limit: that of
+/// the runs with a value would look as if it were.
 fn has_no_number(summary: &Summary, line: &ObservableLine, p: f64) -> bool {
     let is_it = |one: &&Assessment| {
         one.requirement.observable() == Some(&line.name) && one.requirement.statement == Statement::Quantile(p)
@@ -225,7 +228,8 @@ fn nominal_table(shown: &[&ObservableLine]) -> Table<'static> {
     table
 }
 
-/// Whether the verdict on the share of runs says all of this outcome: it is yes or no. Of few runs a quantile lies between both.
+/// Whether the verdict on the share of runs says all of this outcome: it is yes or no. Of few runs a quantile lies
+/// between both.
 fn is_stated(summary: &Summary, line: &ObservableLine) -> bool {
     (line.is_yes_or_no() || line.name == "launched")
         && summary.verdicts.list.iter().any(|one| one.requirement.observable() == Some(&line.name))

@@ -1,4 +1,5 @@
-//! The keys in which two plans differ, as a table ([`text`]) or as phrases ([`phrases`]): those that changed alike once, and what only one plan has by its table.
+//! The keys in which two plans differ, as a table ([`text`]) or as phrases ([`phrases`]): those that changed alike
+//! once, and what only one plan has by its table.
 
 use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, said};
@@ -77,7 +78,8 @@ fn lines(keys: &[KeyDifference], plans: Option<[&Plan; 2]>) -> Vec<Line> {
     lines
 }
 
-/// What two keys have in common that changed alike, `guidance.*.bandwidth_rad_s`, or that are of one table, which only one plan has; and the values of both.
+/// What two keys have in common that changed alike, `guidance.*.bandwidth_rad_s`, or that are of one table, which only
+/// one plan has; and the values of both.
 fn common(key: &str, other: &str, values: &[String; 2], of_other: &[String; 2]) -> Option<(String, [String; 2])> {
     let of = |key: &str| key.rsplit_once('.').map(|(table, last)| (table.to_owned(), last.to_owned()));
     let ((table, last), (other_table, other_last)) = (of(key)?, of(other)?);
@@ -101,7 +103,8 @@ mod tests {
     use crate::campaign::Overrides;
     use crate::campaign::difference::text_differences;
 
-    /// Known: keys that changed alike are one line, with their number; tables that only one plan has are one line; every key is counted in one line.
+    /// Known: keys that changed alike are one line, with their number; tables that only one plan has are one line;
+    /// every key is counted in one line.
     #[test]
     fn keys_that_changed_alike_stand_together() {
         let text = include_str!("../../campaigns/net_launch.toml");

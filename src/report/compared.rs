@@ -63,8 +63,8 @@ fn p_of_change((first, second): (&EndVerdict, &EndVerdict), comparison: &Compari
 }
 
 impl ComparedVerdict {
-    /// Whether the second verdict is worse than the first: FAIL is worse than UNDECIDED, which is worse than PASS. A requirement that only one result
-    /// has is not compared. Whether chance explains it is another question.
+    /// Whether the second verdict is worse than the first: FAIL is worse than UNDECIDED, which is worse than PASS. A
+    /// requirement that only one result has is not compared. Whether chance explains it is another question.
     pub fn is_worse(&self) -> bool {
         self.change() == Some(Ordering::Less)
     }
@@ -181,7 +181,8 @@ mod tests {
         }
     }
 
-    /// Law: of every pair of verdicts those are worse that go down from PASS by UNDECIDED to FAIL; one that is in one result only is compared with nothing.
+    /// Law: of every pair of verdicts those are worse that go down from PASS by UNDECIDED to FAIL; one that is in one
+    /// result only is compared with nothing.
     #[test]
     fn worse_verdicts_go_down() {
         let verdict = |word: &str| EndVerdict { word: word.to_owned(), ..EndVerdict::default() };

@@ -16,9 +16,11 @@ use crate::table::wrapped::wrapped;
 
 /// Most observables in a table.
 const MOST_LINES: usize = 40;
-/// A shift that is smaller, as a share of the spread, matters to few: a small effect (J. Cohen, Statistical Power Analysis, 1988, 2.2). `--tolerance` says otherwise.
+/// A shift that is smaller, as a share of the spread, matters to few: a small effect (J. Cohen, Statistical Power
+/// Analysis, 1988, 2.2). `--tolerance` says otherwise.
 const SMALL_EFFECT: f64 = 0.2;
-/// Groups of columns that keep the accounts of the integration, or the state that a run happens to end with: no outcome of a mission, unless its file says so.
+/// Groups of columns that keep the accounts of the integration, or the state that a run happens to end with: no outcome
+/// of a mission, unless its file says so.
 const ACCOUNTS: [Group; 6] = [
     Group::FinalState,
     Group::EnergyConservation,
@@ -30,8 +32,9 @@ const ACCOUNTS: [Group; 6] = [
 /// Columns with the number of a name, whose mean says nothing.
 const CODES: [&str; 2] = ["failure", "phase_final"];
 
-/// The shift that decides whether that of an observable matters, the largest: of its mean, and of one that is required of its standard deviation and the required quantiles too. Quantiles
-/// far out in the tails of few runs differ by chance. With a tolerance, which is about all of them: of all.
+/// The shift that decides whether that of an observable matters, the largest: of its mean, and of one that is required
+/// of its standard deviation and the required quantiles too. Quantiles far out in the tails of few runs differ by
+/// chance. With a tolerance, which is about all of them: of all.
 fn largest<'c>(compared: Compared<'_>, column: &'c ColumnComparison) -> Option<&'c Shift> {
     let required = compared.plans.iter().flat_map(|plan| &plan.analysis.requirements);
     let of_column = required.filter(|one| one.observable() == Some(column.quantity.name()));
@@ -71,7 +74,8 @@ fn is_account(compared: Compared<'_>, column: &ColumnComparison) -> bool {
     CODES.contains(&name) || group.is_some_and(|group| ACCOUNTS.contains(&group))
 }
 
-/// The shifts that matter, of observables that are outcomes: those that the first plan names, in its order, then the largest.
+/// The shifts that matter, of observables that are outcomes: those that the first plan names, in its order, then the
+/// largest.
 pub fn shifted<'c>(compared: Compared<'c>) -> Vec<(&'c ColumnComparison, &'c Shift)> {
     let Compared { comparison, plans: [plan, _], tolerance, .. } = compared;
     let most = tolerance.unwrap_or(SMALL_EFFECT);
@@ -96,7 +100,8 @@ pub fn shifted<'c>(compared: Compared<'c>) -> Vec<(&'c ColumnComparison, &'c Shi
     found
 }
 
-/// The first of the outcomes `all` that fit lines of `width` characters, in at most `most` lines below the heads; and how many these are.
+/// The first of the outcomes `all` that fit lines of `width` characters, in at most `most` lines below the heads; and
+/// how many these are.
 pub fn short(
     compared: Compared<'_>,
     all: &[(&ColumnComparison, &Shift)],

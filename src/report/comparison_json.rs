@@ -12,7 +12,8 @@ pub fn text(compared: Compared<'_>) -> String {
     let Compared { comparison, keys, verdicts, tolerance, .. } = compared;
     let result = |name: String, which: usize| {
         let statistics = &comparison.statistics[which];
-        json!({ "result": name, "samples": statistics.samples(), "ok": statistics.ok(), "only_here": comparison.alone[which] })
+        json!({ "result": name, "samples": statistics.samples(), "ok": statistics.ok(),
+            "only_here": comparison.alone[which] })
     };
     let key = |key: &KeyDifference| json!({ "key": key.key, "first": key.first, "second": key.second });
     let verdict = |one: &ComparedVerdict| {

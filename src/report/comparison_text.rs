@@ -18,8 +18,8 @@ const FEW: [usize; 2] = [6, 3];
 /// Outcomes at least, on such a screen.
 const LEAST_OUTCOMES: usize = 2;
 
-/// The text for lines of `width` characters, all of it or one screen: that the campaigns are different, where they are, the results, the requirements, what differs between the plans, the outcomes that are
-/// shifted, and the verdict.
+/// The text for lines of `width` characters, all of it or one screen: that the campaigns are different, where they are,
+/// the results, the requirements, what differs between the plans, the outcomes that are shifted, and the verdict.
 pub fn text(compared: Compared<'_>, is_verbose: bool, width: usize) -> String {
     let Compared { names, comparison, plans: [first, second], .. } = compared;
     let mut text = match (&first.name, &second.name) {

@@ -1,4 +1,5 @@
-//! [`DrawnColumns`]: what a figure shows of drawn samples: the dispersed numbers, and angles in place of the components of attitudes.
+//! [`DrawnColumns`]: what a figure shows of drawn samples: the dispersed numbers, and angles in place of the components
+//! of attitudes.
 
 use crate::campaign::Plan;
 use crate::ensemble::DrawnScenes;
@@ -12,8 +13,8 @@ const QUATERNION: usize = 4;
 /// Angles are rounding where none is larger, deg: an axis of their own would make noise look like a distribution.
 const ROUNDING_DEG: f64 = 1e-6;
 
-/// Columns of drawn samples. An attitude has the angle of its rotation from the nominal one and the tilt of its axis 3, each only where it
-/// is more than rounding.
+/// Columns of drawn samples. An attitude has the angle of its rotation from the nominal one and the tilt of its axis 3,
+/// each only where it is more than rounding.
 #[derive(Clone, Debug)]
 pub struct DrawnColumns<'p> {
     pub names: Vec<String>,
@@ -94,7 +95,8 @@ impl<'p> DrawnColumns<'p> {
     }
 }
 
-/// The angle of the rotation from the attitude `from` to `to`, and the angle between their third axes, deg. Quaternions with the scalar first.
+/// The angle of the rotation from the attitude `from` to `to`, and the angle between their third axes, deg. Quaternions
+/// with the scalar first.
 fn angles(from: [f64; QUATERNION], to: [f64; QUATERNION]) -> [f64; 2] {
     let ([a, b, c, d], [w, x, y, z]) = (from, to);
     // from^-1 to
@@ -111,13 +113,16 @@ mod tests {
     use crate::campaign::Overrides;
     use crate::sampling::SampleId;
 
-    /// Law: an attitude that is turned about its axis 3 has no column of tilts, which are rounding; one turned by nothing has none at all.
+    /// Law: an attitude that is turned about its axis 3 has no column of tilts, which are rounding; one turned by
+    /// nothing has none at all.
     #[test]
     fn what_is_rounding_has_no_column() {
         let names = |axis: &str, std: &str| {
             let text = format!(
-                "[campaign]\nname = \"x\"\nsamples = 20\nseed = 1\nduration_s = 1\n[body]\nmass_kg = 1\ncenter_of_mass_m = [0, 0, 0]\n\
-                 inertia_kg_m2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n[initial]\nattitude = [0.5, 0.5, -0.5, 0.5]\nangular_velocity_rad_s = [0, 0, 1]\n\
+                "[campaign]\nname = \"x\"\nsamples = 20\nseed = 1\nduration_s = 1\n[body]\nmass_kg = \
+                1\ncenter_of_mass_m = [0, 0, 0]\n\
+                 inertia_kg_m2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n[initial]\nattitude = [0.5, 0.5, -0.5, \
+                 0.5]\nangular_velocity_rad_s = [0, 0, 1]\n\
                  [[disperse]]\nparameter = \"initial.attitude\"\ndistribution = \"about_axis\"\naxis = {axis}\n\
                  angle_rad = {{ distribution = \"normal\", std = {std} }}\n"
             );
@@ -132,8 +137,8 @@ mod tests {
         assert!(names("[0, 0, 1]", "1e-12").is_empty());
     }
 
-    /// Known: a rotation by 60 degrees about the third axis does not tilt it; one about the first axis does, from any attitude; the sign of a
-    /// quaternion is none of the attitude.
+    /// Known: a rotation by 60 degrees about the third axis does not tilt it; one about the first axis does, from any
+    /// attitude; the sign of a quaternion is none of the attitude.
     #[test]
     fn known_angles() {
         let (half, root) = (0.5, libm::sqrt(0.75));

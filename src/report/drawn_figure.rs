@@ -28,7 +28,8 @@ pub fn correlations(title: &str, names: &[String], values: Vec<Vec<f64>>) -> Fig
     Figure::new(title, axis(), axis(), vec![Mark::Matrix { values: values.into_iter().flatten().collect() }])
 }
 
-/// What a correlation of `samples` samples says: that of independent parameters has the standard deviation 1/sqrt(n - 1).
+/// What a correlation of `samples` samples says: that of independent parameters has the standard deviation 1/sqrt(n -
+/// 1).
 fn caution(samples: usize) -> String {
     let Some(others) = samples.checked_sub(1).filter(|others| *others > 0) else {
         return ": too few samples".to_owned();

@@ -178,7 +178,8 @@ fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ra
     named.join("; ")
 }
 
-/// The drivers where all that are named are farther from their medians, or all nearer to them, in one phrase; `None` where they are not, or are not several.
+/// The drivers where all that are named are farther from their medians, or all nearer to them, in one phrase; `None`
+/// where they are not, or are not several.
 fn at_a_distance(plan: &Plan, runs: &str, ranking: &Ranking<'_>) -> Option<String> {
     let is_far = |ranked: &Ranked<'_>| match ranked.effect?.dependence {
         Dependence::Distance { chance } => Some(chance > 0.5),
@@ -289,8 +290,8 @@ mod tests {
     use crate::statistics::contingency::Occurrence;
     use crate::statistics::correlation::Estimate;
 
-    /// Law: each kind of dependence is said as it is: on which side the runs with the event are, their median before that of the others, the level that differs most
-    /// first, each with its counts.
+    /// Law: each kind of dependence is said as it is: on which side the runs with the event are, their median before
+    /// that of the others, the level that differs most first, each with its counts.
     #[test]
     fn dependences_are_said_as_they_are() {
         let text = include_str!("../../campaigns/spin_sweep.toml");

@@ -1,4 +1,5 @@
-//! [`Asked`]: the distribution of a column of drawn samples, and how many samples of it are expected in the bars of a histogram.
+//! [`Asked`]: the distribution of a column of drawn samples, and how many samples of it are expected in the bars of a
+//! histogram.
 
 use core::f64::consts::PI;
 
@@ -20,14 +21,14 @@ pub enum Asked<'p> {
     /// The angle of the rotation between an attitude uniform over all rotations and any other, deg: its density is
     /// (1 - cos theta)/pi for theta in [0, pi] (R. E. Miles, *On random rotations in R^3*, Biometrika 52 (1965) 636).
     UniformRotation,
-    /// The angle between an axis of such an attitude and any other axis, deg: the direction is uniform over the sphere, and the density is
-    /// (sin theta)/2.
+    /// The angle between an axis of such an attitude and any other axis, deg: the direction is uniform over the sphere,
+    /// and the density is (sin theta)/2.
     UniformTilt,
 }
 
 impl Asked<'_> {
-    /// How many of `count` values are expected between neighbouring `edges`, ascending; a value at an edge counts in the bar above, one at the
-    /// last edge in the last bar, as in the histograms.
+    /// How many of `count` values are expected between neighbouring `edges`, ascending; a value at an edge counts in
+    /// the bar above, one at the last edge in the last bar, as in the histograms.
     pub fn expected(&self, edges: &[f64], count: usize) -> Vec<f64> {
         let Some(values) = self.values() else {
             let below: Vec<f64> = edges.iter().map(|edge| self.probability_below(*edge)).collect();
@@ -100,7 +101,8 @@ mod tests {
         found.len() == known.len() && found.iter().zip(known).all(|(found, known)| (found - known).abs() < RESOLUTION)
     }
 
-    /// Known: 68.27% of normal numbers are within one standard deviation; none of uniform ones is outside of their range.
+    /// Known: 68.27% of normal numbers are within one standard deviation; none of uniform ones is outside of their
+    /// range.
     #[test]
     fn known_shares() {
         let normal = Distribution::Normal(NormalQuantile { mean: 5.0, std: 2.0 });
@@ -112,7 +114,8 @@ mod tests {
         assert!(agree(&found, &[0.0, 4.0, 4.0]), "{found:?}");
     }
 
-    /// Law: each value of a discrete distribution counts in its bar, the first and the last at the ends of the axis too.
+    /// Law: each value of a discrete distribution counts in its bar, the first and the last at the ends of the axis
+    /// too.
     #[test]
     fn every_value_of_a_discrete_distribution_counts() {
         let choice = Distribution::Choice(ChoiceQuantile::new(&[0.05, 0.01, 0.02, 7.0], &[1.0, 2.0, 1.0, 0.0]));
@@ -126,8 +129,8 @@ mod tests {
         assert_eq!(Asked::Number(&uniform).values(), None);
     }
 
-    /// Known: a rotation by at most 90 degrees has the probability 1/2 - 1/pi, a tilt 1/2; the densities are those that the integrals of
-    /// (1 - cos theta)/pi and (sin theta)/2 have, here by Simpson's rule.
+    /// Known: a rotation by at most 90 degrees has the probability 1/2 - 1/pi, a tilt 1/2; the densities are those that
+    /// the integrals of (1 - cos theta)/pi and (sin theta)/2 have, here by Simpson's rule.
     #[test]
     fn angles_of_uniform_attitudes() {
         let quarters = [0.0, 90.0, 180.0];

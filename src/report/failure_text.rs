@@ -81,7 +81,8 @@ mod tests {
         }
     }
 
-    /// Law: every run is counted once, in the line of its reason or in that of the others; a run that is alone is not the first of several.
+    /// Law: every run is counted once, in the line of its reason or in that of the others; a run that is alone is not
+    /// the first of several.
     #[test]
     fn every_run_is_counted() {
         for groups in [1, 8, 9, 12] {
@@ -105,7 +106,8 @@ mod tests {
         }
     }
 
-    /// Law: steps that are too many or too small ask for a looser tolerance, numbers that are not accurate for a tighter one; what a scene is has its own reason.
+    /// Law: steps that are too many or too small ask for a looser tolerance, numbers that are not accurate for a
+    /// tighter one; what a scene is has its own reason.
     #[test]
     fn remedies_point_the_right_way() {
         for status in Status::ALL {

@@ -26,8 +26,8 @@ pub enum Hue {
 }
 
 impl Hue {
-    /// The place in the palette of Okabe & Ito (2008): blue, vermilion, green, purple, sky blue, orange, yellow; 7 is the colour of text,
-    /// 8 a grey, from 9 on are four more for wheels.
+    /// The place in the palette of Okabe & Ito (2008): blue, vermilion, green, purple, sky blue, orange, yellow; 7 is
+    /// the colour of text, 8 a grey, from 9 on are four more for wheels.
     pub const fn place(self) -> usize {
         match self {
             Hue::Body => 0,

@@ -1,5 +1,5 @@
-//! Figures as files. All of them are drawn by the scripts of the report page: a file of HTML has these in it, and a program that runs them (the package
-//! `spindrift-figures`) brings its [`Draw`], by which files are SVG.
+//! Figures as files. All of them are drawn by the scripts of the report page: a file of HTML has these in it, and a
+//! program that runs them (the package `spindrift-figures`) brings its [`Draw`], by which files are SVG.
 
 use std::fmt::Write as _;
 use std::io::{self, Read};
@@ -28,7 +28,8 @@ pub fn draw_by(draw: Draw) {
     let _ = DRAW.set(draw);
 }
 
-/// The scripts by which a [`Draw`] draws: the library of charts, which defines `echarts`, and ours, which define `svgText(figure, echarts)`.
+/// The scripts by which a [`Draw`] draws: the library of charts, which defines `echarts`, and ours, which define
+/// `svgText(figure, echarts)`.
 ///
 /// # Errors
 /// None: the library is part of the program.
@@ -96,8 +97,8 @@ impl FigureSheet {
         FigureSheet { figures: self.figures.into_iter().map(|figure| figure.in_units(display)).collect(), ..self }
     }
 
-    /// Writes the figures to `path`, in the format of its extension; the path of what was written: HTML where an SVG was asked for and this process draws
-    /// none. The file is whole or absent.
+    /// Writes the figures to `path`, in the format of its extension; the path of what was written: HTML where an SVG
+    /// was asked for and this process draws none. The file is whole or absent.
     ///
     /// # Errors
     /// [`FigureError`].
@@ -115,8 +116,8 @@ impl FigureSheet {
         }
     }
 
-    /// Writes each figure to a file of its own in `folder`, under its name; where this process draws no SVG, all of them to `figures.html`. The number of
-    /// files, and what to know of them.
+    /// Writes each figure to a file of its own in `folder`, under its name; where this process draws no SVG, all of
+    /// them to `figures.html`. The number of files, and what to know of them.
     ///
     /// # Errors
     /// [`FigureError`].
@@ -228,7 +229,8 @@ mod tests {
         assert_eq!(alone.svg(draw).expect("drawn"), "<svg width=\"700\" height=\"300\">\"f0\"</svg>");
     }
 
-    /// Law: without a way to draw SVG a page with the figures is written, which says how to have SVG; other formats are refused.
+    /// Law: without a way to draw SVG a page with the figures is written, which says how to have SVG; other formats are
+    /// refused.
     #[test]
     fn a_page_is_written_in_place_of_svg() {
         let folder = std::env::temp_dir().join(format!("spindrift-figures-{}", std::process::id()));

@@ -1,19 +1,21 @@
-//! Histograms: bars of equal width, by decades where values span many; of drawn samples with their nominal value and with what is expected
-//! of the distribution that was asked for.
+//! Histograms: bars of equal width, by decades where values span many; of drawn samples with their nominal value and
+//! with what is expected of the distribution that was asked for.
 
 use crate::findings::number::short;
 use crate::report::expected_counts::Asked;
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape, Scale};
 
-/// Fewest and most bars; between them as many as the square root of the number of values, so that few values are no comb.
+/// Fewest and most bars; between them as many as the square root of the number of values, so that few values are no
+/// comb.
 const BARS: [usize; 2] = [10, 40];
-/// A nominal value farther from all samples than this fraction of their span is named at the edge: the samples keep two thirds of the axis.
+/// A nominal value farther from all samples than this fraction of their span is named at the edge: the samples keep two
+/// thirds of the axis.
 const FAR: f64 = 0.5;
 /// Values whose median is below this fraction of the largest are those of a distribution over decades.
 const OVER_DECADES: f64 = 0.05;
 
-/// Edges of bars for `values`, and whether they are by decades: where all are positive and their range exceeds 100. The first of `limits` among the values is an edge, so that no bar
-/// stands on both sides of it.
+/// Edges of bars for `values`, and whether they are by decades: where all are positive and their range exceeds 100. The
+/// first of `limits` among the values is an edge, so that no bar stands on both sides of it.
 pub fn bins(values: &[f64], limits: &[f64]) -> (Vec<f64>, bool) {
     let (low, high) = ends(values);
     if low > high {
@@ -43,7 +45,8 @@ fn bars(values: usize) -> usize {
     (values as f64).sqrt().ceil().clamp(BARS[0] as f64, BARS[1] as f64) as usize
 }
 
-/// `edges` with one more, moved by less than a bar so that the first of `limits` between their ends is an edge. `add` moves an edge by a distance, and `distance` is that from one to another.
+/// `edges` with one more, moved by less than a bar so that the first of `limits` between their ends is an edge. `add`
+/// moves an edge by a distance, and `distance` is that from one to another.
 fn moved(
     edges: Vec<f64>,
     limits: &[f64],
@@ -67,8 +70,8 @@ fn part(k: usize, bars: usize) -> f64 {
     k as f64 / bars as f64
 }
 
-/// Edges of equally wide bars; values on a lattice, as counts and times of control periods are, have bars of whole steps
-/// of it, each with as many places.
+/// Edges of equally wide bars; values on a lattice, as counts and times of control periods are, have bars of whole
+/// steps of it, each with as many places.
 fn linear_bins(values: &[f64], limits: &[f64]) -> Vec<f64> {
     let (low, high) = ends(values);
     if let Some(step) = lattice(values) {
@@ -88,8 +91,8 @@ fn linear_bins(values: &[f64], limits: &[f64]) -> Vec<f64> {
     moved((0..=bars).map(edge).collect(), limits, |edge, by| edge + by, |to, from| to - from)
 }
 
-/// The step of the lattice on which all of `values` are: one for whole numbers, else the smallest distance of two of them,
-/// where many share a place; `None` where they are on none.
+/// The step of the lattice on which all of `values` are: one for whole numbers, else the smallest distance of two of
+/// them, where many share a place; `None` where they are on none.
 fn lattice(values: &[f64]) -> Option<f64> {
     /// Values to a place, at least, of values that are not whole.
     const SHARED: usize = 4;
@@ -172,14 +175,15 @@ pub fn of_input(name: &str, unit: &str, samples: &[f64], nominal: f64, asked: Op
     Figure { columns: 3, ..Figure::new(name, x, Axis::linear("samples", ""), marks) }
 }
 
-/// Whether the axis of the samples would be mostly empty with the nominal value on it; one value alone has no axis of its own.
+/// Whether the axis of the samples would be mostly empty with the nominal value on it; one value alone has no axis of
+/// its own.
 fn is_far(nominal: f64, (low, high): (f64, f64)) -> bool {
     let reach = FAR * (high - low);
     high > low && (low - nominal > reach || nominal - high > reach)
 }
 
-/// The probabilities of a discrete distribution as samples that are expected: one stem for each bar that contains a value, at this value, or
-/// at the mean of those that share the bar.
+/// The probabilities of a discrete distribution as samples that are expected: one stem for each bar that contains a
+/// value, at this value, or at the mean of those that share the bar.
 fn stems(values: &[(f64, f64)], count: usize, edges: &[f64]) -> Mark {
     let (mut x, mut y) = (Vec::new(), Vec::new());
     for ends in edges.windows(2) {
@@ -224,8 +228,9 @@ mod tests {
         assert!(bins(&[], &[]).0.is_empty());
     }
 
-    /// Law: bars of counts and of times of control periods have equally many places of the lattice, so that equally many
-    /// values at each place are equally high bars, but for those at the ends; a bar ends with the last place up to a limit.
+    /// Law: bars of counts and of times of control periods have equally many places of the lattice, so that equally
+    /// many values at each place are equally high bars, but for those at the ends; a bar ends with the last place up to
+    /// a limit.
     #[test]
     fn bars_follow_the_lattice() {
         for (step, offset) in [(1.0, 3.0), (0.1, 0.05), (0.25, -7.0)] {
@@ -249,8 +254,8 @@ mod tests {
         assert_eq!(lattice(&values), None);
     }
 
-    /// Law: bars are as many as the square root of the number of values, from ten to forty; a limit between the values is an edge of them, on every kind of axis, and every value is still in
-    /// one bar.
+    /// Law: bars are as many as the square root of the number of values, from ten to forty; a limit between the values
+    /// is an edge of them, on every kind of axis, and every value is still in one bar.
     #[test]
     fn bars_are_few_for_few_values_and_end_at_a_limit() {
         for (count, bars) in [(2, 10), (100, 10), (225, 15), (1000, 32), (1600, 40), (100_000, 40)] {
@@ -274,7 +279,8 @@ mod tests {
         }
     }
 
-    /// Law: a value at an edge between two bars is in the upper one, as the stem of its probability is; the last edge is in the last bar.
+    /// Law: a value at an edge between two bars is in the upper one, as the stem of its probability is; the last edge
+    /// is in the last bar.
     #[test]
     fn an_edge_is_in_the_bar_above_it() {
         let edges = [0.0, 1.0, 2.0, 4.0];
@@ -298,8 +304,9 @@ mod tests {
         assert_eq!(of_input("x", "", &[], f64::NAN, None).marks.len(), 1);
     }
 
-    /// Law: each value of a discrete distribution has a stem of the height that is expected, and values that share a bar one of their sum; a
-    /// continuous one has a curve whose sum is the number of samples, at the middle of each bar as the axis shows it.
+    /// Law: each value of a discrete distribution has a stem of the height that is expected, and values that share a
+    /// bar one of their sum; a continuous one has a curve whose sum is the number of samples, at the middle of each bar
+    /// as the axis shows it.
     #[test]
     fn what_is_expected_is_drawn() {
         let drawn: Vec<f64> = (0..300).map(|k| [0.01, 0.02, 0.05][k % 3]).collect();

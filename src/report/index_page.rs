@@ -43,7 +43,8 @@ pub struct Unreadable {
 const WORDS: [&str; 3] = ["PASS", "FAIL", "UNDECIDED"];
 
 impl IndexEntry {
-    /// The verdicts, counted, each as `said` of its count and its word: `3 PASS, 1 FAIL`; of a campaign without requirements a dash.
+    /// The verdicts, counted, each as `said` of its count and its word: `3 PASS, 1 FAIL`; of a campaign without
+    /// requirements a dash.
     fn verdicts(&self, said: impl Fn(usize, &str) -> String) -> String {
         let counts = WORDS.iter().map(|word| (self.end.count(word), word)).filter(|(count, _)| *count > 0);
         let found: Vec<String> = counts.map(|(count, word)| said(count, word)).collect();
@@ -133,7 +134,14 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
     };
     let (name, count) = (escaped(title), counted(entries.len(), "result"));
     format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{name} - spindrift</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}{OWN_STYLE}</style>\n</head>\n<body>\n<header><h1>{name}</h1><p class=\"facts\">{count}, by campaign, the latest run first</p></header>\n<main>\n<section id=\"results\"><table><thead><tr>{heads}</tr></thead><tbody>\n{rows}</tbody></table></section>\n{left_out}</main>\n</body>\n</html>\n"
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta \
+        http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:; \
+        base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width, \
+        initial-scale=1\">\n<title>{name} - spindrift</title>\n<link rel=\"icon\" \
+        href=\"data:,\">\n<style>\n{STYLE}{OWN_STYLE}</style>\n</head>\n<body>\n<header><h1>{name}</h1><p \
+        class=\"facts\">{count}, by campaign, the latest run first</p></header>\n<main>\n<section \
+        id=\"results\"><table><thead><tr>{heads}</tr></thead><tbody>\n{rows}</tbody></table></section>\n\
+         {left_out}</main>\n</body>\n</html>\n"
     )
 }
 
@@ -141,17 +149,22 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
 const HEADS: [&str; 7] =
     ["Result", "Campaign", "Verdicts", "Runs computed", "Day", "Version", "Changed since the last run"];
 
-/// Of the table of results alone: campaigns have a column where one is not named by its folder; where the table is narrow each row is a card.
+/// Of the table of results alone: campaigns have a column where one is not named by its folder; where the table is
+/// narrow each row is a card.
 const OWN_STYLE: &str = "\
 .pass { color: var(--pass); } .fail { color: var(--fail); font-weight: 600; } .undecided { color: var(--undecided); }
-#results th, #results td { text-align: left; white-space: normal; } @media (min-width: 700px) { #results th:nth-child(4), #results td:nth-child(4) { text-align: right; } } #results td span:not(.quiet), #results td:nth-child(5) { white-space: nowrap; }
+#results th, #results td { text-align: left; white-space: normal; } @media (min-width: 700px) { #results \
+th:nth-child(4), #results td:nth-child(4) { text-align: right; } } #results td span:not(.quiet), #results \
+td:nth-child(5) { white-space: nowrap; }
 #results table:not(:has(td:nth-child(2):not(:empty))) :is(th, td):nth-child(2) { display: none; }
 #results td:last-child { overflow-wrap: anywhere; min-width: 9rem; }
 @media screen and (max-width: 699px) {
   #results thead { display: none; } #results table, #results tbody, #results tr, #results td { display: block; }
-  #results tr { margin: 0.8rem 0; padding: 0.4rem 0.7rem; border: 1px solid var(--line); border-radius: 5px; background: var(--panel); }
+  #results tr { margin: 0.8rem 0; padding: 0.4rem 0.7rem; border: 1px solid var(--line); border-radius: 5px; \
+  background: var(--panel); }
   #results td:empty { display: none; }
-  #results td { border: 0; padding: 0.1rem 0; overflow-wrap: anywhere; } #results td + td::before { content: attr(data-head) \": \"; color: var(--quiet); }
+  #results td { border: 0; padding: 0.1rem 0; overflow-wrap: anywhere; } #results td + td::before { content: \
+  attr(data-head) \": \"; color: var(--quiet); }
 }
 ";
 
@@ -186,8 +199,8 @@ mod tests {
         }
     }
 
-    /// Law: each count of verdicts has the colour of its own word on the page, and on the screen stands whole in one line, however narrow that is; at 80 characters no line is longer, and the name
-    /// of the folder is there in full.
+    /// Law: each count of verdicts has the colour of its own word on the page, and on the screen stands whole in one
+    /// line, however narrow that is; at 80 characters no line is longer, and the name of the folder is there in full.
     #[test]
     fn verdicts_are_whole() {
         let verdict = |word: &&str| EndVerdict { word: (*word).to_owned(), ..EndVerdict::default() };

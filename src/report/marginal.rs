@@ -1,7 +1,8 @@
-//! The distribution of one number that is drawn together with others: of a component of a vector, of an angle of an attitude.
+//! The distribution of one number that is drawn together with others: of a component of a vector, of an angle of an
+//! attitude.
 //!
-//! It has no closed form in general: it is that of many evenly spread draws, which are not those of the campaign. The rows of a table are
-//! taken one by one.
+//! It has no closed form in general: it is that of many evenly spread draws, which are not those of the campaign. The
+//! rows of a table are taken one by one.
 
 use std::sync::Arc;
 
@@ -14,7 +15,8 @@ use crate::sampling::{Joint, Transform};
 /// Draws of a distribution without rows, as a Sobol design has them: beyond the resolution of a picture.
 const DRAWS: u64 = 1 << 16;
 
-/// The distribution of the column `index` of `plan`; `None` where it is not known: of a derived number, or one of a table.
+/// The distribution of the column `index` of `plan`; `None` where it is not known: of a derived number, or one of a
+/// table.
 pub fn of_column(plan: &Plan, index: usize) -> Option<Asked<'_>> {
     if let Some(distribution) = plan.dispersions.scalar_of(index) {
         return Some(Asked::Number(distribution));
@@ -22,7 +24,8 @@ pub fn of_column(plan: &Plan, index: usize) -> Option<Asked<'_>> {
     of_columns(plan, &[index], |values| values[0])
 }
 
-/// The distribution of a function of the numbers in the columns `columns` of `plan`, which are drawn together; `None` where they are not.
+/// The distribution of a function of the numbers in the columns `columns` of `plan`, which are drawn together; `None`
+/// where they are not.
 pub fn of_columns<'p>(plan: &'p Plan, columns: &[usize], of: impl Fn(&[f64]) -> f64) -> Option<Asked<'p>> {
     let assigned = plan.dispersions.assigned_to(*columns.first()?)?;
     let Transform::Joint(joint) = &assigned.map else { return None };
@@ -65,7 +68,8 @@ mod tests {
     use super::*;
     use crate::campaign::Overrides;
 
-    /// Known: of rows drawn with replacement each value has the share of the rows that have it, wherever these stand in the file.
+    /// Known: of rows drawn with replacement each value has the share of the rows that have it, wherever these stand in
+    /// the file.
     #[test]
     fn values_of_rows_have_their_shares() {
         let folder = std::env::temp_dir().join(format!("spindrift-rows-{}", std::process::id()));
@@ -93,8 +97,8 @@ mod tests {
         Plan::from_text("x.toml", &format!("{nominal}\n[[disperse]]\n{dispersion}\n"), Overrides::default()).unwrap()
     }
 
-    /// Known: a component of a direction that is uniform over the sphere is uniform (Archimedes); so is the component along the axis of a cone,
-    /// from the cosine of its half-angle to 1.
+    /// Known: a component of a direction that is uniform over the sphere is uniform (Archimedes); so is the component
+    /// along the axis of a cone, from the cosine of its half-angle to 1.
     #[test]
     fn components_of_directions() {
         let sphere = plan(
@@ -108,15 +112,17 @@ mod tests {
             assert!(found.iter().all(|count| (count - 100.0).abs() < 2.0), "{component}: {found:?}");
         }
         let cone = plan(
-            "parameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"cone\"\nhalf_angle_rad = 1.0\naxis = [0, 0, 3]",
+            "parameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"cone\"\nhalf_angle_rad = 1.0\naxis = [0, \
+            0, 3]",
         );
         let length = length - 2.0;
         let found = expected(&of_column(&cone, 2).unwrap(), libm::cos(1.0) * length, length);
         assert!(found.iter().all(|count| (count - 100.0).abs() < 2.0), "{found:?}");
     }
 
-    /// Known: the rotation angle of a normal rotation vector of three equal standard deviations has Maxwell's distribution: 19.87% of angles are
-    /// below one standard deviation, 73.85% below two (chi-squared of three degrees of freedom at 1 and 4).
+    /// Known: the rotation angle of a normal rotation vector of three equal standard deviations has Maxwell's
+    /// distribution: 19.87% of angles are below one standard deviation, 73.85% below two (chi-squared of three degrees
+    /// of freedom at 1 and 4).
     #[test]
     fn angles_of_attitude_errors() {
         let plan = plan("parameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\nstd_rad = 0.1");

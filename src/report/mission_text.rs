@@ -35,7 +35,8 @@ pub fn ended(one: &MissionShare) -> String {
     }
 }
 
-/// How the mission of a run ended, by the columns of its row; `None` where the row has none, or the mission did neither fail nor launch.
+/// How the mission of a run ended, by the columns of its row; `None` where the row has none, or the mission did neither
+/// fail nor launch.
 pub fn of_row(row: &[(String, f64)]) -> Option<String> {
     let value = |name: &str| row.iter().find(|(column, _)| column == name).map(|(_, value)| *value);
     if value("launched") == Some(1.0) {
@@ -68,7 +69,8 @@ pub fn missing(missions: &Missions) -> Option<String> {
     })
 }
 
-/// What drives failures where no mission does anything else: no input can be told from the others by them. `None` where one mission did not fail.
+/// What drives failures where no mission does anything else: no input can be told from the others by them. `None` where
+/// one mission did not fail.
 pub fn all_failed(missions: &Missions) -> Option<String> {
     let is_failed = |one: &MissionShare| words(one.end).starts_with("failed") && one.missing == 0;
     let runs = missions.first()?.runs;
@@ -76,8 +78,8 @@ pub fn all_failed(missions: &Missions) -> Option<String> {
     (runs > 1 && all_do).then(|| format!("all {runs} missions fail, so no input decides which do"))
 }
 
-/// How missions ended in one sentence: the share that launched or did not fail, unless `is_stated` (a verdict says it), and how many ended in another way. `is_said`: a warning says how many were
-/// not computed.
+/// How missions ended in one sentence: the share that launched or did not fail, unless `is_stated` (a verdict says it),
+/// and how many ended in another way. `is_said`: a warning says how many were not computed.
 pub fn brief(missions: &Missions, is_stated: bool, is_said: bool) -> String {
     let Some(MissionShare { missing, .. }) = missions.first() else { return String::new() };
     let is_good = |one: &&MissionShare| ["launched", "not_failed"].contains(&one.end);

@@ -1,4 +1,5 @@
-//! [`ObservableLine`]: the statistics of an observable for `summary.json`, and those of several as a table on the screen.
+//! [`ObservableLine`]: the statistics of an observable for `summary.json`, and those of several as a table on the
+//! screen.
 
 use serde::Serialize;
 
@@ -91,7 +92,8 @@ impl ObservableLine {
         }
     }
 
-    /// Whether it says nothing: no run is ok, with a value or without one, and no quantile is known from how the others failed.
+    /// Whether it says nothing: no run is ok, with a value or without one, and no quantile is known from how the others
+    /// failed.
     pub fn is_empty(&self) -> bool {
         let is_known =
             |quantile: &QuantileLine| quantile.value.is_some() || quantile.interval.iter().any(Option::is_some);
@@ -115,7 +117,8 @@ impl ObservableLine {
         self.unit.is_empty() && self.min.is_some() && values.into_iter().all(is_whole)
     }
 
-    /// The share of runs with 1, where no run has another number than 0 and 1. What is the same in all runs may be a number, such as an error of zero; of few runs a quantile may lie between both.
+    /// The share of runs with 1, where no run has another number than 0 and 1. What is the same in all runs may be a
+    /// number, such as an error of zero; of few runs a quantile may lie between both.
     pub fn share_of_yes(&self) -> Option<f64> {
         self.mean.filter(|_| self.name == "launched" || self.is_yes_or_no() && self.min != self.max)
     }
@@ -125,8 +128,8 @@ impl ObservableLine {
     }
 }
 
-/// The lines of a summary of `plan`: main observables, the final state, what the file names and requires. `numerics` gives the numerical
-/// error of an observable.
+/// The lines of a summary of `plan`: main observables, the final state, what the file names and requires. `numerics`
+/// gives the numerical error of an observable.
 pub fn lines(plan: &Plan, statistics: &Statistics, numerics: impl Fn(&str) -> Option<Numerics>) -> Vec<ObservableLine> {
     let columns = plan.request().columns();
     let main = headlines(&plan.request()).into_iter().map(|index| &columns[index]);
@@ -169,8 +172,8 @@ fn end(value: f64) -> String {
     }
 }
 
-/// `lines` as a table for lines of `width` characters: values, and below them the ends of their intervals; `title` is that
-/// of the first column.
+/// `lines` as a table for lines of `width` characters: values, and below them the ends of their intervals; `title` is
+/// that of the first column.
 pub fn table(lines: &[&ObservableLine], title: &str, width: usize) -> String {
     let ps = shown(lines);
     let of_p = |p: &f64| if *p == 0.5 { "median".to_owned() } else { format!("p{}", percent(*p)) };

@@ -11,7 +11,8 @@ pub fn unit_of(plan: &Plan, column: usize) -> ShownUnit {
     plan.analysis.display.of(&parameter.name(), unit)
 }
 
-/// The distribution of the dispersed number `column` of `plan`, in the unit in which it is shown; or what gives its values.
+/// The distribution of the dispersed number `column` of `plan`, in the unit in which it is shown; or what gives its
+/// values.
 pub fn origin(plan: &Plan, column: usize) -> String {
     let shown = unit_of(plan, column);
     let number = |value: f64| trimmed(value, 4);

@@ -47,13 +47,15 @@ pub fn together(verdicts: &Verdicts) -> Vec<String> {
     let error = percent(libm::round(1e12 * (1.0 - least)) / 1e12);
     if verdicts.list.len() > 1 {
         said.push(format!(
-            "of the {} requirements together: the chance that one which is met FAILs is at most {error}% (Holm), and so is the chance that all PASS while one is missed",
+            "of the {} requirements together: the chance that one which is met FAILs is at most {error}% (Holm), and \
+            so is the chance that all PASS while one is missed",
             verdicts.list.len()
         ));
     }
     if verdicts.list.iter().any(Assessment::has_interval) {
         said.push(
-            "a verdict looks at one side only, with the confidence of its requirement: it may be decided while its two-sided interval still has the limit in it"
+            "a verdict looks at one side only, with the confidence of its requirement: it may be decided while its \
+            two-sided interval still has the limit in it"
                 .to_owned(),
         );
     }
@@ -63,7 +65,8 @@ pub fn together(verdicts: &Verdicts) -> Vec<String> {
     let has_number = |one: &Assessment| matches!(one.gate.decision, Decision::Undecided(Some(_)));
     if verdicts.looks == 1 && verdicts.list.iter().any(has_number) {
         said.push(
-            "to add runs until every requirement is decided, write [stop] when = \"decided\"; adding runs by hand and testing again makes wrong verdicts more likely"
+            "to add runs until every requirement is decided, write [stop] when = \"decided\"; adding runs by hand and \
+            testing again makes wrong verdicts more likely"
                 .to_owned(),
         );
     }
@@ -78,14 +81,16 @@ pub fn assumed(one: &Assessment) -> Option<String> {
     let room = one.room_for_rare_events()?;
     let unit = if one.shown.unit.is_empty() { String::new() } else { format!(" {}", one.shown.unit) };
     Some(format!(
-        "if events rarer than {RARE} in {} runs move the mean by less than {}{unit}; with bounded = [lowest, highest] it would assume nothing",
+        "if events rarer than {RARE} in {} runs move the mean by less than {}{unit}; with bounded = [lowest, highest] \
+        it would assume nothing",
         one.runs,
         short(one.shown.value(room)),
     ))
 }
 
-/// What decided, in a few words, where the interval in brackets seems to say otherwise: the bound of a verdict, which looks at one side, where the interval has the limit in it; that nothing is
-/// decided, where it has not. `None` where the interval shows it.
+/// What decided, in a few words, where the interval in brackets seems to say otherwise: the bound of a verdict, which
+/// looks at one side, where the interval has the limit in it; that nothing is decided, where it has not. `None` where
+/// the interval shows it.
 pub fn decided_by(one: &Assessment) -> Option<String> {
     if one.fails_alone() {
         return Some(missed_alone(one));
@@ -293,9 +298,10 @@ pub fn json(verdicts: &Verdicts) -> Value {
     })
 }
 
-/// The verdicts as JUnit XML: one test case for each requirement, an undecided one is an error; and one that every run is `ok`:
-/// of those that `tally` has; and one that every estimate of an error covers as many errors as promised, where runs were audited; and one that `[stop]` reached its goal, where there is one: whether it did, and in words. No clock time: the same campaign
-/// gives the same bytes.
+/// The verdicts as JUnit XML: one test case for each requirement, an undecided one is an error; and one that every run
+/// is `ok`: of those that `tally` has; and one that every estimate of an error covers as many errors as promised, where
+/// runs were audited; and one that `[stop]` reached its goal, where there is one: whether it did, and in words. No
+/// clock time: the same campaign gives the same bytes.
 pub fn junit(plan: &Plan, verdicts: &Verdicts, tally: &Tally, stop: Option<(bool, String)>) -> String {
     let name = escaped(&plan.name);
     let failed = tally.statuses.runs() - tally.statuses.ok();
@@ -322,7 +328,8 @@ pub fn junit(plan: &Plan, verdicts: &Verdicts, tally: &Tally, stop: Option<(bool
             None => writeln!(xml, "    <testcase classname=\"{name}\" name=\"{title}\"/>"),
             Some((element, kind, message)) => writeln!(
                 xml,
-                "    <testcase classname=\"{name}\" name=\"{title}\">\n      <{element} type=\"{kind}\" message=\"{}\"/>\n    </testcase>",
+                "    <testcase classname=\"{name}\" name=\"{title}\">\n      <{element} type=\"{kind}\" \
+                message=\"{}\"/>\n    </testcase>",
                 escaped(message)
             ),
         };
@@ -356,7 +363,8 @@ mod tests {
     use crate::campaign::{Requirement, ShownUnit};
     use crate::statistics::gate::Gate;
 
-    /// Law: a bound that is named decides as it is written: rounded away from what was found, it is on the side of the limit on which the exact one is.
+    /// Law: a bound that is named decides as it is written: rounded away from what was found, it is on the side of the
+    /// limit on which the exact one is.
     #[test]
     fn a_named_bound_decides() {
         let said = |statement, limit, decision, bounds: [f64; 2]| {

@@ -80,7 +80,8 @@ pub fn of_noise(one: &NoiseShare) -> String {
             format!("noise within the loop is {said} of the variance ({scenes} scenes, each flown twice)")
         }
         None if one.others > 0 => format!(
-            "the share of noise within the loop is not known: {} of {} runs have another value than the others, and it takes {FEWEST_OTHERS} ({scenes} scenes, each flown twice)",
+            "the share of noise within the loop is not known: {} of {} runs have another value than the others, and it \
+            takes {FEWEST_OTHERS} ({scenes} scenes, each flown twice)",
             one.others,
             2 * scenes
         ),
@@ -133,7 +134,8 @@ mod tests {
         assert_eq!(with_interval([0.25, 0.98], [f64::NAN; 2]), "25% to 98%");
     }
 
-    /// Law: the interval that is shown contains the one that was found, whatever is left to 100; it reaches 100 and 0 only where that does.
+    /// Law: the interval that is shown contains the one that was found, whatever is left to 100; it reaches 100 and 0
+    /// only where that does.
     #[test]
     fn shown_intervals_contain_theirs() {
         assert_eq!(with_interval([0.999; 2], [0.994_4, 0.999_975]), "99.9% [99.4, 99.998]");

@@ -1,4 +1,5 @@
-//! [`simulation_figure`]: one run over time: the figures that its scene calls for, those of the page ([`crate::report::over_time::figure_list`]).
+//! [`simulation_figure`]: one run over time: the figures that its scene calls for, those of the page
+//! ([`crate::report::over_time::figure_list`]).
 //!
 //! The panels of the energies are Figures 3 to 5 of the paper (body by body, total and its error).
 
@@ -20,7 +21,8 @@ pub fn simulation_figure(title: String, plan: &Plan, run: &SingleRun) -> FigureS
     FigureSheet { title, figures: panels }
 }
 
-/// The titles of the figures that its scene calls for and that are not drawn, since what they show is zero, or absent, throughout the run.
+/// The titles of the figures that its scene calls for and that are not drawn, since what they show is zero, or absent,
+/// throughout the run.
 pub fn left_out(plan: &Plan, run: &SingleRun) -> Vec<String> {
     let figures = Curves::of_plot(plan, run).figures().into_iter();
     figures.filter(|figure| !has_values(figure)).map(|figure| figure.title).collect()
@@ -44,9 +46,12 @@ mod tests {
 
     /// A satellite on a circle of 7000 km with a date, at the times `grid`.
     fn on_orbit(grid: Grid) -> (Plan, SingleRun) {
-        let text = "[campaign]\nname = \"o\"\nsamples = 1\nseed = 1\nduration_s = 9000.0\n[body]\nmass_kg = 10.0\nprincipal_moments_kg_m2 = [1.0, 2.0, 2.5]\n\
-                    [initial]\nangular_velocity_rad_s = [0.001, 0.002, 0.0]\n[orbit]\nsemi_major_axis_m = 7e6\ninclination_rad = \"60 deg\"\nepoch = \"2026-11-24T00:00:00Z\"\n\
-                    [environment]\nsolar_pressure = true\nmagnetic_field = \"igrf\"\nmagnetic_dipole_a_m2 = [0.1, 0.0, 0.2]\n\
+        let text = "[campaign]\nname = \"o\"\nsamples = 1\nseed = 1\nduration_s = 9000.0\n[body]\nmass_kg = \
+            10.0\nprincipal_moments_kg_m2 = [1.0, 2.0, 2.5]\n\
+                    [initial]\nangular_velocity_rad_s = [0.001, 0.002, 0.0]\n[orbit]\nsemi_major_axis_m = \
+                    7e6\ninclination_rad = \"60 deg\"\nepoch = \"2026-11-24T00:00:00Z\"\n\
+                    [environment]\nsolar_pressure = true\nmagnetic_field = \"igrf\"\nmagnetic_dipole_a_m2 = [0.1, 0.0, \
+                    0.2]\n\
                     [[plates]]\nname = \"p\"\narea_m2 = 1.0\nnormal = [1, 0, 0]\ncenter_m = [0.0, 0.2, 0.1]\n";
         let plan = Plan::from_text("o", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
         let run = SingleRun::with_series(&plan, SampleId(0), grid, Isa::best(), &GROUPS).expect("a run");
@@ -80,8 +85,8 @@ mod tests {
         }
     }
 
-    /// Law: a thruster that gives nothing has its curve and says so, in the figure of a mission that it decides; every curve beside another has a name; a figure of zeros alone is left out, and
-    /// named as that.
+    /// Law: a thruster that gives nothing has its curve and says so, in the figure of a mission that it decides; every
+    /// curve beside another has a name; a figure of zeros alone is left out, and named as that.
     #[test]
     fn a_dead_thruster_is_drawn() {
         let text = include_str!("../../campaigns/net_launch.toml").replace("duration_s = 2400.0", "duration_s = 60.0");
@@ -108,8 +113,10 @@ mod tests {
                 );
             }
         }
-        // on a circle about the Earth without thrusters nothing of them is called for, and a spin about one axis has the name of its axis
-        let text = "[campaign]\nname = \"o\"\nsamples = 1\nseed = 1\nduration_s = 9.0\n[body]\nmass_kg = 10.0\nprincipal_moments_kg_m2 = [1.0, 2.0, 2.5]\n[initial]\nangular_velocity_rad_s = [0.0, 0.0, 0.1]\n";
+        // on a circle about the Earth without thrusters nothing of them is called for, and a spin about one axis has
+        // the name of its axis
+        let text = "[campaign]\nname = \"o\"\nsamples = 1\nseed = 1\nduration_s = 9.0\n[body]\nmass_kg = \
+            10.0\nprincipal_moments_kg_m2 = [1.0, 2.0, 2.5]\n[initial]\nangular_velocity_rad_s = [0.0, 0.0, 0.1]\n";
         let plan = Plan::from_text("o", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
         let run =
             SingleRun::with_series(&plan, SampleId(0), Grid::uniform(9.0, 10), Isa::best(), &GROUPS).expect("a run");
@@ -143,8 +150,8 @@ mod tests {
         assert!(coarse.caption.ends_with("too far apart for a line."), "{}", coarse.caption);
     }
 
-    /// Law: every curve is the column that its panel and its label name: states and energies as they are, their sum, and changes that are zero
-    /// at the start and in balance throughout.
+    /// Law: every curve is the column that its panel and its label name: states and energies as they are, their sum,
+    /// and changes that are zero at the start and in balance throughout.
     #[test]
     fn curves_are_their_columns() {
         let text = include_str!("../../campaigns/spin_sweep.toml");

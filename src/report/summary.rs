@@ -117,7 +117,10 @@ impl Summary {
         let numbers = |ended: &Ended| ended.first.iter().take(LISTED).map(|(sample, _)| sample.0).collect::<Vec<_>>();
         let first_failed: Map<String, Value> =
             self.statuses.failed().map(|ended| (ended.status.name().to_owned(), json!(numbers(ended)))).collect();
-        let reason = |one: &FailureReason| json!({ "status": one.status.name(), "count": one.count, "sample": one.first.0, "reason": one.text });
+        let reason = |one: &FailureReason| {
+            json!({ "status": one.status.name(), "count": one.count,
+            "sample": one.first.0, "reason": one.text })
+        };
         let reasons: Vec<Value> = self.statuses.reasons().groups().into_iter().map(reason).collect();
         let runs = |worst: &Worst| -> Vec<Value> {
             worst.list.runs.iter().map(|(sample, error)| json!({ "sample": sample.0, "error": error })).collect()
@@ -155,7 +158,12 @@ impl Summary {
             value["nearest_correlations_of_scores"] = Value::Array(list.collect());
         }
         if !self.missions.is_empty() {
-            let one = |share: &MissionShare| json!({ "end": share.end, "phases": share.phases.iter().map(|(name, count)| json!({ "phase": name.as_str(), "count": count })).collect::<Vec<_>>(), "count": share.count, "runs": share.runs, "not_computed": share.missing, "shares": share.shares(), "interval": share.interval });
+            let one = |share: &MissionShare| {
+                json!({ "end": share.end,
+                "phases": share.phases.iter().map(|(name, count)| json!({ "phase": name.as_str(),
+                    "count": count })).collect::<Vec<_>>(), "count": share.count, "runs": share.runs,
+                        "not_computed": share.missing, "shares": share.shares(), "interval": share.interval })
+            };
             value["missions"] = Value::Array(self.missions.iter().map(one).collect());
         }
         if let Some(audit) = &self.audit {
@@ -291,8 +299,8 @@ impl SummaryEnd {
         SummaryEnd { warnings: Vec::new(), verdicts: self.verdicts.iter().map(bare).collect(), ..self.clone() }
     }
 
-    /// The verdicts of the campaign in one line, or how many runs were computed where nothing is required, and where the rest stands: `3 PASS, 1 FAIL ->
-    /// results/x/report.html`.
+    /// The verdicts of the campaign in one line, or how many runs were computed where nothing is required, and where
+    /// the rest stands: `3 PASS, 1 FAIL -> results/x/report.html`.
     pub fn verdict_line(&self, place: &Path) -> String {
         let count = |word: &&str| (self.count(word), word.to_string());
         let found = ["PASS", "FAIL", "UNDECIDED"].iter().map(count).filter(|(count, _)| *count > 0);

@@ -1,4 +1,5 @@
-//! A summary on the screen: the verdicts first, then what was found, then how well it was computed, with all that is known of it: what `--verbose` prints.
+//! A summary on the screen: the verdicts first, then what was found, then how well it was computed, with all that is
+//! known of it: what `--verbose` prints.
 
 use super::audit_summary::{Numerics, shorts};
 use super::observable_lines::{ObservableLine, table};
@@ -29,8 +30,8 @@ const ERRORS: [(&str, &str); 5] = [
 ];
 
 impl Summary {
-    /// The text for lines of `width` characters. `drivers` are what drives the outcomes, `file` is the campaign as a word of the commands that
-    /// show a run.
+    /// The text for lines of `width` characters. `drivers` are what drives the outcomes, `file` is the campaign as a
+    /// word of the commands that show a run.
     pub fn text(&self, drivers: &str, file: &str, width: usize) -> String {
         let mut text = wrapped(&warnings::text(&self.warnings), width);
         text += &wrapped(&requirements::text(&self.verdicts), width);
@@ -52,7 +53,8 @@ impl Summary {
         self.statuses.ok() > 0
     }
 
-    /// Why runs were not computed, a line for each reason, or for each way in which they ended where no reason is known; nothing where all were.
+    /// Why runs were not computed, a line for each reason, or for each way in which they ended where no reason is
+    /// known; nothing where all were.
     pub(super) fn why_failed(&self) -> String {
         let groups = self.statuses.reasons().groups();
         if groups.is_empty() { self.failures() } else { format!("{WHY}{}", failure_text::text(&groups)) }
@@ -182,8 +184,8 @@ impl Summary {
         text + &table.text(width)
     }
 
-    /// The runs with the greatest errors and the first that failed, with the command that shows one; `file` is the campaign as
-    /// a word of that command. Empty where there are none.
+    /// The runs with the greatest errors and the first that failed, with the command that shows one; `file` is the
+    /// campaign as a word of that command. Empty where there are none.
     fn replay(&self, file: &str, width: usize) -> String {
         let mut text = String::new();
         let worst =
@@ -195,7 +197,8 @@ impl Summary {
         if text.is_empty() { text } else { format!("\n{text}") }
     }
 
-    /// The first run with each status that is not `ok`, with the command that shows it, which stays whole, to be copied.
+    /// The first run with each status that is not `ok`, with the command that shows it, which stays whole, to be
+    /// copied.
     pub(super) fn first_failures(&self, file: &str, width: usize) -> String {
         let line = |ended: &Ended| {
             let (sample, _) = ended.first.first()?;
@@ -258,7 +261,8 @@ mod tests {
         }
     }
 
-    /// Law: the screen counts the runs of each status that occurs, and names the first samples of those that are not ok.
+    /// Law: the screen counts the runs of each status that occurs, and names the first samples of those that are not
+    /// ok.
     #[test]
     fn statuses_are_counted_and_failures_named() {
         let summary = summary();

@@ -1,5 +1,5 @@
-//! [`Surroundings`]: what is around a spacecraft on an orbit, as page and figures show it: nadir, the Sun and the Earth's shadow, the magnetic field, and the
-//! place on the Earth below it.
+//! [`Surroundings`]: what is around a spacecraft on an orbit, as page and figures show it: nadir, the Sun and the
+//! Earth's shadow, the magnetic field, and the place on the Earth below it.
 
 use core::f64::consts::TAU;
 
@@ -49,7 +49,8 @@ impl Surroundings {
     }
 }
 
-/// How fast the line from the Earth's centre to a body with this position (m) and velocity (m/s) turns: |r x v|/r^2, rad/s.
+/// How fast the line from the Earth's centre to a body with this position (m) and velocity (m/s) turns: |r x v|/r^2,
+/// rad/s.
 pub fn turning_rate(position: [f64; 3], velocity: [f64; 3]) -> f64 {
     norm(cross(position, velocity)) / dot(position, position)
 }

@@ -17,7 +17,8 @@ const MOST_LINES: usize = 21;
 
 /// Letters of the name of a phase.
 const LONGEST_PHASE: usize = 10;
-/// The share of the largest component of a vector, in the whole run, below which another is rounding: some hundred roundings.
+/// The share of the largest component of a vector, in the whole run, below which another is rounding: some hundred
+/// roundings.
 const ROUNDING: f64 = 1e-14;
 /// A header is shortened to this many letters, or to as many as tell it from the others.
 const SHORTEST_HEADER: usize = 10;
@@ -59,7 +60,8 @@ const OF_LOOPS: [Listed; 5] = [
     ("relative_velocity_estimate_error_m_s", "vel.err.", Digits::Magnitude),
 ];
 
-/// The columns of scenes of `plan`: the time, those that requirements are about, then those of the figures that the scene calls for, in their order.
+/// The columns of scenes of `plan`: the time, those that requirements are about, then those of the figures that the
+/// scene calls for, in their order.
 fn columns_of(plan: &Plan, wheels: &[Name]) -> Vec<Listed> {
     let traits = Traits::of(plan, wheels);
     let is_of = |series: Series, name: &str| series.quantity(wheels).is_some_and(|quantity| quantity.name() == name);
@@ -92,8 +94,9 @@ fn shown(head: String, below: String, cells: impl Iterator<Item = String>) -> Sh
     (Column { align: Align::Right, ..Column::new(quantity, Content::Word) }, Values::words(cells))
 }
 
-/// The table of `series`, a run of `plan`, at some of its points, in lines of at most `width` letters: what the requirements are about, what the scene calls
-/// for, the phase of a loop, and the rates of as many wheels as there is space for. The columns that are too many for the width, in words; empty where none is.
+/// The table of `series`, a run of `plan`, at some of its points, in lines of at most `width` letters: what the
+/// requirements are about, what the scene calls for, the phase of a loop, and the rates of as many wheels as there is
+/// space for. The columns that are too many for the width, in words; empty where none is.
 pub fn time_table(plan: &Plan, wheels: &[Name], series: &Table<'_>, width: usize) -> (Table<'static>, String) {
     let points = shown_points(series.rows());
     let column = |key: &str, name: &str, digits: Digits| -> Option<Shown> {
@@ -128,7 +131,8 @@ pub fn time_table(plan: &Plan, wheels: &[Name], series: &Table<'_>, width: usize
     fitting(main, wheels.collect(), width)
 }
 
-/// The first of the columns, which fit the width: the time always, wheels where all others do; and the names of those that are left out.
+/// The first of the columns, which fit the width: the time always, wheels where all others do; and the names of those
+/// that are left out.
 fn fitting(main: Vec<Shown>, mut wheels: Vec<Shown>, width: usize) -> (Table<'static>, String) {
     let names: Vec<String> = wheels.iter().map(|(column, _)| column.quantity.name().to_owned()).collect();
     let headers = distinct(&names.iter().map(|name| format!("rate {name}")).collect::<Vec<_>>());
@@ -227,7 +231,8 @@ mod tests {
         assert_eq!((shown.len(), shown[0], shown[20]), (21, 0, 1200));
     }
 
-    /// Law: no line is longer than the width, headers differ, and each column is shown or named, however many wheels there are.
+    /// Law: no line is longer than the width, headers differ, and each column is shown or named, however many wheels
+    /// there are.
     #[test]
     fn a_table_fits_its_width() {
         let names: Vec<String> = (0..8).map(|k| format!("wheel_number_{k}")).collect();

@@ -1,4 +1,5 @@
-//! [`text`]: verdicts as a table: word, requirement, what was found, notes. Where that is too wide, what was found is below what is required.
+//! [`text`]: verdicts as a table: word, requirement, what was found, notes. Where that is too wide, what was found is
+//! below what is required.
 
 use crate::table::Table;
 use crate::table::text::{Align, Text};
@@ -38,7 +39,8 @@ pub fn text([required, found]: [&str; 2], rows: &[VerdictRow], width: usize) -> 
 mod tests {
     use super::*;
 
-    /// Law: at every width every word is there, in its order, and no line is longer; where a table fits, each requirement has one line.
+    /// Law: at every width every word is there, in its order, and no line is longer; where a table fits, each
+    /// requirement has one line.
     #[test]
     fn verdicts_fit_their_width() {
         let row = |word: &str, required: &str| VerdictRow {

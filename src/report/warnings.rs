@@ -10,8 +10,9 @@ use crate::report::drivers_text::{ranked, sentence};
 use crate::report::share_text::with_interval;
 use crate::run::Status;
 
-/// The warnings of a campaign with these `statistics` and the audits `audit`, each a sentence that begins with what it is about in capitals; mostly none.
-/// `failures`: what drives whether a run is computed; `beyond_air`: how many runs have left the table of the air.
+/// The warnings of a campaign with these `statistics` and the audits `audit`, each a sentence that begins with what it
+/// is about in capitals; mostly none. `failures`: what drives whether a run is computed; `beyond_air`: how many runs
+/// have left the table of the air.
 pub fn warnings(
     plan: &Plan,
     statistics: &Statistics,

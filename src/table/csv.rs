@@ -16,7 +16,8 @@ pub fn header(out: &mut impl Write, columns: &[Column]) -> io::Result<()> {
     writeln!(out)
 }
 
-/// Writes a line for each row of `values`, which has the values of each column. A number has the fewest digits that read back to the same bits.
+/// Writes a line for each row of `values`, which has the values of each column. A number has the fewest digits that
+/// read back to the same bits.
 ///
 /// # Errors
 /// Those of `out`.

@@ -1,9 +1,10 @@
 //! Layer 2: tables: columns with name, unit, meaning and values.
 //!
-//! A kind of table is made in one place, and each format is written in one file: [`csv`], [`json`], aligned [`text`] of [`mod@wrapped`] lines; Parquet in `storage::columnar`, Arrow's arrays
-//! for Python in the Python package.
+//! A kind of table is made in one place, and each format is written in one file: [`csv`], [`json`], aligned [`text`] of
+//! [`mod@wrapped`] lines; Parquet in `storage::columnar`, Arrow's arrays for Python in the Python package.
 //!
-//! Rows of a campaign are not gathered in a table: their block (`ensemble::Rows`) hands its slices to the writer as [`Values`].
+//! Rows of a campaign are not gathered in a table: their block (`ensemble::Rows`) hands its slices to the writer as
+//! [`Values`].
 
 pub mod csv;
 pub mod json;
@@ -40,7 +41,8 @@ pub struct Column {
 }
 
 impl Column {
-    /// A column without absent values; those of real numbers may always be absent, since a number that is not finite is null.
+    /// A column without absent values; those of real numbers may always be absent, since a number that is not finite is
+    /// null.
     pub fn new(quantity: Quantity, content: Content) -> Self {
         Column { quantity, content, nullable: content == Content::Real, align: content.into() }
     }

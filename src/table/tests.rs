@@ -3,7 +3,8 @@
 use super::{Cell, Column, Content, Table, Values, csv, json};
 use crate::run::Quantity;
 
-/// Numbers that a format may lose: the largest, the smallest, zeros of both signs, one that needs 17 digits, and those that are null.
+/// Numbers that a format may lose: the largest, the smallest, zeros of both signs, one that needs 17 digits, and those
+/// that are null.
 const NUMBERS: [f64; 10] =
     [0.0, -0.0, 0.1 + 0.2, -1.5e300, f64::MAX, f64::MIN_POSITIVE, 5e-324, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 

@@ -1,7 +1,7 @@
 //! Tables as aligned text: lines that fit a terminal. Every table on a screen is written here.
 //!
-//! A cell is never broken: a number stays whole and beside its unit. Where the lines are too narrow, names are shortened, then the columns at the right go to
-//! lines of their own below the row.
+//! A cell is never broken: a number stays whole and beside its unit. Where the lines are too narrow, names are
+//! shortened, then the columns at the right go to lines of their own below the row.
 
 use std::borrow::Cow;
 
@@ -13,12 +13,14 @@ use crate::table::{Cell, Content, Table};
 pub enum Align {
     /// At the left: names. Shortened in their middle where the lines are too narrow.
     Left,
-    /// At the left, the first column: names, on lines of their own above the other cells where the lines are too narrow.
+    /// At the left, the first column: names, on lines of their own above the other cells where the lines are too
+    /// narrow.
     Title,
     /// At the left, never shortened: verdicts, texts with numbers.
     Whole,
     Right,
-    /// At the left, the last column: sentences, broken into lines in their column, or below the other cells where that is too narrow.
+    /// At the left, the last column: sentences, broken into lines in their column, or below the other cells where that
+    /// is too narrow.
     Sentence,
 }
 
@@ -54,7 +56,8 @@ pub struct Text<'t> {
 }
 
 impl<'t> Text<'t> {
-    /// The text of `table`. Names of columns are heads, with their units below; a line in which all are empty is left out.
+    /// The text of `table`. Names of columns are heads, with their units below; a line in which all are empty is left
+    /// out.
     pub fn of(table: &'t Table<'_>) -> Self {
         let quantities = || table.columns.iter().map(|column| &column.quantity);
         let heads: [Vec<Cow<'t, str>>; 2] = [
@@ -226,7 +229,8 @@ mod tests {
         table
     }
 
-    /// Law: at every width that a terminal has no line is longer, each number stands whole, and every word of a sentence is there, in its order.
+    /// Law: at every width that a terminal has no line is longer, each number stands whole, and every word of a
+    /// sentence is there, in its order.
     #[test]
     fn a_table_fits_and_says_all() {
         for width in 30..140 {
@@ -241,7 +245,8 @@ mod tests {
         }
     }
 
-    /// Law: numbers end and names begin in one column; a wide table has a line for each row; below their rows equal sentences stand once.
+    /// Law: numbers end and names begin in one column; a wide table has a line for each row; below their rows equal
+    /// sentences stand once.
     #[test]
     fn columns_stand_below_each_other() {
         let text = table().text(120);
@@ -255,7 +260,8 @@ mod tests {
         assert!(narrow.lines().any(|line| line.trim() == "uniform"), "{narrow}");
     }
 
-    /// Law: a title stands beside its numbers, and above them where the lines are too narrow; rows without one have no such line.
+    /// Law: a title stands beside its numbers, and above them where the lines are too narrow; rows without one have no
+    /// such line.
     #[test]
     fn titles_stand_above_where_lines_are_narrow() {
         let mut table = Table::with([("outcome", Align::Title), ("median", Align::Right)]);
@@ -290,8 +296,9 @@ mod tests {
         assert_eq!((text(&all), shown.lines().last()), (shown.clone(), Some("three     -12.5")));
     }
 
-    /// Law: at every width of a terminal, whatever the aligns of the columns are, each number stands whole with its unit, in the order of the columns, and no line is
-    /// longer; a table that fits has a line for each row. With a table of a hundred columns, so that every width is too narrow for it.
+    /// Law: at every width of a terminal, whatever the aligns of the columns are, each number stands whole with its
+    /// unit, in the order of the columns, and no line is longer; a table that fits has a line for each row. With a
+    /// table of a hundred columns, so that every width is too narrow for it.
     #[test]
     fn numbers_are_never_broken() {
         let number = |row: usize, column: usize| format!("{}.{}e-{} km/s", 7 * row + column, column * column, row + 1);
@@ -321,7 +328,8 @@ mod tests {
         }
     }
 
-    /// Law: a table with every kind of value has each of its numbers and texts; what is absent is a dash, and units stand below the heads.
+    /// Law: a table with every kind of value has each of its numbers and texts; what is absent is a dash, and units
+    /// stand below the heads.
     #[test]
     fn every_kind_of_value_is_shown() {
         let table = every_kind();

@@ -1,7 +1,8 @@
 //! Lines that fit a terminal.
 
-/// `text` with each line that is longer than `width` characters broken at spaces; what is broken off is indented as far as the text after the
-/// last gap of several spaces in the first half of the line is, else two characters more than the line.
+/// `text` with each line that is longer than `width` characters broken at spaces; what is broken off is indented as far
+/// as the text after the last gap of several spaces in the first half of the line is, else two characters more than the
+/// line.
 pub fn wrapped(text: &str, width: usize) -> String {
     let mut lines = String::with_capacity(text.len());
     for line in text.split_inclusive('\n') {
@@ -36,7 +37,8 @@ pub fn wrapped(text: &str, width: usize) -> String {
     lines
 }
 
-/// The same of a message: lines of a file with their marks stay as they are, and a command at the end of a line stays whole, to be copied, on a line of its own.
+/// The same of a message: lines of a file with their marks stay as they are, and a command at the end of a line stays
+/// whole, to be copied, on a line of its own.
 pub fn message(text: &str, width: usize) -> String {
     let of_line = |line: &str| {
         let is_long = line.trim_end_matches('\n').chars().count() > width;
@@ -61,7 +63,8 @@ const COMMAND: &str = ": spindrift ";
 /// What stands for letters that are left out.
 const ELLIPSIS: &str = "...";
 
-/// `text`, or its beginning and its end where it is wider than `width`: names that differ in a number at their end stay different.
+/// `text`, or its beginning and its end where it is wider than `width`: names that differ in a number at their end stay
+/// different.
 pub fn fitted(text: &str, width: usize, measure: impl Fn(&str) -> usize) -> String {
     if measure(text) <= width {
         return text.to_owned();
@@ -95,13 +98,15 @@ mod tests {
         assert_eq!(wrapped(text, 100), text);
     }
 
-    /// Law: at every width all words of a message are there, in their order; only a marked line, a command, and a word alone are longer.
+    /// Law: at every width all words of a message are there, in their order; only a marked line, a command, and a word
+    /// alone are longer.
     #[test]
     fn messages_are_broken_and_marks_stay() {
         let marked = "    | colour = \"a colour that nobody has seen on any spacecraft\"\n    | ^^^^^^";
         let command = "spindrift simulate 'a folder/plan.toml' --sample 1234567 --set campaign.duration_s=20";
         let text = format!(
-            "error: bad.toml:12: colour = 1: must be a number from 1 to 9 or none at all; delete it\n{marked}\n  that run again: {command}\nshort\n"
+            "error: bad.toml:12: colour = 1: must be a number from 1 to 9 or none at all; delete it\n{marked}\n  that \
+            run again: {command}\nshort\n"
         );
         for width in 20..200 {
             let broken = message(&text, width);

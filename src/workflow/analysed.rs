@@ -1,4 +1,5 @@
-//! What is made of the rows of a campaign once they are on the disk: statistics, sensitivities, verdicts. It depends on plan and files only.
+//! What is made of the rows of a campaign once they are on the disk: statistics, sensitivities, verdicts. It depends on
+//! plan and files only.
 
 use std::num::NonZeroUsize;
 use std::path::Path;

@@ -104,7 +104,8 @@ impl<'a> Campaign<'a> {
         self
     }
 
-    /// With the result in the folder `root`, or at the address `s3://bucket/name` of an object store; else in [`RESULTS`], under the name of the campaign.
+    /// With the result in the folder `root`, or at the address `s3://bucket/name` of an object store; else in
+    /// [`RESULTS`], under the name of the campaign.
     #[must_use]
     pub fn store(mut self, root: impl Into<PathBuf>) -> Self {
         self.root = Some(root.into());
@@ -178,7 +179,8 @@ impl<'a> Campaign<'a> {
     /// Runs what is not there yet, and opens the finished result.
     ///
     /// # Errors
-    /// Where the campaign cannot run, or does not finish: of a shard, after a stop, without failed samples to run again.
+    /// Where the campaign cannot run, or does not finish: of a shard, after a stop, without failed samples to run
+    /// again.
     pub fn results(self) -> Result<Results<'a>, WorkflowError> {
         let session = self.session;
         let unfinished = |what: &str| WorkflowError::Input(format!("{what}: there is no finished result"));
@@ -247,7 +249,8 @@ impl PreparedCampaign<'_> {
         }
     }
 
-    /// Runs what is not there yet: all samples, those that an interrupted run has not made, or those that a larger campaign has more.
+    /// Runs what is not there yet: all samples, those that an interrupted run has not made, or those that a larger
+    /// campaign has more.
     ///
     /// # Errors
     /// Where the folder has something that must not be replaced, or files cannot be read or written.
@@ -300,7 +303,8 @@ pub fn refuse_shards_with_stop(plan: &Plan, what: &str) -> Result<(), WorkflowEr
     match plan.analysis.stop {
         None => Ok(()),
         Some(_) => Err(WorkflowError::Input(format!(
-            "{what}: must be left out with [stop], which looks at all samples before it runs more; delete [stop], or run without shards"
+            "{what}: must be left out with [stop], which looks at all samples before it runs more; delete [stop], or \
+            run without shards"
         ))),
     }
 }

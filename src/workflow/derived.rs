@@ -1,5 +1,5 @@
-//! [`derive`]: makes the files that follow from plan and rows, one after another. A campaign that ends writes them ([`super::finishing`]), and
-//! `verify` compares them with those that are there ([`super::derived_check`]).
+//! [`derive`]: makes the files that follow from plan and rows, one after another. A campaign that ends writes them
+//! ([`super::finishing`]), and `verify` compares them with those that are there ([`super::derived_check`]).
 
 use std::fmt::Display;
 

@@ -1,5 +1,6 @@
-//! [`derived_problems`]: whether the files of a result that follow from plan and rows are what this program makes of them. A checksum alone says only
-//! that a file is the one that the manifest lists, and whoever changes both can list any.
+//! [`derived_problems`]: whether the files of a result that follow from plan and rows are what this program makes of
+//! them. A checksum alone says only that a file is the one that the manifest lists, and whoever changes both can list
+//! any.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -76,8 +77,8 @@ impl Destination for Comparison<'_> {
     }
 }
 
-/// Makes the files that follow from plan and rows of the result in `root` again, and compares them with those that are listed there; of the time series
-/// those that `chosen` chooses. The parts are `records`; every checksum was compared.
+/// Makes the files that follow from plan and rows of the result in `root` again, and compares them with those that are
+/// listed there; of the time series those that `chosen` chooses. The parts are `records`; every checksum was compared.
 ///
 /// # Errors
 /// Where a file cannot be read.

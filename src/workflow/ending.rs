@@ -14,7 +14,8 @@ use crate::storage::rows_reader::RowsReader;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 
-/// How the campaign `plan` ended, by its rows in a finished result. The `summary` in `root` has to say the same: programs read that.
+/// How the campaign `plan` ended, by its rows in a finished result. The `summary` in `root` has to say the same:
+/// programs read that.
 ///
 /// # Errors
 /// Where rows cannot be read, or the summary says something else.
@@ -32,7 +33,8 @@ pub(super) fn end_of(
         return Ok(SummaryEnd { warnings: said.warnings, ..end });
     }
     Err(WorkflowError::Files(format!(
-        "{}: does not say what the rows say, though it has the checksum that {MANIFEST} lists; this makes it again: spindrift verify {} --repair",
+        "{}: does not say what the rows say, though it has the checksum that {MANIFEST} lists; this makes it again: \
+        spindrift verify {} --repair",
         root.join(SUMMARY).display(),
         quoted_path(root)
     )))

@@ -24,7 +24,8 @@ impl WorkflowError {
 }
 
 impl From<CampaignError> for WorkflowError {
-    /// What is wrong with a campaign file, with the lines of the file; an error of input and output where it only cannot be read now.
+    /// What is wrong with a campaign file, with the lines of the file; an error of input and output where it only
+    /// cannot be read now.
     fn from(error: CampaignError) -> Self {
         let text = error.with_excerpts();
         if error.is_unreadable { WorkflowError::Files(text) } else { WorkflowError::Input(text) }
@@ -32,7 +33,8 @@ impl From<CampaignError> for WorkflowError {
 }
 
 impl From<FolderError> for WorkflowError {
-    /// A folder without a result is a wrong argument, whichever command it is given to; everything else is about its files.
+    /// A folder without a result is a wrong argument, whichever command it is given to; everything else is about its
+    /// files.
     fn from(error: FolderError) -> Self {
         let text = error.to_string();
         if matches!(error, FolderError::Nothing { .. }) {

@@ -1,4 +1,5 @@
-//! Samples that failed: those of a result run again under another plan ([`plan_of_failed`]), or the first ends the campaign ([`FailFast`]).
+//! Samples that failed: those of a result run again under another plan ([`plan_of_failed`]), or the first ends the
+//! campaign ([`FailFast`]).
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -24,8 +25,8 @@ fn failed(part: &mut PartReader) -> Result<Vec<SampleId>, RowsError> {
     Ok(rows.filter(|(_, status)| *status != Status::Done).map(|(sample, _)| sample).collect())
 }
 
-/// The plan of `file` for the samples that failed in the result `of`, with the seed and the number of samples of that result: so the numbers
-/// mean the same samples; and the files that it was made from. `None` where none failed.
+/// The plan of `file` for the samples that failed in the result `of`, with the seed and the number of samples of that
+/// result: so the numbers mean the same samples; and the files that it was made from. `None` where none failed.
 ///
 /// # Errors
 /// Where the result is damaged or cannot be read, or the campaign file is wrong.

@@ -1,6 +1,8 @@
-//! [`complete`]: what is made of the rows of a campaign once all of them are there; [`finish`]: the same of a result in a folder.
+//! [`complete`]: what is made of the rows of a campaign once all of them are there; [`finish`]: the same of a result in
+//! a folder.
 //!
-//! It is a function of the plan and the rows: whichever processes made them, and however often they were stopped, the files are the same.
+//! It is a function of the plan and the rows: whichever processes made them, and however often they were stopped, the
+//! files are the same.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -85,8 +87,8 @@ pub struct Finishing<'a> {
     pub made: Option<Made>,
 }
 
-/// Makes everything that follows from the rows, and marks the dataset as finished. Where the rows were counted while they were made, they are not
-/// read again for that.
+/// Makes everything that follows from the rows, and marks the dataset as finished. Where the rows were counted while
+/// they were made, they are not read again for that.
 ///
 /// # Errors
 /// Where parts are missing, rows cannot be read or a file operation fails.
@@ -139,7 +141,8 @@ pub(super) fn growing(ensemble: &Ensemble<'_>, records: &[PartRecord]) -> Option
     records.last().map(PartRecord::samples).filter(is_growing).map(|part| part.id)
 }
 
-/// Prepares the folder of time series: without those that an earlier end of the campaign left there, and none where none are retained.
+/// Prepares the folder of time series: without those that an earlier end of the campaign left there, and none where
+/// none are retained.
 fn prepare_trajectories(folder: &Folder, is_needed: bool) -> Result<(), WorkflowError> {
     let path = folder.clear(TRAJECTORIES).map_err(WorkflowError::files)?;
     let created = if is_needed { folder.storage().create_folder(&path) } else { Ok(()) };
@@ -155,7 +158,8 @@ pub(super) fn rows_of(ready: &Ready) -> (RowsReader, Vec<PathBuf>) {
 /// That an unfinished result with `[stop]` is completed by the command that looks at it.
 pub(super) fn stop_is_continued(root: &Path) -> String {
     format!(
-        "{}: is not finished, and [stop] decides after each look whether it is; this continues it: spindrift campaign {} --out {}",
+        "{}: is not finished, and [stop] decides after each look whether it is; this continues it: spindrift campaign \
+        {} --out {}",
         root.display(),
         quoted_path(&root.join(PLAN)),
         quoted_path(root)
@@ -166,7 +170,8 @@ pub(super) fn stop_is_continued(root: &Path) -> String {
 fn refuse_missing(missing: &[Part], root: &Path) -> Result<(), WorkflowError> {
     let (Some(first), Some(last)) = (missing.first(), missing.last()) else { return Ok(()) };
     Err(WorkflowError::Files(format!(
-        "{}: {} missing, from part {} to part {}; this makes what is missing and finishes: spindrift campaign {} --out {}",
+        "{}: {} missing, from part {} to part {}; this makes what is missing and finishes: spindrift campaign {} --out \
+        {}",
         root.display(),
         counted(missing.len(), "part"),
         first.id.0,
@@ -176,7 +181,8 @@ fn refuse_missing(missing: &[Part], root: &Path) -> Result<(), WorkflowError> {
     )))
 }
 
-/// Copies the files of numbers and the module of the plan into the dataset, which is then complete in itself: whatever works on it reads its plan.
+/// Copies the files of numbers and the module of the plan into the dataset, which is then complete in itself: whatever
+/// works on it reads its plan.
 ///
 /// # Errors
 /// Where one has changed since the plan was made, or a file operation fails.
@@ -200,8 +206,8 @@ pub enum Finished {
     Already(SummaryEnd),
 }
 
-/// Finishes the result in `root`, a folder or an address, whose parts are all there: what follows from the rows is made where it is missing. `check` is shown the
-/// files that the plan was made from before anything is written.
+/// Finishes the result in `root`, a folder or an address, whose parts are all there: what follows from the rows is made
+/// where it is missing. `check` is shown the files that the plan was made from before anything is written.
 ///
 /// # Errors
 /// Where parts are missing or damaged, `check` refuses, or a file operation fails.
@@ -221,7 +227,8 @@ pub fn finish(
     let (found, locks) = open(session.storage, root, false)?;
     if let Some(difference) = &found.shards_differ {
         return Err(WorkflowError::Files(format!(
-            "{}: its shards ask different questions: {difference}\nthis answers those of a file, from the rows that are there: spindrift campaign FILE --out {}",
+            "{}: its shards ask different questions: {difference}\nthis answers those of a file, from the rows that \
+            are there: spindrift campaign FILE --out {}",
             root.display(),
             quoted_path(root)
         )));

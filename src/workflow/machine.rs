@@ -17,7 +17,8 @@ pub fn free_disk(_path: &Path) -> Option<u64> {
     None
 }
 
-/// Memory that can be taken without swapping, bytes: of the machine, and of the control group where that is less. Only Linux says.
+/// Memory that can be taken without swapping, bytes: of the machine, and of the control group where that is less. Only
+/// Linux says.
 pub fn free_memory() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let machine = available(&text)?;

@@ -1,13 +1,20 @@
 //! Layer 11: campaigns and results, as a program works with them; the command line is one such program.
 //!
-//! - [`campaign`]: [`Campaign`], a file and where its result goes; [`outcome`]: how it ended; `running`: the samples that are not there yet. - [`results`]: [`Results`], a finished
-//!   result to be read.
+//! - [`campaign`]: [`Campaign`], a file and where its result goes; [`outcome`]: how it ended; `running`: the samples
+//!   that are not there yet.
+//! - [`results`]: [`Results`], a finished result to be read.
 //! - [`simulated`]: one sample over time.
-//! - [`finishing`]: what is made once all rows are there: [`analysed`], [`page`], `derived`. - `ending`: how a finished campaign ended.
+//! - [`finishing`]: what is made once all rows are there: [`analysed`], [`page`], `derived`.
+//! - `ending`: how a finished campaign ended.
 //! - [`verification`]: whether a result is what was written, and (`derived_check`) what its rows say.
-//! - [`results_index`]: all results below a folder. - [`failed_samples`]: samples that failed, again or as the end. - [`source`]: where plans come from. - [`session`]: disk, threads, control law, and who
-//!   is told. - `stored`: results in an object store. - [`error`].
-//! - [`workload`]: what a command would compute and write, refused where it cannot be done; [`machine`]: what is left of memory and disk.
+//! - [`results_index`]: all results below a folder.
+//! - [`failed_samples`]: samples that failed, again or as the end.
+//! - [`source`]: where plans come from.
+//! - [`session`]: disk, threads, control law, and who is told.
+//! - `stored`: results in an object store.
+//! - [`error`].
+//! - [`workload`]: what a command would compute and write, refused where it cannot be done; [`machine`]: what is left
+//!   of memory and disk.
 //!
 //! Not here: what is printed, options and exit codes (`cli`).
 

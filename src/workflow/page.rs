@@ -42,11 +42,12 @@ pub struct Remade {
     pub noise: Vec<NoiseShare>,
 }
 
-/// Makes the page of the finished result in `root` again, and its figures as files in the folder `figures`. `noise`: how many scenes are flown twice to
-/// tell noise within control loops from what was drawn.
+/// Makes the page of the finished result in `root` again, and its figures as files in the folder `figures`. `noise`:
+/// how many scenes are flown twice to tell noise within control loops from what was drawn.
 ///
 /// # Errors
-/// Where the folder has no finished result, its campaign has no loop whose noise was asked for, or files cannot be read or written.
+/// Where the folder has no finished result, its campaign has no loop whose noise was asked for, or files cannot be read
+/// or written.
 pub fn remade(
     session: &Session<'_>,
     root: &Path,
@@ -85,11 +86,13 @@ pub fn remade(
     Ok(Remade { path, size: page.html.len() as u64, question: plan.description.clone(), end: analysed.end(), noise })
 }
 
-/// Begins the mark in a page that says by how many scenes the share of noise was measured, so that the same page can be made again.
+/// Begins the mark in a page that says by how many scenes the share of noise was measured, so that the same page can be
+/// made again.
 const NOISE_MARK: &str = "<meta name=\"noise-scenes\" content=\"";
 const BEFORE_MARK: &str = "<meta charset=\"utf-8\">\n";
 
-/// The page of a result whose parts are `records`, and the share of noise in its outcomes, measured by so many `scenes`, where that is asked for.
+/// The page of a result whose parts are `records`, and the share of noise in its outcomes, measured by so many
+/// `scenes`, where that is asked for.
 ///
 /// # Errors
 /// Where threads cannot be started, or rows cannot be read.

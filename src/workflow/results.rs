@@ -38,7 +38,8 @@ pub struct Results<'a> {
 }
 
 impl<'a> Results<'a> {
-    /// The result in the folder `root`, or a copy of that at an address of an object store. A campaign that flew a control law is opened with that law in `session`.
+    /// The result in the folder `root`, or a copy of that at an address of an object store. A campaign that flew a
+    /// control law is opened with that law in `session`.
     ///
     /// # Errors
     /// Where there is none, it is not finished, or it is damaged.

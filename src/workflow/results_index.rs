@@ -126,7 +126,8 @@ fn read(session: &Session<'_>, folder: &Path, name: &Path) -> Result<Found, Stri
     Ok(Found { entry, seconds, plan })
 }
 
-/// What changed from the run `before` to the one `after` it: keys of the plan but those that say how numbers are shown, then verdicts.
+/// What changed from the run `before` to the one `after` it: keys of the plan but those that say how numbers are shown,
+/// then verdicts.
 fn changed(session: &Session<'_>, root: &Path, [before, after]: [&Found; 2]) -> String {
     let mut keys = text_differences(&before.plan, &after.plan);
     keys.retain(|one| !one.key.starts_with("display."));

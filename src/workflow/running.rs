@@ -1,4 +1,5 @@
-//! [`run_missing`]: runs the samples of a campaign that are not there yet, look by look where the plan has `[stop]`, and finishes the result.
+//! [`run_missing`]: runs the samples of a campaign that are not there yet, look by look where the plan has `[stop]`,
+//! and finishes the result.
 
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};

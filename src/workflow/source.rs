@@ -71,7 +71,8 @@ pub fn plan_in(session: &Session<'_>, root: &Path, found: &Found) -> Result<(Pla
     })
 }
 
-/// The plan of the result in `root`, after every checksum was compared: for commands that read it. The file `remade` is not looked at.
+/// The plan of the result in `root`, after every checksum was compared: for commands that read it. The file `remade` is
+/// not looked at.
 ///
 /// # Errors
 /// Where it is damaged, or its plan is not that of its rows; or where a file operation fails.
@@ -119,7 +120,8 @@ pub fn refuse_other_rows(root: &Path, found: &Found, expected: &Identity) -> Res
         )
     } else {
         format!(
-            "its rows are of another version of the program (format and arithmetic {}.{}, not {}.{}); run the campaign with --overwrite",
+            "its rows are of another version of the program (format and arithmetic {}.{}, not {}.{}); run the campaign \
+            with --overwrite",
             there.format, there.arithmetic, expected.format, expected.arithmetic
         )
     };

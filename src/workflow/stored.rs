@@ -1,5 +1,6 @@
-//! [`Stored`]: a result in an object store, and the folder of this machine in which it is worked on: there a campaign runs as in any folder, and what it has finished is put into the store; and
-//! what commands read is a copy there ([`fetched`]).
+//! [`Stored`]: a result in an object store, and the folder of this machine in which it is worked on: there a campaign
+//! runs as in any folder, and what it has finished is put into the store; and what commands read is a copy there
+//! ([`fetched`]).
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -28,7 +29,8 @@ const WORKING_FOLDERS: &str = "results/s3";
 pub(super) struct Stored<'a> {
     session: Session<'a>,
     remote: Remote,
-    /// The folder of this machine. Its name follows from what the rows are, so that the same plan has the same one, whatever the address.
+    /// The folder of this machine. Its name follows from what the rows are, so that the same plan has the same one,
+    /// whatever the address.
     root: PathBuf,
 }
 
@@ -78,8 +80,8 @@ impl<'a> Stored<'a> {
         &self.root
     }
 
-    /// Copies what is there to the folder: the whole result, or the parts of one that is not finished; whether it is whole. With `afresh`, every object of a whole result
-    /// is got and compared.
+    /// Copies what is there to the folder: the whole result, or the parts of one that is not finished; whether it is
+    /// whole. With `afresh`, every object of a whole result is got and compared.
     ///
     /// # Errors
     /// Where an object is damaged or missing, or a request or a file operation fails.
@@ -111,7 +113,8 @@ impl<'a> Stored<'a> {
         Ok(false)
     }
 
-    /// Makes the store's rows those of `ensemble`. Where everything is there, it is compared and copied to the folder; whether nothing is to be put.
+    /// Makes the store's rows those of `ensemble`. Where everything is there, it is compared and copied to the folder;
+    /// whether nothing is to be put.
     ///
     /// # Errors
     /// Where the store has other rows, an object is damaged, or a request or a file operation fails.
@@ -138,7 +141,8 @@ impl<'a> Stored<'a> {
         Ok(faults.is_empty())
     }
 
-    /// Adds the parts that are in the store to the folder, of a shard its own, and puts those into the store that only the folder has.
+    /// Adds the parts that are in the store to the folder, of a shard its own, and puts those into the store that only
+    /// the folder has.
     ///
     /// # Errors
     /// Where the store has another content, or a request or a file operation fails.
@@ -185,7 +189,8 @@ impl<'a> Stored<'a> {
             format!("\n  {}: {}", fault.object, if fault.is_absent { "missing" } else { "its content has changed" })
         };
         WorkflowError::Files(format!(
-            "{}: objects are not what was put; remove those that have changed, and the campaign's command with this --out puts them again{}",
+            "{}: objects are not what was put; remove those that have changed, and the campaign's command with this \
+            --out puts them again{}",
             self.remote.address(),
             faults.iter().map(what).collect::<String>()
         ))

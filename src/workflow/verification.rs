@@ -50,7 +50,8 @@ pub struct Verification {
     pub repair: bool,
 }
 
-/// Compares every checksum of the result in `root`, a folder or an address, and computes some of its rows again; each problem is told. `None` where a repair was stopped.
+/// Compares every checksum of the result in `root`, a folder or an address, and computes some of its rows again; each
+/// problem is told. `None` where a repair was stopped.
 ///
 /// # Errors
 /// Where the result is damaged and not repaired, or a file operation fails.
@@ -58,7 +59,8 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     if let Some(address) = address(root)? {
         if wanted.repair {
             return Err(WorkflowError::Input(format!(
-                "--repair: must be left out for {address}: what is in a store is not replaced; remove the objects that `verify` names, and run the campaign's command again"
+                "--repair: must be left out for {address}: what is in a store is not replaced; remove the objects that \
+                `verify` names, and run the campaign's command again"
             )));
         }
         let stored = Stored::there(session, address)?;
@@ -149,7 +151,8 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     }
 }
 
-/// Writes the manifest of a result that has lost it, with its plan and without parts; what was done, where that was necessary.
+/// Writes the manifest of a result that has lost it, with its plan and without parts; what was done, where that was
+/// necessary.
 fn new_manifest(session: &Session<'_>, root: &Path) -> Result<Option<String>, WorkflowError> {
     let storage = session.storage;
     if !is_lost(storage, root).map_err(WorkflowError::files)? {
@@ -239,7 +242,8 @@ fn repair(
         Claim::Ready(ready) => *ready,
         Claim::Finished(_) => {
             return Err(WorkflowError::Files(format!(
-                "{}: every checksum is right, so rows were made by a program whose arithmetic differs; run the campaign with --overwrite",
+                "{}: every checksum is right, so rows were made by a program whose arithmetic differs; run the \
+                campaign with --overwrite",
                 root.display()
             )));
         }
@@ -268,7 +272,8 @@ fn repair(
 mod tests {
     use super::*;
 
-    /// Law: a choice has its share of a list, rounded up, and is spread over all of it: each of as many stretches of equal length has one, and none has two.
+    /// Law: a choice has its share of a list, rounded up, and is spread over all of it: each of as many stretches of
+    /// equal length has one, and none has two.
     #[test]
     fn a_choice_is_spread_over_the_list() {
         for length in [1, 7, 10, 100, 1_001] {

@@ -1,6 +1,7 @@
 //! [`Workload`]: what a command is about to compute, write and hold in memory, estimated before it starts.
 //!
-//! What cannot be done is refused with the numbers; what is much is done only with `--yes`. Nothing that is computed depends on an estimate.
+//! What cannot be done is refused with the numbers; what is much is done only with `--yes`. Nothing that is computed
+//! depends on an estimate.
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -26,10 +27,11 @@ const LONG_S: f64 = 24.0 * 3600.0;
 /// Fraction of the free disk beyond which a command asks for `--yes`.
 const LARGE: f64 = 0.5;
 
-/// Bytes of a number in a file: random digits do not compress. A 146-column campaign of 4096 runs has 8.2 (`spin_sweep`).
+/// Bytes of a number in a file: random digits do not compress. A 146-column campaign of 4096 runs has 8.2
+/// (`spin_sweep`).
 const NUMBER: f64 = 8.5;
-/// Bytes of a part that do not depend on its rows: of each column (`spin_sweep` with one row: 180), and of each point of a quantity with bands
-/// (at most 961 of `spin_sweep`; of a part of few runs a byte for each).
+/// Bytes of a part that do not depend on its rows: of each column (`spin_sweep` with one row: 180), and of each point
+/// of a quantity with bands (at most 961 of `spin_sweep`; of a part of few runs a byte for each).
 const PART: [f64; 2] = [200.0, 1000.0];
 /// Bytes of the page and of the tables of the end, and of each column in them: 1.09 MB of 64 columns
 /// (`single_wheel`), 1.87 MB of 88 with a control loop (`nadir_pointing`) and of 141 (`spin_sweep`), of 50 runs; of
@@ -39,8 +41,8 @@ const END: [f64; 2] = [5.5e5, 1e4];
 const EXTREMES: f64 = 50.0;
 /// Memory of the program itself, bytes, and of each part: its samples, its record, and its line of the manifest.
 const PROGRAM: [f64; 2] = [3e7, 1000.0];
-/// Most memory of one thread for each observation point, bytes: of runs with debris and actuation, and what audits add. Measured are 1600 to 7000, and
-/// 2200 to 7300 (tests/program/commands/memory.rs).
+/// Most memory of one thread for each observation point, bytes: of runs with debris and actuation, and what audits add.
+/// Measured are 1600 to 7000, and 2200 to 7300 (tests/program/commands/memory.rs).
 const POINT: [f64; 2] = [8500.0, 7500.0];
 /// Columns of a time series, of its states and of what is observed of them: at most.
 const SERIES: f64 = 80.0;
@@ -72,8 +74,8 @@ pub fn plotted_samples(plan: &Plan) -> u64 {
 }
 
 impl Workload {
-    /// The first `samples` samples of the campaign of `ensemble` as far as the dataset in `root` does not have them (`None`: it is made again
-    /// from the start), or the part `shard` of that, on at most `asked` threads.
+    /// The first `samples` samples of the campaign of `ensemble` as far as the dataset in `root` does not have them
+    /// (`None`: it is made again from the start), or the part `shard` of that, on at most `asked` threads.
     pub fn of_campaign(
         (ensemble, samples): (&Ensemble<'_>, u64),
         root: Option<&Path>,
@@ -185,8 +187,8 @@ impl Workload {
         }
     }
 
-    /// Refuses what the machine cannot do, and without `yes` what takes long or most of the disk of `root`. Of a shard the time is not asked:
-    /// its scheduler has a limit.
+    /// Refuses what the machine cannot do, and without `yes` what takes long or most of the disk of `root`. Of a shard
+    /// the time is not asked: its scheduler has a limit.
     ///
     /// # Errors
     /// The refusal, with the numbers and the remedy.
@@ -257,7 +259,8 @@ fn time(seconds: f64) -> String {
 mod tests {
     use super::*;
 
-    /// Law: what does not fit is refused whatever is said; what takes long, or half of the disk, is refused without `--yes`; the rest is done.
+    /// Law: what does not fit is refused whatever is said; what takes long, or half of the disk, is refused without
+    /// `--yes`; the rest is done.
     #[test]
     fn what_cannot_be_done_is_refused() {
         let free = [Some(1_000_000_000), Some(2_000_000_000)];

@@ -1,5 +1,5 @@
-//! Accuracy claims for states, compared with the reference solution in double-double: thousands of radians of random gyrostats, and
-//! difficult scenes.
+//! Accuracy claims for states, compared with the reference solution in double-double: thousands of radians of random
+//! gyrostats, and difficult scenes.
 
 use crate::support::claims::hold;
 use crate::support::exact::distance;
@@ -24,8 +24,8 @@ const TRUE: f64 = 1e-24;
 const REVOLUTIONS: f64 = 1000.0;
 /// State error after them, rad and relative, of 99 scenes in a hundred.
 const STATE: f64 = 1e-11;
-/// The same of every scene: some pass near a separatrix in each of their periods, which amplifies roundings; the worst of a thousand
-/// was 1.2e-11 with `auto`, and 5e-10 between `taylor` and `auto`.
+/// The same of every scene: some pass near a separatrix in each of their periods, which amplifies roundings; the worst
+/// of a thousand was 1.2e-11 with `auto`, and 5e-10 between `taylor` and `auto`.
 const WORST_STATE: f64 = 1e-9;
 /// Relative error of energy after them.
 const ENERGY: f64 = 9e-15;
@@ -109,7 +109,8 @@ fn gyrostats_after_a_thousand_revolutions() {
 }
 
 #[test]
-#[ignore = "some minutes: energies of a thousand scenes, the truth of a hundred: cargo test --release --test accuracy -- --ignored many_gyrostats"]
+#[ignore = "some minutes: energies of a thousand scenes, the truth of a hundred: cargo test --release --test accuracy \
+    -- --ignored many_gyrostats"]
 fn many_gyrostats_after_a_thousand_revolutions() {
     hold_gyrostats(1000, 100);
 }
@@ -172,7 +173,8 @@ fn hard() -> Vec<Hard> {
     list
 }
 
-/// The change of the final state when the exact state is rounded to `f64` at one of four times, and integrated in double-double from there.
+/// The change of the final state when the exact state is rounded to `f64` at one of four times, and integrated in
+/// double-double from there.
 fn one_rounding(scene: &Scene, grid: &Grid, truth: &ReferenceSolution) -> f64 {
     let last = grid.points() - 1;
     let moved = |point: usize| {

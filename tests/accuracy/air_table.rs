@@ -1,4 +1,5 @@
-//! A table of the air of one's own: Vallado's again, one exponential, and layers that an orbit crosses, by every method that has drag.
+//! A table of the air of one's own: Vallado's again, one exponential, and layers that an orbit crosses, by every method
+//! that has drag.
 
 use crate::support::exact::distance;
 use crate::support::exact::solved;
@@ -25,7 +26,8 @@ fn in_air(scenes: &[Scene], environment: impl Fn(&mut EnvironmentInput)) -> Vec<
     scenes.iter().cloned().map(changed).collect()
 }
 
-/// Law: Vallado's table, written as one's own, gives the bits of every state and every step, in lanes of different tables too.
+/// Law: Vallado's table, written as one's own, gives the bits of every state and every step, in lanes of different
+/// tables too.
 #[test]
 fn the_same_table_gives_the_same_bits() {
     let grid = Grid::uniform(6_000.0, 31);
@@ -89,7 +91,8 @@ fn a_table_of_one_exponential_is_that_atmosphere() {
     }
 }
 
-/// Law: where layers of other scale heights meet, every method finds the reference solution, and a coarse table is another atmosphere than a fine one.
+/// Law: where layers of other scale heights meet, every method finds the reference solution, and a coarse table is
+/// another atmosphere than a fine one.
 #[test]
 fn every_method_crosses_the_layers() {
     let grid = Grid::uniform(6_000.0, 31);

@@ -1,7 +1,8 @@
-//! Runs that start at rest, hardly move, or stop: ordinary runs, whose error estimates obey the same law as those of any other
-//! ([`super::error_estimate`]), for every method.
+//! Runs that start at rest, hardly move, or stop: ordinary runs, whose error estimates obey the same law as those of
+//! any other ([`super::error_estimate`]), for every method.
 //!
-//! Errors of omega are relative to its largest magnitude, or to one radian over the duration where the body turns by less.
+//! Errors of omega are relative to its largest magnitude, or to one radian over the duration where the body turns by
+//! less.
 
 use super::error_estimate::{Family, Found, Measured, breaches, found, settings};
 use crate::support::runs::{adaptive, fixed};
@@ -16,8 +17,8 @@ const DURATION: f64 = 20.0;
 /// Rate of a fast wheel, rad/s.
 const FAST: f64 = 60.0;
 
-/// A satellite of 50 kg at rest with four equal wheels in a pyramid and four thrusters, two to turn it about s3 one way and two the other. Every
-/// other one has products of inertia and a centre of mass off p.
+/// A satellite of 50 kg at rest with four equal wheels in a pyramid and four thrusters, two to turn it about s3 one way
+/// and two the other. Every other one has products of inertia and a centre of mass off p.
 fn satellite(k: u64, u: &mut Uniform) -> SceneInput {
     let mut input = SceneInput::report();
     let [x, y, z] = u.vector::<3>(0.4);
@@ -169,7 +170,8 @@ fn measured(count: u64) -> Vec<Measured> {
     all
 }
 
-/// Law: every run is `ok`; the estimate covers the error in at least 95% of the runs, and is at most 100 times too large in the median.
+/// Law: every run is `ok`; the estimate covers the error in at least 95% of the runs, and is at most 100 times too
+/// large in the median.
 #[test]
 fn at_rest_is_an_ordinary_state() {
     let all = measured(8);
@@ -181,7 +183,8 @@ fn at_rest_is_an_ordinary_state() {
     assert!(breached.is_empty(), "{breached:#?}");
 }
 
-/// Counter-test with the same runs: an estimate that is a thousandth of what it is, or ten thousand times that, breaks the law for every method.
+/// Counter-test with the same runs: an estimate that is a thousandth of what it is, or ten thousand times that, breaks
+/// the law for every method.
 #[test]
 fn an_idle_estimate_at_rest_is_seen() {
     let all = measured(4);
@@ -193,8 +196,8 @@ fn an_idle_estimate_at_rest_is_seen() {
     }
 }
 
-/// Law: a slew that starts at rest and is wrong is caught: with steps of half a second across a nutation of some 4 rad/s no run is `ok` whose
-/// error is above a tenth, and most have such an error.
+/// Law: a slew that starts at rest and is wrong is caught: with steps of half a second across a nutation of some 4
+/// rad/s no run is `ok` whose error is above a tenth, and most have such an error.
 #[test]
 fn a_slew_that_is_wrong_is_inaccurate() {
     let mut u = Uniform::new(28);

@@ -61,8 +61,8 @@ fn draws_that_pull_or_turn_inside_out_are_invalid() {
     }
 }
 
-/// Law: a debris turns as the same body described in its principal frame, whichever products of inertia its tensor has, with equal moments on
-/// the diagonal too; for every method.
+/// Law: a debris turns as the same body described in its principal frame, whichever products of inertia its tensor has,
+/// with equal moments on the diagonal too; for every method.
 #[test]
 fn a_debris_turns_as_in_its_principal_frame() {
     let grid = Grid::uniform(4.0, 9);
@@ -100,7 +100,8 @@ fn a_debris_turns_as_in_its_principal_frame() {
     }
 }
 
-/// A thruster that fails, and one that works again, are in the same campaign: what is integrated follows from the commands.
+/// A thruster that fails, and one that works again, are in the same campaign: what is integrated follows from the
+/// commands.
 #[test]
 fn a_scaled_actuator_is_a_scaled_command() {
     let kind = Kind { wheels: [true; 2], debris: 0, products: true, offset: true, forced: true };

@@ -1,7 +1,8 @@
 //! Closed forms and published cases: motions with a published solution, against every method at its smallest tolerance.
 //!
-//! Free asymmetric bodies by Jacobi's elliptic functions (`tests/golden/free_bodies.json`, 25 digits, by `free_bodies.py` beside it);
-//! symmetric tops and axial rotors by uniform rotations, whose angles are computed here in double-double.
+//! Free asymmetric bodies by Jacobi's elliptic functions (`tests/golden/free_bodies.json`, 25 digits, by
+//! `free_bodies.py` beside it); symmetric tops and axial rotors by uniform rotations, whose angles are computed here in
+//! double-double.
 
 use crate::support::claims::hold;
 use crate::support::golden::Golden;
@@ -92,14 +93,16 @@ fn states(method: Method, tolerance: f64, scene: &Scene, times: &[f64]) -> State
 
 /// State error of a free body after a hundred periods, rad and relative, in the eight classical regimes.
 const HUNDRED_PERIODS: f64 = 1e-12;
-/// The same where the start is 3e-4 off the separatrix: a rounding on the way, 1e-16, moves the distance of the energies, 1e-7 of
-/// the whole, by 1e-9 of itself, and the next passage by 1e-9 of its time constant; two hundred passages of that are a random walk.
+/// The same where the start is 3e-4 off the separatrix: a rounding on the way, 1e-16, moves the distance of the
+/// energies, 1e-7 of the whole, by 1e-9 of itself, and the next passage by 1e-9 of its time constant; two hundred
+/// passages of that are a random walk.
 const SEPARATRIX: f64 = 1.5e-9;
-/// Growth of the state error of `auto` with the angle of the body, up to a million seconds: an error of rounding in the period.
+/// Growth of the state error of `auto` with the angle of the body, up to a million seconds: an error of rounding in the
+/// period.
 const PER_RADIAN: f64 = 5e-16;
 
-/// Law: free bodies move as in Jacobi's solution, by `auto` and by `taylor`, through a hundred periods; and by `auto` through a million
-/// seconds with an error that is proportional to the angle.
+/// Law: free bodies move as in Jacobi's solution, by `auto` and by `taylor`, through a hundred periods; and by `auto`
+/// through a million seconds with an error that is proportional to the angle.
 #[test]
 fn free_bodies_move_as_jacobi_says() {
     for case in cases() {
@@ -157,10 +160,11 @@ fn published_campaigns_are_the_published_cases() {
     }
 }
 
-/// Rates p, q, r of NASA's check case 2 after 30 s, deg/s: simulation 5 of the published trajectories (Atmos_02_sim_05.csv).
+/// Rates p, q, r of NASA's check case 2 after 30 s, deg/s: simulation 5 of the published trajectories
+/// (Atmos_02_sim_05.csv).
 const NESC_RATES: [f64; 3] = [12.618_423_77, -17.397_444_1, 31.119_603_01];
-/// The published simulations agree "to within 0.004 deg/s"; ours is within 3.3e-5 deg/s of this one, which moments of seven
-/// digits allow.
+/// The published simulations agree "to within 0.004 deg/s"; ours is within 3.3e-5 deg/s of this one, which moments of
+/// seven digits allow.
 const NESC_SPREAD: f64 = 1e-4;
 
 /// Law: the tumbling brick's rates are those that NASA published.
@@ -185,9 +189,9 @@ fn turn(rate: DoubleDouble, time: f64) -> [f64; 2] {
 
 /// A body of revolution about s3, with a wheel on that axis or none: its motion is two uniform rotations.
 ///
-/// With transverse moment A, axial moment C and the wheel's axial momentum h beside it (free: of J*, and J (omega_3 + Omega);
-/// speed-held: of J, and J Omega): omega_3 is constant, the transverse rate turns
-/// in the body by lambda = ((C - A) omega_3 + h)/A, and the body by |L|/A about L in F_e and by -lambda about its own axis.
+/// With transverse moment A, axial moment C and the wheel's axial momentum h beside it (free: of J*, and J (omega_3 +
+/// Omega); speed-held: of J, and J Omega): omega_3 is constant, the transverse rate turns in the body by lambda = ((C -
+/// A) omega_3 + h)/A, and the body by |L|/A about L in F_e and by -lambda about its own axis.
 fn axial_error(scene: &Scene, times: &[f64], table: &StateTable) -> f64 {
     let zero = DoubleDouble::exact(0.0);
     let exact = |x: f64| zero.splat(x);
@@ -246,8 +250,8 @@ fn symmetric_bodies_turn_uniformly() {
         );
         let short = axial_error(&scene, &times[..4], &states(Method::Taylor, TOLERANCE, &scene, &times[..4]));
         hold(SECTION, &format!("`taylor`, 100 s, {name}: state"), HUNDRED_PERIODS, short);
-        // counter-test: the wheel's axial inertia counted twice. (Here, and only here, free and held wheels move alike: the rate along
-        // the axis is constant. That they differ elsewhere, `accuracy_claims.rs` shows.)
+        // counter-test: the wheel's axial inertia counted twice. (Here, and only here, free and held wheels move alike:
+        // the rate along the axis is constant. That they differ elsewhere, `accuracy_claims.rs` shows.)
         if wheel.is_some() {
             let mut other = scene.clone();
             other.mass.inertia_free[2][2] += other.mass.wheels[0].axial;

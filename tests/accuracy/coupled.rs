@@ -1,4 +1,5 @@
-//! Air and light that move the spacecraft (`environment.coupled`): an independent integration of the orbit, the reference solution by every method, the work of the forces, and lanes.
+//! Air and light that move the spacecraft (`environment.coupled`): an independent integration of the orbit, the
+//! reference solution by every method, the work of the forces, and lanes.
 
 use crate::support::orbits::{MU, body, circle, near_rounding, plated};
 use crate::support::runs::{adaptive, everything, propagate};
@@ -116,8 +117,8 @@ fn integrated(input: &SceneInput, pushed: bool) -> [[f64; 3]; 2] {
     state
 }
 
-/// Law: the centre of mass moves as the forces of air and of light say, by an integration that has nothing of the program; without `coupled` it stays on its orbit.
-/// What is left is that of the other integration.
+/// Law: the centre of mass moves as the forces of air and of light say, by an integration that has nothing of the
+/// program; without `coupled` it stays on its orbit. What is left is that of the other integration.
 #[test]
 fn the_centre_of_mass_moves_as_the_forces_say() {
     for (name, mut input, least) in [("air", in_air(), 100.0), ("light", in_light(), 1.0)] {

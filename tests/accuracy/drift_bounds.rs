@@ -1,10 +1,12 @@
-//! Drift as a distribution: the conservation errors of every shipped campaign under every method, held to bounds and to a baseline.
+//! Drift as a distribution: the conservation errors of every shipped campaign under every method, held to bounds and to
+//! a baseline.
 //!
-//! - Bounds: the upper 99% confidence limit (order statistic) of the median, and the largest of n runs, which is the upper 99.4%
-//!   confidence limit of the 99th percentile for n = 512 (1 - 0.99^512).
-//! - Baseline: `tests/golden/drift_bounds.json` holds 33 quantiles of each distribution. H0: the runs of today come from the same
-//!   distribution. Two-sample Kolmogorov-Smirnov, n = m = 512, alpha = 1e-4 (critical distance 0.139), seeds fixed, 84 comparisons; a distribution
-//!   whose median lies at the 75th percentile of the baseline is seen with a power above 0.999.
+//! - Bounds: the upper 99% confidence limit (order statistic) of the median, and the largest of n runs, which is the
+//!   upper 99.4% confidence limit of the 99th percentile for n = 512 (1 - 0.99^512).
+//! - Baseline: `tests/golden/drift_bounds.json` holds 33 quantiles of each distribution. H0: the runs of today come
+//!   from the same distribution. Two-sample Kolmogorov-Smirnov, n = m = 512, alpha = 1e-4 (critical distance 0.139),
+//!   seeds fixed, 84 comparisons; a distribution whose median lies at the 75th percentile of the baseline is seen with
+//!   a power above 0.999.
 //! - Scaling: the median error falls in proportion to the tolerance.
 //!
 //! A change of a kernel that changes these distributions on purpose writes the baseline again:
@@ -39,8 +41,8 @@ const QUANTILES: usize = 33;
 /// Kolmogorov's constant for alpha = 1e-4: sqrt(-ln(alpha/2)/2).
 const KOLMOGOROV: f64 = 2.225;
 
-/// How a method is set, and the largest relative error of energy that is allowed over the cell's horizon: (median, largest).
-/// The bounds are 1.6 to 4 times the measured values, which `docs/accuracy.md` lists.
+/// How a method is set, and the largest relative error of energy that is allowed over the cell's horizon: (median,
+/// largest). The bounds are 1.6 to 4 times the measured values, which `docs/accuracy.md` lists.
 #[derive(Clone, Copy)]
 struct Setting {
     method: Method,
@@ -87,7 +89,8 @@ fn sorted(values: &[f64]) -> Vec<f64> {
     sizes
 }
 
-/// Upper 99% confidence limit of the median: the order statistic r with P(Binomial(n, 1/2) >= r) <= 0.01, by the normal limit.
+/// Upper 99% confidence limit of the median: the order statistic r with P(Binomial(n, 1/2) >= r) <= 0.01, by the normal
+/// limit.
 fn median_limit(sorted: &[f64]) -> f64 {
     let n = sorted.len() as f64;
     let rank = (0.5 * n + 2.326 * (0.25 * n).sqrt()).ceil() as usize;
@@ -226,8 +229,8 @@ fn drift_scales_with_the_tolerance() {
     }
 }
 
-/// The energy errors of the first `count` runs of `plan` when the kernel integrates what `fault` makes of each scene, and the
-/// observer knows nothing of it.
+/// The energy errors of the first `count` runs of `plan` when the kernel integrates what `fault` makes of each scene,
+/// and the observer knows nothing of it.
 fn faulty(plan: &Plan, count: u64, fault: impl Fn(&mut Scene)) -> [Vec<f64>; 2] {
     let isa = Isa::best();
     let campaign = Ensemble::new(plan, isa);
@@ -253,7 +256,8 @@ fn faulty(plan: &Plan, count: u64, fault: impl Fn(&mut Scene)) -> [Vec<f64>; 2] 
     errors.map(|errors| sorted(&errors))
 }
 
-/// Counter-tests: a coefficient that is off by 1e-12 and a dropped term are seen by bounds and baseline; no fault is not.
+/// Counter-tests: a coefficient that is off by 1e-12 and a dropped term are seen by bounds and baseline; no fault is
+/// not.
 #[test]
 fn faults_are_seen() {
     if std::env::var_os(WRITE).is_some() {

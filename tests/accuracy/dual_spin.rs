@@ -1,10 +1,10 @@
 //! Stability of a spin with a rotor about the spin axis: the shipped campaign `dual_spin` finds the classical boundary.
 //!
-//! With the moment K3 about the spin axis, the spin rate omega and the rotor's momentum h, let K = K3 + h/omega. Linearised about the spin,
-//! the transverse momenta h1 = A omega1 and h2 = B omega2 keep (K - A)/A h1^2 + (K - B)/B h2^2: an ellipse where K is above both
-//! transverse moments A and B or below both, else a hyperbola, along which they grow by
-//! lambda = omega sqrt((A - K)(K - B)/(A B)). Source: P. C. Hughes, *Spacecraft Attitude Dynamics*, 1986, section 6.2; P. W. Likins, *Attitude
-//! stability criteria for dual spin spacecraft*, J. Spacecraft Rockets 4, 1967.
+//! With the moment K3 about the spin axis, the spin rate omega and the rotor's momentum h, let K = K3 + h/omega.
+//! Linearised about the spin, the transverse momenta h1 = A omega1 and h2 = B omega2 keep (K - A)/A h1^2 + (K - B)/B
+//! h2^2: an ellipse where K is above both transverse moments A and B or below both, else a hyperbola, along which they
+//! grow by lambda = omega sqrt((A - K)(K - B)/(A B)). Source: P. C. Hughes, *Spacecraft Attitude Dynamics*, 1986,
+//! section 6.2; P. W. Likins, *Attitude stability criteria for dual spin spacecraft*, J. Spacecraft Rockets 4, 1967.
 
 use crate::support::plans::{rows, shipped};
 use spindrift::campaign::SceneDraws;
@@ -23,20 +23,22 @@ const DURATION: f64 = 400.0;
 /// Between a spin that stayed and one that was left, rad: ten degrees.
 const LEFT: f64 = 0.1745;
 
-/// How far the largest angle of a stable spin may be from the reach of its ellipse, relative. Up to a degree the linearised motion is off
-/// by some 3e-4, and the largest of the points of a nutation is below the maximum between them; measured 9.1e-4.
+/// How far the largest angle of a stable spin may be from the reach of its ellipse, relative. Up to a degree the
+/// linearised motion is off by some 3e-4, and the largest of the points of a nutation is below the maximum between
+/// them; measured 9.1e-4.
 const ELLIPSE: f64 = 2e-3;
-/// How far the boundary found may be from the classical one, kg m^2: runs next to it need longer than the duration to leave, so that
-/// some stay up to 1 kg m^2 on the wrong side. Measured 0.05.
+/// How far the boundary found may be from the classical one, kg m^2: runs next to it need longer than the duration to
+/// leave, so that some stay up to 1 kg m^2 on the wrong side. Measured 0.05.
 const FOUND: f64 = 0.5;
 
-/// What the campaign file says to expect: from this distance to the boundary on, kg m^2, a stable spin stays within the first angle and
-/// an unstable one exceeds the second, degrees. Measured: 0.395 and 65.8.
+/// What the campaign file says to expect: from this distance to the boundary on, kg m^2, a stable spin stays within the
+/// first angle and an unstable one exceeds the second, degrees. Measured: 0.395 and 65.8.
 const CLEAR: f64 = 5.0;
 const STABLE_DEG: f64 = 0.4;
 const UNSTABLE_DEG: f64 = 65.0;
 
-/// A dispersed run: its transverse moments, kg m^2, and the largest angle of the spin axis from the angular momentum, rad.
+/// A dispersed run: its transverse moments, kg m^2, and the largest angle of the spin axis from the angular momentum,
+/// rad.
 struct Spin {
     moments: [f64; 2],
     nutation: f64,
@@ -62,8 +64,8 @@ fn conic([a, b]: [f64; 2]) -> (f64, [f64; 2]) {
     (weights[0] * (a * TRANSVERSE).powi(2) + weights[1] * (b * TRANSVERSE).powi(2), weights)
 }
 
-/// Laws: a stable spin nutates as far as its ellipse reaches, an unstable one leaves; and the value of K that separates those that
-/// stayed from those that left is the classical one.
+/// Laws: a stable spin nutates as far as its ellipse reaches, an unstable one leaves; and the value of K that separates
+/// those that stayed from those that left is the classical one.
 #[test]
 fn the_campaign_finds_the_classical_boundary() {
     let spins = spins();
@@ -73,8 +75,8 @@ fn the_campaign_finds_the_classical_boundary() {
         let (square, weights) = conic([*a, *b]);
         if weights[0] * weights[1] > 0.0 {
             let reach = (square / weights[0].abs().min(weights[1].abs()) * weights[0].signum()).sqrt() / SPIN_MOMENTUM;
-            // beyond a degree the linearised motion is not exact; below it, the largest of 401 points is compared with a maximum
-            // between them, and at least one nutation must be seen
+            // beyond a degree the linearised motion is not exact; below it, the largest of 401 points is compared with
+            // a maximum between them, and at least one nutation must be seen
             let rate = SPIN * (weights[0] * weights[1]).sqrt();
             if reach < 0.0175 && rate * DURATION > 2.0 * std::f64::consts::PI {
                 worst = worst.max((nutation / reach - 1.0).abs());

@@ -1,4 +1,5 @@
-//! A constant torque of the environment in closed form, by every method (`many_wheels.rs` compares general motions under it).
+//! A constant torque of the environment in closed form, by every method (`many_wheels.rs` compares general motions
+//! under it).
 
 use crate::support::runs::{Run, adaptive, fixed, propagate};
 use spindrift::ode::{Control, Integrator};
@@ -26,8 +27,8 @@ fn off<const K: usize>(run: &Run, field: StateField, point: usize, expected: [f6
     found.iter().zip(expected).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt() / size
 }
 
-/// Law: a torque tau about the axis of an axisymmetric body makes its rate grow by tau t/J and its angle by w t + tau t^2/(2 J); it does
-/// the work J (w(t)^2 - w(0)^2)/2, and its angular impulse is tau t.
+/// Law: a torque tau about the axis of an axisymmetric body makes its rate grow by tau t/J and its angle by w t + tau
+/// t^2/(2 J); it does the work J (w(t)^2 - w(0)^2)/2, and its angular impulse is tau t.
 #[test]
 fn an_axisymmetric_body_spins_up() {
     let (rate, torque) = (0.5, 40.0);

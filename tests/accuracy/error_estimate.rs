@@ -1,13 +1,14 @@
-//! `state_error_estimate` against the true error of its run: double-double solutions of every scene, every method, loose and
-//! tight.
+//! `state_error_estimate` against the true error of its run: double-double solutions of every scene, every method,
+//! loose and tight.
 //!
-//! Law: of the runs of a family, a method and a setting the estimate covers the true error in at least 95%, and is at most 100 times
-//! too large in the median. A setting's coverage is a count k of n with seeds that are fixed; it is rejected where so small a k has
-//! a chance below [`ALPHA`] under a coverage of 95% (one-sided binomial test, H0: coverage >= 0.95). Over all settings of a
-//! method the count itself is at least 95%. A true coverage of 75% is rejected for 24 runs with a power of 73%, for the
-//! hundreds of runs of a method with certainty.
+//! Law: of the runs of a family, a method and a setting the estimate covers the true error in at least 95%, and is at
+//! most 100 times too large in the median. A setting's coverage is a count k of n with seeds that are fixed; it is
+//! rejected where so small a k has a chance below [`ALPHA`] under a coverage of 95% (one-sided binomial test, H0:
+//! coverage >= 0.95). Over all settings of a method the count itself is at least 95%. A true coverage of 75% is
+//! rejected for 24 runs with a power of 73%, for the hundreds of runs of a method with certainty.
 //!
-//! Beyond a tenth an error is not linear any more and soon bounded: there it is covered by any estimate above a twentieth.
+//! Beyond a tenth an error is not linear any more and soon bounded: there it is covered by any estimate above a
+//! twentieth.
 
 use crate::support::draws;
 use crate::support::exact::solved;
@@ -34,23 +35,28 @@ use spindrift::statistics::binomial::at_most;
 const ALPHA: f64 = 1e-5;
 /// The claimed coverage.
 const COVERAGE: f64 = 0.95;
-/// How much too large the estimate may be in the median. That of the null-space method adds the errors of its redundant states as if
-/// all fed back into omega in one direction; under forces it has the most of them: measured 110 to 140 times the error.
+/// How much too large the estimate may be in the median. That of the null-space method adds the errors of its redundant
+/// states as if all fed back into omega in one direction; under forces it has the most of them: measured 110 to 140
+/// times the error.
 ///
-/// From rest, and in slews that end at rest (`at_rest.rs`): a Runge-Kutta method of order p integrates a constant acceleration from rest better
-/// than the term of order p + 1 of the series says, measured 190 to 910 times and 130; tolerances of the null-space method are held by its
-/// fast wheels, whose errors hardly reach the body: measured 220 times, and 1.4e6 where the wheels' momenta cancel. `docs/results.md` says so.
+/// From rest, and in slews that end at rest (`at_rest.rs`): a Runge-Kutta method of order p integrates a constant
+/// acceleration from rest better than the term of order p + 1 of the series says, measured 190 to 910 times and 130;
+/// tolerances of the null-space method are held by its fast wheels, whose errors hardly reach the body: measured 220
+/// times, and 1.4e6 where the wheels' momenta cancel. `docs/results.md` says so.
 ///
-/// `taylor` at 1e-10 in Table I: the estimate adds what 120 steps leave out as if all had one direction; measured 130 times.
+/// `taylor` at 1e-10 in Table I: the estimate adds what 120 steps leave out as if all had one direction; measured 130
+/// times.
 ///
 /// Near a separatrix the errors of all steps are added as if they had one direction: measured 120 times (`auto` at
-/// 1e-12). On eccentric orbits errors are taken to arise evenly along the run: measured 120 times (`auto`, `taylor`), 210
-/// (`runge_kutta_4`) and 350 (`gauss_legendre_6`). `runge_kutta_4` has the largest excess, since its steps are fixed and its
-/// errors have every direction: measured 1,100 times near a separatrix and 1,300 times on any eccentric orbit.
+/// 1e-12). On eccentric orbits errors are taken to arise evenly along the run: measured 120 times (`auto`, `taylor`),
+/// 210 (`runge_kutta_4`) and 350 (`gauss_legendre_6`). `runge_kutta_4` has the largest excess, since its steps are
+/// fixed and its errors have every direction: measured 1,100 times near a separatrix and 1,300 times on any eccentric
+/// orbit.
 ///
-/// On an orbit `auto` and `taylor` add vectors, and are 110 times too large for a libration at 1e-10. The others add magnitudes, which count too much where a body
-/// turns many times in an orbit, so that errors have every direction, or evenly, so that they are alike: measured 130 times (`dormand_prince`), 250 (`dop853`),
-/// 170 (`runge_kutta_4`) and, with `gauss_legendre_6`, which is symmetric in time, 290 and 1,800 times.
+/// On an orbit `auto` and `taylor` add vectors, and are 110 times too large for a libration at 1e-10. The others add
+/// magnitudes, which count too much where a body turns many times in an orbit, so that errors have every direction, or
+/// evenly, so that they are alike: measured 130 times (`dormand_prince`), 250 (`dop853`), 170 (`runge_kutta_4`) and,
+/// with `gauss_legendre_6`, which is symmetric in time, 290 and 1,800 times.
 fn too_large(method: Method, family: &str) -> f64 {
     match (method, family) {
         (Method::NullSpace, "mixed, forced") => 200.0,
@@ -75,8 +81,9 @@ fn too_large(method: Method, family: &str) -> f64 {
 
 /// Whether the estimate of a setting is shown, but not judged: `docs/results.md` has the reasons and the shares.
 ///
-/// At tolerances below 1e-12 the rounding of drag and light counts, which the estimate does not know; a note of the program says so. With steps as short as
-/// a thousandth of a libration's radian `gauss_legendre_6` makes errors of a few 1e-15, all of them rounding, of which 82% are covered.
+/// At tolerances below 1e-12 the rounding of drag and light counts, which the estimate does not know; a note of the
+/// program says so. With steps as short as a thousandth of a libration's radian `gauss_legendre_6` makes errors of a
+/// few 1e-15, all of them rounding, of which 82% are covered.
 fn is_shown_only(method: Method, family: &str, setting: f64) -> bool {
     (IN_AIR.contains(&family) && setting < 1e-12)
         || (method == Method::Gyrostat(Integrator::GaussLegendre) && family == LIBRATING && setting < 5e-3)
@@ -118,7 +125,8 @@ fn compared(is_debris: bool) -> StateFields {
     fields.into_iter().fold(StateFields::NONE, StateFields::with)
 }
 
-/// Boxes as debris: those with even numbers within 1e-14 to 1e-1 of spin about their intermediate axis, over a minute; the others tumbling.
+/// Boxes as debris: those with even numbers within 1e-14 to 1e-1 of spin about their intermediate axis, over a minute;
+/// the others tumbling.
 fn boxes(count: u64) -> Family {
     let mut u = Uniform::new(83);
     let scene = |k: u64| {
@@ -144,8 +152,8 @@ fn shipped(name: &'static str, samples: u64) -> Family {
     Family::new(name, plan.grid.clone(), draws::scenes(&plan, 0..samples))
 }
 
-/// Spin about the intermediate axis, 1e-14 to 1e-1 off it, over a minute: with and without wheels, along the axes of F_s and,
-/// with products of inertia and an offset centre of mass, across them.
+/// Spin about the intermediate axis, 1e-14 to 1e-1 off it, over a minute: with and without wheels, along the axes of
+/// F_s and, with products of inertia and an offset centre of mass, across them.
 fn separatrix(count: u64) -> Family {
     let mut u = Uniform::new(76);
     let scene = |k: u64| {
@@ -172,7 +180,8 @@ fn separatrix(count: u64) -> Family {
     Family::new("separatrix", Grid::uniform(60.0, 101), (0..count).map(scene).collect())
 }
 
-/// Spin about an axis of inertia with nutations of 1e-14 to 1e-1, wheels slow and fast, with products of inertia or without.
+/// Spin about an axis of inertia with nutations of 1e-14 to 1e-1, wheels slow and fast, with products of inertia or
+/// without.
 fn nutating(count: u64) -> Family {
     let mut u = Uniform::new(79);
     let scene = |k: u64| {
@@ -197,8 +206,9 @@ fn held(count: u64) -> Family {
     Family::new("speed held", Grid::uniform(10.0, 101), (0..count).map(scene).collect())
 }
 
-/// The first samples of `libration.toml` over two orbits, turning `faster` times as fast across the orbit: about the axis of the largest moment, so that the
-/// errors of all steps may well have one direction. The nominal scene turns in the plane of its orbit.
+/// The first samples of `libration.toml` over two orbits, turning `faster` times as fast across the orbit: about the
+/// axis of the largest moment, so that the errors of all steps may well have one direction. The nominal scene turns in
+/// the plane of its orbit.
 fn librating(faster: f64, samples: u64) -> Family {
     let mut scenes = draws::scenes(&plans::shipped("libration", Some(samples)), 0..samples);
     for scene in &mut scenes {
@@ -381,7 +391,8 @@ pub(super) fn breaches(all: &[Measured], factor: f64) -> Vec<String> {
             let excess: Vec<f64> = runs.iter().map(Found::excess).collect();
             let median = quantile(&excess, 0.5);
             let line = format!(
-                "{:<17}{family:<19}{setting:>6e}  covered {covered:>3} of {n:>3}, estimate/true: 5% {:>8.1e} median {median:>8.1e} \
+                "{:<17}{family:<19}{setting:>6e}  covered {covered:>3} of {n:>3}, estimate/true: 5% {:>8.1e} median \
+                {median:>8.1e} \
                  95% {:>8.1e}, beyond {SMALL} {:>2}",
                 method.name(),
                 quantile(&excess, 0.05),
@@ -407,8 +418,8 @@ pub(super) fn breaches(all: &[Measured], factor: f64) -> Vec<String> {
     breaches
 }
 
-/// The law, and a counter-test with the same runs: an estimate that is a hundredth of what it is, or ten thousand times that, breaks it for
-/// every method.
+/// The law, and a counter-test with the same runs: an estimate that is a hundredth of what it is, or ten thousand times
+/// that, breaks it for every method.
 #[test]
 fn the_estimate_covers_the_error_and_is_not_idle() {
     let all = measured(16);
@@ -429,8 +440,8 @@ fn the_estimate_covers_the_error_of_many_runs() {
     assert!(found.is_empty(), "{found:#?}");
 }
 
-/// Law: spin about the intermediate axis is ill conditioned where its offset is so small, and the run so long, that rounding the
-/// input decides when it flips; spin about the others never is.
+/// Law: spin about the intermediate axis is ill conditioned where its offset is so small, and the run so long, that
+/// rounding the input decides when it flips; spin about the others never is.
 #[test]
 fn what_rounding_decides_is_ill_conditioned() {
     let spin = |axis: usize, off: f64| {
@@ -460,8 +471,8 @@ fn what_rounding_decides_is_ill_conditioned() {
     }
 }
 
-/// Law: the estimate of the null-space method covers its error at 1e-10 too, and what its redundant states feed back into omega is a
-/// part of it: without that part the estimate of every run is smaller.
+/// Law: the estimate of the null-space method covers its error at 1e-10 too, and what its redundant states feed back
+/// into omega is a part of it: without that part the estimate of every run is smaller.
 #[test]
 fn the_null_space_estimate_covers_and_includes_what_feeds_back() {
     let family = Family::new("mixed, short", Grid::uniform(1.0, 11), mixed(8, false, 1.0));

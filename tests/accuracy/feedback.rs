@@ -13,7 +13,8 @@ use spindrift::scene::{Actuated, Scene};
 /// Some control periods, and some quarter turns of the slowest scene, s.
 const HORIZON: f64 = 3.1;
 
-/// Largest distance from the double-double solution of any state, over its largest magnitude: within 10 of the measured values.
+/// Largest distance from the double-double solution of any state, over its largest magnitude: within 10 of the measured
+/// values.
 const BOUNDS: [(Method, Control, f64); 7] = [
     (Method::Auto, adaptive(1e-16), 2e-14),
     (Method::Taylor, adaptive(1e-16), 2e-14),
@@ -58,7 +59,8 @@ fn distance(flight: &Flight, reference: &ReferenceSolution) -> f64 {
     worst
 }
 
-/// Law: closed loops of all methods agree with the double-double solution under the same law, to the errors of the methods.
+/// Law: closed loops of all methods agree with the double-double solution under the same law, to the errors of the
+/// methods.
 #[test]
 fn all_methods_fly_the_same_closed_loop() {
     let grid = Grid::uniform(HORIZON, 29);

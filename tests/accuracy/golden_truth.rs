@@ -1,8 +1,9 @@
-//! Every method against golden truth (25 digits, from a 40-digit Taylor solution), through [`PropagationSettings`] as campaigns run.
+//! Every method against golden truth (25 digits, from a 40-digit Taylor solution), through [`PropagationSettings`] as
+//! campaigns run.
 //!
-//! Law: at every listed time the states and energies are those of the truth, to the accuracy that the method's tolerance or
-//! step promises. Bounds are those asked of the program where the constant says so; `cargo test --release --test accuracy golden_truth --
-//! --nocapture` prints the largest error of each kind beside them.
+//! Law: at every listed time the states and energies are those of the truth, to the accuracy that the method's
+//! tolerance or step promises. Bounds are those asked of the program where the constant says so; `cargo test --release
+//! --test accuracy golden_truth -- --nocapture` prints the largest error of each kind beside them.
 
 use std::collections::BTreeMap;
 
@@ -17,8 +18,9 @@ use spindrift::propagation::Method;
 use spindrift::run::{Grid, StateField, Status};
 use spindrift::scene::Scene;
 
-/// The largest error of each kind at any golden time, relative to the truth (at least to one in its unit); of energies relative to the body's own
-/// and to the total, and of their balance (total minus work minus the total at time zero, over the largest total).
+/// The largest error of each kind at any golden time, relative to the truth (at least to one in its unit); of energies
+/// relative to the body's own and to the total, and of their balance (total minus work minus the total at time zero,
+/// over the largest total).
 type Errors = BTreeMap<&'static str, f64>;
 
 /// Asserts that each error is within `bound`, those named in `others` within theirs.
@@ -114,8 +116,8 @@ fn every_method_reaches_the_truth() {
     for (method, control, bound, others) in [
         (Method::Gyrostat(Integrator::DormandPrince), embedded, EMBEDDED, &[][..]),
         (Method::Gyrostat(Integrator::Dop853), embedded, EMBEDDED, &[]),
-        // not asked: the velocity of p, in which the error of omega, relative to 31 rad/s about s3, meets a lever arm of 1.5 m;
-        // measured 2.3e-9; and the constraints, which nothing restores: measured 6.3e-8
+        // not asked: the velocity of p, in which the error of omega, relative to 31 rad/s about s3, meets a lever arm
+        // of 1.5 m; measured 2.3e-9; and the constraints, which nothing restores: measured 6.3e-8
         (Method::NullSpace, embedded, EMBEDDED, &[("velocity", 4e-9), ("constraints", 3e-7)]),
         (Method::Taylor, adaptive(1e-16), TAYLOR, &[]),
         (Method::Auto, adaptive(1e-16), TAYLOR, &[]),

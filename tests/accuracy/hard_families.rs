@@ -1,10 +1,10 @@
 //! Families of scenes whose error estimates once missed the error, and their neighbours.
 //!
 //! Law: that of [`super::error_estimate`], with the same H0 and alpha for each method and setting. The estimate also
-//! covers 95% of all runs of each family. Seeds are fixed: [`SEED`] and the place in the list. Before estimates followed
-//! errors through periods, past separatrices and from perigee to perigee, `auto`, `taylor`, `dop853` and `dormand_prince`
-//! missed 15 of 276 runs with heavy wheels that are seen rarely, and 12 on eccentric orbits in a magnetic field.
-//! `null_space`, whose steps follow the wheels, is left out.
+//! covers 95% of all runs of each family. Seeds are fixed: [`SEED`] and the place in the list. Before estimates
+//! followed errors through periods, past separatrices and from perigee to perigee, `auto`, `taylor`, `dop853` and
+//! `dormand_prince` missed 15 of 276 runs with heavy wheels that are seen rarely, and 12 on eccentric orbits in a
+//! magnetic field. `null_space`, whose steps follow the wheels, is left out.
 
 use super::error_estimate::{Family, Found, Measured, breaches, of_families};
 use crate::support::orbits::{MU, body};

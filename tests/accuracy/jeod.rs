@@ -1,8 +1,9 @@
-//! NASA's JEOD: free rotation, pulses of torque and force on the inertia of the space station, and the gravity gradient on a circle and on an ellipse, for
-//! eight hours on a two-body orbit.
+//! NASA's JEOD: free rotation, pulses of torque and force on the inertia of the space station, and the gravity gradient
+//! on a circle and on an ellipse, for eight hours on a two-body orbit.
 //!
-//! Numbers of `verif/SIM_dyncomp` in NASA's repository `nasa/jeod`: the first and the last line of `<folder>/<name>/log_state_ASCII.csv` (16 digits), with
-//! the set-up of `SET_test/<name>/input.py` and `Modified_data/mass.py`. The folder is `SET_test_val`, for 8B `SET_test_val_rh8`.
+//! Numbers of `verif/SIM_dyncomp` in NASA's repository `nasa/jeod`: the first and the last line of
+//! `<folder>/<name>/log_state_ASCII.csv` (16 digits), with the set-up of `SET_test/<name>/input.py` and
+//! `Modified_data/mass.py`. The folder is `SET_test_val`, for 8B `SET_test_val_rh8`.
 
 use crate::support::orbits::{body, near_rounding};
 use crate::support::runs::{adaptive, everything, propagate};
@@ -39,7 +40,8 @@ enum Craft {
     Cylinder,
     /// A sphere of 1 kg and nothing.
     Sphere,
-    /// The space station and 10 N m about s1 from 1000 s to 2000 s, with this force along s1 through the centre of mass, N.
+    /// The space station and 10 N m about s1 from 1000 s to 2000 s, with this force along s1 through the centre of
+    /// mass, N.
     Station(f64),
 }
 
@@ -66,8 +68,8 @@ const RATES_FROM_REST: [[f64; 3]; 2] = [[0.0; 3], [9.751635347691358e-05, 8.8825
 const RATES_FROM_RATE: [[f64; 3]; 2] =
     [WITH_ORBIT, [-0.0007282187220568775, -0.0008332384627087039, -0.0002424925044840342]];
 
-/// With zero rate (8A, 9A, 9C) and that of the orbit (8B, 9B, 9D); then on a circle (10A) and on an ellipse (10C), there with an additional rate in
-/// pitch too (10D).
+/// With zero rate (8A, 9A, 9C) and that of the orbit (8B, 9B, 9D); then on a circle (10A) and on an ellipse (10C),
+/// there with an additional rate in pitch too (10D).
 pub const JEOD_RUNS: [JeodRun; 9] = [
     JeodRun {
         name: "RUN_10A",
@@ -216,8 +218,8 @@ impl JeodRun {
     }
 }
 
-/// `input` with the mass properties of the space station, and its pulse where `acts`: the torque is that of two thrusters on both sides of the centre of
-/// mass.
+/// `input` with the mass properties of the space station, and its pulse where `acts`: the torque is that of two
+/// thrusters on both sides of the centre of mass.
 fn station(mut input: SceneInput, acts: bool, force: f64) -> SceneInput {
     let center = [-3.0, -1.5, 4.0];
     input.body.mass_kg = Some(4e5);
@@ -239,7 +241,8 @@ fn station(mut input: SceneInput, acts: bool, force: f64) -> SceneInput {
     }
 }
 
-/// Truth: NASA JEOD after eight hours. What differs is JEOD's own error: every method is nearer to the reference solution than JEOD.
+/// Truth: NASA JEOD after eight hours. What differs is JEOD's own error: every method is nearer to the reference
+/// solution than JEOD.
 #[test]
 fn nasa_jeod_runs() {
     let grid = Grid::uniform(28_800.0, 481);

@@ -1,5 +1,5 @@
-//! The torque of a residual magnetic dipole, by every method that integrates it, against a run of SciPy with the field of another package; and what its
-//! estimates say.
+//! The torque of a residual magnetic dipole, by every method that integrates it, against a run of SciPy with the field
+//! of another package; and what its estimates say.
 
 use crate::support::runs::{adaptive, fixed, propagate};
 use spindrift::math::vector::{difference, norm};
@@ -29,7 +29,8 @@ fn scene(model: FieldModel) -> Scene {
     Scene::resolve(&input).unwrap_or_else(|errors| panic!("{}", errors[0]))
 }
 
-/// Truth: what `benches/peers/magnetic_torque.py` prints (SciPy 1.16's DOP853 at 1e-13, pyIGRF14 1.0.4, pyerfa 2.0.1.5).
+/// Truth: what `benches/peers/magnetic_torque.py` prints (SciPy 1.16's DOP853 at 1e-13, pyIGRF14 1.0.4, pyerfa
+/// 2.0.1.5).
 #[test]
 fn a_whole_run_is_that_of_scipy() {
     const ATTITUDE: [f64; 4] =
@@ -53,7 +54,8 @@ fn a_whole_run_is_that_of_scipy() {
     ] {
         let (attitude, rate) = off(FieldModel::Igrf, method, control);
         println!("{}: {attitude:.1e}, {rate:.1e} rad/s", method.name());
-        // measured 1.8e-10 and 5.2e-13 by auto, taylor and dop853 alike: what SciPy has left, and the Earth's angle, which is rounded to 1e-10 rad
+        // measured 1.8e-10 and 5.2e-13 by auto, taylor and dop853 alike: what SciPy has left, and the Earth's angle,
+        // which is rounded to 1e-10 rad
         assert!(attitude < 1e-9 && rate < 5e-12, "{}: {attitude:e} {rate:e}", method.name());
     }
     // the counter-test: a dipole is another field
@@ -61,8 +63,9 @@ fn a_whole_run_is_that_of_scipy() {
     assert!(attitude > 1e-2, "{attitude}");
 }
 
-/// Law: the torque is that of the residual dipole and the torque rods together: with part of the same dipole in rods, which are commanded anew at some times,
-/// the run is that of the residual dipole alone, by every method; where they are off for a tenth of the time it is not.
+/// Law: the torque is that of the residual dipole and the torque rods together: with part of the same dipole in rods,
+/// which are commanded anew at some times, the run is that of the residual dipole alone, by every method; where they
+/// are off for a tenth of the time it is not.
 #[test]
 fn rods_add_to_the_residual_dipole() {
     let grid = Grid::uniform(6000.0, 61);

@@ -1,9 +1,10 @@
-//! Any number of wheels, anywhere, about any axis, in any mode, with up to sixteen thrusters: every kernel and method against the
-//! double-double solution.
+//! Any number of wheels, anywhere, about any axis, in any mode, with up to sixteen thrusters: every kernel and method
+//! against the double-double solution.
 //!
-//! Laws: null space, gyrostat with each method and the double-double solution agree: Berdoz's form with its redundant states and the
-//! gyrostat share no equation; Taylor, periodic and Runge-Kutta propagation share no integrator. Energy minus work,
-//! momentum minus impulse and angular momentum minus angular impulse are constant; tables have columns only for wheels that turn.
+//! Laws: null space, gyrostat with each method and the double-double solution agree: Berdoz's form with its redundant
+//! states and the gyrostat share no equation; Taylor, periodic and Runge-Kutta propagation share no integrator. Energy
+//! minus work, momentum minus impulse and angular momentum minus angular impulse are constant; tables have columns only
+//! for wheels that turn.
 
 use rayon::prelude::*;
 
@@ -28,8 +29,8 @@ const TOLERANCE: f64 = 1e-11;
 /// Tolerance of the Taylor methods.
 const TAYLOR_TOLERANCE: f64 = 1e-16;
 
-/// Rounding of a Taylor step: the state is compensated, so what remains is that of the coefficients and of the constants
-/// (moments, axes, momenta: a few ulps, for the whole run), for every radian.
+/// Rounding of a Taylor step: the state is compensated, so what remains is that of the coefficients and of the
+/// constants (moments, axes, momenta: a few ulps, for the whole run), for every radian.
 const TAYLOR_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Random scenes.
@@ -37,9 +38,9 @@ const SCENES: u64 = 200;
 /// Observation points.
 const POINTS: usize = 9;
 
-/// Every method, its tolerance or step, and the bound of its balances: rounding of states and observables; steps times tolerance.
-/// Measured: 1.3e-15 by the Taylor methods, 2e-11 Dormand-Prince, 1.9e-10 DOP853 and Runge-Kutta 4, 1.1e-10 Gauss-Legendre, 3e-11
-/// null-space.
+/// Every method, its tolerance or step, and the bound of its balances: rounding of states and observables; steps times
+/// tolerance. Measured: 1.3e-15 by the Taylor methods, 2e-11 Dormand-Prince, 1.9e-10 DOP853 and Runge-Kutta 4, 1.1e-10
+/// Gauss-Legendre, 3e-11 null-space.
 const METHODS: [(Method, Control, f64); 7] = [
     (Method::Auto, adaptive(TAYLOR_TOLERANCE), 1e-14),
     (Method::Taylor, adaptive(TAYLOR_TOLERANCE), 1e-14),
@@ -50,7 +51,8 @@ const METHODS: [(Method, Control, f64); 7] = [
     (Method::NullSpace, adaptive(TOLERANCE), 3e-10),
 ];
 
-/// Scene number `k`: every number of wheels in turn, half of each number forced; with a cube of debris, a box or none; some under a constant torque.
+/// Scene number `k`: every number of wheels in turn, half of each number forced; with a cube of debris, a box or none;
+/// some under a constant torque.
 fn input(k: u64) -> SceneInput {
     let turn = COUNTS.len() as u64;
     let mut input = many_wheels(COUNTS[(k % turn) as usize], k, (k / turn) % 2 == 1, HORIZON);
@@ -72,10 +74,11 @@ fn angle(scene: &Scene) -> f64 {
     HORIZON * norm(initial.omega_se_s).max(norm(initial.omega_de_d)).max(wheels)
 }
 
-/// What an error of the work is compared with, J, at least one: the largest of the terms whose difference it is. The motor of a wheel
-/// whose speed is held at Omega does the work A Omega (w(t) - w(0)), w being the rate of the body along the axis: terms of the size
-/// A Omega |omega|. That of a free wheel does the integral of tau (h/A - w), of a size |tau| |h/A| t with h/A = Omega + w. Both may
-/// cancel; rounding and tolerances act on the terms. A constant torque tau does the integral of tau . omega, of a size |tau| |omega| t.
+/// What an error of the work is compared with, J, at least one: the largest of the terms whose difference it is. The
+/// motor of a wheel whose speed is held at Omega does the work A Omega (w(t) - w(0)), w being the rate of the body
+/// along the axis: terms of the size A Omega |omega|. That of a free wheel does the integral of tau (h/A - w), of a
+/// size |tau| |h/A| t with h/A = Omega + w. Both may cancel; rounding and tolerances act on the terms. A constant
+/// torque tau does the integral of tau . omega, of a size |tau| |omega| t.
 fn work_scale(scene: &Scene, expected: &StateTable) -> f64 {
     let points = 0..expected.points();
     let omega = points.clone().map(|point| norm(expected.at::<3>(StateField::Rate, point))).fold(0.0, f64::max);
@@ -133,11 +136,12 @@ fn distance(scene: &Scene, found: &StateTable, expected: &StateTable) -> (f64, &
     worst
 }
 
-/// Every step may add its tolerance to the rate, relative, and what a rate is off by turns the body for the rest of the run:
-/// steps x tolerance x (1 + angle) bounds the error for states of the size of the rate. That the step taken is of a higher
-/// order than its estimate makes up for lever arms, works and impulses that are larger. Measured, of steps x tolerance x (1 + angle):
-/// 0.11 Dormand-Prince, 0.16 DOP853; 0.0016 null-space, whose steps are those of its 62 states, and most of these turn with the wheels; 0.007
-/// fixed steps of 1 ms (Runge-Kutta 4) and 10 ms (Gauss-Legendre), which know no tolerance.
+/// Every step may add its tolerance to the rate, relative, and what a rate is off by turns the body for the rest of the
+/// run: steps x tolerance x (1 + angle) bounds the error for states of the size of the rate. That the step taken is of
+/// a higher order than its estimate makes up for lever arms, works and impulses that are larger. Measured, of steps x
+/// tolerance x (1 + angle): 0.11 Dormand-Prince, 0.16 DOP853; 0.0016 null-space, whose steps are those of its 62
+/// states, and most of these turn with the wheels; 0.007 fixed steps of 1 ms (Runge-Kutta 4) and 10 ms
+/// (Gauss-Legendre), which know no tolerance.
 fn bound(scene: &Scene, method: Method, outcome: &Outcome) -> f64 {
     let steps = outcome.effort.steps as f64 * TOLERANCE;
     let local = match method {
@@ -240,7 +244,8 @@ fn the_scenes_are_of_every_kind() {
     assert!(thrusters.iter().max() == Some(&16), "{thrusters:?}");
 }
 
-/// Counter-test: an axis of the last of eight wheels that is off by a milliradian is seen by every method, with its tolerance.
+/// Counter-test: an axis of the last of eight wheels that is off by a milliradian is seen by every method, with its
+/// tolerance.
 #[test]
 fn the_last_wheel_is_seen() {
     let grid = Grid::uniform(HORIZON, POINTS);

@@ -1,8 +1,9 @@
-//! The right-hand side of the null-space kernel: the block form against the matrices as printed and against the gyrostat equations.
+//! The right-hand side of the null-space kernel: the block form against the matrices as printed and against the
+//! gyrostat equations.
 //!
-//! Laws: the null-space form is equivalent to the gyrostat equations; energy changes by the power fed in, momentum by the
-//! thrust, angular momentum by the torque; constraints hold at the level of rates. Counter-test: with the printed sign of
-//! a-hat_non,s energy is not conserved.
+//! Laws: the null-space form is equivalent to the gyrostat equations; energy changes by the power fed in, momentum by
+//! the thrust, angular momentum by the torque; constraints hold at the level of rates. Counter-test: with the printed
+//! sign of a-hat_non,s energy is not conserved.
 
 use crate::null_space_matrices as matrices;
 use crate::null_space_matrices::{COMPONENTS, Kernel, Parameters, State, with_printed_sign};
@@ -84,8 +85,8 @@ fn moved(state: &State, rate: &State, time: f64) -> State {
     State::from_components::<COMPONENTS>(&std::array::from_fn(|i| x[i] + time * f[i]))
 }
 
-/// d(T)/dt in closed form, nu^T M nu-dot + 1/2 nu^T M-dot nu with nu-dot = Pi nu-hat-dot + Pi-dot nu-hat; and the sum of the
-/// terms' sizes.
+/// d(T)/dt in closed form, nu^T M nu-dot + 1/2 nu^T M-dot nu with nu-dot = Pi nu-hat-dot + Pi-dot nu-hat; and the sum
+/// of the terms' sizes.
 fn energy_rate(parameters: &Parameters, state: &State, rate: &State) -> (f64, f64) {
     let pi = matrices::pi(parameters, state);
     let nu_hat = matrices::reduced_speeds(state);
@@ -101,7 +102,8 @@ proptest! {
     #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
     #[test]
-    fn block_form_equals_the_matrices_as_printed((scene, actuation) in scenes(), drift in prop::array::uniform32(-1e-3f64..1e-3)) {
+    fn block_form_equals_the_matrices_as_printed((scene, actuation) in scenes(),
+        drift in prop::array::uniform32(-1e-3f64..1e-3)) {
         let parameters = Parameters::of(&scene);
         let mut x: [f64; COMPONENTS] = sigma::<2>(&scene).components();
         for (x, drift) in x.iter_mut().zip(drift) {
@@ -115,7 +117,8 @@ proptest! {
             let components: [f64; COMPONENTS] = rate.components();
             for i in 0..48 {
                 // two or three products and their sum; measured: 2.6e-16
-                prop_assert!((components[i] - q_dot[i]).abs() <= 2e-15 * (1.0 + q_dot[i].abs() + nu.abs().max()), "q {}", i);
+                prop_assert!((components[i] - q_dot[i]).abs() <= 2e-15 * (1.0 + q_dot[i].abs() + nu.abs().max()),
+                    "q {}", i);
             }
             let m = matrices::reduced_mass(&parameters, &state);
             let force = matrices::reduced_force(&parameters, &state, inputs(&actuation), factor);
@@ -148,7 +151,8 @@ proptest! {
         prop_assert!((pi_dot - expected).abs().max() <= TOLERANCE * (1.0 + expected.abs().max()));
         let m_dot = (matrices::mass(&parameters, &after) - matrices::mass(&parameters, &before)) / (2.0 * STEP);
         let expected = matrices::mass_dot(&parameters, &state);
-        prop_assert!((m_dot - expected).abs().max() <= TOLERANCE * (1.0 + matrices::mass(&parameters, &state).abs().max()));
+        prop_assert!((m_dot - expected).abs().max() <= TOLERANCE * (1.0 + matrices::mass(&parameters,
+            &state).abs().max()));
     }
 
     #[test]

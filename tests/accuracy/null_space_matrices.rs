@@ -1,8 +1,9 @@
-//! Berdoz's matrices whole, as printed (and corrected): Gamma, Pi, Pi-dot, M, M-dot, Omega, a_non, B; and its equations of
-//! motion with the sign that it prints.
+//! Berdoz's matrices whole, as printed (and corrected): Gamma, Pi, Pi-dot, M, M-dot, Omega, a_non, B; and its equations
+//! of motion with the sign that it prints.
 //!
 //! Dense and slow: the proof that the block form of `dynamics::null_space` is Berdoz's form. Rows of nu are, per body,
-//! [velocity in F_e, angular velocity in the body's frame]; of nu-hat [v_p, omega_s, alpha-dot, beta-dot, v_gd, omega_d].
+//! [velocity in F_e, angular velocity in the body's frame]; of nu-hat [v_p, omega_s, alpha-dot, beta-dot, v_gd,
+//! omega_d].
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
@@ -171,8 +172,8 @@ pub fn actuation(parameters: &Parameters, state: &State) -> SMatrix<f64, FULL_SP
     b
 }
 
-/// M-hat = Pi^T M Pi (25), with a unit on the diagonal for a missing wheel, and the rows and columns of the unit matrix for a
-/// wheel of constant speed.
+/// M-hat = Pi^T M Pi (25), with a unit on the diagonal for a missing wheel, and the rows and columns of the unit matrix
+/// for a wheel of constant speed.
 pub fn reduced_mass(parameters: &Parameters, state: &State) -> SMatrix<f64, SPEEDS, SPEEDS> {
     let pi = pi(parameters, state);
     let mut m = pi.transpose() * mass(parameters, state) * pi;
@@ -184,7 +185,8 @@ pub fn reduced_mass(parameters: &Parameters, state: &State) -> SMatrix<f64, SPEE
     m
 }
 
-/// f-hat_non + f-hat (39) under the inputs u = (P1, P2, P3, tau^W1, tau^W2); zero for the rate of a wheel whose speed is held.
+/// f-hat_non + f-hat (39) under the inputs u = (P1, P2, P3, tau^W1, tau^W2); zero for the rate of a wheel whose speed
+/// is held.
 pub fn reduced_force(parameters: &Parameters, state: &State, inputs: [f64; 5], sign: f64) -> SVector<f64, SPEEDS> {
     let (pi, nu_hat) = (pi(parameters, state), reduced_speeds(state));
     let nu = pi * nu_hat;
@@ -200,7 +202,8 @@ pub fn reduced_force(parameters: &Parameters, state: &State, inputs: [f64; 5], s
     force
 }
 
-/// The derivative `rate` of `state` as it is with a-hat_non,s of the opposite sign, as printed at the end of section XVIII.
+/// The derivative `rate` of `state` as it is with a-hat_non,s of the opposite sign, as printed at the end of section
+/// XVIII.
 pub fn with_printed_sign(parameters: &Parameters, state: &State, rate: &State) -> State {
     let change = a_non(parameters, state, -1.0) - a_non(parameters, state, 1.0);
     let force = pi(parameters, state).transpose() * change;

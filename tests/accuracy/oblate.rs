@@ -1,4 +1,5 @@
-//! Orbits about a flattened body (`orbit.j2`): constants of the motion, the drift of the node, the reference solution by every method, debris beside a spacecraft, and lanes with and without.
+//! Orbits about a flattened body (`orbit.j2`): constants of the motion, the drift of the node, the reference solution
+//! by every method, debris beside a spacecraft, and lanes with and without.
 
 use crate::support::orbits::{MU, body, circle, near_rounding, plated};
 use crate::support::runs::{Run, adaptive, everything, propagate};
@@ -39,7 +40,8 @@ fn ten_orbits() -> Grid {
     Grid::uniform(10.0 * core::f64::consts::TAU / n, 201)
 }
 
-/// Law: the energy (with the potential of the textbook, written here again) and the momentum about the Earth's axis are constant over ten orbits, and the whole momentum is not.
+/// Law: the energy (with the potential of the textbook, written here again) and the momentum about the Earth's axis are
+/// constant over ten orbits, and the whole momentum is not.
 #[test]
 fn energy_and_momentum_about_the_axis_are_constant() {
     let grid = ten_orbits();
@@ -70,8 +72,9 @@ fn energy_and_momentum_about_the_axis_are_constant() {
     }
 }
 
-/// Law: the node drifts by -3/2 n J2 (R/p)^2 cos i to first order in J2 (D. Vallado, 2013, (9-37)). Over one revolution from node to node; what is left out, and
-/// that the elements at time zero are not mean ones, is of the order of J2 of the drift.
+/// Law: the node drifts by -3/2 n J2 (R/p)^2 cos i to first order in J2 (D. Vallado, 2013, (9-37)). Over one revolution
+/// from node to node; what is left out, and that the elements at time zero are not mean ones, is of the order of J2 of
+/// the drift.
 #[test]
 fn the_node_drifts() {
     for (inclination, eccentricity) in [(0.5, 0.0), (1.2, 0.01), (1.7, 0.1)] {
@@ -108,13 +111,14 @@ fn the_node_drifts() {
     }
 }
 
-/// Law: every method finds the reference solution after ten orbits, place and attitude, on a circle, on an ellipse, and with plates in air and light; and that is another solution than
-/// that of a point mass.
+/// Law: every method finds the reference solution after ten orbits, place and attitude, on a circle, on an ellipse, and
+/// with plates in air and light; and that is another solution than that of a point mass.
 #[test]
 fn every_method_finds_the_reference_solution() {
     let grid = ten_orbits();
     let ellipse = OrbitInput { eccentricity: Some(0.1), ..circle(8e6, 0.9) };
-    // a spin about the axis of the largest moment: a slow tumble in the gradient multiplies every rounding by 1e6 in ten orbits, J2 or not
+    // a spin about the axis of the largest moment: a slow tumble in the gradient multiplies every rounding by 1e6 in
+    // ten orbits, J2 or not
     let spinning = |orbit| {
         let mut input = slow(flattened(orbit));
         input.initial.angular_velocity_rad_s[1] = -0.01;
@@ -167,7 +171,8 @@ fn every_method_finds_the_reference_solution() {
     }
 }
 
-/// Truth: debris minus spacecraft on their orbits, each integrated by itself with series of order 25 in 40 digits (Python's mpmath; steps of 60 s):
+/// Truth: debris minus spacecraft on their orbits, each integrated by itself with series of order 25 in 40 digits
+/// (Python's mpmath; steps of 60 s):
 ///
 /// ```text
 /// mu, k, H = mpf('3.986004418e14'), 3*mpf('1.08262668e-3')*mpf(6378137)**2/2, 60
@@ -210,8 +215,8 @@ fn debris_beside_a_spacecraft() {
     }
 }
 
-/// Law: a lane about a flattened body and one with a J2 of zero beside it have the bits that each has alone, lanes about point masses too, and J2 of zero is a
-/// point mass to rounding. The runs of a plan all have a J2, or none.
+/// Law: a lane about a flattened body and one with a J2 of zero beside it have the bits that each has alone, lanes
+/// about point masses too, and J2 of zero is a point mass to rounding. The runs of a plan all have a J2, or none.
 #[test]
 fn lanes_with_and_without() {
     let grid = Grid::uniform(6_000.0, 31);

@@ -1,5 +1,5 @@
-//! The gravity gradient on two-body orbits, by every method that integrates it: librations, the constant of a circular orbit; and orbits themselves.
-//! NASA's numbers are in `jeod.rs`.
+//! The gravity gradient on two-body orbits, by every method that integrates it: librations, the constant of a circular
+//! orbit; and orbits themselves. NASA's numbers are in `jeod.rs`.
 
 use super::jeod::JEOD_RUNS;
 use crate::support::exact::solved;
@@ -25,7 +25,8 @@ fn methods() -> Vec<(Method, Control)> {
     near_rounding(ForceModel::NONE.with(Effect::GravityGradient).with(Effect::Gravity))
 }
 
-/// The attitude and the rate of a body whose axes are those of the orbit on a circle of rate `n` in the e1-e2 plane, at the node.
+/// The attitude and the rate of a body whose axes are those of the orbit on a circle of rate `n` in the e1-e2 plane, at
+/// the node.
 ///
 /// o3 = -e1 (nadir), o2 = -e3, o1 = o2 x o3 = e2.
 fn aligned(input: &mut SceneInput, n: f64) {
@@ -34,7 +35,8 @@ fn aligned(input: &mut SceneInput, n: f64) {
     input.initial.angular_velocity_rad_s = [0.0, -n, 0.0];
 }
 
-/// Law: small librations in pitch of a body near o1, o2, o3 have the frequency n sqrt(3 (J1 - J3)/J2) (P. Hughes, 1986, section 9.2).
+/// Law: small librations in pitch of a body near o1, o2, o3 have the frequency n sqrt(3 (J1 - J3)/J2) (P. Hughes, 1986,
+/// section 9.2).
 #[test]
 fn librations_in_pitch() {
     const AMPLITUDE: f64 = 1e-6;
@@ -61,8 +63,9 @@ fn librations_in_pitch() {
     }
 }
 
-/// Law: small librations in roll phi and yaw psi obey the linear equations of the textbook (P. Hughes, 1986, section 9.2; n^2 as unit):
-/// J1 phi'' = (J1 - J2 + J3) n psi' - 4 n^2 (J2 - J3) phi, J3 psi'' = -(J1 - J2 + J3) n phi' - n^2 (J2 - J1) psi.
+/// Law: small librations in roll phi and yaw psi obey the linear equations of the textbook (P. Hughes, 1986, section
+/// 9.2; n^2 as unit): J1 phi'' = (J1 - J2 + J3) n psi' - 4 n^2 (J2 - J3) phi, J3 psi'' = -(J1 - J2 + J3) n phi' - n^2
+/// (J2 - J1) psi.
 #[test]
 fn librations_in_roll_and_yaw() {
     const AMPLITUDE: f64 = 1e-6;
@@ -105,8 +108,8 @@ fn librations_in_roll_and_yaw() {
     assert!(worst < 1e-5, "{worst:e}");
 }
 
-/// Largest change of the constant of a circular orbit, over n^2 J: omega_r' J omega_r/2 + (3/2) n^2 o3' J o3 - n^2 o2' J o2/2 with the rate
-/// omega_r relative to the orbit's frame.
+/// Largest change of the constant of a circular orbit, over n^2 J: omega_r' J omega_r/2 + (3/2) n^2 o3' J o3 - n^2 o2'
+/// J o2/2 with the rate omega_r relative to the orbit's frame.
 fn change_of_the_constant(scene: &Scene, run: &Run, n: f64) -> f64 {
     let inertia = scene.mass.inertia;
     let form = |v: [f64; 3]| dot(v, product(inertia, v));
@@ -150,8 +153,8 @@ fn the_constant_of_the_circular_orbit() {
     the_constant_is_constant(20.0, &methods(), |_| 1e-12);
 }
 
-/// Taylor methods have the time in two numbers: measured 4e-14. The others see the orbit at a time that is rounded to 1e-9 s, 1e-12 rad of the orbit, in
-/// each of their 1e5 to 1e6 steps: measured 1.1e-10.
+/// Taylor methods have the time in two numbers: measured 4e-14. The others see the orbit at a time that is rounded to
+/// 1e-9 s, 1e-12 rad of the orbit, in each of their 1e5 to 1e6 steps: measured 1.1e-10.
 #[test]
 #[ignore = "minutes: cargo test --release --test accuracy -- --ignored a_thousand_orbits"]
 fn the_constant_over_a_thousand_orbits() {
@@ -231,8 +234,9 @@ fn arcs_of_rods(until: &[f64], dipoles: &[[f64; 3]]) -> Vec<Arc> {
     .collect()
 }
 
-/// Law, over all effects and all methods: a method that integrates an effect finds the reference solution under it, rotation and place; one that does not
-/// refuses (`tests/campaign_files` has the words); and the reference solution is another with the effect than without it.
+/// Law, over all effects and all methods: a method that integrates an effect finds the reference solution under it,
+/// rotation and place; one that does not refuses (`tests/campaign_files` has the words); and the reference solution is
+/// another with the effect than without it.
 #[test]
 fn every_method_has_every_effect_or_says_so() {
     let grid = Grid::uniform(3_000.0, 31);
@@ -285,7 +289,8 @@ fn every_method_has_every_effect_or_says_so() {
     assert!(found >= 24, "{found} pairs");
 }
 
-/// Law: an orbit without a gravity gradient is another translation and no other rotation: the same bits in the same steps.
+/// Law: an orbit without a gravity gradient is another translation and no other rotation: the same bits in the same
+/// steps.
 #[test]
 fn an_orbit_without_gradient_costs_nothing() {
     for method in Method::ALL.into_iter().filter(|method| method.integrates(ForceModel::NONE.with(Effect::Gravity))) {
@@ -370,8 +375,9 @@ fn each_key_of_an_orbit_has_a_truth() {
 /// What a change of a key does to the torques of drag and of light.
 type Truth = (&'static str, fn(&mut EnvironmentInput), [f64; 2]);
 
-/// Law: every row of `[environment]` is an effect, whose truth is in this folder: a constant torque in closed form (`environment.rs`), the gravity
-/// gradient here; or a parameter of drag and light, which changes their torques as it says. A key that is neither fails.
+/// Law: every row of `[environment]` is an effect, whose truth is in this folder: a constant torque in closed form
+/// (`environment.rs`), the gravity gradient here; or a parameter of drag and light, which changes their torques as it
+/// says. A key that is neither fails.
 #[test]
 fn each_key_of_the_environment_has_a_truth() {
     let [mut scene, _] = with_and_without(Effect::Drag);
@@ -428,8 +434,8 @@ fn each_key_of_the_environment_has_a_truth() {
     assert_eq!(keys, effects);
 }
 
-/// Law: energy and angular momentum minus work and angular impulse are constant to rounding on eccentric orbits, with wheels and without: the
-/// balances judge the gravity gradient too.
+/// Law: energy and angular momentum minus work and angular impulse are constant to rounding on eccentric orbits, with
+/// wheels and without: the balances judge the gravity gradient too.
 #[test]
 fn the_balances_hold() {
     balances_hold(&tumbling(8, 61, [0.5, 20.0]), 1e-12);

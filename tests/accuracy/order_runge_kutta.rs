@@ -42,8 +42,8 @@ fn fixed_steps_converge_with_their_order_at_and_between_steps() {
     }
 }
 
-/// MATLAB's own documentation of ode45 (odeset, option Stats, van der Pol with mu = 1 on [0, 20] from [2; 0] at the default
-/// tolerances) prints: 59 successful steps, 10 failed attempts, 415 function evaluations.
+/// MATLAB's own documentation of ode45 (odeset, option Stats, van der Pol with mu = 1 on [0, 20] from [2; 0] at the
+/// default tolerances) prints: 59 successful steps, 10 failed attempts, 415 function evaluations.
 #[test]
 fn dormand_prince_takes_the_steps_of_ode45() {
     let case = Case { state: [2.0, 0.0], parameters: [], ends: vec![20.0] };
@@ -83,11 +83,12 @@ fn invariant_drift<M: LaneMethod>(method: M) -> f64 {
 const ARCS: u32 = 10_000;
 const ARC: f64 = 0.1;
 const SLOPE: f64 = 1.0 / 3.0;
-/// What a compensated sum of the steps may be off: eight ulps of the end, 334. Measured: an ulp, and four with the weights of DOP853.
+/// What a compensated sum of the steps may be off: eight ulps of the end, 334. Measured: an ulp, and four with the
+/// weights of DOP853.
 const COMPENSATED: f64 = 8.0 * 256.0 * f64::EPSILON;
 
-/// Law: every method carries what its steps lose: after 10,000 arcs of a constant slope the state is on the line, to an ulp or two.
-/// Counter-test: a plain sum of the same steps is not.
+/// Law: every method carries what its steps lose: after 10,000 arcs of a constant slope the state is on the line, to an
+/// ulp or two. Counter-test: a plain sum of the same steps is not.
 #[test]
 fn every_method_carries_what_its_steps_lose() {
     let ends: Vec<f64> = (1..=ARCS).map(|k| ARC * f64::from(k)).collect();

@@ -46,8 +46,8 @@ fn arcs_restart_exactly() {
 
 #[test]
 fn an_arc_is_a_run_of_its_own() {
-    // The second half of a run equals a run that starts where the first half ended: nothing survives the boundary but the
-    // carry of the compensated sum, which round-off bounds.
+    // The second half of a run equals a run that starts where the first half ended: nothing survives the boundary but
+    // the carry of the compensated sum, which round-off bounds.
     let half = |state, ends| Case::<2, 1> { state, parameters: [1.5], ends };
     let grid = Grid::uniform(2.0, 3);
     let whole =
@@ -114,8 +114,9 @@ fn a_run_that_takes_too_many_steps_is_given_up() {
     ends_as(Fixed(GaussLegendre), NotANumber, 1.0, &control, Status::StepLimit);
 }
 
-/// Law: `max_steps` counts attempted steps, rejected ones included: a run that needs n of them is complete where n are allowed, and is given
-/// up after n - 1 where n - 1 are, for every method. Of one body: the debris, which may need more, ends the run as well.
+/// Law: `max_steps` counts attempted steps, rejected ones included: a run that needs n of them is complete where n are
+/// allowed, and is given up after n - 1 where n - 1 are, for every method. Of one body: the debris, which may need
+/// more, ends the run as well.
 #[test]
 fn a_run_takes_max_steps_and_no_more() {
     let grid = Grid::uniform(1.0, 3);

@@ -1,5 +1,5 @@
-//! Periodic propagation: the cost of a horizon, its agreement with plain Taylor integration, and the cases with a period of
-//! zero, of the whole run, or without a period.
+//! Periodic propagation: the cost of a horizon, its agreement with plain Taylor integration, and the cases with a
+//! period of zero, of the whole run, or without a period.
 
 use crate::support::golden::Golden;
 use crate::support::observed::{observed, request};
@@ -83,8 +83,8 @@ fn a_horizon_costs_one_period() {
     assert!(taylor(100.0) > 9 * taylor(10.0));
 }
 
-/// Distance between periodic and plain propagation, over one plus the angle that the body has turned by: an error of rounding
-/// in the rate, or in the period, grows no faster than that.
+/// Distance between periodic and plain propagation, over one plus the angle that the body has turned by: an error of
+/// rounding in the rate, or in the period, grows no faster than that.
 ///
 /// Measured: 2e-16 at 10 s, 3e-16 at 100 s, 8e-16 at 1000 s.
 const PER_RADIAN: f64 = 2e-15;
@@ -115,7 +115,8 @@ fn periodic_is_plain_propagation() {
     }
 }
 
-/// A scene that is special, and how much larger than elsewhere its errors may be because the motion itself amplifies them.
+/// A scene that is special, and how much larger than elsewhere its errors may be because the motion itself amplifies
+/// them.
 struct Special {
     name: &'static str,
     input: SceneInput,
@@ -183,10 +184,12 @@ fn specials() -> Vec<Special> {
             ..special("fast wheels, slow body", spun([1e-4, -2e-4, 0.5e-4], [3e3, -1e3]), 40.0)
         },
     ];
-    // an error along the unstable axis grows as exp(lambda t) on every pass, lambda = 3 sqrt(1/8) = 1.06/s; from one pass to the
-    // next what counts is the distance in energy, the square of the offset: below 1e-8 rounding decides the side
+    // an error along the unstable axis grows as exp(lambda t) on every pass, lambda = 3 sqrt(1/8) = 1.06/s; from one
+    // pass to the next what counts is the distance in energy, the square of the offset: below 1e-8 rounding decides the
+    // side
     for (name, off, horizon, amplification) in [
-        // measured per radian with a period found: 8e-13 of 8e-12, and 1e-6 of 1e-5; shorter than a period both are the same bits
+        // measured per radian with a period found: 8e-13 of 8e-12, and 1e-6 of 1e-5; shorter than a period both are the
+        // same bits
         ("near the separatrix, shorter than a period", 1e-3, 12.0, 1.0),
         ("near the separatrix, with its period", 1e-3, 60.0, 4e3),
         ("very near the separatrix, shorter than a period", 1e-9, 30.0, 1.0),
@@ -265,8 +268,8 @@ fn special_cases_are_those_of_the_null_space_form() {
     }
 }
 
-/// Law: rates 2^k times as large over a time 2^k times as short give the same attitudes to the bit: no rate is too slow or too
-/// fast, and no hidden constant has a unit of time.
+/// Law: rates 2^k times as large over a time 2^k times as short give the same attitudes to the bit: no rate is too slow
+/// or too fast, and no hidden constant has a unit of time.
 #[test]
 fn time_has_no_scale() {
     let kind = Kind { wheels: [true; 2], debris: 2, products: true, offset: true, forced: false };

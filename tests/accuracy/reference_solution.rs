@@ -1,4 +1,5 @@
-//! The reference solution in double-double: compared with solutions in 40 digits, with itself, and by conservation laws.
+//! The reference solution in double-double: compared with solutions in 40 digits, with itself, and by conservation
+//! laws.
 
 use crate::support::golden::Golden;
 use spindrift::math::double_double::DoubleDouble;
@@ -24,8 +25,9 @@ fn solved(name: &str, tolerance: f64) -> (Golden, Scene, ReferenceSolution) {
     (golden, scene, truth)
 }
 
-/// The golden files start from exact dimensions, the reference solution from a scene in f64: a moment of inertia off by an ulp or two, times
-/// the angle that the body turns through (320 rad in Table I). Measured: rate 4.4e-15, attitude 7.0e-15; 4e-16 for `forced`.
+/// The golden files start from exact dimensions, the reference solution from a scene in f64: a moment of inertia off by
+/// an ulp or two, times the angle that the body turns through (320 rad in Table I). Measured: rate 4.4e-15, attitude
+/// 7.0e-15; 4e-16 for `forced`.
 const ROUNDED_SCENE: f64 = 1e-14;
 
 #[test]
@@ -57,8 +59,8 @@ fn off_attitude(q: [f64; 4], p: [f64; 4]) -> f64 {
     square(1.0).min(square(-1.0)).sqrt()
 }
 
-/// Some hundred steps of a few roundings each (2.5e-32), and the tolerance of the coarser solution. Measured: 5.9e-29 between two
-/// tolerances; three times that, for the walk of roundings in other steps.
+/// Some hundred steps of a few roundings each (2.5e-32), and the tolerance of the coarser solution. Measured: 5.9e-29
+/// between two tolerances; three times that, for the walk of roundings in other steps.
 const SELF_CONSISTENT: f64 = 2e-28;
 /// The same of the balances. Measured: 3.4e-30.
 const BALANCED: f64 = 3e-29;
@@ -87,8 +89,8 @@ fn two_tolerances_agree() {
     }
 }
 
-/// Law: energy minus work, momentum minus impulse, angular momentum minus angular impulse are constant, to the digits of the
-/// arithmetic; and a state of another time breaks it.
+/// Law: energy minus work, momentum minus impulse, angular momentum minus angular impulse are constant, to the digits
+/// of the arithmetic; and a state of another time breaks it.
 #[test]
 fn balances_hold_to_the_last_digits() {
     for name in ["table1", "forced"] {

@@ -1,5 +1,5 @@
-//! Spacecraft and debris beside an orbit: against two Kepler orbits in 60 digits, against the equation of motion without an orbit's help, and the balances
-//! with thrust.
+//! Spacecraft and debris beside an orbit: against two Kepler orbits in 60 digits, against the equation of motion
+//! without an orbit's help, and the balances with thrust.
 
 use crate::support::orbits::{MU, body, leaving, near_rounding};
 use crate::support::runs::{everything, propagate};
@@ -15,8 +15,8 @@ fn ellipse() -> OrbitInput {
     OrbitInput { position_m, velocity_m_s, body_radius_m: 6e6, ..OrbitInput::DEFAULT }
 }
 
-/// Truth: debris minus spacecraft on their Kepler orbits, by the script of `kernels/src/dynamics/relative_orbit.rs` with both offsets of this test. The body
-/// hardly turns, so that the steps are those of the orbit.
+/// Truth: debris minus spacecraft on their Kepler orbits, by the script of `kernels/src/dynamics/relative_orbit.rs`
+/// with both offsets of this test. The body hardly turns, so that the steps are those of the orbit.
 #[test]
 fn a_day_beside_an_orbit_without_thrust() {
     #[rustfmt::skip]
@@ -54,8 +54,8 @@ fn a_day_beside_an_orbit_without_thrust() {
     }
 }
 
-/// Law: thrust moves the spacecraft by r'' = -mu r/|r|^3 + F/m, here by the classical Runge-Kutta method in coordinates of the central body; the body does not
-/// turn, and the thrust moves it by kilometres.
+/// Law: thrust moves the spacecraft by r'' = -mu r/|r|^3 + F/m, here by the classical Runge-Kutta method in coordinates
+/// of the central body; the body does not turn, and the thrust moves it by kilometres.
 #[test]
 fn thrust_on_an_orbit() {
     let mut input = SceneInput { environment: EnvironmentInput::DEFAULT, ..body([90.0, 100.0, 40.0], ellipse()) };
@@ -99,8 +99,8 @@ fn thrust_on_an_orbit() {
     assert!(norm(difference(reference.high.at(StateField::ComPosition, 30), y[0])) < 1e-5);
 }
 
-/// Law: energy minus work and angular momentum minus angular impulse are constant to rounding with thrust beside an orbit; energies are those of 1,000 kg at
-/// 7.6 km/s.
+/// Law: energy minus work and angular momentum minus angular impulse are constant to rounding with thrust beside an
+/// orbit; energies are those of 1,000 kg at 7.6 km/s.
 #[test]
 fn the_balances_hold_beside_an_orbit() {
     let mut input = leaving(body([90.0, 100.0, 40.0], ellipse()));

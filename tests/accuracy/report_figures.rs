@@ -1,8 +1,8 @@
 //! Figures 3 to 5 of the paper: the total kinetic energy of its own 62-state form with Dormand-Prince 5(4).
 //!
-//! Source: Berdoz, *Final Report - ADR Spacecraft*, Figures 3-5; the numbers from an independent run of the same form over
-//! two seconds, observed at 201 points. Law: the error of the energy follows the tolerance. Counter-test: with the printed
-//! sign of a-hat_non,s it jumps to the size of the energy itself.
+//! Source: Berdoz, *Final Report - ADR Spacecraft*, Figures 3-5; the numbers from an independent run of the same form
+//! over two seconds, observed at 201 points. Law: the error of the energy follows the tolerance. Counter-test: with the
+//! printed sign of a-hat_non,s it jumps to the size of the energy itself.
 
 use crate::null_space_matrices::{COMPONENTS, Kernel, Parameters, State, with_printed_sign};
 use crate::support::golden::Golden;
@@ -63,9 +63,9 @@ fn the_error_of_the_energy_follows_the_tolerance() {
     assert!(ratio > 100.0 / FACTOR && ratio < 100.0 * FACTOR, "{errors:?}");
 }
 
-/// The independent run measured the error of a step by its root mean square over the 62 states; ode45, and so this program,
-/// by the largest. The largest component is this much larger than the mean here: at tolerances that differ by as much both
-/// take the same steps.
+/// The independent run measured the error of a step by its root mean square over the 62 states; ode45, and so this
+/// program, by the largest. The largest component is this much larger than the mean here: at tolerances that differ by
+/// as much both take the same steps.
 const LARGEST_OVER_MEAN: f64 = 12.4;
 
 /// The independent run, step for step: as many steps, and the same error of the energy.

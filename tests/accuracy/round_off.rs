@@ -1,11 +1,12 @@
-//! Round-off: at the smallest tolerance errors of conserved quantities are a random walk of last digits (D. Brouwer, Astronomical
-//! Journal 46, 1937: the energy's error grows with the square root of the number of steps), and nothing grows faster.
+//! Round-off: at the smallest tolerance errors of conserved quantities are a random walk of last digits (D. Brouwer,
+//! Astronomical Journal 46, 1937: the energy's error grows with the square root of the number of steps), and nothing
+//! grows faster.
 //!
-//! Ensemble: 64 random scenes (wheels, products of inertia, offset centres of mass), fixed seeds. A law is three statements of the
-//! signed relative errors e of the ensemble after N steps: rms e <= bound sqrt(N); the log-log slope of rms e is 0.5 +- 0.1; the
-//! mean of e is within three standard errors of zero (H0: no bias; n = 64, two-sided alpha = 0.0027; a bias as large as the
-//! scatter shows with a power above 0.999). Counter-tests: steps that are chopped instead of rounded, and a series that is cut off
-//! where its tail is still a last digit, break the law.
+//! Ensemble: 64 random scenes (wheels, products of inertia, offset centres of mass), fixed seeds. A law is three
+//! statements of the signed relative errors e of the ensemble after N steps: rms e <= bound sqrt(N); the log-log slope
+//! of rms e is 0.5 +- 0.1; the mean of e is within three standard errors of zero (H0: no bias; n = 64, two-sided
+//! alpha = 0.0027; a bias as large as the scatter shows with a power above 0.999). Counter-tests: steps that are
+//! chopped instead of rounded, and a series that is cut off where its tail is still a last digit, break the law.
 
 use crate::support::claims::hold;
 use crate::support::invariants::Invariants;
@@ -32,8 +33,8 @@ const MAGNITUDE: f64 = 1.5e-16;
 const MOMENTUM: f64 = 3e-16;
 /// Median over the scenes of the error of the attitude quaternion's norm, which nothing renormalises, over sqrt(N).
 const NORM: f64 = 1.5e-16;
-/// The largest such error over N: a scene whose rates hardly change makes the same roundings in every step, which then add up (two
-/// of the 64 do, 2.6e-18 a step).
+/// The largest such error over N: a scene whose rates hardly change makes the same roundings in every step, which then
+/// add up (two of the 64 do, 2.6e-18 a step).
 const NORM_A_STEP: f64 = 1e-17;
 /// The random walk's slope, and how far the measured one may be off.
 const SLOPE: f64 = 0.5;
@@ -96,7 +97,8 @@ impl Walk {
     }
 }
 
-/// The walks of energy, |L|, norm of the quaternion, and vector L (sizes only), after about `steps` steps of Taylor integration.
+/// The walks of energy, |L|, norm of the quaternion, and vector L (sizes only), after about `steps` steps of Taylor
+/// integration.
 fn taylor(steps: &[f64]) -> [Walk; 4] {
     let scenes = mixed(SCENES, false, 10.0);
     let run = |times: Vec<f64>, scenes: &[Scene]| {
@@ -255,7 +257,8 @@ fn the_law_can_be_broken() {
     }
 }
 
-/// Largest error of energy, |L|, norm and vector L of a run that is continued by its period, at any horizon: the roundings of one period.
+/// Largest error of energy, |L|, norm and vector L of a run that is continued by its period, at any horizon: the
+/// roundings of one period.
 const PERIODIC: f64 = 1e-14;
 /// How many times the largest error at a short horizon the largest at any other may be: no growth.
 const GROWTH: f64 = 2.0;

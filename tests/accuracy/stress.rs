@@ -1,7 +1,8 @@
-//! Extreme parameters: every campaign `stress_*.toml` in a small version, and scenes that no campaign file can describe.
+//! Extreme parameters: every campaign `stress_*.toml` in a small version, and scenes that no campaign file can
+//! describe.
 //!
-//! Law for all: every run is complete, no number in the row of a complete run is missing, and conservation errors stay near rounding.
-//! In addition each theme has a law of its own: flip times, impulses, exact scaling with units.
+//! Law for all: every run is complete, no number in the row of a complete run is missing, and conservation errors stay
+//! near rounding. In addition each theme has a law of its own: flip times, impulses, exact scaling with units.
 
 use crate::support::claims::hold;
 use crate::support::golden::Golden;
@@ -19,7 +20,8 @@ use spindrift::scene::{ActuationInput, DebrisInput, Scene, SceneInput};
 const SECTION: &str = "stress";
 /// Samples of a campaign in its small version.
 const SMALL: u64 = 48;
-/// Errors of energy, linear and angular momentum and attitude: some hundred roundings. Measured: 1.5e-14 at most (`stress_rates`).
+/// Errors of energy, linear and angular momentum and attitude: some hundred roundings. Measured: 1.5e-14 at most
+/// (`stress_rates`).
 const CONSERVED: f64 = 1e-13;
 /// The columns that hold them.
 const ERRORS: [&str; 6] = [
@@ -31,7 +33,8 @@ const ERRORS: [&str; 6] = [
     "dcm_orthonormality_max",
 ];
 
-/// How a run that reached its end is judged: by its estimate alone, because what is tried here conserves energy and momentum.
+/// How a run that reached its end is judged: by its estimate alone, because what is tried here conserves energy and
+/// momentum.
 fn judged(estimate: f64) -> Status {
     if estimate >= INACCURATE_STATE { Status::Inaccurate } else { Status::Done }
 }
@@ -209,13 +212,14 @@ fn any_shape_passes() {
     for (name, input) in bodies {
         worst = worst.max(error_of(&name, &input, 100.0));
     }
-    let regime = "rods, discs, spheres, symmetric to an ulp, triangle limit, mass ratios 1e-9 to 1e9, offsets to 1e3 m: largest \
+    let regime = "rods, discs, spheres, symmetric to an ulp, triangle limit, mass ratios 1e-9 to 1e9, offsets to 1e3 \
+        m: largest \
                   conservation error";
     hold(SECTION, regime, CONSERVED, worst);
 }
 
-/// Law: a million seconds and any tolerance that a file may contain pass, with every method that chooses its steps; a larger
-/// tolerance has larger errors.
+/// Law: a million seconds and any tolerance that a file may contain pass, with every method that chooses its steps; a
+/// larger tolerance has larger errors.
 #[test]
 fn any_tolerance_passes() {
     let mut scene = table_one();
@@ -301,7 +305,8 @@ fn scaled(input: &SceneInput, length: f64, mass: f64) -> SceneInput {
     input
 }
 
-/// Law: the motion does not depend on the units of length and mass: to the bit for powers of two, to rounding for others.
+/// Law: the motion does not depend on the units of length and mass: to the bit for powers of two, to rounding for
+/// others.
 #[test]
 fn units_do_not_matter() {
     let mut input = table_one();

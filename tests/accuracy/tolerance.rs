@@ -1,5 +1,5 @@
-//! What a tolerance, a step and a direction of time promise: errors against the exact motion (double-double) fall in proportion to
-//! the tolerance, or with the order of the method; and a run that is turned round comes back.
+//! What a tolerance, a step and a direction of time promise: errors against the exact motion (double-double) fall in
+//! proportion to the tolerance, or with the order of the method; and a run that is turned round comes back.
 
 use crate::support::claims::hold;
 use crate::support::exact::Exact;
@@ -36,7 +36,8 @@ fn slope(points: &[[f64; 2]]) -> f64 {
 
 /// The scenes, their horizon in seconds, and how many times the tolerance the error may be at any tolerance; by method.
 ///
-/// Error per step is the tolerance's, so the sum grows with the horizon: over 10 s and some hundred radians of ten scenes.
+/// Error per step is the tolerance's, so the sum grows with the horizon: over 10 s and some hundred radians of ten
+/// scenes.
 const PROPORTIONS: [(Method, u64, f64, f64); 5] = [
     (Method::Auto, 8, 10.0, 4e2),
     (Method::Taylor, 8, 10.0, 4e2),
@@ -80,8 +81,8 @@ fn errors_fall_in_proportion_to_the_tolerance() {
 /// What a measured order may differ from the stated one.
 const ORDER_SLACK: f64 = 0.3;
 
-/// Law: errors fall with the order of the method, with the step where it is fixed, with the number of steps where it follows the
-/// tolerance; on coasting scenes and on scenes with thrust and motors, whose switches are landed on.
+/// Law: errors fall with the order of the method, with the step where it is fixed, with the number of steps where it
+/// follows the tolerance; on coasting scenes and on scenes with thrust and motors, whose switches are landed on.
 #[test]
 fn methods_have_their_order() {
     for forced in [false, true] {
@@ -141,8 +142,8 @@ fn reversals() -> [(Method, Control, f64); 7] {
     ]
 }
 
-/// The same scene at the end of `run`, with all rates turned round: what it did it now does backwards. `wheels`: the factor of
-/// their rates, -1 where the scene is to return.
+/// The same scene at the end of `run`, with all rates turned round: what it did it now does backwards. `wheels`: the
+/// factor of their rates, -1 where the scene is to return.
 fn reversed(scene: &Scene, run: &Run, wheels: f64) -> Scene {
     let last = run.table.points() - 1;
     let mut back = scene.clone();

@@ -1,7 +1,8 @@
 //! Wheels whose motors hold their speed, and wheels with misaligned axes and offset centres.
 //!
-//! Laws: a held wheel keeps its rate and turns uniformly; a body rotated by a known torque about a wheel's axis has J with the wheel held
-//! and J* with the wheel free. (Any wheels in any mode, with their balances: `many_wheels.rs`; J and J* mixed up: `drift_bounds.rs`.)
+//! Laws: a held wheel keeps its rate and turns uniformly; a body rotated by a known torque about a wheel's axis has J
+//! with the wheel held and J* with the wheel free. (Any wheels in any mode, with their balances: `many_wheels.rs`; J
+//! and J* mixed up: `drift_bounds.rs`.)
 
 use crate::support::campaigns::FUSELAGE;
 use crate::support::golden::Golden;
@@ -70,8 +71,8 @@ fn rotor(mode: WheelMode) -> SceneInput {
     input
 }
 
-/// Law: about the wheel's axis the body's rate grows by tau t/J with the wheel held and by tau t/J* with the wheel free; the free
-/// wheel lags by as much, the motor of the held one does Omega J_1 (omega - omega(0)).
+/// Law: about the wheel's axis the body's rate grows by tau t/J with the wheel held and by tau t/J* with the wheel
+/// free; the free wheel lags by as much, the motor of the held one does Omega J_1 (omega - omega(0)).
 #[test]
 fn a_torque_about_the_wheels_axis_has_a_closed_form() {
     const TAU: f64 = 0.5 * (200.0 - 100.0);
@@ -128,7 +129,8 @@ fn periods_carry_held_wheels_too() {
 
 const HEAD: &str = "[campaign]\nname = \"held\"\nsamples = 2\nseed = 1\nduration_s = 1.0\n";
 const HELD_WHEEL: &str = "[[wheels]]\nname = \"w1\"\naxis = [0, 1, 0]\nradius_m = 0.25\n\
-    length_m = 0.1\nposition_m = [0.0, 0.1, 1.0]\ndensity_kg_m3 = 2700\nmode = \"speed_held\"\ntilt_rad = [0.01, 0.02]\n\
+    length_m = 0.1\nposition_m = [0.0, 0.1, 1.0]\ndensity_kg_m3 = 2700\nmode = \"speed_held\"\ntilt_rad = [0.01, \
+    0.02]\n\
     rate_rad_s = 100\n[initial]\nangular_velocity_rad_s = [0.1, 0.2, 1.0]\n";
 
 #[test]

@@ -1,4 +1,5 @@
-//! The tables that say what is made of the rows: what they mean, what is refused and how, and that no row depends on them.
+//! The tables that say what is made of the rows: what they mean, what is refused and how, and that no row depends on
+//! them.
 
 use crate::refusals::good;
 use spindrift::campaign::requirement::{BandSubject, Subject};
@@ -93,11 +94,12 @@ fn an_observable_is_derived_once() {
     assert!(said.contains("observable[1].name = \"twice\": must be a name of its own"), "{said}");
 }
 
-/// Law: the unit in which a limit or a dispersion is written is that in which it is shown, after `[display]`; the limit itself is in the unit of
-/// the column, whatever unit it is written in.
+/// Law: the unit in which a limit or a dispersion is written is that in which it is shown, after `[display]`; the limit
+/// itself is in the unit of the column, whatever unit it is written in.
 #[test]
 fn units_that_are_written_come_back() {
-    let text = "[[observable]]\nname = \"rate_deg_s\"\nunit = \"deg/s\"\nexpression = \"57.29577951308232 * omega_se_s_x_final_rad_s\"\n\
+    let text = "[[observable]]\nname = \"rate_deg_s\"\nunit = \"deg/s\"\nexpression = \"57.29577951308232 * \
+        omega_se_s_x_final_rad_s\"\n\
         [[require]]\nobservable = \"rate_deg_s\"\nfraction = 0.9\nat_most = \"0.1 rad/s\"\n\
         [[require]]\nobservable = \"omega_se_s_x_final_rad_s\"\nfraction = 0.9\nat_most = \"5 deg/s / 2\"\n\
         [[require]]\nobservable = \"spin_axis_angle_max_rad\"\nfraction = 0.9\nat_most = 0.5\n\

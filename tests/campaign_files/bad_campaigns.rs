@@ -1,4 +1,5 @@
-//! Bad campaign files: every message names file, line, key, value, what is allowed and a remedy; all errors of a file at once.
+//! Bad campaign files: every message names file, line, key, value, what is allowed and a remedy; all errors of a file
+//! at once.
 
 use crate::refusals::good;
 use spindrift::campaign::{CampaignError, Overrides, Plan};
@@ -81,7 +82,8 @@ fn a_file_that_is_not_there_is_said_to_be_so() {
     assert!(error.to_string().starts_with("no/such.toml: file = "), "{error}");
 }
 
-/// Law: the first syntax error of a file is told alone, with a mark and a remedy: neither what follows from it, nor errors of the keys after it.
+/// Law: the first syntax error of a file is told alone, with a mark and a remedy: neither what follows from it, nor
+/// errors of the keys after it.
 #[test]
 fn a_syntax_error_is_told_alone() {
     let good = good();

@@ -442,7 +442,8 @@ fn each_rule_has_a_file_that_breaks_it() {
     assert_eq!(subjects, [""; 0], "rules without a case");
 }
 
-/// Law: a shipped campaign has a note only where its question is such a number: Berdoz's spacecraft turns at 10 pi rad/s, its debris at 100 rad/s.
+/// Law: a shipped campaign has a note only where its question is such a number: Berdoz's spacecraft turns at 10 pi
+/// rad/s, its debris at 100 rad/s.
 #[test]
 fn shipped_campaigns_have_the_notes_that_are_true() {
     let (mut files, mut clean, mut false_notes) = (0, 0, Vec::new());

@@ -1,5 +1,6 @@
-//! Hundreds of invalid files, made by changing one thing of a valid one at a time: none panics, and each is told with file, line, key, value, what
-//! is allowed and a remedy. `cargo test --release --test campaign_files invalid -- --nocapture` says how long the slowest answer took.
+//! Hundreds of invalid files, made by changing one thing of a valid one at a time: none panics, and each is told with
+//! file, line, key, value, what is allowed and a remedy. `cargo test --release --test campaign_files invalid --
+//! --nocapture` says how long the slowest answer took.
 
 use std::time::Instant;
 
@@ -123,7 +124,8 @@ fn every_key_is_told_by_line_key_and_value() {
     assert!(wrong.is_empty() && count > 130, "{} of {count}:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// Law: each is answered, with a message that names file, key, what is allowed and a remedy, and at most twenty problems are listed.
+/// Law: each is answered, with a message that names file, key, what is allowed and a remedy, and at most twenty
+/// problems are listed.
 #[test]
 fn invalid_files_are_refused_in_words() {
     let cases = cases();

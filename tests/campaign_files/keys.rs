@@ -1,5 +1,5 @@
-//! The identity of a plan, key by key: each key that a file may have changes the plan, reads back, and changes the hash of the rows exactly
-//! where it changes rows. A key of rows that the program knows and that no file here has fails the
+//! The identity of a plan, key by key: each key that a file may have changes the plan, reads back, and changes the hash
+//! of the rows exactly where it changes rows. A key of rows that the program knows and that no file here has fails the
 //! tests.
 
 use std::collections::BTreeSet;
@@ -208,7 +208,8 @@ const GATES: &str = "[[require]]\nobservable = \"steps\"\nmean = true\nat_least 
 /// Files, each with the place from which on its keys are changed, and whether that part is a table of its own kind.
 fn files() -> Vec<(String, usize)> {
     let every = EVERY_TABLE.to_owned();
-    let second_arc = "[[actuation]]\nname = \"later\"\nstart_s = 4.0\nend_s = 6.0\nthrust_n = { p1 = 3.0 }\ntorque_n_m = { w1 = -0.5 }\n\
+    let second_arc = "[[actuation]]\nname = \"later\"\nstart_s = 4.0\nend_s = 6.0\nthrust_n = { p1 = 3.0 }\ntorque_n_m \
+        = { w1 = -0.5 }\n\
         thrust_scale = 1.25\ntorque_scale = 0.5\nswitch_on_delay_s = 0.125\nswitch_off_delay_s = 0.25\n";
     let mut files = vec![(every.clone(), 0)];
     files.push((format!("{every}{second_arc}{GATES}"), every.len()));
@@ -246,8 +247,9 @@ fn files() -> Vec<(String, usize)> {
     files
 }
 
-/// Law: each key of each table changes the plan, and the plan reads back from its text; the hash of the rows changes exactly where the key is
-/// none of those that no row depends on. Tables that differ in their kind alone have other rows.
+/// Law: each key of each table changes the plan, and the plan reads back from its text; the hash of the rows changes
+/// exactly where the key is none of those that no row depends on. Tables that differ in their kind alone have other
+/// rows.
 #[test]
 fn every_key_changes_the_plan_and_the_hash_of_the_rows_where_it_should() {
     let scratch = folder("every-key-changes");
@@ -322,7 +324,8 @@ fn is_of_scene(table: &str) -> bool {
     tables.iter().any(|scene| table.trim_matches('[').starts_with(scene))
 }
 
-/// Law: each number of each row of the schema, in the second arc as in the first, is in the plan: it reads back, and changes the rows' hash.
+/// Law: each number of each row of the schema, in the second arc as in the first, is in the plan: it reads back, and
+/// changes the rows' hash.
 #[test]
 fn every_number_of_a_scene_is_in_the_plan() {
     let (mut rows, mut seen) = (BTreeSet::new(), BTreeSet::new());
@@ -370,8 +373,8 @@ fn every_number_of_a_scene_is_in_the_plan() {
     assert_eq!(seen, rows, "every row of the schema is in a scene here");
 }
 
-/// Law: of relative and absolute tolerance, one that is written leaves the other at the method's default, or at `tolerance` where that is
-/// written too; for every method.
+/// Law: of relative and absolute tolerance, one that is written leaves the other at the method's default, or at
+/// `tolerance` where that is written too; for every method.
 #[test]
 fn a_tolerance_changes_no_other() {
     for method in Method::ALL {

@@ -1,10 +1,12 @@
-//! What looks like a mistake in a control loop is noted, not refused: each note has a file that gets it and a neighbour that does not.
+//! What looks like a mistake in a control loop is noted, not refused: each note has a file that gets it and a neighbour
+//! that does not.
 
 use spindrift::campaign::{Overrides, Plan};
 
 use super::loops::{LOOP, plan};
 
-/// Changes of a loop without notes: what is changed, into what, parts of the notes that this gets (one each), and a neighbour without any.
+/// Changes of a loop without notes: what is changed, into what, parts of the notes that this gets (one each), and a
+/// neighbour without any.
 const CASES: &[(&str, &str, &[&str], &str)] = &[
     // order of the phases
     (
@@ -71,13 +73,15 @@ const CASES: &[(&str, &str, &[&str], &str)] = &[
     ),
     (
         "[initial]",
-        "[orbit]\nsemi_major_axis_m = 7e6\n[environment]\ndrag = true\n[[plates]]\nname = \"a\"\narea_m2 = 1\nnormal = [1, 0, 0]\ncenter_m = [0, 1, 0]\n[initial]",
+        "[orbit]\nsemi_major_axis_m = 7e6\n[environment]\ndrag = true\n[[plates]]\nname = \"a\"\narea_m2 = 1\nnormal = \
+        [1, 0, 0]\ncenter_m = [0, 1, 0]\n[initial]",
         &["filters and laws of the loop do not model environment.drag"],
         "[orbit]\nsemi_major_axis_m = 7e6\n[initial]",
     ),
     (
         "[initial]",
-        "[orbit]\nsemi_major_axis_m = 7e6\n[environment]\ndrag = true\n[[plates]]\nname = \"a\"\narea_m2 = 1\nnormal = [1, 0, 0]\ncenter_m = [0, 1, 0]\n[integrator]\ntolerance = 1e-13\n[initial]",
+        "[orbit]\nsemi_major_axis_m = 7e6\n[environment]\ndrag = true\n[[plates]]\nname = \"a\"\narea_m2 = 1\nnormal = \
+        [1, 0, 0]\ncenter_m = [0, 1, 0]\n[integrator]\ntolerance = 1e-13\n[initial]",
         &[
             "at tolerances below 1e-12 the rounding of environment.drag counts",
             "filters and laws of the loop do not model environment.drag",
@@ -104,7 +108,8 @@ const CASES: &[(&str, &str, &[&str], &str)] = &[
         &["is always met: angles are 0 to pi"],
         "pointing_error_rad < 3",
     ),
-    // the limit of the gain is 2.5 K/T: gain (0.4 + 0.6 z) + K/T z (z - 1) = 0 at a delay of 0.4 T, with the smallest K of 23.99 kg m^2
+    // the limit of the gain is 2.5 K/T: gain (0.4 + 0.6 z) + K/T z (z - 1) = 0 at a delay of 0.4 T, with the smallest K
+    // of 23.99 kg m^2
     (
         "gain_n_m_s = 5.0",
         "gain_n_m_s = 241",
@@ -137,7 +142,8 @@ const CASES: &[(&str, &str, &[&str], &str)] = &[
         "rate_rad_s = -600",
     ),
     (
-        "kind = \"star_tracker\"\nperiod_s = 0.5\nlatency_s = 0.25\nnoise_rad = [1e-4, 1e-4, 5e-4]\nmax_rate_rad_s = \"2 deg/s\"",
+        "kind = \"star_tracker\"\nperiod_s = 0.5\nlatency_s = 0.25\nnoise_rad = [1e-4, 1e-4, 5e-4]\nmax_rate_rad_s = \
+        \"2 deg/s\"",
         "kind = \"sun_sensor\"",
         &["no sensor measures the whole attitude"],
         "kind = \"star_tracker\"\n[[sensors]]\nname = \"sun\"\nkind = \"sun_sensor\"",

@@ -1,4 +1,5 @@
-//! Control loops in campaign files: what is refused, with one problem for one mistake, and how a phase or a sensor is addressed.
+//! Control loops in campaign files: what is refused, with one problem for one mistake, and how a phase or a sensor is
+//! addressed.
 
 use spindrift::campaign::{CampaignError, Overrides, Plan};
 use spindrift::control::observes::Observes;
@@ -118,7 +119,8 @@ trajectories = "worst:1 by pointing_error_final_rad"
 "#;
 
 /// What sensors of an orbit need, before `[initial]`.
-const IN_A_FIELD: &str = "[environment]\nmagnetic_field = \"igrf\"\n[orbit]\nepoch = \"2026-11-24T00:00:00Z\"\nsemi_major_axis_m = 7e6\n[initial]";
+const IN_A_FIELD: &str = "[environment]\nmagnetic_field = \"igrf\"\n[orbit]\nepoch = \
+    \"2026-11-24T00:00:00Z\"\nsemi_major_axis_m = 7e6\n[initial]";
 
 pub fn plan(text: &str) -> Plan {
     Plan::from_text("loop.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
@@ -133,7 +135,8 @@ fn set(settings: &[(&str, &str)]) -> Result<Plan, CampaignError> {
     Plan::from_text("loop.toml", LOOP, Overrides { settings, ..Overrides::default() })
 }
 
-/// Law: a sensor for which an estimator has no use is refused by its name, over all kinds of both; perfect knowledge, which reads none, has a note instead.
+/// Law: a sensor for which an estimator has no use is refused by its name, over all kinds of both; perfect knowledge,
+/// which reads none, has a note instead.
 #[test]
 fn a_sensor_that_nobody_uses_is_refused() {
     let raw = LOOP.replacen("initial_attitude_sigma_rad = 0.1\n", "", 1);
@@ -162,12 +165,13 @@ fn a_sensor_that_nobody_uses_is_refused() {
     assert_eq!(refusals, 3, "Sun sensor, horizon sensor and magnetometer, by raw measurements");
 }
 
-/// Law: torque rods are refused without what they need: a field, a magnetometer, a phase, wheels to unload; and a rod that
-/// the loop does not drive, which nothing else does.
+/// Law: torque rods are refused without what they need: a field, a magnetometer, a phase, wheels to unload; and a rod
+/// that the loop does not drive, which nothing else does.
 #[test]
 fn torque_rods_need_what_drives_them() {
     let rods = "[[torque_rods]]\nname = \"m1\"\naxis = [0, 0, 1]\nmax_dipole_a_m2 = 5\n";
-    let sensor = "[[sensors]]\nname = \"field\"\nkind = \"magnetometer\"\n[[guidance]]\nphase = \"brake\"\nrods = \"b_dot\"\nb_dot_gain_a_m2_s_t = 1e5\n";
+    let sensor = "[[sensors]]\nname = \"field\"\nkind = \"magnetometer\"\n[[guidance]]\nphase = \"brake\"\nrods = \
+        \"b_dot\"\nb_dot_gain_a_m2_s_t = 1e5\n";
     let in_field = LOOP.replacen("[initial]", IN_A_FIELD, 1);
     let right = in_field.replacen("[control]", &format!("{rods}[control]\ntorque_rods = [\"m1\"]"), 1) + sensor;
     let read = plan(&right);
@@ -219,11 +223,13 @@ fn torque_rods_need_what_drives_them() {
     assert!(refused(&idle).to_string().contains("\"none\" in a loop without torque rods"));
 }
 
-/// Law: filters, raw measurements and perfect knowledge know gravity: with thrusters and a radar a loop on an orbit is accepted.
+/// Law: filters, raw measurements and perfect knowledge know gravity: with thrusters and a radar a loop on an orbit is
+/// accepted.
 #[test]
 fn every_estimator_is_accepted_on_an_orbit() {
     let on_orbit = LOOP.replacen("[initial]", "[orbit]\nsemi_major_axis_m = 7e6\n[initial]", 1);
-    let radar = "[[sensors]]\nname = \"radar\"\nkind = \"ground_radar\"\nposition_noise_m = 1\nvelocity_noise_m_s = 1\n[[guidance]]";
+    let radar = "[[sensors]]\nname = \"radar\"\nkind = \"ground_radar\"\nposition_noise_m = 1\nvelocity_noise_m_s = \
+        1\n[[guidance]]";
     let with_radar = |text: &str| text.replacen("[[guidance]]", radar, 1);
     plan(&on_orbit);
     plan(&with_radar(LOOP));
@@ -286,8 +292,8 @@ fn a_transfer_takes_less_than_half_a_revolution() {
     assert!(error.contains(key) && error.contains(allowed), "{error}");
 }
 
-/// Law: one wrong key of a loop is one problem, whatever depends on it: keys of an estimator, of a modulation, of a law; parameters; columns. A loop
-/// without phases is one problem too.
+/// Law: one wrong key of a loop is one problem, whatever depends on it: keys of an estimator, of a modulation, of a
+/// law; parameters; columns. A loop without phases is one problem too.
 #[test]
 fn one_mistake_is_one_problem() {
     let text = format!("{LOOP}{DEPENDENTS}").replacen("samples = 1\n", "samples = 10\n", 1);
@@ -328,8 +334,9 @@ fn one_mistake_is_one_problem() {
     assert_eq!(keys, ["body.mass_kg", "control.estimator", "guidance"]);
 }
 
-/// Law: what flight software believes of the inertia is that of a body: symmetric, positive definite, no principal moment above the sum of the others, and
-/// more than the wheels about their axes; the nearest tensors that are so are accepted.
+/// Law: what flight software believes of the inertia is that of a body: symmetric, positive definite, no principal
+/// moment above the sum of the others, and more than the wheels about their axes; the nearest tensors that are so are
+/// accepted.
 #[test]
 fn a_believed_inertia_is_that_of_a_body() {
     let with = |tensor: &str| {
@@ -393,8 +400,8 @@ fn a_condition_compares() {
     }
 }
 
-/// Law: a module is refused in one problem: by a build without WebAssembly with the command that builds it in, where it cannot be read, where no phase flies it,
-/// and where a phase names it and there is none.
+/// Law: a module is refused in one problem: by a build without WebAssembly with the command that builds it in, where it
+/// cannot be read, where no phase flies it, and where a phase names it and there is none.
 #[test]
 fn a_module_that_cannot_be_flown_is_refused() {
     let scratch = ScratchFolder::new("campaign-files-module");
@@ -426,8 +433,8 @@ fn a_module_that_cannot_be_flown_is_refused() {
     }
 }
 
-/// Law: sensors measure at whole multiples or whole fractions of the control period, whatever the others do, where a tick of a thousandth of it or more is
-/// common to all.
+/// Law: sensors measure at whole multiples or whole fractions of the control period, whatever the others do, where a
+/// tick of a thousandth of it or more is common to all.
 #[test]
 fn periods_of_sensors_fit_into_the_loop() {
     let with = |control: &str, gyro: &str, tracker: &str| {
@@ -486,8 +493,8 @@ fn a_remedy_is_accepted() {
     assert!(tried > 20, "{tried} remedies");
 }
 
-/// Law: a phase and a sensor are addressed by their names, as messages and `[[disperse]]` name them, and by their places; a file that extends another
-/// overrides one of them alone.
+/// Law: a phase and a sensor are addressed by their names, as messages and `[[disperse]]` name them, and by their
+/// places; a file that extends another overrides one of them alone.
 #[test]
 fn phases_and_sensors_have_names() {
     let value =
@@ -504,7 +511,8 @@ fn phases_and_sensors_have_names() {
     scratch.file("base.toml", LOOP);
     scratch.file(
         "variant.toml",
-        "extends = \"base.toml\"\n[[guidance]]\nphase = \"hold\"\nbandwidth_rad_s = 0.15\n[[sensors]]\nname = \"tracker\"\nnoise_rad = [1e-3, 2e-3, 3e-3]\n",
+        "extends = \"base.toml\"\n[[guidance]]\nphase = \"hold\"\nbandwidth_rad_s = 0.15\n[[sensors]]\nname = \
+        \"tracker\"\nnoise_rad = [1e-3, 2e-3, 3e-3]\n",
     );
     let variant =
         Plan::load(&scratch.path("variant.toml"), Overrides::default()).unwrap_or_else(|error| panic!("{error}"));

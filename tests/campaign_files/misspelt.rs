@@ -1,7 +1,7 @@
 //! Every key and every name of a value, misspelt by one edit, gets the right suggestion.
 //!
-//! The names come from the program itself: a key that no table has is refused with the keys of that table, and a name that no key takes with
-//! the names that it takes.
+//! The names come from the program itself: a key that no table has is refused with the keys of that table, and a name
+//! that no key takes with the names that it takes.
 
 use std::collections::BTreeSet;
 
@@ -17,7 +17,8 @@ fn error(text: &str) -> CampaignError {
     Plan::from_text("bad.toml", text, Overrides::default()).expect_err(text)
 }
 
-/// `word` with one edit, at its start, in its middle and at its end: a letter left out, doubled, replaced, or exchanged with the next.
+/// `word` with one edit, at its start, in its middle and at its end: a letter left out, doubled, replaced, or exchanged
+/// with the next.
 fn edits(word: &str) -> BTreeSet<String> {
     let letters: Vec<char> = word.chars().collect();
     let mut found = BTreeSet::new();
@@ -37,7 +38,8 @@ fn edits(word: &str) -> BTreeSet<String> {
     found
 }
 
-/// Edits between two words, an exchange of neighbours counted as one (optimal string alignment), by the textbook's table.
+/// Edits between two words, an exchange of neighbours counted as one (optimal string alignment), by the textbook's
+/// table.
 fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
     let mut table = vec![vec![0; b.len() + 1]; a.len() + 1];
@@ -192,7 +194,8 @@ fn every_misspelt_parameter_and_observable_gets_its_suggestion() {
 fn on_an_orbit(keys: &str) -> String {
     format!(
         "[campaign]\nname = \"o\"\nsamples = 2\nseed = 1\nduration_s = 10.0\n[body]\nmass_kg = 10\n\
-         inertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]\nincludes_wheels = false\n[initial]\nangular_velocity_rad_s = [0, 0, 1]\n\
+         inertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]\nincludes_wheels = false\n[initial]\nangular_velocity_rad_s \
+         = [0, 0, 1]\n\
          [[wheels]]\nname = \"w\"\naxis = [0, 0, 1]\ndensity_kg_m3 = 1\nradius_m = 0.1\nlength_m = 0.1\n\
          [[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 0.1\n\
          [orbit]\nsemi_major_axis_m = 7e6\n{keys}"

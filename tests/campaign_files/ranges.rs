@@ -1,5 +1,5 @@
-//! Ranges of numbers: each end is accepted, and the next number beyond it is refused, by its key. The numbers of scenes come from the schema,
-//! each with the limit of its row; the others are listed here.
+//! Ranges of numbers: each end is accepted, and the next number beyond it is refused, by its key. The numbers of scenes
+//! come from the schema, each with the limit of its row; the others are listed here.
 
 use std::f64::consts::PI;
 
@@ -136,8 +136,8 @@ fn with(from: &str, to: &str) -> String {
     if from.is_empty() { format!("{SMALL}{to}") } else { SMALL.replace(from, to) }
 }
 
-/// A number of a campaign file that no row of the schema has: a file with `@` in its place, its key in messages, the values at the ends of its
-/// range, and the next ones beyond.
+/// A number of a campaign file that no row of the schema has: a file with `@` in its place, its key in messages, the
+/// values at the ends of its range, and the next ones beyond.
 struct Range {
     file: String,
     key: &'static str,

@@ -1,4 +1,5 @@
-//! Files that are refused, one for each kind of refusal: each with one problem, at its line, with key, value, what is allowed and a remedy.
+//! Files that are refused, one for each kind of refusal: each with one problem, at its line, with key, value, what is
+//! allowed and a remedy.
 //!
 //! The cases are in `refusals.txt`: what is changed in a valid file, and parts of what is said.
 
@@ -157,7 +158,8 @@ fn folder() -> std::path::PathBuf {
     folder
 }
 
-/// Law: each case is refused with one problem, at its line, with key and value, what is allowed and a remedy; what is changed is valid.
+/// Law: each case is refused with one problem, at its line, with key and value, what is allowed and a remedy; what is
+/// changed is valid.
 #[test]
 fn each_kind_of_refusal_gives_line_key_value_range_and_remedy() {
     let folder = folder();
@@ -262,12 +264,13 @@ fn a_spacecraft_without_a_body_is_refused() {
     assert_eq!(error.problems.len(), 1, "{error}");
     assert_eq!(
         error.to_string(),
-        "bad.toml: body is missing: must be a table with the mass properties of the body, or its parts; add a [body] table, or [[body.parts]] tables"
+        "bad.toml: body is missing: must be a table with the mass properties of the body, or its parts; add a [body] \
+        table, or [[body.parts]] tables"
     );
 }
 
-/// Law: every list of tables that the documents show has a limit, so that reading takes no more than a moment however many there are. Only `[[actuation]]`
-/// has none: each arc is read in the same time.
+/// Law: every list of tables that the documents show has a limit, so that reading takes no more than a moment however
+/// many there are. Only `[[actuation]]` has none: each arc is read in the same time.
 #[test]
 fn every_list_of_tables_has_a_limit() {
     let documents = [include_str!("../../docs/campaign-files.md"), include_str!("../../docs/control.md")];

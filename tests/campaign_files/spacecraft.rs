@@ -68,7 +68,8 @@ fn the_newcomers_spacecraft_takes_25_lines_and_runs() {
     assert!(!names.iter().any(|name| name.contains("_wheels_")), "one wheel is all wheels together");
 }
 
-/// Law: names are a lower-case letter, then lower-case letters, digits and underscores, at most 23 of them; each list has each name once.
+/// Law: names are a lower-case letter, then lower-case letters, digits and underscores, at most 23 of them; each list
+/// has each name once.
 #[test]
 fn names_are_lower_case_letters_digits_and_underscores_and_unique() {
     for name in ["a", "w1", "wheel_1", "x23456789012345678901_3"] {
@@ -93,7 +94,15 @@ fn names_are_lower_case_letters_digits_and_underscores_and_unique() {
     let twice = |first: &str, second: &str| {
         let parts = NEWCOMER.find("[body]").expect("a body")..NEWCOMER.find("[[wheels]]").expect("wheels");
         let mut text = NEWCOMER.to_owned();
-        text.replace_range(parts, &format!("[body]\ninertia_scale = 1\n{}{}[[body.parts]]\nname = \"box\"\nshape = \"box\"\nsize_m = [1, 1, 1]\nmass_kg = 9\n", part(first), part(second)));
+        text.replace_range(
+            parts,
+            &format!(
+                "[body]\ninertia_scale = 1\n{}{}[[body.parts]]\nname = \"box\"\nshape = \
+            \"box\"\nsize_m = [1, 1, 1]\nmass_kg = 9\n",
+                part(first),
+                part(second)
+            ),
+        );
         read(&text)
     };
     assert!(twice("tip", "top").is_ok());
@@ -136,10 +145,12 @@ fn units_in_values_give_si() {
 /// Law: distributions, schedules and schedules have units like the values that they are about.
 #[test]
 fn units_hold_in_distributions_and_schedules() {
-    let more = "[[actuation]]\nstart_s = 0\nend_s = \"500 ms\"\nthrust_n = { p1 = \"2 mN\" }\ntorque_n_m = { w1 = \"-5 mN m\" }\n\
+    let more = "[[actuation]]\nstart_s = 0\nend_s = \"500 ms\"\nthrust_n = { p1 = \"2 mN\" }\ntorque_n_m = { w1 = \"-5 \
+        mN m\" }\n\
         [[disperse]]\nparameter = \"wheels.w1.rate_rad_s\"\ndistribution = \"normal\"\nstd = \"60 rpm\"\n\
         [[disperse]]\nparameter = \"initial.attitude\"\ndistribution = \"attitude_error\"\nstd_rad = \"1 deg\"\n\
-        [[disperse]]\nparameter = \"body.mass_kg\"\ndistribution = \"truncated_normal\"\nrelative_std = \"2 %\"\nlower = \"0.4 t\"\n";
+        [[disperse]]\nparameter = \"body.mass_kg\"\ndistribution = \"truncated_normal\"\nrelative_std = \"2 %\"\nlower \
+        = \"0.4 t\"\n";
     let plan = plan(&format!("{NEWCOMER}{more}"));
     let arc = plan.nominal.actuation[0];
     assert_eq!((arc.end_s, arc.thrust_n[0], arc.torque_n_m[0]), (0.5, 0.002, -0.005));

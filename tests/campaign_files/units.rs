@@ -42,8 +42,9 @@ velocity_m_s = [@m/s@, 0, 0]
 angular_velocity_rad_s = [0, 0, 1]
 "#;
 
-/// SI units, and the units that may be written in place of each, with their sizes: exact by definition (BIPM, *The International System of
-/// Units*, 9th edition, tables 5, 7 and 8; NIST SP 811, appendix B.8, has them to seven digits), those with pi to 20 digits.
+/// SI units, and the units that may be written in place of each, with their sizes: exact by definition (BIPM, *The
+/// International System of Units*, 9th edition, tables 5, 7 and 8; NIST SP 811, appendix B.8, has them to seven
+/// digits), those with pi to 20 digits.
 #[expect(clippy::excessive_precision, clippy::approx_constant, reason = "digits of a table, not of this machine")]
 const TABLE: [(&str, &[(&str, f64)]); 11] = [
     (
@@ -84,7 +85,8 @@ fn file(unit: &str, value: &str) -> String {
     TABLE.iter().fold(FILE.to_owned(), |text, (si, _)| with(text, si))
 }
 
-/// Law: a value with a unit is the value in SI, for every unit that the program knows of every key; the units are exactly those of the table.
+/// Law: a value with a unit is the value in SI, for every unit that the program knows of every key; the units are
+/// exactly those of the table.
 #[test]
 fn units_have_their_sizes() {
     let plan = |text: &str| Plan::from_text("units.toml", text, Overrides::default());
@@ -101,8 +103,8 @@ fn units_have_their_sizes() {
             for number in [1.0, 0.3, 7e3] {
                 let written =
                     plan(&file(si, &format!("\"{number} {unit}\""))).unwrap_or_else(|error| panic!("{error}"));
-                // the number that the plan's text has where that in plain SI has this one, to three roundings: of the size here, of the product,
-                // and of the program's quotient
+                // the number that the plan's text has where that in plain SI has this one, to three roundings: of the
+                // size here, of the product, and of the program's quotient
                 let near = |steps: i32| {
                     let exact = number * size;
                     let value =

@@ -13,8 +13,8 @@ fn set(text: &str, settings: &[(&str, &str)]) -> Result<Plan, CampaignError> {
     Plan::from_text("sweep.toml", text, Overrides { settings, ..Overrides::default() })
 }
 
-/// Law: a key that is set is as if the file said so: of a table, of one of a list by its name or number, of a table that is not there; several; as text with a
-/// unit. It is in the plan and its hash.
+/// Law: a key that is set is as if the file said so: of a table, of one of a list by its name or number, of a table
+/// that is not there; several; as text with a unit. It is in the plan and its hash.
 #[test]
 fn what_is_set_is_as_if_it_were_written() {
     let text = shipped();
@@ -34,7 +34,8 @@ fn what_is_set_is_as_if_it_were_written() {
     assert_eq!((twice.seed, twice.groups.len()), (6, 1));
 }
 
-/// Law: what is wrong in a setting is told with the setting, its value and what is allowed; other errors keep the lines of the file.
+/// Law: what is wrong in a setting is told with the setting, its value and what is allowed; other errors keep the lines
+/// of the file.
 #[test]
 fn wrong_settings_are_named() {
     let text = shipped();
@@ -73,14 +74,16 @@ fn names_of_other_programs_are_understood() {
     }
 }
 
-/// Law: a file that extends another has the keys of both, its own first; tables of lists by their names; the plan is that of one file with all of it. Paths
-/// count from the folder of the file that has them, and errors name file and line.
+/// Law: a file that extends another has the keys of both, its own first; tables of lists by their names; the plan is
+/// that of one file with all of it. Paths count from the folder of the file that has them, and errors name file and
+/// line.
 #[test]
 fn a_file_extends_another() {
     let scratch = ScratchFolder::new("extends");
     std::fs::create_dir_all(scratch.path("bases")).unwrap();
     scratch.file("bases/sweep.toml", &shipped());
-    let variant = "extends = \"bases/sweep.toml\"\n[campaign]\nname = \"longer\"\nduration_s = 33.0\n[[wheels]]\nname = \"w2\"\nrate_rad_s = 7.0\n";
+    let variant = "extends = \"bases/sweep.toml\"\n[campaign]\nname = \"longer\"\nduration_s = 33.0\n[[wheels]]\nname \
+        = \"w2\"\nrate_rad_s = 7.0\n";
     scratch.file("longer.toml", variant);
     let load = |name: &str| Plan::load_with_files(&scratch.path(name), Overrides::default());
     let (plan, files) = load("longer.toml").unwrap();

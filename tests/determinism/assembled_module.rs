@@ -15,7 +15,8 @@ pub const NOTHING: &[u8] = &[0x0b];
 /// A module: one that is flown without a torque, but for what a test changes.
 #[derive(Clone, Debug)]
 pub struct Assembled {
-    /// What `spindrift_interface`, `spindrift_input`, `spindrift_output`, `spindrift_measurements` and `spindrift_telemetry` return.
+    /// What `spindrift_interface`, `spindrift_input`, `spindrift_output`, `spindrift_measurements` and
+    /// `spindrift_telemetry` return.
     pub places: [i32; 5],
     /// Pages of 64 KiB of the memory.
     pub pages: u32,

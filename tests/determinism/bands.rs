@@ -74,8 +74,8 @@ fn merged<'a>(files: impl IntoIterator<Item = &'a Vec<u8>>) -> Bands {
     bands_file::read(&Disk, &written.collect::<Vec<_>>(), None).unwrap().expect("bands")
 }
 
-/// For each series with bands its values at the points of the bands, sample by sample, from runs as `simulate` makes them; those of
-/// the nominal run first.
+/// For each series with bands its values at the points of the bands, sample by sample, from runs as `simulate` makes
+/// them; those of the nominal run first.
 fn exact(plan: &Plan, points: &[usize]) -> BTreeMap<String, Vec<Vec<f64>>> {
     let isa = Isa::best();
     let simulated = |sample: u64| SingleRun::new(plan, SampleId(sample), plan.grid.clone(), isa);
@@ -136,8 +136,9 @@ fn deviations(bands: &Bands, exact: &BTreeMap<String, Vec<Vec<f64>>>) -> Vec<Str
     wrong
 }
 
-/// Law: count, nominal value, extremes and quantiles are those of the runs, as each sample alone gives them; runs that fail and the
-/// nominal run are not counted. Counter-tests: quantiles of another point, and of runs with the nominal one, are beyond the bounds.
+/// Law: count, nominal value, extremes and quantiles are those of the runs, as each sample alone gives them; runs that
+/// fail and the nominal run are not counted. Counter-tests: quantiles of another point, and of runs with the nominal
+/// one, are beyond the bounds.
 #[test]
 fn bands_are_the_quantiles_of_the_runs() {
     let plan = plan(9);
@@ -163,7 +164,8 @@ fn bands_are_the_quantiles_of_the_runs() {
     assert!(deviations(&bands, &exact).len() >= 16 * 9);
 }
 
-/// Law: bands of a part depend on the plan only: not on threads, nor on what a worker did before. Counter-test: a plan with another seed gives others.
+/// Law: bands of a part depend on the plan only: not on threads, nor on what a worker did before. Counter-test: a plan
+/// with another seed gives others.
 #[test]
 fn bands_depend_on_the_plan_only() {
     let plan = plan(5);
@@ -221,9 +223,10 @@ fn no_bands_where_none_are_asked_for() {
     assert!(Ensemble::new(&plan, Isa::best()).bands().is_none());
 }
 
-/// Law: quantiles over time of a large campaign are those of its first runs, bit for bit; extremes and the number of runs with a value are those of all runs. The
-/// share of all runs below such a quantile is within five standard errors of the stated one, and what is said of a limit is true of all runs. Neither threads nor the size of
-/// parts matter. Counter-test: the quantiles of all runs are others.
+/// Law: quantiles over time of a large campaign are those of its first runs, bit for bit; extremes and the number of
+/// runs with a value are those of all runs. The share of all runs below such a quantile is within five standard errors
+/// of the stated one, and what is said of a limit is true of all runs. Neither threads nor the size of parts matter.
+/// Counter-test: the quantiles of all runs are others.
 #[test]
 fn quantiles_of_a_large_campaign_are_those_of_its_first_runs() {
     const RUNS: u64 = 1000;

@@ -1,4 +1,5 @@
-//! Events: when quantities of a run cross values. Times are those of closed forms, by every method; bits are a row's own.
+//! Events: when quantities of a run cross values. Times are those of closed forms, by every method; bits are a row's
+//! own.
 
 use std::f64::consts::PI;
 
@@ -9,7 +10,8 @@ use spindrift::math::Isa;
 use spindrift::propagation::Method;
 use spindrift::sampling::SampleId;
 
-/// A free body with an axis of symmetry: moments 30, 30 and 20 kg m^2, which turns at 0.3 rad/s across its axis and at 0.6 rad/s about it.
+/// A free body with an axis of symmetry: moments 30, 30 and 20 kg m^2, which turns at 0.3 rad/s across its axis and at
+/// 0.6 rad/s about it.
 const FREE: &str = r#"[campaign]
 name = "free"
 samples = 40
@@ -38,8 +40,8 @@ fn precession() -> (f64, f64) {
     (across.hypot(along) / 30.0, across.atan2(along))
 }
 
-/// Law: s3 leaves its direction by alpha with sin(alpha/2) = sin(theta) sin(Omega t/2): its crossings of an angle are located to 1e-9 of their time or
-/// better by every method, and all of them are counted.
+/// Law: s3 leaves its direction by alpha with sin(alpha/2) = sin(theta) sin(Omega t/2): its crossings of an angle are
+/// located to 1e-9 of their time or better by every method, and all of them are counted.
 #[test]
 fn crossings_of_a_free_body_are_at_the_times_of_its_precession() {
     let (rate, angle) = precession();
@@ -76,7 +78,8 @@ fn crossings_of_a_free_body_are_at_the_times_of_its_precession() {
     }
 }
 
-/// Law: the rate of a body under a constant torque about an axis is linear in time; of a body that comes to rest and turns round it is |w - a t|.
+/// Law: the rate of a body under a constant torque about an axis is linear in time; of a body that comes to rest and
+/// turns round it is |w - a t|.
 #[test]
 fn a_rate_under_torque_crosses_where_it_must() {
     let of = |value: f64, more: &str| {
@@ -166,7 +169,8 @@ fn what_is_not_a_number_crosses_nothing() {
     }
 }
 
-/// Law: events are a row's own: the same bits alone, in any part, on every instruction set, and in a single run; and no other column changes.
+/// Law: events are a row's own: the same bits alone, in any part, on every instruction set, and in a single run; and no
+/// other column changes.
 #[test]
 fn events_are_bits_of_their_row() {
     let events = event("first", "spin_axis_angle_rad", 0.7, "")
@@ -204,7 +208,8 @@ fn events_are_bits_of_their_row() {
     }
 }
 
-/// Law: a quantity of a control loop changes at its ticks, and its events are at ticks; whatever the observation points are.
+/// Law: a quantity of a control loop changes at its ticks, and its events are at ticks; whatever the observation points
+/// are.
 #[test]
 fn quantities_of_loops_cross_at_ticks() {
     let shipped = include_str!("../../campaigns/slew_closed.toml");

@@ -36,8 +36,9 @@ fn extreme(name: &str, quantity: &str, more: &str) -> String {
     format!("[[extreme]]\nname = \"{name}\"\nquantity = \"{quantity}\"\n{more}\n")
 }
 
-/// Law: s3 of a free body leaves its direction by alpha with sin(alpha/2) = sin(theta) |sin(Omega t/2)|: its largest angle is 2 theta, its smallest one zero, and
-/// where it has neither of them after an event, that at the later end; by every method, with points that are half a radian of precession apart.
+/// Law: s3 of a free body leaves its direction by alpha with sin(alpha/2) = sin(theta) |sin(Omega t/2)|: its largest
+/// angle is 2 theta, its smallest one zero, and where it has neither of them after an event, that at the later end; by
+/// every method, with points that are half a radian of precession apart.
 #[test]
 fn extremes_of_a_free_body_are_those_of_its_precession() {
     let (across, along): (f64, f64) = (30.0 * 0.3, 20.0 * 0.6);
@@ -108,7 +109,8 @@ fn extremes_are_values_of_the_quantity() {
     }
 }
 
-/// Law: extremes of bodies without an axis of symmetry, from points a second apart, are those of points that are 500 times as near, and no smaller.
+/// Law: extremes of bodies without an axis of symmetry, from points a second apart, are those of points that are 500
+/// times as near, and no smaller.
 #[test]
 fn extremes_are_those_of_many_points() {
     let more = SPREAD.to_owned()
@@ -123,7 +125,8 @@ fn extremes_are_those_of_many_points() {
     for row in 0..40 {
         for (name, dense) in [("angle_rad", "spin_axis_angle_max_rad"), ("rate_rad_s", "angular_rate_max_rad_s")] {
             let [found, dense] = [column(&coarse, &found, name)[row], column(&fine, &truth, dense)[row]];
-            // an eighth of the square of an interval, by the largest second derivative, which an angle near half a turn has
+            // an eighth of the square of an interval, by the largest second derivative, which an angle near half a turn
+            // has
             assert!(
                 found >= dense - 1e-12 && found - dense < 1e-6 / (std::f64::consts::PI - found).clamp(1e-3, 1.0),
                 "sample {row}, {name}: {found} and {dense}"
@@ -136,7 +139,8 @@ fn extremes_are_those_of_many_points() {
     assert!(beyond > 20, "{beyond} beyond the points");
 }
 
-/// Law: a quantity of a control loop is known at its ticks, and its extremes are the same for all observation points; those of a shorter interval are no larger.
+/// Law: a quantity of a control loop is known at its ticks, and its extremes are the same for all observation points;
+/// those of a shorter interval are no larger.
 #[test]
 fn extremes_of_loops_are_at_ticks() {
     let shipped = include_str!("../../campaigns/slew_closed.toml");
@@ -172,7 +176,8 @@ fn extremes_of_loops_are_at_ticks() {
     }
 }
 
-/// Law: extremes are a row's own: the same bits alone, in any part, on every instruction set, and in a single run; no other column changes.
+/// Law: extremes are a row's own: the same bits alone, in any part, on every instruction set, and in a single run; no
+/// other column changes.
 #[test]
 fn extremes_are_bits_of_their_row() {
     let more = event("first", "spin_axis_angle_rad", 0.7, "")

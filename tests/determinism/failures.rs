@@ -57,7 +57,8 @@ damping = 0.7
 target = "attitude"
 attitude = [1, 0, 0, 0]
 "#;
-const WHEEL: &str = "mass_kg = 1.0\naxial_inertia_kg_m2 = 1e-3\ntransverse_inertia_kg_m2 = 6e-4\ntorque_limit_n_m = 0.02\nviscous_friction_n_m_s = 1e-6";
+const WHEEL: &str = "mass_kg = 1.0\naxial_inertia_kg_m2 = 1e-3\ntransverse_inertia_kg_m2 = 6e-4\ntorque_limit_n_m = \
+    0.02\nviscous_friction_n_m_s = 1e-6";
 
 fn held() -> String {
     HELD.replace("WHEEL", WHEEL)
@@ -92,8 +93,8 @@ fn same_points(a: &SingleRun, b: &SingleRun) -> usize {
 
 const DEAD: &str = "[[failure]]\nname = \"dead\"\nwheel = \"w1\"\n";
 
-/// Law: until the last tick before its failure, a run under a loop is the one without it, bit for bit; then it is another; a failure at the end or after it
-/// changes nothing at all. An arc ends at the failure.
+/// Law: until the last tick before its failure, a run under a loop is the one without it, bit for bit; then it is
+/// another; a failure at the end or after it changes nothing at all. An arc ends at the failure.
 #[test]
 fn a_run_is_the_same_until_the_failure() {
     let healthy = run(&held(), 3);
@@ -182,7 +183,8 @@ fn a_schedule_has_what_the_failed_devices_apply() {
         .replace("max_thrust_n = 0.1\n", "");
     let arc = |start: f64, end: f64, thrust: f64, torque: f64| {
         format!(
-            "[[actuation]]\nstart_s = {start:?}\nend_s = {end:?}\nthrust_n = {{ p1 = {thrust:?} }}\ntorque_n_m = {{ w1 = {torque:?}, w2 = 0.001 }}\n"
+            "[[actuation]]\nstart_s = {start:?}\nend_s = {end:?}\nthrust_n = {{ p1 = {thrust:?} }}\ntorque_n_m = {{ w1 \
+            = {torque:?}, w2 = 0.001 }}\n"
         )
     };
     let idle = |start: f64, end: f64, thrust: f64| {
@@ -231,7 +233,8 @@ fn a_thruster_that_is_stuck_on_burns_propellant() {
     );
 }
 
-/// Law: the row says when a device failed and that it did, where it did before the end; lanes and shards agree with a single run.
+/// Law: the row says when a device failed and that it did, where it did before the end; lanes and shards agree with a
+/// single run.
 #[test]
 fn the_row_says_what_has_failed() {
     let draw = "[[disperse]]\nparameter = \"failure.dead.at_s\"\ndistribution = \"uniform\"\nmin = 0.0\nmax = 160.0\n";
@@ -294,8 +297,9 @@ fn loops_fly_on_without_a_sensor() {
     assert!(frozen.is_finite());
 }
 
-/// Law: a torque rod that is dead from the start is one of the scale zero, and one that is stuck is a part of the residual dipole; until its failure a run is the one
-/// without it, bit for bit, and then it is another; the run knows nothing of it.
+/// Law: a torque rod that is dead from the start is one of the scale zero, and one that is stuck is a part of the
+/// residual dipole; until its failure a run is the one without it, bit for bit, and then it is another; the run knows
+/// nothing of it.
 #[test]
 fn a_torque_rod_fails() {
     let shipped = include_str!("../../campaigns/detumble_magnetic.toml").replace("110 min", "30 min");

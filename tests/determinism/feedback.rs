@@ -1,5 +1,5 @@
-//! Runs under laws of their own: bits do not depend on lanes, other runs, order, instruction set or threads, and the record of the
-//! arcs flown gives the same run again.
+//! Runs under laws of their own: bits do not depend on lanes, other runs, order, instruction set or threads, and the
+//! record of the arcs flown gives the same run again.
 
 use crate::support::feedback::{Flight, PERIOD, fly, fly_recorded, fly_schedules, fly_under, law};
 use crate::support::observed::request;
@@ -25,8 +25,8 @@ fn bits(flights: &[Flight]) -> Vec<Bits> {
     flights.iter().map(|flight| flight.run.bits()).collect()
 }
 
-/// Law: a run under feedback is the same bits alone, together with others, in any order, on every instruction set, and on two
-/// threads.
+/// Law: a run under feedback is the same bits alone, together with others, in any order, on every instruction set, and
+/// on two threads.
 #[test]
 fn bits_are_a_run_s_own() {
     for (method, control) in METHODS {
@@ -59,7 +59,8 @@ fn bits_are_a_run_s_own() {
     }
 }
 
-/// Law: the record of the arcs flown is a schedule that gives the same bits: as a law, and as the schedule of the scene.
+/// Law: the record of the arcs flown is a schedule that gives the same bits: as a law, and as the schedule of the
+/// scene.
 #[test]
 fn the_record_flown_again_gives_the_same_bits() {
     for (method, control) in METHODS {
@@ -85,8 +86,9 @@ fn the_record_flown_again_gives_the_same_bits() {
     }
 }
 
-/// Law: the environment acts beside a law as beside a schedule: a law that answers from the schedule of the scene, or nothing where that is
-/// empty, flies the open loop of the same scene, bit for bit, and another than without the environment.
+/// Law: the environment acts beside a law as beside a schedule: a law that answers from the schedule of the scene, or
+/// nothing where that is empty, flies the open loop of the same scene, bit for bit, and another than without the
+/// environment.
 #[test]
 fn the_environment_acts_beside_a_law() {
     for forced in [false, true] {
@@ -106,8 +108,8 @@ fn the_environment_acts_beside_a_law() {
     }
 }
 
-/// Law: arcs much shorter than a step, of another length and order in every lane, beside lanes with longer ones and with nothing that acts: bits are a
-/// run's own, and its record replayed gives them again.
+/// Law: arcs much shorter than a step, of another length and order in every lane, beside lanes with longer ones and
+/// with nothing that acts: bits are a run's own, and its record replayed gives them again.
 #[test]
 fn bits_of_brief_arcs_are_a_run_s_own() {
     let mut scenes = mixed(13, false, HORIZON);
@@ -160,7 +162,8 @@ impl<L: ActuationLaw> ActuationLaw for Pushing<L> {
     }
 }
 
-/// Law: a law's torque on a wheel whose motor holds its speed, or on one that is not there, changes no bit; on a free wheel it does.
+/// Law: a law's torque on a wheel whose motor holds its speed, or on one that is not there, changes no bit; on a free
+/// wheel it does.
 #[test]
 fn a_torque_on_a_held_wheel_changes_no_bit() {
     let scenes = (0..12).map(|k| Scene::resolve(&many_wheels(4, k, false, HORIZON)).expect("physical"));
@@ -196,7 +199,8 @@ fn scheduled(observer: &mut Observer, isa: Isa, scene: &Scene, run: &CompletedRu
     observer.observe(isa, scene, run.table, run.outcome, row);
 }
 
-/// Every column of the runs of `scenes` by `method`, as bits, and the arcs flown; under the laws of the scenes, or by their schedules.
+/// Every column of the runs of `scenes` by `method`, as bits, and the arcs flown; under the laws of the scenes, or by
+/// their schedules.
 fn rows(
     isa: Isa,
     (method, control): (Method, Control),
@@ -224,7 +228,8 @@ fn rows(
     (rows, records)
 }
 
-/// Law: on every instruction set, the columns of a run under a law are those of its record flown as an open-loop schedule, bit for bit.
+/// Law: on every instruction set, the columns of a run under a law are those of its record flown as an open-loop
+/// schedule, bit for bit.
 #[test]
 fn columns_are_those_of_the_record_replayed() {
     for (method, control) in METHODS {

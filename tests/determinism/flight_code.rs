@@ -1,5 +1,5 @@
-//! Flight code in WebAssembly modules: rows are those of the built-in law of the same operations, and functions of plan and sample as all others; a module that
-//! misbehaves is refused, or gives rows that say why.
+//! Flight code in WebAssembly modules: rows are those of the built-in law of the same operations, and functions of plan
+//! and sample as all others; a module that misbehaves is refused, or gives rows that say why.
 
 use std::path::PathBuf;
 
@@ -64,8 +64,8 @@ pub fn rows(plan: &Plan, isa: Isa, first: u64, count: usize) -> Vec<Vec<u64>> {
     (0..columns).map(|column| rows.observable(column).iter().map(|value| value.to_bits()).collect()).collect()
 }
 
-/// Law: modules from C and from Rust that compute what the built-in law computes give its rows, bit for bit, with a memory, in two phases, and with a dispersed
-/// parameter; another default or another operation gives other rows.
+/// Law: modules from C and from Rust that compute what the built-in law computes give its rows, bit for bit, with a
+/// memory, in two phases, and with a dispersed parameter; another default or another operation gives other rows.
 #[test]
 fn modules_have_the_bits_of_the_built_in_law() {
     let folder = folder("flight-code-bits");
@@ -83,7 +83,8 @@ fn modules_have_the_bits_of_the_built_in_law() {
     }
 }
 
-/// Law: rows do not depend on the instruction set, on the first sample of a part, or on how many runs are integrated together.
+/// Law: rows do not depend on the instruction set, on the first sample of a part, or on how many runs are integrated
+/// together.
 #[test]
 fn rows_are_a_run_s_own() {
     let folder = folder("flight-code-own");
@@ -101,8 +102,8 @@ fn rows_are_a_run_s_own() {
     }
 }
 
-/// Law: a result under a module is the same by one thread, by two, in shards, and continued; it is complete in itself, without the campaign's folder: replayed,
-/// verified and opened.
+/// Law: a result under a module is the same by one thread, by two, in shards, and continued; it is complete in itself,
+/// without the campaign's folder: replayed, verified and opened.
 #[test]
 fn results_hold_without_the_module_s_own_file() {
     results_hold(folder("flight-code-results"), CAMPAIGN, BUILT[0]);
@@ -228,7 +229,8 @@ pub fn with(folder: &ScratchFolder, module: &[u8]) -> String {
     format!("{}{}", &text[..own], &text[end..]).replace(BUILT[0], "hostile.wasm")
 }
 
-/// Law: a step that traps, runs for ever or gives no finite torque ends the run with that reason, at that tick; every row is there.
+/// Law: a step that traps, runs for ever or gives no finite torque ends the run with that reason, at that tick; every
+/// row is there.
 #[test]
 fn runs_end_with_the_reason_of_their_module() {
     let folder = ScratchFolder::new("flight-code-hostile-steps");
@@ -359,7 +361,8 @@ fn modules_that_cannot_fly_are_refused() {
     }
 }
 
-/// Law: a text of parameters without an end is refused; one with parameters makes them keys with units, defaults and the meaning that it says.
+/// Law: a text of parameters without an end is refused; one with parameters makes them keys with units, defaults and
+/// the meaning that it says.
 #[test]
 fn declared_parameters_are_keys() {
     let folder = ScratchFolder::new("flight-code-parameters");

@@ -1,5 +1,5 @@
-//! Modules of flight code at random, each loaded and flown as campaigns are, in processes of their own: an error or rows, never a panic, a crash or a hang, within
-//! bounds of time and memory.
+//! Modules of flight code at random, each loaded and flown as campaigns are, in processes of their own: an error or
+//! rows, never a panic, a crash or a hang, within bounds of time and memory.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -22,7 +22,8 @@ use spindrift::sampling::SampleId;
 const OF_A_CHILD: u64 = 500;
 /// Runs of each module, of nine ticks.
 const RUNS: usize = 3;
-/// Most time on the processor that a module may take, to be compiled and to fly twice, s: several times the slowest that was found.
+/// Most time on the processor that a module may take, to be compiled and to fly twice, s: several times the slowest
+/// that was found.
 const MOST_CPU: f64 = 30.0;
 /// Most time that passes without news of a child, on a machine that has other work.
 const PATIENCE: Duration = Duration::from_secs(600);
@@ -181,7 +182,8 @@ impl Report {
         text
     }
 
-    /// Tries the modules from `first` to `end` in a child process; the first that is not tried: `end`, unless one has ended the process.
+    /// Tries the modules from `first` to `end` in a child process; the first that is not tried: `end`, unless one has
+    /// ended the process.
     fn try_modules(&mut self, seed: u64, first: u64, end: u64) -> u64 {
         let mut child = Command::new(std::env::current_exe().unwrap());
         child.args(["--exact", "flight_code_fuzz::modules_of_a_child", "--ignored", "--nocapture"]);
@@ -237,7 +239,8 @@ impl Report {
     }
 }
 
-/// Law: an error or a row: of modules of every kind some are refused and some fly, and none ends its process, panics in a run, or gives other rows the second time.
+/// Law: an error or a row: of modules of every kind some are refused and some fly, and none ends its process, panics in
+/// a run, or gives other rows the second time.
 #[test]
 fn some_modules_at_random_are_refused_or_fly() {
     let mut report = Report::default();
@@ -263,9 +266,11 @@ fn some_modules_at_random_are_refused_or_fly() {
     assert!(found.iter().all(|count| *count > 0), "{}", report.text());
 }
 
-/// The same for as many seconds of the processor as `SPINDRIFT_FUZZ_S` says (3,600), from seed `SPINDRIFT_FUZZ_SEED` (1) on, with news every minute.
+/// The same for as many seconds of the processor as `SPINDRIFT_FUZZ_S` says (3,600), from seed `SPINDRIFT_FUZZ_SEED`
+/// (1) on, with news every minute.
 #[test]
-#[ignore = "an hour: cargo test --release --features wasm --test determinism -- --ignored --nocapture an_hour_of_modules"]
+#[ignore = "an hour: cargo test --release --features wasm --test determinism -- --ignored --nocapture \
+    an_hour_of_modules"]
 fn an_hour_of_modules_at_random() {
     let told = |name: &str, other: u64| std::env::var(name).map_or(other, |text| text.parse().unwrap());
     let (seconds, seed) = (told("SPINDRIFT_FUZZ_S", 3600) as f64, told("SPINDRIFT_FUZZ_SEED", 1));

@@ -1,4 +1,5 @@
-//! What interface 2 of flight code has beside interface 1: measurements, by what sensors deliver; telemetry, as columns of rows and of time series.
+//! What interface 2 of flight code has beside interface 1: measurements, by what sensors deliver; telemetry, as columns
+//! of rows and of time series.
 
 use super::assembled_module::{Assembled, INPUT, MEASURED, REPORTED, constant, copied};
 use super::flight_code::{plan_in, rows, with};
@@ -35,8 +36,9 @@ fn of_row(run: &SingleRun, name: &str) -> f64 {
         [columns.iter().position(|column| column.quantity.name() == name).unwrap_or_else(|| panic!("no column {name}"))]
 }
 
-/// Law: a module is told of each sensor that it wants what this one has delivered last, in the order of its columns of telemetry, and how long ago that was measured: -1 and zeros
-/// before the first. Independent: the columns of measurements that the loop records, held, and the sensor's period and latency.
+/// Law: a module is told of each sensor that it wants what this one has delivered last, in the order of its columns of
+/// telemetry, and how long ago that was measured: -1 and zeros before the first. Independent: the columns of
+/// measurements that the loop records, held, and the sensor's period and latency.
 #[test]
 fn measurements_are_what_sensors_have_delivered_last() {
     let folder = ScratchFolder::new("flight-code-measurements");
@@ -87,13 +89,15 @@ fn measurements_are_what_sensors_have_delivered_last() {
     assert_eq!(recorded(&run, "module_n0")[..5], [-1.0, 0.25, 0.5, 0.25, 0.5]);
 }
 
-/// Law: telemetry is a column of time series at each tick, and two of rows: what was reported last, and the largest magnitude, with the unit and the meaning that the module
-/// says; `[[require]]` knows them. Independent: the state of the loop that its own columns show.
+/// Law: telemetry is a column of time series at each tick, and two of rows: what was reported last, and the largest
+/// magnitude, with the unit and the meaning that the module says; `[[require]]` knows them. Independent: the state of
+/// the loop that its own columns show.
 #[test]
 fn telemetry_is_columns() {
     let folder = ScratchFolder::new("flight-code-telemetry");
     let rate = [copied(INPUT + 8 * 8, REPORTED, 3), copied(INPUT, REPORTED + 24, 1), vec![0x0b]].concat();
-    let text = "x_rad_s | rad/s | Rate about s1\ny_rad_s | rad/s | Rate about s2\nz_rad_s | rad/s | Rate about s3\nclock_s | s | Time\n";
+    let text = "x_rad_s | rad/s | Rate about s1\ny_rad_s | rad/s | Rate about s2\nz_rad_s | rad/s | Rate about \
+        s3\nclock_s | s | Time\n";
     let campaign = with(&folder, &module("", text, &rate).bytes());
     let judged =
         "[[require]]\nobservable = \"module_x_max_rad_s\"\nfraction = 0.9\nat_most = \"1 deg/s\"\nconfidence = 0.9\n";
@@ -119,8 +123,9 @@ fn telemetry_is_columns() {
     );
 }
 
-/// Law: telemetry that is no finite number is null where it stands, in the largest magnitude for the whole run, and in the last value where it is the last; the run goes on. Of a
-/// run whose module traps, the last value is that of the tick before.
+/// Law: telemetry that is no finite number is null where it stands, in the largest magnitude for the whole run, and in
+/// the last value where it is the last; the run goes on. Of a run whose module traps, the last value is that of the
+/// tick before.
 #[test]
 fn telemetry_that_is_not_finite_is_null() {
     let folder = ScratchFolder::new("flight-code-telemetry-null");

@@ -1,4 +1,5 @@
-//! The bits of a run depend on nothing else: not on other runs, order, lane or instruction set. Golden hashes lock them.
+//! The bits of a run depend on nothing else: not on other runs, order, lane or instruction set. Golden hashes lock
+//! them.
 
 use crate::support::orbits::tumbling;
 use crate::support::runs::{Bits, METHODS, Run, adaptive, control_of, everything, hash, propagate_on};
@@ -41,7 +42,8 @@ fn wholes(runs: &[Run]) -> Vec<Whole> {
     runs.iter().map(whole).collect()
 }
 
-/// Law: the row of a scene is the same bits alone, together with other runs, in any order, and on every instruction set.
+/// Law: the row of a scene is the same bits alone, together with other runs, in any order, and on every instruction
+/// set.
 fn equal_among_runs_of(horizon: f64, method: Method, control: Control, scenes: &dyn Fn(bool) -> Vec<Scene>) {
     for forced in [false, true] {
         let scenes = scenes(forced);
@@ -136,9 +138,9 @@ fn runs_that_fail_beside_runs_that_do_not() {
 /// SHA-256 of outcome and states of sixteen fixed scenes, without and with actuators.
 ///
 /// They may change where the arithmetic of a method changes on purpose: another order of operations, step rule, dense
-/// output, or a component more in the table. Then the new ones (printed by this test) are committed together with that change,
-/// and its message says why. They may not change with the machine, the compiler, the instruction set, the number of threads,
-/// an optimisation that claims to keep the bits, or a new version of a dependency.
+/// output, or a component more in the table. Then the new ones (printed by this test) are committed together with that
+/// change, and its message says why. They may not change with the machine, the compiler, the instruction set, the
+/// number of threads, an optimisation that claims to keep the bits, or a new version of a dependency.
 const GOLDEN: [(Method, &str, &str); 7] = [
     (
         Method::Auto,
@@ -177,8 +179,8 @@ const GOLDEN: [(Method, &str, &str); 7] = [
     ),
 ];
 
-/// Outcome and states of scene number `k` of [`mixed`], as the golden hashes have them: they are older than lists of wheels, and the
-/// table then had W1 and W2 in every scene, with zeros where the scene has no such wheel.
+/// Outcome and states of scene number `k` of [`mixed`], as the golden hashes have them: they are older than lists of
+/// wheels, and the table then had W1 and W2 in every scene, with zeros where the scene has no such wheel.
 fn golden_bits(run: &Run, k: u64, forced: bool) -> Bits {
     let has = mixed_kind(k, forced).wheels;
     let table = &run.table;

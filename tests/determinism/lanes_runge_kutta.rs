@@ -1,4 +1,5 @@
-//! Lane i of eight equals the scalar run bit for bit, on every path, whatever runs are in other lanes or came before it.
+//! Lane i of eight equals the scalar run bit for bit, on every path, whatever runs are in other lanes or came before
+//! it.
 
 use std::collections::HashSet;
 

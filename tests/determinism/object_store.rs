@@ -1,5 +1,6 @@
-//! Results in an object store: the bytes of a folder, whatever stops a process and however many there are; nothing is replaced, and nothing that is not whole looks whole. The store is a real server
-//! ([`super::store_proxy`]), which `.ci/cloud` starts.
+//! Results in an object store: the bytes of a folder, whatever stops a process and however many there are; nothing is
+//! replaced, and nothing that is not whole looks whole. The store is a real server ([`super::store_proxy`]), which
+//! `.ci/cloud` starts.
 
 use std::fs;
 use std::process::{Command, Stdio};
@@ -9,8 +10,8 @@ use super::store_proxy::{Fate, Message, Proxy};
 use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL2};
 use crate::support::scratch_folder::contents;
 
-/// Law: a store has the files of a folder, byte for byte, each put on the condition that there is none; on another machine every command that reads a result finds it there, and the campaign finds
-/// it complete and puts nothing.
+/// Law: a store has the files of a folder, byte for byte, each put on the condition that there is none; on another
+/// machine every command that reads a result finds it there, and the campaign finds it complete and puts nothing.
 #[test]
 fn a_store_has_the_files_of_a_folder() {
     let bench = Bench::new("same");
@@ -27,7 +28,8 @@ fn a_store_has_the_files_of_a_folder() {
             && found.keys().any(|name| name.starts_with("data/"))
     );
     assert!(found.keys().filter(|name| name.starts_with("runs/")).count() > 2 && found.contains_key("report.html"));
-    // first what the plan names, whose copy is compared at the end, then the plan; last what says that everything is there
+    // first what the plan names, whose copy is compared at the end, then the plan; last what says that everything is
+    // there
     let puts: Vec<String> = proxy.requests().into_iter().filter(|request| request.starts_with("PUT")).collect();
     assert!(puts[0].contains("/data/") && puts[1].ends_with(HEAD_OBJECT) && puts.len() == found.len() + 1, "{puts:?}");
     assert!(puts[puts.len() - 2].ends_with("manifest.jsonl") && puts[puts.len() - 1].ends_with(SUCCESS), "{puts:?}");
@@ -62,7 +64,8 @@ fn a_store_has_the_files_of_a_folder() {
     }));
 }
 
-/// Law: shards on machines of their own and a finish on another give the same objects; one that was not all made is unfinished.
+/// Law: shards on machines of their own and a finish on another give the same objects; one that was not all made is
+/// unfinished.
 #[test]
 fn shards_meet_in_a_store() {
     let bench = Bench::new("shards");
@@ -83,8 +86,9 @@ fn shards_meet_in_a_store() {
     assert!(proxy.requests().iter().all(|request| request.starts_with("GET")));
 }
 
-/// Law: a process that is killed at any request, before the store sees it or before its answer, leaves nothing that looks whole and is not; the same command makes the whole result of the same
-/// bytes, on the same machine and on another.
+/// Law: a process that is killed at any request, before the store sees it or before its answer, leaves nothing that
+/// looks whole and is not; the same command makes the whole result of the same bytes, on the same machine and on
+/// another.
 #[test]
 fn a_kill_at_every_request_changes_no_byte() {
     let bench = Bench::new("kills");
@@ -123,8 +127,9 @@ fn a_kill_at_every_request_changes_no_byte() {
     assert!(killed > 50, "{killed}");
 }
 
-/// Law: a shard that ends with 0 has put all its parts, whatever request it was killed at before; and a campaign with `[stop]`, whose last part gets further rows after each look, puts no part that is not
-/// final: the result is that of a folder.
+/// Law: a shard that ends with 0 has put all its parts, whatever request it was killed at before; and a campaign with
+/// `[stop]`, whose last part gets further rows after each look, puts no part that is not final: the result is that of a
+/// folder.
 #[test]
 fn parts_are_put_once_they_are_final() {
     let bench = Bench::new("final");
@@ -188,7 +193,8 @@ fn a_reader_that_is_killed_reads_again() {
     }
 }
 
-/// Law: of processes that make the same at the same time all succeed, with one result; another plan, or another content under a name, is refused by name, and what was there first stays.
+/// Law: of processes that make the same at the same time all succeed, with one result; another plan, or another content
+/// under a name, is refused by name, and what was there first stays.
 #[test]
 fn the_first_content_stays() {
     let bench = Bench::new("writers");
@@ -225,7 +231,8 @@ fn the_first_content_stays() {
     }
 }
 
-/// Law: whatever object is changed or missing, `verify` and commands that read it say which; once what has changed is removed, the campaign's command puts the same bytes again.
+/// Law: whatever object is changed or missing, `verify` and commands that read it say which; once what has changed is
+/// removed, the campaign's command puts the same bytes again.
 #[test]
 fn every_damaged_object_is_found() {
     let bench = Bench::new("damage");
@@ -267,7 +274,8 @@ fn every_damaged_object_is_found() {
     assert_whole(&bench.objects("x"), &whole, SUCCESS);
 }
 
-/// Law: 409 and 503 are tried again, and an answer that was lost is looked up; a store that never takes an object is given up with its name.
+/// Law: 409 and 503 are tried again, and an answer that was lost is looked up; a store that never takes an object is
+/// given up with its name.
 #[test]
 fn what_a_store_refuses_for_a_moment_is_tried_again() {
     let bench = Bench::new("again");
@@ -309,7 +317,8 @@ fn what_is_missing_is_said() {
     let refusing = Proxy::new(|_, _: &Message| {
         Fate::Answered(
             403,
-            "<Error><Code>InvalidAccessKeyId</Code><Message>AKIAKEYOFNOBODY does not exist a-secret-that-nobody-reads</Message></Error>",
+            "<Error><Code>InvalidAccessKeyId</Code><Message>AKIAKEYOFNOBODY does not exist \
+            a-secret-that-nobody-reads</Message></Error>",
         )
     });
     let unavailable = Proxy::new(|_, _: &Message| Fate::Answered(503, "<Code>SlowDown</Code>"));

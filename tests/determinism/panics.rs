@@ -10,7 +10,8 @@ use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 
-/// The engine of a campaign, which panics at scenes with a spin above [`TOO_FAST`], before the last run of a batch ends.
+/// The engine of a campaign, which panics at scenes with a spin above [`TOO_FAST`], before the last run of a batch
+/// ends.
 struct Fragile(Box<dyn Engine>);
 
 /// Some 2% of the samples of the campaign spin faster, rad/s.

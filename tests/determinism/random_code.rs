@@ -1,4 +1,5 @@
-//! [`body`]: code of a function, at random, that is valid by construction: of the types that the instructions have (WebAssembly 2.0, sections 2.4 and 5.4).
+//! [`body`]: code of a function, at random, that is valid by construction: of the types that the instructions have
+//! (WebAssembly 2.0, sections 2.4 and 5.4).
 
 use super::assembled_module::{leb, size};
 
@@ -91,43 +92,53 @@ struct Code<'a> {
 #[rustfmt::skip]
 const UNARY: [&[(&[u8], usize)]; 5] = [
     &[
-        (&[0x45], I32), (&[0x50], I64), (&[0x67], I32), (&[0x68], I32), (&[0x69], I32), (&[0xa7], I64), (&[0xa8], F32), (&[0xaa], F64),
-        (&[0xab], F64), (&[0xbc], F32), (&[0xc0], I32), (&[0xc1], I32), (&[0xfc, 0], F32), (&[0xfc, 3], F64), (&[0xfd, 0x53], V128),
+        (&[0x45], I32), (&[0x50], I64), (&[0x67], I32), (&[0x68], I32), (&[0x69], I32), (&[0xa7], I64), (&[0xa8],
+        F32), (&[0xaa], F64),
+        (&[0xab], F64), (&[0xbc], F32), (&[0xc0], I32), (&[0xc1], I32), (&[0xfc, 0], F32), (&[0xfc, 3], F64),
+        (&[0xfd, 0x53], V128),
         (&[0xfd, 0x15, 3], V128), (&[0xfd, 0xa3, 1], V128), (&[0x40, 0], I32),
     ],
     &[
-        (&[0x79], I64), (&[0x7a], I64), (&[0x7b], I64), (&[0xac], I32), (&[0xad], I32), (&[0xae], F32), (&[0xb1], F64), (&[0xbd], F64),
+        (&[0x79], I64), (&[0x7a], I64), (&[0x7b], I64), (&[0xac], I32), (&[0xad], I32), (&[0xae], F32), (&[0xb1],
+        F64), (&[0xbd], F64),
         (&[0xc2], I64), (&[0xc4], I64), (&[0xfc, 4], F32), (&[0xfc, 7], F64), (&[0xfd, 0x1d, 1], V128),
     ],
     &[
-        (&[0x8b], F32), (&[0x8c], F32), (&[0x8d], F32), (&[0x90], F32), (&[0x91], F32), (&[0xb2], I32), (&[0xb5], I64), (&[0xb6], F64),
+        (&[0x8b], F32), (&[0x8c], F32), (&[0x8d], F32), (&[0x90], F32), (&[0x91], F32), (&[0xb2], I32), (&[0xb5],
+        I64), (&[0xb6], F64),
         (&[0xbe], I32), (&[0xfd, 0x1f, 2], V128),
     ],
     &[
-        (&[0x99], F64), (&[0x9a], F64), (&[0x9b], F64), (&[0x9c], F64), (&[0x9e], F64), (&[0x9f], F64), (&[0xb7], I32), (&[0xba], I64),
+        (&[0x99], F64), (&[0x9a], F64), (&[0x9b], F64), (&[0x9c], F64), (&[0x9e], F64), (&[0x9f], F64), (&[0xb7],
+        I32), (&[0xba], I64),
         (&[0xbb], F32), (&[0xbf], I64), (&[0xfd, 0x21, 1], V128),
     ],
     &[
-        (&[0xfd, 0x0f], I32), (&[0xfd, 0x11], I32), (&[0xfd, 0x12], I64), (&[0xfd, 0x13], F32), (&[0xfd, 0x14], F64), (&[0xfd, 0x4d], V128),
-        (&[0xfd, 0x60], V128), (&[0xfd, 0x62], V128), (&[0xfd, 0xe0, 1], V128), (&[0xfd, 0xef, 1], V128), (&[0xfd, 0xf8, 1], V128),
+        (&[0xfd, 0x0f], I32), (&[0xfd, 0x11], I32), (&[0xfd, 0x12], I64), (&[0xfd, 0x13], F32), (&[0xfd, 0x14], F64),
+        (&[0xfd, 0x4d], V128),
+        (&[0xfd, 0x60], V128), (&[0xfd, 0x62], V128), (&[0xfd, 0xe0, 1], V128), (&[0xfd, 0xef, 1], V128), (&[0xfd,
+        0xf8, 1], V128),
         (&[0xfd, 0xfc, 1], V128),
     ],
 ];
 /// Operators of two arguments of the type of their result.
 #[rustfmt::skip]
 const BINARY_OF_VECTORS: [&[u8]; 16] = [
-    &[0x4e], &[0x51], &[0x6e], &[0x71], &[0x0e], &[0x23], &[0x65], &[0xae, 1], &[0xb5, 1], &[0xe4, 1], &[0xe7, 1], &[0xe8, 1], &[0xf0, 1],
+    &[0x4e], &[0x51], &[0x6e], &[0x71], &[0x0e], &[0x23], &[0x65], &[0xae, 1], &[0xb5, 1], &[0xe4, 1], &[0xe7, 1],
+    &[0xe8, 1], &[0xf0, 1],
     &[0xf2, 1], &[0xf3, 1], &[0xf5, 1],
 ];
 /// Loads: the operator, its largest alignment, and the type.
 #[rustfmt::skip]
 const LOADS: [(&[u8], u8, usize); 10] = [
-    (&[0x28], 2, I32), (&[0x2c], 0, I32), (&[0x2f], 1, I32), (&[0x29], 3, I64), (&[0x35], 2, I64), (&[0x2a], 2, F32), (&[0x2b], 3, F64),
+    (&[0x28], 2, I32), (&[0x2c], 0, I32), (&[0x2f], 1, I32), (&[0x29], 3, I64), (&[0x35], 2, I64), (&[0x2a], 2, F32),
+    (&[0x2b], 3, F64),
     (&[0xfd, 0], 4, V128), (&[0xfd, 7], 0, V128), (&[0xfd, 10], 3, V128),
 ];
 #[rustfmt::skip]
 const STORES: [(&[u8], u8, usize); 8] = [
-    (&[0x36], 2, I32), (&[0x3a], 0, I32), (&[0x37], 3, I64), (&[0x3d], 1, I64), (&[0x38], 2, F32), (&[0x39], 3, F64), (&[0x39], 3, F64),
+    (&[0x36], 2, I32), (&[0x3a], 0, I32), (&[0x37], 3, I64), (&[0x3d], 1, I64), (&[0x38], 2, F32), (&[0x39], 3, F64),
+    (&[0x39], 3, F64),
     (&[0xfd, 0x0b], 4, V128),
 ];
 

@@ -1,4 +1,5 @@
-//! Events that end runs: an ended run is the run of a campaign of that duration, and its states at the end are those of closed forms.
+//! Events that end runs: an ended run is the run of a campaign of that duration, and its states at the end are those of
+//! closed forms.
 
 use super::whole_rows::{SPREAD, bits, column, event, names, near_rounding, plan, rows};
 use spindrift::ensemble::SingleRun;
@@ -7,7 +8,8 @@ use spindrift::propagation::Method;
 use spindrift::run::{Grid, Status};
 use spindrift::sampling::SampleId;
 
-/// A free body with an axis of symmetry: moments 30, 30 and 20 kg m^2, which turns at 0.3 rad/s across its axis and at 0.6 rad/s about it.
+/// A free body with an axis of symmetry: moments 30, 30 and 20 kg m^2, which turns at 0.3 rad/s across its axis and at
+/// 0.6 rad/s about it.
 const FREE: &str = r#"[campaign]
 name = "free"
 samples = 40
@@ -17,7 +19,8 @@ duration_s = 60.0
 METHOD
 [observe]
 points = 121
-groups = ["energy_conservation", "momentum_conservation", "attitude", "energies", "final_state", "effort", "numerics", "motion"]
+groups = ["energy_conservation", "momentum_conservation", "attitude", "energies", "final_state", "effort",
+    "numerics", "motion"]
 [body]
 mass_kg = 10.0
 center_of_mass_m = [0, 0, 0]
@@ -28,8 +31,9 @@ angular_velocity_rad_s = [0.3, 0.0, 0.6]
 
 const ENDS: &str = "ends_run = true\n";
 
-/// Law: a run ends where s3 has left its direction by alpha, sin(alpha/2) = sin(theta) sin(Omega t/2), by every method: that angle is the last and the largest
-/// one, and the rate across the axis has turned by (30 - 20)/30 of the rate about it. The earliest of several events ends the run.
+/// Law: a run ends where s3 has left its direction by alpha, sin(alpha/2) = sin(theta) sin(Omega t/2), by every method:
+/// that angle is the last and the largest one, and the rate across the axis has turned by (30 - 20)/30 of the rate
+/// about it. The earliest of several events ends the run.
 #[test]
 fn a_free_body_ends_in_the_state_of_its_closed_form() {
     let (across, along): (f64, f64) = (30.0 * 0.3, 20.0 * 0.6);
@@ -71,8 +75,8 @@ fn a_free_body_ends_in_the_state_of_its_closed_form() {
     }
 }
 
-/// Law: the row of a run that ends at 17.5 s, where its rate 0.6 - 0.02 t falls below 0.25 rad/s, is that of a campaign of 17.5 s with the same observation
-/// points, in every column; and not that of one of 17 s.
+/// Law: the row of a run that ends at 17.5 s, where its rate 0.6 - 0.02 t falls below 0.25 rad/s, is that of a campaign
+/// of 17.5 s with the same observation points, in every column; and not that of one of 17 s.
 #[test]
 fn an_ended_run_is_one_of_that_duration() {
     let text = FREE.replace("METHOD", "").replace("[0.3, 0.0, 0.6]", "[0.0, 0.0, 0.6]")
@@ -103,8 +107,8 @@ fn an_ended_run_is_one_of_that_duration() {
     assert!((column(&ends, &ended, "half_time_s")[0] - 7.5).abs() < 1e-11);
 }
 
-/// Law: an ended run has the same bits alone, in any part, on every instruction set, and as a single run, also one that is shown at other points; a run that
-/// does not end has the bits of a campaign without the event.
+/// Law: an ended run has the same bits alone, in any part, on every instruction set, and as a single run, also one that
+/// is shown at other points; a run that does not end has the bits of a campaign without the event.
 #[test]
 fn ended_runs_are_bits_of_their_row() {
     let events = event("tipped", "spin_axis_angle_rad", 0.7, ENDS)
@@ -150,8 +154,8 @@ fn ended_runs_are_bits_of_their_row() {
     }
 }
 
-/// Law: a control loop ends at the tick at which its quantity crosses, and reports what a campaign of that duration does, in every column; of a quantity of the
-/// motion it ends between ticks.
+/// Law: a control loop ends at the tick at which its quantity crosses, and reports what a campaign of that duration
+/// does, in every column; of a quantity of the motion it ends between ticks.
 #[test]
 fn loops_end_as_in_a_campaign_of_that_duration() {
     let shipped = include_str!("../../campaigns/slew_closed.toml").replace("points = 181", "points = 721");
@@ -201,7 +205,8 @@ fn a_run_may_fail_after_its_end() {
     assert_eq!(rows(&late, Isa::best(), 0, 1).statuses(), [Status::StepLimit]);
 }
 
-/// Law: at each time the bands are of the runs that have not ended before, with their values; the nominal run has none after its end.
+/// Law: at each time the bands are of the runs that have not ended before, with their values; the nominal run has none
+/// after its end.
 #[test]
 fn bands_lose_a_run_at_its_end() {
     let text = FREE.replace("METHOD", "") + SPREAD + "[bands]\npoints = 121\n";

@@ -62,7 +62,8 @@ fn what_is_not_requested_changes_nothing() {
     Method::ALL.par_iter().for_each(|method| skipping_changes_nothing(*method));
 }
 
-/// Law: fewer components are integrated where fewer groups are requested; otherwise the tests above would pass for a program that skips nothing.
+/// Law: fewer components are integrated where fewer groups are requested; otherwise the tests above would pass for a
+/// program that skips nothing.
 #[test]
 fn less_is_integrated() {
     let free = &mixed(1, false, HORIZON)[0];

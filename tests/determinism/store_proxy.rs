@@ -1,4 +1,5 @@
-//! The S3 server of the tests, spoken to directly, and a proxy before it that counts requests, answers in its place, loses answers, or kills a process at a request.
+//! The S3 server of the tests, spoken to directly, and a proxy before it that counts requests, answers in its place,
+//! loses answers, or kills a process at a request.
 
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
@@ -70,7 +71,8 @@ impl Message {
 /// What the server answers to `method path` with `body`: status and body.
 pub fn asked(method: &str, path: &str, body: &[u8]) -> (u16, Vec<u8>) {
     let head = format!(
-        "{method} {path} HTTP/1.1\r\nHost: {}\r\nAuthorization: {SIGNED}\r\nContent-Type: application/octet-stream\r\nContent-Length: {}\r\n\r\n",
+        "{method} {path} HTTP/1.1\r\nHost: {}\r\nAuthorization: {SIGNED}\r\nContent-Type: \
+        application/octet-stream\r\nContent-Length: {}\r\n\r\n",
         server(),
         body.len()
     );

@@ -48,7 +48,8 @@ fn rows_do_not_depend_on_threads() {
     }
 }
 
-/// Law: a sample that is run alone, by a worker that has run other samples before, in a part with other bounds, gives the same row.
+/// Law: a sample that is run alone, by a worker that has run other samples before, in a part with other bounds, gives
+/// the same row.
 #[test]
 fn rows_do_not_depend_on_company() {
     let plan = plan("spin_sweep", 1000, true);
@@ -75,8 +76,9 @@ fn the_comparison_can_fail() {
     assert!(rows(&plan) != rows(&other));
 }
 
-/// Law: after an error of the sink no further part is started, and the error is reported. With one thread nothing follows the
-/// refused part. With more threads, where every part is refused, each thread offers one at most, however they are scheduled.
+/// Law: after an error of the sink no further part is started, and the error is reported. With one thread nothing
+/// follows the refused part. With more threads, where every part is refused, each thread offers one at most, however
+/// they are scheduled.
 #[test]
 fn a_full_sink_stops_the_campaign() {
     let plan = plan("no_debris", 4096, false);

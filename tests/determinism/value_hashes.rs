@@ -1,9 +1,9 @@
 //! Every shipped campaign gives the same values as before, bit for bit: hashes of each column of its first 257 rows.
 //!
-//! The hashes in `golden/value_hashes.json` were made when wheels and thrusters became lists; with the draws of before as a table, every
-//! column kept its bits (CHANGELOG.md). Where a column is renamed, its key in that file is, by hand. Any other difference is a defect,
-//! unless a decision recorded in CHANGELOG.md allows it; then `SPINDRIFT_WRITE_HASHES=1 cargo test --release --test determinism
-//! value_hashes` writes the file again.
+//! The hashes in `golden/value_hashes.json` were made when wheels and thrusters became lists; with the draws of before
+//! as a table, every column kept its bits (CHANGELOG.md). Where a column is renamed, its key in that file is, by hand.
+//! Any other difference is a defect, unless a decision recorded in CHANGELOG.md allows it; then
+//! `SPINDRIFT_WRITE_HASHES=1 cargo test --release --test determinism value_hashes` writes the file again.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -184,7 +184,8 @@ fn shipped_campaigns_keep_their_bits() {
     assert!(then.len() >= 18, "every campaign that was shipped then: {}", then.len());
 }
 
-/// Counter-test: a changed bit, a lost column and a lost campaign are seen; the column of an absent part may be missing.
+/// Counter-test: a changed bit, a lost column and a lost campaign are seen; the column of an absent part may be
+/// missing.
 #[test]
 fn a_changed_value_is_seen() {
     let table = |entries: &[(&str, &str)]| -> BTreeMap<String, String> {

@@ -49,7 +49,8 @@ pub fn mixed_failures() -> String {
     [text.as_str(), NEGATIVE_WALLS].concat()
 }
 
-/// A file of a table design: for each sample the wall thickness, negative where it `fails`, and the spin; and the campaign of it.
+/// A file of a table design: for each sample the wall thickness, negative where it `fails`, and the spin; and the
+/// campaign of it.
 pub fn table(samples: impl Iterator<Item = (bool, f64)>) -> (String, String) {
     let row = |(fails, spin): (bool, f64)| format!("{},{spin:?}\n", if fails { "-0.01" } else { "0.03" });
     let names = "body.parts.fuselage.wall_thickness_m,initial.angular_velocity_rad_s.z\n";

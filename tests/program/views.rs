@@ -1,7 +1,9 @@
-//! What a reader sees of some campaigns, line by line, beside what somebody has read and found right: `tests/golden/views`.
+//! What a reader sees of some campaigns, line by line, beside what somebody has read and found right:
+//! `tests/golden/views`.
 //!
-//! Other tests state what must hold of numbers, names and words; here stands what a person reads, once: sentences, captions, an order. A view that changes with
-//! purpose is written again (`SPINDRIFT_WRITE_VIEWS=1`), and its difference is read before it is committed.
+//! Other tests state what must hold of numbers, names and words; here stands what a person reads, once: sentences,
+//! captions, an order. A view that changes with purpose is written again (`SPINDRIFT_WRITE_VIEWS=1`), and its
+//! difference is read before it is committed.
 
 use std::fmt::Write;
 use std::fs;
@@ -114,7 +116,8 @@ fn text_of_figures(data: &Value) -> String {
     out
 }
 
-/// `text` without what another version of the program, or another machine, says otherwise: identities of plans, times, and folders.
+/// `text` without what another version of the program, or another machine, says otherwise: identities of plans, times,
+/// and folders.
 fn steady(text: &str, scratch: &ScratchFolder) -> String {
     let folder = scratch.0.to_string_lossy().into_owned();
     let is_identity =
@@ -175,8 +178,8 @@ fn approved(name: &str, view: &str, different: &mut Vec<String>) {
     different.push(format!("{name}.txt:{at}\n  was {}\n  is  {}", was.unwrap_or("-"), is.unwrap_or("-")));
 }
 
-/// Law: screens and pages of a campaign of free bodies, of a loop with requirements, of one on an orbit with events, and of one with failures of every kind are those that were
-/// read and approved, to the last word and number.
+/// Law: screens and pages of a campaign of free bodies, of a loop with requirements, of one on an orbit with events,
+/// and of one with failures of every kind are those that were read and approved, to the last word and number.
 #[test]
 fn what_a_reader_sees_was_approved() {
     let scratch = folder("views");

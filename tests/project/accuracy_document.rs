@@ -49,10 +49,12 @@ fn every_table_is_that_of_a_test_and_holds() {
 /// Counter-test: a row that does not hold is seen.
 #[test]
 fn the_checks_can_fail() {
-    let text = "<!-- claims: x -->\n| regime | bound | measured | margin |\n| --- | --- | --- | --- |\n| a, b | 1.0e-15 | 2.0e-15 | 0.5 |\n\n<!-- end of x -->";
+    let text = "<!-- claims: x -->\n| regime | bound | measured | margin |\n| --- | --- | --- | --- |\n| a, b | \
+        1.0e-15 | 2.0e-15 | 0.5 |\n\n<!-- end of x -->";
     let (name, table) = sections(text)[0];
     assert_eq!((name, rows(table)), ("x", vec![("a, b", [1e-15, 2e-15, 0.5])]));
-    // and so is a stated number that differs from the measured one by a fifth, either way; rounding to two digits is not
+    // and so is a stated number that differs from the measured one by a fifth, either way; rounding to two digits is
+    // not
     let row = "| a, b | 1.0e-15 | 2.0e-16 | 5.0 |";
     assert!(!is_outdated(row, 2.049e-16) && !is_outdated(row, 1.95e-16));
     assert!(is_outdated(row, 2.4e-16) && is_outdated(row, 1.6e-16) && is_outdated(row, 0.0));

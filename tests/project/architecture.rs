@@ -1,6 +1,8 @@
-//! The layers of the architecture, checked on the source line by line: imports, circles of files, the few crates that belong to one place.
+//! The layers of the architecture, checked on the source line by line: imports, circles of files, the few crates that
+//! belong to one place.
 //!
-//! What the compiler, clippy (`clippy.toml`: elementary functions; `unwrap`, printing) and `cargo deny` hold is held there.
+//! What the compiler, clippy (`clippy.toml`: elementary functions; `unwrap`, printing) and `cargo deny` hold is held
+//! there.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -151,8 +153,8 @@ fn paths(text: &str) -> Vec<Vec<String>> {
     }
 }
 
-/// The files of a crate that depend on each other in circles, `mod.rs` too. A `mod x;` is no dependence; a path through what a `mod.rs` exports again is one
-/// on that file.
+/// The files of a crate that depend on each other in circles, `mod.rs` too. A `mod x;` is no dependence; a path through
+/// what a `mod.rs` exports again is one on that file.
 fn circles(sources: &[Source]) -> Vec<String> {
     let module = |source: &Source| {
         let stem = source.path.trim_end_matches(".rs");
@@ -211,7 +213,8 @@ fn modules_import_only_from_layers_below() {
 /// Modules whose `mod.rs` has both the vocabulary of its files and what these make of it.
 const KNOWN_CIRCLES: [&str; 1] = ["src/report/page"];
 
-/// Law: files of a crate do not depend on each other in a circle, those of the list apart; and the list has nothing that is none.
+/// Law: files of a crate do not depend on each other in a circle, those of the list apart; and the list has nothing
+/// that is none.
 #[test]
 fn files_do_not_depend_on_each_other_in_circles() {
     let found: Vec<String> = CRATES_OF_THE_PROJECT
@@ -257,4 +260,27 @@ fn the_checks_can_fail() {
     assert_eq!(circles(&[file("a/mod.rs", "pub mod b;"), file("a/b.rs", "use super::Y;")]).len(), 0);
     assert_eq!(circles(&[above, file("a/b.rs", "use crate::a::Y;")]).len(), 2);
     assert_eq!(circles(&[file("a/c.rs", "use crate::d::e::X;"), file("d/e.rs", "use crate::a::c::Y;")]).len(), 2);
+}
+
+/// Most characters of a line: what fits beside another on a screen.
+const WIDTH: usize = 120;
+
+/// Law: no line of Rust is longer than that; rustfmt leaves comments, texts and macros alone.
+#[test]
+fn no_line_is_too_long() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut long = Vec::new();
+    let mut open: Vec<PathBuf> = ["benches", "examples", "figures", "fuzz", "kernels", "python", "src", "tests"]
+        .map(|name| root.join(name))
+        .into();
+    while let Some(path) = open.pop() {
+        if path.is_dir() && path.file_name().is_some_and(|name| name != "target") {
+            open.extend(std::fs::read_dir(&path).expect("a folder").map(|entry| entry.expect("an entry").path()));
+        } else if path.extension().is_some_and(|found| found == "rs") {
+            let text = std::fs::read_to_string(&path).expect("a text");
+            let lines = text.lines().enumerate().filter(|(_, line)| line.chars().count() > WIDTH);
+            long.extend(lines.map(|(at, _)| format!("{}:{}", path.display(), at + 1)));
+        }
+    }
+    assert!(long.is_empty(), "{long:#?}");
 }

@@ -1,4 +1,5 @@
-//! README and `docs/`: every name that a user meets is documented, every campaign file in them is valid, and every command exists.
+//! README and `docs/`: every name that a user meets is documented, every campaign file in them is valid, and every
+//! command exists.
 
 use std::path::{Path, PathBuf};
 
@@ -177,8 +178,8 @@ fn the_readme_is_short() {
     assert!(lines <= README_LINES, "README.md has {lines} lines; move what is long to docs/");
 }
 
-/// Checked: the file that the README shows is the one that `spindrift new` writes, its output is short, and the replay that it shows is animated and
-/// small.
+/// Checked: the file that the README shows is the one that `spindrift new` writes, its output is short, and the replay
+/// that it shows is animated and small.
 #[test]
 fn the_readme_shows_what_new_writes() {
     let readme = text(&root().join("README.md"));
@@ -194,7 +195,8 @@ fn the_readme_shows_what_new_writes() {
     assert!(picture.windows(4).any(|four| four == b"acTL"), "it does not move");
 }
 
-/// Checked: every campaign file in the documents is valid. That of the tutorial is written block by block (`tests/program/commands/tutorial.rs`).
+/// Checked: every campaign file in the documents is valid. That of the tutorial is written block by block
+/// (`tests/program/commands/tutorial.rs`).
 #[test]
 fn every_campaign_file_is_valid() {
     let mut count = 0;
@@ -208,7 +210,8 @@ fn every_campaign_file_is_valid() {
     assert!(count >= 4, "{count} blocks were found");
 }
 
-/// Checked: the complete example of a campaign file raises no note of `check`; with a rate that looks like a mistake it would.
+/// Checked: the complete example of a campaign file raises no note of `check`; with a rate that looks like a mistake it
+/// would.
 #[test]
 fn the_complete_example_raises_no_note() {
     let document = text(&root().join("docs/campaign-files.md"));
@@ -238,7 +241,8 @@ fn every_command_exists() {
     assert!(count >= 10, "{count} commands were found");
 }
 
-/// Checked: every column in a query exists. A name with two underscores or more is that of a column, or a key of a campaign file.
+/// Checked: every column in a query exists. A name with two underscores or more is that of a column, or a key of a
+/// campaign file.
 #[test]
 fn every_queried_column_exists() {
     let columns = text(&root().join("docs/columns.md"));
@@ -305,7 +309,8 @@ fn every_name_is_documented() {
     assert!(unknown.is_empty(), "docs/campaign-files.md does not mention {unknown:?}");
 }
 
-/// Checked: the flight code that its document shows is that of the example, and so is its parameters' and its input's order.
+/// Checked: the flight code that its document shows is that of the example, and so is its parameters' and its input's
+/// order.
 #[test]
 fn the_flight_code_is_that_of_the_example() {
     let document = text(&root().join("docs/flight-code.md"));

@@ -1,5 +1,5 @@
-//! `docs/gallery.md`: every shipped campaign with its question, its answer, a picture and the time that it took. That the picture is what the program
-//! draws is checked in `figures/tests/gallery.rs`.
+//! `docs/gallery.md`: every shipped campaign with its question, its answer, a picture and the time that it took. That
+//! the picture is what the program draws is checked in `figures/tests/gallery.rs`.
 
 use std::fs;
 use std::path::{Path, PathBuf};

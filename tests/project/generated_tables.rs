@@ -128,7 +128,8 @@ fn rules() -> String {
     table
 }
 
-/// The dependencies of the program, its tests and its benches, with the comments that stand above them in the list of all packages.
+/// The dependencies of the program, its tests and its benches, with the comments that stand above them in the list of
+/// all packages.
 fn dependencies() -> String {
     let mut table = String::from("| crate | version | why | where |\n| --- | --- | --- | --- |\n");
     let listed = listed_dependencies();
@@ -183,7 +184,8 @@ fn manifest(file: &str) -> toml::Table {
     text(file).parse().unwrap_or_else(|error| panic!("{file}: {error}"))
 }
 
-/// Every numeric key that describes the scene, table by table, from the schema; `[[...]]` where there may be several tables.
+/// Every numeric key that describes the scene, table by table, from the schema; `[[...]]` where there may be several
+/// tables.
 fn parameters() -> String {
     let mut text = String::new();
     let mut last = "";

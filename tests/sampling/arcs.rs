@@ -1,4 +1,5 @@
-//! Errors of single arcs of the schedule: what they do is what another command would do, bit for bit, and to that arc only.
+//! Errors of single arcs of the schedule: what they do is what another command would do, bit for bit, and to that arc
+//! only.
 
 use spindrift::campaign::{Overrides, Plan, SceneDraws};
 use spindrift::propagation::Method;
@@ -15,7 +16,8 @@ const HORIZON: f64 = 4.0;
 /// Random schedules of each law.
 const CASES: u64 = 40;
 
-/// A scene of three arcs, where the second starts as the first ends; with errors of every thruster and wheel, which are not those of an arc.
+/// A scene of three arcs, where the second starts as the first ends; with errors of every thruster and wheel, which are
+/// not those of an arc.
 fn scene(seed: u64) -> SceneInput {
     let kind = Kind { wheels: [true; 2], debris: 1, products: true, offset: true, forced: true };
     let mut input = random(kind, seed, HORIZON);
@@ -50,8 +52,8 @@ fn runs(scenes: &[SceneInput]) -> Vec<Run> {
     propagate(Method::Taylor, adaptive(1e-12), &Grid::uniform(HORIZON, 41), &scenes)
 }
 
-/// Law: a scale s of arc k is the schedule whose command k is multiplied by s; delays of arc k are the schedule whose arc starts and ends
-/// as much later. Of the applied arcs and of the motion, bit for bit.
+/// Law: a scale s of arc k is the schedule whose command k is multiplied by s; delays of arc k are the schedule whose
+/// arc starts and ends as much later. Of the applied arcs and of the motion, bit for bit.
 #[test]
 fn an_error_of_an_arc_is_another_command() {
     for seed in 0..CASES {
@@ -85,8 +87,8 @@ fn an_error_of_an_arc_is_another_command() {
     }
 }
 
-/// Law: the same errors of all arcs are those of all thrusters, wheels and delays, bit for bit, where these are ideal. Counter-test: of all
-/// arcs but one they are not.
+/// Law: the same errors of all arcs are those of all thrusters, wheels and delays, bit for bit, where these are ideal.
+/// Counter-test: of all arcs but one they are not.
 #[test]
 fn the_same_error_of_all_arcs_is_that_of_the_actuators() {
     for seed in 0..CASES {
@@ -108,7 +110,8 @@ fn the_same_error_of_all_arcs_is_that_of_the_actuators() {
     }
 }
 
-/// Law: an error of an arc changes no bit of another arc, and no bit of the motion before that arc; after it the motion differs.
+/// Law: an error of an arc changes no bit of another arc, and no bit of the motion before that arc; after it the motion
+/// differs.
 #[test]
 fn an_error_changes_its_arc_only() {
     for (k, (key, value)) in
@@ -144,7 +147,8 @@ fn an_error_changes_its_arc_only() {
 const ARCS: &str = "[[actuation]]\nstart_s = 0.0\nend_s = 1.0\nthrust_n = { p1 = 10 }\n\
     [[actuation]]\nstart_s = 1.0\nend_s = 2.0\ntorque_n_m = { w1 = 1 }\n\
     [[actuation]]\nstart_s = 3.0\nend_s = 4.0\n\
-    [[actuation]]\nname = \"trim\"\nstart_s = 4.5\nend_s = 5.0\nthrust_n = { p2 = 5, p3 = 5 }\ntorque_n_m = { w1 = -1 }\n\
+    [[actuation]]\nname = \"trim\"\nstart_s = 4.5\nend_s = 5.0\nthrust_n = { p2 = 5, p3 = 5 }\ntorque_n_m = { w1 = -1 \
+    }\n\
     [[actuation]]\nname = \"late\"\nstart_s = 6.0\nend_s = 7.0\nthrust_n = { p1 = 10 }\n";
 
 /// A plan of six seconds.
@@ -190,13 +194,15 @@ fn wrong_names_and_numbers_are_refused() {
     }
 }
 
-/// Law: names and errors read back; without them the plan has no word of them. What is recorded is applied, to that arc.
+/// Law: names and errors read back; without them the plan has no word of them. What is recorded is applied, to that
+/// arc.
 #[test]
 fn errors_are_drawn_recorded_and_written() {
     let ideal = plan(ARCS).unwrap_or_else(|error| panic!("{error}"));
     assert!(!ideal.text().contains("torque_scale = 1.0\nswitch_on"), "{}", ideal.text());
     let text = format!(
-        "{}{}{}[[derive]]\nparameter = \"actuation.trim.switch_off_delay_s\"\nexpression = \"actuation.trim.switch_on_delay_s\"\n",
+        "{}{}{}[[derive]]\nparameter = \"actuation.trim.switch_off_delay_s\"\nexpression = \
+        \"actuation.trim.switch_on_delay_s\"\n",
         ARCS.replace("end_s = 1.0\n", "end_s = 1.0\nthrust_scale = 0.98\n"),
         dispersed("actuation.0.thrust_scale"),
         dispersed("actuation.trim.switch_on_delay_s"),

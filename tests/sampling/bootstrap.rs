@@ -1,5 +1,5 @@
-//! Rows of a file drawn together (`distribution = "bootstrap"`): every draw is a row of the file, bit for bit, each as often as the others,
-//! in every design; the joint distribution is that of the file.
+//! Rows of a file drawn together (`distribution = "bootstrap"`): every draw is a row of the file, bit for bit, each as
+//! often as the others, in every design; the joint distribution is that of the file.
 
 use crate::support::campaigns::{FUSELAGE, WHEEL1_AT_REST};
 use crate::support::draws;
@@ -14,13 +14,15 @@ const LENGTH: &str =
 
 /// Rows of the file: each of them 4096/32 = 128 times, if all are equally frequent.
 const ROWS: usize = 32;
-/// Draws of each design: a power of two, so that the strata of a Latin hypercube and Sobol's intervals are parts of those of rows.
+/// Draws of each design: a power of two, so that the strata of a Latin hypercube and Sobol's intervals are parts of
+/// those of rows.
 const DRAWS: u64 = 4096;
 /// 99.9% quantile of chi-squared with 31 degrees of freedom (scipy.stats.chi2.ppf(0.999, 31)).
 const CHI_SQUARED: f64 = 61.098;
 
-/// What a user measured: lateral rates on an arc of a circle (dependent without being normal) and a position that follows them; with a
-/// column that is no number. Third digits from the row's number make every cell of a column another number.
+/// What a user measured: lateral rates on an arc of a circle (dependent without being normal) and a position that
+/// follows them; with a column that is no number. Third digits from the row's number make every cell of a column
+/// another number.
 fn measured() -> Vec<[f64; 3]> {
     let row = |k: usize| {
         let angle = 0.05 * k as f64;
@@ -36,14 +38,16 @@ fn csv(rows: &[[f64; 3]]) -> String {
 }
 
 const BOOTSTRAP: &str = "[[disperse]]\ndistribution = \"bootstrap\"\nfile = \"insertion.csv\"\n\
-    parameters = [\"initial.angular_velocity_rad_s.x\", \"initial.angular_velocity_rad_s.y\", \"initial.position_m.x\"]\n\
+    parameters = [\"initial.angular_velocity_rad_s.x\", \"initial.angular_velocity_rad_s.y\", \
+    \"initial.position_m.x\"]\n\
     columns = [\"wx\", \"wy\", \"x\"]\n";
 
 /// The three columns, each with a distribution of its own.
 fn apart() -> String {
     let one = |(parameter, column)| {
         format!(
-            "[[disperse]]\nparameter = \"initial.{parameter}\"\ndistribution = \"empirical\"\nfile = \"insertion.csv\"\ncolumn = \"{column}\"\n"
+            "[[disperse]]\nparameter = \"initial.{parameter}\"\ndistribution = \"empirical\"\nfile = \
+            \"insertion.csv\"\ncolumn = \"{column}\"\n"
         )
     };
     [("angular_velocity_rad_s.x", "wx"), ("angular_velocity_rad_s.y", "wy"), ("position_m.x", "x")].map(one).concat()
@@ -94,9 +98,9 @@ fn correlation(rows: &[[f64; 3]], a: usize, b: usize) -> f64 {
     draws::correlation(&column(a), &column(b))
 }
 
-/// Law: every draw is a row of the file, bit for bit. H0: each row is equally likely; n = 4096, seed 11, alpha = 0.001 for each design
-/// (chi-squared, 31 degrees of freedom; strata and sequences are more even than that). Where each row is drawn as often as the others,
-/// correlations are those of the file.
+/// Law: every draw is a row of the file, bit for bit. H0: each row is equally likely; n = 4096, seed 11, alpha = 0.001
+/// for each design (chi-squared, 31 degrees of freedom; strata and sequences are more even than that). Where each row
+/// is drawn as often as the others, correlations are those of the file.
 #[test]
 fn every_draw_is_a_row_of_the_file_in_every_design() {
     let scratch = ScratchFolder::new("bootstrap-designs");
@@ -120,8 +124,8 @@ fn every_draw_is_a_row_of_the_file_in_every_design() {
         for (a, b) in [(0, 1), (0, 2), (1, 2)] {
             let (found, asked) = (correlation(&drawn, a, b), correlation(&rows, a, b));
             assert!(asked.abs() > 0.8, "columns that depend on each other: {asked}");
-            // equal counts: rounding of 4096 additions; else three standard errors (1 - r^2)/sqrt(n) of a correlation of
-            // normal numbers, here of a file, whose tails are short
+            // equal counts: rounding of 4096 additions; else three standard errors (1 - r^2)/sqrt(n) of a correlation
+            // of normal numbers, here of a file, whose tails are short
             let bound = if is_even { 1e-12 } else { 3.0 * (1.0 - asked * asked) / (DRAWS as f64).sqrt() };
             assert!((found - asked).abs() < bound, "{kind} {a} {b}: {found} for {asked}");
         }
@@ -131,8 +135,8 @@ fn every_draw_is_a_row_of_the_file_in_every_design() {
     }
 }
 
-/// Counter-test: columns that are drawn one by one keep their distributions and lose their rows and their correlation; and the test of
-/// frequencies sees that one row is twice as likely.
+/// Counter-test: columns that are drawn one by one keep their distributions and lose their rows and their correlation;
+/// and the test of frequencies sees that one row is twice as likely.
 #[test]
 fn columns_that_are_drawn_apart_are_no_rows() {
     let scratch = ScratchFolder::new("bootstrap-apart");
@@ -149,8 +153,8 @@ fn columns_that_are_drawn_apart_are_no_rows() {
     assert!(chi_squared(&counts, DRAWS) > CHI_SQUARED, "{counts:?}");
 }
 
-/// Law: with the random design and a Latin hypercube the rows do not depend on other tables of the file, nor on their order; two tables of
-/// one file draw their rows independently.
+/// Law: with the random design and a Latin hypercube the rows do not depend on other tables of the file, nor on their
+/// order; two tables of one file draw their rows independently.
 #[test]
 fn rows_do_not_depend_on_other_dispersions() {
     let scratch = ScratchFolder::new("bootstrap-company");
@@ -167,7 +171,8 @@ fn rows_do_not_depend_on_other_dispersions() {
     // two tables of components of one vector
     let half = |parameter: &str, column: &str| {
         format!(
-            "[[disperse]]\ndistribution = \"bootstrap\"\nfile = \"insertion.csv\"\nparameters = [{parameter:?}]\ncolumns = [{column:?}]\n"
+            "[[disperse]]\ndistribution = \"bootstrap\"\nfile = \"insertion.csv\"\nparameters = \
+            [{parameter:?}]\ncolumns = [{column:?}]\n"
         )
     };
     let text = format!("{}{}", half(NAMES[0], "wx"), half(NAMES[1], "wy"));
@@ -180,8 +185,8 @@ fn rows_do_not_depend_on_other_dispersions() {
     assert!(r.abs() < 3.29 / (DRAWS as f64).sqrt(), "{r}");
 }
 
-/// Law: an attitude that is a unit quaternion in the file keeps its bits, one that is not is normalised; a vector and an attitude may be
-/// named as a whole, and the columns are then named like their components.
+/// Law: an attitude that is a unit quaternion in the file keeps its bits, one that is not is normalised; a vector and
+/// an attitude may be named as a whole, and the columns are then named like their components.
 #[test]
 fn attitudes_and_vectors_are_drawn_as_a_whole() {
     let scratch = ScratchFolder::new("bootstrap-attitude");
@@ -209,7 +214,8 @@ fn attitudes_and_vectors_are_drawn_as_a_whole() {
     assert!([1.0, 4.0, 7.0].iter().all(|rate| rows.iter().any(|row| row[4] == *rate)));
 }
 
-/// A row counts as one factor: a grid has as many points as it has levels, one at a time and Saltelli's blocks vary it as a whole.
+/// A row counts as one factor: a grid has as many points as it has levels, one at a time and Saltelli's blocks vary it
+/// as a whole.
 #[test]
 fn a_row_is_one_factor() {
     let scratch = ScratchFolder::new("bootstrap-factor");
@@ -233,7 +239,8 @@ fn a_row_is_one_factor() {
     assert!(block[0] == block[1] && block[2] == block[3] && block[0] != block[3]);
 }
 
-/// Law: `sample --sample K` and `check --verbose` show the row that sample K takes, in all digits, and where it comes from.
+/// Law: `sample --sample K` and `check --verbose` show the row that sample K takes, in all digits, and where it comes
+/// from.
 #[test]
 fn one_sample_is_shown_with_its_row() {
     let scratch = ScratchFolder::new("bootstrap-shown");

@@ -1,8 +1,9 @@
-//! Bounds of means, of standard deviations and of replicated designs miss as seldom as stated, and decide: thousands of small campaigns of
-//! known distributions.
+//! Bounds of means, of standard deviations and of replicated designs miss as seldom as stated, and decide: thousands of
+//! small campaigns of known distributions.
 //!
-//! Seeds are fixed, so each test passes or fails for good. H0 of each: a bound misses with at most the stated probability; one-sided, alpha =
-//! 1e-4. Power: Student's bounds, which the tests count too, miss several times as often, and are found. `--nocapture` prints the tables, `--include-ignored` takes many campaigns.
+//! Seeds are fixed, so each test passes or fails for good. H0 of each: a bound misses with at most the stated
+//! probability; one-sided, alpha = 1e-4. Power: Student's bounds, which the tests count too, miss several times as
+//! often, and are found. `--nocapture` prints the tables, `--include-ignored` takes many campaigns.
 
 use crate::support::scenes::Uniform;
 use spindrift::math::normal;
@@ -63,7 +64,8 @@ const MANY_CAMPAIGNS: Campaigns = [(20, 10_000), (100, 10_000), (1000, 10_000)];
 const SCRAMBLES: [(u64, u32); 2] = [(16, 800), (256, 80)];
 const MANY_SCRAMBLES: [(u64, u32); 2] = [(16, 10_000), (256, 3_000)];
 
-/// Whether so many of `campaigns` may miss where each does with at most the probability `risk`: at the exact binomial level [`ALPHA`].
+/// Whether so many of `campaigns` may miss where each does with at most the probability `risk`: at the exact binomial
+/// level [`ALPHA`].
 fn may_miss(count: u32, risk: f64, campaigns: u32) -> bool {
     count == 0 || binomial::at_least(u64::from(count), u64::from(campaigns), risk) > ALPHA
 }
@@ -72,9 +74,10 @@ fn percent(count: u32, campaigns: u32) -> f64 {
     100.0 * f64::from(count) / f64::from(campaigns)
 }
 
-/// Law: each bound of a mean, and so each decision of a gate, errs as seldom as stated, whatever the distribution of the list and the number
-/// of runs. A clear requirement (a standard deviation away) passes, and a clear violation fails, but for what few runs cannot show. The
-/// counter-test: Student's upper bound misses the mean of lognormal numbers more often.
+/// Law: each bound of a mean, and so each decision of a gate, errs as seldom as stated, whatever the distribution of
+/// the list and the number of runs. A clear requirement (a standard deviation away) passes, and a clear violation
+/// fails, but for what few runs cannot show. The counter-test: Student's upper bound misses the mean of lognormal
+/// numbers more often.
 #[test]
 fn bounds_of_means_miss_as_seldom_as_stated() {
     bounds_of_means(CAMPAIGNS);
@@ -118,7 +121,8 @@ fn bounds_of_means(all: Campaigns) {
             }
             let shown = |counts: [[u32; 2]; 3]| counts.map(|pair| pair.map(|count| percent(count, campaigns)));
             println!(
-                "{name:12}{runs:5} runs: lower and upper bounds miss {:.1?} (Student {:.1?}) % for 5, 2.5, 0.5; passes {:.1} %, fails {:.1} %",
+                "{name:12}{runs:5} runs: lower and upper bounds miss {:.1?} (Student {:.1?}) % for 5, 2.5, 0.5; passes \
+                {:.1} %, fails {:.1} %",
                 shown(misses),
                 shown(of_student),
                 percent(decided[0], campaigns),
@@ -149,8 +153,9 @@ fn bounds_of_means(all: Campaigns) {
     }
 }
 
-/// Law: each bound of a standard deviation errs as seldom as stated, where the fourth moment shows: not of lognormal numbers, and not of t3,
-/// which has none; those only less often than the bounds of the large-sample error, s(1 +- t e).
+/// Law: each bound of a standard deviation errs as seldom as stated, where the fourth moment shows: not of lognormal
+/// numbers, and not of t3, which has none; those only less often than the bounds of the large-sample error, s(1 +- t
+/// e).
 #[test]
 fn bounds_of_standard_deviations_miss_as_seldom_as_stated() {
     bounds_of_standard_deviations(CAMPAIGNS);
@@ -174,7 +179,8 @@ fn bounds_of_standard_deviations(all: Campaigns) {
                 of_error[1] += u32::from(found + half < deviation);
             }
             println!(
-                "{name:12}{runs:5} runs: bounds of the deviation miss {:.1?} % for 2.5 (s +- 1.96 e: {:.1?}), none above in {:.0} %",
+                "{name:12}{runs:5} runs: bounds of the deviation miss {:.1?} % for 2.5 (s +- 1.96 e: {:.1?}), none \
+                above in {:.0} %",
                 misses.map(|count| percent(count, campaigns)),
                 of_error.map(|count| percent(count, campaigns)),
                 percent(unbounded, campaigns),
@@ -229,9 +235,9 @@ struct Missed {
 
 const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
 
-/// Law: bounds of a mean and of a share, and intervals of quantiles, from 16 scrambles of a net err as seldom as stated: also in the tails,
-/// where counts hardly vary, and for a long-tailed mean. No share is below 0 or above 1. The mean of a smooth function keeps the precision of
-/// its design. The counter-test: Student's bounds miss more often.
+/// Law: bounds of a mean and of a share, and intervals of quantiles, from 16 scrambles of a net err as seldom as
+/// stated: also in the tails, where counts hardly vary, and for a long-tailed mean. No share is below 0 or above 1. The
+/// mean of a smooth function keeps the precision of its design. The counter-test: Student's bounds miss more often.
 #[test]
 fn replicated_scrambles_miss_as_seldom_as_stated() {
     replicated_scrambles(SCRAMBLES);

@@ -1,11 +1,13 @@
 //! Intervals of correlations, regressions and indices from blocks cover as often as stated, over a list of models of
 //! known truth and numbers of runs. First-order indices from plain samples: `drivers_of_structures`.
 //!
-//! H0 of each: a 95% interval covers in at least 0.93 of the campaigns (in less where few runs do not show the tail of the observable, as the lists say). Rejected where the
-//! count of covered campaigns is below what H0 gives in one case of 10,000 (alpha 1e-4 for each model). Fixed seeds. Power: intervals of half the
-//! width cover in 0.67 and less, which 300 campaigns find always; the counter-tests do.
+//! H0 of each: a 95% interval covers in at least 0.93 of the campaigns (in less where few runs do not show the tail of
+//! the observable, as the lists say). Rejected where the count of covered campaigns is below what H0 gives in one case
+//! of 10,000 (alpha 1e-4 for each model). Fixed seeds. Power: intervals of half the width cover in 0.67 and less, which
+//! 300 campaigns find always; the counter-tests do.
 //!
-//! The long versions (`cargo test --release --test sampling -- --ignored sensitivities`) have 2,000 campaigns of 100 runs, 1,000 of 1,000 and 300 of 8,000.
+//! The long versions (`cargo test --release --test sampling -- --ignored sensitivities`) have 2,000 campaigns of 100
+//! runs, 1,000 of 1,000 and 300 of 8,000.
 
 use spindrift::math::normal::quantile;
 use spindrift::sampling::design::saltelli::Saltelli;
@@ -29,8 +31,8 @@ fn covers(found: &Estimate, truth: f64) -> bool {
     found.lower <= truth + 1e-9 && truth <= found.upper + 1e-9
 }
 
-/// x and z standard normal; y, its correlation with x, the coefficients of x and z, R^2, and the coverage of H0, that of R^2 apart: the sixth power of
-/// normal numbers, in the variance of x^3, has a tail that 100 runs do not show.
+/// x and z standard normal; y, its correlation with x, the coefficients of x and z, R^2, and the coverage of H0, that
+/// of R^2 apart: the sixth power of normal numbers, in the variance of x^3, has a tail that 100 runs do not show.
 type Linear = (&'static str, fn(f64, f64) -> f64, f64, [f64; 2], f64, [f64; 2]);
 
 fn linear_models() -> Vec<Linear> {
@@ -79,8 +81,8 @@ fn linear_measures_are_covered(sizes: &[(usize, u64)]) {
     }
 }
 
-/// Law: intervals of Pearson's coefficient, of regression coefficients and of R^2 cover, whether or not numbers are normal and their spread is the same
-/// everywhere; of an exactly linear model the coefficients have a width.
+/// Law: intervals of Pearson's coefficient, of regression coefficients and of R^2 cover, whether or not numbers are
+/// normal and their spread is the same everywhere; of an exactly linear model the coefficients have a width.
 #[test]
 fn linear_measures_of_any_distribution_are_covered() {
     linear_measures_are_covered(&[(100, 300), (1000, 60)]);
@@ -167,9 +169,9 @@ fn indices_from_blocks_of_any_two_dimensions_are_covered() {
     assert!(wrong > 0, "the counter-test: no pair");
 }
 
-/// Law: so do those of partial correlations, for which every input held fixed costs a degree of freedom: 40 runs, 20 inputs held fixed; truth: that
-/// of two numbers with the coefficients `b` and 1, b/sqrt(b^2 + 1). Power: without that cost they cover in 0.83 to 0.85, which 600 campaigns find
-/// with a probability above 0.99; the counter-test does.
+/// Law: so do those of partial correlations, for which every input held fixed costs a degree of freedom: 40 runs, 20
+/// inputs held fixed; truth: that of two numbers with the coefficients `b` and 1, b/sqrt(b^2 + 1). Power: without that
+/// cost they cover in 0.83 to 0.85, which 600 campaigns find with a probability above 0.99; the counter-test does.
 #[test]
 fn partial_correlations_are_covered() {
     for (seed, b) in [(1, 0.0), (2, 1.0)] {

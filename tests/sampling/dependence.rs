@@ -68,10 +68,10 @@ fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
     correlation(&ranks(a), &ranks(b))
 }
 
-/// Half the band of a sample correlation in Fisher's transform at alpha = 1e-3 (two-sided 3.29), n = 20,000; for rank correlations
-/// the variance is 1 + rho^2/2 times as large (D. G. Bonett & T. A. Wright, *Psychometrika* 65 (2000) 23; measured over 30 seeds at
-/// rho = -0.7: standard deviation 1.12 times as large, as this gives). A true value off by 0.05 lies 0.05/0.0079 = 6 standard
-/// deviations away (more, the larger the correlation): power > 0.999.
+/// Half the band of a sample correlation in Fisher's transform at alpha = 1e-3 (two-sided 3.29), n = 20,000; for rank
+/// correlations the variance is 1 + rho^2/2 times as large (D. G. Bonett & T. A. Wright, *Psychometrika* 65 (2000) 23;
+/// measured over 30 seeds at rho = -0.7: standard deviation 1.12 times as large, as this gives). A true value off by
+/// 0.05 lies 0.05/0.0079 = 6 standard deviations away (more, the larger the correlation): power > 0.999.
 fn band(expected: f64) -> f64 {
     3.29 * (1.0 + 0.5 * expected * expected).sqrt() / 141.4
 }
@@ -85,7 +85,8 @@ fn in_band(sample: f64, expected: f64) -> bool {
 fn rank_correlations_are_those_of_the_file() {
     let pair = |r: f64| {
         format!(
-            "[[correlate]]\nparameters = [\"wheels.w1.density_kg_m3\", \"wheels.w2.density_kg_m3\", \"wheels.w1.radius_m\"]\n\
+            "[[correlate]]\nparameters = [\"wheels.w1.density_kg_m3\", \"wheels.w2.density_kg_m3\", \
+            \"wheels.w1.radius_m\"]\n\
              rank_correlation = [[1, {r}, 0.3], [{r}, 1, -0.2], [0.3, -0.2, 1]]\n"
         )
     };
@@ -120,8 +121,8 @@ fn discrete(parameters: [&str; 2], rank: f64) -> String {
     format!("{DISCRETE}[[correlate]]\nparameters = {parameters:?}\nrank_correlation = {rank}\n")
 }
 
-/// H0: the rank correlation of discrete values, with mean ranks of equal ones, is the specified one. The formula for continuous
-/// values gives 0.42 in place of 0.6 (band: 0.03).
+/// H0: the rank correlation of discrete values, with mean ranks of equal ones, is the specified one. The formula for
+/// continuous values gives 0.42 in place of 0.6 (band: 0.03).
 #[test]
 fn rank_correlations_of_discrete_values_are_those_of_the_file() {
     for (names, rank) in [
@@ -148,8 +149,10 @@ fn rank_correlations_of_discrete_values_are_those_of_the_file() {
 #[test]
 fn blocks_and_numbers_are_the_matrix_that_they_make() {
     let all = plan(
-        "[[correlate]]\nparameters = [\"wheels.w1.density_kg_m3\", \"initial.angular_velocity_rad_s\", \"wheels.w1.radius_m\"]\n\
-         correlation = [[1, 0.5, 0, 0.25, 0.125], [0.5, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0.25, 0, 0, 1, 0], [0.125, 0, 0, 0, 1]]\n",
+        "[[correlate]]\nparameters = [\"wheels.w1.density_kg_m3\", \"initial.angular_velocity_rad_s\", \
+        \"wheels.w1.radius_m\"]\n\
+         correlation = [[1, 0.5, 0, 0.25, 0.125], [0.5, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0.25, 0, 0, 1, 0], [0.125, 0, \
+         0, 0, 1]]\n",
     );
     let blocks = plan(
         "[[correlate]]\nparameters = [\"wheels.w1.density_kg_m3\", \"initial.angular_velocity_rad_s\"]\n\
@@ -164,20 +167,22 @@ fn blocks_and_numbers_are_the_matrix_that_they_make() {
     assert_eq!(Plan::from_text("t.toml", &blocks.text(), Overrides::default()).expect("legal").hash(), blocks.hash());
     // covariances of a block are those of normal distributions
     let normal = "[[disperse]]\nparameter = \"initial.position_m.x\"\ndistribution = \"normal\"\nstd = 3\n\
-         [[correlate]]\nparameters = [\"initial.angular_velocity_rad_s.z\", \"initial.position_m.x\"]\ncovariance = 3.0\n";
+         [[correlate]]\nparameters = [\"initial.angular_velocity_rad_s.z\", \"initial.position_m.x\"]\ncovariance = \
+         3.0\n";
     let plan = plan(normal);
     let (z, x) = (column(&plan, "initial.angular_velocity_rad_s.z"), column(&plan, "initial.position_m.x"));
     assert!(in_band(correlation(&z, &x), 0.5));
 }
 
-/// H0: each value keeps its law inside a block. Kolmogorov-Smirnov, n = 20,000, alpha = 1e-3: sqrt(n) D < 1.949; a distribution
-/// function off by 0.03 somewhere gives 4.2 there, missed with probability < 1e-5.
+/// H0: each value keeps its law inside a block. Kolmogorov-Smirnov, n = 20,000, alpha = 1e-3: sqrt(n) D < 1.949; a
+/// distribution function off by 0.03 somewhere gives 4.2 there, missed with probability < 1e-5.
 #[test]
 fn correlation_preserves_the_distributions() {
     /// Kolmogorov's constant for alpha = 1e-3: sqrt(-ln(alpha/2)/2).
     const CRITICAL: f64 = 1.949;
     let plan = plan(
-        "[[correlate]]\nparameters = [\"wheels.w2.density_kg_m3\", \"wheels.w1.density_kg_m3\", \"wheels.w1.radius_m\"]\n\
+        "[[correlate]]\nparameters = [\"wheels.w2.density_kg_m3\", \"wheels.w1.density_kg_m3\", \
+        \"wheels.w1.radius_m\"]\n\
          correlation = [[1, 0.95, 0.5], [0.95, 1, 0.5], [0.5, 0.5, 1]]\n",
     );
     let distance = |name: &str, law: &dyn Fn(f64) -> f64| draws::distance(column(&plan, name), law);
@@ -211,12 +216,14 @@ fn covariances_are_those_of_the_file() {
 #[test]
 fn a_singular_matrix_ties_values_and_an_impossible_one_is_repaired_on_request() {
     let tied = plan(
-        "[[correlate]]\nparameters = [\"wheels.w1.density_kg_m3\", \"wheels.w2.density_kg_m3\"]\ncorrelation = [[1, 1], [1, 1]]\n",
+        "[[correlate]]\nparameters = [\"wheels.w1.density_kg_m3\", \"wheels.w2.density_kg_m3\"]\ncorrelation = [[1, \
+        1], [1, 1]]\n",
     );
     let (a, b) = (column(&tied, "wheels.w1.density_kg_m3"), column(&tied, "wheels.w2.density_kg_m3"));
     // the ranks are the same list; measured: no rounding at all
     assert!((rank_correlation(&a, &b) - 1.0).abs() < 1e-15);
-    let matrix = "[[correlate]]\nparameters = [\"initial.angular_velocity_rad_s\"]\ncorrelation = [[1, 1, 0], [1, 1, 1], [0, 1, 1]]\n";
+    let matrix = "[[correlate]]\nparameters = [\"initial.angular_velocity_rad_s\"]\ncorrelation = [[1, 1, 0], [1, 1, \
+        1], [0, 1, 1]]\n";
     let refused = Plan::from_text("t.toml", &campaign(matrix), Overrides::default()).expect_err("refused").to_string();
     assert!(refused.contains("smallest eigenvalue") && refused.contains("-0.414214"), "{refused}");
     let repaired = plan(&format!("{matrix}nearest_psd = true\n"));
@@ -240,7 +247,8 @@ fn derived_values_follow_their_expressions() {
         "[[derive]]\nparameter = \"wheels.w2.radius_m\"\nexpression = \"wheels.w2.length_m * 2.5\"\n\
          [[derive]]\nparameter = \"wheels.w2.length_m\"\nexpression = \"0.4 * wheels.w1.radius_m\"\n\
          [[derive]]\nparameter = \"initial.velocity_m_s.x\"\n\
-         expression = \"if(wheels.w1.density_kg_m3 > 2700, sqrt(wheels.w1.density_kg_m3 - 2700), 0) * body.parts.fuselage.length_m\"\n",
+         expression = \"if(wheels.w1.density_kg_m3 > 2700, sqrt(wheels.w1.density_kg_m3 - 2700), 0) * \
+         body.parts.fuselage.length_m\"\n",
     );
     let [r1, r2, l2, v, d] = [
         "wheels.w1.radius_m",
@@ -264,7 +272,8 @@ fn derived_values_follow_their_expressions() {
 fn correlation_does_not_touch_other_draws() {
     let alone = plan("");
     let tied = plan(
-        "[[correlate]]\nparameters = [\"wheels.w1.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = [[1, 0.5], [0.5, 1]]\n\
+        "[[correlate]]\nparameters = [\"wheels.w1.density_kg_m3\", \"wheels.w1.radius_m\"]\ncorrelation = [[1, 0.5], \
+        [0.5, 1]]\n\
          [[derive]]\nparameter = \"wheels.w2.radius_m\"\nexpression = \"wheels.w1.radius_m\"\n",
     );
     for name in ["wheels.w2.density_kg_m3", "initial.angular_velocity_rad_s.x", "initial.angular_velocity_rad_s.z"] {
@@ -273,8 +282,9 @@ fn correlation_does_not_touch_other_draws() {
     assert_ne!(column(&alone, "wheels.w1.radius_m"), column(&tied, "wheels.w1.radius_m"));
 }
 
-/// H0: neighbouring samples of one component, and two components of one sample, are uncorrelated. n = 100,000; alpha = 1e-3 for
-/// each of three (|r| < 3.29/sqrt(n) = 0.0104); a true correlation of 0.02 is found with power 0.998 (6.3 - 3.3 = 3 sigma).
+/// H0: neighbouring samples of one component, and two components of one sample, are uncorrelated. n = 100,000; alpha =
+/// 1e-3 for each of three (|r| < 3.29/sqrt(n) = 0.0104); a true correlation of 0.02 is found with power 0.998 (6.3 -
+/// 3.3 = 3 sigma).
 #[test]
 fn components_and_samples_are_independent() {
     const DRAWS: u64 = 100_000;

@@ -60,8 +60,8 @@ fn value(row: &BTreeMap<String, u64>, name: &str) -> f64 {
     f64::from_bits(row[name])
 }
 
-/// Law: adding a dispersion at the end, moving tables about, taking samples alone or in another order - no bit of the others
-/// changes: for each design as its table says.
+/// Law: adding a dispersion at the end, moving tables about, taking samples alone or in another order - no bit of the
+/// others changes: for each design as its table says.
 #[test]
 fn draws_do_not_depend_on_company() {
     for kind in ["random", "latin_hypercube", "sobol", "halton"] {
@@ -161,7 +161,8 @@ fn a_grid_and_one_at_a_time_have_their_own_size() {
 fn a_table_gives_its_rows() {
     let folder = std::env::temp_dir().join(format!("spindrift-table-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
-    let rows = "sample_id, wheels.w1.radius_m, initial_angular_velocity_x_rad_s, body.parts.fuselage.length_m\n0, 0.21, 1.5, 3.5\n1, 0.22, -1, 3.25\n";
+    let rows = "sample_id, wheels.w1.radius_m, initial_angular_velocity_x_rad_s, body.parts.fuselage.length_m\n0, \
+        0.21, 1.5, 3.5\n1, 0.22, -1, 3.25\n";
     std::fs::write(folder.join("rows.csv"), rows).expect("written");
     let without_samples = |text: &str| campaign(text).replace("samples = 65\n", "");
     let read = |text: &str| Plan::from_text_in(&folder, "t.toml", &without_samples(text), Overrides::default());
@@ -192,8 +193,9 @@ fn slope(points: &[(f64, f64)]) -> f64 {
     xy / xx
 }
 
-/// Law: the integration error of a smooth function in six dimensions, prod (1 + (x_i - 1/2)/2) with integral 1, falls like 1/N
-/// or faster with the scrambled sequences and like 1/sqrt(N) with random points (rms over 16 seeds; measured slopes are printed).
+/// Law: the integration error of a smooth function in six dimensions, prod (1 + (x_i - 1/2)/2) with integral 1, falls
+/// like 1/N or faster with the scrambled sequences and like 1/sqrt(N) with random points (rms over 16 seeds; measured
+/// slopes are printed).
 #[test]
 fn sequences_integrate_smooth_functions_faster() {
     let names: Vec<String> = (0..6).map(|k| format!("x{k}")).collect();
@@ -239,9 +241,9 @@ fn sequences_integrate_smooth_functions_faster() {
     assert!(latin.1 * 3.0 < random.1, "{latin:?} {random:?}");
 }
 
-/// Golden: numbers of each design as bits; any change of these is a change of every campaign that used it. The streams behind the
-/// random design are pinned beside them (src/sampling/stream.rs), against a published key stream. From a second implementation,
-/// tests/golden/designs.py.
+/// Golden: numbers of each design as bits; any change of these is a change of every campaign that used it. The streams
+/// behind the random design are pinned beside them (src/sampling/stream.rs), against a published key stream. From a
+/// second implementation, tests/golden/designs.py.
 #[test]
 fn numbers_are_pinned() {
     // names of streams: the second was the name of a parameter once, and its numbers stay

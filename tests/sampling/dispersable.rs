@@ -1,7 +1,9 @@
-//! Every number that can be dispersed changes the motion, in both kernels alike, and what is recorded is what was applied.
+//! Every number that can be dispersed changes the motion, in both kernels alike, and what is recorded is what was
+//! applied.
 //!
-//! Law: a draw of one key moves the states away from the nominal ones by far more than the tolerance, and Berdoz's form and
-//! the gyrostat agree on where to. The keys come from the table of parameters: a new one is tested as soon as it is there.
+//! Law: a draw of one key moves the states away from the nominal ones by far more than the tolerance, and Berdoz's form
+//! and the gyrostat agree on where to. The keys come from the table of parameters: a new one is tested as soon as it is
+//! there.
 
 use crate::support::observed::{observed, request};
 use crate::support::runs::{adaptive, everything, propagate, relative, up_to_sign};
@@ -117,7 +119,8 @@ fn parameters(variants: &[SceneInput]) -> Vec<(Parameter, Vec<usize>)> {
     found
 }
 
-/// What is known of a run: its states, and the energies in its row (the rotation of a cube does not depend on its mass).
+/// What is known of a run: its states, and the energies in its row (the rotation of a cube does not depend on its
+/// mass).
 struct Motion {
     table: StateTable,
     energies: Vec<f64>,
@@ -224,7 +227,8 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
     }
     // a point has no attitude and no inertia; the end of an arc at which the next one starts is a switch of that one
     unmoved.retain(|name| !name.starts_with("body.parts.tip."));
-    // air and light act on an orbit alone, which the null-space kernel refuses: tests/accuracy/orbits.rs has their truth
+    // air and light act on an orbit alone, which the null-space kernel refuses: tests/accuracy/orbits.rs has their
+    // truth
     unmoved.retain(|name| !name.starts_with("environment."));
     assert_eq!(unmoved, ["actuation.0.switch_off_delay_s"]);
     println!("{count} components: moved by at least {least:e}; kernels at most {most:e} apart");

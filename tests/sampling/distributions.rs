@@ -1,4 +1,5 @@
-//! Distributions of one number: quantiles against a published implementation, and draws against their distribution functions.
+//! Distributions of one number: quantiles against a published implementation, and draws against their distribution
+//! functions.
 //!
 //! Statistical tests state H0, n, alpha and power; seeds are fixed, so their outcome is.
 
@@ -40,8 +41,8 @@ fn law(name: &str, p: &[f64]) -> Distribution {
     }
 }
 
-/// Relative difference of two implementations that are both good to a few units in the last place of the number that they
-/// compute; a difference of large numbers (a normal value near its mean) is measured against the law's own width.
+/// Relative difference of two implementations that are both good to a few units in the last place of the number that
+/// they compute; a difference of large numbers (a normal value near its mean) is measured against the law's own width.
 const AGREEMENT: f64 = 1e-12;
 
 /// scipy's quantiles of the smooth distributions, in both tails and at the seams of the approximations.
@@ -85,8 +86,9 @@ fn laws_of(name: &str, p: &[f64]) -> Vec<Distribution> {
     }
 }
 
-/// Quantiles in 30 digits (mpmath) of beta, gamma, Student's t, Weibull, exponential and truncated normal distributions, of very skewed
-/// shapes and in far tails too: relative error of the value, of a beta distribution of its distance from either end, below 1e-12.
+/// Quantiles in 30 digits (mpmath) of beta, gamma, Student's t, Weibull, exponential and truncated normal
+/// distributions, of very skewed shapes and in far tails too: relative error of the value, of a beta distribution of
+/// its distance from either end, below 1e-12.
 #[test]
 fn quantiles_are_those_of_mpmath() {
     let golden: Value = serde_json::from_str(include_str!("../golden/quantiles_mpmath.json")).expect("JSON");
@@ -122,9 +124,10 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or(f64::INFINITY)
 }
 
-/// Number of draws and critical value of each Kolmogorov-Smirnov test: alpha = 1e-3 gives sqrt(n) D < 1.949. H0: the draws follow
-/// the law. Power: a distribution function that is off by 0.01 somewhere gives sqrt(n) D = 4.5 there, with a standard deviation
-/// of at most 0.5: missed with probability < 1e-6. The counter-test shows it for distributions with a parameter slightly off.
+/// Number of draws and critical value of each Kolmogorov-Smirnov test: alpha = 1e-3 gives sqrt(n) D < 1.949. H0: the
+/// draws follow the law. Power: a distribution function that is off by 0.01 somewhere gives sqrt(n) D = 4.5 there, with
+/// a standard deviation of at most 0.5: missed with probability < 1e-6. The counter-test shows it for distributions
+/// with a parameter slightly off.
 const N: usize = 200_000;
 const CRITICAL: f64 = 1.949;
 
@@ -164,7 +167,8 @@ fn draws_follow_their_distributions() {
     let beta = |x: f64| x * x * (6.0 - 8.0 * x + 3.0 * x * x);
     assert!(distance(draws(&Distribution::Beta(BetaQuantile::new(2.0, 3.0, 0.0, 1.0))), beta) < CRITICAL);
     assert!(distance(draws(&Distribution::Beta(BetaQuantile::new(2.0, 3.06, 0.0, 1.0))), beta) > CRITICAL);
-    // PERT from 0 to 4 with mode 4/3: shapes 1 + 4/3 and 1 + 8/3; with mode 1: 2 and 4, I_x(2, 4) = 1 - (1-x)^4 (1 + 4 x)
+    // PERT from 0 to 4 with mode 4/3: shapes 1 + 4/3 and 1 + 8/3; with mode 1: 2 and 4, I_x(2, 4) = 1 - (1-x)^4 (1 + 4
+    // x)
     let pert = |x: f64| 1.0 - (1.0 - x / 4.0).powi(4) * (1.0 + x);
     assert!(distance(draws(&Distribution::Pert(PertQuantile::new(0.0, 1.0, 4.0))), pert) < CRITICAL);
 
@@ -178,9 +182,9 @@ fn draws_follow_their_distributions() {
     assert!(distance(values.iter().copied(), |x| if x < 1.0 { x / 2.0 } else { 0.5 + (x - 1.0) / 4.0 }) < CRITICAL);
 }
 
-/// H0: each value is drawn with its weight. Chi-square with 3 degrees of freedom, n = 200,000, alpha = 1e-3: critical 16.27. Power:
-/// a weight of 0.4 that is 0.41 instead shifts the statistic by n 0.01^2/0.4 and more = 50 (noncentral), missed with
-/// probability < 1e-3.
+/// H0: each value is drawn with its weight. Chi-square with 3 degrees of freedom, n = 200,000, alpha = 1e-3: critical
+/// 16.27. Power: a weight of 0.4 that is 0.41 instead shifts the statistic by n 0.01^2/0.4 and more = 50 (noncentral),
+/// missed with probability < 1e-3.
 #[test]
 fn listed_values_come_in_proportion() {
     let counted = |weights: &[f64; 4]| {
@@ -201,7 +205,8 @@ fn listed_values_come_in_proportion() {
     assert!((twos / N as f64 - 0.5).abs() < 3.29 * 0.5 / (N as f64).sqrt());
 }
 
-/// Law: every quantile rises with u, so that a rank correlation laid between u is one of values, and is finite at both ends of u.
+/// Law: every quantile rises with u, so that a rank correlation laid between u is one of values, and is finite at both
+/// ends of u.
 #[test]
 fn quantiles_rise() {
     let mut laws: Vec<Distribution> = vec![

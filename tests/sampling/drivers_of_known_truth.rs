@@ -62,8 +62,8 @@ fn inputs(random: &mut Uniform) -> Vec<Vec<f64>> {
     inputs
 }
 
-/// Law: the causes that were built in are named, and no others, over a list: what the outcome is of the inputs and noise, whether it has the limit 1, the
-/// drivers of the event and of the spread.
+/// Law: the causes that were built in are named, and no others, over a list: what the outcome is of the inputs and
+/// noise, whether it has the limit 1, the drivers of the event and of the spread.
 #[test]
 fn causes_are_named() {
     type Case =
@@ -112,7 +112,8 @@ fn causes_are_named() {
     }
 }
 
-/// Law: levels are counted as they are, the one that differs most is the cause, and its risk ratio is that of the counts.
+/// Law: levels are counted as they are, the one that differs most is the cause, and its risk ratio is that of the
+/// counts.
 #[test]
 fn levels_are_counts() {
     let mut random = Uniform::new(8);
@@ -137,8 +138,9 @@ fn levels_are_counts() {
     assert!((ratio.value * share(1.0) / share(0.0) - 1.0).abs() < 1e-12 && ratio.lower > 10.0, "{ratio:?}");
 }
 
-/// Law: an input of three values drives a continuous outcome, with its share of the variance: of levels -1, 0, 1 with equal shares and noise of
-/// variance 1/12, x has 2/3 of 2/3 + 1/12, and x^2 has 2/9 of 2/9 + 1/12. Directions: x rises, -x falls, x^2 does both.
+/// Law: an input of three values drives a continuous outcome, with its share of the variance: of levels -1, 0, 1 with
+/// equal shares and noise of variance 1/12, x has 2/3 of 2/3 + 1/12, and x^2 has 2/9 of 2/9 + 1/12. Directions: x
+/// rises, -x falls, x^2 does both.
 #[test]
 fn few_values_have_a_share_and_a_direction() {
     let mut random = Uniform::new(21);
@@ -165,8 +167,9 @@ fn few_values_have_a_share_and_a_direction() {
     }
 }
 
-/// H0: of outcomes that depend on none of 40 inputs, at most 5% have a driver: a continuous one with a tail, a rare yes or no, and one that is mostly
-/// zero; inputs are continuous, rare and in three levels. 120 studies each: 5% and three standard deviations are 13.
+/// H0: of outcomes that depend on none of 40 inputs, at most 5% have a driver: a continuous one with a tail, a rare yes
+/// or no, and one that is mostly zero; inputs are continuous, rare and in three levels. 120 studies each: 5% and three
+/// standard deviations are 13.
 #[test]
 fn noise_has_seldom_a_driver() {
     let mut random = Uniform::new(77);
@@ -201,9 +204,10 @@ fn limits_that_all_meet_have_no_causes() {
     assert_eq!(drivers(&few, &noise, false), [None, Some(Vec::new())]);
 }
 
-/// Law: of an input that has nothing to do with an event, the p-value is at most 0.05 in at most 5% of the cases, over a list: inputs of two, three and five
-/// values, one that is mostly one value, and a uniform one. Six standard deviations of 2,000 cases are allowed: a test without its correction for several
-/// levels, or for two questions, has 8% and more.
+/// Law: of an input that has nothing to do with an event, the p-value is at most 0.05 in at most 5% of the cases, over
+/// a list: inputs of two, three and five values, one that is mostly one value, and a uniform one. Six standard
+/// deviations of 2,000 cases are allowed: a test without its correction for several levels, or for two questions, has
+/// 8% and more.
 #[test]
 fn effects_on_an_event_are_seldom_false() {
     const CASES: usize = 2000;
@@ -233,8 +237,9 @@ fn effects_on_an_event_are_seldom_false() {
     }
 }
 
-/// Law: a shift is told by the medians of the runs with the event, then of the others, and by the chance that an input with it is larger than one without:
-/// recomputed from all pairs, for events where the input is large and where it is small.
+/// Law: a shift is told by the medians of the runs with the event, then of the others, and by the chance that an input
+/// with it is larger than one without: recomputed from all pairs, for events where the input is large and where it is
+/// small.
 #[test]
 fn shifts_are_medians_and_chances() {
     let mut random = Uniform::new(5);
@@ -265,8 +270,8 @@ fn shifts_are_medians_and_chances() {
     }
 }
 
-/// Law: where several questions are asked of the same runs, the p-value of one input is that of one question times their number (C. Bonferroni, 1936), on
-/// events and on the spread.
+/// Law: where several questions are asked of the same runs, the p-value of one input is that of one question times
+/// their number (C. Bonferroni, 1936), on events and on the spread.
 #[test]
 fn questions_are_counted() {
     let mut random = Uniform::new(6);
@@ -291,7 +296,8 @@ fn questions_are_counted() {
 }
 
 /// Law: each requirement has the event that some runs miss it, by the rows that its verdict counts: NaN misses, unless
-/// it is said to meet, and a run that is not `ok` misses in any case. Requirements that are missed by the same runs have one event.
+/// it is said to meet, and a run that is not `ok` misses in any case. Requirements that are missed by the same runs
+/// have one event.
 #[test]
 fn events_are_the_violations_of_requirements() {
     let name = Observed::all(&small_plan(""))[0].quantity.name().to_owned();
@@ -321,8 +327,8 @@ fn events_are_the_violations_of_requirements() {
     assert_eq!(Event::missed(&one, &name, &y, &[true; 300])[0].0.occurs, MISSED);
 }
 
-/// Law: where no limit is missed, the worst runs are the twentieth with the largest values of an outcome that has to stay below a limit, with the smallest of
-/// one that has to stay above.
+/// Law: where no limit is missed, the worst runs are the twentieth with the largest values of an outcome that has to
+/// stay below a limit, with the smallest of one that has to stay above.
 #[test]
 fn the_worst_runs_are_on_the_side_of_the_limit() {
     let name = Observed::all(&small_plan(""))[0].quantity.name().to_owned();

@@ -4,8 +4,8 @@
 //! and number of runs, at alpha 1e-3 by the binomial distribution: an interval of a share that is said covers the truth
 //! in 95%; what is not a cause is named in 5% of the campaigns; and a cause that explains more than half is named first
 //! in 95% of those in which a test at 1e-4 sees it. No number of runs tells what a cause without a fourth moment
-//! explains; it has to be first where it varies more than the rest in the rows. Seeds are fixed. `cargo test --release --test sampling --
-//! --ignored drivers_of_all_structures` has all designs and 300 campaigns of each.
+//! explains; it has to be first where it varies more than the rest in the rows. Seeds are fixed. `cargo test --release
+//! --test sampling -- --ignored drivers_of_all_structures` has all designs and 300 campaigns of each.
 
 use spindrift::Overrides;
 use spindrift::Plan;

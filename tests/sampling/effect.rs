@@ -42,7 +42,8 @@ fn with(parameter: &str, distribution: &str) -> String {
 
 fn arc(start: f64) -> String {
     format!(
-        "[[actuation]]\nstart_s = {start:?}\nend_s = {:?}\nthrust_n = {{ p1 = 10, p3 = 5 }}\ntorque_n_m = {{ w1 = 1 }}\n",
+        "[[actuation]]\nstart_s = {start:?}\nend_s = {:?}\nthrust_n = {{ p1 = 10, p3 = 5 }}\ntorque_n_m = {{ w1 = 1 \
+        }}\n",
         start + 1.0
     )
 }
@@ -56,7 +57,8 @@ fn notes(text: &str) -> Vec<String> {
 const UNSEEN: &str = "does not affect any requested column";
 const CONSTANT: &str = "is never varied";
 
-/// Law: a dispersion that changes nothing is accepted with one note, which names it; its neighbour, which changes something, has none.
+/// Law: a dispersion that changes nothing is accepted with one note, which names it; its neighbour, which changes
+/// something, has none.
 #[test]
 fn what_changes_nothing_is_noted() {
     let (p2, p3, on) = ("thrusters.p2.thrust_scale", "thrusters.p3.thrust_scale", "actuators.switch_on_delay_s");
@@ -114,7 +116,8 @@ fn what_changes_nothing_is_noted() {
     }
 }
 
-/// Law: what has an effect in some draws alone, or through a derived parameter or observable, or where other draws move it, has one.
+/// Law: what has an effect in some draws alone, or through a derived parameter or observable, or where other draws move
+/// it, has one.
 #[test]
 fn what_acts_in_some_draws_is_not_noted() {
     let tilt = dispersed("thrusters.p3.tilt_rad.1");
@@ -143,7 +146,8 @@ fn what_the_scene_does_not_have_is_refused() {
     }
 }
 
-/// Law: columns of actuators are those of commands that may act: not of arcs that start after the run, unless draws move them.
+/// Law: columns of actuators are those of commands that may act: not of arcs that start after the run, unless draws
+/// move them.
 #[test]
 fn columns_are_of_commands_that_act() {
     let thrust = |text: &str| plan(text).unwrap_or_else(|error| panic!("{text}: {error}")).request().actuated.thrusters;
@@ -152,7 +156,8 @@ fn columns_are_of_commands_that_act() {
     assert!(plan(&arc(1.0)).expect("legal").request_over(1.5).actuated.thrusters, "in a longer run");
 }
 
-/// Law: samples without dispersions are told to be all the same; where no requested column says how accurate a run is, a note says so.
+/// Law: samples without dispersions are told to be all the same; where no requested column says how accurate a run is,
+/// a note says so.
 #[test]
 fn what_a_plan_alone_says_is_noted() {
     let has = |plan: Plan, says: &str| plan.notes().iter().any(|note| note.contains(says));

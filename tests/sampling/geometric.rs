@@ -24,8 +24,8 @@ pub fn campaign(text: &str) -> String {
 
 /// Draws of every statistical test.
 const N: usize = 100_000;
-/// sqrt(n) D of Kolmogorov and Smirnov: sqrt(-ln(alpha/2)/2). A deviation of a distribution function by 0.01 anywhere (3.2 of these units) is
-/// missed with a probability below 1e-3.
+/// sqrt(n) D of Kolmogorov and Smirnov: sqrt(-ln(alpha/2)/2). A deviation of a distribution function by 0.01 anywhere
+/// (3.2 of these units) is missed with a probability below 1e-3.
 const KS: f64 = 1.949;
 /// Quantiles 1 - alpha of chi-square with 3, 5, 9 degrees of freedom (tables of Abramowitz & Stegun, 26.8).
 const CHI_3: f64 = 16.266;
@@ -47,16 +47,16 @@ fn rate(scene: &SceneInput) -> [f64; 3] {
     scene.initial.angular_velocity_rad_s
 }
 
-/// Rayleigh's statistic of isotropy, 3 n |mean|^2, chi-square with 3 degrees of freedom (K. V. Mardia & P. E. Jupp, *Directional
-/// Statistics*, 2000, 10.4.1): sees a preferred direction.
+/// Rayleigh's statistic of isotropy, 3 n |mean|^2, chi-square with 3 degrees of freedom (K. V. Mardia & P. E. Jupp,
+/// *Directional Statistics*, 2000, 10.4.1): sees a preferred direction.
 fn rayleigh(directions: &[[f64; 3]]) -> f64 {
     let n = directions.len() as f64;
     let mean: [f64; 3] = std::array::from_fn(|i| directions.iter().map(|d| d[i]).sum::<f64>() / n);
     3.0 * n * dot(mean, mean)
 }
 
-/// Bingham's statistic of uniformity on the sphere in `P` dimensions, n p (p + 2)/2 (tr T^2 - 1/p) with T the mean of x x^T, chi-square with
-/// (p - 1)(p + 2)/2 degrees of freedom (ibid., 10.7.1): sees a preferred axis, whatever its sign.
+/// Bingham's statistic of uniformity on the sphere in `P` dimensions, n p (p + 2)/2 (tr T^2 - 1/p) with T the mean of x
+/// x^T, chi-square with (p - 1)(p + 2)/2 degrees of freedom (ibid., 10.7.1): sees a preferred axis, whatever its sign.
 fn bingham<const P: usize>(points: &[[f64; P]]) -> f64 {
     let (n, p) = (points.len() as f64, P as f64);
     let mut square = 0.0;
@@ -82,8 +82,8 @@ fn about(axis: [f64; 3], v: [f64; 3]) -> [f64; 2] {
 /// The angular velocity is dispersed.
 pub const RATE: &str = "parameter = \"initial.angular_velocity_rad_s\"\n";
 
-/// H0: directions are uniform on the sphere; the magnitude stays. Power: a law that prefers one direction by a concentration of 0.03, or one
-/// that shifts E[z^2] from 1/3 by 0.005, is missed with a probability below 1e-2.
+/// H0: directions are uniform on the sphere; the magnitude stays. Power: a law that prefers one direction by a
+/// concentration of 0.03, or one that shifts E[z^2] from 1/3 by 0.005, is missed with a probability below 1e-2.
 #[test]
 fn directions_are_uniform_on_the_sphere() {
     let rates = draws(&format!("{RATE}distribution = \"uniform_direction\"\n"), rate);
@@ -100,8 +100,8 @@ fn directions_are_uniform_on_the_sphere() {
     }
 }
 
-/// H0: in a cone about the nominal, or about an axis, the azimuth is uniform and the cosine is uniform: of rates, of axes of wheels, of directions of
-/// thrusters. The length of the nominal vector stays.
+/// H0: in a cone about the nominal, or about an axis, the azimuth is uniform and the cosine is uniform: of rates, of
+/// axes of wheels, of directions of thrusters. The length of the nominal vector stays.
 #[test]
 fn cones_are_uniform_in_solid_angle() {
     let thruster = "[[thrusters]]\nname = \"a\"\nposition_m = [1, 0, 0]\ndirection = [0, 3, 4]\n\
@@ -118,7 +118,8 @@ fn cones_are_uniform_in_solid_angle() {
     for (parameter, seen, half_angle, axis) in cases {
         let written = axis.map_or(String::new(), |axis: [f64; 3]| format!("axis = {axis:?}\n"));
         let disperse = format!(
-            "parameter = {parameter:?}\ndistribution = \"cone\"\nhalf_angle_rad = {half_angle:?}\n{written}{WHEEL1}{thruster}"
+            "parameter = {parameter:?}\ndistribution = \"cone\"\nhalf_angle_rad = \
+            {half_angle:?}\n{written}{WHEEL1}{thruster}"
         );
         let plan = plan(&disperse);
         let length = norm(seen(&plan.nominal));
@@ -140,8 +141,8 @@ fn cones_are_uniform_in_solid_angle() {
     }
 }
 
-/// H0: von Mises and Fisher's law: P(1 - cos <= v) = (1 - exp(-kappa v))/(1 - exp(-2 kappa)), uniform azimuth, mean resultant
-/// coth(kappa) - 1/kappa, whose estimate has a standard deviation below 1/(kappa sqrt(n)).
+/// H0: von Mises and Fisher's law: P(1 - cos <= v) = (1 - exp(-kappa v))/(1 - exp(-2 kappa)), uniform azimuth, mean
+/// resultant coth(kappa) - 1/kappa, whose estimate has a standard deviation below 1/(kappa sqrt(n)).
 #[test]
 fn von_mises_and_fisher() {
     for kappa in [0.5, 5.0, 400.0] {
@@ -158,9 +159,10 @@ fn von_mises_and_fisher() {
     }
 }
 
-/// H0: angle to the axis, azimuth and magnitude are independent, and each follows its law: of the distribution functions of all three, each of
-/// 4 x 4 x 4 cells has a share of 1/64. Chi-square with 63 degrees of freedom, whose quantile at 1 - alpha is 103.4. Power: a number that
-/// decides two of the three leaves three cells in four empty, a statistic of some 3 n.
+/// H0: angle to the axis, azimuth and magnitude are independent, and each follows its law: of the distribution
+/// functions of all three, each of 4 x 4 x 4 cells has a share of 1/64. Chi-square with 63 degrees of freedom, whose
+/// quantile at 1 - alpha is 103.4. Power: a number that decides two of the three leaves three cells in four empty, a
+/// statistic of some 3 n.
 #[test]
 fn magnitude_azimuth_and_angle_are_apart() {
     const CHI_63: f64 = 103.442;
@@ -189,8 +191,8 @@ fn magnitude_azimuth_and_angle_are_apart() {
     assert!(distance(speeds, |x| x / 2.0) < KS);
 }
 
-/// H0: attitudes are uniform on SO(3): quaternions uniform on the 3-sphere (Bingham), E[C33^2] = 1/3 with variance 4/45, and the angle, whose
-/// cosine is (trace - 1)/2, has the distribution (theta - sin theta)/pi.
+/// H0: attitudes are uniform on SO(3): quaternions uniform on the 3-sphere (Bingham), E[C33^2] = 1/3 with variance
+/// 4/45, and the angle, whose cosine is (trace - 1)/2, has the distribution (theta - sin theta)/pi.
 #[test]
 fn attitudes_are_uniform_on_so3() {
     let list = draws("parameter = \"initial.attitude\"\ndistribution = \"uniform_attitude\"\n", |s| s.initial.attitude);
@@ -213,8 +215,8 @@ fn error(q: [f64; 4]) -> [f64; 3] {
     [share * off[1], share * off[2], share * off[3]]
 }
 
-/// H0: the rotation vector is normal with the covariance written: theta^T P^-1 theta is chi-square with 3 degrees of freedom, and its mean
-/// square and products are P, each within 3.29 standard deviations ((p_ii p_jj + p_ij^2)/n).
+/// H0: the rotation vector is normal with the covariance written: theta^T P^-1 theta is chi-square with 3 degrees of
+/// freedom, and its mean square and products are P, each within 3.29 standard deviations ((p_ii p_jj + p_ij^2)/n).
 #[test]
 fn attitude_errors_have_their_covariance() {
     let p = [[4e-4, 1e-4, 0.0], [1e-4, 1e-4, -5e-5], [0.0, -5e-5, 2.5e-4]];
@@ -255,7 +257,8 @@ fn attitudes_turn_about_an_axis() {
 #[test]
 fn usual_mistakes_are_caught() {
     let uniform = draws(&format!("{RATE}distribution = \"uniform\"\nmin = -1\nmax = 1\n"), rate);
-    // components of a cube, normalised: towards its corners. No preferred axis, so second moments are blind; the component is not
+    // components of a cube, normalised: towards its corners. No preferred axis, so second moments are blind; the
+    // component is not
     let cube: Vec<f64> = uniform.iter().map(|v| v[2] / norm(*v)).collect();
     // measured: 5.5 KS
     assert!(distance(cube, |x| (1.0 + x) / 2.0) > 3.0 * KS);
@@ -292,14 +295,15 @@ fn impossible(text: &str, count: u64) -> usize {
     refused.into_iter().filter(|is_refused| *is_refused).count()
 }
 
-/// Law: a million draws by log-Cholesky, and by second moments about the principal axes, make a million possible bodies, however wide. Counter-test:
-/// principal moments that are drawn freely do not.
+/// Law: a million draws by log-Cholesky, and by second moments about the principal axes, make a million possible
+/// bodies, however wide. Counter-test: principal moments that are drawn freely do not.
 #[test]
 fn a_million_bodies_and_none_impossible() {
     let normal = |key: &str, std: f64| {
         format!("[[disperse]]\nparameter = \"{key}\"\ndistribution = \"normal\"\nstd = {std:?}\n")
     };
-    let second = "[[disperse]]\nparameter = \"debris.principal_second_moments_kg_m2\"\ndistribution = \"log_normal\"\nlog_std = 2.0\n\
+    let second = "[[disperse]]\nparameter = \"debris.principal_second_moments_kg_m2\"\ndistribution = \
+        \"log_normal\"\nlog_std = 2.0\n\
         [[disperse]]\nparameter = \"debris.principal_axes\"\ndistribution = \"uniform_attitude\"\n";
     let scale = "[[disperse]]\nparameter = \"body.mass_scale\"\ndistribution = \"log_normal\"\nlog_std = 0.5\n";
     let all = [
@@ -322,9 +326,10 @@ fn a_million_bodies_and_none_impossible() {
     assert!(refused > 500, "{refused}");
 }
 
-/// Law: the mean direction follows the axis, in all eight octants and along all coordinate axes. The mean of cos(theta) of a cone of half-angle a is
-/// (1 + cos a)/2, of von Mises-Fisher coth(kappa) - 1/kappa; the mean direction of n draws is off by less than 5 of its standard deviations,
-/// some 0.01. An axis with one component mirrored is off by more than 1.
+/// Law: the mean direction follows the axis, in all eight octants and along all coordinate axes. The mean of cos(theta)
+/// of a cone of half-angle a is (1 + cos a)/2, of von Mises-Fisher coth(kappa) - 1/kappa; the mean direction of n draws
+/// is off by less than 5 of its standard deviations, some 0.01. An axis with one component mirrored is off by more
+/// than 1.
 #[test]
 fn mean_directions_follow_the_axis_in_all_octants() {
     const DRAWS: u64 = 4000;
@@ -351,9 +356,9 @@ fn mean_directions_follow_the_axis_in_all_octants() {
                 }
                 let expected = scaled(cosine / norm(axis), axis);
                 let off: f64 = (0..3).map(|i| (mean[i] - expected[i]).powi(2)).sum::<f64>().sqrt();
-                // the mean of 4000 draws is off by sqrt((1 - cosine^2)/4000) in the root mean square: 0.0084 (cone) and 0.0049. The
-                // cone has 0.0058 in either direction across the axis, so that 0.04 is exceeded with a probability below 1e-10.
-                // Measured: 0.006
+                // the mean of 4000 draws is off by sqrt((1 - cosine^2)/4000) in the root mean square: 0.0084 (cone) and
+                // 0.0049. The cone has 0.0058 in either direction across the axis, so that 0.04 is exceeded with a
+                // probability below 1e-10. Measured: 0.006
                 assert!(off < 0.04, "{law} about {axis:?}: mean {mean:?}, expected {expected:?}");
             }
         }

@@ -1,5 +1,5 @@
-//! How distributions of directions, attitudes and inertias are written: what is refused, the way to a plan's text and back, and what is
-//! said of each.
+//! How distributions of directions, attitudes and inertias are written: what is refused, the way to a plan's text and
+//! back, and what is said of each.
 
 use crate::geometric::campaign;
 use crate::support::campaigns::WHEEL1;

@@ -1,6 +1,8 @@
-//! Requirements on means: what bounds of the values guarantee, what is assumed without them, and how often the number of runs that an undecided one names decides.
+//! Requirements on means: what bounds of the values guarantee, what is assumed without them, and how often the number
+//! of runs that an undecided one names decides.
 //!
-//! Seeds are fixed. H0 of each: a bound misses with at most 5%; one-sided, alpha = 1e-4. `--nocapture` prints the rates that docs/results.md lists.
+//! Seeds are fixed. H0 of each: a bound misses with at most 5%; one-sided, alpha = 1e-4. `--nocapture` prints the rates
+//! that docs/results.md lists.
 
 use crate::support::scenes::Uniform;
 use spindrift::math::normal;
@@ -51,8 +53,9 @@ const TAILED: [Tailed; 3] = [
 /// So many of such events in the runs of a campaign are not rare (`RARE` of the program).
 const RARE: f64 = 10.0;
 
-/// Law: an upper bound of a mean without bounds of the values misses as seldom as stated where a campaign has ten of the rare events or more on average. The
-/// counter-test: where it has one or fewer it misses far more often, which is why a decision says what it assumes.
+/// Law: an upper bound of a mean without bounds of the values misses as seldom as stated where a campaign has ten of
+/// the rare events or more on average. The counter-test: where it has one or fewer it misses far more often, which is
+/// why a decision says what it assumes.
 #[test]
 fn rare_events_are_what_a_mean_assumes() {
     for (index, (name, draw, mean, probability)) in TAILED.into_iter().enumerate() {
@@ -87,7 +90,8 @@ fn cut(random: &mut Uniform) -> f64 {
     -libm::log1p(-random.uniform() * (1.0 - libm::exp(-LONGEST)))
 }
 
-/// The same with bounds: flat spread in place of normal, exponential numbers cut off at [`LONGEST`]; name, a number of it, its mean, its bounds.
+/// The same with bounds: flat spread in place of normal, exponential numbers cut off at [`LONGEST`]; name, a number of
+/// it, its mean, its bounds.
 type Bounded = (&'static str, fn(&mut Uniform) -> f64, f64, [f64; 2]);
 
 /// The mean of exponential numbers below [`LONGEST`]: 1 - 10/(e^10 - 1).
@@ -117,8 +121,9 @@ const BOUNDED: [Bounded; 5] = [
     ("half 0, half 1", |random| f64::from(u8::from(random.uniform() < 0.5)), 0.5, [0.0, 1.0]),
 ];
 
-/// Law: with bounds of the values both bounds of the mean miss as seldom as stated, whatever the tail and however few runs; a limit at a quarter of the range above the mean
-/// passes with 1,000 runs. The counter-test: without the bounds the same numbers pass wrongly.
+/// Law: with bounds of the values both bounds of the mean miss as seldom as stated, whatever the tail and however few
+/// runs; a limit at a quarter of the range above the mean passes with 1,000 runs. The counter-test: without the bounds
+/// the same numbers pass wrongly.
 #[test]
 fn bounded_means_miss_as_seldom_as_stated() {
     let mut worst: f64 = 0.0;
@@ -140,7 +145,8 @@ fn bounded_means_miss_as_seldom_as_stated() {
                 free += u32::from(mean_bounds(&moments, 1.0 - RISK)[1] < mean);
             }
             println!(
-                "{name}, {runs} runs: bounds miss {misses:?} of {campaigns}, without bounds {free}; a clear one passes in {passes}"
+                "{name}, {runs} runs: bounds miss {misses:?} of {campaigns}, without bounds {free}; a clear one passes \
+                in {passes}"
             );
             assert!(misses.iter().all(|count| may_miss(*count, campaigns)), "{name} {runs}: {misses:?}");
             // what docs/results.md says of these campaigns
@@ -152,7 +158,8 @@ fn bounded_means_miss_as_seldom_as_stated() {
     assert!(worst > 0.3, "the counter-test: {worst}");
 }
 
-/// Whether a campaign of the number of runs that an undecided one names decides; `None` where that one is decided, or names no number up to [`MOST`].
+/// Whether a campaign of the number of runs that an undecided one names decides; `None` where that one is decided, or
+/// names no number up to [`MOST`].
 fn followed(
     gate: impl Fn(&[f64]) -> Decision,
     draw: fn(&mut Uniform) -> f64,
@@ -166,9 +173,10 @@ fn followed(
 
 const MOST: u64 = 30_000;
 
-/// Law: of campaigns of the number of runs that an undecided one names, about half decide or more: nine of ten would if the truth were what was seen (the test beside this
-/// one), and what was seen is off by its error. A larger spread in that number, the upper bound of the standard deviation, made it 68% where it is 53%: it is the distance to the
-/// limit that is uncertain.
+/// Law: of campaigns of the number of runs that an undecided one names, about half decide or more: nine of ten would if
+/// the truth were what was seen (the test beside this one), and what was seen is off by its error. A larger spread in
+/// that number, the upper bound of the standard deviation, made it 68% where it is 53%: it is the distance to the limit
+/// that is uncertain.
 #[test]
 fn half_of_those_that_follow_the_number_of_runs_decide() {
     const FOLLOWED: u32 = 200;

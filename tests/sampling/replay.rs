@@ -1,5 +1,5 @@
-//! What is recorded is what is used: the recorded values of a sample, written into a campaign file as its nominal scene, give the
-//! same scene and the same columns, bit for bit.
+//! What is recorded is what is used: the recorded values of a sample, written into a campaign file as its nominal
+//! scene, give the same scene and the same columns, bit for bit.
 
 use crate::support::plans::files;
 use crate::support::scratch_folder::ScratchFolder;
@@ -58,8 +58,8 @@ fn recorded_values_written_as_a_nominal_scene_give_the_same_columns() {
     assert!(with_attitude >= 2, "campaigns that disperse an attitude");
 }
 
-/// Law: the attitude recorded is the attitude used; the recorded values of a campaign, given to it as a table, make the same scenes, bit for
-/// bit.
+/// Law: the attitude recorded is the attitude used; the recorded values of a campaign, given to it as a table, make the
+/// same scenes, bit for bit.
 #[test]
 fn recorded_values_as_a_table_make_the_same_scenes() {
     let scratch = ScratchFolder::new("replay");
@@ -76,7 +76,8 @@ fn recorded_values_as_a_table_make_the_same_scenes() {
         let scenes: Vec<_> = samples
             .map(|sample| {
                 let scene = draws.scene(SampleId(sample)).expect("a physical sample").clone();
-                // where a scene divides what was normalised once more by its norm, a third of the rows differ in the last bit
+                // where a scene divides what was normalised once more by its norm, a third of the rows differ in the
+                // last bit
                 for (column, applied) in columns.iter().zip(draws.applied()) {
                     if column.parameter.name() == "initial.attitude" {
                         assert_eq!(applied.to_bits(), scene.initial.q_es[column.component].to_bits(), "{sample}");

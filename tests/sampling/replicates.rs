@@ -58,8 +58,9 @@ fn is_stratified(points: &[[f64; DIMENSIONS]], dimensions: usize) -> bool {
     })
 }
 
-/// Law: each replicate is by itself a design of its kind: a hypercube, a net (in each dimension, and in the boxes of the first two), a
-/// sequence in base 2. Counter-test: all of them together, and points of several replicates mixed, are none.
+/// Law: each replicate is by itself a design of its kind: a hypercube, a net (in each dimension, and in the boxes of
+/// the first two), a sequence in base 2. Counter-test: all of them together, and points of several replicates mixed,
+/// are none.
 #[test]
 fn each_replicate_is_a_design_of_its_kind() {
     let [latin, sobol, halton] = designs(16);
@@ -92,7 +93,8 @@ fn each_replicate_is_a_design_of_its_kind() {
     }
 }
 
-/// Law: with one replicate no bit changes, and with more of them more samples leave the earlier ones as they are where the design does.
+/// Law: with one replicate no bit changes, and with more of them more samples leave the earlier ones as they are where
+/// the design does.
 #[test]
 fn one_replicate_is_the_design() {
     for (one, many) in designs(1).into_iter().zip(designs(4)) {
@@ -127,9 +129,10 @@ fn means(design: &Design) -> Vec<f64> {
 
 /// Law: replicates are independent and without bias, and their means vary less than those of as many random samples.
 ///
-/// H0: the means of 256 replicates of 64 samples are independent with mean 1. Two statistics of each design are within 3.9 standard errors
-/// (alpha = 1e-4 each): the mean of the means, and the correlation of neighbours (standard error 1/16). Seed 3. Power: a bias of a third
-/// of the spread of the means is 5 standard errors; replicates that share half of their scrambling correlate by 0.5, which is 8.
+/// H0: the means of 256 replicates of 64 samples are independent with mean 1. Two statistics of each design are within
+/// 3.9 standard errors (alpha = 1e-4 each): the mean of the means, and the correlation of neighbours (standard error
+/// 1/16). Seed 3. Power: a bias of a third of the spread of the means is 5 standard errors; replicates that share half
+/// of their scrambling correlate by 0.5, which is 8.
 #[test]
 fn means_of_replicates_are_independent_and_vary_little() {
     const COUNT: u64 = 256;

@@ -1,4 +1,5 @@
-//! What the numbers of a design have in common: which of them a block of Saltelli's replaces together, and which digits Halton's have.
+//! What the numbers of a design have in common: which of them a block of Saltelli's replaces together, and which digits
+//! Halton's have.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -18,8 +19,9 @@ fn draws(folder: &Path, text: &str) -> (Vec<Vec<f64>>, Vec<String>) {
     (draws::applied(&plan, 1..plan.samples), columns)
 }
 
-/// Law: of the members of a block, that of a distribution has all numbers of this distribution from the last, and all others from the first, for
-/// every distribution. One of several numbers together is one, that of each component of a vector another.
+/// Law: of the members of a block, that of a distribution has all numbers of this distribution from the last, and all
+/// others from the first, for every distribution. One of several numbers together is one, that of each component of a
+/// vector another.
 #[test]
 fn saltelli_replaces_the_numbers_of_one_distribution_together() {
     const BLOCKS: usize = 8;
@@ -86,9 +88,9 @@ fn digits(mut point: u64, base: u64, count: usize) -> Vec<u64> {
     (0..count).map(|_| digit()).collect()
 }
 
-/// Law: number n of dimension d is the radical inverse of n in the d-th prime (J. H. Halton, 1960), but for a permutation of the values of
-/// each digit, the same for all n and another for each digit and dimension (A. B. Owen, 2017). So every b^m points that follow each other
-/// from a multiple of b^m on are one in each interval of width b^-m.
+/// Law: number n of dimension d is the radical inverse of n in the d-th prime (J. H. Halton, 1960), but for a
+/// permutation of the values of each digit, the same for all n and another for each digit and dimension (A. B. Owen,
+/// 2017). So every b^m points that follow each other from a multiple of b^m on are one in each interval of width b^-m.
 #[test]
 fn halton_permutes_the_digits_of_the_radical_inverse() {
     const PRIMES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];

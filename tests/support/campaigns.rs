@@ -85,6 +85,7 @@ pub const SMALL_BODY: &str = "[body]\nmass_kg = 100\ncenter_of_mass_m = [0, 0, 0
 /// A wheel of it about `axis`.
 pub fn small_wheel(name: &str, axis: [u8; 3]) -> String {
     format!(
-        "[[wheels]]\nname = {name:?}\naxis = {axis:?}\nmass_kg = 1\naxial_inertia_kg_m2 = 0.01\ntransverse_inertia_kg_m2 = 0.006\n"
+        "[[wheels]]\nname = {name:?}\naxis = {axis:?}\nmass_kg = 1\naxial_inertia_kg_m2 = \
+        0.01\ntransverse_inertia_kg_m2 = 0.006\n"
     )
 }

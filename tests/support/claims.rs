@@ -1,8 +1,10 @@
-//! The table of accuracy claims: a test measures and checks a claim, and `docs/accuracy.md` is written from the same call.
+//! The table of accuracy claims: a test measures and checks a claim, and `docs/accuracy.md` is written from the same
+//! call.
 //!
-//! A claim is a regime in words, a bound, and what was measured. In the document it is one row of the table of its section:
-//! [`hold`] fails where the measured number exceeds the bound, and where the document lacks the claim, states another
-//! bound or another measured number. With `SPINDRIFT_WRITE_ACCURACY=1` it writes the row instead: nothing in the tables is typed by hand.
+//! A claim is a regime in words, a bound, and what was measured. In the document it is one row of the table of its
+//! section: [`hold`] fails where the measured number exceeds the bound, and where the document lacks the claim, states
+//! another bound or another measured number. With `SPINDRIFT_WRITE_ACCURACY=1` it writes the row instead: nothing in
+//! the tables is typed by hand.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -21,8 +23,9 @@ pub fn path() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy.md")
 }
 
-/// The measured number that the document states and a fresh one differ by at most this factor. Rows are the same on every machine; two
-/// digits are printed (a factor of 1.05), and the tests' own statistics use elementary functions of the platform.
+/// The measured number that the document states and a fresh one differ by at most this factor. Rows are the same on
+/// every machine; two digits are printed (a factor of 1.05), and the tests' own statistics use elementary functions of
+/// the platform.
 const FRESH: f64 = 1.1;
 
 /// Whether the row of the document states another measured number than `measured`.

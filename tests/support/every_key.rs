@@ -1,4 +1,5 @@
-//! A campaign file with every table, and with tables of every distribution and design: what the tests of wrong files change.
+//! A campaign file with every table, and with tables of every distribution and design: what the tests of wrong files
+//! change.
 
 /// A valid file with every table that a file can have.
 pub const EVERY_TABLE: &str = r#"[campaign]
@@ -215,8 +216,8 @@ pub fn without_draws() -> String {
     [&EVERY_TABLE[..at("[design]")], &EVERY_TABLE[at("[bands]")..]].concat()
 }
 
-/// A valid table of each distribution and each way to say its numbers, for [`without_draws`] and a table `data.csv` with columns a and b; with
-/// the name of the distribution.
+/// A valid table of each distribution and each way to say its numbers, for [`without_draws`] and a table `data.csv`
+/// with columns a and b; with the name of the distribution.
 pub fn distribution_tables() -> Vec<(&'static str, String)> {
     let of = |parameter: &str, name: &'static str, keys: &str| {
         let target = if parameter.is_empty() { String::new() } else { format!("parameter = {parameter:?}\n") };
@@ -264,7 +265,8 @@ pub fn distribution_tables() -> Vec<(&'static str, String)> {
         ("attitude_error", "covariance_rad2 = [[4e-4, 1e-4, 0.0], [1e-4, 1e-4, 0.0], [0.0, 0.0, 2e-4]]"),
         ("about_axis", "axis = [1.0, 2.0, 2.0]\nangle_rad = { distribution = \"normal\", std = 0.1 }"),
     ];
-    let rows = "file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\", \"body.parts.tank.radius_m\"]\ncolumns = [\"a\", \"b\"]";
+    let rows = "file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\", \"body.parts.tank.radius_m\"]\ncolumns = \
+        [\"a\", \"b\"]";
     let scalar = scalar.into_iter().map(|(name, keys)| of("wheels.w1.radius_m", name, keys));
     let rates = rates
         .into_iter()
@@ -328,10 +330,13 @@ fn in_own_air() -> String {
 /// The same with plates, in air and light.
 fn on_plates() -> String {
     let plates = "semi_major_axis_m = 9e6\n\
-        [[plates]]\nname = \"panel\"\narea_m2 = 2.5\nnormal = [0, 0.5, 1]\ntilt_rad = [0.01, 0.0]\ncenter_m = [0.1, 0.8, 0]\n\
+        [[plates]]\nname = \"panel\"\narea_m2 = 2.5\nnormal = [0, 0.5, 1]\ntilt_rad = [0.01, 0.0]\ncenter_m = [0.1, \
+        0.8, 0]\n\
         drag_coefficient = 2.5\nspecular = 0.4\ndiffuse = 0.3\n";
-    let effects = "gravity_gradient = true\ndrag = true\nsolar_pressure = true\nshadow = \"cylinder\"\ndensity_scale = 1.5\n\
-        base_density_kg_m3 = 1e-11\nbase_height_m = 5e5\nscale_height_m = 6e4\nsolar_pressure_n_m2 = 4.6e-6\narea_scale = 1.1\ncoupled = true\n";
+    let effects = "gravity_gradient = true\ndrag = true\nsolar_pressure = true\nshadow = \"cylinder\"\ndensity_scale = \
+        1.5\n\
+        base_density_kg_m3 = 1e-11\nbase_height_m = 5e5\nscale_height_m = 6e4\nsolar_pressure_n_m2 = \
+        4.6e-6\narea_scale = 1.1\ncoupled = true\n";
     on_orbit(plates).replace("gravity_gradient = true\n", effects)
 }
 
@@ -340,16 +345,19 @@ fn on_orbit(keys: &str) -> String {
     format!(
         "[campaign]\nname = \"orbit\"\nsamples = 10\nseed = 1\nduration_s = 100.0\n\
          [body]\nmass_kg = 10\nincludes_wheels = false\ninertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]\n\
-         [[wheels]]\nname = \"w1\"\naxis = [0, 0, 1]\nposition_m = [0, 0, 0]\nradius_m = 0.1\nlength_m = 0.05\ndensity_kg_m3 = 100\n\
+         [[wheels]]\nname = \"w1\"\naxis = [0, 0, 1]\nposition_m = [0, 0, 0]\nradius_m = 0.1\nlength_m = \
+         0.05\ndensity_kg_m3 = 100\n\
          [[actuation]]\nname = \"burn\"\nstart_s = 0.0\nend_s = 3.0\ntorque_n_m = {{ w1 = 0.001 }}\n\
          [[actuation]]\nname = \"later\"\nstart_s = 4.0\nend_s = 6.0\ntorque_n_m = {{ w1 = 0.002 }}\n\
          [initial]\nangular_velocity_rad_s = [0, 0, 0.001]\n\
-         [environment]\nbody_torque_n_m = [0, 0.001, 0]\ngravity_gradient = true\nmagnetic_field = \"igrf\"\nmagnetic_dipole_a_m2 = [0.1, 0.2, 0.3]\n\
+         [environment]\nbody_torque_n_m = [0, 0.001, 0]\ngravity_gradient = true\nmagnetic_field = \
+         \"igrf\"\nmagnetic_dipole_a_m2 = [0.1, 0.2, 0.3]\n\
          [orbit]\nepoch = \"2026-11-24T01:02:03.25Z\"\nbody_radius_m = 0\n{keys}\n"
     )
 }
 
-/// Files with a control loop each: every estimator, modulation, sensor, law, target and maneuver, with each of the keys that they declare.
+/// Files with a control loop each: every estimator, modulation, sensor, law, target and maneuver, with each of the keys
+/// that they declare.
 pub fn every_loop() -> Vec<String> {
     let base = every_table_of_loops();
     let sensors_of = |estimator: &spindrift::control::estimators::EstimatorKind| {
@@ -387,8 +395,10 @@ pub fn every_loop() -> Vec<String> {
             let (sensors, estimator) = (sensors_of(estimator), estimator.name);
             let failures = failures_of(&sensors);
             files.push(format!(
-                "{base}[control]\nperiod_s = 0.25\nestimator = \"{estimator}\"\nwheels = [\"w1\"]\nthrusters = [\"p1\"]\n\
-                 modulation = \"{modulation}\"\nhold_force = true\n[control.model]\nmass_kg = 2000.0\ncenter_of_mass_m = [0, 0, 1.5]\n\
+                "{base}[control]\nperiod_s = 0.25\nestimator = \"{estimator}\"\nwheels = [\"w1\"]\nthrusters = \
+                [\"p1\"]\n\
+                 modulation = \"{modulation}\"\nhold_force = true\n[control.model]\nmass_kg = 2000.0\ncenter_of_mass_m \
+                 = [0, 0, 1.5]\n\
                  inertia_kg_m2 = [[3000, 0, 0], [0, 3000, 0], [0, 0, 1700]]\n{sensors}{failures}{phases}"
             ));
         }
@@ -409,8 +419,10 @@ pub fn every_loop() -> Vec<String> {
     for (name, of) in spindrift::control::laws::rod_law::ROD_USES.iter().filter(|(name, _)| *name != "none") {
         let own = numbers(of.parameters());
         files.push(format!(
-            "{orbit}[[torque_rods]]\nname = \"m1\"\naxis = [0, 0, 1]\nmax_dipole_a_m2 = 5.0\n[control]\nperiod_s = 0.25\n\
-             estimator = \"mekf\"\nwheels = [\"w1\"]\ntorque_rods = [\"m1\"]\n{sensors}[[guidance]]\nphase = \"turn\"\nrods = \"{name}\"\n{own}\
+            "{orbit}[[torque_rods]]\nname = \"m1\"\naxis = [0, 0, 1]\nmax_dipole_a_m2 = 5.0\n[control]\nperiod_s = \
+            0.25\n\
+             estimator = \"mekf\"\nwheels = [\"w1\"]\ntorque_rods = [\"m1\"]\n{sensors}[[guidance]]\nphase = \
+             \"turn\"\nrods = \"{name}\"\n{own}\
              [[failure]]\nname = \"rod\"\ntorque_rod = \"m1\"\nat_s = 3\ndipole_a_m2 = 0.5\n"
         ));
     }
@@ -440,7 +452,8 @@ fn numbers(parameters: &[spindrift::scene::LawParameter]) -> String {
 fn every_table_of_loops() -> String {
     let failing = "torque_scale = 0.5\n\n[[failure]]";
     let friction = "torque_scale = 0.5\ncoulomb_friction_n_m = 0.02\nviscous_friction_n_m_s = 0.002\n\n[[failure]]";
-    let drive = "torque_limit_n_m = 2.0\nspeed_limit_rad_s = 400.0\ncoulomb_friction_n_m = 0.01\nviscous_friction_n_m_s = 0.001\n";
+    let drive = "torque_limit_n_m = 2.0\nspeed_limit_rad_s = 400.0\ncoulomb_friction_n_m = \
+        0.01\nviscous_friction_n_m_s = 0.001\n";
     let text = without_draws().replace("rate_rad_s = 314.0\n", &format!("rate_rad_s = 314.0\n{drive}"));
     text.replace(failing, friction).replace(
         "direction = [0, 0, 1]\n\n[debris]",

@@ -11,8 +11,8 @@ use spindrift::scene::{Scene, WheelMode};
 /// What a free spacecraft conserves, at one point.
 #[derive(Clone, Copy, Debug)]
 pub struct Invariants {
-    /// Kinetic energy about c, J; where the speed of wheels is held minus the work of their motors: half omega . K omega, with K the
-    /// inertia that rotates with the fuselage.
+    /// Kinetic energy about c, J; where the speed of wheels is held minus the work of their motors: half omega . K
+    /// omega, with K the inertia that rotates with the fuselage.
     pub energy: DoubleDouble,
     /// Magnitude of the angular momentum about c from the rates alone, N m s.
     pub momentum: DoubleDouble,
@@ -56,7 +56,8 @@ impl Invariants {
         Invariants { energy, momentum: vector::norm(momentum), momentum_e, norm }
     }
 
-    /// Signed relative errors against `start`: of energy, of |L|, of the quaternion's norm; and the size of that of the vector L.
+    /// Signed relative errors against `start`: of energy, of |L|, of the quaternion's norm; and the size of that of the
+    /// vector L.
     pub fn errors(&self, start: &Self) -> [f64; 4] {
         let off = |now: DoubleDouble, then: DoubleDouble| {
             let size = if then.high == 0.0 { DoubleDouble::exact(1.0) } else { then };

@@ -48,7 +48,8 @@ pub fn circle(radius: f64, inclination: f64) -> OrbitInput {
     OrbitInput { semi_major_axis_m: Some(radius), inclination_rad: Some(inclination), ..OrbitInput::DEFAULT }
 }
 
-/// The same as [`tumbling`] with six plates each, dragged in a dense exponential atmosphere and lit: torques like that of the gravity gradient.
+/// The same as [`tumbling`] with six plates each, dragged in a dense exponential atmosphere and lit: torques like that
+/// of the gravity gradient.
 pub fn plated(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
     let mut u = Uniform::new(seed + 1);
     let plates = |mut input: SceneInput| {
@@ -79,8 +80,9 @@ pub fn plated(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
     inputs(count, seed, rates).into_iter().map(plates).map(resolved).collect()
 }
 
-/// The same as [`tumbling`] without a gravity gradient, with a residual dipole in the Earth's field (IGRF for even numbers, a dipole for the others), and two torque
-/// rods that are commanded anew at random times until `duration` s: torques like that of the gravity gradient.
+/// The same as [`tumbling`] without a gravity gradient, with a residual dipole in the Earth's field (IGRF for even
+/// numbers, a dipole for the others), and two torque rods that are commanded anew at random times until `duration` s:
+/// torques like that of the gravity gradient.
 pub fn magnetic(count: u64, seed: u64, rates: [f64; 2], duration: f64) -> Vec<Scene> {
     let mut u = Uniform::new(seed + 2);
     let magnetic = |(k, mut input): (usize, SceneInput)| {
@@ -106,7 +108,8 @@ pub fn magnetic(count: u64, seed: u64, rates: [f64; 2], duration: f64) -> Vec<Sc
     inputs(count, seed, rates).into_iter().enumerate().map(magnetic).collect()
 }
 
-/// The satellite of `drag_tumble.toml` between 400 and 500 km, where the table of densities has kinks, on orbits with shadow, that tumbles with 0.01 to 2 deg/s.
+/// The satellite of `drag_tumble.toml` between 400 and 500 km, where the table of densities has kinks, on orbits with
+/// shadow, that tumbles with 0.01 to 2 deg/s.
 pub fn in_thin_air(count: u64, seed: u64) -> Vec<Scene> {
     let mut u = Uniform::new(seed);
     let plate = |name: &str, area: f64, normal: [f64; 3], center_m: [f64; 3]| PlateInput {
@@ -155,7 +158,8 @@ fn resolved(input: SceneInput) -> Scene {
     Scene::resolve(&input).unwrap_or_else(|errors| panic!("{}", errors[0]))
 }
 
-/// Bodies of random shapes in random orbits, eccentric up to 0.3, that turn at `rates` times the mean motion; every other one with a wheel.
+/// Bodies of random shapes in random orbits, eccentric up to 0.3, that turn at `rates` times the mean motion; every
+/// other one with a wheel.
 pub fn tumbling(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
     inputs(count, seed, rates).into_iter().map(resolved).collect()
 }

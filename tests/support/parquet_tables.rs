@@ -1,4 +1,5 @@
-//! Parquet files as Arrow's arrays, through Parquet's record reader: by another way than the program reads its own files.
+//! Parquet files as Arrow's arrays, through Parquet's record reader: by another way than the program reads its own
+//! files.
 
 use std::fs::File;
 use std::path::Path;

@@ -78,7 +78,8 @@ impl<T: Send, S: Fn(&Rows, usize) -> T + Sync> Sink for Seen<S, T> {
     }
 }
 
-/// What `see` makes of each row of a campaign on so many threads (all cores where none is given), in the order of samples.
+/// What `see` makes of each row of a campaign on so many threads (all cores where none is given), in the order of
+/// samples.
 pub fn seen<T: Send>(
     campaign: &Ensemble<'_>,
     threads: Option<usize>,

@@ -171,7 +171,8 @@ pub fn speed_held(mut input: SceneInput, held: [bool; 2]) -> SceneInput {
     input
 }
 
-/// `input` with wheels that stand off the axis s3 by up to 0.2 m, and axes and thrusters that are tilted by up to 0.3 rad each way.
+/// `input` with wheels that stand off the axis s3 by up to 0.2 m, and axes and thrusters that are tilted by up to 0.3
+/// rad each way.
 pub fn misaligned(mut input: SceneInput, seed: u64) -> SceneInput {
     let mut u = Uniform::new(!seed);
     for wheel in &mut input.wheels {
@@ -196,7 +197,8 @@ pub fn mixed_kind(k: u64, forced: bool) -> Kind {
     }
 }
 
-/// `count` scenes of all kinds, all forced or none; with debris, as a campaign has it for all of its samples or for none.
+/// `count` scenes of all kinds, all forced or none; with debris, as a campaign has it for all of its samples or for
+/// none.
 pub fn mixed(count: u64, forced: bool, horizon: f64) -> Vec<Scene> {
     let input = |k: u64| random(mixed_kind(k, forced), 1000 + k, horizon);
     (0..count).map(|k| Scene::resolve(&input(k)).expect("random scenes are physical")).collect()
@@ -205,8 +207,9 @@ pub fn mixed(count: u64, forced: bool, horizon: f64) -> Vec<Scene> {
 /// Numbers of wheels of [`many_wheels`].
 pub const COUNTS: [usize; 6] = [0, 1, 2, 3, 4, 8];
 
-/// The random scene number `k` of spacecraft with `count` wheels at any place, about any axis, that are free, speed-held or locked, and
-/// up to sixteen thrusters at any place in any direction; forced ones command the thrusters and the free wheels.
+/// The random scene number `k` of spacecraft with `count` wheels at any place, about any axis, that are free,
+/// speed-held or locked, and up to sixteen thrusters at any place in any direction; forced ones command the thrusters
+/// and the free wheels.
 pub fn many_wheels(count: usize, k: u64, forced: bool, horizon: f64) -> SceneInput {
     let bare = Kind { wheels: [false; 2], debris: 0, products: k % 2 == 1, offset: k % 3 == 1, forced: false };
     let mut input = random(bare, 9000 + k, horizon);

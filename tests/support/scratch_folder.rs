@@ -117,7 +117,8 @@ impl ScratchFolder {
     }
 }
 
-/// Every file below `root`, which may be absent, with its content, by its name: `runs/part-000000.parquet`, `plan.toml`.
+/// Every file below `root`, which may be absent, with its content, by its name: `runs/part-000000.parquet`,
+/// `plan.toml`.
 pub fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut folders = vec![root.to_owned()];

@@ -213,7 +213,8 @@ impl Law<2, 1> for TwoSprings {
     }
 }
 
-/// Euler's equations of the free rigid body with the moments of inertia as parameters (Hairer, Lubich & Wanner 2006, IV.1.3).
+/// Euler's equations of the free rigid body with the moments of inertia as parameters (Hairer, Lubich & Wanner 2006,
+/// IV.1.3).
 #[derive(Clone, Copy)]
 pub struct RigidBody;
 impl Law<3, 3> for RigidBody {
@@ -288,7 +289,8 @@ impl Law<1, 0> for NotANumber {
     }
 }
 
-/// y' = (s + 1) (3 t^2): in arc s, a quadrature whose right-hand side jumps at every boundary; it takes the absolute time.
+/// y' = (s + 1) (3 t^2): in arc s, a quadrature whose right-hand side jumps at every boundary; it takes the absolute
+/// time.
 #[derive(Clone, Copy)]
 pub struct Switched;
 impl Law<1, 0> for Switched {

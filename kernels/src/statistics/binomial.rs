@@ -1,8 +1,9 @@
-//! Exact inference about a fraction from counts: the binomial distribution, Clopper-Pearson bounds, and the test behind a
-//! requirement.
+//! Exact inference about a fraction from counts: the binomial distribution, Clopper-Pearson bounds, and the test behind
+//! a requirement.
 //!
-//! C. J. Clopper & E. S. Pearson, *The use of confidence or fiducial limits illustrated in the case of the binomial*, Biometrika 26
-//! (1934) 404. Counts are of independent runs; designs that lay samples out together need other intervals.
+//! C. J. Clopper & E. S. Pearson, *The use of confidence or fiducial limits illustrated in the case of the binomial*,
+//! Biometrika 26 (1934) 404. Counts are of independent runs; designs that lay samples out together need other
+//! intervals.
 
 use crate::math::incomplete_beta::{incomplete_beta, inverse_incomplete_beta};
 use crate::math::normal;
@@ -52,21 +53,24 @@ pub enum Decision {
     Pass,
     /// The one-sided upper bound misses it.
     Fail,
-    /// Neither; the number of runs of a campaign that decides with the probability [`POWER`] if the truth is what was seen, where there is one.
+    /// Neither; the number of runs of a campaign that decides with the probability [`POWER`] if the truth is what was
+    /// seen, where there is one.
     Undecided(Option<u64>),
 }
 
-/// The probability with which a campaign of the number of runs that [`Decision::Undecided`] names decides, if the truth is what was seen.
+/// The probability with which a campaign of the number of runs that [`Decision::Undecided`] names decides, if the truth
+/// is what was seen.
 ///
-/// That number is of one campaign, looked at once. Adding runs until something is decided errs more often: that takes [`super::looks`].
+/// That number is of one campaign, looked at once. Adding runs until something is decided errs more often: that takes
+/// [`super::looks`].
 pub const POWER: f64 = 0.9;
 /// Beyond this many runs, a requirement counts as one that no number of runs decides.
 pub const MAX_RUNS: u64 = 10_000_000_000;
 
 /// Decides whether a fraction of at least `target` in (0, 1) succeeds, at `confidence`, from `successes` in `trials`.
 ///
-/// The bounds are not computed: the lower bound reaches the target exactly where P(X >= successes) at the target is at most
-/// 1 - confidence, and the same for the upper one. So no rounding of an inverse decides.
+/// The bounds are not computed: the lower bound reaches the target exactly where P(X >= successes) at the target is at
+/// most 1 - confidence, and the same for the upper one. So no rounding of an inverse decides.
 pub fn decide(successes: u64, trials: u64, target: f64, confidence: f64) -> Decision {
     match decided(successes, trials, target, confidence) {
         Some(true) => Decision::Pass,
@@ -89,10 +93,11 @@ fn decided(successes: u64, trials: u64, target: f64, confidence: f64) -> Option<
     }
 }
 
-/// A number of runs, at least `trials`, that decides with the probability [`POWER`] if the fraction is that of `successes` in `trials`; no
-/// smaller one next to it does. `None` where none up to [`MAX_RUNS`] does.
+/// A number of runs, at least `trials`, that decides with the probability [`POWER`] if the fraction is that of
+/// `successes` in `trials`; no smaller one next to it does. `None` where none up to [`MAX_RUNS`] does.
 ///
-/// The probability is exact. It is not monotonic in the number of runs (successes are whole), so a number a few runs smaller may do too.
+/// The probability is exact. It is not monotonic in the number of runs (successes are whole), so a number a few runs
+/// smaller may do too.
 fn deciding_runs(successes: u64, trials: u64, target: f64, confidence: f64) -> Option<u64> {
     if trials == 0 {
         return None;
@@ -118,7 +123,8 @@ fn deciding_runs(successes: u64, trials: u64, target: f64, confidence: f64) -> O
     (found < MAX_RUNS).then_some(found)
 }
 
-/// The largest r with P(X <= r - 1) <= `risk`, X the number of successes in `trials` of probability `p`; none where even r = 1 is too likely.
+/// The largest r with P(X <= r - 1) <= `risk`, X the number of successes in `trials` of probability `p`; none where
+/// even r = 1 is too likely.
 pub fn lower_rank(trials: u64, p: f64, risk: f64) -> Option<u64> {
     let misses = |rank: u64| at_most(rank - 1, trials, p) > risk;
     let found = first([1, trials + 1], [near_rank(trials, p, risk), 1], misses);
@@ -138,8 +144,8 @@ fn near_rank(trials: u64, p: f64, q: f64) -> u64 {
     (n * p + normal::quantile(q) * libm::sqrt(n * p * (1.0 - p))) as u64
 }
 
-/// The first number from `low` to `high` that `holds`, as `high` is taken to do, and with one all above it. It is sought outward from `at` in
-/// steps from `step` on that double, and then by bisection.
+/// The first number from `low` to `high` that `holds`, as `high` is taken to do, and with one all above it. It is
+/// sought outward from `at` in steps from `step` on that double, and then by bisection.
 fn first([mut low, mut high]: [u64; 2], [mut at, mut step]: [u64; 2], holds: impl Fn(u64) -> bool) -> u64 {
     let mut is_within = [false; 2];
     while low < high {
@@ -182,7 +188,8 @@ mod tests {
         }
     }
 
-    /// Law: a bound at a confidence is the fraction at which what was seen, or more (or less), has the rest for a probability.
+    /// Law: a bound at a confidence is the fraction at which what was seen, or more (or less), has the rest for a
+    /// probability.
     #[test]
     fn bounds_invert_the_tails() {
         for (successes, trials) in [(1, 10), (9, 10), (10, 10), (0, 10), (590, 600), (999_000, 1_000_000)] {
@@ -206,7 +213,8 @@ mod tests {
         assert!((upper - (1.0 - libm::pow(0.05, 1.0 / 59.0))).abs() < 1e-15, "{upper}");
     }
 
-    /// Published: 59 runs without a failure show 95% with 95% confidence (S. S. Wilks, Ann. Math. Statist. 12 (1941) 91).
+    /// Published: 59 runs without a failure show 95% with 95% confidence (S. S. Wilks, Ann. Math. Statist. 12 (1941)
+    /// 91).
     #[test]
     fn fifty_nine_successes_decide_95_95() {
         assert_eq!(decide(59, 59, 0.95, 0.95), Decision::Pass);
@@ -216,8 +224,8 @@ mod tests {
         assert_eq!(decide(95, 100, 0.95, 0.95), Decision::Undecided(None), "exactly at the target nothing decides");
     }
 
-    /// Law: of campaigns with the number of runs that is named nine in ten decide if the truth is what was seen, exactly; with a tenth fewer
-    /// fewer do. The sums are over all counts of successes.
+    /// Law: of campaigns with the number of runs that is named nine in ten decide if the truth is what was seen,
+    /// exactly; with a tenth fewer fewer do. The sums are over all counts of successes.
     #[test]
     fn nine_of_ten_campaigns_of_the_runs_named_decide() {
         for (successes, trials, target) in

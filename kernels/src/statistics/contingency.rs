@@ -1,9 +1,10 @@
 //! Tables of two groups of runs and a yes or no: the exact test of R. A. Fisher, and the risk ratio with its interval.
 //!
-//! - Test: R. A. Fisher, *The logic of inductive inference*, J. Roy. Stat. Soc. 98 (1935) 39; two-sided by the probabilities of the tables, as in
-//!   R's `fisher.test`.
-//! - Interval: P. A. R. Koopman, *Confidence intervals for the ratio of two binomial proportions*, Biometrics 40 (1984) 513: the ratios that the
-//!   score test does not reject. It holds for counts of zero too, where that of the logarithm (D. Katz et al., *Biometrics* 34 (1978) 469) has none.
+//! - Test: R. A. Fisher, *The logic of inductive inference*, J. Roy. Stat. Soc. 98 (1935) 39; two-sided by the
+//!   probabilities of the tables, as in R's `fisher.test`.
+//! - Interval: P. A. R. Koopman, *Confidence intervals for the ratio of two binomial proportions*, Biometrics 40 (1984)
+//!   513: the ratios that the score test does not reject. It holds for counts of zero too, where that of the logarithm
+//!   (D. Katz et al., *Biometrics* 34 (1978) 469) has none.
 
 use super::jackknife::Estimate;
 use crate::math::normal;
@@ -17,10 +18,12 @@ pub struct Occurrence {
     pub runs: u64,
 }
 
-/// Relative difference of two probabilities that counts as none: their sums of logarithms round (R has the same number).
+/// Relative difference of two probabilities that counts as none: their sums of logarithms round (R has the same
+/// number).
 const SAME: f64 = 1e-7;
 
-/// The probability of a table that is as unlikely as this one, or more, where the event does not depend on the group (two-sided).
+/// The probability of a table that is as unlikely as this one, or more, where the event does not depend on the group
+/// (two-sided).
 ///
 /// The sum is over all tables with the same margins: exact, in a time that grows with the number of events.
 pub fn fisher(one: Occurrence, other: Occurrence) -> f64 {
@@ -47,8 +50,8 @@ pub fn fisher(one: Occurrence, other: Occurrence) -> f64 {
     (unlikely / terms.iter().sum::<f64>()).min(1.0)
 }
 
-/// How many times as often the event occurs in the first group as in the other, with Koopman's interval; infinite where it never occurs in the
-/// other. `None` where it occurs in neither, or a group is empty.
+/// How many times as often the event occurs in the first group as in the other, with Koopman's interval; infinite where
+/// it never occurs in the other. `None` where it occurs in neither, or a group is empty.
 pub fn risk_ratio(one: Occurrence, other: Occurrence, confidence: f64) -> Option<Estimate> {
     /// Ratios of counts of 64 bits are within e^±60 of each other.
     const REACH: f64 = 60.0;
@@ -98,8 +101,8 @@ mod tests {
         (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
     }
 
-    /// Law: the p-value is the sum, over all tables with these margins, of the probabilities that are no greater; here of binomial coefficients.
-    /// A two-sided p-value that doubles one tail differs.
+    /// Law: the p-value is the sum, over all tables with these margins, of the probabilities that are no greater; here
+    /// of binomial coefficients. A two-sided p-value that doubles one tail differs.
     #[test]
     fn fisher_is_the_sum_over_tables() {
         for (a, m, b, n) in [(3, 4, 1, 4), (14, 14, 2, 20), (0, 5, 7, 9), (2, 30, 9, 25), (1, 1, 0, 40), (6, 12, 6, 12)]
@@ -119,8 +122,8 @@ mod tests {
         assert!(fisher(of(0, 10), of(0, 20)) == 1.0);
     }
 
-    /// H0: with the event independent of the group, the p-value is at most alpha in at most alpha of the tables, exactly: the sum of the
-    /// probabilities of all tables with these margins.
+    /// H0: with the event independent of the group, the p-value is at most alpha in at most alpha of the tables,
+    /// exactly: the sum of the probabilities of all tables with these margins.
     #[test]
     fn fisher_errs_as_seldom_as_stated() {
         for (events, m, n) in [(16, 14, 985), (9, 20, 30), (40, 50, 50)] {
@@ -133,8 +136,8 @@ mod tests {
         }
     }
 
-    /// Published: 36 of 40 against 16 of 80 have the interval 2.94 to 7.15 (Koopman 1984). Others from statsmodels 0.14,
-    /// `confint_proportions_2indep(compare="ratio", method="score", correction=False)`.
+    /// Published: 36 of 40 against 16 of 80 have the interval 2.94 to 7.15 (Koopman 1984). Others from statsmodels
+    /// 0.14, `confint_proportions_2indep(compare="ratio", method="score", correction=False)`.
     #[test]
     fn the_interval_is_koopmans() {
         for (one, other, lower, upper) in [
@@ -149,7 +152,8 @@ mod tests {
         }
     }
 
-    /// Law: the groups exchanged give the inverse ratio and the inverse ends; an event that never occurs in a group bounds the ratio on one side.
+    /// Law: the groups exchanged give the inverse ratio and the inverse ends; an event that never occurs in a group
+    /// bounds the ratio on one side.
     #[test]
     fn exchanged_groups_have_the_inverse_ratio() {
         for (one, other) in
@@ -170,8 +174,9 @@ mod tests {
         assert_eq!(risk_ratio(of(0, 0), of(1, 8), 0.95), None);
     }
 
-    /// H0: the interval covers the true ratio as often as stated, over a list of shares and sizes: the exact sum over all pairs of counts, none but
-    /// a few per cent below 95% (a score interval is not exact; Koopman's table has 94 to 96%). Half of the width covers 65 to 75%.
+    /// H0: the interval covers the true ratio as often as stated, over a list of shares and sizes: the exact sum over
+    /// all pairs of counts, none but a few per cent below 95% (a score interval is not exact; Koopman's table has 94 to
+    /// 96%). Half of the width covers 65 to 75%.
     #[test]
     fn the_interval_covers_the_ratio() {
         let term = |k: u64, n: u64, p: f64| choose(n, k) * libm::pow(p, k as f64) * libm::pow(1.0 - p, (n - k) as f64);

@@ -1,8 +1,8 @@
 //! Correlation of two columns, plain or of ranks, with a confidence interval.
 //!
-//! Pearson's coefficient; Spearman's is Pearson's of mid-ranks. The interval is one of R. A. Fisher's atanh r (*Metron* 1 (1921) 3), its width
-//! that of the [`super::jackknife`]: the variance 1/(n - 3) holds for normal numbers alone (of y = x z, x and z normal, it covers
-//! 0.75 for 0.95).
+//! Pearson's coefficient; Spearman's is Pearson's of mid-ranks. The interval is one of R. A. Fisher's atanh r (*Metron*
+//! 1 (1921) 3), its width that of the [`super::jackknife`]: the variance 1/(n - 3) holds for normal numbers alone (of
+//! y = x z, x and z normal, it covers 0.75 for 0.95).
 //!
 //! Intervals are for independent rows.
 
@@ -89,7 +89,8 @@ pub fn matrix(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 /// Pearson's coefficient of two [`standardised`] columns, with its interval; `fixed` other columns were held fixed.
 ///
-/// Columns of ranks give Spearman's coefficient: taking ranks for numbers makes the interval at most a tenth wider or narrower.
+/// Columns of ranks give Spearman's coefficient: taking ranks for numbers makes the interval at most a tenth wider or
+/// narrower.
 pub fn correlation(x: &[f64], y: &[f64], fixed: usize, confidence: f64) -> Estimate {
     let rows = x.len();
     let value = product(x, y).clamp(-1.0, 1.0);
@@ -109,8 +110,8 @@ pub fn correlation(x: &[f64], y: &[f64], fixed: usize, confidence: f64) -> Estim
     let [lower, upper] = jackknife::ends(libm::atanh(value), rows, influences, confidence).map(libm::tanh);
     Estimate { value, lower, upper }
 }
-/// n - 1 times the change of a standardised coefficient when a row is left out of `rows`: the row has the standardised values `x` and `y`, and
-/// changes the coefficient by `change` as long as the scales of both columns are kept.
+/// n - 1 times the change of a standardised coefficient when a row is left out of `rows`: the row has the standardised
+/// values `x` and `y`, and changes the coefficient by `change` as long as the scales of both columns are kept.
 pub(super) fn influence(coefficient: f64, change: f64, [x, y]: [f64; 2], rows: usize) -> f64 {
     let n = rows as f64;
     // the sum of squares without the row and its part in the mean
@@ -174,8 +175,8 @@ mod tests {
         }
     }
 
-    /// Law: an interval holds its coefficient, turns with the sign of a column, and has no width where one column is a multiple of the other;
-    /// four rows and more are needed, one more for each column held fixed.
+    /// Law: an interval holds its coefficient, turns with the sign of a column, and has no width where one column is a
+    /// multiple of the other; four rows and more are needed, one more for each column held fixed.
     #[test]
     fn intervals_hold_their_coefficient() {
         let x = standardised(&(0..50).map(|k| libm::sin(f64::from(k * k))).collect::<Vec<_>>());

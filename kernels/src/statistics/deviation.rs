@@ -1,9 +1,10 @@
-//! Buckets of deviations from a nominal value: their [`code`], their [`ends`], and the order statistics ([`ranks`]) of what was counted in them.
+//! Buckets of deviations from a nominal value: their [`code`], their [`ends`], and the order statistics ([`ranks`]) of
+//! what was counted in them.
 //!
-//! Buckets are the leading bits of the deviation: sign, exponent and the first [`MANTISSA_BITS`] bits of the mantissa, as in
-//! [`super::sketch`], but coarser and in 16 bits, so that hundreds of millions of deviations can be counted while a campaign runs.
-//! A bucket is at most 2^-5 of its value wide; a quantile is answered by the middle of its bucket, hence within
-//! [`RELATIVE_ERROR`] of the deviation.
+//! Buckets are the leading bits of the deviation: sign, exponent and the first [`MANTISSA_BITS`] bits of the mantissa,
+//! as in [`super::sketch`], but coarser and in 16 bits, so that hundreds of millions of deviations can be counted while
+//! a campaign runs. A bucket is at most 2^-5 of its value wide; a quantile is answered by the middle of its bucket,
+//! hence within [`RELATIVE_ERROR`] of the deviation.
 //!
 //! Magnitudes below 2^-512 (7e-155) count as zero, those from 2^512 (1.3e154) on are in the last bucket.
 
@@ -90,7 +91,8 @@ mod tests {
         if bits & 1 == 0 { magnitude } else { -magnitude }
     }
 
-    /// Law: the middle of the bucket of a deviation is within the stated error of it, with its sign, from 2^-512 to 2^511.
+    /// Law: the middle of the bucket of a deviation is within the stated error of it, with its sign, from 2^-512 to
+    /// 2^511.
     #[test]
     fn a_bucket_is_as_narrow_as_stated() {
         let mut widest = 0.0f64;

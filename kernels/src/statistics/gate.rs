@@ -1,9 +1,10 @@
 //! What numbers say of a requirement: met, missed, or undecided and how many runs would decide.
 //!
-//! Fractions and quantiles are one exact binomial test ([`super::binomial::decide`]): that the `p`-quantile is at most a limit says that at
-//! least the fraction p of runs is. Means are tested by bounds that allow for skewness ([`super::mean`]), estimates of replicates by
-//! theirs ([`super::replicates`]). Each error, to pass what should fail or to fail what should pass, has at most the probability
-//! 1 - confidence. Of several requirements see [`failing_at`] and [`failing_together`].
+//! Fractions and quantiles are one exact binomial test ([`super::binomial::decide`]): that the `p`-quantile is at most
+//! a limit says that at least the fraction p of runs is. Means are tested by bounds that allow for skewness
+//! ([`super::mean`]), estimates of replicates by theirs ([`super::replicates`]). Each error, to pass what should fail
+//! or to fail what should pass, has at most the probability 1 - confidence. Of several requirements see [`failing_at`]
+//! and [`failing_together`].
 
 use super::binomial::{Decision, MAX_RUNS, POWER, decide, lower_bound, upper_bound};
 use super::looks::adjusted;
@@ -56,8 +57,8 @@ pub struct Gate {
     pub bounds: [f64; 2],
 }
 
-/// The gate `at` a confidence, except that it fails only where it does at `fails_at`, which is higher. `is_met` says whether an estimate is
-/// within the limit.
+/// The gate `at` a confidence, except that it fails only where it does at `fails_at`, which is higher. `is_met` says
+/// whether an estimate is within the limit.
 pub fn failing_at([confidence, fails_at]: [f64; 2], is_met: impl Fn(f64) -> bool, at: impl Fn(f64) -> Gate) -> Gate {
     let gate = at(confidence);
     if gate.decision == Decision::Pass || is_met(gate.estimate) {
@@ -66,11 +67,13 @@ pub fn failing_at([confidence, fails_at]: [f64; 2], is_met: impl Fn(f64) -> bool
     Gate { decision: at(fails_at).decision, ..gate }
 }
 
-/// The decisions on several requirements, so that with the probability of their confidence, the lowest one where they differ, none fails that
-/// is met: `at` has the decisions where each fails at the confidence 1 - (1 - c)/m only, of the m that it is called with.
+/// The decisions on several requirements, so that with the probability of their confidence, the lowest one where they
+/// differ, none fails that is met: `at` has the decisions where each fails at the confidence 1 - (1 - c)/m only, of the
+/// m that it is called with.
 ///
-/// S. Holm, *A simple sequentially rejective multiple test procedure*, Scand. J. Statist. 6 (1979) 65: m is the number of requirements that have
-/// not failed yet. That all are met needs no correction: it is wrong only where one that is missed passes (R. L. Berger, *Technometrics* 24 (1982) 295).
+/// S. Holm, *A simple sequentially rejective multiple test procedure*, Scand. J. Statist. 6 (1979) 65: m is the number
+/// of requirements that have not failed yet. That all are met needs no correction: it is wrong only where one that is
+/// missed passes (R. L. Berger, *Technometrics* 24 (1982) 295).
 pub fn failing_together<T>(count: usize, at: impl Fn(usize) -> Vec<T>, has_failed: impl Fn(&T) -> bool) -> Vec<T> {
     let mut open = count;
     loop {
@@ -95,7 +98,8 @@ pub fn fraction_gate(successes: u64, trials: u64, target: f64, confidence: f64) 
     }
 }
 
-/// The same where only bounds of the number of successes are known, `successes[0] <= successes[1]`: what both bounds decide.
+/// The same where only bounds of the number of successes are known, `successes[0] <= successes[1]`: what both bounds
+/// decide.
 pub fn fraction_gate_within(successes: [u64; 2], trials: u64, target: f64, confidence: f64) -> Gate {
     let [least, most] = successes.map(|successes| fraction_gate(successes, trials, target, confidence));
     let decision = match (least.decision, most.decision) {
@@ -110,12 +114,13 @@ pub fn fraction_gate_within(successes: [u64; 2], trials: u64, target: f64, confi
     Gate { decision, estimate: 0.5 * (least.estimate + most.estimate), bounds: [least.bounds[0], most.bounds[1]] }
 }
 
-/// The gate that at every one of several points, of the same runs, at least the fraction `target` succeeds: for each point the bounds of the
-/// number of successes, and the number of runs.
+/// The gate that at every one of several points, of the same runs, at least the fraction `target` succeeds: for each
+/// point the bounds of the number of successes, and the number of runs.
 ///
-/// It passes where every point does: for any point that misses the target that is an error of at most 1 - confidence, so no correction is
-/// needed (R. L. Berger, *Technometrics* 24 (1982) 295). It fails where a point does at the confidence 1 - (1 - c)/points (Bonferroni), c being the
-/// second of `confidences`. The estimate and the bounds are those of the point with the smallest estimate, the first of them, whose index is returned too.
+/// It passes where every point does: for any point that misses the target that is an error of at most 1 - confidence,
+/// so no correction is needed (R. L. Berger, *Technometrics* 24 (1982) 295). It fails where a point does at the
+/// confidence 1 - (1 - c)/points (Bonferroni), c being the second of `confidences`. The estimate and the bounds are
+/// those of the point with the smallest estimate, the first of them, whose index is returned too.
 pub fn points_gate(points: &[([u64; 2], u64)], target: f64, [confidence, fails_at]: [f64; 2]) -> (Gate, Option<usize>) {
     let confidences = [confidence, adjusted(fails_at, points.len())];
     let gate = |(counts, runs): &([u64; 2], u64)| {
@@ -140,7 +145,8 @@ pub fn points_gate(points: &[([u64; 2], u64)], target: f64, [confidence, fails_a
     (Gate { decision, ..*worst }, Some(index))
 }
 
-/// The gate that the mean of independent runs is within `limit`. Runs without a spread decide nothing: a rare event would not show.
+/// The gate that the mean of independent runs is within `limit`. Runs without a spread decide nothing: a rare event
+/// would not show.
 pub fn mean_gate(moments: &Moments, limit: GateLimit, confidence: f64) -> Gate {
     let (count, estimate) = (moments.count(), moments.mean().unwrap_or(f64::NAN));
     let bounds = mean_bounds(moments, confidence);
@@ -174,13 +180,15 @@ pub fn constant_gate(value: f64, limit: GateLimit) -> Gate {
     Gate { decision, estimate: value, bounds: [value; 2] }
 }
 
-/// The gate that at least the fraction `target` of runs succeeds, from the fractions of independent replicates of `runs` runs together.
+/// The gate that at least the fraction `target` of runs succeeds, from the fractions of independent replicates of
+/// `runs` runs together.
 pub fn replicate_fraction_gate(fractions: &[f64], runs: u64, target: f64, confidence: f64) -> Gate {
     let bounds = replicates::fraction_bounds(fractions, runs, confidence);
     replicate_gate(fractions, bounds, runs, GateLimit::AtLeast(target), confidence)
 }
 
-/// The gate that the mean is within `limit`, from the `means` of independent replicates and the moments of all their runs.
+/// The gate that the mean is within `limit`, from the `means` of independent replicates and the moments of all their
+/// runs.
 pub fn replicate_mean_gate(means: &[f64], whole: &Moments, limit: GateLimit, confidence: f64) -> Gate {
     let bounds = replicates::mean_bounds(means, whole, confidence);
     replicate_gate(means, bounds, whole.count(), limit, confidence)
@@ -213,7 +221,8 @@ fn decision([lower, upper]: [f64; 2], limit: GateLimit, needed: impl FnOnce() ->
     }
 }
 
-/// The smallest number above `from` that `decides`, which holds from some number on; `None` where that is above [`MAX_RUNS`].
+/// The smallest number above `from` that `decides`, which holds from some number on; `None` where that is above
+/// [`MAX_RUNS`].
 fn smallest(from: u64, decides: impl Fn(u64) -> bool) -> Option<u64> {
     let (mut low, mut high) = (from, from);
     while !decides(high) {
@@ -231,7 +240,8 @@ fn smallest(from: u64, decides: impl Fn(u64) -> bool) -> Option<u64> {
 mod tests {
     use super::*;
 
-    /// Published: 59 runs within the limit show that p95 is (Wilks 1941); the 5% quantile from below is the same by symmetry.
+    /// Published: 59 runs within the limit show that p95 is (Wilks 1941); the 5% quantile from below is the same by
+    /// symmetry.
     #[test]
     fn quantile_gates_are_fraction_gates() {
         for (limit, p) in [(GateLimit::AtMost(1.0), 0.95), (GateLimit::AtLeast(1.0), 0.05)] {
@@ -269,15 +279,16 @@ mod tests {
         assert_eq!(of(&[]).decision, Decision::Undecided(None));
     }
 
-    /// Law: a mean decides where both bounds are on one side of the limit, says how many runs would decide, and decides nothing at the
-    /// limit, without a spread, or from too few runs.
+    /// Law: a mean decides where both bounds are on one side of the limit, says how many runs would decide, and decides
+    /// nothing at the limit, without a spread, or from too few runs.
     #[test]
     fn known_gates_on_a_mean() {
         let values = [1.0, 2.0, 3.0, 4.0].repeat(5);
         let moments = Moments::of(values.iter().copied());
         let of = |limit| mean_gate(&moments, limit, 0.95);
         let [lower, upper] = of(GateLimit::AtMost(4.1)).bounds;
-        // Student's half width t(0.95, 19) s/sqrt(20) = 1.729 * 0.2565; some more for a skewness that twenty runs may hide
+        // Student's half width t(0.95, 19) s/sqrt(20) = 1.729 * 0.2565; some more for a skewness that twenty runs may
+        // hide
         assert!(upper - 2.5 > 0.4435 && upper - 2.5 < 1.25 * 0.4435 && (upper + lower - 5.0).abs() < 1e-14, "{upper}");
         assert_eq!(
             (of(GateLimit::AtMost(4.1)).decision, of(GateLimit::AtMost(0.9)).decision),
@@ -288,7 +299,8 @@ mod tests {
             (Decision::Pass, Decision::Fail)
         );
         let Decision::Undecided(Some(needed)) = of(GateLimit::AtMost(2.6)).decision else { panic!("undecided") };
-        // so many that repeat these have a bound that is nearer than the limit by the 1.2816 standard errors that the mean scatters in nine of ten
+        // so many that repeat these have a bound that is nearer than the limit by the 1.2816 standard errors that the
+        // mean scatters in nine of ten
         let repeated = Moments::of(values.iter().copied().cycle().take(needed as usize));
         let upper = mean_gate(&repeated, GateLimit::AtMost(2.6), 0.95).bounds[1];
         let distance = upper - 2.5 + 1.2816 * repeated.mean_error().expect("many");
@@ -303,8 +315,8 @@ mod tests {
         assert_eq!(constant_gate(f64::NAN, GateLimit::AtMost(9.0)).decision, Decision::Fail);
     }
 
-    /// Law: with a long tail above, a limit above the mean takes more runs than one as far below; either number repeated bounds the mean
-    /// nearer than the limit by the scatter in nine of ten.
+    /// Law: with a long tail above, a limit above the mean takes more runs than one as far below; either number
+    /// repeated bounds the mean nearer than the limit by the scatter in nine of ten.
     #[test]
     fn runs_that_decide_follow_the_tail() {
         let values: Vec<f64> = (0..40).map(|k| libm::exp(0.1 * f64::from(k))).collect();
@@ -326,10 +338,10 @@ mod tests {
         assert!(needed[1] > needed[0] + needed[0] / 20, "{needed:?}");
     }
 
-    /// Law: the same of the means of replicates: with a long tail above, a limit above takes more runs than one as far below. So many runs of each
-    /// replicate, whose errors then fall with the root of their number, have a bound on the side of the limit that is nearer than it by the
-    /// scatter in nine of ten. Known: t(0.95, 15) = 1.7530503556925735 and t(0.9, 15) = 1.3406056078504556 (roots of
-    /// `mpmath.betainc`).
+    /// Law: the same of the means of replicates: with a long tail above, a limit above takes more runs than one as far
+    /// below. So many runs of each replicate, whose errors then fall with the root of their number, have a bound on the
+    /// side of the limit that is nearer than it by the scatter in nine of ten. Known: t(0.95, 15) = 1.7530503556925735
+    /// and t(0.9, 15) = 1.3406056078504556 (roots of `mpmath.betainc`).
     #[test]
     fn runs_of_replicates_that_decide_follow_the_tail() {
         const RUNS: u64 = 1600;
@@ -352,8 +364,9 @@ mod tests {
         assert!(needed[1][0] > needed[0][0] + needed[0][0] / 5, "{needed:?}");
     }
 
-    /// Law: a requirement that is missed at the confidence of one but not at that of several is undecided; of several, one that fails makes it
-    /// easier for the others (Holm): p = 0.001, 0.014, 0.03 and 0.04 fail at 0.0125, 0.0167, 0.025 and not at 0.05/2.
+    /// Law: a requirement that is missed at the confidence of one but not at that of several is undecided; of several,
+    /// one that fails makes it easier for the others (Holm): p = 0.001, 0.014, 0.03 and 0.04 fail at 0.0125, 0.0167,
+    /// 0.025 and not at 0.05/2.
     #[test]
     fn several_requirements_fail_together() {
         // 883 of 1000 miss 0.9 with P = 0.0433, 870 with P = 0.0013 (scipy.stats.binom.cdf)

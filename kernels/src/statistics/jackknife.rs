@@ -1,10 +1,10 @@
-//! Intervals of estimates that are not means, from what each row contributes: the jackknife (J. W. Tukey, *Ann. Math. Stat.* 29 (1958) 614;
-//! B. Efron & C. Stein, *Ann. Stat.* 9 (1981) 586).
+//! Intervals of estimates that are not means, from what each row contributes: the jackknife (J. W. Tukey, *Ann. Math.
+//! Stat.* 29 (1958) 614; B. Efron & C. Stein, *Ann. Stat.* 9 (1981) 586).
 //!
-//! n - 1 times the change of an estimate when a row is left out is the row's influence. An estimate varies as the mean of the influences does,
-//! whatever the distribution of the rows, so that its bounds are those of a mean of skewed numbers ([`super::mean`]). Of many rows, evenly spaced
-//! ones have their influence computed, and the width is that of all. Resampling was rejected: it costs hundreds of estimates, and of heavy
-//! tails it covers no better.
+//! n - 1 times the change of an estimate when a row is left out is the row's influence. An estimate varies as the mean
+//! of the influences does, whatever the distribution of the rows, so that its bounds are those of a mean of skewed
+//! numbers ([`super::mean`]). Of many rows, evenly spaced ones have their influence computed, and the width is that of
+//! all. Resampling was rejected: it costs hundreds of estimates, and of heavy tails it covers no better.
 //!
 //! Intervals are for independent rows. The tests (`coverage_of_sensitivities`) measure how often they cover.
 
@@ -30,8 +30,8 @@ pub fn spaced_rows(rows: usize) -> impl Iterator<Item = usize> {
     (0..rows).step_by(rows.div_ceil(MOST_ROWS).max(1))
 }
 
-/// The ends of the interval of `estimate` from `rows` rows, by the influences of the [`spaced_rows`]; infinite where these bound nothing,
-/// of no width where every row says the same.
+/// The ends of the interval of `estimate` from `rows` rows, by the influences of the [`spaced_rows`]; infinite where
+/// these bound nothing, of no width where every row says the same.
 pub fn ends(estimate: f64, rows: usize, influences: impl Iterator<Item = f64>, confidence: f64) -> [f64; 2] {
     let influences: Vec<f64> = influences.collect();
     let moments = Moments::of_block(&influences);
@@ -58,7 +58,8 @@ pub fn ratio(numerator: &[f64], denominator: &[f64], confidence: f64) -> Option<
     Some(Estimate { value, lower, upper })
 }
 
-/// `share`, a part of a variance, with the ends 0 and 1 where the rows bound it by none (and where the estimate itself is not beyond them).
+/// `share`, a part of a variance, with the ends 0 and 1 where the rows bound it by none (and where the estimate itself
+/// is not beyond them).
 pub fn of_whole(share: Estimate) -> Estimate {
     let Estimate { value, lower, upper } = share;
     Estimate {
@@ -68,8 +69,8 @@ pub fn of_whole(share: Estimate) -> Estimate {
     }
 }
 
-/// The share 1 - `left` of a variance that is explained, with its interval: `parts` are the shares of the [`spaced_rows`] in what is left and in
-/// the whole.
+/// The share 1 - `left` of a variance that is explained, with its interval: `parts` are the shares of the
+/// [`spaced_rows`] in what is left and in the whole.
 ///
 /// The interval is one of the logarithm of what is left: it is never above 1.
 pub fn explained_share(left: f64, rows: usize, parts: impl Iterator<Item = [f64; 2]>, confidence: f64) -> Estimate {

@@ -1,7 +1,8 @@
 //! Stopping when a quantile is known well enough: looks at growing numbers of runs, and what each decides.
 //!
-//! A campaign that stops at the first narrow interval would cover less often than a single look: the interval of every look has the
-//! confidence 1 - (1 - c)/L, so that all L of them together cover with c (C. E. Bonferroni 1936). The numbers of runs double, which keeps L small.
+//! A campaign that stops at the first narrow interval would cover less often than a single look: the interval of every
+//! look has the confidence 1 - (1 - c)/L, so that all L of them together cover with c (C. E. Bonferroni 1936). The
+//! numbers of runs double, which keeps L small.
 
 use super::quantile::{interval_ranks, quantile};
 
@@ -42,8 +43,8 @@ pub fn adjusted(confidence: f64, looks: usize) -> f64 {
     1.0 - (1.0 - confidence) / looks.max(1) as f64
 }
 
-/// What the values of the runs so far say, at one of `looks` looks; values that are not numbers are left out. The last look stops
-/// whatever it says: the caller knows which it is.
+/// What the values of the runs so far say, at one of `looks` looks; values that are not numbers are left out. The last
+/// look stops whatever it says: the caller knows which it is.
 pub fn decision(values: &[f64], goal: Goal, looks: usize) -> Look {
     let mut ascending: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
     ascending.sort_unstable_by(f64::total_cmp);

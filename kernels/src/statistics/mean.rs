@@ -1,34 +1,38 @@
 //! Bounds of a mean and of a standard deviation, from the moments of independent numbers: one fold over them is enough.
 //!
-//! Student's t takes the numbers for normal: where they are skewed, its bound on the side of the long tail misses several times as often as
-//! stated. Here each bound is the wider one of Student's and of the one that removes the skewness (P. Hall, *On the removal of skewness by
-//! transformation*, J. R. Stat. Soc. B 54 (1992) 221, the exponential transformation): with r the skewness over sqrt(n),
-//! f(T) = (e^(2 r T/3) - 1)/(2 r/3) + r/6 is more nearly t distributed than T = (mean - mu)/(s/sqrt(n)) is, and -T at the bound is
-//! -log(1 - (2 r/3)(t + r/6))/(2 r/3). Where that logarithm does not exist, the runs are too few for their skewness: there is no bound.
+//! Student's t takes the numbers for normal: where they are skewed, its bound on the side of the long tail misses
+//! several times as often as stated. Here each bound is the wider one of Student's and of the one that removes the
+//! skewness (P. Hall, *On the removal of skewness by transformation*, J. R. Stat. Soc. B 54 (1992) 221, the exponential
+//! transformation): with r the skewness over sqrt(n), f(T) = (e^(2 r T/3) - 1)/(2 r/3) + r/6 is more nearly t
+//! distributed than T = (mean - mu)/(s/sqrt(n)) is, and -T at the bound is -log(1 - (2 r/3)(t + r/6))/(2 r/3). Where
+//! that logarithm does not exist, the runs are too few for their skewness: there is no bound.
 //!
-//! No numbers bound a mean that a rarer one decides: these bounds hold where no event that the runs show fewer than some ten times makes much of the
-//! mean. Where the numbers are known to be within bounds, [`bounded_mean_bounds`] need no such assumption.
+//! No numbers bound a mean that a rarer one decides: these bounds hold where no event that the runs show fewer than
+//! some ten times makes much of the mean. Where the numbers are known to be within bounds, [`bounded_mean_bounds`] need
+//! no such assumption.
 //!
-//! The tests (`coverage_of_means`) measure how often bounds miss. Not here: numbers that are not independent ([`super::replicates`]).
+//! The tests (`coverage_of_means`) measure how often bounds miss. Not here: numbers that are not independent
+//! ([`super::replicates`]).
 
 use core::cell::Cell;
 
 use super::moments::Moments;
 use super::student::two_sided_quantile;
 
-/// Factor of the sample skewness, which is smaller than that of a long-tailed population more often than not. Measured: with 1 the upper
-/// bound of lognormal(1) misses 6 to 8% for 5% at 20 to 300 runs, with 3/2 and [`SKEWNESS_ERRORS`] 4.0 to 5.2%.
+/// Factor of the sample skewness, which is smaller than that of a long-tailed population more often than not. Measured:
+/// with 1 the upper bound of lognormal(1) misses 6 to 8% for 5% at 20 to 300 runs, with 3/2 and [`SKEWNESS_ERRORS`] 4.0
+/// to 5.2%.
 const SKEWNESS_FACTOR: f64 = 1.5;
 
 /// Standard errors sqrt(6/n) of the skewness of normal numbers that are added: few runs do not show a skewness.
 const SKEWNESS_ERRORS: f64 = 2.0;
 
-/// The skewness of squared deviations over their standard deviation (in means): 2 for normal numbers, 3.75 for exponential ones. It takes
-/// the sixth moment, which few runs do not show.
+/// The skewness of squared deviations over their standard deviation (in means): 2 for normal numbers, 3.75 for
+/// exponential ones. It takes the sixth moment, which few runs do not show.
 const SKEWNESS_OF_SQUARES: f64 = 4.0;
 
-/// Where one run makes more than this share of the sum of the squares (or of the fourth powers) of all deviations, the tail is too heavy for
-/// the standard error of the mean (or of the standard deviation) to be trusted.
+/// Where one run makes more than this share of the sum of the squares (or of the fourth powers) of all deviations, the
+/// tail is too heavy for the standard error of the mean (or of the standard deviation) to be trusted.
 pub const MOST_SHARE: f64 = 1.0 / 3.0;
 
 /// Spread that rounding alone gives, over the mean: four units in the last place.
@@ -37,7 +41,8 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// t with P(T <= t) = `confidence`, 0 below 1/2.
 pub fn one_sided(confidence: f64, degrees: f64) -> f64 {
     thread_local! {
-        /// Confidence, degrees and t of the last call: the columns of a campaign have one count, and the root costs more than all else of an interval.
+        /// Confidence, degrees and t of the last call: the columns of a campaign have one count, and the root costs
+        /// more than all else of an interval.
         static LAST: Cell<[f64; 3]> = const { Cell::new([0.0; 3]) };
     }
     if confidence <= 0.5 {
@@ -52,8 +57,8 @@ pub fn one_sided(confidence: f64, degrees: f64) -> f64 {
     t
 }
 
-/// One-sided bounds of the mean of the population, each at `confidence`; infinite where the numbers do not bound it: fewer than three, no
-/// spread (a rare event would not show), or too few for their skewness.
+/// One-sided bounds of the mean of the population, each at `confidence`; infinite where the numbers do not bound it:
+/// fewer than three, no spread (a rare event would not show), or too few for their skewness.
 pub fn mean_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
     let Some((mean, error)) = moments.mean().zip(spread_error(moments)) else {
         return [f64::NEG_INFINITY, f64::INFINITY];
@@ -64,8 +69,9 @@ pub fn mean_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
     [mean - below * error, mean + above * error]
 }
 
-/// One-sided bounds of the mean of independent numbers that are never outside of `[low, high]`, each at `confidence`, whatever their distribution: the empirical
-/// Bernstein bound (A. Maurer & M. Pontil, *Empirical Bernstein bounds and sample-variance penalization*, COLT 2009, theorem 4).
+/// One-sided bounds of the mean of independent numbers that are never outside of `[low, high]`, each at `confidence`,
+/// whatever their distribution: the empirical Bernstein bound (A. Maurer & M. Pontil, *Empirical Bernstein bounds and
+/// sample-variance penalization*, COLT 2009, theorem 4).
 pub fn bounded_mean_bounds(moments: &Moments, [low, high]: [f64; 2], confidence: f64) -> [f64; 2] {
     let Some((mean, deviation)) = moments.mean().zip(moments.standard_deviation()) else { return [low, high] };
     let half = bernstein_reach(moments.count(), high - low, deviation, confidence);
@@ -78,7 +84,8 @@ pub fn bernstein_reach(count: u64, range: f64, deviation: f64, confidence: f64) 
     deviation * libm::sqrt(2.0 * risk / n) + 7.0 * range * risk / (3.0 * (n - 1.0))
 }
 
-/// The distance of the bound of the mean on the side of `limit`, were there `count` runs with the same spread and skewness.
+/// The distance of the bound of the mean on the side of `limit`, were there `count` runs with the same spread and
+/// skewness.
 pub fn distance_towards(limit: f64, moments: &Moments, count: u64, confidence: f64) -> f64 {
     let Some((mean, deviation)) = moments.mean().zip(moments.standard_deviation()) else { return f64::INFINITY };
     let side = if mean < limit { 1.0 } else { -1.0 };
@@ -89,9 +96,9 @@ pub fn distance_towards(limit: f64, moments: &Moments, count: u64, confidence: f
     reach(count, side * skewness(moments), t) * deviation / libm::sqrt(count as f64)
 }
 
-/// One-sided bounds of the standard deviation of the population, each at `confidence`: those of the mean of the squared deviations, whose
-/// spread follows from the fourth moment. The upper one is infinite where there are too few runs (fewer than some 70 normal ones), or where
-/// one of them makes more than [`MOST_SHARE`] of the fourth powers.
+/// One-sided bounds of the standard deviation of the population, each at `confidence`: those of the mean of the squared
+/// deviations, whose spread follows from the fourth moment. The upper one is infinite where there are too few runs
+/// (fewer than some 70 normal ones), or where one of them makes more than [`MOST_SHARE`] of the fourth powers.
 pub fn deviation_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
     let Some(((deviation, kurtosis), _)) =
         moments.standard_deviation().zip(moments.kurtosis()).zip(spread_error(moments))
@@ -119,8 +126,8 @@ fn skewness(moments: &Moments) -> f64 {
     moments.skewness().map_or(0.0, |skewness| skewness * libm::sqrt(n * (n - 1.0)) / (n - 2.0).max(1.0))
 }
 
-/// How many standard errors the bound of a mean of `count` numbers is away from it, on the side to which they have the `skewness`; `t` is
-/// Student's.
+/// How many standard errors the bound of a mean of `count` numbers is away from it, on the side to which they have the
+/// `skewness`; `t` is Student's.
 fn reach(count: u64, skewness: f64, t: f64) -> f64 {
     let n = count as f64;
     let skewness = SKEWNESS_FACTOR * skewness + SKEWNESS_ERRORS * libm::sqrt(6.0 / n);
@@ -175,7 +182,8 @@ mod tests {
         assert!((unskewed(2.0, 1e-6) - 2.0 - 1.5e-6).abs() < 1e-11);
     }
 
-    /// Law: the unit and the sign of the numbers do not matter: bounds of 2^k x are 2^k times those of x, those of -x are turned round.
+    /// Law: the unit and the sign of the numbers do not matter: bounds of 2^k x are 2^k times those of x, those of -x
+    /// are turned round.
     #[test]
     fn bounds_scale_and_turn_with_their_numbers() {
         let values: Vec<f64> = (0..300).map(|k| libm::exp(libm::sin(f64::from(k) * 0.7))).collect();
@@ -187,9 +195,10 @@ mod tests {
         assert_eq!(deviation_bounds(&scaled, 0.95), deviation_bounds(&one, 0.95).map(|end| 1024.0 * end));
     }
 
-    /// Law: a standard deviation has no upper bound where one number makes more than a third of the fourth powers of the deviations, and has one
-    /// where it makes less, whatever its share of their squares. Known: beside 10,000 numbers 1 and -1, d makes d^4/(10,000 + d^4) of the
-    /// fourth powers (a third at d^4 = 5,000) and less than a hundredth of the squares; its share of the mean is below a thousandth.
+    /// Law: a standard deviation has no upper bound where one number makes more than a third of the fourth powers of
+    /// the deviations, and has one where it makes less, whatever its share of their squares. Known: beside 10,000
+    /// numbers 1 and -1, d makes d^4/(10,000 + d^4) of the fourth powers (a third at d^4 = 5,000) and less than a
+    /// hundredth of the squares; its share of the mean is below a thousandth.
     #[test]
     fn one_number_may_make_a_third_of_the_fourth_powers() {
         let of = |fourth: f64| {
@@ -207,8 +216,9 @@ mod tests {
         }
     }
 
-    /// Known: of 101 numbers, half 0 and half 1 but for one 1/2, whose variance is 1/4, the bounds at 1 - 2/e^2 are 1/2 -+ (1/2 sqrt(4/101) + 14/300);
-    /// bounds are within the range, which few numbers have instead; and without a spread the range alone decides.
+    /// Known: of 101 numbers, half 0 and half 1 but for one 1/2, whose variance is 1/4, the bounds at 1 - 2/e^2 are
+    /// 1/2 -+ (1/2 sqrt(4/101) + 14/300); bounds are within the range, which few numbers have instead; and without a
+    /// spread the range alone decides.
     #[test]
     fn the_bounds_of_bounded_numbers_are_bernsteins() {
         let values = [0.0, 1.0].repeat(50).into_iter().chain([0.5]);

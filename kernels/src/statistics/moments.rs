@@ -1,9 +1,10 @@
 //! [`Moments`]: count, extremes, mean, standard deviation and skewness of a stream of numbers, mergeable.
 //!
-//! Central moments of a block are those about its mean, in two passes with the correction for the rounding of that mean (T. F. Chan,
-//! G. H. Golub & R. J. LeVeque, *Am. Stat.* 37 (1983) 242). Blocks are merged by the formulas of P. Pébay, *Formulas for Robust, One-Pass
-//! Parallel Computation of Covariances and Arbitrary-Order Statistical Moments*, SAND2008-6212 (2008), for orders two to four. Merging
-//! parts in their order gives the same bits for any number of threads.
+//! Central moments of a block are those about its mean, in two passes with the correction for the rounding of that mean
+//! (T. F. Chan, G. H. Golub & R. J. LeVeque, *Am. Stat.* 37 (1983) 242). Blocks are merged by the formulas of P.
+//! Pébay, *Formulas for Robust, One-Pass Parallel Computation of Covariances and Arbitrary-Order Statistical Moments*,
+//! SAND2008-6212 (2008), for orders two to four. Merging parts in their order gives the same bits for any number of
+//! threads.
 
 use fearless_simd::Simd;
 
@@ -39,7 +40,8 @@ impl Moments {
         moments
     }
 
-    /// Moments of a block of numbers: as [`Moments::of`] to rounding, several times as fast and with fewer rounding errors.
+    /// Moments of a block of numbers: as [`Moments::of`] to rounding, several times as fast and with fewer rounding
+    /// errors.
     pub fn of_block(values: &[f64]) -> Self {
         Isa::best().run(Block(values))
     }
@@ -114,8 +116,8 @@ impl Moments {
         (self.count > 1 && self.m2 > 0.0).then(|| self.count as f64 * self.m4 / (self.m2 * self.m2))
     }
 
-    /// The part of the sum of the squares (`power` 2) or of the fourth powers (4) of all deviations from the mean that the number farthest
-    /// from it makes; 0 where all numbers are alike.
+    /// The part of the sum of the squares (`power` 2) or of the fourth powers (4) of all deviations from the mean that
+    /// the number farthest from it makes; 0 where all numbers are alike.
     pub fn largest_share(&self, power: u8) -> f64 {
         let farthest = (self.max - self.mean).max(self.mean - self.min);
         let square = farthest * farthest;
@@ -128,8 +130,8 @@ impl Moments {
         Some(self.standard_deviation()? / libm::sqrt(self.count as f64))
     }
 
-    /// Standard error of the standard deviation of independent numbers, sqrt((m_4 - m_2^2)/n)/(2 s) for large n (H. Cramér, *Mathematical
-    /// Methods of Statistics*, 1946, section 28.4); `None` where all numbers are alike.
+    /// Standard error of the standard deviation of independent numbers, sqrt((m_4 - m_2^2)/n)/(2 s) for large n (H.
+    /// Cramér, *Mathematical Methods of Statistics*, 1946, section 28.4); `None` where all numbers are alike.
     pub fn standard_deviation_error(&self) -> Option<f64> {
         let n = self.count as f64;
         let deviation = self.standard_deviation().filter(|deviation| *deviation > 0.0)?;
@@ -189,7 +191,8 @@ impl Work for Block<'_> {
 /// Accumulators beside each other, so that the processor need not wait for one sum.
 const LANES: usize = 8;
 
-/// Folds `values` in [`LANES`] accumulators, number k in accumulator k mod [`LANES`], and these in one order: the same bits everywhere.
+/// Folds `values` in [`LANES`] accumulators, number k in accumulator k mod [`LANES`], and these in one order: the same
+/// bits everywhere.
 #[inline(always)]
 fn in_lanes<const N: usize>(
     values: &[f64],
@@ -266,8 +269,8 @@ mod tests {
         assert!(Moments::of_block(&[1.0, f64::NAN]).mean().is_some_and(f64::is_nan));
     }
 
-    /// Law: the unit of the numbers does not matter: 2^k times the numbers have 2^k times the mean and the deviation, and the same
-    /// skewness, to the bit.
+    /// Law: the unit of the numbers does not matter: 2^k times the numbers have 2^k times the mean and the deviation,
+    /// and the same skewness, to the bit.
     #[test]
     fn moments_scale_with_their_unit() {
         let values: Vec<f64> = (0..100).map(|k| libm::sin(f64::from(k) * 0.7) * f64::from(k % 17)).collect();
@@ -283,8 +286,8 @@ mod tests {
         }
     }
 
-    /// Known: of n numbers +1 and n numbers -1, m_4 = m_2 = 1: the standard deviation has no error of this order. Of 0 (n - 1 times) and
-    /// 1 the error is sqrt((m_4 - m_2^2)/n)/(2 s).
+    /// Known: of n numbers +1 and n numbers -1, m_4 = m_2 = 1: the standard deviation has no error of this order. Of 0
+    /// (n - 1 times) and 1 the error is sqrt((m_4 - m_2^2)/n)/(2 s).
     #[test]
     fn known_error_of_a_standard_deviation() {
         let two = Moments::of((0..100).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }));
@@ -311,14 +314,15 @@ mod tests {
         let exact = libm::sqrt(m2 / 9999.0);
         for moments in [whole, merged] {
             let found = moments.mean().unwrap_or(f64::NAN) - shift;
-            // numbers near 1e9 have a unit of 1.2e-7 in the last place; measured 1.6e-6 of the mean, 3.2e-10 of the deviation
+            // numbers near 1e9 have a unit of 1.2e-7 in the last place; measured 1.6e-6 of the mean, 3.2e-10 of the
+            // deviation
             assert!((found - mean).abs() < 1e-14 * 1e9, "{found} {mean}");
             assert!((moments.standard_deviation().unwrap_or(0.0) / exact - 1.0).abs() < 1e-9);
         }
         assert_eq!((whole.count(), whole.min(), whole.max()), (merged.count(), merged.min(), merged.max()));
     }
-    /// Law: merging is adding for the third and the fourth moment too, where the parts differ in size, mean and spread: the sums of
-    /// powers of the deviations from the mean of all.
+    /// Law: merging is adding for the third and the fourth moment too, where the parts differ in size, mean and spread:
+    /// the sums of powers of the deviations from the mean of all.
     #[test]
     fn merged_parts_have_the_moments_of_the_whole() {
         let values: Vec<f64> = (0..60).map(|k| libm::exp(0.05 * f64::from(k)) + f64::from(k % 7)).collect();

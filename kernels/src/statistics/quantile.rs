@@ -1,17 +1,19 @@
 //! Quantiles of a sample, and distribution-free confidence intervals for them from order statistics.
 //!
-//! - The sample quantile is type 7 of R. J. Hyndman & Y. Fan, *Sample quantiles in statistical packages*, Am. Stat. 50 (1996) 361:
-//!   linear interpolation between order statistics, the default of R, NumPy, polars and DuckDB (`quantile_cont`).
-//! - The interval for the p-quantile of a continuous distribution is [x_(r), x_(s)] with ranks from the binomial distribution of the
-//!   number of values below it (S. S. Wilks, *Order statistics*, Bull. Am. Math. Soc. 54 (1948) 6; H. A. David & H. N. Nagaraja, *Order
-//!   Statistics*, 2003, section 7.1). Nothing is assumed of the distribution; for a discrete one the interval covers at least as often.
+//! - The sample quantile is type 7 of R. J. Hyndman & Y. Fan, *Sample quantiles in statistical packages*, Am. Stat. 50
+//!   (1996) 361: linear interpolation between order statistics, the default of R, NumPy, polars and DuckDB
+//!   (`quantile_cont`).
+//! - The interval for the p-quantile of a continuous distribution is [x_(r), x_(s)] with ranks from the binomial
+//!   distribution of the number of values below it (S. S. Wilks, *Order statistics*, Bull. Am. Math. Soc. 54 (1948) 6;
+//!   H. A. David & H. N. Nagaraja, *Order Statistics*, 2003, section 7.1). Nothing is assumed of the distribution; for
+//!   a discrete one the interval covers at least as often.
 //!
 //! Valid for independent runs only.
 
 use super::binomial::{at_least, at_most, lower_rank, upper_rank};
 
-/// The `p`-quantile, 0 <= p <= 1, of values in ascending order (type 7); `None` where there is no value. Only the two between which it is
-/// have to be at their places ([`place_order_statistics`]).
+/// The `p`-quantile, 0 <= p <= 1, of values in ascending order (type 7); `None` where there is no value. Only the two
+/// between which it is have to be at their places ([`place_order_statistics`]).
 ///
 /// Between x_(k) and x_(k+1), with (n-1) p = k - 1 + t: x_(k) + t (x_(k+1) - x_(k)), from the nearer end.
 pub fn quantile(ascending: &[f64], p: f64) -> Option<f64> {
@@ -27,8 +29,9 @@ pub fn quantile(ascending: &[f64], p: f64) -> Option<f64> {
     Some(if part < 0.5 { low + part * width } else { high - (1.0 - part) * width })
 }
 
-/// Moves values so that those at `places` (from zero, in any order; those beyond the last are left out) are where they are in ascending order
-/// ([`f64::total_cmp`]); no value between two places is smaller than the one or larger than the other. For a few places a third of a sort.
+/// Moves values so that those at `places` (from zero, in any order; those beyond the last are left out) are where they
+/// are in ascending order ([`f64::total_cmp`]); no value between two places is smaller than the one or larger than the
+/// other. For a few places a third of a sort.
 pub fn place_order_statistics(values: &mut [f64], places: impl IntoIterator<Item = usize>) {
     let mut places: Vec<usize> = places.into_iter().filter(|place| *place < values.len()).collect();
     places.sort_unstable();
@@ -70,23 +73,23 @@ pub struct Ranks {
 
 /// Ranks of the two-sided equal-tailed interval for the `p`-quantile, 0 < p < 1, of `count` independent values.
 ///
-/// Each end misses with at most (1 - `confidence`)/2, so both together cover with at least `confidence`: P(x_(r) > quantile) = P(X <= r - 1) and
-/// P(x_(s) < quantile) = P(X >= s), X the number of values below the quantile.
+/// Each end misses with at most (1 - `confidence`)/2, so both together cover with at least `confidence`: P(x_(r) >
+/// quantile) = P(X <= r - 1) and P(x_(s) < quantile) = P(X >= s), X the number of values below the quantile.
 pub fn interval_ranks(count: u64, p: f64, confidence: f64) -> Ranks {
     let risk = 0.5 * (1.0 - confidence);
     Ranks { lower: lower_rank(count, p, risk), upper: upper_rank(count, p, risk) }
 }
 
-/// Probability with which [x_(r), x_(s)] covers the `p`-quantile of a continuous distribution: P(r <= X <= s - 1); an end that is
-/// missing reaches to infinity.
+/// Probability with which [x_(r), x_(s)] covers the `p`-quantile of a continuous distribution: P(r <= X <= s - 1); an
+/// end that is missing reaches to infinity.
 pub fn coverage(count: u64, p: f64, ranks: Ranks) -> f64 {
     let below = ranks.lower.map_or(0.0, |rank| at_most(rank - 1, count, p));
     let above = ranks.upper.map_or(0.0, |rank| at_least(rank, count, p));
     1.0 - below - above
 }
 
-/// The smallest number of runs whose extreme bounds the `p`-quantile one-sidedly: its maximum from above for p >= 1/2, its minimum
-/// from below otherwise (Wilks 1941). 59 for p = 0.95 at 95%.
+/// The smallest number of runs whose extreme bounds the `p`-quantile one-sidedly: its maximum from above for p >= 1/2,
+/// its minimum from below otherwise (Wilks 1941). 59 for p = 0.95 at 95%.
 pub fn runs_for_bound(p: f64, confidence: f64) -> u64 {
     // p^n <= 1 - confidence
     smallest(libm::log(1.0 - confidence) / libm::log(p.max(1.0 - p)), |n| {
@@ -99,8 +102,8 @@ pub fn runs_for_interval(p: f64, confidence: f64) -> u64 {
     runs_for_bound(p, 0.5 + 0.5 * confidence)
 }
 
-/// The smallest number of runs whose extremes enclose at least the fraction `p` of the distribution with `confidence`: 93 for 95/95
-/// (Wilks, Ann. Math. Statist. 12 (1941) 91): 1 - n p^(n-1) + (n-1) p^n >= confidence.
+/// The smallest number of runs whose extremes enclose at least the fraction `p` of the distribution with `confidence`:
+/// 93 for 95/95 (Wilks, Ann. Math. Statist. 12 (1941) 91): 1 - n p^(n-1) + (n-1) p^n >= confidence.
 pub fn runs_for_tolerance_interval(p: f64, confidence: f64) -> u64 {
     let encloses = |n: u64| {
         let n = n as f64;
@@ -131,7 +134,8 @@ fn smallest(estimate: f64, enough: impl Fn(u64) -> bool) -> u64 {
 mod tests {
     use super::*;
 
-    /// Law: what is at a place is what a sort puts there, to the bit, whichever places are asked for, in whichever order; the values stay the same.
+    /// Law: what is at a place is what a sort puts there, to the bit, whichever places are asked for, in whichever
+    /// order; the values stay the same.
     #[test]
     fn order_statistics_are_those_of_a_sort() {
         let numbers = [0.0, -0.0, 1.5, f64::INFINITY, -3.0, 1e-310, 2.0];
@@ -228,8 +232,9 @@ mod tests {
         }
     }
 
-    /// H0: the interval covers with exactly its binomial probability. 20,000 samples of 40 uniform numbers, seed fixed by the
-    /// generator below; two-sided at 4 standard errors, alpha = 6e-5. A shift of one rank changes the coverage by 0.08: power 1.
+    /// H0: the interval covers with exactly its binomial probability. 20,000 samples of 40 uniform numbers, seed fixed
+    /// by the generator below; two-sided at 4 standard errors, alpha = 6e-5. A shift of one rank changes the coverage
+    /// by 0.08: power 1.
     #[test]
     fn coverage_is_the_binomial_probability() {
         const SAMPLES: u32 = 20_000;

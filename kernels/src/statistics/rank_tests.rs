@@ -4,8 +4,9 @@
 //! - W. H. Kruskal & W. A. Wallis, *J. Am. Stat. Assoc.* 47 (1952) 583: whether groups differ.
 //! - C. Spearman, *Am. J. Psychol.* 15 (1904) 72: whether one column rises or falls with another.
 //!
-//! All are two-sided and for independent rows. Tails are those of the limiting distributions, with the variance of the ranks as they are, ties
-//! included. Of few events the true tails are shorter: the tests then err less often than stated, and fewer than four events show nothing at 1e-3.
+//! All are two-sided and for independent rows. Tails are those of the limiting distributions, with the variance of the
+//! ranks as they are, ties included. Of few events the true tails are shorter: the tests then err less often than
+//! stated, and fewer than four events show nothing at 1e-3.
 
 use super::correlation::{mid_ranks, pearson};
 use crate::math::incomplete_gamma::incomplete_gamma;
@@ -30,8 +31,8 @@ fn moments(ranks: &[f64]) -> [f64; 2] {
     [mean, ranks.iter().map(|rank| (rank - mean) * (rank - mean)).sum()]
 }
 
-/// Mann and Whitney's test: `ranks` are [`mid_ranks`] of the column, and the event occurs in the rows that are `marked`. `None` where it occurs in
-/// all or none, or the column does not vary.
+/// Mann and Whitney's test: `ranks` are [`mid_ranks`] of the column, and the event occurs in the rows that are
+/// `marked`. `None` where it occurs in all or none, or the column does not vary.
 pub fn mann_whitney(ranks: &[f64], marked: &[bool]) -> Option<RankShift> {
     let (n, m) = (ranks.len() as f64, marked.iter().filter(|is_marked| **is_marked).count() as f64);
     let [mean, squares] = moments(ranks);
@@ -47,8 +48,9 @@ pub fn mann_whitney(ranks: &[f64], marked: &[bool]) -> Option<RankShift> {
     })
 }
 
-/// Kruskal and Wallis' test: the probability that groups differ as much as these where they do not differ. `ranks` are [`mid_ranks`] of the
-/// observable, `group` the group of each row, from 0 to `groups` - 1, none of them empty. `None` for fewer than two groups, or equal ranks.
+/// Kruskal and Wallis' test: the probability that groups differ as much as these where they do not differ. `ranks` are
+/// [`mid_ranks`] of the observable, `group` the group of each row, from 0 to `groups` - 1, none of them empty. `None`
+/// for fewer than two groups, or equal ranks.
 pub fn kruskal_wallis(ranks: &[f64], group: &[usize], groups: usize) -> Option<f64> {
     let [mean, squares] = moments(ranks);
     if groups < 2 || squares == 0.0 {
@@ -64,15 +66,16 @@ pub fn kruskal_wallis(ranks: &[f64], group: &[usize], groups: usize) -> Option<f
     Some(incomplete_gamma(0.5 * (groups - 1) as f64, 0.5 * h).upper)
 }
 
-/// Spearman's coefficient of two columns with these [`mid_ranks`], and the probability of one at least as far from zero where they are independent.
+/// Spearman's coefficient of two columns with these [`mid_ranks`], and the probability of one at least as far from zero
+/// where they are independent.
 pub fn spearman_test(x_ranks: &[f64], y_ranks: &[f64]) -> [f64; 2] {
     let r = pearson(x_ranks, y_ranks);
     [r, two_sided(r * libm::sqrt(x_ranks.len() as f64 - 1.0))]
 }
 
-/// Whether the observable `y` both rises and falls with the input `x`: among the halves and quarters of the input's range, by rows in ascending
-/// `order` of `x`, there is one where it rises and one where it falls, each shown by the rank correlation within it. `alpha`: the probability that this
-/// is said of a monotonic influence is at most this.
+/// Whether the observable `y` both rises and falls with the input `x`: among the halves and quarters of the input's
+/// range, by rows in ascending `order` of `x`, there is one where it rises and one where it falls, each shown by the
+/// rank correlation within it. `alpha`: the probability that this is said of a monotonic influence is at most this.
 pub fn turns(order: &[usize], x: &[f64], y: &[f64], alpha: f64) -> bool {
     const PARTS: [usize; 2] = [2, 4];
     let level = alpha / PARTS.iter().sum::<usize>() as f64;
@@ -112,7 +115,8 @@ mod tests {
         }
     }
 
-    /// Law: the chance is counted over all pairs, ties as halves; the variance of the sum of ranks is that over all ways to choose the marked rows.
+    /// Law: the chance is counted over all pairs, ties as halves; the variance of the sum of ranks is that over all
+    /// ways to choose the marked rows.
     #[test]
     fn mann_whitney_is_a_count_of_pairs() {
         let values = [3.0, 1.0, 4.0, 1.0, 5.0, 9.0, 2.0, 6.0, 5.0, 3.0];
@@ -146,8 +150,9 @@ mod tests {
         assert_eq!(mann_whitney(&[1.0; 10], &marked), None);
     }
 
-    /// Law: of two groups Kruskal and Wallis' test is Mann and Whitney's. Published: three groups of weights of bottles (Kruskal & Wallis 1952, section
-    /// 1.3; production of machines): H = 5.656, chi-square of two degrees exp(-H/2) = 0.0591.
+    /// Law: of two groups Kruskal and Wallis' test is Mann and Whitney's. Published: three groups of weights of bottles
+    /// (Kruskal & Wallis 1952, section 1.3; production of machines): H = 5.656, chi-square of two degrees exp(-H/2) =
+    /// 0.0591.
     #[test]
     fn kruskal_wallis_is_known() {
         let bottles = [340.0, 345.0, 330.0, 342.0, 338.0, 339.0, 333.0, 344.0, 347.0, 343.0, 349.0, 355.0];
@@ -164,8 +169,8 @@ mod tests {
         assert_eq!(kruskal_wallis(&ranks, &[0; 12], 1), None);
     }
 
-    /// H0: of columns that are independent each test says so falsely in at most 5% of 2,000 studies, also of heavy ties and few events; 1.4%
-    /// is three standard deviations of the count.
+    /// H0: of columns that are independent each test says so falsely in at most 5% of 2,000 studies, also of heavy ties
+    /// and few events; 1.4% is three standard deviations of the count.
     #[test]
     fn independent_columns_are_seldom_called_dependent() {
         let mut random = Uniform(11);
@@ -193,7 +198,8 @@ mod tests {
         assert!(wrong[..4].iter().all(|count| *count > 50), "no test is needlessly careful: {wrong:?}");
     }
 
-    /// Law: a V turns wherever its point is within the middle three quarters of the range; a line, a step and noise do not.
+    /// Law: a V turns wherever its point is within the middle three quarters of the range; a line, a step and noise do
+    /// not.
     #[test]
     fn a_v_turns() {
         let mut random = Uniform(5);

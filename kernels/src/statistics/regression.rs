@@ -1,21 +1,23 @@
-//! Linear regression of a standardised column on standardised inputs, and partial correlations: how much of an observable a sum of
-//! linear terms explains, and which term.
+//! Linear regression of a standardised column on standardised inputs, and partial correlations: how much of an
+//! observable a sum of linear terms explains, and which term.
 //!
-//! With the correlation matrix R of the inputs and their correlations r with the observable, the standardised regression
-//! coefficients are R^-1 r, and R^2 = r^T R^-1 r (N. R. Draper & H. Smith, *Applied Regression Analysis*, 1998, section 5.5). The
-//! same inverse gives the partial correlations (M. G. Kendall & A. Stuart, *The Advanced Theory of Statistics* 2, section 27.5).
-//! Applied to ranks it is the rank regression of R. L. Iman & W. J. Conover, *Technometrics* 21 (1979) 499.
+//! With the correlation matrix R of the inputs and their correlations r with the observable, the standardised
+//! regression coefficients are R^-1 r, and R^2 = r^T R^-1 r (N. R. Draper & H. Smith, *Applied Regression Analysis*,
+//! 1998, section 5.5). The same inverse gives the partial correlations (M. G. Kendall & A. Stuart, *The Advanced Theory
+//! of Statistics* 2, section 27.5). Applied to ranks it is the rank regression of R. L. Iman & W. J. Conover,
+//! *Technometrics* 21 (1979) 499.
 //!
-//! Intervals are those of the [`super::jackknife`], by what the regression would be without a row (R. D. Cook & S. Weisberg,
-//! *Residuals and Influence in Regression*, 1982, (2.2.1)): of coefficients the scale of input and observable is estimated too, so that a sum
-//! without any rest has an interval. Inputs and rest may have any distribution.
+//! Intervals are those of the [`super::jackknife`], by what the regression would be without a row (R. D. Cook & S.
+//! Weisberg, *Residuals and Influence in Regression*, 1982, (2.2.1)): of coefficients the scale of input and observable
+//! is estimated too, so that a sum without any rest has an interval. Inputs and rest may have any distribution.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::correlation::{Estimate, correlation, influence, product};
 use super::jackknife;
 
-/// Which of the `inputs`, all [`standardised`](super::correlation::standardised), are no linear combination of those before them.
+/// Which of the `inputs`, all [`standardised`](super::correlation::standardised), are no linear combination of those
+/// before them.
 pub fn independent_inputs(inputs: &[Vec<f64>]) -> Vec<bool> {
     // Gram and Schmidt, twice for the rounding of the first time
     let mut basis: Vec<Vec<f64>> = Vec::new();
@@ -54,7 +56,8 @@ pub struct Regressors {
 }
 
 impl Regressors {
-    /// `inputs`, all [`standardised`](super::correlation::standardised); `None` where they are linearly dependent (a constant input included).
+    /// `inputs`, all [`standardised`](super::correlation::standardised); `None` where they are linearly dependent (a
+    /// constant input included).
     pub fn new(inputs: Vec<Vec<f64>>) -> Option<Self> {
         let inverse = inverse(&super::correlation::matrix(&inputs))?;
         let rows = inputs.first()?.len();
@@ -79,7 +82,8 @@ impl Regressors {
         self.inputs.len()
     }
 
-    /// The regression of `y`, [`standardised`](super::correlation::standardised); `None` where there are not more rows than inputs and one.
+    /// The regression of `y`, [`standardised`](super::correlation::standardised); `None` where there are not more rows
+    /// than inputs and one.
     pub fn regression<'a>(&'a self, y: &'a [f64]) -> Option<Regression<'a>> {
         if y.len() < self.count() + 2 {
             return None;
@@ -187,12 +191,14 @@ mod tests {
         assert!((coefficients[0].value - 3.0 * spread(&a) / spread(&y)).abs() < 7e-15);
         assert!((coefficients[1].value + 2.0 * spread(&b) / spread(&y)).abs() < 2e-15);
         assert!(coefficients[2].value.abs() < 2e-16);
-        // nothing is left of y, but how the inputs are spread is not known exactly: the coefficients have a width, that of no input has none
+        // nothing is left of y, but how the inputs are spread is not known exactly: the coefficients have a width, that
+        // of no input has none
         assert!(coefficients[0].upper - coefficients[0].lower > 1e-3, "{coefficients:?}");
         assert!(coefficients[2].upper - coefficients[2].lower < 1e-13, "{coefficients:?}");
     }
 
-    /// Law: the influence of a row is n - 1 times the change of the coefficient where it is left out: the interval is that of these changes.
+    /// Law: the influence of a row is n - 1 times the change of the coefficient where it is left out: the interval is
+    /// that of these changes.
     #[test]
     fn intervals_are_those_of_leaving_out() {
         let [a, b, _] = inputs().map(|column| column[..40].to_vec());
@@ -233,7 +239,8 @@ mod tests {
         assert!((found.value - expected).abs() < 2e-15, "{} {expected}", found.value);
     }
 
-    /// Law: an input that is a combination of those before it, or constant, is not independent; the rest have a regression.
+    /// Law: an input that is a combination of those before it, or constant, is not independent; the rest have a
+    /// regression.
     #[test]
     fn dependent_inputs_are_found() {
         let [a, b, c] = inputs();

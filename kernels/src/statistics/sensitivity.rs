@@ -1,11 +1,12 @@
-//! Variance-based sensitivity: which share of an observable's variance an input explains, alone and with its interactions.
+//! Variance-based sensitivity: which share of an observable's variance an input explains, alone and with its
+//! interactions.
 //!
-//! - From a Saltelli design: first-order index by A. Saltelli et al., *Comput. Phys. Commun.* 181 (2010) 259, equation (b) of table 2, of
-//!   centred values; total index by M. J. W. Jansen, *ibid.* 117 (1999) 35.
-//! - From plain samples: what straight lines through cells of neighbouring inputs do not explain is the rest of the variance (the correlation
-//!   ratio of K. Pearson, *Drapers' Co. Res. Mem.* 2 (1905), with lines in place of means; cells as E. Plischke, E. Borgonovo & C. L. Smith,
-//!   *Eur. J. Oper. Res.* 226 (2013) 536). Ranks (F. Gamboa et al., *Bernoulli* 28 (2022) 2345) were rejected: of x^3 + y, 100 runs, their
-//!   bias is 0.13, its interval covers 0.15.
+//! - From a Saltelli design: first-order index by A. Saltelli et al., *Comput. Phys. Commun.* 181 (2010) 259, equation
+//!   (b) of table 2, of centred values; total index by M. J. W. Jansen, *ibid.* 117 (1999) 35.
+//! - From plain samples: what straight lines through cells of neighbouring inputs do not explain is the rest of the
+//!   variance (the correlation ratio of K. Pearson, *Drapers' Co. Res. Mem.* 2 (1905), with lines in place of means;
+//!   cells as E. Plischke, E. Borgonovo & C. L. Smith, *Eur. J. Oper. Res.* 226 (2013) 536). Ranks (F. Gamboa et al.,
+//!   *Bernoulli* 28 (2022) 2345) were rejected: of x^3 + y, 100 runs, their bias is 0.13, its interval covers 0.15.
 //!
 //! Intervals are those of the [`jackknife`](super::jackknife), for independent blocks or rows; for sequences see
 //! [`Samples`]. Those from plain samples also allow for what the rows do not show: `UNSEEN` more rows like the
@@ -52,7 +53,8 @@ pub struct Block {
     pub mixed: f64,
 }
 
-/// First-order and total index of an input from the blocks of a Saltelli design; `None` where the observable does not vary.
+/// First-order and total index of an input from the blocks of a Saltelli design; `None` where the observable does not
+/// vary.
 pub fn saltelli_indices(blocks: &[Block], confidence: f64) -> Option<[Estimate; 2]> {
     let n = blocks.len() as f64;
     let mean = blocks.iter().map(|block| block.a + block.b).sum::<f64>() / (2.0 * n);
@@ -70,13 +72,15 @@ pub fn saltelli_indices(blocks: &[Block], confidence: f64) -> Option<[Estimate; 
 pub enum Samples {
     /// Independently of each other, or evenly in each input alone (a Latin hypercube).
     Independent,
-    /// Evenly in several inputs together, as the sequences of Sobol and Halton do. Within a cell the other inputs are even too, so that less noise
-    /// than that of independent rows, and perhaps none, is in its line. The index then lies between the one that is corrected for that noise
-    /// and the one that is not: the estimate is their middle, the interval is from the lower end of the first to the upper one of the second.
+    /// Evenly in several inputs together, as the sequences of Sobol and Halton do. Within a cell the other inputs are
+    /// even too, so that less noise than that of independent rows, and perhaps none, is in its line. The index then
+    /// lies between the one that is corrected for that noise and the one that is not: the estimate is their middle, the
+    /// interval is from the lower end of the first to the upper one of the second.
     Even,
 }
 
-/// First-order index of an input `x` for an observable `y`; `None` where one does not vary, or for fewer than [`MIN_ROWS`] rows.
+/// First-order index of an input `x` for an observable `y`; `None` where one does not vary, or for fewer than
+/// [`MIN_ROWS`] rows.
 ///
 /// Rows are put into cells of ascending `x`, equal values into one cell.
 pub fn first_order_index(x: &[f64], y: &[f64], samples: Samples, confidence: f64) -> Option<Estimate> {
@@ -186,8 +190,9 @@ pub fn has_tails(column: &[f64], [kurtosis, skewness]: [f64; 2]) -> bool {
 pub const MIN_ROWS: usize = 64;
 /// The cells at both ends have so many rows, where the input has its tails and the observable is steep.
 const FEWEST: usize = 5;
-/// The end of the cell that begins at `start`: cells grow by half from both ends to the root of the number of rows. Smaller ones have more noise, larger
-/// ones more error of the line: at 1,000 rows, cells of 20 to 45 have the same error.
+/// The end of the cell that begins at `start`: cells grow by half from both ends to the root of the number of rows.
+/// Smaller ones have more noise, larger ones more error of the line: at 1,000 rows, cells of 20 to 45 have the same
+/// error.
 fn cell_end(order: &[usize], x: &[f64], start: usize) -> usize {
     let (rows, rest) = (order.len(), order.len() - start);
     let largest = libm::sqrt(rows as f64) as usize;
@@ -295,8 +300,9 @@ mod tests {
         [(); 3].map(|()| PI * (2.0 * random.next() - 1.0))
     }
 
-    /// H0: the exact indices of Ishigami's function lie in 99% intervals as often as stated. 200 studies of 1,000 blocks, 6 indices
-    /// each, fixed seed; at least 95% of each covered (alpha 1e-6 for 99%). An interval of half the width covers 80%: power 1.
+    /// H0: the exact indices of Ishigami's function lie in 99% intervals as often as stated. 200 studies of 1,000
+    /// blocks, 6 indices each, fixed seed; at least 95% of each covered (alpha 1e-6 for 99%). An interval of half the
+    /// width covers 80%: power 1.
     #[test]
     fn indices_of_ishigami_from_blocks() {
         let mut random = Uniform(1);
@@ -321,7 +327,8 @@ mod tests {
         assert!(covered.as_flattened().iter().all(|count| *count >= 190), "{covered:?}");
     }
 
-    /// Law: indices do not depend on where the observable is counted from: a constant that is added to it changes nothing.
+    /// Law: indices do not depend on where the observable is counted from: a constant that is added to it changes
+    /// nothing.
     #[test]
     fn a_constant_changes_no_index() {
         let mut random = Uniform(3);
@@ -354,8 +361,8 @@ mod tests {
         }
     }
 
-    /// Law: of an input with few values the index is that of the means of its levels, and where nothing else acts it is 1; rows are in no cell
-    /// with others of another value, so that their order does not matter.
+    /// Law: of an input with few values the index is that of the means of its levels, and where nothing else acts it is
+    /// 1; rows are in no cell with others of another value, so that their order does not matter.
     #[test]
     fn levels_are_cells() {
         let mut random = Uniform(4);

@@ -1,7 +1,8 @@
 //! The share of a variance that repetition alone makes, of values that were had twice under the same conditions.
 //!
-//! One-way random effects with pairs as groups (R. A. Fisher, *Statistical Methods for Research Workers*, 1925, on the intraclass correlation): the
-//! variance within pairs is the mean of (a - b)^2/2, the whole is that about the mean of all; the interval is that of [`super::jackknife`].
+//! One-way random effects with pairs as groups (R. A. Fisher, *Statistical Methods for Research Workers*, 1925, on the
+//! intraclass correlation): the variance within pairs is the mean of (a - b)^2/2, the whole is that about the mean of
+//! all; the interval is that of [`super::jackknife`].
 //!
 //! The jackknife does not know what a few runs did not show. Values of a yes or no have an interval of their own: of
 //! the pairs with an event, the share r in which both runs have it, and the share m of such pairs among all, each have
@@ -87,7 +88,8 @@ mod tests {
         })
     }
 
-    /// Law: of normal and of skewed values with a known share the estimate is right on average, to 6% of itself (measured: 5.4%, of skewed values), and 95% intervals cover it in at least 92% (measured: 93.8%) of 1,000
+    /// Law: of normal and of skewed values with a known share the estimate is right on average, to 6% of itself
+    /// (measured: 5.4%, of skewed values), and 95% intervals cover it in at least 92% (measured: 93.8%) of 1,000
     /// repetitions with 200 pairs.
     #[test]
     fn known_shares_are_covered() {

@@ -1,13 +1,15 @@
 //! [`Sketch`]: a histogram fine enough to read order statistics from, and small enough for any number of samples.
 //!
-//! Buckets are the leading bits of the number itself: sign, exponent, and the first [`MANTISSA_BITS`] bits of the mantissa (the
-//! idea of HdrHistogram, G. Tene 2012, and of DDSketch, Masson, Rim & Lee 2019, with the logarithm taken from the bits). A
-//! bucket is at most 2^-10 = 0.098% of its value wide; a quantile is answered by the middle of its bucket, hence within 0.05%.
-//! Contents are counts, so merging is addition: the result does not depend on order, threads or parts.
+//! Buckets are the leading bits of the number itself: sign, exponent, and the first [`MANTISSA_BITS`] bits of the
+//! mantissa (the idea of HdrHistogram, G. Tene 2012, and of DDSketch, Masson, Rim & Lee 2019, with the logarithm taken
+//! from the bits). A bucket is at most 2^-10 = 0.098% of its value wide; a quantile is answered by the middle of its
+//! bucket, hence within 0.05%. Contents are counts, so merging is addition: the result does not depend on order,
+//! threads or parts.
 //!
-//! A relative error of a large number would hide a small spread about it. A sketch about a reference ([`Sketch::about`]) therefore counts the
-//! numbers that are nearer to the reference than to zero by their deviation from it, and the others by themselves: a quantile
-//! is then within 0.05% of its magnitude *and* of its deviation, whichever is smaller. Magnitudes below 2^-1022 count as zero.
+//! A relative error of a large number would hide a small spread about it. A sketch about a reference
+//! ([`Sketch::about`]) therefore counts the numbers that are nearer to the reference than to zero by their deviation
+//! from it, and the others by themselves: a quantile is then within 0.05% of its magnitude *and* of its deviation,
+//! whichever is smaller. Magnitudes below 2^-1022 count as zero.
 
 use fearless_simd::Simd;
 
@@ -25,7 +27,8 @@ pub const RELATIVE_ERROR: f64 = 1.0 / 2048.0;
 const PAGE: usize = 1 << MANTISSA_BITS;
 /// Number of pages that can occur of one scale: of signs and exponents.
 const SCALE: u16 = 1 << 12;
-/// Where a page is not counted in yet; there are no more than two scales of them: of numbers themselves, and of deviations.
+/// Where a page is not counted in yet; there are no more than two scales of them: of numbers themselves, and of
+/// deviations.
 const NO_PAGE: u16 = u16::MAX;
 /// Buckets in a cache line.
 const CACHE_LINE: usize = 16;
@@ -51,8 +54,8 @@ impl Default for Sketch {
     }
 }
 
-/// The number whose bits were mapped so that unsigned order is numeric order: the sign bit of a positive number is set, all bits of a negative one
-/// are inverted.
+/// The number whose bits were mapped so that unsigned order is numeric order: the sign bit of a positive number is set,
+/// all bits of a negative one are inverted.
 fn unordered(key: u64) -> f64 {
     f64::from_bits(if key >> 63 == 1 { key & !(1 << 63) } else { !key })
 }
@@ -74,8 +77,9 @@ impl Places {
         Places { reference, sign, half: 0.5 * reference.abs() }
     }
 
-    /// The leading bits of the place of `value`. Places ascend with numbers: below a positive reference those that are counted
-    /// by themselves, then deviations; about a negative one the other way. Without branches: a loop over many of them is one over vectors.
+    /// The leading bits of the place of `value`. Places ascend with numbers: below a positive reference those that are
+    /// counted by themselves, then deviations; about a negative one the other way. Without branches: a loop over many
+    /// of them is one over vectors.
     #[inline(always)]
     fn of(self, value: f64) -> u32 {
         let is_near = self.sign * value > self.half;
@@ -165,8 +169,8 @@ impl Sketch {
         (self.count > 0).then_some(self.min)
     }
 
-    /// The `p`-quantile of type 7, 0 <= p <= 1 ([`Ranks::quantile`]); `None` where nothing was counted. Several questions to one sketch are
-    /// faster to its [`Sketch::ranks`].
+    /// The `p`-quantile of type 7, 0 <= p <= 1 ([`Ranks::quantile`]); `None` where nothing was counted. Several
+    /// questions to one sketch are faster to its [`Sketch::ranks`].
     pub fn quantile(&self, p: f64) -> Option<f64> {
         self.ranks().quantile(p)
     }
@@ -313,7 +317,8 @@ impl Ranks {
         Ranks { buckets, count }
     }
 
-    /// The same where all numbers are whole: a bucket is then as wide as the whole numbers in it, and those below 2048 are exact.
+    /// The same where all numbers are whole: a bucket is then as wide as the whole numbers in it, and those below 2048
+    /// are exact.
     #[must_use]
     pub fn of_whole_numbers(mut self) -> Self {
         for bucket in &mut self.buckets {
@@ -328,8 +333,8 @@ impl Ranks {
         Some([bucket.low, bucket.high])
     }
 
-    /// The middles of the buckets of the two order statistics between which the `p`-quantile of type 7, 0 <= p <= 1, is, and its part of the way
-    /// from the first to the second; `None` where nothing was counted.
+    /// The middles of the buckets of the two order statistics between which the `p`-quantile of type 7, 0 <= p <= 1,
+    /// is, and its part of the way from the first to the second; `None` where nothing was counted.
     pub fn neighbours(&self, p: f64) -> Option<([f64; 2], f64)> {
         let last = self.count.checked_sub(1)?;
         let place = last as f64 * p;
@@ -338,8 +343,9 @@ impl Ranks {
         Some(([near(below + 1)?, near(below + 2)?], place - below as f64))
     }
 
-    /// The `p`-quantile of type 7 ([`super::quantile::quantile`]), 0 <= p <= 1: between two order statistics, each within
-    /// [`RELATIVE_ERROR`] of its magnitude and of its deviation from the reference, and so within that fraction of those of the greater.
+    /// The `p`-quantile of type 7 ([`super::quantile::quantile`]), 0 <= p <= 1: between two order statistics, each
+    /// within [`RELATIVE_ERROR`] of its magnitude and of its deviation from the reference, and so within that fraction
+    /// of those of the greater.
     pub fn quantile(&self, p: f64) -> Option<f64> {
         let (neighbours, part) = self.neighbours(p)?;
         super::quantile::quantile(&neighbours, part)
@@ -358,8 +364,8 @@ fn key(number: u16, bucket: usize) -> u32 {
     u32::from(number) << MANTISSA_BITS | bucket as u32
 }
 
-/// The ends of a bucket of one scale, as far as numbers of these leading bits reach; the bucket of an infinity reaches into the NaNs, that of
-/// zero has nothing else.
+/// The ends of a bucket of one scale, as far as numbers of these leading bits reach; the bucket of an infinity reaches
+/// into the NaNs, that of zero has nothing else.
 fn ends(number: u16, bucket: usize) -> [f64; 2] {
     let low = (u64::from(number) << MANTISSA_BITS | bucket as u64) << SHIFT;
     if unordered(low) == 0.0 {
@@ -427,8 +433,8 @@ mod tests {
         assert!((got - want).abs() > RELATIVE_ERROR * want.abs());
     }
 
-    /// Law: bounds of a rank enclose the order statistic, counts at a limit enclose the true count, and a quantile of type 7 is within the
-    /// relative error of the order statistics between which it lies.
+    /// Law: bounds of a rank enclose the order statistic, counts at a limit enclose the true count, and a quantile of
+    /// type 7 is within the relative error of the order statistics between which it lies.
     #[test]
     fn ranks_are_bounded() {
         let mut values: Vec<f64> = (0..20_000).map(spread).collect();
@@ -461,9 +467,9 @@ mod tests {
         assert_eq!((infinite.bounds(1), infinite.bounds(3)), (Some([f64::NEG_INFINITY; 2]), Some([f64::INFINITY; 2])));
     }
 
-    /// Law: about a reference, quantiles are within the relative error of the deviation from it as well as of the magnitude, whatever the
-    /// offset of the numbers and its sign; bounds enclose order statistics. Counter-test: without a reference they are off by standard
-    /// deviations.
+    /// Law: about a reference, quantiles are within the relative error of the deviation from it as well as of the
+    /// magnitude, whatever the offset of the numbers and its sign; bounds enclose order statistics. Counter-test:
+    /// without a reference they are off by standard deviations.
     #[test]
     fn an_offset_hides_no_spread() {
         let scores: Vec<f64> = (1..20_000).map(|k| crate::math::normal::quantile(f64::from(k) / 20_000.0)).collect();
@@ -569,7 +575,8 @@ mod tests {
     }
 
     proptest! {
-        /// Law: however the numbers are cut into parts and in whichever order the parts are merged, the sketch is the same.
+        /// Law: however the numbers are cut into parts and in whichever order the parts are merged, the sketch is the
+        /// same.
         #[test]
         fn merging_does_not_know_order(
             values in prop::collection::vec(prop::num::f64::ANY, 1..200),

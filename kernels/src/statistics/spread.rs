@@ -33,8 +33,8 @@ impl Spread {
         self.sketch.max()
     }
 
-    /// The `p`-quantile of type 7, 0 <= p <= 1: of at most [`EXACT`] values as it is, of more within 0.05% of its magnitude
-    /// ([`super::sketch::RELATIVE_ERROR`]). `None` where nothing was counted.
+    /// The `p`-quantile of type 7, 0 <= p <= 1: of at most [`EXACT`] values as it is, of more within 0.05% of its
+    /// magnitude ([`super::sketch::RELATIVE_ERROR`]). `None` where nothing was counted.
     pub fn quantile(&self, p: f64) -> Option<f64> {
         if self.values.len() > EXACT {
             return self.sketch.quantile(p);
@@ -50,7 +50,8 @@ mod tests {
     use super::*;
     use crate::statistics::sketch::RELATIVE_ERROR;
 
-    /// Law: quantiles of few values are those of type 7, whatever their order; those of many are within the error of a sketch.
+    /// Law: quantiles of few values are those of type 7, whatever their order; those of many are within the error of a
+    /// sketch.
     #[test]
     fn quantiles_of_few_values_are_exact() {
         let mut few = Spread::default();

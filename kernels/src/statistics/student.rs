@@ -18,7 +18,8 @@ pub fn two_sided_tail(t: f64, degrees: f64) -> f64 {
     incomplete_beta(x, y, 0.5 * degrees, 0.5).lower
 }
 
-/// Half width of the interval in which the mean lies with `confidence`: t s / sqrt(n), from the `standard_deviation` of `count` values.
+/// Half width of the interval in which the mean lies with `confidence`: t s / sqrt(n), from the `standard_deviation` of
+/// `count` values.
 ///
 /// Infinite for fewer than two values.
 pub fn half_width(standard_deviation: f64, count: u64, confidence: f64) -> f64 {

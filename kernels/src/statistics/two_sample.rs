@@ -8,8 +8,8 @@
 //!   zeros; for their spread, the same with ranks that are signed by the sums of the pairs, as in E. J. G. Pitman,
 //!   *Biometrika* 31 (1939) 9.
 //!
-//! All are two-sided and for independent runs, or pairs. Of many tests: S. Holm, *Scand. J. Stat.* 6 (1979) 65, which assumes nothing of how they
-//! depend on each other.
+//! All are two-sided and for independent runs, or pairs. Of many tests: S. Holm, *Scand. J. Stat.* 6 (1979) 65, which
+//! assumes nothing of how they depend on each other.
 
 use super::binomial::at_most;
 use super::correlation::{Estimate, mid_ranks};
@@ -25,7 +25,8 @@ pub struct Difference {
     pub p_value: f64,
 }
 
-/// Welch's test of the means of two campaigns; `None` where one has fewer than two runs. Where neither varies, the difference is certain.
+/// Welch's test of the means of two campaigns; `None` where one has fewer than two runs. Where neither varies, the
+/// difference is certain.
 pub fn welch(first: &Moments, second: &Moments, confidence: f64) -> Option<Difference> {
     let shift = second.mean()? - first.mean()?;
     let (a, b) = (first.mean_error()?, second.mean_error()?);
@@ -138,12 +139,14 @@ fn signed_sum(terms: impl Iterator<Item = f64>) -> f64 {
 /// At so many limits [`marginals`] compares: the sixteenths of all values.
 const LIMITS: usize = 15;
 
-/// The p-value of the test whether both numbers of `pairs` have the same distribution; `None` without pairs. No value is NaN.
+/// The p-value of the test whether both numbers of `pairs` have the same distribution; `None` without pairs. No value
+/// is NaN.
 ///
-/// Where they have, as many pairs go up through any limit as go down through it, but for chance: of the pairs that go through it at all, the number
-/// that goes up is binomial with one half, whatever else the numbers of a pair have to do with each other. So it needs no symmetric differences,
-/// which signed ranks do: a phase that moves on by a little and is wrapped to one period keeps its distribution. The smallest p-value of all
-/// limits counts, times their number (Bonferroni).
+/// Where they have, as many pairs go up through any limit as go down through it, but for chance: of the pairs that go
+/// through it at all, the number that goes up is binomial with one half, whatever else the numbers of a pair have to do
+/// with each other. So it needs no symmetric differences, which signed ranks do: a phase that moves on by a little and
+/// is wrapped to one period keeps its distribution. The smallest p-value of all limits counts, times their number
+/// (Bonferroni).
 pub fn marginals(pairs: &[[f64; 2]]) -> Option<f64> {
     let mut all: Vec<f64> = pairs.iter().flatten().copied().collect();
     all.sort_unstable_by(f64::total_cmp);
@@ -167,8 +170,8 @@ pub fn mcnemar(alone: [u64; 2]) -> f64 {
     (2.0 * at_most(alone[0].min(alone[1]), alone[0] + alone[1], 0.5)).min(1.0)
 }
 
-/// P-values adjusted for their number (Holm 1979): among the hypotheses that hold, whichever these are, the probability that any has an adjusted
-/// value of alpha or less is at most alpha.
+/// P-values adjusted for their number (Holm 1979): among the hypotheses that hold, whichever these are, the probability
+/// that any has an adjusted value of alpha or less is at most alpha.
 pub fn holm(p_values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p_values.len()).collect();
     order.sort_by(|a, b| p_values[*a].total_cmp(&p_values[*b]));
@@ -184,7 +187,8 @@ pub fn holm(p_values: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Published: the example of R's `p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm")`, 0.03 0.06 0.06 0.02, worked by hand; values are never above 1.
+    /// Published: the example of R's `p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm")`, 0.03 0.06 0.06 0.02, worked by
+    /// hand; values are never above 1.
     #[test]
     fn adjusted_values_are_those_of_holm() {
         let found = holm(&[0.01, 0.04, 0.03, 0.005]);
@@ -208,8 +212,9 @@ mod tests {
         values
     }
 
-    /// Expected values: scipy.stats 1.x, of `x = [k sqrt(2) % 1 for k in 1..20]`, `y = [0.2 + 1.3 (k sqrt(3) % 1) for k in 1..30]`:
-    /// `ttest_ind(y, x, equal_var=False)`, `ttest_rel(y[:20], x)`, `wilcoxon(y[:20] - x, mode="approx")`, `ks_2samp(x, y)`.
+    /// Expected values: scipy.stats 1.x, of `x = [k sqrt(2) % 1 for k in 1..20]`, `y = [0.2 + 1.3 (k sqrt(3) % 1) for k
+    /// in 1..30]`: `ttest_ind(y, x, equal_var=False)`, `ttest_rel(y[:20], x)`, `wilcoxon(y[:20] - x, mode="approx")`,
+    /// `ks_2samp(x, y)`.
     #[test]
     fn tests_are_those_of_scipy() {
         let [x, y] = samples();
@@ -243,8 +248,9 @@ mod tests {
         assert_eq!((kolmogorov_tail(0.0), kolmogorov_tail(9.0)), (1.0, 2.0 * libm::exp(-162.0)));
     }
 
-    /// Known: of a hundred pairs (k, k + 10) ten go up through each limit and none goes down, so that p is 15 times 2/2^10 = 15/512; pairs (k, k + 10
-    /// modulo 100) go down as often as up, and all signed ranks but theirs are the same. Equal numbers do not differ; without pairs there is no test.
+    /// Known: of a hundred pairs (k, k + 10) ten go up through each limit and none goes down, so that p is 15 times
+    /// 2/2^10 = 15/512; pairs (k, k + 10 modulo 100) go down as often as up, and all signed ranks but theirs are the
+    /// same. Equal numbers do not differ; without pairs there is no test.
     #[test]
     fn pairs_go_through_limits_up_and_down() {
         let pairs = |wrap: f64| -> Vec<[f64; 2]> {

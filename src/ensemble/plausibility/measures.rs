@@ -306,9 +306,9 @@ pub fn coarse_grid(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     found(turn, format!("observe.points = {points}: the body makes {turns} turns from one point to the next{enough}"))
 }
 
-/// The turn of the body over the lag of B-dot, rad, at the largest initial rate: the dipole is against the change of the
-/// field half an interval of measurements before, and is held. The mean power is that of a prompt dipole times the cosine
-/// of the turn.
+/// The turn of the body over the lag of B-dot, rad, at the largest initial rate: the dipole is against the change of
+/// the field half an interval of measurements before, and is held. The mean power is that of a prompt dipole times the
+/// cosine of the turn.
 pub fn late_rods(looked: &Looked<'_>, most: f64) -> Vec<Found> {
     let rods = looked.spec().and_then(|spec| {
         let phase = spec.phases.iter().find(|phase| phase.rods == RodUse::BDot)?;

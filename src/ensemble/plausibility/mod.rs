@@ -2,8 +2,8 @@
 //! revolutions per minute for radians per second, millimetres for metres, the scalar of a quaternion in the last
 //! place.
 //!
-//! [`rules::RULES`] is the list of what is noted, [`rule`] what a row of it says; `measures` are the sizes that are no parameter of their own.
-//! Nothing is refused.
+//! [`rules::RULES`] is the list of what is noted, [`rule`] what a row of it says; `measures` are the sizes that are no
+//! parameter of their own. Nothing is refused.
 
 pub mod looked;
 mod measures;

@@ -220,7 +220,8 @@ impl Curves<'_> {
     }
 }
 
-/// The name of a thruster with the curve `values`: one that gives nothing, as a dead one does, may be what decides the run, and says so.
+/// The name of a thruster with the curve `values`: one that gives nothing, as a dead one does, may be what decides the
+/// run, and says so.
 fn named(name: &str, values: &[f64]) -> String {
     if values.iter().all(|value| *value == 0.0) { format!("{name}: none") } else { name.to_owned() }
 }

@@ -57,7 +57,8 @@ const PER_TURN: usize = 4;
 const SEEN_SWING: f64 = 0.05;
 
 impl<'a> Curves<'a> {
-    /// On the page of `plan`: of the nominal run, where it could be run, and bands of the ensemble; `wheels` are those that turn.
+    /// On the page of `plan`: of the nominal run, where it could be run, and bands of the ensemble; `wheels` are those
+    /// that turn.
     pub fn of_page(plan: &'a Plan, run: Option<&'a SingleRun>, bands: &'a [TimeBands], wheels: &'a [Name]) -> Self {
         Curves {
             plan,
@@ -120,7 +121,8 @@ impl<'a> Curves<'a> {
         self.bands.iter().find(|bands| bands.name == name)
     }
 
-    /// Bands and median of the quantity `name`, and its values in the nominal run; `of` comes before the names in the legend.
+    /// Bands and median of the quantity `name`, and its values in the nominal run; `of` comes before the names in the
+    /// legend.
     pub(super) fn marks(&self, name: &str, nominal: Vec<f64>, hue: Hue, of: &str) -> Vec<Mark> {
         let label = |text: &str| if of.is_empty() { text.to_owned() } else { format!("{of}, {text}") };
         let mut marks = Vec::new();
@@ -149,8 +151,8 @@ impl<'a> Curves<'a> {
         is_seen && self.run.is_some_and(|run| run.grid.points() > bands.times.len())
     }
 
-    /// In place of bands that would miss an oscillation: what the nominal run, and all that were flown for the page, reach
-    /// in each interval between the instants of the bands.
+    /// In place of bands that would miss an oscillation: what the nominal run, and all that were flown for the page,
+    /// reach in each interval between the instants of the bands.
     fn envelopes(
         &self,
         name: &str,
@@ -212,7 +214,8 @@ impl<'a> Curves<'a> {
         let Some(bands) = self.band(name) else { return "The nominal run.".to_owned() };
         if self.is_aliased(bands, nominal) {
             return format!(
-                "Envelopes: from the smallest to the largest value in each of {} intervals of time, of the nominal run and of \
+                "Envelopes: from the smallest to the largest value in each of {} intervals of time, of the nominal run \
+                and of \
                  the {} runs that were flown for this page, the worst ones. Quantiles at these instants, fewer than \
                  {PER_TURN} in an oscillation, would miss it: raise [bands] points.",
                 bands.times.len().saturating_sub(1),
@@ -228,7 +231,8 @@ impl<'a> Curves<'a> {
         let of = if bands.counted < bands.runs {
             let error = |p: f64| 100.0 * libm::sqrt(p * (1.0 - p) / bands.counted as f64);
             format!(
-                "the first {} of {} dispersed runs that were computed (standard error of these shares {:.2} and {:.2}%, of the median {:.2}%; bands.runs counts more)",
+                "the first {} of {} dispersed runs that were computed (standard error of these shares {:.2} and \
+                {:.2}%, of the median {:.2}%; bands.runs counts more)",
                 bands.counted,
                 bands.runs,
                 error(0.05),
@@ -254,8 +258,8 @@ impl<'a> Curves<'a> {
         telemetry.held_at(&self.times()).into_iter().nth(place)
     }
 
-    /// Every figure that the scene calls for, those that bear on a requirement first, else in the order of the list; those
-    /// that have nothing to show are not visible.
+    /// Every figure that the scene calls for, those that bear on a requirement first, else in the order of the list;
+    /// those that have nothing to show are not visible.
     pub fn figures(&self) -> Vec<Figure> {
         let mut listed: Vec<&ListedFigure> = figures_of(&self.traits, self.place).collect();
         let place = |listed: &&ListedFigure| {
@@ -267,7 +271,8 @@ impl<'a> Curves<'a> {
         figures.map(|figure| self.in_flight(figure)).collect()
     }
 
-    /// The same with the runs in flight, and an axis that ends where all but one in a hundred have ended, and the nominal run.
+    /// The same with the runs in flight, and an axis that ends where all but one in a hundred have ended, and the
+    /// nominal run.
     pub(super) fn in_flight(&self, mut figure: Figure) -> Figure {
         if let (true, [first, .., last]) = (self.is_plot() && figure.is_over_time, &self.times()[..]) {
             // one time axis, also where a curve is not there at all times
@@ -380,7 +385,8 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Whether `times` times are fewer than [`PER_TURN`] in each oscillation of a curve that turns back so often, twice in each.
+/// Whether `times` times are fewer than [`PER_TURN`] in each oscillation of a curve that turns back so often, twice in
+/// each.
 fn is_coarse(turns: usize, times: usize) -> bool {
     PER_TURN * turns > 2 * times.saturating_sub(1)
 }
@@ -441,7 +447,8 @@ mod tests {
     use crate::run::Grid;
     use crate::sampling::SampleId;
 
-    /// Law: times are too few for a curve exactly where fewer than four of them are in each of its oscillations, whatever the number of these.
+    /// Law: times are too few for a curve exactly where fewer than four of them are in each of its oscillations,
+    /// whatever the number of these.
     #[test]
     fn four_times_show_an_oscillation() {
         for oscillations in [1, 5, 20, 50] {
@@ -459,7 +466,8 @@ mod tests {
     }
 
     /// Law: where the nominal run oscillates faster than the instants of the bands, no band of instants is drawn: the
-    /// envelopes hold every value of the nominal run and of all flown runs; with bands at as many instants they are drawn.
+    /// envelopes hold every value of the nominal run and of all flown runs; with bands at as many instants they are
+    /// drawn.
     #[test]
     fn a_band_never_aliases() {
         let text = include_str!("../../../campaigns/spin_sweep.toml");
@@ -505,8 +513,8 @@ mod tests {
         }
     }
 
-    /// Law: bands of the first runs say the standard errors sqrt(p (1 - p)/n) of their shares, of the n that are counted, whatever others there are; those of all
-    /// runs say none.
+    /// Law: bands of the first runs say the standard errors sqrt(p (1 - p)/n) of their shares, of the n that are
+    /// counted, whatever others there are; those of all runs say none.
     #[test]
     fn bands_of_some_runs_say_how_well_they_are_known() {
         let text = include_str!("../../../campaigns/spin_sweep.toml");
@@ -515,12 +523,14 @@ mod tests {
             (
                 400,
                 10_000,
-                "the first 400 of 10000 dispersed runs that were computed (standard error of these shares 1.09 and 2.17%, of the median 2.50%;",
+                "the first 400 of 10000 dispersed runs that were computed (standard error of these shares 1.09 and \
+                2.17%, of the median 2.50%;",
             ),
             (
                 100,
                 500,
-                "the first 100 of 500 dispersed runs that were computed (standard error of these shares 2.18 and 4.33%, of the median 5.00%;",
+                "the first 100 of 500 dispersed runs that were computed (standard error of these shares 2.18 and \
+                4.33%, of the median 5.00%;",
             ),
             (500, 500, "25 to 75% of 500 dispersed runs that were computed, at each of 2 times."),
         ] {

@@ -35,7 +35,8 @@ impl Curves<'_> {
         (!self.plan.method.has_fixed_step()).then_some(self.plan.tolerance.relative)
     }
 
-    /// Drift of the balances over time: relative errors, with the tolerance, of a method that follows one, and the rounding of doubles.
+    /// Drift of the balances over time: relative errors, with the tolerance, of a method that follows one, and the
+    /// rounding of doubles.
     pub fn drift(&self) -> Vec<Figure> {
         let tolerance = self.tolerance();
         let energy = [(Series::EnergyError, "", Hue::Body)];

@@ -7,7 +7,8 @@ use crate::report::over_time::curves::{Curves, over_time};
 use crate::report::over_time::figure_list::ListedFigure;
 use crate::report::over_time::spectrum::{amplitudes, dominant};
 
-/// A change by less than this fraction of a variable's magnitude is what rounding makes of a constant in some thousands of operations.
+/// A change by less than this fraction of a variable's magnitude is what rounding makes of a constant in some thousands
+/// of operations.
 const ROUNDING: f64 = 1e-12;
 
 impl Curves<'_> {
@@ -108,7 +109,8 @@ impl Curves<'_> {
             }
         }
         let change = || Axis::linear("change of energy", "J");
-        let caption = "Change of kinetic energy about the centre of mass since the start, of the nominal run: gains are on top of each other above \
+        let caption = "Change of kinetic energy about the centre of mass since the start, of the nominal run: gains \
+            are on top of each other above \
                        zero, losses below. Without motor torque and thrust both heights are equal at all times.";
         let transfer = over_time("energy_transfer", listed.title, caption.to_owned(), change(), marks);
 
@@ -123,7 +125,8 @@ impl Curves<'_> {
             name: "energy_phase".to_owned(),
             section: FigureSection::Time,
             title: "Energy of each wheel against that of the body".to_owned(),
-            caption: "Changes since the start, nominal run: a straight line of slope -1 is a transfer between this wheel and the body alone."
+            caption: "Changes since the start, nominal run: a straight line of slope -1 is a transfer between this \
+                wheel and the body alone."
                 .to_owned(),
             columns: 6,
             is_over_time: false,

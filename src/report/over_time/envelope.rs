@@ -11,7 +11,8 @@ pub fn turns(values: &[f64]) -> usize {
     signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-/// The same of swings that are seen: larger than this fraction of the range of the values. A step with noise on it is drawn as itself.
+/// The same of swings that are seen: larger than this fraction of the range of the values. A step with noise on it is
+/// drawn as itself.
 const SEEN: f64 = 0.01;
 
 /// A range smaller than this fraction of the values is no swing.
@@ -44,7 +45,8 @@ fn seen_turns(values: &[f64]) -> usize {
     count
 }
 
-/// Times, smallest and largest values of a series that is too fast to be drawn, over short intervals; `None` of one that is not.
+/// Times, smallest and largest values of a series that is too fast to be drawn, over short intervals; `None` of one
+/// that is not.
 pub fn envelope(times: &[f64], values: &[f64]) -> Option<[Vec<f64>; 3]> {
     let count = values.len().min(times.len());
     let turns = seen_turns(&values[..count]);

@@ -99,7 +99,8 @@ struct Track {
 }
 
 impl Track {
-    /// That of `run`, which reached the times `times`; `None` without a date, or where it reached none beyond the start.
+    /// That of `run`, which reached the times `times`; `None` without a date, or where it reached none beyond the
+    /// start.
     fn of(run: &SingleRun, times: &[f64]) -> Option<Self> {
         let around = Surroundings::of(&run.scene)?;
         let state = |point: usize| {
@@ -139,7 +140,8 @@ impl Track {
     }
 }
 
-/// The position at the part `s` of an interval of `length` seconds between two states: the cubic with their positions and velocities.
+/// The position at the part `s` of an interval of `length` seconds between two states: the cubic with their positions
+/// and velocities.
 fn between([from, to]: [[[f64; 3]; 2]; 2], length: f64, s: f64) -> [f64; 3] {
     let r = 1.0 - s;
     let start = sum(scaled(r * r * (1.0 + 2.0 * s), from[0]), scaled(r * r * s * length, from[1]));
@@ -194,8 +196,8 @@ mod tests {
         places.iter().map(|&(longitude, latitude, is_dark)| Passed { longitude, latitude, is_dark }).collect()
     }
 
-    /// Law: a line that meets 180 deg ends there and goes on at the other edge, at the latitude on the straight line between, eastwards and westwards;
-    /// light and shadow are lines of their own that meet.
+    /// Law: a line that meets 180 deg ends there and goes on at the other edge, at the latitude on the straight line
+    /// between, eastwards and westwards; light and shadow are lines of their own that meet.
     #[test]
     fn lines_end_at_the_date_line() {
         for sign in [1.0, -1.0] {
@@ -222,7 +224,8 @@ mod tests {
         assert_eq!(parts(&passed(&[(-100.0, 0.0, true), (70.0, 0.0, true)])).len(), 1);
     }
 
-    /// Law: the cubic has the positions and the velocities of both ends; on a circle its error is h^4/384 of the radius.
+    /// Law: the cubic has the positions and the velocities of both ends; on a circle its error is h^4/384 of the
+    /// radius.
     #[test]
     fn the_cubic_follows_a_circle() {
         let state = |angle: f64| {

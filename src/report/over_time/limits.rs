@@ -7,7 +7,8 @@ use crate::statistics::gate::GateLimit;
 
 /// A limit that is larger than the values by this factor is outside of the axis, and named at its edge.
 const FAR: f64 = 3.0;
-/// A limit that is smaller than the largest value by this factor is on an axis by decades: on a linear one it would be on the axis.
+/// A limit that is smaller than the largest value by this factor is on an axis by decades: on a linear one it would be
+/// on the axis.
 const SMALL: f64 = 30.0;
 /// Where values vary by less than this fraction of the largest, an axis from zero would hide how.
 const VARIES: f64 = 0.5;
@@ -34,7 +35,8 @@ pub fn required(plan: &Plan, names: impl Iterator<Item = String>, unit: &str) ->
     marks
 }
 
-/// The limits of actuators, a line for each value, with it in the unit `shown`: those of all alike have no name of an actuator. `signed`: also below zero.
+/// The limits of actuators, a line for each value, with it in the unit `shown`: those of all alike have no name of an
+/// actuator. `signed`: also below zero.
 pub fn of_actuators(limits: &[(String, f64)], shown: &ShownUnit, signed: bool) -> Vec<Mark> {
     let finite: Vec<&(String, f64)> = limits.iter().filter(|(_, at)| at.is_finite() && *at > 0.0).collect();
     let mut values: Vec<f64> = finite.iter().map(|(_, at)| *at).collect();
@@ -51,7 +53,8 @@ pub fn of_actuators(limits: &[(String, f64)], shown: &ShownUnit, signed: bool) -
     values.into_iter().flat_map(mark).collect()
 }
 
-/// The range of an axis by decades, where a limit is far below the largest of positive values; `None` where a linear axis shows it.
+/// The range of an axis by decades, where a limit is far below the largest of positive values; `None` where a linear
+/// axis shows it.
 pub fn decades(marks: &[Mark]) -> Option<[f64; 2]> {
     let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
     let limits = marks.iter().filter_map(|mark| match mark {
@@ -68,8 +71,8 @@ pub fn decades(marks: &[Mark]) -> Option<[f64; 2]> {
     (SMALL * least < largest && largest.is_finite() && !is_signed).then(|| [least / SMALL, 1.5 * largest])
 }
 
-/// The range of the vertical axis of `marks`: from zero where no value is negative and they vary, or belong to a loop, with the limits that are near; `None`
-/// where values alone say it.
+/// The range of the vertical axis of `marks`: from zero where no value is negative and they vary, or belong to a loop,
+/// with the limits that are near; `None` where values alone say it.
 pub fn range(marks: &[Mark], is_controlled: bool) -> Option<[f64; 2]> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let mut take = |values: &[f64]| {
@@ -124,7 +127,8 @@ mod tests {
         Mark::Limit { label: String::new(), at, vertical: false }
     }
 
-    /// Law: an axis of positive quantities begins at zero, has the limits that are near and all values, and one of a free motion that hardly varies is its own.
+    /// Law: an axis of positive quantities begins at zero, has the limits that are near and all values, and one of a
+    /// free motion that hardly varies is its own.
     #[test]
     fn axes_have_what_matters() {
         let of = |y: &[f64], limits: &[f64], is_controlled| {
@@ -143,7 +147,8 @@ mod tests {
         assert!((low + 3.2).abs() < 1e-12 && (high - 2.2).abs() < 1e-12);
     }
 
-    /// Law: an axis is by decades where a linear one would lay the limit onto zero, and never where values are negative.
+    /// Law: an axis is by decades where a linear one would lay the limit onto zero, and never where values are
+    /// negative.
     #[test]
     fn small_limits_are_seen_by_decades() {
         assert_eq!(decades(&[curve(&[0.0, 60.0]), limit(3.0)]), None);

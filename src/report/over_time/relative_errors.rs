@@ -7,7 +7,8 @@ const ROUNDING: f64 = 10.0 * f64::EPSILON;
 /// A limit that is larger than the errors by this factor is outside of the axis, and named at its edge.
 const FAR: f64 = 3.0;
 
-/// Adds the limits of the errors `marks` of a run to them; the axis of both. `is_signed`: whether errors may be negative.
+/// Adds the limits of the errors `marks` of a run to them; the axis of both. `is_signed`: whether errors may be
+/// negative.
 pub fn limited(marks: &mut Vec<Mark>, tolerance: Option<f64>, is_signed: bool) -> Axis {
     let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
     let own = largest.max(ROUNDING);
@@ -30,7 +31,8 @@ mod tests {
     use super::*;
     use crate::report::figure::{Dash, Hue};
 
-    /// Law: errors are drawn on a scale of their own, with a tolerance that is near; that of rounding is not finer than doubles are.
+    /// Law: errors are drawn on a scale of their own, with a tolerance that is near; that of rounding is not finer than
+    /// doubles are.
     #[test]
     fn errors_have_an_axis_of_their_own_size() {
         for (error, tolerance, shown) in [

@@ -1,15 +1,16 @@
-//! Amplitude spectrum of a series on a uniform grid, for a picture: the column `exchange_frequency_hz` is computed elsewhere
-//! ([`crate::observables`]), on the campaign's grid.
+//! Amplitude spectrum of a series on a uniform grid, for a picture: the column `exchange_frequency_hz` is computed
+//! elsewhere ([`crate::observables`]), on the campaign's grid.
 
 use core::f64::consts::{PI, TAU};
 
 /// Most frequencies of a spectrum, from the lowest on.
 const MOST: usize = 400;
 
-/// Frequencies (Hz) and amplitudes, zero within rounding of `values` at uniform `times`, s, without the mean; `None` for fewer than eight points.
+/// Frequencies (Hz) and amplitudes, zero within rounding of `values` at uniform `times`, s, without the mean; `None`
+/// for fewer than eight points.
 ///
-/// Hann window w_k = (1 - cos(2 pi k / n))/2, whose mean is 1/2: a sine of amplitude a within a bin has the amplitude a (F. J. Harris,
-/// *Proc. IEEE* 66 (1978) 51).
+/// Hann window w_k = (1 - cos(2 pi k / n))/2, whose mean is 1/2: a sine of amplitude a within a bin has the amplitude a
+/// (F. J. Harris, *Proc. IEEE* 66 (1978) 51).
 pub fn amplitudes(times: &[f64], values: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
     let n = values.len().min(times.len()).checked_sub(1).filter(|n| *n >= 8)?;
     let duration = times[n] - times[0];
@@ -35,8 +36,8 @@ pub fn amplitudes(times: &[f64], values: &[f64]) -> Option<(Vec<f64>, Vec<f64>)>
     Some((bins.clone().map(|bin| bin as f64 / duration).collect(), bins.map(amplitude).collect()))
 }
 
-/// The frequency of the largest amplitude, by a parabola through it and its neighbours; `None` where all are zero, and where it is at an end of
-/// the spectrum, and so no peak.
+/// The frequency of the largest amplitude, by a parabola through it and its neighbours; `None` where all are zero, and
+/// where it is at an end of the spectrum, and so no peak.
 pub fn dominant(frequencies: &[f64], amplitudes: &[f64]) -> Option<f64> {
     let peak = (0..amplitudes.len()).max_by(|a, b| amplitudes[*a].total_cmp(&amplitudes[*b]))?;
     if amplitudes[peak] <= 0.0 || !amplitudes[peak].is_finite() {
@@ -55,7 +56,8 @@ pub fn dominant(frequencies: &[f64], amplitudes: &[f64]) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Law: a sine of amplitude 3 and 2.5 Hz on a constant has that amplitude at that frequency; a constant has no frequency.
+    /// Law: a sine of amplitude 3 and 2.5 Hz on a constant has that amplitude at that frequency; a constant has no
+    /// frequency.
     #[test]
     fn a_sine_is_found() {
         let times: Vec<f64> = (0..=800).map(|k| 0.01 * f64::from(k)).collect();

@@ -6,8 +6,8 @@ use crate::report::over_time::figure_list::ListedFigure;
 use crate::run::StateField;
 
 impl Curves<'_> {
-    /// The components of `field`, by the names `components`; of wheels all of them. One that is zero throughout, as those of a part that the scene does not
-    /// have, has no curve.
+    /// The components of `field`, by the names `components`; of wheels all of them. One that is zero throughout, as
+    /// those of a part that the scene does not have, has no curve.
     pub(super) fn state(&self, listed: &ListedFigure, field: StateField, components: &[&str]) -> Figure {
         let wheels = self.wheels.iter().enumerate().map(|(wheel, name)| (name.to_string(), Hue::Wheel(wheel)));
         let named = components.iter().enumerate().map(|(index, name)| ((*name).to_owned(), Hue::Curve(index)));

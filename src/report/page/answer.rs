@@ -42,7 +42,10 @@ const fn shape(verdict: Verdict) -> &'static str {
             r#"<rect x="1.5" y="1.5" width="21" height="21" rx="2"/><path class="sign" d="M7 7l10 10M17 7L7 17"/>"#
         }
         Verdict::Undecided => {
-            r#"<path d="M12 0.5L23.5 12L12 23.5L0.5 12z"/><path class="sign" d="M9 10c0-4 6-4 6-1c0 2-3 2-3 4.5M12 16.2v1.2"/>"#
+            concat!(
+                r#"<path d="M12 0.5L23.5 12L12 23.5L0.5 12z"/>"#,
+                r#"<path class="sign" d="M9 10c0-4 6-4 6-1c0 2-3 2-3 4.5M12 16.2v1.2"/>"#
+            )
         }
     }
 }
@@ -212,7 +215,8 @@ impl<'f> Row<'f> {
             details += &format!("<div class=\"place\" data-shows=\"{}\"></div>", escaped(&figure.name));
         }
         format!(
-            "<details class=\"answer {}\" id=\"answer_{}\"><summary><span class=\"judged\">{}</span><span class=\"asked\">{}</span>\
+            "<details class=\"answer {}\" id=\"answer_{}\"><summary><span class=\"judged\">{}</span><span \
+            class=\"asked\">{}</span>\
              <span class=\"number\">{}</span><span>{scale}</span><span>{}</span></summary>{details}</details>\n",
             finding.verdict.map_or("finding", class),
             escaped(&finding.id),
@@ -246,7 +250,8 @@ pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
             "What was found",
             ["outcome", "found", "with its interval, from the smallest to the largest value", "runs"],
             format!(
-                "<details class=\"example\"><summary>The campaign file has no requirement. Add one to get a verdict here</summary>\
+                "<details class=\"example\"><summary>The campaign file has no requirement. Add one to get a verdict \
+                here</summary>\
                  <pre><code>{}</code></pre></details>",
                 escaped(EXAMPLE)
             ),

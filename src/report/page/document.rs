@@ -1,5 +1,5 @@
-//! The page as one file: static HTML first, then numbers, libraries and scripts. Nothing is loaded from anywhere, and a content security
-//! policy in the page forbids it.
+//! The page as one file: static HTML first, then numbers, libraries and scripts. Nothing is loaded from anywhere, and a
+//! content security policy in the page forbids it.
 
 use serde_json::Value;
 
@@ -12,7 +12,8 @@ const LICENCES: &str = include_str!("../../../assets/report/vendor/licences.txt"
 pub(in crate::report) static ECHARTS: &[u8] = include_bytes!("../../../assets/report/vendor/echarts.js.gz");
 static THREE: &[u8] = include_bytes!("../../../assets/report/vendor/three.js.gz");
 
-/// The modules of the page, each after those that it imports: they are put into one script, without their imports and exports.
+/// The modules of the page, each after those that it imports: they are put into one script, without their imports and
+/// exports.
 const MODULES: [(&str, &str); 18] = [
     ("numbers.js", include_str!("../../../assets/report/numbers.js")),
     ("theme.js", include_str!("../../../assets/report/theme.js")),
@@ -35,7 +36,8 @@ const MODULES: [(&str, &str); 18] = [
 ];
 
 /// What no script may load: everything but what is in the page.
-const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'";
+const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; \
+    base-uri 'none'; form-action 'none'";
 
 /// A section of the page.
 pub struct PageSection {
@@ -102,7 +104,14 @@ pub fn document(title: &str, first_screen: &str, sections: &[PageSection], data:
     let block =
         |id: &str, text: &str| format!("<script type=\"application/octet-stream\" id=\"{id}\">{text}</script>\n");
     format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{} - spindrift</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<nav aria-label=\"Sections\"><div class=\"links\">{links}</div><button type=\"button\" id=\"theme\" hidden>dark</button></nav>\n<header>{first_screen}</header>\n<main>\n<noscript><p class=\"lead\">Figures need JavaScript; the tables below do not.</p></noscript>\n{body}</main>\n{}{}{}{}{}<script>\n{}</script>\n</body>\n</html>\n",
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta \
+        http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<meta name=\"viewport\" \
+        content=\"width=device-width, initial-scale=1\">\n<title>{} - spindrift</title>\n<link rel=\"icon\" \
+        href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<nav aria-label=\"Sections\"><div \
+        class=\"links\">{links}</div><button type=\"button\" id=\"theme\" \
+        hidden>dark</button></nav>\n<header>{first_screen}</header>\n<main>\n<noscript><p class=\"lead\">Figures need \
+        JavaScript; the tables below do not.</p></noscript>\n{body}</main>\n\
+         {}{}{}{}{}<script>\n{}</script>\n</body>\n</html>\n",
         escaped(title),
         block("data", &packed(data.to_string().as_bytes())),
         block("numbers", numbers),

@@ -18,11 +18,12 @@ const MOST_ERRORS: usize = 8;
 /// Steps of the ranks of an exceedance plot: this many to a factor of ten.
 const RANKS_PER_DECADE: f64 = 12.0;
 
-/// How much smaller than the largest the smallest value of an exceedance plot is: runs without any error would lengthen its axis by
-/// three hundred decades.
+/// How much smaller than the largest the smallest value of an exceedance plot is: runs without any error would lengthen
+/// its axis by three hundred decades.
 const TAIL_RANGE: f64 = 1e12;
 
-/// Histogram and exceedance of each error, estimate against truth, steps. `has_intervals`: whether the runs are independent.
+/// Histogram and exceedance of each error, estimate against truth, steps. `has_intervals`: whether the runs are
+/// independent.
 pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
     let mut figures: Vec<Figure> = Vec::new();
     if survey.statuses.ok() < FEWEST_RUNS {
@@ -53,7 +54,8 @@ pub fn of_runs(shown: usize, all: u64) -> String {
     }
 }
 
-/// How many dispersed runs have a value, `shown` of them in a figure, and how many were computed, where others have none.
+/// How many dispersed runs have a value, `shown` of them in a figure, and how many were computed, where others have
+/// none.
 pub fn having(survey: &Survey, values: &Sketch, shown: usize) -> String {
     let computed = computed(survey);
     match values.count() {
@@ -238,7 +240,8 @@ fn audits(survey: &Survey) -> Option<Figure> {
         section: FigureSection::Numerics,
         title: "Estimated error against the true one".to_owned(),
         caption: format!(
-            "{} of {} audited runs, each compared with a reference solution. Above the diagonal the estimate is too small: {below} of those shown.",
+            "{} of {} audited runs, each compared with a reference solution. Above the diagonal the estimate is too \
+            small: {below} of those shown.",
             shown.len(),
             survey.audited
         ),
@@ -266,13 +269,15 @@ fn audits(survey: &Survey) -> Option<Figure> {
     })
 }
 
-/// Whether the balance of any run is off by more than the tolerance that its method follows explains, or the error of its state is estimated to be seen.
+/// Whether the balance of any run is off by more than the tolerance that its method follows explains, or the error of
+/// its state is estimated to be seen.
 pub fn is_above_tolerance(plan: &Plan, survey: &Survey) -> bool {
     /// A thousandth of a degree.
     const SEEN: f64 = 2e-5;
-    /// The tolerance bounds the error of one step, and a balance shows what all steps of a run have left. In the worst of 1,000 runs of `assets/start.toml`,
-    /// of five steps each, that is 1.2 to 2.7 times the tolerance, for tolerances of 1e-15 to 1e-12. The roundings of N steps leave about
-    /// 3e-16 sqrt(N) (`tests/accuracy/round_off.rs`): ten times 1e-14 after 1e5 steps.
+    /// The tolerance bounds the error of one step, and a balance shows what all steps of a run have left. In the worst
+    /// of 1,000 runs of `assets/start.toml`, of five steps each, that is 1.2 to 2.7 times the tolerance, for tolerances
+    /// of 1e-15 to 1e-12. The roundings of N steps leave about 3e-16 sqrt(N) (`tests/accuracy/round_off.rs`): ten times
+    /// 1e-14 after 1e5 steps.
     const STEPS: f64 = 10.0;
     let tolerance = if plan.method.has_fixed_step() { SEEN } else { STEPS * plan.tolerance.relative };
     survey.outcomes.iter().filter(|outcome| outcome.is_error).any(|outcome| {

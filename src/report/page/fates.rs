@@ -25,13 +25,15 @@ impl Fate {
     }
 }
 
-/// What became of each run of the thinned table, by all that the campaign wants: for figures about all requirements together.
+/// What became of each run of the thinned table, by all that the campaign wants: for figures about all requirements
+/// together.
 pub fn fates(plan: &Plan, survey: &Survey) -> Vec<Fate> {
     let failure = survey.outcome(FAILURE).map(|(index, _)| &survey.thinned.outcomes[index][..]);
     judged(survey, &limits(plan, survey, |_| true), failure)
 }
 
-/// The same by the limits on the outcome `name` alone: in a figure about it a run that misses another requirement is none that failed.
+/// The same by the limits on the outcome `name` alone: in a figure about it a run that misses another requirement is
+/// none that failed.
 pub fn of_outcome(plan: &Plan, survey: &Survey, name: &str) -> Vec<Fate> {
     judged(survey, &limits(plan, survey, |one| one.observable() == Some(name)), None)
 }

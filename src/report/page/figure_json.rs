@@ -8,7 +8,8 @@ use crate::report::page::payload::Payload;
 /// Opacity of bars.
 const BAR: f64 = 0.55;
 
-/// Opacity of bars in a colour: those of runs that miss a requirement stand in front of all runs, and are not mixed with their colour.
+/// Opacity of bars in a colour: those of runs that miss a requirement stand in front of all runs, and are not mixed
+/// with their colour.
 fn bar_opacity(hue: Hue) -> f64 {
     if hue == Hue::Failed { 1.0 } else { BAR }
 }
@@ -18,7 +19,8 @@ pub(in crate::report) fn json_of(figure: &Figure, payload: &mut Payload) -> Valu
     let marks: Vec<Value> = figure.marks.iter().map(|one| mark(one, payload)).collect();
     json!({
         "name": figure.name, "section": figure.section.anchor(), "title": figure.title, "caption": figure.caption,
-        "columns": figure.columns, "time": figure.is_over_time, "x": axis(&figure.x), "y": axis(&figure.y), "marks": marks
+        "columns": figure.columns, "time": figure.is_over_time, "x": axis(&figure.x), "y": axis(&figure.y),
+            "marks": marks
     })
 }
 
@@ -49,10 +51,12 @@ fn mark(mark: &Mark, payload: &mut Payload) -> Value {
             "x": array(x), "y": array(y), "samples": array(samples)
         }),
         Mark::Bars { label, hue, edges, heights } => json!({
-            "kind": "bars", "label": label, "hue": hue.place(), "opacity": bar_opacity(*hue), "edges": array(edges), "heights": array(heights)
+            "kind": "bars", "label": label, "hue": hue.place(), "opacity": bar_opacity(*hue), "edges": array(edges),
+                "heights": array(heights)
         }),
         Mark::Whiskers { label, hue, x, low, high } => json!({
-            "kind": "whiskers", "label": label, "hue": hue.place(), "x": array(x), "low": array(low), "high": array(high)
+            "kind": "whiskers", "label": label, "hue": hue.place(), "x": array(x), "low": array(low),
+                "high": array(high)
         }),
         Mark::Limit { label, at, vertical } => {
             json!({ "kind": "limit", "label": label, "at": at, "vertical": vertical })

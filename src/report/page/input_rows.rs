@@ -1,4 +1,5 @@
-//! The inputs, one line each: what was drawn as a small histogram, what was asked for, the nominal value, and how well both fit.
+//! The inputs, one line each: what was drawn as a small histogram, what was asked for, the nominal value, and how well
+//! both fit.
 
 use crate::campaign::Plan;
 use crate::findings::names;
@@ -28,7 +29,9 @@ pub fn rows(plan: &Plan, figures: &[Figure]) -> String {
             None => "-".to_owned(),
         };
         Some(format!(
-            "<details class=\"input\"><summary title=\"{}\"><span>{}</span>{}<span>{}</span><span class=\"quiet\">{}</span><span>{}</span></summary><div class=\"place\" data-figure=\"{}\"></div></details>\n",
+            "<details class=\"input\"><summary title=\"{}\"><span>{}</span>{}<span>{}</span><span \
+            class=\"quiet\">{}</span><span>{}</span></summary><div class=\"place\" \
+            data-figure=\"{}\"></div></details>\n",
             escaped(&column.parameter.component_name(column.component)),
             escaped(&sentence(&names::of_input(plan, index))),
             small(figure),
@@ -43,7 +46,11 @@ pub fn rows(plan: &Plan, figures: &[Figure]) -> String {
         return rows;
     }
     format!(
-        "<div class=\"inputs\"><p class=\"input head\"><span>input</span><span>drawn and expected</span><span>nominal</span><span>distribution</span><span>fit</span></p>\n{rows}</div><p class=\"caption\">Fit: chi-squared test of the drawn values against the distribution in the file. A small p speaks against it, though among many inputs some are small by chance; evenly spread designs fit better than chance. Click a line for its histogram.</p>\n"
+        "<div class=\"inputs\"><p class=\"input head\"><span>input</span><span>drawn and \
+        expected</span><span>nominal</span><span>distribution</span><span>fit</span></p>\n{rows}</div><p \
+        class=\"caption\">Fit: chi-squared test of the drawn values against the distribution in the file. A small p \
+        speaks against it, though among many inputs some are small by chance; evenly spread designs fit better than \
+        chance. Click a line for its histogram.</p>\n"
     )
 }
 
@@ -71,8 +78,8 @@ fn counts(figure: &Figure) -> (Vec<f64>, Vec<f64>) {
     (observed, expected)
 }
 
-/// The probability of a distance from the expected counts at least as large by chance (K. Pearson, *Phil. Mag.* 50 (1900) 157), where classes are joined
-/// until five samples are expected in each; `None` where fewer than two are left.
+/// The probability of a distance from the expected counts at least as large by chance (K. Pearson, *Phil. Mag.* 50
+/// (1900) 157), where classes are joined until five samples are expected in each; `None` where fewer than two are left.
 fn fit(figure: &Figure) -> Option<f64> {
     let (observed, expected) = counts(figure);
     if expected.len() != observed.len() {
@@ -152,8 +159,9 @@ mod tests {
         (0..count + 20).map(next).skip(20).collect()
     }
 
-    /// Law: where the draws are those of the distribution, one p in twenty is below 0.05, or fewer; a standard deviation that is a fifth larger, or a mean that is
-    /// three tenths of one off, has a small p; what has no distribution has none.
+    /// Law: where the draws are those of the distribution, one p in twenty is below 0.05, or fewer; a standard
+    /// deviation that is a fifth larger, or a mean that is three tenths of one off, has a small p; what has no
+    /// distribution has none.
     #[test]
     fn fits_are_judged() {
         let asked = Distribution::Normal(NormalQuantile { mean: 1.0, std: 2.0 });
@@ -172,8 +180,8 @@ mod tests {
         assert_eq!(fit(&of_input("x", "", &[1.0, 2.0, 3.0], 1.0, None)), None);
     }
 
-    /// Known: three classes have two degrees of freedom, of which p = exp(-d/2), here of d = 0 + 16/10 + 16/10; also where a class is of two bars, or a part of
-    /// what is expected is beyond the bars.
+    /// Known: three classes have two degrees of freedom, of which p = exp(-d/2), here of d = 0 + 16/10 + 16/10; also
+    /// where a class is of two bars, or a part of what is expected is beyond the bars.
     #[test]
     fn a_fit_is_that_of_its_classes() {
         let fit_of = |heights: &[f64], expected: &[f64]| {
@@ -193,7 +201,8 @@ mod tests {
         assert_eq!(fit_of(&[3.0, 4.0], &[4.0, 3.0]), None);
     }
 
-    /// Law: the small histogram has a bar for each class with samples, the highest of the whole height, and the nominal value where it is.
+    /// Law: the small histogram has a bar for each class with samples, the highest of the whole height, and the nominal
+    /// value where it is.
     #[test]
     fn the_small_histogram_is_the_histogram() {
         let values: Vec<f64> = (0..=100).map(|k| 0.01 * f64::from(k)).collect();

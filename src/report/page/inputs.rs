@@ -101,7 +101,8 @@ fn correlations(plan: &Plan, survey: &Survey) -> Vec<Figure> {
         ));
     }
     let caption = format!(
-        "Spearman's coefficient of {} dispersed samples; of independent inputs up to \u{b1}{chance:.2} by chance (95%).{note}",
+        "Spearman's coefficient of {} dispersed samples; of independent inputs up to \u{b1}{chance:.2} by chance \
+        (95%).{note}",
         rows.len() as u64
     );
     figures.push(figure("correlation_achieved", "Rank correlation, achieved", caption, achieved));

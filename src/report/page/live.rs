@@ -110,8 +110,8 @@ fn wheel_speeds(run: &SingleRun, points: usize) -> Option<LiveNumber> {
     })
 }
 
-/// Propellant used since the start, in the ratio that the row has of propellant and impulse; the impulse itself where the specific impulse is not
-/// known. `None` where no thruster fires.
+/// Propellant used since the start, in the ratio that the row has of propellant and impulse; the impulse itself where
+/// the specific impulse is not known. `None` where no thruster fires.
 fn propellant((run, row): (&SingleRun, &[(String, f64)]), points: usize) -> Option<LiveNumber> {
     let ratio = of_row(row, "propellant_kg").zip(of_row(row, "impulse_total_n_s"));
     let ratio = ratio.filter(|(_, impulse)| *impulse > 0.0).map(|(mass, impulse)| mass / impulse);
@@ -185,7 +185,8 @@ fn sunlight(run: &SingleRun, points: usize) -> Option<LiveNumber> {
     })
 }
 
-/// The times at which the phases of a loop first began, and at which the mission or an event ended the run, with their names, by time.
+/// The times at which the phases of a loop first began, and at which the mission or an event ended the run, with their
+/// names, by time.
 pub fn marks(plan: &Plan, row: &[(String, f64)]) -> Vec<Value> {
     let begins = |name: &str| Some((of_row(row, &format!("phase_{name}_begin_s"))?, name.to_owned()));
     let spec = plan.law.as_ref().and_then(|law| law.spec());

@@ -3,9 +3,12 @@
 //! It is a pure function of the plan and the rows (and what was computed from them): the same result gives the same
 //! bytes. What is said comes from [`crate::findings`]; here it is put in order, with figures beside it.
 //!
-//! - [`answer`], `pictures`: the first screen. - `influence`, `outcomes`, `errors`, `inputs`: figures, with those of
-//!   [`crate::report::over_time`]. - `figure_json`: what the scripts need to draw them. - [`runs`], `replay` (with
-//!   `live`, `sky`): the runs to look at. - [`tables`], `document`: the rest of the HTML. - `payload`: numbers.
+//! - [`answer`], `pictures`: the first screen.
+//! - `influence`, `outcomes`, `errors`, `inputs`: figures, with those of [`crate::report::over_time`].
+//! - `figure_json`: what the scripts need to draw them.
+//! - [`runs`], `replay` (with `live`, `sky`): the runs to look at.
+//! - [`tables`], `document`: the rest of the HTML.
+//! - `payload`: numbers.
 //!
 //! The scripts and styles are in `assets/report/`.
 
@@ -246,11 +249,30 @@ fn sections(
     [
         decides(found, drawn).filter(|_| plan.rows() > 1),
         (has_replay || !worst.is_empty()).then_some(replay),
-        figures(FigureSection::Time, "Over time", "The nominal run, and where the dispersed runs are at each time. The slider of the replay moves a cursor through these figures; a click in one moves the replay.", String::new()),
+        figures(
+            FigureSection::Time,
+            "Over time",
+            "The nominal run, and where the dispersed runs are at each time. The \
+            slider of the replay moves a cursor through these figures; a click in one moves the \
+            replay.",
+            String::new(),
+        ),
         figures(FigureSection::Outcome, "How the outcomes are distributed", "", curves),
-        figures(FigureSection::Numerics, "Numerics", &errors, String::new()).map(|section| PageSection { fold: Some(is_off), ..section }),
-        figures(FigureSection::Inputs, "Inputs", "What was drawn, compared with the distributions of the campaign file.", inputs).map(|section| PageSection { has_figures: false, fold: Some(false), ..section }),
-        Some(PageSection { has_figures: has(FigureSection::Statistics), fold: Some(false), ..of("statistics", "Statistics", String::new(), table) }),
+        figures(FigureSection::Numerics, "Numerics", &errors, String::new())
+            .map(|section| PageSection { fold: Some(is_off), ..section }),
+        figures(
+            FigureSection::Inputs,
+            "Inputs",
+            "What was drawn, compared with the distributions of the campaign \
+            file.",
+            inputs,
+        )
+        .map(|section| PageSection { has_figures: false, fold: Some(false), ..section }),
+        Some(PageSection {
+            has_figures: has(FigureSection::Statistics),
+            fold: Some(false),
+            ..of("statistics", "Statistics", String::new(), table)
+        }),
         Some(of("provenance", "Provenance", String::new(), tables::provenance(plan, survey, &contents.files))),
     ]
     .into_iter()
@@ -320,7 +342,8 @@ fn pairs(plan: &Plan, survey: &Survey, payload: &mut Payload) -> Value {
         let shown = display.of(&column.parameter.name(), unit);
         let values = of(&values.iter().map(|value| shown.value(*value)).collect::<Vec<f64>>());
         let name = names::of_component(column.parameter, column.component);
-        json!({ "name": name, "column": column.parameter.column_name(column.component), "unit": shown.unit, "input": true, "values": values })
+        json!({ "name": name, "column": column.parameter.column_name(column.component), "unit": shown.unit,
+            "input": true, "values": values })
     });
     let inputs: Vec<Value> = inputs.collect();
     let outcomes = survey.outcomes.iter().zip(&thinned.outcomes).map(|(outcome, values)| {
@@ -334,5 +357,6 @@ fn pairs(plan: &Plan, survey: &Survey, payload: &mut Payload) -> Value {
     let fates = fates::fates(plan, survey);
     let shown: Vec<f64> = rows.iter().map(|row| fates[*row].place()).collect();
     let judged = fates.contains(&Fate::Missed) || !plan.analysis.requirements.is_empty();
-    json!({ "columns": columns, "samples": payload.array(&samples), "fates": payload.singles(&shown), "judged": judged, "fateWords": fates::words(plan), "all": survey.statuses.runs() })
+    json!({ "columns": columns, "samples": payload.array(&samples), "fates": payload.singles(&shown),
+        "judged": judged, "fateWords": fates::words(plan), "all": survey.statuses.runs() })
 }

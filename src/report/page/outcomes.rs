@@ -1,4 +1,5 @@
-//! Figures of the outcomes: how each is distributed, and how many runs stay below a value, with limits, quantiles and their intervals.
+//! Figures of the outcomes: how each is distributed, and how many runs stay below a value, with limits, quantiles and
+//! their intervals.
 
 use crate::analysis::order_statistics::share_interval;
 use crate::analysis::statistics::ColumnStatistics;
@@ -58,20 +59,23 @@ pub fn figures(plan: &Plan, survey: &Survey, statistics: &[ColumnStatistics], ha
 /// What the names of figures of cumulative distributions begin with.
 const CUMULATIVE: &str = "cumulative_";
 
-/// Where the cumulative curves of many outcomes are put: they are folded away. Nothing where each stands beside its distribution.
+/// Where the cumulative curves of many outcomes are put: they are folded away. Nothing where each stands beside its
+/// distribution.
 pub fn folded_curves(drawn: &[Figure]) -> String {
     let names: Vec<&str> =
         drawn.iter().map(|figure| figure.name.as_str()).filter(|name| name.starts_with(CUMULATIVE)).collect();
     match names.len() > BESIDE {
         true => format!(
-            "<details class=\"fold\"><summary>Cumulative distributions</summary><div class=\"figures\" data-figure=\"{}\"></div></details>",
+            "<details class=\"fold\"><summary>Cumulative distributions</summary><div class=\"figures\" \
+            data-figure=\"{}\"></div></details>",
             names.join(" ")
         ),
         false => String::new(),
     }
 }
 
-/// One or two outcomes in rows of two figures, each beside its cumulative curve; more in rows of three, the curves after the distributions.
+/// One or two outcomes in rows of two figures, each beside its cumulative curve; more in rows of three, the curves
+/// after the distributions.
 fn laid_out(distributions: Vec<Figure>, curves: Vec<Figure>) -> Vec<Figure> {
     let is_pairs = curves.len() == distributions.len() && curves.len() <= BESIDE;
     let columns = if is_pairs { 6 } else { 4 };
@@ -82,7 +86,8 @@ fn laid_out(distributions: Vec<Figure>, curves: Vec<Figure>) -> Vec<Figure> {
     all.into_iter().map(|figure| Figure { columns, ..figure }).collect()
 }
 
-/// The runs in the bars of a histogram that miss the limit on its own outcome, as bars of their own in front of these; nothing where no run does.
+/// The runs in the bars of a histogram that miss the limit on its own outcome, as bars of their own in front of these;
+/// nothing where no run does.
 fn missed(plan: &Plan, survey: &Survey, index: usize, outcome: &SurveyedOutcome, marks: &[Mark]) -> Option<Mark> {
     let fates = fates::of_outcome(plan, survey, outcome.quantity.name());
     let edges = marks.iter().find_map(|mark| if let Mark::Bars { edges, .. } = mark { Some(edges) } else { None })?;
@@ -164,7 +169,8 @@ fn limits(plan: &Plan, outcome: &SurveyedOutcome) -> Vec<Mark> {
     marks
 }
 
-/// The same with an axis that leaves out the limits that are far from the runs: they are named at its edge, and the runs keep a third of it.
+/// The same with an axis that leaves out the limits that are far from the runs: they are named at its edge, and the
+/// runs keep a third of it.
 fn near_limits(mut figure: Figure) -> Figure {
     const REACH: f64 = 2.0;
     const MARGIN: f64 = 0.04;
@@ -319,8 +325,8 @@ mod tests {
         assert_eq!(stepped(many.clone()), many);
     }
 
-    /// Law: the curve rises from one run to all of them; a fraction is that of the runs up to its value, within the width of a bucket, and lies
-    /// in its interval.
+    /// Law: the curve rises from one run to all of them; a fraction is that of the runs up to its value, within the
+    /// width of a bucket, and lies in its interval.
     #[test]
     fn the_curve_is_the_distribution() {
         let mut sketch = Sketch::default();

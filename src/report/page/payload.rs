@@ -46,7 +46,8 @@ impl Payload {
     }
 }
 
-/// Bytes compressed with gzip, as Base64 (RFC 4648). The same bytes give the same text: the header has no time and no name.
+/// Bytes compressed with gzip, as Base64 (RFC 4648). The same bytes give the same text: the header has no time and no
+/// name.
 ///
 /// At level 6: at level 9 compressing takes twice as long, for a page that is less than 1% shorter.
 pub fn packed(bytes: &[u8]) -> String {

@@ -71,9 +71,9 @@ fn picture(class: &str, height: f64, name: &str, inside: &str) -> String {
     format!("<svg class=\"{class}\" viewBox=\"0 0 {WIDTH} {height}\" {said}>{inside}</svg>")
 }
 
-/// The scales of the first numbers of `found`, those of one unit on one scale, in their order: dot and interval, the side
-/// of the limit that is asked for, the limit; without a limit the scale is as long as all numbers of the outcomes. Empty
-/// where there is nothing to compare.
+/// The scales of the first numbers of `found`, those of one unit on one scale, in their order: dot and interval, the
+/// side of the limit that is asked for, the limit; without a limit the scale is as long as all numbers of the outcomes.
+/// Empty where there is nothing to compare.
 pub fn scales(found: &[&Finding]) -> Vec<String> {
     let known = |number: &Number| {
         let (value, [low, high], limit) = number.in_shown();

@@ -48,7 +48,12 @@ pub fn shown_parts(plan: &Plan) -> Vec<ShownPart> {
 pub fn scene(plan: &Plan) -> Value {
     let (input, resolved) = (&plan.nominal, Scene::resolve(&plan.nominal).ok());
     let center = resolved.as_ref().map_or([0.0; 3], |scene| scene.mass.center);
-    let part = |part: ShownPart| json!({ "name": part.name, "shape": part.shape, "size": part.size, "position": part.position, "turn": part.turn });
+    let part = |part: ShownPart| {
+        json!({ "name": part.name, "shape": part.shape, "size": part.size,
+        "position": part.position, "turn": part.turn })
+    };
+    let of_file = resolved.iter().filter(|_| !input.plates.is_empty());
+    let plates: Vec<Value> = of_file.flat_map(|scene| &scene.plates).map(plate).collect();
     json!({
         "center": center,
         "is_equivalent": input.parts.is_empty(),
@@ -56,7 +61,7 @@ pub fn scene(plan: &Plan) -> Value {
         "wheels": wheels(input),
         "thrusters": thrusters(input),
         "debris": input.debris.as_ref().map(debris),
-        "plates": resolved.iter().filter(|_| !input.plates.is_empty()).flat_map(|scene| &scene.plates).map(plate).collect::<Vec<_>>(),
+        "plates": plates,
         "arcs": arcs(&resolved),
         "keep_out": keep_out(plan),
     })
@@ -108,7 +113,10 @@ fn wheels(input: &SceneInput) -> Vec<Value> {
 }
 
 fn thrusters(input: &SceneInput) -> Vec<Value> {
-    let shape = |thruster: &crate::scene::ThrusterInput| json!({ "name": thruster.name.as_str(), "position": thruster.position_m, "direction": thruster.direction });
+    let shape = |thruster: &crate::scene::ThrusterInput| {
+        json!({ "name": thruster.name.as_str(),
+        "position": thruster.position_m, "direction": thruster.direction })
+    };
     input.thrusters.iter().map(shape).collect()
 }
 
@@ -154,16 +162,22 @@ pub fn motion(plan: &Plan, shown: &ShownRun, payload: &mut Payload) -> Option<Va
         let attitude = each(&|point| table.at::<4>(StateField::DebrisAttitude, point).to_vec());
         (relative, attitude)
     });
-    let debris = debris.map(|(position, attitude)| json!({ "relative": payload.singles(&position), "attitude": payload.singles(&attitude) }));
+    let debris = debris.map(|(position, attitude)| {
+        json!({ "relative": payload.singles(&position),
+        "attitude": payload.singles(&attitude) })
+    });
     let goal = approach_goal(plan, run).map(|goal| json!({ "axis": goal.axis, "distance": goal.distance }));
     let is_nominal = shown.sample.0 == 0;
     let name = if is_nominal { "nominal run".to_owned() } else { format!("sample {}", shown.sample) };
     let mut motion = json!({
         "sample": shown.sample.0, "name": name, "why": shown.why, "status": shown.status.name(), "reason": shown.reason,
-        "numbers": numbers(plan, shown), "duration": plan.grid.duration(), "times": payload.singles(&run.grid.times()[..points]),
-        "attitude": payload.singles(&attitude), "omega": payload.singles(&omega), "momentum": payload.singles(&momentum),
+        "numbers": numbers(plan, shown), "duration": plan.grid.duration(),
+            "times": payload.singles(&run.grid.times()[..points]),
+        "attitude": payload.singles(&attitude), "omega": payload.singles(&omega),
+            "momentum": payload.singles(&momentum),
         "angles": payload.singles(&angles), "debris": debris, "goal": goal, "loop": control(plan, run, points, payload),
-        "failed": shown.has_failed(), "live": live::numbers(plan, (run, &shown.row), points, payload), "marks": live::marks(plan, &shown.row)
+        "failed": shown.has_failed(), "live": live::numbers(plan, (run, &shown.row), points, payload),
+            "marks": live::marks(plan, &shown.row)
     });
     if let Some(directions) = sky::directions(run, points, payload) {
         motion["orbit"] = directions;
@@ -242,7 +256,8 @@ fn numbers(plan: &Plan, shown: &ShownRun) -> Vec<[String; 2]> {
     names.iter().filter_map(value).collect()
 }
 
-/// The angular momentum of the spacecraft about its centre of mass in F_e, N m s: J omega + sum J_i rate_i a_i, turned to F_e.
+/// The angular momentum of the spacecraft about its centre of mass in F_e, N m s: J omega + sum J_i rate_i a_i, turned
+/// to F_e.
 fn momentum(run: &SingleRun, point: usize) -> [f64; 3] {
     let (mass, table) = (&run.scene.mass, &run.table);
     let omega: [f64; 3] = table.at(StateField::Rate, point);

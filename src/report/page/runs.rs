@@ -1,4 +1,5 @@
-//! [`ShownRun`]: the runs that the page shows in full: the nominal one, those that failed first, those with the largest errors.
+//! [`ShownRun`]: the runs that the page shows in full: the nominal one, those that failed first, those with the largest
+//! errors.
 
 use crate::analysis::survey::Survey;
 use crate::analysis::worst_runs::WorstRuns;
@@ -163,7 +164,8 @@ fn inputs(plan: &Plan, sample: SampleId) -> Vec<f64> {
     drawn.columns.iter().filter_map(|column| column.first().copied()).collect()
 }
 
-/// Failed runs, the first of each kind first, then the worst values of each outcome in turn; of the errors where the campaign has no outcome.
+/// Failed runs, the first of each kind first, then the worst values of each outcome in turn; of the errors where the
+/// campaign has no outcome.
 fn worst(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, String)> {
     let mut first: Vec<(usize, SampleId, String)> = Vec::new();
     for ended in survey.statuses.failed() {
@@ -220,7 +222,8 @@ fn worst(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, Strin
     list
 }
 
-/// The first place in `worst` of the runs that are as bad as one with `value`, and how many these are, in words: they have no order.
+/// The first place in `worst` of the runs that are as bad as one with `value`, and how many these are, in words: they
+/// have no order.
 fn tied(worst: &WorstRuns, value: f64) -> (usize, String) {
     let size = |value: f64| if worst.is_low { value } else { value.abs() };
     let is_same = |(_, other): &(SampleId, f64)| size(*other) == size(value);
@@ -283,8 +286,8 @@ mod tests {
         assert_eq!(with_time(&flown.grid, 1e9), None);
     }
 
-    /// Law: of the listed runs the first are flown, and how many are not is said, with the command that flies the first of
-    /// them; a run that ended in a panic is neither.
+    /// Law: of the listed runs the first are flown, and how many are not is said, with the command that flies the first
+    /// of them; a run that ended in a panic is neither.
     #[test]
     fn runs_that_are_not_flown_are_counted() {
         let text = include_str!("../../../campaigns/spin_sweep.toml");
@@ -311,7 +314,8 @@ mod tests {
         }
     }
 
-    /// Law: equal runs have the place of the first of them and say how many they are, at least where more than are kept may be equal; a run that is alone says nothing.
+    /// Law: equal runs have the place of the first of them and say how many they are, at least where more than are kept
+    /// may be equal; a run that is alone says nothing.
     #[test]
     fn equal_runs_have_no_order() {
         let found = |is_low: bool, most: usize, values: &[f64]| {

@@ -1,4 +1,5 @@
-//! What the replay draws about a spacecraft on an orbit: nadir, velocity, Sun and magnetic field as directions in F_e, and the share of the Sun that is hidden.
+//! What the replay draws about a spacecraft on an orbit: nadir, velocity, Sun and magnetic field as directions in F_e,
+//! and the share of the Sun that is hidden.
 
 use serde_json::{Value, json};
 
@@ -16,7 +17,8 @@ const UNIT: f64 = 1.0 / 8192.0;
 /// The directions that are drawn, by the names of the replay's arrows.
 const NAMES: [&str; 4] = ["nadir", "velocity", "sun", "field"];
 
-/// Where they point at `time` from `position` with `velocity`, F_e, of any length; `None` of what the scene does not have.
+/// Where they point at `time` from `position` with `velocity`, F_e, of any length; `None` of what the scene does not
+/// have.
 fn vectors(around: &Surroundings, time: f64, [position, velocity]: [[f64; 3]; 2]) -> [Option<[f64; 3]>; 4] {
     let sun = around.sun(time, position).map(|(direction, _)| direction);
     [Some(Surroundings::nadir(position)), Some(velocity), sun, around.field(time, position)]
@@ -27,7 +29,8 @@ fn state(run: &SingleRun, point: usize) -> [[f64; 3]; 2] {
     [StateField::ComPosition, StateField::ComVelocity].map(|field| run.table.at::<3>(field, point))
 }
 
-/// The directions at some of the first `points` points of `run`, and the hidden share of the Sun at each; `None` where there is no orbit.
+/// The directions at some of the first `points` points of `run`, and the hidden share of the Sun at each; `None` where
+/// there is no orbit.
 pub fn directions(run: &SingleRun, points: usize, payload: &mut Payload) -> Option<Value> {
     let (around, times) = (Surroundings::of(&run.scene)?, run.grid.times());
     let turned = |point: usize| {

@@ -72,7 +72,10 @@ pub fn statistics(rows: &[ColumnStatistics], has_intervals: bool, display: &Disp
         );
     }
     format!(
-        "<div class=\"table\" tabindex=\"0\"><table class=\"sortable searchable\"><thead><tr><th>observable</th><th>unit</th><th>runs</th><th>mean</th><th>std. dev.</th><th>min</th>{heads}<th>max</th></tr></thead><tbody>\n{body}</tbody></table></div><p class=\"caption\">Of the dispersed runs that were computed. <sup>*</sup> {caption}.</p>\n"
+        "<div class=\"table\" tabindex=\"0\"><table class=\"sortable \
+        searchable\"><thead><tr><th>observable</th><th>unit</th><th>runs</th><th>mean</th><th>std. \
+        dev.</th><th>min</th>{heads}<th>max</th></tr></thead><tbody>\n{body}</tbody></table></div><p \
+        class=\"caption\">Of the dispersed runs that were computed. <sup>*</sup> {caption}.</p>\n"
     )
 }
 
@@ -85,7 +88,8 @@ fn spread(values: &[f64], nominal: f64) -> f64 {
     libm::sqrt(squares.iter().sum::<f64>() / squares.len().max(1) as f64).max(f64::MIN_POSITIVE)
 }
 
-/// A drawn value beside the nominal one, in `unit`: as a difference where both would be the same digits. A nominal value of zero is what a reader expects of an error.
+/// A drawn value beside the nominal one, in `unit`: as a difference where both would be the same digits. A nominal
+/// value of zero is what a reader expects of an error.
 fn drawn([value, nominal]: [f64; 2], unit: &str) -> String {
     let off = value - nominal;
     if nominal == 0.0 {
@@ -142,14 +146,17 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
             "not run".to_owned()
         };
         body += &format!(
-            "<tr><th scope=\"row\">{}</th><td class=\"text\">{}{status}</td><td class=\"text small\">{listed}</td><td><code>spindrift simulate plan.toml --sample {}</code></td><td>{load}</td></tr>\n",
+            "<tr><th scope=\"row\">{}</th><td class=\"text\">{}{status}</td><td class=\"text \
+            small\">{listed}</td><td><code>spindrift simulate plan.toml --sample {}</code></td><td>{load}</td></tr>\n",
             shown.sample,
             escaped(&sentence(why)),
             shown.sample,
         );
     }
     format!(
-        "<div class=\"table\" id=\"worst\" tabindex=\"0\"><table><thead><tr><th>sample</th><th>why it is listed</th><th>inputs farthest from nominal</th><th>command</th><th>3D</th></tr></thead><tbody>\n{body}</tbody></table></div>\n"
+        "<div class=\"table\" id=\"worst\" tabindex=\"0\"><table><thead><tr><th>sample</th><th>why it is \
+        listed</th><th>inputs farthest from nominal</th><th>command</th><th>3D</th></tr></thead>\
+         <tbody>\n{body}</tbody></table></div>\n"
     )
 }
 
@@ -165,7 +172,8 @@ pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> S
         String::new()
     } else {
         format!(
-            "<details><summary>Files and their SHA-256</summary><div class=\"table\"><table><tbody>{listed}</tbody></table></div></details>"
+            "<details><summary>Files and their SHA-256</summary><div \
+            class=\"table\"><table><tbody>{listed}</tbody></table></div></details>"
         )
     };
     let glossary: String = survey
@@ -186,16 +194,21 @@ pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> S
         })
         .collect();
     let kept = if plan.law.as_ref().and_then(ControlLaw::spec).is_some_and(asked::is_law_of) {
-        "The law of attitude is a function of Python, which is not part of the plan: the rows cannot be made again without it."
+        "The law of attitude is a function of Python, which is not part of the plan: the rows cannot be made again \
+        without it."
     } else {
-        "Neither the number of threads nor the machine changes a bit of the rows, and the same rows give this page again, byte for byte."
+        "Neither the number of threads nor the machine changes a bit of the rows, and the same rows give this page \
+        again, byte for byte."
     };
     format!(
         "<p>{} samples of plan <code>{}</code>, spindrift {}. {kept}</p>
-<p>To make it again, in this folder: <code>spindrift report .</code> from the rows, or <code>spindrift campaign plan.toml --out elsewhere</code> from scratch.</p>
+<p>To make it again, in this folder: <code>spindrift report .</code> from the rows, or <code>spindrift campaign \
+plan.toml --out elsewhere</code> from scratch.</p>
 <details><summary>The whole plan</summary><pre class=\"plan\"><code>{}</code></pre></details>{files}
 <details><summary>What the columns on this page mean</summary><dl class=\"glossary\">{glossary}</dl></details>
-<details><summary>Libraries in this page, and their licences</summary><p>Apache ECharts 6.1.0 (Apache-2.0) with ZRender (BSD-3-Clause) and tslib (0BSD) draws the plots, three.js 0.187.0 (MIT) the replay.</p><pre id=\"licences\" class=\"plan\"></pre></details>\n",
+<details><summary>Libraries in this page, and their licences</summary><p>Apache ECharts 6.1.0 (Apache-2.0) with \
+ZRender (BSD-3-Clause) and tslib (0BSD) draws the plots, three.js 0.187.0 (MIT) the replay.</p><pre id=\"licences\" \
+class=\"plan\"></pre></details>\n",
         survey.statuses.runs(),
         plan.hash(),
         env!("CARGO_PKG_VERSION"),

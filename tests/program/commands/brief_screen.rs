@@ -1,4 +1,5 @@
-//! One screen for a campaign: its question first, its verdict last, and between them what fits 24 lines of 80 characters.
+//! One screen for a campaign: its question first, its verdict last, and between them what fits 24 lines of 80
+//! characters.
 
 use std::path::Path;
 use std::process::Command;
@@ -15,9 +16,10 @@ fn said(scratch: &ScratchFolder, command: &mut Command, width: usize, code: i32)
     (out.clone(), out + &err)
 }
 
-/// Law: without `--verbose` the shipped campaigns that a reader tries first take at most 24 lines of at most 80 characters; the question of the file comes first,
-/// and the last line counts the verdicts of the summary and names the page, which is there. No row is about what nobody asked for, and a number within brackets
-/// has at most three digits. `--verbose` says more, and ends the same.
+/// Law: without `--verbose` the shipped campaigns that a reader tries first take at most 24 lines of at most 80
+/// characters; the question of the file comes first, and the last line counts the verdicts of the summary and names the
+/// page, which is there. No row is about what nobody asked for, and a number within brackets has at most three digits.
+/// `--verbose` says more, and ends the same.
 #[test]
 fn a_campaign_fits_a_screen() {
     let scratch = ScratchFolder::new("brief-screen");
@@ -103,8 +105,9 @@ fn brackets_have_their_own_confidence() {
     assert!(!out.contains("[80%]"), "{out}");
 }
 
-/// Law: the last line is the same wherever a finished result is met: by the campaign that made it, by the same command again, by `finish`, and by `report`, which adds
-/// the size of the page. Without a page it names the folder; where runs failed it counts those that did not, also beside verdicts.
+/// Law: the last line is the same wherever a finished result is met: by the campaign that made it, by the same command
+/// again, by `finish`, and by `report`, which adds the size of the page. Without a page it names the folder; where runs
+/// failed it counts those that did not, also beside verdicts.
 #[test]
 fn the_last_line_is_the_verdict_and_the_page() {
     let scratch = folder("last-line");
@@ -130,8 +133,8 @@ fn the_last_line_is_the_verdict_and_the_page() {
     assert_eq!(last("report p", 0).split(" (").next(), Some("20 runs computed -> p/report.html"));
 }
 
-/// Law: colour comes where it is asked for, on results, help and messages, and adds nothing but itself; in a pipe there is none without being asked, and what a file
-/// contains cannot colour anything.
+/// Law: colour comes where it is asked for, on results, help and messages, and adds nothing but itself; in a pipe there
+/// is none without being asked, and what a file contains cannot colour anything.
 #[test]
 fn colour_adds_only_itself() {
     let scratch = folder("colour");
@@ -180,8 +183,10 @@ fn sample_fits_a_screen() {
     assert!(seen > 20, "{seen} campaigns with dispersions");
 }
 
-/// Law: where nearly every run or every run is lost, and of three runs, of the nominal run alone and without a requirement, one screen is enough: 24 lines of 80 characters (commands stay
-/// whole), whose last is the verdict. How many runs were lost is said in one sentence, and again only where a reason is counted; of one run there is one value of each outcome.
+/// Law: where nearly every run or every run is lost, and of three runs, of the nominal run alone and without a
+/// requirement, one screen is enough: 24 lines of 80 characters (commands stay whole), whose last is the verdict. How
+/// many runs were lost is said in one sentence, and again only where a reason is counted; of one run there is one value
+/// of each outcome.
 #[test]
 fn the_worst_campaigns_fit_a_screen() {
     let scratch = ScratchFolder::new("worst-screens");
@@ -225,7 +230,8 @@ fn the_worst_campaigns_fit_a_screen() {
     run("spin_sweep", "--samples 3 --out few --no-report", 0);
 }
 
-/// Law: where COLUMNS says the width, no line of either stream is longer, but for a command that stands alone to be copied; and no number that a person reads has as many digits as a double.
+/// Law: where COLUMNS says the width, no line of either stream is longer, but for a command that stands alone to be
+/// copied; and no number that a person reads has as many digits as a double.
 #[test]
 fn every_screen_fits_its_width() {
     let scratch = folder("every-screen");
@@ -250,7 +256,8 @@ fn every_screen_fits_its_width() {
     }
 }
 
-/// Law: on a terminal a message is broken into lines of its width, and a marked line stays whole; in a pipe each is one line.
+/// Law: on a terminal a message is broken into lines of its width, and a marked line stays whole; in a pipe each is one
+/// line.
 #[test]
 #[cfg(target_os = "linux")]
 fn messages_are_wrapped_on_a_terminal() {

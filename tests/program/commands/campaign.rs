@@ -100,7 +100,8 @@ fn a_folder_in_use_is_refused() {
     scratch.prints("campaign small.toml --samples 3 --out out", 0);
 }
 
-/// Law: the choice of instruction set changes no byte, without and with a control loop, and an impossible choice is bad input.
+/// Law: the choice of instruction set changes no byte, without and with a control loop, and an impossible choice is bad
+/// input.
 #[test]
 fn instruction_sets_do_not_change_a_byte() {
     let scratch = folder("isa");
@@ -124,7 +125,8 @@ fn instruction_sets_do_not_change_a_byte() {
     run("small", "abacus", 2);
 }
 
-/// Law: a build without object stores refuses an address, with the command that builds one that has them, and takes it for no folder; so it does with an address of another kind.
+/// Law: a build without object stores refuses an address, with the command that builds one that has them, and takes it
+/// for no folder; so it does with an address of another kind.
 #[cfg(not(feature = "cloud"))]
 #[test]
 fn addresses_need_a_build_with_stores() {

@@ -7,7 +7,8 @@ use spindrift::observables::{Group, table};
 use crate::small_campaign::folder;
 use crate::support::scratch_folder::ScratchFolder;
 
-/// Law: without a campaign every column of the table is there once, with unit and meaning, under its group; with a group, those alone.
+/// Law: without a campaign every column of the table is there once, with unit and meaning, under its group; with a
+/// group, those alone.
 #[test]
 fn every_column_is_shown() {
     let scratch = folder("all-columns");
@@ -45,8 +46,9 @@ fn every_column_is_shown() {
     assert!(meant > 2 && word.lines().filter(|line| line.starts_with("  ")).count() == meant, "{word}");
 }
 
-/// Law: without a word the groups are listed, each with the number of its columns, which `columns GROUP` lists, and what they add up to; so are those of a campaign. At most 24
-/// lines of 80 characters; every command that it names lists columns.
+/// Law: without a word the groups are listed, each with the number of its columns, which `columns GROUP` lists, and
+/// what they add up to; so are those of a campaign. At most 24 lines of 80 characters; every command that it names
+/// lists columns.
 #[test]
 fn groups_are_listed_with_their_columns() {
     let scratch = folder("groups");
@@ -84,7 +86,8 @@ fn groups_are_listed_with_their_columns() {
     }
 }
 
-/// Law: the file that `new` writes has the name that was asked for and runs as it is, with its requirement decided; a file that is there stays.
+/// Law: the file that `new` writes has the name that was asked for and runs as it is, with its requirement decided; a
+/// file that is there stays.
 #[test]
 fn a_new_file_runs() {
     let scratch = ScratchFolder::new("new-file");
@@ -113,7 +116,8 @@ fn a_new_file_runs() {
     assert_eq!(std::fs::read_to_string(scratch.path("v.xml")).unwrap(), verdicts);
 }
 
-/// Law: with a campaign the columns are those of its files of rows, in their order; a group that it does not observe is refused.
+/// Law: with a campaign the columns are those of its files of rows, in their order; a group that it does not observe is
+/// refused.
 #[test]
 fn the_columns_of_a_campaign_are_those_of_its_rows() {
     let scratch = folder("own-columns");
@@ -129,8 +133,8 @@ fn the_columns_of_a_campaign_are_those_of_its_rows() {
     assert!(scratch.prints("columns exchange --campaign small.toml", 0).contains("exchange_w1_peak_to_peak_j"));
 }
 
-/// Law: the columns of a loop are found without a campaign, each with what it needs; the list has every column of every shipped loop, and what a shipped loop has not
-/// needs something. Lines fit the terminal.
+/// Law: the columns of a loop are found without a campaign, each with what it needs; the list has every column of every
+/// shipped loop, and what a shipped loop has not needs something. Lines fit the terminal.
 #[test]
 fn columns_of_loops_are_found() {
     let scratch = ScratchFolder::new("loop-columns");

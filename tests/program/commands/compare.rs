@@ -1,4 +1,5 @@
-//! `spindrift compare`: equal results, results of other methods, seeds and plans; what is beyond the tolerance; planted shifts; files.
+//! `spindrift compare`: equal results, results of other methods, seeds and plans; what is beyond the tolerance; planted
+//! shifts; files.
 
 use arrow_array::cast::AsArray;
 use serde_json::Value;
@@ -7,8 +8,8 @@ use spindrift::statistics::two_sample::kolmogorov_smirnov;
 use crate::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder, mixed_failures};
 use crate::support::scratch_folder::{ScratchFolder, column, ended, floats};
 
-/// Law: the same campaign has no shift, also from other files; another method on the same samples is compared pair by pair and differs
-/// by rounding only; another seed is compared as independent samples.
+/// Law: the same campaign has no shift, also from other files; another method on the same samples is compared pair by
+/// pair and differs by rounding only; another seed is compared as independent samples.
 #[test]
 fn results_are_compared() {
     let scratch = folder("compare");
@@ -60,8 +61,8 @@ fn says_key(said: &str, words: [&str; 3]) -> bool {
     said.lines().any(|line| line.split_whitespace().eq(words))
 }
 
-/// Law: a share of ok runs that is shifted by more than the tolerance is beyond it, whichever result has more of them, also where the runs that are
-/// ok are the same.
+/// Law: a share of ok runs that is shifted by more than the tolerance is beyond it, whichever result has more of them,
+/// also where the runs that are ok are the same.
 #[test]
 fn failures_alone_are_a_shift() {
     let scratch = folder("compare-failures");
@@ -79,7 +80,8 @@ fn failures_alone_are_a_shift() {
     }
 }
 
-/// An observable whose truth is known: the initial rate about x, which is normal about its nominal value with a standard deviation of 0.5.
+/// An observable whose truth is known: the initial rate about x, which is normal about its nominal value with a
+/// standard deviation of 0.5.
 const RATE: &str = r#"
 [[observable]]
 name = "rate"
@@ -118,7 +120,8 @@ fn row<'v>(compared: &'v Value, name: &str) -> &'v Value {
     rows.iter().find(|row| row["observable"] == name).unwrap_or_else(|| panic!("no row {name}"))
 }
 
-/// Known: where all differences have one magnitude, signed ranks are a count of signs: z = |n+ - n-|/sqrt(n), two-sided by the normal distribution.
+/// Known: where all differences have one magnitude, signed ranks are a count of signs: z = |n+ - n-|/sqrt(n), two-sided
+/// by the normal distribution.
 #[test]
 fn equal_differences_have_equal_ranks() {
     let scratch = folder("compare-ties");
@@ -139,8 +142,8 @@ fn equal_differences_have_equal_ranks() {
     assert!((1e-6..0.9).contains(&expected) && (found / expected - 1.0).abs() < 1e-11, "{found} {expected}");
 }
 
-/// Law: results of other seeds are compared by Kolmogorov and Smirnov's test of the dispersed runs that are ok; those that are inaccurate have
-/// values too, which have no part in it, and would change it.
+/// Law: results of other seeds are compared by Kolmogorov and Smirnov's test of the dispersed runs that are ok; those
+/// that are inaccurate have values too, which have no part in it, and would change it.
 #[test]
 fn inaccurate_runs_have_no_part_in_the_test_of_distributions() {
     let scratch = folder("compare-inaccurate");
@@ -179,9 +182,10 @@ fn inaccurate_runs_have_no_part_in_the_test_of_distributions() {
     assert!(checked > 50 && changed > 20, "{checked} {changed}");
 }
 
-/// Law: two campaigns that drew the same samples about other nominal values are compared pair by pair, and that every run moved by a fiftieth of the standard
-/// deviation is found, with its true size; campaigns of other seeds, whose standard error of the difference is 0.029, do not show it. A
-/// shift of twenty standard deviations turns the verdict; what is required comes first, and only what is significant is called shifted.
+/// Law: two campaigns that drew the same samples about other nominal values are compared pair by pair, and that every
+/// run moved by a fiftieth of the standard deviation is found, with its true size; campaigns of other seeds, whose
+/// standard error of the difference is 0.029, do not show it. A shift of twenty standard deviations turns the verdict;
+/// what is required comes first, and only what is significant is called shifted.
 #[test]
 fn planted_shifts_are_found_by_pairs() {
     let scratch = folder("compare-planted");
@@ -238,8 +242,8 @@ fn planted_shifts_are_found_by_pairs() {
     }
 }
 
-/// Law: both files have the same rows, all observables of both results; another extension, or a file within a result, is refused and
-/// nothing is written.
+/// Law: both files have the same rows, all observables of both results; another extension, or a file within a result,
+/// is refused and nothing is written.
 #[test]
 fn comparisons_are_files() {
     let scratch = folder("compare-files");
@@ -274,8 +278,9 @@ fn comparisons_are_files() {
     scratch.prints(&format!("compare {base} {moved} --out missing/c.json"), 4);
 }
 
-/// Law: a requirement that only one of both has is in the comparison with one verdict, whichever result comes first; and a shift is in units of the
-/// standard deviation of the first result: twice the spread in the second makes the same difference count once or twice.
+/// Law: a requirement that only one of both has is in the comparison with one verdict, whichever result comes first;
+/// and a shift is in units of the standard deviation of the first result: twice the spread in the second makes the same
+/// difference count once or twice.
 #[test]
 fn verdicts_and_scales_are_those_of_their_result() {
     let scratch = folder("compare-sides");
@@ -306,11 +311,13 @@ fn verdicts_and_scales_are_those_of_their_result() {
     assert!(deviation("wide") > 1.5 * deviation("plain"));
 }
 
-/// Law: a campaign that `[stop]` made longer than its file says is paired in all the samples that both have, either way.
+/// Law: a campaign that `[stop]` made longer than its file says is paired in all the samples that both have, either
+/// way.
 #[test]
 fn a_stopped_campaign_is_paired_in_all_its_samples() {
     let scratch = folder("compare-stopped");
-    let stop = "\n[stop]\nobservable = \"exchange_w1_peak_to_peak_j\"\nquantile = 0.5\nhalf_width = 1e-30\nmax_samples = 800\n";
+    let stop = "\n[stop]\nobservable = \"exchange_w1_peak_to_peak_j\"\nquantile = 0.5\nhalf_width = 1e-30\nmax_samples \
+        = 800\n";
     scratch.file("stop.toml", &(campaign().replace("samples = 600", "samples = 100") + stop));
     scratch.prints("campaign stop.toml --out stopped --no-report", 5);
     scratch.prints("campaign small.toml --out plain --no-report", 0);
@@ -319,9 +326,10 @@ fn a_stopped_campaign_is_paired_in_all_its_samples() {
     }
 }
 
-/// H0: two campaigns of other seeds do not differ; any of their observables is called shifted in at most 0.05. Of 200 pairs, seeds 1 to 400, at most
-/// 0.098 are (3.1 standard deviations, alpha = 1e-3). Power: a shift of the rate by one standard deviation, 3.9 standard errors of 30 pairs of
-/// runs, is found in more than half, although it is one of more than 100 observables.
+/// H0: two campaigns of other seeds do not differ; any of their observables is called shifted in at most 0.05. Of 200
+/// pairs, seeds 1 to 400, at most 0.098 are (3.1 standard deviations, alpha = 1e-3). Power: a shift of the rate by one
+/// standard deviation, 3.9 standard errors of 30 pairs of runs, is found in more than half, although it is one of more
+/// than 100 observables.
 #[test]
 #[ignore = "half a minute: cargo test --release --test program -- --ignored pairs_of_campaigns"]
 fn pairs_of_campaigns_without_a_shift_have_none() {

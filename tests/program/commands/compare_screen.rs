@@ -1,4 +1,5 @@
-//! The screen of `spindrift compare`: its numbers are those of rows and file, in the units of people; one screen of it, and all.
+//! The screen of `spindrift compare`: its numbers are those of rows and file, in the units of people; one screen of it,
+//! and all.
 
 use serde_json::Value;
 
@@ -17,8 +18,9 @@ fn runs(scratch: &ScratchFolder, sides: [&str; 2]) -> [[f64; 2]; 2] {
 /// Degrees in a radian.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 
-/// Law: one screen has at most 24 lines of 80 characters: results with their runs, each verdict with the share of the rows before and after, the keys that
-/// differ, and the mean of the outcome in deg/s with the shift of the pairs; it counts the other columns, and its last line is the verdict, whichever result comes first.
+/// Law: one screen has at most 24 lines of 80 characters: results with their runs, each verdict with the share of the
+/// rows before and after, the keys that differ, and the mean of the outcome in deg/s with the shift of the pairs; it
+/// counts the other columns, and its last line is the verdict, whichever result comes first.
 #[test]
 fn a_comparison_fits_a_screen() {
     let scratch = folder("compare-brief");
@@ -88,9 +90,10 @@ fn a_comparison_fits_a_screen() {
     }
 }
 
-/// Law: each number on the whole screen is that of the file, of the result that is named: runs that are ok of each, keys, tests, and of each observable
-/// in a table its mean in the first result and its shift with its interval, in the unit after its name, p-values and largest shift. A shift that matters is one of the mean, or of any
-/// statistic where there is a tolerance.
+/// Law: each number on the whole screen is that of the file, of the result that is named: runs that are ok of each,
+/// keys, tests, and of each observable in a table its mean in the first result and its shift with its interval, in the
+/// unit after its name, p-values and largest shift. A shift that matters is one of the mean, or of any statistic where
+/// there is a tolerance.
 #[test]
 fn the_screen_is_the_file() {
     let scratch = folder("compare-screen");
@@ -182,7 +185,8 @@ fn a_result_without_numbers_is_not_compared() {
     }
 }
 
-/// Law: a comparison of campaigns with different names says so before all else, one of a campaign with itself does not; and both values of a key that changed are in one unit.
+/// Law: a comparison of campaigns with different names says so before all else, one of a campaign with itself does not;
+/// and both values of a key that changed are in one unit.
 #[test]
 fn different_campaigns_are_named() {
     let scratch = folder("compare-names");

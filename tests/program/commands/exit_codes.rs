@@ -1,4 +1,5 @@
-//! The exit code of every way in which a campaign ends, and what comes first where several would apply: 2, 4, 3, 5, 1, 0.
+//! The exit code of every way in which a campaign ends, and what comes first where several would apply: 2, 4, 3, 5,
+//! 1, 0.
 
 use std::fs;
 
@@ -65,8 +66,8 @@ fn exit_codes() {
     assert_eq!(fs::read_dir(scratch.path("foreign")).expect("a folder").count(), 1);
 }
 
-/// Law: a folder without a result is a wrong argument of every command that takes one, in each place in which it may stand: not there, empty, a file; the message names it, and no command makes
-/// anything there.
+/// Law: a folder without a result is a wrong argument of every command that takes one, in each place in which it may
+/// stand: not there, empty, a file; the message names it, and no command makes anything there.
 #[test]
 fn a_missing_result_is_bad_input() {
     let scratch = folder("no-result");
@@ -101,7 +102,8 @@ fn a_missing_result_is_bad_input() {
     }
 }
 
-/// Law: what is in the way of a file or folder that a command is to make is said in words, with what to do, and stays as it is.
+/// Law: what is in the way of a file or folder that a command is to make is said in words, with what to do, and stays
+/// as it is.
 #[test]
 fn what_is_in_the_way_is_named() {
     let scratch = folder("in-the-way");

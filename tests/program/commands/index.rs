@@ -15,9 +15,10 @@ fn run(scratch: &ScratchFolder, name: &str, limit: &str, out: &str, code: i32) {
     std::thread::sleep(std::time::Duration::from_millis(1100));
 }
 
-/// Law: each finished result below the folder has a row, on the screen and on the page, with the verdicts and runs of its summary and a link to its page; results of one
-/// campaign stand together, the latest first, with the keys and verdicts that changed since the run before; what cannot be read is named with its reason. The page loads
-/// nothing, the results stay as they are, and the lines fit the terminal.
+/// Law: each finished result below the folder has a row, on the screen and on the page, with the verdicts and runs of
+/// its summary and a link to its page; results of one campaign stand together, the latest first, with the keys and
+/// verdicts that changed since the run before; what cannot be read is named with its reason. The page loads nothing,
+/// the results stay as they are, and the lines fit the terminal.
 #[test]
 fn every_result_has_a_row() {
     let scratch = folder("index");

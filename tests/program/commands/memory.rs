@@ -29,8 +29,9 @@ fn peak(scratch: &ScratchFolder, arguments: &str) -> u64 {
     peak
 }
 
-/// Peak memory of several commands, kB, so that `holds` of it, if it does. Peaks are read while a command runs: on a busy machine the
-/// last ones may be missed, so that a peak is at least what is found. Where the law does not hold, further tries make it more exact.
+/// Peak memory of several commands, kB, so that `holds` of it, if it does. Peaks are read while a command runs: on a
+/// busy machine the last ones may be missed, so that a peak is at least what is found. Where the law does not hold,
+/// further tries make it more exact.
 fn peaks<const N: usize>(measure: impl Fn(usize) -> u64, holds: impl Fn(&[u64; N]) -> bool) -> [u64; N] {
     let mut peaks = [0; N];
     for _ in 0..4 {
@@ -63,8 +64,9 @@ fn sample_holds_no_draws() {
     assert!(scratch.text("s.html").contains("first "));
 }
 
-/// Law: the memory of a campaign does not grow with its samples, from where parts have their usual size: rows, bands and counts of parts are
-/// not held. Sketches, which count beyond 100,000 samples, take a constant: measured 13 MB, where 60,000 rows have 52 MB.
+/// Law: the memory of a campaign does not grow with its samples, from where parts have their usual size: rows, bands
+/// and counts of parts are not held. Sketches, which count beyond 100,000 samples, take a constant: measured 13 MB,
+/// where 60,000 rows have 52 MB.
 #[test]
 fn a_campaign_holds_no_rows() {
     let scratch = ScratchFolder::new("flat");
@@ -116,10 +118,12 @@ fn table_with_texts(path: &Path, rows: usize) {
     writer.close().unwrap();
 }
 
-/// Address space of a command on a small file, kB: a header of 20 MB is refused in 60,000; the command took 600,000 when it kept all of it.
+/// Address space of a command on a small file, kB: a header of 20 MB is refused in 60,000; the command took 600,000
+/// when it kept all of it.
 const LIMIT_KB: u64 = 150_000;
 
-/// Law: a file of numbers takes the memory of its columns that are used: others are not decompressed, and a row of CSV, its header too, has a limit.
+/// Law: a file of numbers takes the memory of its columns that are used: others are not decompressed, and a row of CSV,
+/// its header too, has a limit.
 #[test]
 fn small_files_take_little_memory() {
     let scratch = ScratchFolder::new("bombs");
@@ -127,7 +131,8 @@ fn small_files_take_little_memory() {
     let at = text.find("[[disperse]]").unwrap();
     let says = |file: &str, column: &str, code: i32| {
         let draw = format!(
-            "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"empirical\"\nfile = \"{file}\"\ncolumn = \"{column}\"\n"
+            "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"empirical\"\nfile = \"{file}\"\ncolumn \
+            = \"{column}\"\n"
         );
         fs::write(scratch.0.join("draw.toml"), format!("{}{draw}", &text[..at])).unwrap();
         // of so short a command Linux says no peak: it gets no more than a limit
@@ -148,11 +153,12 @@ fn small_files_take_little_memory() {
     }
 }
 
-/// Most memory of a thread for each observation point, bytes, as the estimate of a campaign has it, and what audits add to it.
+/// Most memory of a thread for each observation point, bytes, as the estimate of a campaign has it, and what audits add
+/// to it.
 const POINT: [u64; 2] = [8500, 7500];
 
-/// Law: the memory of observation points is at most what the estimate says, and at least a fifth of it, under thrust, with the default groups and
-/// with all.
+/// Law: the memory of observation points is at most what the estimate says, and at least a fifth of it, under thrust,
+/// with the default groups and with all.
 #[test]
 fn memory_of_points_is_what_is_estimated() {
     let scratch = ScratchFolder::new("points");
@@ -180,7 +186,8 @@ fn memory_of_points_is_what_is_estimated() {
     {
         let text = of(method, groups, more);
         let stated = POINT[0] + if more.is_empty() { 0 } else { POINT[1] };
-        // three batches of eight lanes; an audit takes a hundred times as long as a run, and the null-space method runs one by one
+        // three batches of eight lanes; an audit takes a hundred times as long as a run, and the null-space method runs
+        // one by one
         let samples = if more.is_empty() && method == "auto" { 17 } else { 3 };
         let measure = |command: usize| {
             let points: u64 = [20_001, 70_001][command];

@@ -84,7 +84,8 @@ fn balances_are_measured_and_omissions_named() {
     assert!(floats(&table, "rate_error_max")[1] < 7e-14);
 }
 
-/// Law: every setting of every method is either a row of the table or named as skipped, once, whichever methods the limit ends.
+/// Law: every setting of every method is either a row of the table or named as skipped, once, whichever methods the
+/// limit ends.
 #[test]
 fn no_setting_is_lost() {
     let scratch = ScratchFolder::new("lost");

@@ -1,6 +1,7 @@
 //! The Python recipes of `docs/results.md`, run as they stand there.
 //!
-//! `SPINDRIFT_PYTHON` names the interpreter (default: `python3`); a recipe whose packages it does not have is skipped, and said so.
+//! `SPINDRIFT_PYTHON` names the interpreter (default: `python3`); a recipe whose packages it does not have is skipped,
+//! and said so.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -113,8 +113,9 @@ fn check_has_no_line_about_what_is_not_there() {
     assert!(!says_work("start_s = 2"));
 }
 
-/// Law: below the components of a dispersed rate, attitude or alignment error are the percentiles of its magnitude, which are those of the
-/// drawn values; below those of other parameters there are none. What looks like a mistake is noted.
+/// Law: below the components of a dispersed rate, attitude or alignment error are the percentiles of its magnitude,
+/// which are those of the drawn values; below those of other parameters there are none. What looks like a mistake is
+/// noted.
 #[test]
 fn check_shows_magnitudes_and_implausible_numbers() {
     let scratch = folder("check-magnitudes");
@@ -159,8 +160,8 @@ fn check_shows_magnitudes_and_implausible_numbers() {
         assert!((shown / expected - 1.0).abs() < 1e-3, "{shown} {expected}");
     }
     let (_, angles) = row("initial.attitude, angle from nominal");
-    // std 0.1 rad about each of three axes: the length has the quantiles 0.1 times 0.339, 1.538, 3.368 of the chi distribution with three
-    // degrees of freedom; those of 599 draws are within a fifth
+    // std 0.1 rad about each of three axes: the length has the quantiles 0.1 times 0.339, 1.538, 3.368 of the chi
+    // distribution with three degrees of freedom; those of 599 draws are within a fifth
     for (shown, chi) in angles[1..].iter().zip([0.0339, 0.1538, 0.3368]) {
         assert!(angles[0] == 0.0 && (0.5..1.3).contains(&(shown / chi)), "{angles:?}");
     }
@@ -170,7 +171,8 @@ fn check_shows_magnitudes_and_implausible_numbers() {
     assert!(notes.lines().any(|note| note.starts_with("wheels.w1.tilt_rad, as dispersed")), "{notes}");
 }
 
-/// Law: of every shipped campaign `check` takes at most 48 lines of 80 characters, says every dispersed parameter once, and how to see the rest; the summary comes first.
+/// Law: of every shipped campaign `check` takes at most 48 lines of 80 characters, says every dispersed parameter once,
+/// and how to see the rest; the summary comes first.
 #[test]
 fn check_fits_a_screen() {
     let scratch = folder("check-screen");
@@ -244,8 +246,9 @@ fn a_closed_pipe_is_no_panic() {
     }
 }
 
-/// Law: of two files with the same name, the one in the current folder is meant and not the one in `campaigns`, for every command; and a file
-/// that has exactly the name is meant before one that has it with `.toml`. Without either, the one in `campaigns` is.
+/// Law: of two files with the same name, the one in the current folder is meant and not the one in `campaigns`, for
+/// every command; and a file that has exactly the name is meant before one that has it with `.toml`. Without either,
+/// the one in `campaigns` is.
 #[test]
 fn a_file_of_the_current_folder_comes_first() {
     let scratch = folder("find");
@@ -271,13 +274,15 @@ fn a_file_of_the_current_folder_comes_first() {
     is_meant("x", 103);
 }
 
-/// Law: a figure of drawn samples is of the dispersed ones: where what is drawn does not depend on the nominal value, only the note that names
-/// this value, left of an axis that it is far from, does. Counter-test: another seed.
+/// Law: a figure of drawn samples is of the dispersed ones: where what is drawn does not depend on the nominal value,
+/// only the note that names this value, left of an axis that it is far from, does. Counter-test: another seed.
 #[test]
 fn a_figure_of_samples_is_without_the_nominal_one() {
     let scratch = folder("drawn-nominal");
-    let drawn = "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s.x\"\ndistribution = \"uniform\"\nmin = 1.0\nmax = 2.0\n\
-                 [[disperse]]\nparameter = \"initial.angular_velocity_rad_s.y\"\ndistribution = \"uniform\"\nmin = 1.0\nmax = 2.0\n";
+    let drawn = "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s.x\"\ndistribution = \"uniform\"\nmin = \
+        1.0\nmax = 2.0\n\
+                 [[disperse]]\nparameter = \"initial.angular_velocity_rad_s.y\"\ndistribution = \"uniform\"\nmin = \
+                 1.0\nmax = 2.0\n";
     let scene = campaign_without_debris();
     for (name, nominal) in [("near", "[-20.0, -30.0, 31.0]"), ("far", "[-2000.0, -500.0, 31.0]")] {
         let text = scene.replace("[0, 3.141592653589793, 31.41592653589793]", nominal).replace(SPIN_DISPERSION, drawn);
@@ -306,8 +311,8 @@ fn a_figure_of_samples_is_without_the_nominal_one() {
     }
 }
 
-/// Law: the torque of a thruster that `check --verbose` shows is r x F about the centre of mass, by hand from the numbers of the file: p2 at (0, -0.5, 3.0) m and p3 at (0, 0.5, 3.0) m
-/// push along -s3, and the centre is on s3.
+/// Law: the torque of a thruster that `check --verbose` shows is r x F about the centre of mass, by hand from the
+/// numbers of the file: p2 at (0, -0.5, 3.0) m and p3 at (0, 0.5, 3.0) m push along -s3, and the centre is on s3.
 #[test]
 fn torques_of_thrusters_have_their_sign() {
     let scratch = folder("torques");

@@ -10,7 +10,8 @@ use crate::small_campaign::mixed_failures;
 use crate::support::scratch_folder::{ScratchFolder, batches, column, ended};
 use spindrift::statistics::binomial::interval;
 
-/// A line with `#` in place of each number, and the numbers; digits within a word are none, and a `#` of the line itself is `@`.
+/// A line with `#` in place of each number, and the numbers; digits within a word are none, and a `#` of the line
+/// itself is `@`.
 pub(crate) fn template(line: &str) -> (String, Vec<f64>) {
     let (mut text, mut numbers) = (String::new(), Vec::new());
     let mut rest = line;
@@ -77,8 +78,8 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
-/// Law: what `campaign` says of runs, requirements, errors, audits and files is what they are, also of a campaign that was continued; JUnit says the
-/// same.
+/// Law: what `campaign` says of runs, requirements, errors, audits and files is what they are, also of a campaign that
+/// was continued; JUnit says the same.
 #[test]
 fn a_campaign_counts_what_it_has() {
     let scratch = ScratchFolder::new("screen-campaign");

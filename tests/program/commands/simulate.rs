@@ -67,7 +67,8 @@ fn simulate_writes_the_promised_columns() {
     assert_eq!([start("v_po_e_x_m_s"), start("v_po_e_y_m_s"), start("v_po_e_z_m_s")], [10.0, 0.0, 0.0]);
 }
 
-/// Law: of a mission that ended it is said when and why, as in its row; what does not exist at a time, as a pointing error without a target, is no number.
+/// Law: of a mission that ended it is said when and why, as in its row; what does not exist at a time, as a pointing
+/// error without a target, is no number.
 #[test]
 fn the_end_of_a_mission_is_said() {
     let scratch = folder("mission-end");
@@ -87,7 +88,8 @@ fn the_end_of_a_mission_is_said() {
     }
 }
 
-/// Law: the velocity of p is the derivative of its position (central differences, error h^2/6 times the third derivative).
+/// Law: the velocity of p is the derivative of its position (central differences, error h^2/6 times the third
+/// derivative).
 #[test]
 fn the_velocity_of_p_is_the_derivative_of_its_position() {
     let scratch = folder("derivative");
@@ -165,14 +167,15 @@ fn eight_wheels() -> String {
     };
     let wheels: String = (0..8).map(wheel).collect();
     format!(
-        "[campaign]\nname = \"eight\"\nsamples = 1\nseed = 1\nduration_s = 10.0\n[observe]\npoints = 11\n[body]\nmass_kg = 300\n\
+        "[campaign]\nname = \"eight\"\nsamples = 1\nseed = 1\nduration_s = 10.0\n[observe]\npoints = \
+        11\n[body]\nmass_kg = 300\n\
         inertia_kg_m2 = [[60, 1, 0.5], [1, 75, 0.2], [0.5, 0.2, 90]]\nincludes_wheels = false\n{wheels}\
         [initial]\nangular_velocity_rad_s = [0.02, 0.1, 0.05]\n"
     )
 }
 
-/// Law: no line of the table is longer than COLUMNS says, or than 100 letters where nothing says the width; each header is there once, and the
-/// wheels that are not shown are named.
+/// Law: no line of the table is longer than COLUMNS says, or than 100 letters where nothing says the width; each header
+/// is there once, and the wheels that are not shown are named.
 #[test]
 fn a_table_with_many_wheels_fits() {
     let scratch = folder("eight");

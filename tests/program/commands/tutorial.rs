@@ -1,5 +1,5 @@
-//! `docs/tutorial.md`, done as it stands: its files are written, its commands run, what it says that they print is what they print, and its
-//! pictures are those that they make.
+//! `docs/tutorial.md`, done as it stands: its files are written, its commands run, what it says that they print is what
+//! they print, and its pictures are those that they make.
 
 use std::path::Path;
 
@@ -50,7 +50,8 @@ fn steps(document: &str) -> Vec<Step<'_>> {
     steps
 }
 
-/// The first of `expected` that is not in `printed` after those before it, each at the start of a line; without `...` between them on the next line.
+/// The first of `expected` that is not in `printed` after those before it, each at the start of a line; without `...`
+/// between them on the next line.
 fn missing<'d>(printed: &str, expected: &[&'d str]) -> Option<&'d str> {
     let mut rest = printed.lines();
     let mut is_free = true;
@@ -111,7 +112,8 @@ fn the_tutorial_does_what_it_says() {
 /// Counter-test: a file, a command, a line and a picture are found as such, and a line that is not printed is missed.
 #[test]
 fn the_steps_of_a_document_are_found() {
-    let document = "<!-- file: a.toml -->\n\n```toml\nx = 1\n```\n```sh\nspindrift check a.toml    # exit code 2\n```\n```text\none\n...\ntwo\n```\n<!-- picture: f/a.svg -->\n\n![A](figures/b.svg)\n";
+    let document = "<!-- file: a.toml -->\n\n```toml\nx = 1\n```\n```sh\nspindrift check a.toml    # exit code \
+        2\n```\n```text\none\n...\ntwo\n```\n<!-- picture: f/a.svg -->\n\n![A](figures/b.svg)\n";
     let expected = [
         Step::Write { file: "a.toml", text: "x = 1\n\n".to_owned() },
         Step::Run { command: "spindrift check a.toml", code: 2 },

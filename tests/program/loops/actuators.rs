@@ -1,5 +1,5 @@
-//! What wheels and thrusters make of the commands of a control loop: recomputed from the telemetry and the true states at the starts of the arcs, and
-//! compared with what was flown.
+//! What wheels and thrusters make of the commands of a control loop: recomputed from the telemetry and the true states
+//! at the starts of the arcs, and compared with what was flown.
 
 use nalgebra::{Matrix3, Vector3};
 use spindrift::scene::{Arc, Scene, WheelModel};
@@ -9,7 +9,8 @@ use crate::loops::flown_loop::{FlownLoop, SAME_TIME, State, changed};
 const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
 
-/// Rounding of the torques and thrusts of an arc, and of the state at its start: some ten operations, and rates of tens of rad/s over arcs of some ms.
+/// Rounding of the torques and thrusts of an arc, and of the state at its start: some ten operations, and rates of tens
+/// of rad/s over arcs of some ms.
 const AGREED: f64 = 1e-12;
 
 /// What acts on a wheel over an arc, recomputed.
@@ -89,8 +90,8 @@ pub fn acting(flown: &FlownLoop, time: f64) -> Option<usize> {
     flown.ticks.partition_point(came).checked_sub(1)
 }
 
-/// The torque of every motor over every arc of `flown` is what its wheel makes of the command; how often each effect was met: limit of the torque, of the
-/// speed, a wheel that friction stops, neither.
+/// The torque of every motor over every arc of `flown` is what its wheel makes of the command; how often each effect
+/// was met: limit of the torque, of the speed, a wheel that friction stops, neither.
 fn assert_driven(flown: &FlownLoop) -> [usize; 4] {
     let mut met = [0; 4];
     for ((arc, state), wheels) in flown.arcs.iter().zip(driven_wheels(flown)) {
@@ -122,8 +123,8 @@ pub fn limited_slew() -> String {
     ) + "\n[[disperse]]\nparameter = \"wheels.w2.torque_bias_n_m\"\ndistribution = \"offset\"\noffset = 2e-4\n"
 }
 
-/// Law: a motor gives the command that is `delay_s` old, with its scale and bias, within the limits of its torque and of its wheel's speed, and friction
-/// acts; for delays of none, of a part of a period, and of more than one.
+/// Law: a motor gives the command that is `delay_s` old, with its scale and bias, within the limits of its torque and
+/// of its wheel's speed, and friction acts; for delays of none, of a part of a period, and of more than one.
 #[test]
 fn motors_give_what_their_wheels_make_of_the_commands() {
     for delay in ["0.0", "0.05", "0.25", "0.6"] {
@@ -136,7 +137,8 @@ fn motors_give_what_their_wheels_make_of_the_commands() {
     assert!(met[3] > 100, "{met:?}");
 }
 
-/// Thrusts over the arcs of `flown`: those that the commands, `delay_s` later, and the drawn thrusters make; how many pulses ended within a period.
+/// Thrusts over the arcs of `flown`: those that the commands, `delay_s` later, and the drawn thrusters make; how many
+/// pulses ended within a period.
 fn assert_fired(flown: &FlownLoop, is_on_off: bool) -> usize {
     let spec = flown.spec();
     let (period, delay) = (spec.period, flown.control("delay_s"));
@@ -196,8 +198,9 @@ fn assert_begun(flown: &FlownLoop, is_on_off: bool) -> usize {
     believed_ends.into_iter().filter(|end| !is_among(&starts, *end)).count()
 }
 
-/// Law: a thruster fires `delay_s` after its command: at the thrust that was commanded, or at its own for as long as makes the mean; a valve that is slower
-/// or weaker than flight software knows fires longer or less. In every modulation.
+/// Law: a thruster fires `delay_s` after its command: at the thrust that was commanded, or at its own for as long as
+/// makes the mean; a valve that is slower or weaker than flight software knows fires longer or less. In every
+/// modulation.
 #[test]
 fn thrusters_give_what_their_valves_make_of_the_commands() {
     let drawn = "\n[[disperse]]\nparameter = \"thrusters.p3.min_on_time_s\"\ndistribution = \"offset\"\noffset = 0.05\n\
@@ -220,8 +223,8 @@ fn thrusters_give_what_their_valves_make_of_the_commands() {
     }
 }
 
-/// Law: where P1 makes up for the force of P2 or P3, which turn the body, the change of velocity is that of the net force, far below the sum of the impulses
-/// over the mass.
+/// Law: where P1 makes up for the force of P2 or P3, which turn the body, the change of velocity is that of the net
+/// force, far below the sum of the impulses over the mass.
 #[test]
 fn opposing_thrusts_change_no_velocity() {
     let change = [

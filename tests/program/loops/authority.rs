@@ -1,15 +1,18 @@
-//! Loops of campaign files whose law or allocation decides the outcome: torque with a net force, slews under a torque limit, integrals against friction.
+//! Loops of campaign files whose law or allocation decides the outcome: torque with a net force, slews under a torque
+//! limit, integrals against friction.
 
 use crate::loops::closed_loops::{angles, hold, plan, run, small_craft, value};
 use crate::support::campaigns::SMALL_BODY;
 use crate::support::scratch_folder::ScratchFolder;
 use spindrift::run::StateField;
 
-/// A tumbling body without wheels, with the first `count` of five thrusters: four that push along s3, canted to either side in turn, and a straight one.
+/// A tumbling body without wheels, with the first `count` of five thrusters: four that push along s3, canted to either
+/// side in turn, and a straight one.
 fn stop(count: usize, more: &str) -> String {
     let names: Vec<String> = (0..count).map(|index| format!("\"t{index}\"")).collect();
     let mut text = format!(
-        "[campaign]\nname = \"canted\"\nsamples = 2\nseed = 1\nduration_s = 200\n[integrator]\nmethod = \"auto\"\ntolerance = 1e-12\n\
+        "[campaign]\nname = \"canted\"\nsamples = 2\nseed = 1\nduration_s = 200\n[integrator]\nmethod = \
+        \"auto\"\ntolerance = 1e-12\n\
          [observe]\npoints = 101\ngroups = [\"final_state\", \"numerics\"]\n\
          {SMALL_BODY}\
          [initial]\nangular_velocity_rad_s = [0.02, -0.03, 0.025]\n\
@@ -21,7 +24,8 @@ fn stop(count: usize, more: &str) -> String {
         .map(|[x, y]| (x, y, [1.0, -1.0][usize::from(x == 0.0)] * 0.3));
     for (index, (x, y, side)) in canted.into_iter().chain([(0.1, 0.0, 0.0)]).take(count).enumerate() {
         text += &format!(
-            "\n[[thrusters]]\nname = \"t{index}\"\nposition_m = [{x}, {y}, -0.5]\ndirection = [{}, {}, 0.95]\nmax_thrust_n = 0.5\n",
+            "\n[[thrusters]]\nname = \"t{index}\"\nposition_m = [{x}, {y}, -0.5]\ndirection = [{}, {}, \
+            0.95]\nmax_thrust_n = 0.5\n",
             -side * y,
             side * x
         );
@@ -29,8 +33,9 @@ fn stop(count: usize, more: &str) -> String {
     text
 }
 
-/// Law: thrusters whose torques span all directions stop a body, although only with a net force: four canted ones, and with a fifth; also where the force is
-/// held, since torque comes first. Three cannot. `check` says about which axes they have torque in both directions, and about which there is none.
+/// Law: thrusters whose torques span all directions stop a body, although only with a net force: four canted ones, and
+/// with a fifth; also where the force is held, since torque comes first. Three cannot. `check` says about which axes
+/// they have torque in both directions, and about which there is none.
 #[test]
 fn canted_thrusters_stop_a_body() {
     for (count, more) in [(4, ""), (5, ""), (4, "hold_force = true\n"), (3, "")] {
@@ -57,8 +62,9 @@ fn canted_thrusters_stop_a_body() {
     }
 }
 
-/// Law: an eigenaxis slew of 90 degrees under a torque limit, flown by wheels with the delay of a loop, takes the textbook's time 2 sqrt(theta/a) within 3% at
-/// every bandwidth, with an overshoot of less than 0.05 degrees; with a limit of the rate theta/v + v/a.
+/// Law: an eigenaxis slew of 90 degrees under a torque limit, flown by wheels with the delay of a loop, takes the
+/// textbook's time 2 sqrt(theta/a) within 3% at every bandwidth, with an overshoot of less than 0.05 degrees; with a
+/// limit of the rate theta/v + v/a.
 #[test]
 fn slews_brake_in_time() {
     let start = std::f64::consts::FRAC_PI_2;
@@ -81,7 +87,8 @@ fn slews_brake_in_time() {
     }
 }
 
-/// Law: friction of a wheel leaves an offset of 2 sin(theta/2) = C/(w^2 K) without an integral, and none with one; K = 36 kg m^2 less 0.01 of the wheel.
+/// Law: friction of a wheel leaves an offset of 2 sin(theta/2) = C/(w^2 K) without an integral, and none with one; K =
+/// 36 kg m^2 less 0.01 of the wheel.
 #[test]
 fn an_integral_removes_what_friction_leaves() {
     let law = |more: &str| {

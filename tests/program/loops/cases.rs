@@ -8,7 +8,8 @@ const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
 const POINT_AT_DEBRIS: &str = include_str!("../../../campaigns/point_at_debris.toml");
 
-/// A run, how its mission ends, and the same run without that end: what flight software estimates at the last tick is recorded there.
+/// A run, how its mission ends, and the same run without that end: what flight software estimates at the last tick is
+/// recorded there.
 pub struct Case {
     pub flown: FlownLoop,
     going_on: FlownLoop,

@@ -1,4 +1,5 @@
-//! Control loops of campaign files: rows are functions of plan and sample, arcs flown are the run, loops follow linear theory, missions end with a reason.
+//! Control loops of campaign files: rows are functions of plan and sample, arcs flown are the run, loops follow linear
+//! theory, missions end with a reason.
 
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
@@ -54,7 +55,8 @@ fn without(text: &str, headers: &[&str]) -> String {
     kept
 }
 
-/// A spacecraft at rest with one wheel about each axis, of the inertia diag(30, 36, 24) kg m^2 with wheels that add nothing to K.
+/// A spacecraft at rest with one wheel about each axis, of the inertia diag(30, 36, 24) kg m^2 with wheels that add
+/// nothing to K.
 pub(crate) fn small_craft(control: &str, initial: &str) -> String {
     const HEAD: &str = "[campaign]\nname = \"loop\"\nsamples = 2\nseed = 1\nduration_s = 100\n\
         [integrator]\nmethod = \"auto\"\ntolerance = 1e-14\n[observe]\npoints = 401\n\
@@ -63,7 +65,8 @@ pub(crate) fn small_craft(control: &str, initial: &str) -> String {
     [HEAD, SMALL_BODY, &wheels.concat(), "[initial]\n", initial, "\n", control].concat()
 }
 
-/// Law: one and two threads give the same rows, and a sample simulated alone is its row, bit for bit, with sensors, filters and pulses.
+/// Law: one and two threads give the same rows, and a sample simulated alone is its row, bit for bit, with sensors,
+/// filters and pulses.
 #[test]
 fn rows_are_functions_of_plan_and_sample() {
     let scratch = ScratchFolder::new("loop-rows");
@@ -117,8 +120,8 @@ fn schedule(arcs: &[Arc], wheels: &[&str], thrusters: &[&str]) -> String {
     text
 }
 
-/// Law: the arcs that a loop has flown, as a schedule of a campaign without a loop, give the same states, bit for bit; in double-double they give them
-/// to 1e-12; balances with the work of the actuators close to 1e-12.
+/// Law: the arcs that a loop has flown, as a schedule of a campaign without a loop, give the same states, bit for bit;
+/// in double-double they give them to 1e-12; balances with the work of the actuators close to 1e-12.
 #[test]
 fn the_arcs_flown_are_the_run() {
     for (text, wheels, thrusters) in
@@ -162,7 +165,8 @@ fn the_arcs_flown_are_the_run() {
 /// A loop that holds F_e with the wheels by quaternion feedback.
 pub(crate) fn hold(bandwidth: f64, damping: f64, period: f64, more: &str) -> String {
     format!(
-        "[control]\nperiod_s = {period:?}\nwheels = [\"w1\", \"w2\", \"w3\"]\n{more}[[guidance]]\nphase = \"hold\"\nlaw = \"quaternion_feedback\"\n\
+        "[control]\nperiod_s = {period:?}\nwheels = [\"w1\", \"w2\", \"w3\"]\n{more}[[guidance]]\nphase = \
+        \"hold\"\nlaw = \"quaternion_feedback\"\n\
          bandwidth_rad_s = {bandwidth:?}\ndamping = {damping:?}\ntarget = \"attitude\"\nattitude = [1, 0, 0, 0]\n"
     )
 }
@@ -174,8 +178,9 @@ pub(crate) fn angles(run: &SingleRun) -> Vec<f64> {
     w[..points].iter().zip(&y[..points]).map(|(w, y)| 2.0 * y.atan2(*w)).collect()
 }
 
-/// Law: a small angle about one axis follows the exact discrete solution of theta'' = -2 z w theta' - w^2 theta under a torque that is held, with the wheels'
-/// J* as inertia, to 1e-9 of the initial angle; and with a delay of one period that of the delayed loop.
+/// Law: a small angle about one axis follows the exact discrete solution of theta'' = -2 z w theta' - w^2 theta under a
+/// torque that is held, with the wheels' J* as inertia, to 1e-9 of the initial angle; and with a delay of one period
+/// that of the delayed loop.
 #[test]
 fn a_small_angle_loop_is_its_discrete_solution() {
     let (w, z, period, start) = (0.4, 0.7, 0.25, 1e-5_f64);
@@ -222,7 +227,8 @@ fn stability_ends_where_theory_says() {
     }
 }
 
-/// Law: an eigenaxis slew from rest by wheels follows theta'' = -c theta' - k sin(theta/2), with an error of first order in the period.
+/// Law: an eigenaxis slew from rest by wheels follows theta'' = -c theta' - k sin(theta/2), with an error of first
+/// order in the period.
 #[test]
 fn an_eigenaxis_slew_is_its_equation() {
     let (w, z) = (0.1_f64, 0.8_f64);

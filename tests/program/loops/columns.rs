@@ -1,5 +1,5 @@
-//! Every column of a control loop, recomputed from the true states at its ticks and arcs, and from what flight software estimated. The list is that of the
-//! program: a column without a recomputation here fails the test.
+//! Every column of a control loop, recomputed from the true states at its ticks and arcs, and from what flight software
+//! estimated. The list is that of the program: a column without a recomputation here fails the test.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,7 +14,8 @@ use crate::loops::actuators::driven_wheels;
 use crate::loops::cases::{Case, cases};
 use crate::loops::flown_loop::{FlownLoop, State, angle_between, rotation_vector};
 
-/// Rounding of what is summed over a run, relative to a number of size one: some thousands of arcs with 1.1e-16 each are 1e-12.
+/// Rounding of what is summed over a run, relative to a number of size one: some thousands of arcs with 1.1e-16 each
+/// are 1e-12.
 const AGREED: f64 = 1e-11;
 
 /// Standard gravity, m/s^2 (ISO 80000-3).
@@ -58,8 +59,8 @@ fn relative_velocity(state: &State) -> [f64; 3] {
     difference(state.v_co_e, state.debris().v_gdo_e)
 }
 
-/// The rotation vector, in F_s, from the target of the phase at `place` to the true attitude; `None` where it has no target. `arrival` is when the transfer
-/// that is flown reaches the station.
+/// The rotation vector, in F_s, from the target of the phase at `place` to the true attitude; `None` where it has no
+/// target. `arrival` is when the transfer that is flown reaches the station.
 fn error_vector(flown: &FlownLoop, place: usize, state: &State, arrival: f64) -> Option<[f64; 3]> {
     let phase = &flown.spec().phases[place];
     let direction = match phase.target {
@@ -153,8 +154,8 @@ fn pointing(case: &Case, found: &mut Columns) {
     found.insert("pointing_error_final_rad".into(), errors.last().map_or(f64::NAN, |(_, error)| norm(*error)));
 }
 
-/// Since when the mission has settled, and the relative performance error over the window that begins then or when the file says: ECSS-E-ST-60-10C. `errors`
-/// are those of all ticks, with or without a target.
+/// Since when the mission has settled, and the relative performance error over the window that begins then or when the
+/// file says: ECSS-E-ST-60-10C. `errors` are those of all ticks, with or without a target.
 fn stability(flown: &FlownLoop, errors: &[(f64, Option<[f64; 3]>)], found: &mut Columns) {
     let band = flown.control("settling_band_rad");
     let last_outside = errors.iter().rposition(|(_, error)| error.is_none_or(|error| norm(error) > band));
@@ -330,8 +331,8 @@ fn recomputed(case: &Case) -> Columns {
     found
 }
 
-/// Law: every column of a loop that the program lists is what the true states, the arcs flown and the estimates say. Each is known and other than zero in one
-/// of the runs at least, but for the time at which a first phase begins.
+/// Law: every column of a loop that the program lists is what the true states, the arcs flown and the estimates say.
+/// Each is known and other than zero in one of the runs at least, but for the time at which a first phase begins.
 #[test]
 fn every_column_is_what_the_run_says() {
     let mut unseen = BTreeSet::new();

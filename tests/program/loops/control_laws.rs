@@ -1,4 +1,5 @@
-//! A stored campaign under a control law of a program's own: `examples/control_campaign.rs`, with audits and retained runs.
+//! A stored campaign under a control law of a program's own: `examples/control_campaign.rs`, with audits and retained
+//! runs.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -81,8 +82,9 @@ fn net_launch<'a>(session: Session<'a>, root: &Path) -> Campaign<'a> {
     Campaign::from_text("net_launch.toml", &text, session).samples(600).audit(0.02).store(root)
 }
 
-/// Law: one and two threads, a campaign that is stopped in the midst of a part and continued, and shards give the same bytes; they are verified by
-/// computing every row again. So it is under a law of the program's own and under a loop of the file.
+/// Law: one and two threads, a campaign that is stopped in the midst of a part and continued, and shards give the same
+/// bytes; they are verified by computing every row again. So it is under a law of the program's own and under a loop of
+/// the file.
 #[test]
 fn a_campaign_under_a_law_is_a_function_of_its_plan() {
     is_a_function_of_its_plan("own", Some(&example::law()), campaign);
@@ -134,8 +136,8 @@ fn is_a_function_of_its_plan(
     assert!(repaired.problems > 0 && files(&of("one")) == expected);
 }
 
-/// Law: a sample replayed alone is its row, bit for bit; the law has acted in it, tick by tick; audits judge the arcs flown and find small errors;
-/// balances of energy and momentum contain the work of the motors.
+/// Law: a sample replayed alone is its row, bit for bit; the law has acted in it, tick by tick; audits judge the arcs
+/// flown and find small errors; balances of energy and momentum contain the work of the motors.
 #[test]
 fn rows_under_a_law_are_its_runs() {
     let scratch = ScratchFolder::new("law-rows");
@@ -212,8 +214,8 @@ fn the_law_is_part_of_the_plan() {
     assert!(reason.contains("control.damping_n_m_s = -6.0"), "{reason}");
 }
 
-/// Law: a law knows the nominal scene, and models of sensors the drawn one: each is what it says, in the nominal run and in a dispersed one. The schedule of
-/// the scene adds to the law.
+/// Law: a law knows the nominal scene, and models of sensors the drawn one: each is what it says, in the nominal run
+/// and in a dispersed one. The schedule of the scene adds to the law.
 #[test]
 fn a_law_has_the_nominal_and_the_drawn_scene() {
     let make = |context: &LawContext<'_>| {
@@ -223,7 +225,8 @@ fn a_law_has_the_nominal_and_the_drawn_scene() {
     let law = ControlLaw::new("scenes", Actuated { body_torque: true, ..Actuated::NONE }, &[], make);
     let overrides = Overrides { law: Some(law), ..Overrides::default() };
     let text = campaign_without_debris()
-        + "[[disperse]]\nparameter = \"body.parts.fuselage.mass_scale\"\ndistribution = \"uniform\"\nmin = 0.5\nmax = 1.5\n";
+        + "[[disperse]]\nparameter = \"body.parts.fuselage.mass_scale\"\ndistribution = \"uniform\"\nmin = 0.5\nmax = \
+            1.5\n";
     let scheduled = text.clone() + "[[actuation]]\nstart_s = 0.25\nend_s = 0.5\ntorque_n_m = { w1 = 3.0 }\n";
     let plan = |text: &str| Plan::from_text("scenes.toml", text, overrides.clone()).unwrap();
     let run = |text: &str, sample: u64| {

@@ -1,4 +1,5 @@
-//! A run of a control loop with its true states at every control tick and at the start of every arc: what tests recompute from.
+//! A run of a control loop with its true states at every control tick and at the start of every arc: what tests
+//! recompute from.
 
 use spindrift::campaign::Plan;
 use spindrift::control::spec::LoopSpec;

@@ -1,5 +1,5 @@
-//! Several attitude sensors in one loop: each lowers the error of the filter as the sum of informations says, and the filter's innovations are those of a filter
-//! that is told the truth about each.
+//! Several attitude sensors in one loop: each lowers the error of the filter as the sum of informations says, and the
+//! filter's innovations are those of a filter that is told the truth about each.
 
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::dynamics::magnetic_field::MagneticField;
@@ -53,16 +53,18 @@ noise_rad = [1e-3, 2e-3, 2e-2]
 "#;
 
 const SUN: &str = "[[sensors]]\nname = \"sun\"\nkind = \"sun_sensor\"\nnoise_rad = 3e-3\nboresight = [1, 0, 0]\n";
-const SECOND: &str = "[[sensors]]\nname = \"fine\"\nkind = \"star_tracker\"\nperiod_s = 2\nnoise_rad = [4e-4, 4e-4, 4e-3]\nboresight = [0, 1, 0]\n";
+const SECOND: &str = "[[sensors]]\nname = \"fine\"\nkind = \"star_tracker\"\nperiod_s = 2\nnoise_rad = [4e-4, 4e-4, \
+    4e-3]\nboresight = [0, 1, 0]\n";
 
 /// Information of `count` numbers of deviation `sigma`.
 fn information(count: f64, sigma: f64) -> f64 {
     count / (sigma * sigma)
 }
 
-/// Law: after 100 ticks the square of the attitude's error is on average the sum over the axes of 1/(information), of the start, of each tracker about its axes,
-/// and of the Sun sensor across the direction of the Sun; and the mean of all innovations is one. Means of 800 runs within 4.5 standard errors. Without the
-/// Sun sensor, or the second tracker, it is another number: 8 and 18 times as large.
+/// Law: after 100 ticks the square of the attitude's error is on average the sum over the axes of 1/(information), of
+/// the start, of each tracker about its axes, and of the Sun sensor across the direction of the Sun; and the mean of
+/// all innovations is one. Means of 800 runs within 4.5 standard errors. Without the Sun sensor, or the second tracker,
+/// it is another number: 8 and 18 times as large.
 #[test]
 fn each_sensor_lowers_the_error_as_theory_says() {
     let coarse = [1e-3, 2e-3, 2e-2].map(|sigma| information(100.0, sigma) + information(1.0, 0.1));
@@ -95,11 +97,13 @@ fn each_sensor_lowers_the_error_as_theory_says() {
     assert!(expected[0] > 8.0 * expected[1] && expected[0] > 18.0 * expected[2], "{expected:?}");
 }
 
-/// Law: the mean of innovations is of all measurements, also where a tick has two: of a tracker whose noise is twice what the filter believes (100 squares of 4)
-/// and one that is as believed (50 of 1) it is 3; the last of each tick alone would be 2.5. The filter's own uncertainty is some per cent of it.
+/// Law: the mean of innovations is of all measurements, also where a tick has two: of a tracker whose noise is twice
+/// what the filter believes (100 squares of 4) and one that is as believed (50 of 1) it is 3; the last of each tick
+/// alone would be 2.5. The filter's own uncertainty is some per cent of it.
 #[test]
 fn the_mean_of_innovations_is_of_all_measurements() {
-    let doubled = "[[disperse]]\nparameter = \"sensors.coarse.noise_rad\"\ndistribution = \"offset\"\noffset = [1e-3, 2e-3, 2e-2]\n";
+    let doubled = "[[disperse]]\nparameter = \"sensors.coarse.noise_rad\"\ndistribution = \"offset\"\noffset = [1e-3, \
+        2e-3, 2e-2]\n";
     let text = format!("{AT_REST}{SECOND}{doubled}");
     let plan = Plan::from_text("c.toml", &text, Overrides::default()).expect("a plan");
     let table = rows(&plan);
@@ -110,13 +114,15 @@ fn the_mean_of_innovations_is_of_all_measurements() {
 
 /// A body at rest in an inertial frame on an orbit, for 100 ticks, whose nominal orbit is the true one.
 fn on_orbit(sensors: &str) -> String {
-    let orbit = "[orbit]\nepoch = \"2026-11-24T00:00:00Z\"\nsemi_major_axis_m = 7e6\ninclination_rad = 1.7\ntrue_anomaly_rad = 0.8\n[environment]\nmagnetic_field = \"igrf\"\n";
+    let orbit = "[orbit]\nepoch = \"2026-11-24T00:00:00Z\"\nsemi_major_axis_m = 7e6\ninclination_rad = \
+        1.7\ntrue_anomaly_rad = 0.8\n[environment]\nmagnetic_field = \"igrf\"\n";
     format!("{AT_REST}{orbit}{sensors}")
 }
 
-/// Law: on an orbit a horizon sensor and a magnetometer lower the error as the information of the directions says that they measure, which turn: after 100 ticks
-/// the covariance is the inverse of the sum of (1 - u u^T) |u|^2/sigma^2 over the nadirs u, of length one, and the fields u, and of the tracker; each
-/// alone and both. Means of 800 runs within 4.5 standard errors, and the mean of all innovations is one.
+/// Law: on an orbit a horizon sensor and a magnetometer lower the error as the information of the directions says that
+/// they measure, which turn: after 100 ticks the covariance is the inverse of the sum of (1 - u u^T) |u|^2/sigma^2 over
+/// the nadirs u, of length one, and the fields u, and of the tracker; each alone and both. Means of 800 runs within 4.5
+/// standard errors, and the mean of all innovations is one.
 #[test]
 fn directions_of_an_orbit_lower_the_error_as_theory_says() {
     const SIGMAS: [f64; 2] = [3e-3, 1e-7];

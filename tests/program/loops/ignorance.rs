@@ -9,8 +9,8 @@ use crate::loops::flown_loop::{FlownLoop, changed, without_filters};
 
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 
-/// `net_launch.toml` without its phases and draws, whose loop turns to an attitude and stops the motion along s3, which is that of
-/// `along_s3`, m/s.
+/// `net_launch.toml` without its phases and draws, whose loop turns to an attitude and stops the motion along s3, which
+/// is that of `along_s3`, m/s.
 fn braking(estimator: &str, along_s3: f64) -> String {
     let start = NET_LAUNCH.find("[[guidance]]").expect("phases");
     let text = match estimator {
@@ -25,7 +25,8 @@ fn braking(estimator: &str, along_s3: f64) -> String {
             ("modulation = \"pulse_width\"", "modulation = \"throttled\""),
         ],
     );
-    text + "[[guidance]]\nphase = \"brake\"\nlaw = \"quaternion_feedback\"\nbandwidth_rad_s = 0.06\ndamping = 0.9\ntarget = \"attitude\"\n\
+    text + "[[guidance]]\nphase = \"brake\"\nlaw = \"quaternion_feedback\"\nbandwidth_rad_s = 0.06\ndamping = \
+        0.9\ntarget = \"attitude\"\n\
             attitude = [0.9, 0.1, 0.3, 0.3]\nthrust = \"stop\"\nunloading_time_s = 60.0\n"
 }
 
@@ -33,7 +34,8 @@ fn offset(parameter: &str, offset: f64) -> String {
     format!("\n[[disperse]]\nparameter = \"{parameter}\"\ndistribution = \"offset\"\noffset = {offset:?}\n")
 }
 
-/// The commands of the first tick of a dispersed run of `text`, with whether the drawn scene differs from the nominal one.
+/// The commands of the first tick of a dispersed run of `text`, with whether the drawn scene differs from the nominal
+/// one.
 fn first_commands(text: &str) -> (Vec<f64>, bool) {
     let flown = FlownLoop::new(text, 1);
     let names = [
@@ -50,8 +52,9 @@ fn first_commands(text: &str) -> (Vec<f64>, bool) {
     (names.iter().map(|name| flown.told(name)[0]).collect(), is_drawn)
 }
 
-/// Law: where the state is known, the first command does not depend on any number that the spacecraft, its wheels, its thrusters or the debris have drawn,
-/// over the list of what can be dispersed: mass, inertia, centre of mass, alignment, thrust and torque. What is commanded of the state is commanded of it.
+/// Law: where the state is known, the first command does not depend on any number that the spacecraft, its wheels, its
+/// thrusters or the debris have drawn, over the list of what can be dispersed: mass, inertia, centre of mass,
+/// alignment, thrust and torque. What is commanded of the state is commanded of it.
 #[test]
 fn commands_do_not_depend_on_what_is_drawn() {
     // at rest, so that the velocity of the centre of mass is that of p, wherever it is
@@ -102,7 +105,8 @@ fn commands_do_not_depend_on_what_is_drawn() {
     assert!(drawn > 60, "{drawn} numbers change the scene");
 }
 
-/// The commands of a quantity at each tick as they act in the interval after it, on average: the last comes `delay` later.
+/// The commands of a quantity at each tick as they act in the interval after it, on average: the last comes `delay`
+/// later.
 fn mean_of_interval(commands: &[f64], delay: f64, period: f64) -> Vec<f64> {
     let whole = (delay / period).floor();
     let late = delay / period - whole;
@@ -111,9 +115,10 @@ fn mean_of_interval(commands: &[f64], delay: f64, period: f64) -> Vec<f64> {
     (0..commands.len()).map(|tick| (1.0 - late) * at(tick, back) + late * at(tick, back + 1)).collect()
 }
 
-/// Law: from tick to tick the filters predict with the commands, the nominal mass, the nominal directions and inertias: of a spacecraft that is a fifth
-/// heavier, with a weaker and tilted thruster and motor. r + v T + a T^2/2 and v + a T of the centre of mass relative to the debris, and the axial momentum
-/// of wheels; for delays of none, of a part of a period, and of more than one.
+/// Law: from tick to tick the filters predict with the commands, the nominal mass, the nominal directions and inertias:
+/// of a spacecraft that is a fifth heavier, with a weaker and tilted thruster and motor. r + v T + a T^2/2 and v + a T
+/// of the centre of mass relative to the debris, and the axial momentum of wheels; for delays of none, of a part of a
+/// period, and of more than one.
 #[test]
 fn filters_predict_with_commands_and_nominal_numbers() {
     // an ulp of 40 m, or of 40 rad/s, is 7e-15: some tens of them

@@ -1,4 +1,5 @@
-//! Every law of attitude, in a loop, by its formula in docs/control-formulas.md and in its docstring: from the estimates recorded at a tick the torque commanded there.
+//! Every law of attitude, in a loop, by its formula in docs/control-formulas.md and in its docstring: from the
+//! estimates recorded at a tick the torque commanded there.
 
 use std::fmt::Write as _;
 
@@ -36,19 +37,22 @@ fn number(key: &str) -> f64 {
 /// A body with three wheels along its axes, whose state is drawn, and whose law has two phases.
 fn file(law: &str, keys: &str, target: &str) -> String {
     let mut text = format!(
-        "[campaign]\nname = \"law\"\nsamples = 16\nseed = 3\nduration_s = 6.1\n[observe]\npoints = 3\n[body]\nmass_kg = 100\n\
+        "[campaign]\nname = \"law\"\nsamples = 16\nseed = 3\nduration_s = 6.1\n[observe]\npoints = 3\n[body]\nmass_kg \
+        = 100\n\
          center_of_mass_m = [0, 0, 0]\ninertia_kg_m2 = {INERTIA:?}\nincludes_wheels = true\n"
     );
     for (i, axial) in AXIAL.iter().enumerate() {
         let axis: [i32; 3] = std::array::from_fn(|j| i32::from(i == j));
         let _ = write!(
             text,
-            "[[wheels]]\nname = \"w{i}\"\naxis = {axis:?}\nmass_kg = 5\naxial_inertia_kg_m2 = {axial}\ntransverse_inertia_kg_m2 = 0.3\n\
+            "[[wheels]]\nname = \"w{i}\"\naxis = {axis:?}\nmass_kg = 5\naxial_inertia_kg_m2 = \
+            {axial}\ntransverse_inertia_kg_m2 = 0.3\n\
              rate_rad_s = {}\n",
             20 * (i + 1)
         );
     }
-    text += "[debris]\nside_m = 0.2\ndensity_kg_m3 = 2700.0\n[initial]\ndebris_position_m = [30, -20, 10]\ndebris_velocity_m_s = [1, 3, -2]\n\
+    text += "[debris]\nside_m = 0.2\ndensity_kg_m3 = 2700.0\n[initial]\ndebris_position_m = [30, -20, \
+        10]\ndebris_velocity_m_s = [1, 3, -2]\n\
              [control]\nperiod_s = 0.5\nwheels = [\"w0\", \"w1\", \"w2\"]\n";
     for (phase, until) in [("first", "until = \"time_in_phase_s > 2.9\"\n"), ("second", "")] {
         let _ = write!(text, "[[guidance]]\nphase = \"{phase}\"\nlaw = \"{law}\"\n{keys}{target}{until}");
@@ -69,7 +73,8 @@ struct Seen {
     rotating: [[f64; 3]; 3],
 }
 
-/// The terms whose sum is the torque of the law called `name`; `integral` is the sum of K s over the ticks after the first of the phase, within its limit.
+/// The terms whose sum is the torque of the law called `name`; `integral` is the sum of K s over the ticks after the
+/// first of the phase, within its limit.
 fn terms(name: &str, seen: &Seen, integral: &mut [f64; 3], is_first: bool) -> Vec<[f64; 3]> {
     let [w, x, y, z] = seen.q_ts;
     let relative = difference(seen.omega, seen.omega_te_s);
@@ -101,8 +106,8 @@ fn terms(name: &str, seen: &Seen, integral: &mut [f64; 3], is_first: bool) -> Ve
     }
 }
 
-/// Law: every law in the program's list commands the torque of its formula, from the estimates of the tick, for targets at rest and for one that turns; with
-/// the limit of its integral, which starts anew with a phase.
+/// Law: every law in the program's list commands the torque of its formula, from the estimates of the tick, for targets
+/// at rest and for one that turns; with the limit of its integral, which starts anew with a phase.
 #[test]
 fn every_law_is_its_formula() {
     let rotating: [[f64; 3]; 3] =

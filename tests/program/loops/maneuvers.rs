@@ -6,8 +6,8 @@ use crate::loops::flown_loop::{FlownLoop, changed, without_filters};
 
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 
-/// `net_launch.toml` at rest, with perfect knowledge and throttled thrusters, whose commands act after `delay` seconds, for `duration` seconds; it moves with
-/// the velocity `velocity` beside debris at rest, and flies `phases`.
+/// `net_launch.toml` at rest, with perfect knowledge and throttled thrusters, whose commands act after `delay` seconds,
+/// for `duration` seconds; it moves with the velocity `velocity` beside debris at rest, and flies `phases`.
 fn maneuver(delay: f64, duration: f64, velocity: [f64; 3], phases: &str) -> FlownLoop {
     let head = &NET_LAUNCH[..NET_LAUNCH.find("[[guidance]]").expect("phases")];
     let text = changed(
@@ -24,7 +24,8 @@ fn maneuver(delay: f64, duration: f64, velocity: [f64; 3], phases: &str) -> Flow
     FlownLoop::new(&(text + phases), 0)
 }
 
-/// Law: an impulse that is on its way is not commanded again, however many commands wait: the velocity along s3 falls to zero and never turns round.
+/// Law: an impulse that is on its way is not commanded again, however many commands wait: the velocity along s3 falls
+/// to zero and never turns round.
 #[test]
 fn an_impulse_on_its_way_is_not_commanded_again() {
     const STOP: &str = "[[guidance]]\nphase = \"brake\"\nlaw = \"quaternion_feedback\"\nbandwidth_rad_s = 0.06\n\
@@ -44,18 +45,22 @@ fn an_impulse_on_its_way_is_not_commanded_again() {
     }
 }
 
-/// Law: a transfer arrives its time after the beginning of its burn, at the station; a second one, which begins on the way of the first, after its own.
+/// Law: a transfer arrives its time after the beginning of its burn, at the station; a second one, which begins on the
+/// way of the first, after its own.
 #[test]
 fn each_transfer_arrives_after_its_own_time() {
-    const AIM: &str = "law = \"eigenaxis\"\nbandwidth_rad_s = 0.06\ndamping = 0.9\nmax_rate_rad_s = \"1 deg/s\"\ntarget = \"transfer\"\n";
+    const AIM: &str = "law = \"eigenaxis\"\nbandwidth_rad_s = 0.06\ndamping = 0.9\nmax_rate_rad_s = \"1 \
+        deg/s\"\ntarget = \"transfer\"\n";
     const TIMES: [f64; 2] = [300.0, 150.0];
     let burn = |name: &str, time: f64| {
         format!(
-            "[[guidance]]\nphase = \"{name}\"\n{AIM}thrust = \"transfer\"\ntransfer_time_s = {time:?}\nuntil = \"velocity_to_go_along_m_s < 1e-5\"\n"
+            "[[guidance]]\nphase = \"{name}\"\n{AIM}thrust = \"transfer\"\ntransfer_time_s = {time:?}\nuntil = \
+            \"velocity_to_go_along_m_s < 1e-5\"\n"
         )
     };
     let aim = format!(
-        "[[guidance]]\nphase = \"aim\"\n{AIM}transfer_time_s = 300.0\nuntil = \"pointing_error_rad < 0.02 and body_rate_rad_s < 0.002\"\n"
+        "[[guidance]]\nphase = \"aim\"\n{AIM}transfer_time_s = 300.0\nuntil = \"pointing_error_rad < 0.02 and \
+        body_rate_rad_s < 0.002\"\n"
     );
     let rest =
         "[[guidance]]\nphase = \"coast\"\nuntil = \"time_to_station_s < 0.75\"\n[[guidance]]\nphase = \"wait\"\n";

@@ -8,8 +8,8 @@ use spindrift::statistics::binomial::interval;
 
 const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 
-/// Law: the dispersed runs that are ok are counted by how their mission ended, each with its share in percent and the interval of the share, of which
-/// the bar of the page is drawn.
+/// Law: the dispersed runs that are ok are counted by how their mission ended, each with its share in percent and the
+/// interval of the share, of which the bar of the page is drawn.
 #[test]
 fn ends_are_those_of_the_rows() {
     let scratch = ScratchFolder::new("missions");

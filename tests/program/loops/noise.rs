@@ -1,10 +1,12 @@
-//! Noise within control loops: the share of the variance that it makes, as `report --noise` says it, and what innovations say of filters.
+//! Noise within control loops: the share of the variance that it makes, as `report --noise` says it, and what
+//! innovations say of filters.
 
 use crate::loops::closed_loops::{SLEW_CLOSED, plan, run, value};
 use crate::page::numbers::{Found, found};
 use crate::support::campaigns::{SMALL_BODY, small_wheel};
 
-/// A damped body whose star tracker is believed as it is: its error is noise alone, the drawn scale is none, `of_both` has a known share of it.
+/// A damped body whose star tracker is believed as it is: its error is noise alone, the drawn scale is none, `of_both`
+/// has a known share of it.
 fn noisy() -> String {
     const HEAD: &str = r#"[campaign]
 name = "noisy"
@@ -61,8 +63,9 @@ fn variance(values: &[f64]) -> f64 {
     values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len() as f64
 }
 
-/// Law: what the scene alone decides has no noise, what a sensor alone decides is all noise, and a sum has the share that the variances of its parts say; the
-/// page says the same as the screen; without a loop there is no noise to ask for.
+/// Law: what the scene alone decides has no noise, what a sensor alone decides is all noise, and a sum has the share
+/// that the variances of its parts say; the page says the same as the screen; without a loop there is no noise to ask
+/// for.
 #[test]
 fn noise_is_told_from_scenes() {
     let run = found("noise", &noisy());
@@ -101,8 +104,8 @@ fn noise_is_told_from_scenes() {
     assert!(refused.contains("no control loop") && refused.contains("leave out --noise"), "{refused}");
 }
 
-/// Law: the mean innovation of a row is that of the ticks recorded; of a filter that is told the truth it is 1 (twelve runs of 360 attitudes with 12,900
-/// degrees of freedom: five standard errors are 0.062).
+/// Law: the mean innovation of a row is that of the ticks recorded; of a filter that is told the truth it is 1 (twelve
+/// runs of 360 attitudes with 12,900 degrees of freedom: five standard errors are 0.062).
 #[test]
 fn innovations_say_whether_a_filter_is_right() {
     let right =

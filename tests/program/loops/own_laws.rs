@@ -1,4 +1,5 @@
-//! A law of attitude of a program's own in the phases of a control loop, beside the built-in sensors, filter, guidance and allocation.
+//! A law of attitude of a program's own in the phases of a control loop, beside the built-in sensors, filter, guidance
+//! and allocation.
 
 use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
 use spindrift::control::vector::{cross, difference, product, scaled, sum};
@@ -71,9 +72,9 @@ fn with_own_law() -> String {
     found
 }
 
-/// Law: a law of a program that computes what a built-in one computes gives the same rows, bit for bit, with the sensors, the filter, the phases and the
-/// wheels of the file; a result under it is replayed and recomputed under it, and refused without it; and its parameters are keys like all
-/// others.
+/// Law: a law of a program that computes what a built-in one computes gives the same rows, bit for bit, with the
+/// sensors, the filter, the phases and the wheels of the file; a result under it is replayed and recomputed under it,
+/// and refused without it; and its parameters are keys like all others.
 #[test]
 fn a_law_of_a_program_flies_in_the_phases_of_a_loop() {
     let scratch = ScratchFolder::new("own-laws");

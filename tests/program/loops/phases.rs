@@ -15,8 +15,8 @@ fn changes(flown: &FlownLoop) -> Vec<(f64, usize)> {
     (0..phases.len()).filter(began).map(|tick| (flown.ticks[tick].time, phases[tick] as usize)).collect()
 }
 
-/// Law: a condition is held from the first tick of its own phase at which it is met: what an earlier phase, with the same condition, has held counts for
-/// nothing, and a gap starts the count anew.
+/// Law: a condition is held from the first tick of its own phase at which it is met: what an earlier phase, with the
+/// same condition, has held counts for nothing, and a gap starts the count anew.
 #[test]
 fn a_hold_starts_with_its_phase() {
     let (holds, period) = ([4.0, 6.0], 0.25);
@@ -51,8 +51,8 @@ fn a_hold_starts_with_its_phase() {
     assert!(!met[0] && expected[1].0 > 6.0, "{expected:?}");
 }
 
-/// Law: a mission whose debris is not seen fails at the first tick at which the last measurement was *taken* longer ago than the limit: the latency of the
-/// camera counts, as time since a measurement does in conditions.
+/// Law: a mission whose debris is not seen fails at the first tick at which the last measurement was *taken* longer ago
+/// than the limit: the latency of the camera counts, as time since a measurement does in conditions.
 #[test]
 fn the_age_of_the_camera_contains_its_latency() {
     // seen at the start, and never after: the range is passed
@@ -76,8 +76,8 @@ fn the_age_of_the_camera_contains_its_latency() {
     }
 }
 
-/// Law: a wheel at its limit fails the mission at the first tick at which it has been there without a gap for longer than `saturation_timeout_s`, counted
-/// from the start of the arc in which the limit began to cut its motor.
+/// Law: a wheel at its limit fails the mission at the first tick at which it has been there without a gap for longer
+/// than `saturation_timeout_s`, counted from the start of the arc in which the limit began to cut its motor.
 #[test]
 fn a_wheel_fails_after_its_timeout() {
     for timeout in [1.0, 5.0, 10.0] {

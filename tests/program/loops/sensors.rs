@@ -1,5 +1,5 @@
-//! Every sensor in a loop: what it delivers at a tick is what it measured of the true state `latency_s` before, with its fixed errors; what is random has the
-//! deviation of the file.
+//! Every sensor in a loop: what it delivers at a tick is what it measured of the true state `latency_s` before, with
+//! its fixed errors; what is random has the deviation of the file.
 
 use spindrift::control::sensors::KINDS;
 use spindrift::dynamics::magnetic_field::MagneticField;
@@ -12,7 +12,8 @@ use crate::loops::flown_loop::{FlownLoop, State, changed, rotation_vector, witho
 
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 
-/// Rounding, of positions of tens of metres and rates of wheels of tens of rad/s: an ulp of 40 is 7e-15, and states between steps have some of them.
+/// Rounding, of positions of tens of metres and rates of wheels of tens of rad/s: an ulp of 40 is 7e-15, and states
+/// between steps have some of them.
 const AGREED: f64 = 1e-12;
 
 const PERIOD: f64 = 0.5;
@@ -21,7 +22,8 @@ const GYRO_SCALE: [f64; 3] = [1.02, 0.97, 1.01];
 const MISALIGNMENT: [f64; 3] = [0.02, -0.01, 0.03];
 const TRACKER_BIAS: [f64; 3] = [4e-3, -3e-3, 2e-3];
 const TACHOMETER_SCALE: f64 = 1.05;
-/// Deviations about each axis of the tracker, of radar and camera, of the tachometers, and of the angle of the gyro after a second.
+/// Deviations about each axis of the tracker, of radar and camera, of the tachometers, and of the angle of the gyro
+/// after a second.
 const TRACKER_NOISE: [f64; 3] = [1e-4, 2e-4, 3e-4];
 const RADAR_NOISE: [f64; 2] = [0.3, 0.005];
 const CAMERA_NOISE: [f64; 2] = [0.02, 0.003];
@@ -45,7 +47,8 @@ const CAMERA_RANGE: f64 = 38.0;
 /// The Sun sensor of the file.
 fn sun_sensor() -> String {
     format!(
-        "[[sensors]]\nname = \"sun\"\nkind = \"sun_sensor\"\nperiod_s = {:?}\nlatency_s = {:?}\nnoise_rad = {SUN_NOISE:?}\nbias_rad = {SUN_BIAS:?}\n\
+        "[[sensors]]\nname = \"sun\"\nkind = \"sun_sensor\"\nperiod_s = {:?}\nlatency_s = {:?}\nnoise_rad = \
+        {SUN_NOISE:?}\nbias_rad = {SUN_BIAS:?}\n\
          boresight = {BORESIGHT:?}\nsun_direction = {SUN_E:?}\n",
         SUN[0], SUN[1]
     )
@@ -57,14 +60,19 @@ fn file() -> String {
         (NET_LAUNCH.find("[[sensors]]").expect("sensors"), NET_LAUNCH.find("[[guidance]]").expect("phases"));
     let draws = NET_LAUNCH.find("# the first state").expect("draws");
     let sensors = format!(
-        "[[sensors]]\nname = \"gyro\"\nkind = \"rate_gyro\"\nbias_rad_s = {GYRO_BIAS:?}\nscale = {GYRO_SCALE:?}\nmisalignment_rad = {MISALIGNMENT:?}\n\
+        "[[sensors]]\nname = \"gyro\"\nkind = \"rate_gyro\"\nbias_rad_s = {GYRO_BIAS:?}\nscale = \
+        {GYRO_SCALE:?}\nmisalignment_rad = {MISALIGNMENT:?}\n\
          angular_random_walk_rad_sqrt_s = {GYRO_WALK:?}\n\
-         [[sensors]]\nname = \"tracker\"\nkind = \"star_tracker\"\nperiod_s = {:?}\nlatency_s = {:?}\nnoise_rad = {TRACKER_NOISE:?}\n\
+         [[sensors]]\nname = \"tracker\"\nkind = \"star_tracker\"\nperiod_s = {:?}\nlatency_s = {:?}\nnoise_rad = \
+         {TRACKER_NOISE:?}\n\
          bias_rad = {TRACKER_BIAS:?}\nmax_rate_rad_s = {TRACKER_RATE:?}\n\
-         [[sensors]]\nname = \"radar\"\nkind = \"ground_radar\"\nperiod_s = {:?}\nlatency_s = {:?}\nposition_noise_m = {:?}\nvelocity_noise_m_s = {:?}\n\
-         [[sensors]]\nname = \"camera\"\nkind = \"relative_camera\"\nperiod_s = {:?}\nlatency_s = {:?}\nattitude_noise_rad = {:?}\n\
+         [[sensors]]\nname = \"radar\"\nkind = \"ground_radar\"\nperiod_s = {:?}\nlatency_s = {:?}\nposition_noise_m = \
+         {:?}\nvelocity_noise_m_s = {:?}\n\
+         [[sensors]]\nname = \"camera\"\nkind = \"relative_camera\"\nperiod_s = {:?}\nlatency_s = \
+         {:?}\nattitude_noise_rad = {:?}\n\
          rate_noise_rad_s = {:?}\nmax_range_m = {CAMERA_RANGE:?}\n\
-         [[sensors]]\nname = \"tachometers\"\nkind = \"tachometers\"\nnoise_rad_s = {TACHOMETER_NOISE:?}\nscale = {TACHOMETER_SCALE:?}\n\n",
+         [[sensors]]\nname = \"tachometers\"\nkind = \"tachometers\"\nnoise_rad_s = {TACHOMETER_NOISE:?}\nscale = \
+         {TACHOMETER_SCALE:?}\n\n",
         TRACKER[0],
         TRACKER[1],
         RADAR[0],
@@ -90,8 +98,8 @@ fn file() -> String {
     text + "[[disperse]]\nparameter = \"initial.velocity_m_s\"\ndistribution = \"offset\"\noffset = 0.0\n"
 }
 
-/// Period, latency and noise of those of an orbit; fixed errors of the magnetometer; boresight and field of view of the horizon sensor, whose errors are those
-/// of the Sun sensor.
+/// Period, latency and noise of those of an orbit; fixed errors of the magnetometer; boresight and field of view of the
+/// horizon sensor, whose errors are those of the Sun sensor.
 const FIELD: [f64; 2] = [1.5, 0.5];
 const FIELD_NOISE: [f64; 3] = [3e-8, 5e-8, 4e-8];
 const FIELD_BIAS: [f64; 3] = [1e-7, -2e-7, 3e-7];
@@ -104,15 +112,19 @@ fn file_on_orbit() -> String {
     format!(
         "[campaign]\nname = \"orbit\"\nsamples = 4\nseed = 1\nduration_s = 300.2\n\
          [observe]\npoints = 3\n\
-         [body]\nmass_kg = 12.0\ncenter_of_mass_m = [0.1, 0.2, -0.3]\nincludes_wheels = true\ninertia_kg_m2 = [[0.12, 0, 0], [0, 0.14, 0], [0, 0, 0.09]]\n\
-         [[wheels]]\nname = \"w1\"\naxis = [1, 0, 0]\nmass_kg = 0.1\naxial_inertia_kg_m2 = 1e-4\ntransverse_inertia_kg_m2 = 6e-5\n\
+         [body]\nmass_kg = 12.0\ncenter_of_mass_m = [0.1, 0.2, -0.3]\nincludes_wheels = true\ninertia_kg_m2 = [[0.12, \
+         0, 0], [0, 0.14, 0], [0, 0, 0.09]]\n\
+         [[wheels]]\nname = \"w1\"\naxis = [1, 0, 0]\nmass_kg = 0.1\naxial_inertia_kg_m2 = \
+         1e-4\ntransverse_inertia_kg_m2 = 6e-5\n\
          [initial]\nangular_velocity_rad_s = [\"3 deg/s\", \"-2 deg/s\", \"2 deg/s\"]\n\
          [orbit]\nepoch = \"2026-11-24T00:00:00Z\"\nsemi_major_axis_m = 6.928e6\ninclination_rad = 1.7\n\
          [environment]\nmagnetic_field = \"igrf\"\n\
          [control]\nperiod_s = {PERIOD:?}\nestimator = \"mekf\"\nwheels = [\"w1\"]\n\
-         [[sensors]]\nname = \"field\"\nkind = \"magnetometer\"\nperiod_s = {:?}\nlatency_s = {:?}\nnoise_t = {FIELD_NOISE:?}\nbias_t = {FIELD_BIAS:?}\n\
+         [[sensors]]\nname = \"field\"\nkind = \"magnetometer\"\nperiod_s = {:?}\nlatency_s = {:?}\nnoise_t = \
+         {FIELD_NOISE:?}\nbias_t = {FIELD_BIAS:?}\n\
          scale = {FIELD_SCALE:?}\nmisalignment_rad = {MISALIGNMENT:?}\n\
-         [[sensors]]\nname = \"horizon\"\nkind = \"horizon_sensor\"\nperiod_s = {:?}\nlatency_s = {:?}\nnoise_rad = {SUN_NOISE:?}\nbias_rad = {SUN_BIAS:?}\n\
+         [[sensors]]\nname = \"horizon\"\nkind = \"horizon_sensor\"\nperiod_s = {:?}\nlatency_s = {:?}\nnoise_rad = \
+         {SUN_NOISE:?}\nbias_rad = {SUN_BIAS:?}\n\
          boresight = {BORESIGHT:?}\nhalf_field_of_view_rad = {HALF_VIEW:?}\n\
          [[guidance]]\nphase = \"hold\"\nlaw = \"rate_damping\"\ngain_n_m_s = 1e-6\n\
          [[disperse]]\nparameter = \"body.inertia_scale\"\ndistribution = \"offset\"\noffset = 0.0\n",
@@ -127,18 +139,21 @@ fn misaligned(v: [f64; 3]) -> [f64; 3] {
     transposed_product(dcm_from_quaternion([(0.5 * size).cos(), half[0], half[1], half[2]]), v)
 }
 
-/// The angles of the direction `u_s` about a boresight along s2: s3 turned to it the shortest way, about s1, so that t1 is s1 and t2 is -s3.
+/// The angles of the direction `u_s` about a boresight along s2: s3 turned to it the shortest way, about s1, so that t1
+/// is s1 and t2 is -s3.
 fn angles(u_s: [f64; 3]) -> Vec<f64> {
     [u_s[0], -u_s[2]].map(|x| x.atan2(u_s[1]) + SUN_BIAS).to_vec()
 }
 
-/// The state that a sensor of these `[period, latency]` delivers at tick number `tick`; `None` where it delivers nothing.
+/// The state that a sensor of these `[period, latency]` delivers at tick number `tick`; `None` where it delivers
+/// nothing.
 fn delivered(flown: &FlownLoop, tick: usize, [period, latency]: [f64; 2]) -> Option<&State> {
     let taken = tick.checked_sub((latency / PERIOD).round() as usize)?;
     taken.is_multiple_of((period / PERIOD).round() as usize).then(|| &flown.ticks[taken])
 }
 
-/// What the sensor called `kind` delivers at tick number `tick` without noise, number by number in the order of [`names`].
+/// What the sensor called `kind` delivers at tick number `tick` without noise, number by number in the order of
+/// [`names`].
 fn expected(kind: &str, flown: &FlownLoop, tick: usize) -> Option<Vec<f64>> {
     match kind {
         "rate_gyro" => {
@@ -237,8 +252,9 @@ fn errors(kind: &str, found: &[f64], expected: &[f64]) -> Vec<f64> {
     }
 }
 
-/// Law: every kind of sensor delivers, at the ticks at which it is due and at no other, what it measured `latency_s` before. The nominal run has its fixed
-/// errors alone; in others each error has mean zero and the deviation of the file within five standard errors.
+/// Law: every kind of sensor delivers, at the ticks at which it is due and at no other, what it measured `latency_s`
+/// before. The nominal run has its fixed errors alone; in others each error has mean zero and the deviation of the file
+/// within five standard errors.
 #[test]
 fn every_sensor_measures_the_true_state() {
     let (nominal, noisy) = (FlownLoop::new(&file(), 0), FlownLoop::new(&file(), 1));
@@ -285,8 +301,8 @@ fn every_sensor_measures_the_true_state() {
     assert!(norm(nominal.run.scene.mass.center) > 0.1);
 }
 
-/// Law: raw estimates are the last measurements: attitude and rate as they were measured, the debris relative to the centre of mass that the attitude of the
-/// tick puts in front of p.
+/// Law: raw estimates are the last measurements: attitude and rate as they were measured, the debris relative to the
+/// centre of mass that the attitude of the tick puts in front of p.
 #[test]
 fn raw_estimates_are_the_last_measurements() {
     let text = without_filters(&file().replace(&sun_sensor(), ""), "raw");
@@ -356,7 +372,8 @@ fn a_sun_sensor_sees_the_sun_of_the_date_and_no_sun_in_the_shadow() {
     let (half, across) = (0.5 * sun_e[2].acos(), scaled(1.0 / sun_e[0].hypot(sun_e[1]), [-sun_e[1], sun_e[0], 0.0]));
     let attitude = [half.cos(), half.sin() * across[0], half.sin() * across[1], 0.0];
     let text = format!(
-        "{}[initial]\nattitude = {attitude:?}\n{}[control]\nperiod_s = 10.0\nestimator = \"perfect\"\nwheels = [\"w1\"]\n\
+        "{}[initial]\nattitude = {attitude:?}\n{}[control]\nperiod_s = 10.0\nestimator = \"perfect\"\nwheels = \
+        [\"w1\"]\n\
          [[sensors]]\nname = \"sun\"\nkind = \"sun_sensor\"\nbias_rad = -1e-3\n\
          [[guidance]]\nphase = \"a\"\ntarget = \"sun\"\n",
         changed(&text[..start], &[("duration_s = 300.2", "duration_s = 6000")]),

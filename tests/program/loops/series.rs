@@ -1,4 +1,5 @@
-//! What a control loop records over time, and how steady it is: recomputed from the states of the run, its telemetry and its arcs.
+//! What a control loop records over time, and how steady it is: recomputed from the states of the run, its telemetry
+//! and its arcs.
 
 use crate::loops::closed_loops::{NET_LAUNCH, SLEW_CLOSED, plan, value};
 use spindrift::campaign::{Overrides, Plan};
@@ -57,8 +58,9 @@ fn errors(run: &SingleRun) -> Vec<[f64; 3]> {
     (0..=TICKS).map(|tick| rotation(target(tick), run.table.at(StateField::Attitude, tick))).collect()
 }
 
-/// Law: at a tick the pointing error is the angle from the target of the phase to the true attitude, the errors of the estimate are those of the recorded
-/// estimate, and the torque of a wheel is that of the arc that was flown. In the nominal run and in others.
+/// Law: at a tick the pointing error is the angle from the target of the phase to the true attitude, the errors of the
+/// estimate are those of the recorded estimate, and the torque of a wheel is that of the arc that was flown. In the
+/// nominal run and in others.
 #[test]
 fn quantities_over_time_are_those_of_the_run() {
     for sample in [0, 3, 17] {
@@ -101,10 +103,12 @@ fn quantities_over_time_are_those_of_the_run() {
     }
 }
 
-/// Law: a requirement on such a quantity judges each run by its largest value at the points of the interval, and bands are of the runs at each point.
+/// Law: a requirement on such a quantity judges each run by its largest value at the points of the interval, and bands
+/// are of the runs at each point.
 #[test]
 fn requirements_and_bands_are_of_the_quantities() {
-    let require = "\n[[require]]\nband = \"pointing_error_rad\"\nat_most = 0.01\nfraction = 0.5\nfrom_s = 100\nat_all_times = true\n";
+    let require = "\n[[require]]\nband = \"pointing_error_rad\"\nat_most = 0.01\nfraction = 0.5\nfrom_s = \
+        100\nat_all_times = true\n";
     let text = SLEW_CLOSED.replace("samples = 1024", "samples = 12") + require;
     let scratch = ScratchFolder::new("loop-series");
     let quiet = Quiet::default();
@@ -143,7 +147,8 @@ fn requirements_and_bands_are_of_the_quantities() {
     assert!(error.contains("require[0].band") || error.contains("band = \"attitude_estimate_error_rad\""), "{error}");
 }
 
-/// Law: at a tick, distance and speed relative to the debris are those of the centres of mass, and the impulse is that of the arcs before it.
+/// Law: at a tick, distance and speed relative to the debris are those of the centres of mass, and the impulse is that
+/// of the arcs before it.
 #[test]
 fn the_way_to_the_debris_is_that_of_the_run() {
     const PERIOD: f64 = 0.5;
@@ -175,7 +180,8 @@ fn the_way_to_the_debris_is_that_of_the_run() {
     }
 }
 
-/// Law: the settling time of a mission and the relative performance error over a window are those of the attitudes at the ticks, in two passes.
+/// Law: the settling time of a mission and the relative performance error over a window are those of the attitudes at
+/// the ticks, in two passes.
 #[test]
 fn stability_is_that_of_the_attitudes_at_the_ticks() {
     let band = std::f64::consts::PI / 180.0;
@@ -205,8 +211,9 @@ fn stability_is_that_of_the_attitudes_at_the_ticks() {
     }
 }
 
-/// Law: a filter agrees with its tracker wherever that looks: the innovations of some 350 measurements have a mean square of one. A boresight along s3, of
-/// any length, is the default, bit for bit; a direction of no length is refused.
+/// Law: a filter agrees with its tracker wherever that looks: the innovations of some 350 measurements have a mean
+/// square of one. A boresight along s3, of any length, is the default, bit for bit; a direction of no length is
+/// refused.
 #[test]
 fn a_tracker_looks_in_any_direction() {
     let of = |boresight: &str| {

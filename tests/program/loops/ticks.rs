@@ -1,4 +1,5 @@
-//! The ticks of a control loop: what a table over time shows of them, the one at the end of a run, and those at which slow sensors measure.
+//! The ticks of a control loop: what a table over time shows of them, the one at the end of a run, and those at which
+//! slow sensors measure.
 
 use std::fmt::Write as _;
 
@@ -27,8 +28,9 @@ fn estimation_errors(run: &SingleRun) -> Vec<f64> {
     (0..run.grid.points()).map(error).collect()
 }
 
-/// Law: a row at the time of a tick shows that tick, the last row too, wherever rounding puts the time: with perfect knowledge the estimate there is the
-/// state there, to 1e-7 of a slew at 1e-2 rad/s (a tick before it is 1e-3 off and more).
+/// Law: a row at the time of a tick shows that tick, the last row too, wherever rounding puts the time: with perfect
+/// knowledge the estimate there is the state there, to 1e-7 of a slew at 1e-2 rad/s (a tick before it is 1e-3 off and
+/// more).
 #[test]
 fn a_row_shows_the_tick_of_its_time() {
     let control = "[control]\nperiod_s = 0.1\nwheels = [\"w1\", \"w2\", \"w3\"]\n[[guidance]]\nphase = \"drift\"\n";
@@ -45,8 +47,8 @@ fn a_row_shows_the_tick_of_its_time() {
     assert!(late > 5, "{late} ticks");
 }
 
-/// Law: what a run shows does not depend on when it ends: the ticks of a run are the first ones of a run twice as long, the last one included, with filters
-/// and commands.
+/// Law: what a run shows does not depend on when it ends: the ticks of a run are the first ones of a run twice as long,
+/// the last one included, with filters and commands.
 #[test]
 fn the_last_tick_is_that_of_a_longer_run() {
     let plan = plan(SLEW_CLOSED);
@@ -58,7 +60,8 @@ fn the_last_tick_is_that_of_a_longer_run() {
         let ticks = short.telemetry.times.len();
         assert!((short.telemetry.times[ticks - 1] - duration).abs() < 1e-9, "{:?}", short.telemetry.times.last());
         for (short, long) in short.telemetry.rows.iter().zip(&long.telemetry.rows) {
-            // the state at the end is that of the observation, and at a tick within the run that of the step: rounding apart
+            // the state at the end is that of the observation, and at a tick within the run that of the step: rounding
+            // apart
             let near = |a: f64, b: f64| a.is_nan() && b.is_nan() || (a - b).abs() <= 1e-13 * (1.0 + a.abs());
             assert!(short.iter().zip(long).all(|(a, b)| near(*a, *b)), "{short:?}\n{long:?}");
         }
@@ -70,15 +73,16 @@ fn holding(duration: f64, hold: f64, more: &str) -> String {
     let mut control = String::from("[control]\nperiod_s = 0.1\nwheels = [\"w1\", \"w2\", \"w3\"]\n");
     let _ = write!(
         control,
-        "[[guidance]]\nphase = \"wait\"\nuntil = \"time_s >= 0\"\nhold_s = {hold:?}\n{more}[[guidance]]\nphase = \"after\"\n"
+        "[[guidance]]\nphase = \"wait\"\nuntil = \"time_s >= 0\"\nhold_s = {hold:?}\n{more}[[guidance]]\nphase = \
+        \"after\"\n"
     );
     small_craft(&control, "angular_velocity_rad_s = [0.01, 0, 0]")
         .replace("duration_s = 100", &format!("duration_s = {duration:?}"))
         .replace("points = 401", "points = 2")
 }
 
-/// Law: a hold that completes exactly at the end of the run counts, whichever way the times round, and one that needs a tick more does not; so does a
-/// timeout.
+/// Law: a hold that completes exactly at the end of the run counts, whichever way the times round, and one that needs a
+/// tick more does not; so does a timeout.
 #[test]
 fn what_ends_with_the_run_counts() {
     for ticks in [1, 3, 6, 7, 11, 23, 100] {
@@ -99,14 +103,16 @@ fn what_ends_with_the_run_counts() {
     }
 }
 
-/// Law: sensors whose periods are multiples of the loop's, and not of one another, measure at their own times and at no other, and the filter with them is
-/// consistent: over 64 runs at rest the mean of its normalised square error (6 degrees of freedom) is within the 1e-4 interval of its chi-square, 0.76 to
-/// 1.29.
+/// Law: sensors whose periods are multiples of the loop's, and not of one another, measure at their own times and at no
+/// other, and the filter with them is consistent: over 64 runs at rest the mean of its normalised square error (6
+/// degrees of freedom) is within the 1e-4 interval of its chi-square, 0.76 to 1.29.
 #[test]
 fn slow_sensors_measure_at_their_times() {
-    let control = "[control]\nperiod_s = 0.5\nestimator = \"mekf\"\ninitial_attitude_sigma_rad = 1e-7\ninitial_bias_sigma_rad_s = 1e-9\n\
+    let control = "[control]\nperiod_s = 0.5\nestimator = \"mekf\"\ninitial_attitude_sigma_rad = \
+        1e-7\ninitial_bias_sigma_rad_s = 1e-9\n\
         wheels = [\"w1\", \"w2\", \"w3\"]\n\
-        [[sensors]]\nname = \"gyro\"\nkind = \"rate_gyro\"\nperiod_s = 2\nangular_random_walk_rad_sqrt_s = 1e-5\nbias_random_walk_rad_s_sqrt_s = 1e-8\n\
+        [[sensors]]\nname = \"gyro\"\nkind = \"rate_gyro\"\nperiod_s = 2\nangular_random_walk_rad_sqrt_s = \
+        1e-5\nbias_random_walk_rad_s_sqrt_s = 1e-8\n\
         [[sensors]]\nname = \"tracker\"\nkind = \"star_tracker\"\nperiod_s = 5\nnoise_rad = [1e-4, 1e-4, 5e-4]\n\
         [[guidance]]\nphase = \"drift\"\n";
     let text = small_craft(control, "").replace("samples = 2", "samples = 65").replace("points = 401", "points = 201");
@@ -137,7 +143,8 @@ fn slow_sensors_measure_at_their_times() {
 fn the_noted_limit_is_where_a_run_diverges() {
     let text = |gain: f64| {
         let control = format!(
-            "[control]\nperiod_s = 0.25\ndelay_s = 0.1\nwheels = [\"w1\", \"w2\", \"w3\"]\n[[guidance]]\nphase = \"damp\"\nlaw = \"rate_damping\"\ngain_n_m_s = {gain:?}\n"
+            "[control]\nperiod_s = 0.25\ndelay_s = 0.1\nwheels = [\"w1\", \"w2\", \"w3\"]\n[[guidance]]\nphase = \
+            \"damp\"\nlaw = \"rate_damping\"\ngain_n_m_s = {gain:?}\n"
         );
         small_craft(&control, "angular_velocity_rad_s = [1e-6, 1e-6, 1e-6]")
     };

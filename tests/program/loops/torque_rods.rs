@@ -1,5 +1,5 @@
-//! Torque rods in a loop: the dipoles are those of the laws within the limits, the run is the motion under m x B with the field as it changes within a tick, and
-//! ideal loops do what theory says of them.
+//! Torque rods in a loop: the dipoles are those of the laws within the limits, the run is the motion under m x B with
+//! the field as it changes within a tick, and ideal loops do what theory says of them.
 
 use spindrift::dynamics::magnetic_field::MagneticField;
 use spindrift::math::vector::{cross, difference, dot, norm, scaled, sum};
@@ -47,11 +47,13 @@ impl Craft {
         for (i, (name, axis)) in names.iter().zip(axes).enumerate() {
             let scale = if i == 1 { 0.5 } else { 1.0 };
             parts += &format!(
-                "[[torque_rods]]\nname = \"m{name}\"\naxis = {axis}\nmax_dipole_a_m2 = {limit:?}\ndipole_scale = {scale:?}\n"
+                "[[torque_rods]]\nname = \"m{name}\"\naxis = {axis}\nmax_dipole_a_m2 = {limit:?}\ndipole_scale = \
+                {scale:?}\n"
             );
             if self.wheels != [0.0; 3] {
                 parts += &format!(
-                    "[[wheels]]\nname = \"w{name}\"\naxis = {axis}\nposition_m = [0, 0, 0]\nmass_kg = 0.1\naxial_inertia_kg_m2 = {WHEEL:?}\n\
+                    "[[wheels]]\nname = \"w{name}\"\naxis = {axis}\nposition_m = [0, 0, 0]\nmass_kg = \
+                    0.1\naxial_inertia_kg_m2 = {WHEEL:?}\n\
                      transverse_inertia_kg_m2 = 6e-5\nrate_rad_s = {:?}\n",
                     self.wheels[i]
                 );
@@ -60,12 +62,15 @@ impl Craft {
         }
         let text = format!(
             "[campaign]\nname = \"rods\"\nsamples = 4\nseed = 1\nduration_s = {duration:?}\n[observe]\npoints = 11\n\
-             groups = [\"final_state\", \"motion\", \"numerics\", \"energy_conservation\", \"momentum_conservation\", \"orbit\"]\n\
+             groups = [\"final_state\", \"motion\", \"numerics\", \"energy_conservation\", \"momentum_conservation\", \
+             \"orbit\"]\n\
              [body]\nmass_kg = 12.0\nincludes_wheels = true\nprincipal_moments_kg_m2 = {MOMENTS:?}\n{parts}\
-             [initial]\n{initial}\n[orbit]\nepoch = \"2026-11-24T00:00:00Z\"\nsemi_major_axis_m = 6.928e6\ninclination_rad = 1.7\n\
+             [initial]\n{initial}\n[orbit]\nepoch = \"2026-11-24T00:00:00Z\"\nsemi_major_axis_m = \
+             6.928e6\ninclination_rad = 1.7\n\
              [environment]\nmagnetic_field = \"dipole\"\n\
              [control]\nperiod_s = {period:?}\ntorque_rods = [\"mx\", \"my\", \"mz\"]\n{driven}\
-             [[sensors]]\nname = \"field\"\nkind = \"magnetometer\"\n{errors}\n[[guidance]]\nphase = \"hold\"\n{phase}\n\
+             [[sensors]]\nname = \"field\"\nkind = \"magnetometer\"\n{errors}\n[[guidance]]\nphase = \
+             \"hold\"\n{phase}\n\
              [[disperse]]\nparameter = \"body.inertia_scale\"\ndistribution = \"offset\"\noffset = 0.0\n"
         );
         FlownLoop::new(&text, sample)
@@ -89,8 +94,9 @@ fn momenta(state: &State) -> [[f64; 3]; 2] {
     [state.to_e(std::array::from_fn(|i| MOMENTS[i] * state.omega_se_s[i])), state.to_e(wheels)]
 }
 
-/// Law: B-dot commands -k times the change over the period of what the magnetometer tells, all by the same factor less at a limit, of which a drawn rod gives its
-/// share; none before there are two measurements; telemetry has the commands. With noise and without, the rate falls.
+/// Law: B-dot commands -k times the change over the period of what the magnetometer tells, all by the same factor less
+/// at a limit, of which a drawn rod gives its share; none before there are two measurements; telemetry has the
+/// commands. With noise and without, the rate falls.
 #[test]
 fn b_dot_is_its_formula() {
     const LIMIT: f64 = 0.3;
@@ -133,8 +139,8 @@ fn b_dot_is_its_formula() {
     }
 }
 
-/// Law: over each arc the angular momentum in F_e changes by the integral of the torque of a constant dipole in the field that changes, and not by that of a
-/// torque that is held.
+/// Law: over each arc the angular momentum in F_e changes by the integral of the torque of a constant dipole in the
+/// field that changes, and not by that of a torque that is held.
 #[test]
 fn the_dipole_is_held_and_not_the_torque() {
     let period = 2.0;
@@ -153,9 +159,10 @@ fn the_dipole_is_held_and_not_the_torque() {
     assert!(size > 0.0 && worst < 3e-3 * size && held > 10.0 * worst, "{worst:e}, held {held:e} of {size:e}");
 }
 
-/// Law (A. C. Stickler & K. T. Alfriend, 1976): under B-dot with an exact magnetometer, rods that are never at their limit and a short period the energy of the
-/// rotation falls at every tick, on the whole by the integral of k |B x omega|^2 (with half of that of the second rod, which gives half of its dipole); the
-/// momentum along the field does not change.
+/// Law (A. C. Stickler & K. T. Alfriend, 1976): under B-dot with an exact magnetometer, rods that are never at their
+/// limit and a short period the energy of the rotation falls at every tick, on the whole by the integral of k |B x
+/// omega|^2 (with half of that of the second rod, which gives half of its dipole); the momentum along the field does
+/// not change.
 #[test]
 fn ideal_b_dot_loses_energy_as_theory_says() {
     let (period, gain) = (0.1, 2e5);
@@ -183,12 +190,14 @@ fn ideal_b_dot_loses_energy_as_theory_says() {
     assert!(along < 1e-3 * across, "{along:e} of {across:e}");
 }
 
-/// Law (P. J. Camillo & F. L. Markley, 1980): while wheels keep the attitude, rods that unload them change the total momentum H in F_e as
-/// H' = -(H - B (B . H)/|B|^2)/T, here integrated by itself with the field at the true places; without rods it stays.
+/// Law (P. J. Camillo & F. L. Markley, 1980): while wheels keep the attitude, rods that unload them change the total
+/// momentum H in F_e as H' = -(H - B (B . H)/|B|^2)/T, here integrated by itself with the field at the true places;
+/// without rods it stays.
 #[test]
 fn wheels_are_unloaded_as_theory_says() {
     const TIME: f64 = 400.0;
-    let keep = "law = \"quaternion_feedback\"\nbandwidth_rad_s = 0.1\ndamping = 0.9\ntarget = \"attitude\"\nattitude = [1, 0, 0, 0]";
+    let keep = "law = \"quaternion_feedback\"\nbandwidth_rad_s = 0.1\ndamping = 0.9\ntarget = \"attitude\"\nattitude = \
+        [1, 0, 0, 0]";
     let craft = |rods: &str| Craft {
         duration: 1200.0,
         period: 1.0,

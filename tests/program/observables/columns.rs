@@ -1,5 +1,5 @@
-//! Which columns a row has: skipped groups, padding and the instruction set change no bit of the others; every column of every kind of
-//! scene has a value; a failed run has what is known of it.
+//! Which columns a row has: skipped groups, padding and the instruction set change no bit of the others; every column
+//! of every kind of scene has a value; a failed run has what is known of it.
 
 use crate::observables::observed_tables::{
     Motion, done, free_row, golden_table, motion_table, observation, request, rotation, row, table1,
@@ -32,8 +32,8 @@ fn padding_leaves_no_trace() {
     }
 }
 
-/// Law: the fraction is the swing over the largest total about the centre of mass, also where the total changes (under thrust), and
-/// net is the last minus the first value, also where the first is not the smallest.
+/// Law: the fraction is the swing over the largest total about the centre of mass, also where the total changes (under
+/// thrust), and net is the last minus the first value, also where the first is not the smallest.
 #[test]
 fn fraction_and_net_are_relative_to_the_right_points() {
     let (_, mut scene) = table1();

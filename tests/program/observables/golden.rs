@@ -1,5 +1,5 @@
-//! Observables of golden truth (25 digits): its energies and momenta are those of the equations, point by point, and are conserved to
-//! rounding. Counter-test: a small change of one state or one inertia is seen in the errors.
+//! Observables of golden truth (25 digits): its energies and momenta are those of the equations, point by point, and
+//! are conserved to rounding. Counter-test: a small change of one state or one inertia is seen in the errors.
 
 use crate::observables::observed_tables::{
     ROUNDING, close, golden_table, observation, request, request_of_balances, row, table1,

@@ -8,7 +8,8 @@ fn table(text: &str) -> Table {
     rows(&Plan::from_text("judged.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}")))
 }
 
-/// A body with three wheels about s3 on that axis; a motor of `w1` in one direction, of `w2` by the torque `second`, none of `w3`.
+/// A body with three wheels about s3 on that axis; a motor of `w1` in one direction, of `w2` by the torque `second`,
+/// none of `w3`.
 fn coaxial(second: f64) -> Table {
     let wheel = |name: &str, position: f64| {
         format!(
@@ -27,8 +28,9 @@ fn coaxial(second: f64) -> Table {
     ))
 }
 
-/// Law: the energies of two bodies have a correlation where both change, and zero where either is constant: a wheel that turns about the only
-/// axis of the motion and has no torque keeps its absolute rate, and so its energy; a body keeps its own between opposite motors.
+/// Law: the energies of two bodies have a correlation where both change, and zero where either is constant: a wheel
+/// that turns about the only axis of the motion and has no torque keeps its absolute rate, and so its energy; a body
+/// keeps its own between opposite motors.
 #[test]
 fn a_constant_energy_has_no_correlation() {
     let correlation = |table: &Table, wheel: &str| table.column(&format!("exchange_{wheel}_correlation"))[0];
@@ -41,8 +43,9 @@ fn a_constant_energy_has_no_correlation() {
     assert_eq!(["w1", "w2", "w3"].map(|wheel| correlation(&opposite, wheel)), [0.0; 3]);
 }
 
-/// Law: a run is marked as ill conditioned exactly where the rounding of its input, 2^-52, amplified, is above 1e-3; both sides of the limit are
-/// among the runs, near it. A spin about the intermediate axis, with offsets over four decades.
+/// Law: a run is marked as ill conditioned exactly where the rounding of its input, 2^-52, amplified, is above 1e-3;
+/// both sides of the limit are among the runs, near it. A spin about the intermediate axis, with offsets over four
+/// decades.
 #[test]
 fn the_limit_of_conditioning_has_two_sides() {
     let table = table(
@@ -50,7 +53,8 @@ fn the_limit_of_conditioning_has_two_sides() {
         [observe]\npoints = 241\ngroups = [\"numerics\"]\n[body]\nmass_kg = 100\n\
         inertia_kg_m2 = [[10, 0, 0], [0, 15, 0], [0, 0, 20]]\n\
         [initial]\nangular_velocity_rad_s = [0, 3, 3e-7]\n[design]\nkind = \"sobol\"\n\
-        [[disperse]]\nparameter = \"initial.angular_velocity_rad_s.z\"\ndistribution = \"log_uniform\"\nmin = 3e-9\nmax = 3e-5\n",
+        [[disperse]]\nparameter = \"initial.angular_velocity_rad_s.z\"\ndistribution = \"log_uniform\"\nmin = \
+        3e-9\nmax = 3e-5\n",
     );
     let (mut below, mut above) = (0.0_f64, f64::INFINITY);
     for (amplification, marked) in table.column("error_amplification").iter().zip(table.column("ill_conditioned")) {

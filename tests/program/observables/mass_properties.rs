@@ -30,8 +30,8 @@ fn plan() -> Plan {
     Plan { groups: vec![Group::MassProperties], ..plan.unwrap() }
 }
 
-/// Law: the columns are the mass properties of the scene of the sample, with principal moments in ascending order that keep trace and determinant
-/// of the inertia; a sample that is not physical has none.
+/// Law: the columns are the mass properties of the scene of the sample, with principal moments in ascending order that
+/// keep trace and determinant of the inertia; a sample that is not physical has none.
 #[test]
 fn columns_are_those_of_the_scene() {
     let plan = plan();
@@ -98,7 +98,8 @@ fn assert_same(found: &MassProperties, mass: f64, center: [f64; 3], inertia: [[f
 
 type Matrix = nalgebra::Matrix3<f64>;
 
-/// Errors of a distribution of mass as a file has them, one alone and all together: logarithms of scales along the axes, and shears.
+/// Errors of a distribution of mass as a file has them, one alone and all together: logarithms of scales along the
+/// axes, and shears.
 const ERRORS: [([f64; 3], [f64; 3]); 8] = [
     ([0.2, 0.0, 0.0], [0.0; 3]),
     ([0.0, -0.1, 0.0], [0.0; 3]),
@@ -110,8 +111,8 @@ const ERRORS: [([f64; 3], [f64; 3]); 8] = [
     ([0.2, -0.1, 0.3], [0.25, -0.5, 0.125]),
 ];
 
-/// Where matter at `r` from the centre of mass is with errors, by docs/campaign-files.md: stretched along each axis; matter at x moves by xy x
-/// along s2 and by xz x along s3, matter at y by yz y along s3.
+/// Where matter at `r` from the centre of mass is with errors, by docs/campaign-files.md: stretched along each axis;
+/// matter at x moves by xy x along s2 and by xz x along s3, matter at y by yz y along s3.
 fn moved(([sx, sy, sz], [xy, xz, yz]): ([f64; 3], [f64; 3]), [x, y, z]: [f64; 3]) -> [f64; 3] {
     [sx.exp() * x, sy.exp() * y + xy * x, sz.exp() * z + xz * x + yz * y]
 }
@@ -129,7 +130,8 @@ fn mass_errors_move_point_masses() {
                 let r = moved(errors, offset);
                 let position: [f64; 3] = std::array::from_fn(|i| CENTER[i] + sign * r[i]);
                 text += &format!(
-                    "[[body.parts]]\nname = \"p{side}{number}\"\nshape = \"point_mass\"\nmass_kg = {mass:?}\nposition_m = {position:?}\n"
+                    "[[body.parts]]\nname = \"p{side}{number}\"\nshape = \"point_mass\"\nmass_kg = \
+                    {mass:?}\nposition_m = {position:?}\n"
                 );
             }
         }
@@ -144,8 +146,8 @@ fn mass_errors_move_point_masses() {
     }
 }
 
-/// Law: where mass, centre and inertia of the body include its wheels, the whole has them as written, with the errors of the body as written
-/// too, whichever wheels turn, are held or are locked.
+/// Law: where mass, centre and inertia of the body include its wheels, the whole has them as written, with the errors
+/// of the body as written too, whichever wheels turn, are held or are locked.
 #[test]
 fn what_includes_the_wheels_is_the_whole() {
     const MASS: f64 = 500.0;
@@ -165,8 +167,10 @@ fn what_includes_the_wheels_is_the_whole() {
         let expected = Matrix::identity() * second.trace() - second;
         for combination in 0..27 {
             let mut text = format!(
-                "[body]\nmass_kg = {MASS:?}\ncenter_of_mass_m = {CENTER:?}\ninertia_kg_m2 = {INERTIA:?}\nincludes_wheels = true\n\
-                mass_scale = {:?}\ninertia_scale = {:?}\nstretch_log = {scale_log:?}\nshear = {shear:?}\ncenter_offset_m = {OFFSET:?}\n",
+                "[body]\nmass_kg = {MASS:?}\ncenter_of_mass_m = {CENTER:?}\ninertia_kg_m2 = \
+                {INERTIA:?}\nincludes_wheels = true\n\
+                mass_scale = {:?}\ninertia_scale = {:?}\nstretch_log = {scale_log:?}\nshear = \
+                {shear:?}\ncenter_offset_m = {OFFSET:?}\n",
                 SCALE[0], SCALE[1]
             );
             for wheel in 0..3usize {

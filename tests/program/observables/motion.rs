@@ -1,5 +1,5 @@
-//! The group `motion`: motions in closed form give their angles, rates, speeds and momenta; the nominal run is the reference of the
-//! attitude in a campaign. Counter-tests: another nominal run, and none.
+//! The group `motion`: motions in closed form give their angles, rates, speeds and momenta; the nominal run is the
+//! reference of the attitude in a campaign. Counter-tests: another nominal run, and none.
 
 use std::collections::HashMap;
 
@@ -69,7 +69,8 @@ fn near(found: f64, expected: f64) {
     assert!((found - expected).abs() <= ROUNDING * expected.abs().max(1.0), "{found:e} {expected:e}");
 }
 
-/// Law: s3 is at the angle atan2(|H across s3|, H along s3) from H. The extremes are those of the formula, also where wheels change H.
+/// Law: s3 is at the angle atan2(|H across s3|, H along s3) from H. The extremes are those of the formula, also where
+/// wheels change H.
 #[test]
 fn rates_nutation_and_wheels() {
     let mut scene = scene();
@@ -109,7 +110,8 @@ fn rates_nutation_and_wheels() {
     assert!(angles[0] > angles[20] + 1e-3);
 }
 
-/// Law: an attitude that is turned by an angle from the nominal one, about any axis of the body, is at this angle from it.
+/// Law: an attitude that is turned by an angle from the nominal one, about any axis of the body, is at this angle from
+/// it.
 #[test]
 fn attitudes_are_compared_with_the_nominal_run() {
     let scene = scene();
@@ -158,8 +160,8 @@ fn the_debris_is_seen_at_its_angle() {
     assert_eq!(row(&scene, None, &together)["spin_axis_debris_angle_max_rad"], 0.0);
 }
 
-/// Law: in a campaign the reference is the nominal run of the plan: its own angle is zero to rounding, and that of any sample is the angle between
-/// the states of the two runs.
+/// Law: in a campaign the reference is the nominal run of the plan: its own angle is zero to rounding, and that of any
+/// sample is the angle between the states of the two runs.
 #[test]
 fn a_campaign_compares_with_its_nominal_run() {
     let plan = shipped("spin_sweep", None);

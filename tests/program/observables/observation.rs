@@ -1,6 +1,7 @@
 //! Observables of motions that are known without integration.
 //!
-//! Laws: closed-form motions give their closed-form numbers. Counter-test: a balance without the work that is fed in does not close.
+//! Laws: closed-form motions give their closed-form numbers. Counter-test: a balance without the work that is fed in
+//! does not close.
 
 use crate::observables::observed_tables::{
     ROUNDING, close, free_row, motion_table, observation, request, request_of_balances, rotation, row, table1,
@@ -60,8 +61,9 @@ fn wheels_alone_hold_energy_and_momentum() {
     assert_eq!((balances["linear_momentum_max_n_s"], balances["linear_momentum_error_max"]), (0.0, 0.0));
 }
 
-/// Law: s3 of a torque-free axisymmetric body moves on a cone about L, so that its largest angle from the initial direction is
-/// twice the nutation angle v, and after the time t it is 2 asin(sin v |sin(p t/2)|), p the rate of precession.
+/// Law: s3 of a torque-free axisymmetric body moves on a cone about L, so that its largest angle from the initial
+/// direction is twice the nutation angle v, and after the time t it is 2 asin(sin v |sin(p t/2)|), p the rate of
+/// precession.
 #[test]
 fn the_spin_axis_of_a_free_symmetric_body_moves_on_a_cone() {
     let (_, mut scene) = table1();

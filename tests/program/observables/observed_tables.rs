@@ -11,8 +11,8 @@ use spindrift::observables::{Group, Groups, Observer, Request};
 use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
 use spindrift::scene::Scene;
 
-/// Energies and momenta of states that are rounded to f64: a few roundings of the state, doubled by squares, and some dozens of
-/// operations. Measured: 3.5e-16.
+/// Energies and momenta of states that are rounded to f64: a few roundings of the state, doubled by squares, and some
+/// dozens of operations. Measured: 3.5e-16.
 pub const ROUNDING: f64 = 3e-15;
 
 /// A state that is written to a table: (time; q_es, omega, wheel rates, v_c).
@@ -30,7 +30,8 @@ pub fn request(groups: Groups, debris: bool, actuated: bool) -> Request {
     observed::request(groups, 2, debris, actuated, false)
 }
 
-/// The balances of a scene whose velocities are integrated: those of the null-space method, which has errors of linear momentum.
+/// The balances of a scene whose velocities are integrated: those of the null-space method, which has errors of linear
+/// momentum.
 pub fn request_of_balances(debris: bool) -> Request {
     let groups = [Group::EnergyConservation, Group::MomentumConservation].into_iter().collect();
     Request { constrained: true, ..request(groups, debris, false) }

@@ -34,7 +34,8 @@ fn row(more: &str, duration: f64, points: usize, of_body: &str) -> HashMap<Strin
 /// s3 along -e1: a turn of -90 degrees about e2.
 const DOWN: &str = "attitude = [0.7071067811865476, 0.0, -0.7071067811865476, 0.0]";
 
-/// Law: s3 that is fixed in F_e leaves nadir by the angle that a circular orbit has passed; an ellipse has the distances a (1 - e) and a (1 + e).
+/// Law: s3 that is fixed in F_e leaves nadir by the angle that a circular orbit has passed; an ellipse has the
+/// distances a (1 - e) and a (1 + e).
 #[test]
 fn a_body_at_rest_is_left_by_nadir() {
     let inertia = "principal_moments_kg_m2 = [90.0, 100.0, 40.0]";
@@ -69,7 +70,8 @@ fn the_torque_is_that_of_the_textbook() {
         let half = 0.5 * (-PI / 2.0 + turned);
         let (w, y) = (half.cos(), half.sin());
         let body = format!(
-            "principal_moments_kg_m2 = [90.0, 100.0, 40.0]\n[initial]\nattitude = [{w:?}, 0.0, {y:?}, 0.0]\nangular_velocity_rad_s = [0.0, 0.0, 0.0]\n\
+            "principal_moments_kg_m2 = [90.0, 100.0, 40.0]\n[initial]\nattitude = [{w:?}, 0.0, {y:?}, \
+            0.0]\nangular_velocity_rad_s = [0.0, 0.0, 0.0]\n\
              [environment]\ngravity_gradient = true"
         );
         let row = row("", 1e-3, 2, &body);
@@ -80,7 +82,8 @@ fn the_torque_is_that_of_the_textbook() {
     }
 }
 
-/// Law: the field is that of the package (`magnetic_field::tests`, here over the pole) and the torque of a dipole across it the product of both; along it, none.
+/// Law: the field is that of the package (`magnetic_field::tests`, here over the pole) and the torque of a dipole
+/// across it the product of both; along it, none.
 #[test]
 fn a_dipole_is_turned_by_the_field() {
     // `pyIGRF14` at the first instant of 2025 on the e1 axis, in F_e: see tests/accuracy/magnetic_torque.rs
@@ -106,7 +109,8 @@ fn a_dipole_is_turned_by_the_field() {
 #[test]
 fn the_group_is_of_scenes_on_an_orbit() {
     assert!(!Group::DEFAULT.contains(&Group::Orbit));
-    let text = "[campaign]\nname = \"none\"\nsamples = 1\nseed = 1\nduration_s = 1.0\n[observe]\ngroups = [\"orbit\", \"effort\"]\n\
+    let text = "[campaign]\nname = \"none\"\nsamples = 1\nseed = 1\nduration_s = 1.0\n[observe]\ngroups = [\"orbit\", \
+        \"effort\"]\n\
                 [body]\nmass_kg = 1.0\nprincipal_moments_kg_m2 = [1.0, 2.0, 2.5]\n";
     let plan = Plan::from_text("none", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
     assert!(plan.request().columns().iter().all(|column| column.group != Group::Orbit));

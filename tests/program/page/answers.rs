@@ -82,8 +82,8 @@ fn answer_shows(row: &str, name: &str, value: &Value, interval: &Value, limit: O
     assert!(if is_most { x == 0.0 && (width - line).abs() < 0.11 } else { (x - line).abs() < 0.11 }, "{scale}");
 }
 
-/// Law: each requirement is one row, with the verdict, the limit, the number, its interval and the counts of the summary;
-/// those that fail come first, and those that pass last.
+/// Law: each requirement is one row, with the verdict, the limit, the number, its interval and the counts of the
+/// summary; those that fail come first, and those that pass last.
 #[test]
 fn answers_are_the_summary() {
     let lower = "[[require]]\nobservable = \"nutation_angle_max_rad\"\nquantile = 0.05\nat_least = \"1 deg\"\n";
@@ -198,8 +198,8 @@ fn small_pictures_are_the_figures() {
     assert!(missed > 0 && picture.contains("class=\"limit\"") && plain(picture).contains("1500 deg/s"), "{picture}");
 }
 
-/// Law: a listed run has the rank that is said, among the dispersed runs that are ok, with the value of its row; its inputs are those of its row,
-/// those that are farthest from nominal first; its command is that of its sample.
+/// Law: a listed run has the rank that is said, among the dispersed runs that are ok, with the value of its row; its
+/// inputs are those of its row, those that are farthest from nominal first; its command is that of its sample.
 #[test]
 fn listed_runs_have_their_ranks() {
     let of_requirements = [

@@ -19,7 +19,8 @@ fn visible(page: &str) -> &str {
     page.split_once("<script").expect("a page has scripts").0
 }
 
-/// Law: `--no-report` leaves the page out, and `--figures` writes the figures of the page: without a way to draw SVG as a page, which says how to have that.
+/// Law: `--no-report` leaves the page out, and `--figures` writes the figures of the page: without a way to draw SVG as
+/// a page, which says how to have that.
 #[test]
 fn figures_are_files_too() {
     let scratch = folder("page-figures");
@@ -83,8 +84,8 @@ fn text_of_the_file_is_escaped() {
     assert_eq!(scripts(&attacked), scripts(&page(&scratch, "plain")));
 }
 
-/// Law: runs that failed are counted with reason and replay command; a campaign without a run that is ok, and one of the nominal run
-/// alone, have a page too, in which no number is NaN.
+/// Law: runs that failed are counted with reason and replay command; a campaign without a run that is ok, and one of
+/// the nominal run alone, have a page too, in which no number is NaN.
 #[test]
 fn pages_of_failures() {
     let scratch = folder("page-failures");
@@ -109,8 +110,8 @@ fn pages_of_failures() {
     }
 }
 
-/// Law: what the file of `new` asks of the integration it gets: nothing on its screen or page is above what the tolerance promises, whatever the draws.
-/// A method whose steps add up to more than ten times its tolerance is named.
+/// Law: what the file of `new` asks of the integration it gets: nothing on its screen or page is above what the
+/// tolerance promises, whatever the draws. A method whose steps add up to more than ten times its tolerance is named.
 #[test]
 fn the_campaign_of_new_holds_its_tolerance() {
     let scratch = ScratchFolder::new("page-new");
@@ -128,8 +129,9 @@ fn the_campaign_of_new_holds_its_tolerance() {
     assert!(page(&scratch, "d").contains(above));
 }
 
-/// Law: the page answers first: verdict in the title of the tab and beside the name, then the answers, what decides them, the run
-/// to look at, the motion over time, and the distributions; what is seldom needed is folded away at the end.
+/// Law: the page answers first: verdict in the title of the tab and beside the name, then the answers, what decides
+/// them, the run to look at, the motion over time, and the distributions; what is seldom needed is folded away at the
+/// end.
 #[test]
 fn the_page_answers_first() {
     let scratch = ScratchFolder::new("page-order");

@@ -1,4 +1,5 @@
-//! The figures over time of the page of a control loop: which there are, their limits, bands and runs in flight, against file, rows and telemetry.
+//! The figures over time of the page of a control loop: which there are, their limits, bands and runs in flight,
+//! against file, rows and telemetry.
 
 use arrow_array::cast::AsArray as _;
 use serde_json::Value;
@@ -75,8 +76,8 @@ fn called(text: &str) -> Vec<&'static str> {
     .collect()
 }
 
-/// Law: the page of a loop has the figures that its scene calls for, what bears on a requirement first, and none of an energy, unless a requirement is about one; that
-/// of a spinning body has energies, and nothing of a loop.
+/// Law: the page of a loop has the figures that its scene calls for, what bears on a requirement first, and none of an
+/// energy, unless a requirement is about one; that of a spinning body has energies, and nothing of a loop.
 #[test]
 fn a_loop_has_the_figures_of_a_loop() {
     for (file, text) in [("net_launch", NET_LAUNCH), ("slew_closed", SLEW_CLOSED), ("detumble", DETUMBLE)] {
@@ -104,8 +105,8 @@ fn a_loop_has_the_figures_of_a_loop() {
     assert!(of_loops.iter().all(|name| !names.contains(name)), "{names:?}");
 }
 
-/// Law: the limits that are drawn are those of the file: of requirements in their units, of wheels on both sides of the torque, of thrusters, the keep-out
-/// sphere and the station.
+/// Law: the limits that are drawn are those of the file: of requirements in their units, of wheels on both sides of the
+/// torque, of thrusters, the keep-out sphere and the station.
 #[test]
 fn limits_are_those_of_the_file() {
     let found = page("limits", NET_LAUNCH);
@@ -130,8 +131,8 @@ fn limits_are_those_of_the_file() {
     assert_eq!(found.figure("wheel_speed")["y"]["range"][0], 0.0);
 }
 
-/// Law: every figure over time, but for the strip of phases and the drift of errors, marks the events of the file: each at the median of its times in the
-/// rows, with the number of runs that have one.
+/// Law: every figure over time, but for the strip of phases and the drift of errors, marks the events of the file: each
+/// at the median of its times in the rows, with the number of runs that have one.
 #[test]
 fn events_are_marked_at_their_medians() {
     let found = page("events", WHEEL_FAILURE);
@@ -156,8 +157,8 @@ fn events_are_marked_at_their_medians() {
     }
 }
 
-/// Law: as many runs are in flight as have not ended by the rows; bands end where fewer than twenty are left, and the axis where one in a hundred is, or
-/// with the nominal run. Impulse and propellant end with those of the nominal row.
+/// Law: as many runs are in flight as have not ended by the rows; bands end where fewer than twenty are left, and the
+/// axis where one in a hundred is, or with the nominal run. Impulse and propellant end with those of the nominal row.
 #[test]
 fn bands_end_with_their_runs() {
     let found = page("flight", NET_LAUNCH);
@@ -203,8 +204,8 @@ fn bands_end_with_their_runs() {
     }
 }
 
-/// Law: the bound beside an estimation error is three times what the filter's covariance says at that time: at the start what the file says, and later
-/// what the loop recorded of the nominal run.
+/// Law: the bound beside an estimation error is three times what the filter's covariance says at that time: at the
+/// start what the file says, and later what the loop recorded of the nominal run.
 #[test]
 fn bounds_are_of_the_filter() {
     let found = page("bounds", NET_LAUNCH);
@@ -259,8 +260,8 @@ fn simulate_shows_what_the_scene_calls_for() {
     assert!(!header.contains(&"q_es_w"), "{said}");
 }
 
-/// Law: a filter whose errors are larger than its covariance says is named by the median of the rows, on screen, page and in the summary; one whose sensors err
-/// as it believes is not.
+/// Law: a filter whose errors are larger than its covariance says is named by the median of the rows, on screen, page
+/// and in the summary; one whose sensors err as it believes is not.
 #[test]
 fn filters_that_do_not_know_their_errors_are_named() {
     for (name, bias, is_named) in [("biased", "20 arcsec", true), ("right", "0.01 arcsec", false)] {
@@ -338,7 +339,8 @@ fn bands_of_wheels_are_those_of_the_file() {
     assert!(seen > 1000, "{seen}");
 }
 
-/// Law: where the required quantile is a run without a value, screen and page show the share of the runs that are within, with its interval, and no quantile of the few that have a value.
+/// Law: where the required quantile is a run without a value, screen and page show the share of the runs that are
+/// within, with its interval, and no quantile of the few that have a value.
 #[test]
 fn a_quantile_without_a_number_is_a_share() {
     let scratch = ScratchFolder::new("loop-page-without-a-number");

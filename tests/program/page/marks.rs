@@ -1,4 +1,5 @@
-//! Marks of the page that a reader compares with each other: intervals around curves, the motion of the replay, correlations, directions, shares.
+//! Marks of the page that a reader compares with each other: intervals around curves, the motion of the replay,
+//! correlations, directions, shares.
 
 use crate::page::numbers::{Found, found, motion};
 
@@ -45,8 +46,8 @@ fn fractions_lie_in_their_intervals() {
     }
 }
 
-/// Law: what is replayed is the run: rates, attitude and the angle of each wheel, at the end as in the row; the momentum is that of the row
-/// throughout, since no torque acts.
+/// Law: what is replayed is the run: rates, attitude and the angle of each wheel, at the end as in the row; the
+/// momentum is that of the row throughout, since no torque acts.
 #[test]
 fn the_replay_moves_as_the_run() {
     let found = found("moves", &motion());

@@ -1,4 +1,5 @@
-//! What quantities are called on the page: in words, each with a name of its own, in units that people say; technical names are in tooltips and commands.
+//! What quantities are called on the page: in words, each with a name of its own, in units that people say; technical
+//! names are in tooltips and commands.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -51,8 +52,9 @@ fn names_of(figure: &Value) -> Vec<String> {
     names
 }
 
-/// Law: of every shipped campaign no name on the page has an underscore, in figures, lists, tables, cards and sentences; no two quantities have one name, and no two
-/// figures one title; angles and rates are in degrees where the file does not say otherwise.
+/// Law: of every shipped campaign no name on the page has an underscore, in figures, lists, tables, cards and
+/// sentences; no two quantities have one name, and no two figures one title; angles and rates are in degrees where the
+/// file does not say otherwise.
 #[test]
 fn shown_names_are_words_and_unique() {
     let scratch = ScratchFolder::new("page-names");

@@ -163,7 +163,8 @@ pub(crate) fn degrees(value: f64) -> f64 {
 }
 
 /// The groups of columns of [`motion`].
-const GROUPS: &str = "groups = [\"energy_conservation\", \"momentum_conservation\", \"final_state\", \"numerics\", \"motion\", \"energies_com\", \"exchange\"]";
+const GROUPS: &str = "groups = [\"energy_conservation\", \"momentum_conservation\", \"final_state\", \"numerics\", \
+    \"motion\", \"energies_com\", \"exchange\"]";
 
 pub(crate) fn motion() -> String {
     campaign().replace("samples = 600", "samples = 300").replace("points = 11", &format!("points = 11\n{GROUPS}"))
@@ -178,8 +179,8 @@ pub(crate) fn failing() -> String {
     mixed_failures().replace("points = 11", &format!("points = 11\n{GROUPS}")) + REQUIRED
 }
 
-/// Law: figures are of the dispersed runs that are ok, in the unit that is written; an audit is where its row says, and an influence within its
-/// interval. What each series is: `series`.
+/// Law: figures are of the dispersed runs that are ok, in the unit that is written; an audit is where its row says, and
+/// an influence within its interval. What each series is: `series`.
 #[test]
 fn figures_show_the_rows() {
     let found = found("figures", &motion());
@@ -217,8 +218,8 @@ fn figures_show_the_rows() {
     assert_eq!(found.figure("audits")["x"]["quantity"], "state error estimate");
 }
 
-/// Law: the strongest input of an outcome is that with the largest squared rank correlation, and the text says whether the outcome rises or falls
-/// with it.
+/// Law: the strongest input of an outcome is that with the largest squared rank correlation, and the text says whether
+/// the outcome rises or falls with it.
 #[test]
 fn drivers_have_their_direction() {
     let falling =
@@ -232,8 +233,8 @@ fn drivers_have_their_direction() {
     }
 }
 
-/// Law: what the screen prints of an observable is what `summary.json` has, in the unit that is shown: median called median, ends of intervals
-/// in their order; verdicts come first; JUnit has the same words.
+/// Law: what the screen prints of an observable is what `summary.json` has, in the unit that is shown: median called
+/// median, ends of intervals in their order; verdicts come first; JUnit has the same words.
 #[test]
 fn screen_and_junit_say_what_the_summary_has() {
     let found = found("screen", &motion());
@@ -298,7 +299,8 @@ fn screen_and_junit_say_what_the_summary_has() {
     }
 }
 
-/// Law: a requirement that the runs cannot decide is an error of JUnit, and no failure: here the limit is the quantile itself.
+/// Law: a requirement that the runs cannot decide is an error of JUnit, and no failure: here the limit is the quantile
+/// itself.
 #[test]
 fn an_undecided_requirement_is_an_error() {
     let first = found("undecided-first", &motion());
@@ -325,7 +327,8 @@ pub(crate) fn read_number(text: &str) -> f64 {
     plain.chars().map(letter).collect::<String>().parse().unwrap_or_else(|_| panic!("{text:?} is no number"))
 }
 
-/// Law: answers, the sentence on numerics and the table of statistics are the numbers of the rows, in the unit that is shown.
+/// Law: answers, the sentence on numerics and the table of statistics are the numbers of the rows, in the unit that is
+/// shown.
 #[test]
 fn static_numbers_are_those_of_the_rows() {
     let found = found("static", &motion());
@@ -355,8 +358,8 @@ fn static_numbers_are_those_of_the_rows() {
     }
 }
 
-/// Law: of a campaign in which runs failed the screen says how many are left out, a reason is text on the page and no markup, and a run that
-/// is not ok has no derived observable.
+/// Law: of a campaign in which runs failed the screen says how many are left out, a reason is text on the page and no
+/// markup, and a run that is not ok has no derived observable.
 #[test]
 fn runs_that_failed_are_left_out() {
     use arrow_array::{Array as _, cast::AsArray as _};
@@ -441,7 +444,8 @@ fn derived_observables_are_a_file() {
     assert!(!found.scratch.path("r/observables.parquet").exists());
 }
 
-/// Law: an outcome that answers yes or no is a share with its interval against the number of runs, and no histogram; at the confidence of the file.
+/// Law: an outcome that answers yes or no is a share with its interval against the number of runs, and no histogram; at
+/// the confidence of the file.
 #[test]
 fn yes_or_no_is_a_share() {
     let derived = "[[observable]]\nname = \"is_fast\"\nexpression = \"angular_rate_final_rad_s > 30\"\n";

@@ -1,4 +1,5 @@
-//! What the page shows of an orbit: arrows of the replay, ground track, and quantities over time, against the states of the runs and closed forms.
+//! What the page shows of an orbit: arrows of the replay, ground track, and quantities over time, against the states of
+//! the runs and closed forms.
 
 use std::f64::consts::{PI, TAU};
 use std::fs;
@@ -28,8 +29,11 @@ fn shipped(name: &str) -> String {
 /// Two revolutions of an ellipse in thin air, sunlight and the field of a dipole.
 fn text() -> String {
     let text = shipped("drag_tumble").replace("samples = 1000 ", "samples = 400 ");
-    text.replace("duration_s = 5600.0", &format!("duration_s = {DURATION:?}"))
-        .replace("[environment]", "eccentricity = 0.01\n[environment]\ndensity_scale = 0.01\nmagnetic_field = \"dipole\"\nmagnetic_dipole_a_m2 = [0.02, 0.0, 0.01]")
+    text.replace("duration_s = 5600.0", &format!("duration_s = {DURATION:?}")).replace(
+        "[environment]",
+        "eccentricity = 0.01\n[environment]\ndensity_scale = 0.01\nmagnetic_field = \
+            \"dipole\"\nmagnetic_dipole_a_m2 = [0.02, 0.0, 0.01]",
+    )
 }
 
 static ORBIT: LazyLock<Found> = LazyLock::new(|| found("orbit", &text()));
@@ -58,7 +62,8 @@ fn greenwich(time: f64) -> f64 {
     280.460_618_37 + 360.985_647_366_29 * n
 }
 
-/// The direction of the field of IGRF-14's dipole, of 2025 with its change in 1.896 years, in F_e: 3 (m . u) u - m with m = (g11, h11, g10).
+/// The direction of the field of IGRF-14's dipole, of 2025 with its change in 1.896 years, in F_e: 3 (m . u) u - m with
+/// m = (g11, h11, g10).
 fn field(time: f64, position: [f64; 3]) -> [f64; 3] {
     let years = 1.0 + 327.0 / 365.0;
     let m = [-1410.3 + 10.0 * years, 4545.5 - 21.5 * years, -29_350.0 + 12.6 * years];
@@ -77,8 +82,9 @@ fn runs(found: &Found) -> &Vec<Value> {
     found.data["replay"]["runs"].as_array().expect("runs")
 }
 
-/// Law: the arrows of the replay are nadir -r/|r| and velocity v/|v| of the states that `simulate` writes, the Sun by the series of the documents, and the
-/// field of a tilted dipole, in every run; they are no farther apart than 5 deg of the orbit.
+/// Law: the arrows of the replay are nadir -r/|r| and velocity v/|v| of the states that `simulate` writes, the Sun by
+/// the series of the documents, and the field of a tilted dipole, in every run; they are no farther apart than 5 deg of
+/// the orbit.
 #[test]
 fn arrows_point_where_the_run_has_them() {
     let found = &*ORBIT;
@@ -130,7 +136,8 @@ fn series(run: &SingleRun, wanted: Series) -> &[f64] {
     &run.series.iter().find(|(series, _)| *series == wanted).unwrap_or_else(|| panic!("no {wanted:?}")).1
 }
 
-/// Law: the hidden share of the Sun in the replay is the column at each time, what is said beside it is of that share, and all of it occurs.
+/// Law: the hidden share of the Sun in the replay is the column at each time, what is said beside it is of that share,
+/// and all of it occurs.
 #[test]
 fn shadow_is_that_of_the_column() {
     let found = &*ORBIT;
@@ -164,8 +171,9 @@ fn track(found: &Found) -> Vec<(String, Vec<f64>, Vec<f64>)> {
     lines.map(line).collect()
 }
 
-/// Law: the track starts at the node, which is the right ascension less sidereal time; it comes back to it after a revolution farther west by what the Earth turned
-/// meanwhile; the latitude reaches the inclination and never passes it; every state of the run is on it.
+/// Law: the track starts at the node, which is the right ascension less sidereal time; it comes back to it after a
+/// revolution farther west by what the Earth turned meanwhile; the latitude reaches the inclination and never passes
+/// it; every state of the run is on it.
 #[test]
 fn the_track_is_where_the_orbit_passes() {
     let found = &*ORBIT;
@@ -202,7 +210,8 @@ fn the_track_is_where_the_orbit_passes() {
     }
 }
 
-/// Law: no line crosses the figure: one that meets 180 deg ends there, and the next begins on the other side at the same latitude.
+/// Law: no line crosses the figure: one that meets 180 deg ends there, and the next begins on the other side at the
+/// same latitude.
 #[test]
 fn the_track_ends_at_the_date_line() {
     let lines = track(&ORBIT);
@@ -220,8 +229,8 @@ fn the_track_ends_at_the_date_line() {
     }
 }
 
-/// Law: the part in shadow is that of a circle about the Sun's shadow: acos(sqrt(1 - R^2/r^2)/cos beta)/pi of a revolution, with the angle beta of the Sun to the
-/// plane of the orbit.
+/// Law: the part in shadow is that of a circle about the Sun's shadow: acos(sqrt(1 - R^2/r^2)/cos beta)/pi of a
+/// revolution, with the angle beta of the Sun to the plane of the orbit.
 #[test]
 fn the_track_in_shadow_has_its_share() {
     let circle = text().replace("eccentricity = 0.01", "eccentricity = 0.0");
@@ -239,8 +248,8 @@ fn the_track_in_shadow_has_its_share() {
     assert!((shown - expected).abs() < 0.012, "{shown} for {expected}");
 }
 
-/// Law: what the page draws of the orbit over time is, in the nominal run, the column of that name at each time, and follows from the states: the angle of s3 from
-/// nadir, the distance; its bands end as the rows do.
+/// Law: what the page draws of the orbit over time is, in the nominal run, the column of that name at each time, and
+/// follows from the states: the angle of s3 from nadir, the distance; its bands end as the rows do.
 #[test]
 fn quantities_of_the_orbit_are_their_columns() {
     let found = &*ORBIT;

@@ -1,4 +1,5 @@
-//! The replay of the page: what it shows of a run at a time is what `simulate` writes of that sample at that time, and what its row has.
+//! The replay of the page: what it shows of a run at a time is what `simulate` writes of that sample at that time, and
+//! what its row has.
 
 use std::fs;
 use std::sync::LazyLock;
@@ -24,8 +25,8 @@ fn near(found: f64, expected: f64, scale: f64, what: &str) {
     assert!((found - expected).abs() <= 1e-6 * scale.max(expected.abs()), "{what}: {found} for {expected}");
 }
 
-/// Law: the numbers beside the replay are those of `simulate` for that sample at that time: rates and wheel speeds, and what follows from its
-/// positions; the propellant at the end is that of the row, and never falls.
+/// Law: the numbers beside the replay are those of `simulate` for that sample at that time: rates and wheel speeds, and
+/// what follows from its positions; the propellant at the end is that of the row, and never falls.
 #[test]
 fn live_numbers_are_those_of_simulate() {
     let found = &*MISSIONS;
@@ -89,8 +90,8 @@ fn live_numbers_are_those_of_simulate() {
     }
 }
 
-/// Law: a pointing error that is shown is the one of the run at that time: the true angle to the target, against the estimate that `simulate`
-/// records within the error of the estimate.
+/// Law: a pointing error that is shown is the one of the run at that time: the true angle to the target, against the
+/// estimate that `simulate` records within the error of the estimate.
 #[test]
 fn pointing_errors_are_those_of_the_run() {
     let found = &*MISSIONS;
@@ -116,7 +117,8 @@ fn pointing_errors_are_those_of_the_run() {
     }
 }
 
-/// Law: phases are marked at the times of the rows, and the end of a mission at its end; a run has failed where its row says so.
+/// Law: phases are marked at the times of the rows, and the end of a mission at its end; a run has failed where its row
+/// says so.
 #[test]
 fn phase_marks_are_at_the_times_of_the_rows() {
     let found = &*MISSIONS;
@@ -152,7 +154,8 @@ fn phase_marks_are_at_the_times_of_the_rows() {
     assert!(failed > 0 && failed < runs.len() && ended > 5, "{failed} of {} failed", runs.len());
 }
 
-/// Law: what leads to the launch is drawn where it is: the axis is the direction of the debris's velocity, with the distances of the file.
+/// Law: what leads to the launch is drawn where it is: the axis is the direction of the debris's velocity, with the
+/// distances of the file.
 #[test]
 fn the_goal_of_an_approach_is_that_of_the_file() {
     let found = &*MISSIONS;
@@ -170,7 +173,8 @@ fn the_goal_of_an_approach_is_that_of_the_file() {
     }
 }
 
-/// Law: the path that is drawn is the recorded one: the debris is where it is relative to the centre of mass of the spacecraft, at every time.
+/// Law: the path that is drawn is the recorded one: the debris is where it is relative to the centre of mass of the
+/// spacecraft, at every time.
 #[test]
 fn the_drawn_path_is_the_recorded_one() {
     let found = found("debris", &campaign());

@@ -1,4 +1,5 @@
-//! What the page and the screen say of single runs, of the nominal one, of inputs and of both axes of a figure, against the rows.
+//! What the page and the screen say of single runs, of the nominal one, of inputs and of both axes of a figure, against
+//! the rows.
 
 use serde_json::Value;
 
@@ -20,7 +21,8 @@ fn last(values: &[f64]) -> f64 {
     *values.last().expect("values")
 }
 
-/// Law: the numbers beside a replayed run are those of its row, in the unit that is shown, with those that the file derives.
+/// Law: the numbers beside a replayed run are those of its row, in the unit that is shown, with those that the file
+/// derives.
 #[test]
 fn numbers_beside_the_replay_are_of_the_row() {
     let found = found("replay", &motion());
@@ -60,8 +62,8 @@ fn numbers_beside_the_replay_are_of_the_row() {
     }
 }
 
-/// Law: what is across is across and what is upwards is upwards: an outcome against its input, the energy of a wheel against that of the
-/// body; each point is a run.
+/// Law: what is across is across and what is upwards is upwards: an outcome against its input, the energy of a wheel
+/// against that of the body; each point is a run.
 #[test]
 fn axes_are_not_exchanged() {
     let found = found("axes", &motion());
@@ -87,7 +89,8 @@ fn axes_are_not_exchanged() {
     }
 }
 
-/// Law: the nominal run is sample 0, at the end of its curves and in the histograms; an input has the unit in which it was written.
+/// Law: the nominal run is sample 0, at the end of its curves and in the histograms; an input has the unit in which it
+/// was written.
 #[test]
 fn nominal_is_nominal() {
     let text = motion().replace("std = [0.5, 0.5, 1.5]", "std = [\"30 deg/s\", \"30 deg/s\", \"90 deg/s\"]");
@@ -133,7 +136,8 @@ fn nominal_is_nominal() {
     assert!(row.ends_with("normal, std 90 deg/s"), "{row}");
 }
 
-/// Law: on a screen of any width each observable has its values under their heads, and the ends of each interval in order around its value.
+/// Law: on a screen of any width each observable has its values under their heads, and the ends of each interval in
+/// order around its value.
 #[test]
 fn every_line_of_the_screen_is_the_summary() {
     let found = found("lines", &motion());
@@ -219,8 +223,8 @@ fn bars_of_influence_descend() {
     }
 }
 
-/// Law: of a campaign in which runs failed in two ways each reason is counted, and the list of worst runs has the first of each with its reason, and
-/// then runs that are ok; a failed run is not among the points that are ok.
+/// Law: of a campaign in which runs failed in two ways each reason is counted, and the list of worst runs has the first
+/// of each with its reason, and then runs that are ok; a failed run is not among the points that are ok.
 #[test]
 fn two_statuses_are_told_apart() {
     let scratch = ScratchFolder::new("page-statuses");

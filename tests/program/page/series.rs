@@ -46,7 +46,8 @@ fn bars_are(found: &Found, mark: &Value, values: &[f64], what: &str) {
     }
 }
 
-/// The limits of the requirements on single runs that are about `column`, each with the sign of the side on which it is missed.
+/// The limits of the requirements on single runs that are about `column`, each with the sign of the side on which it is
+/// missed.
 fn limits_on(found: &Found, column: &str) -> Vec<(f64, f64)> {
     let summary = found.scratch.summary("r");
     let list = summary["requirements"]["list"].as_array().expect("requirements").clone();
@@ -75,7 +76,8 @@ fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f
             let all = found.array(&found.mark(&format!("{kind}{column}"), "runs")["heights"]);
             let missed = of("heights");
             assert!(missed.iter().zip(&all).all(|(missed, all)| missed <= all), "{what}: {missed:?} of {all:?}");
-            // success is never drawn in the colour of failure: these are the runs beyond the limits on this column, and no others
+            // success is never drawn in the colour of failure: these are the runs beyond the limits on this column, and
+            // no others
             let limits = limits_on(found, column);
             let beyond =
                 values.iter().filter(|value| limits.iter().any(|(limit, sign)| sign * (*value / factor - limit) > 0.0));
@@ -278,7 +280,8 @@ fn text_of_scatter(figure: &Value) -> Option<(String, String)> {
     Some((name[..at].to_owned(), name[at + 1..].to_owned()))
 }
 
-/// Law: any two columns that a reader may choose are those of the rows, in the unit that is shown, and those of runs that failed are marked.
+/// Law: any two columns that a reader may choose are those of the rows, in the unit that is shown, and those of runs
+/// that failed are marked.
 #[test]
 fn chosen_columns_are_of_the_rows() {
     let found = found("series-chosen", &failing());

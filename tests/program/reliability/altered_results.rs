@@ -1,5 +1,5 @@
-//! Results that somebody has altered, with every checksum made right again, and results that are not finished: what the program says follows from
-//! the rows, and what it has not compared is named.
+//! Results that somebody has altered, with every checksum made right again, and results that are not finished: what the
+//! program says follows from the rows, and what it has not compared is named.
 
 use std::fs;
 
@@ -55,8 +55,8 @@ fn alter(scratch: &ScratchFolder, name: &str, bytes: &[u8]) {
     scratch.file("r/manifest.jsonl", &text);
 }
 
-/// Law: whichever file that follows from the rows is replaced by that of other rows, under right checksums: `verify` finds it and names it, and a repair makes
-/// the same bytes again.
+/// Law: whichever file that follows from the rows is replaced by that of other rows, under right checksums: `verify`
+/// finds it and names it, and a repair makes the same bytes again.
 #[test]
 fn every_altered_file_is_found_under_right_checksums() {
     let scratch = folder("altered");
@@ -98,7 +98,8 @@ fn every_altered_file_is_found_under_right_checksums() {
     scratch.prints("verify r --fraction 1", 0);
 }
 
-/// Law: a summary that says PASS where the rows say FAIL is shown by no command, whatever checksums say; one that is right is.
+/// Law: a summary that says PASS where the rows say FAIL is shown by no command, whatever checksums say; one that is
+/// right is.
 #[test]
 fn verdicts_are_those_of_the_rows() {
     let scratch = folder("altered-verdicts");
@@ -125,8 +126,9 @@ fn verdicts_are_those_of_the_rows() {
     }
 }
 
-/// Law: a result without its mark, or with something in it, is not called sound: `verify` ends with 5, after it has compared what the manifest lists; an altered
-/// file is found all the same. The same command for all: the campaign's, which finishes it.
+/// Law: a result without its mark, or with something in it, is not called sound: `verify` ends with 5, after it has
+/// compared what the manifest lists; an altered file is found all the same. The same command for all: the campaign's,
+/// which finishes it.
 #[test]
 fn a_result_without_its_mark_is_not_sound() {
     let scratch = folder("altered-mark");
@@ -149,7 +151,8 @@ fn a_result_without_its_mark_is_not_sound() {
     }
 }
 
-/// Law: where the manifest has no last line, nothing says what follows from the rows: `verify` names every such file as not compared, and ends with 5.
+/// Law: where the manifest has no last line, nothing says what follows from the rows: `verify` names every such file as
+/// not compared, and ends with 5.
 #[test]
 fn what_is_not_compared_is_named() {
     let scratch = folder("altered-unlisted");

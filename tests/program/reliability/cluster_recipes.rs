@@ -1,4 +1,5 @@
-//! The commands of docs/cluster.md that a cluster runs with an index, as they stand there but for the path of the program and of the result.
+//! The commands of docs/cluster.md that a cluster runs with an index, as they stand there but for the path of the
+//! program and of the result.
 
 use std::fs;
 use std::process::{Child, Command, Stdio};
@@ -55,7 +56,8 @@ fn indexed_jobs_make_the_bytes_of_one_process() {
     }
 }
 
-/// The script of the array in the document, for `small.toml` with so many samples; `scontrol`, which it calls, writes its arguments to a file.
+/// The script of the array in the document, for `small.toml` with so many samples; `scontrol`, which it calls, writes
+/// its arguments to a file.
 fn slurm_script(scratch: &ScratchFolder, samples: u64) -> String {
     let mut script =
         format!("scontrol() {{ echo \"$@\" >>scontrol.log; }}\n{}", between("```text\n#!/bin/bash\n", "```"));
@@ -80,7 +82,8 @@ fn slurm_task(scratch: &ScratchFolder, task: u32, restarts: u32) -> Child {
     shell.env("SLURM_JOB_ID", "101").env("SLURM_RESTART_COUNT", restarts.to_string()).spawn().expect("bash")
 }
 
-/// Law: the tasks of the array make the rows of one process, and a task that ends by itself is not put back into the queue.
+/// Law: the tasks of the array make the rows of one process, and a task that ends by itself is not put back into the
+/// queue.
 #[test]
 fn the_slurm_array_makes_the_bytes_of_one_process() {
     let scratch = folder("slurm-recipe");
@@ -95,7 +98,8 @@ fn the_slurm_array_makes_the_bytes_of_one_process() {
     assert!(!scratch.path("scontrol.log").exists());
 }
 
-/// Law: a task that is signalled before its time limit, or killed, puts itself back into the queue, at most ten times; after another signal it does not.
+/// Law: a task that is signalled before its time limit, or killed, puts itself back into the queue, at most ten times;
+/// after another signal it does not.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_slurm_task_that_was_stopped_is_put_back() {

@@ -1,4 +1,5 @@
-//! The files that follow from the rows of a result are as safe as the rows: whatever happens to one of them is found, and it is made again.
+//! The files that follow from the rows of a result are as safe as the rows: whatever happens to one of them is found,
+//! and it is made again.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -8,7 +9,8 @@ use crate::reliability::interrupted::{is_ignored, send, start};
 use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
-/// A campaign with every kind of file: a requirement that fails, retained runs, a file of numbers, an incomplete last part.
+/// A campaign with every kind of file: a requirement that fails, retained runs, a file of numbers, an incomplete last
+/// part.
 fn everything(name: &str) -> ScratchFolder {
     let scratch = folder(name);
     let numbers: String = (0..20).map(|row| format!("{}\n", 0.02 + 0.001 * f64::from(row))).collect();
@@ -31,9 +33,10 @@ column = "wall"
     scratch
 }
 
-/// Law: any file, of rows or made of them, that is flipped in a bit, cut off, emptied, deleted or replaced is found by `verify`, named, and refused
-/// by the commands that read the result; each of the repairing commands makes it again with the same bytes, and the exit code is that of the
-/// rows. (Of the manifest and the mark, other tests say what they lose.)
+/// Law: any file, of rows or made of them, that is flipped in a bit, cut off, emptied, deleted or replaced is found by
+/// `verify`, named, and refused by the commands that read the result; each of the repairing commands makes it again
+/// with the same bytes, and the exit code is that of the rows. (Of the manifest and the mark, other tests say what they
+/// lose.)
 #[test]
 fn every_damage_is_found_and_made_again() {
     let scratch = everything("derived");
@@ -89,7 +92,8 @@ fn every_damage_is_found_and_made_again() {
     scratch.prints("verify r --fraction 1", 0);
 }
 
-/// Law: the page made again is listed with its checksum, and a damaged one is made again; nothing else may be damaged then.
+/// Law: the page made again is listed with its checksum, and a damaged one is made again; nothing else may be damaged
+/// then.
 #[test]
 fn a_page_that_is_made_again_is_listed() {
     let scratch = everything("derived-page");
@@ -125,7 +129,8 @@ fn rows_with_a_flipped_bit_are_not_read() {
     assert!(fs::read(scratch.path("r/report.html")).unwrap() == page);
 }
 
-/// Law: an extension that is not finished leaves the summary of the rows before, which says so; the finished one says so too.
+/// Law: an extension that is not finished leaves the summary of the rows before, which says so; the finished one says
+/// so too.
 #[test]
 fn a_summary_of_the_rows_before_says_so() {
     let scratch = folder("derived-summary");
@@ -137,7 +142,8 @@ fn a_summary_of_the_rows_before_says_so() {
     assert_eq!((&scratch.summary("r")["finished"], &scratch.summary("r")["samples"]), (&true.into(), &900.into()));
 }
 
-/// Law: a repair that a signal stops finishes nothing and ends with the code of the signal; the same command continues to the same bytes.
+/// Law: a repair that a signal stops finishes nothing and ends with the code of the signal; the same command continues
+/// to the same bytes.
 #[test]
 #[cfg(unix)]
 fn a_repair_that_is_stopped_continues() {
@@ -179,8 +185,9 @@ fn a_repair_that_is_stopped_continues() {
     assert!(stopped > 0, "no repair was stopped in time");
 }
 
-/// Law: a result that has lost its manifest is made again from its plan: its parts are computed again, since nothing says what they had. An
-/// altered part is never taken for sound, whatever stops the repair; other commands name the remedy.
+/// Law: a result that has lost its manifest is made again from its plan: its parts are computed again, since nothing
+/// says what they had. An altered part is never taken for sound, whatever stops the repair; other commands name the
+/// remedy.
 #[test]
 fn a_lost_manifest_is_made_again() {
     let scratch = folder("derived-manifest");
@@ -211,8 +218,8 @@ fn a_lost_manifest_is_made_again() {
     assert!(!root.join("manifest.jsonl").exists());
 }
 
-/// Law: a commit of the table's log that the program did not write is damage, since engines would believe it; other files under names of the
-/// result that nothing lists are named, and left alone.
+/// Law: a commit of the table's log that the program did not write is damage, since engines would believe it; other
+/// files under names of the result that nothing lists are named, and left alone.
 #[test]
 fn what_engines_would_read_is_listed() {
     let scratch = folder("derived-foreign");
@@ -240,8 +247,8 @@ fn what_engines_would_read_is_listed() {
     assert!(contents(&root) == whole);
 }
 
-/// Law: a manifest without its line of the plan is damaged, and a page made again does not lose the plan; where the first line is of other rows
-/// than the plan of the second, nothing is replaced.
+/// Law: a manifest without its line of the plan is damaged, and a page made again does not lose the plan; where the
+/// first line is of other rows than the plan of the second, nothing is replaced.
 #[test]
 fn lines_of_identity_and_plan_belong_together() {
     let scratch = folder("derived-plan-line");
@@ -265,8 +272,9 @@ fn lines_of_identity_and_plan_belong_together() {
     assert_eq!((text("r"), scratch.parts("r")), (mixed, rows));
 }
 
-/// Law: a shard that is started again on a finished result ends with 0 and changes nothing; with other questions it is refused; shards that ask
-/// different questions are not finished, and the campaign's command says whose answers are meant.
+/// Law: a shard that is started again on a finished result ends with 0 and changes nothing; with other questions it is
+/// refused; shards that ask different questions are not finished, and the campaign's command says whose answers are
+/// meant.
 #[test]
 fn shards_change_no_finished_result() {
     let scratch = folder("derived-shards");

@@ -1,4 +1,5 @@
-//! Extremes of numbers: refused with a message, or answered with a status; never a panic, and never a file that is not there.
+//! Extremes of numbers: refused with a message, or answered with a status; never a panic, and never a file that is not
+//! there.
 
 use std::fs;
 
@@ -69,8 +70,8 @@ const CHANGES: &[(&str, &str)] = &[
     ("seed = 7", "seed = 18446744073709551615"),
 ];
 
-/// Law: each is refused with exit code 2 and a message about a key, or gives rows with a status each, failed ones among them; the
-/// program never panics, and what it wrote is sound.
+/// Law: each is refused with exit code 2 and a message about a key, or gives rows with a status each, failed ones among
+/// them; the program never panics, and what it wrote is sound.
 #[test]
 fn extremes_are_refused_or_answered() {
     let scratch = folder("extremes");
@@ -125,8 +126,9 @@ const LONG: &[(&str, &str)] = &[
     ("radius_m = 0.25", "radius_m = 1e9"),
 ];
 
-/// Law: a run that `integrator.max_steps` does not suffice for ends as soon as its pace says so, in all methods: as a row with that status and
-/// reason. `check` says what it cannot estimate. (Without the first these commands take minutes.)
+/// Law: a run that `integrator.max_steps` does not suffice for ends as soon as its pace says so, in all methods: as a
+/// row with that status and reason. `check` says what it cannot estimate. (Without the first these commands take
+/// minutes.)
 #[test]
 fn what_is_out_of_reach_ends_at_once() {
     let scratch = folder("out-of-reach");
@@ -165,14 +167,15 @@ fn what_is_out_of_reach_ends_at_once() {
     }
 }
 
-/// Law: whether a run is given up does not depend on the runs beside it: those of a campaign end as each does alone, at the same time to all digits.
-/// A sample that is not out of reach is not given up.
+/// Law: whether a run is given up does not depend on the runs beside it: those of a campaign end as each does alone, at
+/// the same time to all digits. A sample that is not out of reach is not given up.
 #[test]
 fn outliers_end_alone() {
     let scratch = folder("outliers");
     let text = campaign().replace("samples = 600", "samples = 40");
     let at = text.find("[[disperse]]").unwrap();
-    let radius = "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"empirical\"\nfile = \"radii.csv\"\ncolumn = \"x\"\n";
+    let radius = "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"empirical\"\nfile = \
+        \"radii.csv\"\ncolumn = \"x\"\n";
     scratch.file("outliers.toml", &format!("{}{radius}", &text[..at]));
     scratch.file("radii.csv", &format!("x\n{}1e9\n1e7\n", "0.25\n0.26\n".repeat(3)));
     let said = scratch.prints_wide("check outliers.toml", 0);
@@ -191,7 +194,8 @@ fn outliers_end_alone() {
     }
 }
 
-/// Law: masses whose products overflow are refused with the limit, whatever has them, in every shipped campaign; no number of a mass that is shown is infinite.
+/// Law: masses whose products overflow are refused with the limit, whatever has them, in every shipped campaign; no
+/// number of a mass that is shown is infinite.
 #[test]
 fn masses_that_overflow_are_refused() {
     let scratch = folder("large-masses");

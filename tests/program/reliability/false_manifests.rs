@@ -21,8 +21,8 @@ fn write(scratch: &ScratchFolder, result: &str, lines: &[String]) {
     scratch.file(&format!("{result}/manifest.jsonl"), &(lines.join("\n") + "\n"));
 }
 
-/// Law: a last line with another number of rows or parts than the lines before it, or one that says `false`, finishes nothing: the result is
-/// not compared, and the campaign's command finishes it.
+/// Law: a last line with another number of rows or parts than the lines before it, or one that says `false`, finishes
+/// nothing: the result is not compared, and the campaign's command finishes it.
 #[test]
 fn a_false_last_line_finishes_nothing() {
     let scratch = folder("false-end");
@@ -55,7 +55,8 @@ fn two_seeds(name: &str) -> ScratchFolder {
     scratch
 }
 
-/// Law: a part of another seed under a line with the right checksums is found by every command that reads rows: by what its file says of itself.
+/// Law: a part of another seed under a line with the right checksums is found by every command that reads rows: by what
+/// its file says of itself.
 #[test]
 fn a_part_of_another_seed_is_found() {
     let scratch = two_seeds("false-rows");
@@ -83,7 +84,8 @@ fn a_part_of_another_seed_is_found() {
     assert_eq!(lines(&scratch, "r"), mine);
 }
 
-/// Law: `verify` computes a part again where the fraction is above zero, however small: it finds bands of another seed under right checksums.
+/// Law: `verify` computes a part again where the fraction is above zero, however small: it finds bands of another seed
+/// under right checksums.
 #[test]
 fn any_fraction_computes_a_part() {
     let scratch = folder("false-bands");
@@ -111,8 +113,8 @@ fn any_fraction_computes_a_part() {
     assert_eq!(lines(&scratch, "r"), whole);
 }
 
-/// Law: where any bit of the first line has changed, the rows are still known by their own metadata: another plan is refused, and the same
-/// one heals the line.
+/// Law: where any bit of the first line has changed, the rows are still known by their own metadata: another plan is
+/// refused, and the same one heals the line.
 #[test]
 fn a_damaged_first_line_adopts_no_other_plan() {
     let scratch = two_seeds("false-first");
@@ -135,7 +137,8 @@ fn a_damaged_first_line_adopts_no_other_plan() {
     }
 }
 
-/// Law: shards of different plans are never merged: `finish` says which manifest differs, in which keys, and so does every other command.
+/// Law: shards of different plans are never merged: `finish` says which manifest differs, in which keys, and so does
+/// every other command.
 #[test]
 fn shards_of_two_plans_are_refused() {
     let scratch = folder("false-shards");

@@ -1,5 +1,5 @@
-//! A fault at the k-th file operation, for every k: SQLite's method. Whatever fails, nothing half-written has a final name, and continuing
-//! completes the dataset to the same bytes.
+//! A fault at the k-th file operation, for every k: SQLite's method. Whatever fails, nothing half-written has a final
+//! name, and continuing completes the dataset to the same bytes.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -22,8 +22,8 @@ const SAMPLES: u64 = 520;
 /// Whether faults persist, and what they are in turn.
 type Faults<'a> = (bool, &'a [Fault]);
 
-/// Makes a campaign with a fault at every operation in turn, from its folder to its mark, and checks what is left and what the next attempt
-/// makes of it. Returns the number of errors and of operations.
+/// Makes a campaign with a fault at every operation in turn, from its folder to its mark, and checks what is left and
+/// what the next attempt makes of it. Returns the number of errors and of operations.
 fn fail_everywhere(scratch: &ScratchFolder, plan: &Plan, has_page: bool, (persists, faults): Faults<'_>) -> (u64, u64) {
     let never = || Faulty::new(is_counted, u64::MAX, false, Fault::Kind(io::ErrorKind::Other));
     let counted = never();
@@ -63,9 +63,9 @@ fn fail_everywhere(scratch: &ScratchFolder, plan: &Plan, has_page: bool, (persis
     (errors, operations)
 }
 
-/// Law: a fault at any operation of a campaign, from its folder to its mark, once or from then on, is an error that names the path; every file
-/// under a final name is whole; and the next attempt completes the dataset to the same bytes. The kinds of faults take turns;
-/// the long version has every kind at every operation.
+/// Law: a fault at any operation of a campaign, from its folder to its mark, once or from then on, is an error that
+/// names the path; every file under a final name is whole; and the next attempt completes the dataset to the same
+/// bytes. The kinds of faults take turns; the long version has every kind at every operation.
 #[test]
 fn every_operation_may_fail() {
     let [full, other, read_only] =
@@ -82,8 +82,8 @@ fn every_operation_may_fail() {
     );
 }
 
-/// Law: a disk that alters what is written, from any operation on, is noticed before a file has its final name. What is left is completed to
-/// the same bytes.
+/// Law: a disk that alters what is written, from any operation on, is noticed before a file has its final name. What is
+/// left is completed to the same bytes.
 #[test]
 fn altered_bytes_are_noticed() {
     let (scratch, plan) = (ScratchFolder::new("faults-altered"), plan(SAMPLES));
@@ -91,8 +91,8 @@ fn altered_bytes_are_noticed() {
     assert!(errors > operations / 2, "{errors} errors of {operations} operations");
 }
 
-/// Law: at every operation each part that is listed is there and whole, while a dataset is made and while it is extended, which replaces its
-/// last part.
+/// Law: at every operation each part that is listed is there and whole, while a dataset is made and while it is
+/// extended, which replaces its last part.
 #[test]
 fn what_is_listed_is_whole_at_every_operation() {
     let scratch = ScratchFolder::new("faults-watched");
@@ -121,8 +121,8 @@ fn every_operation_may_fail_in_every_way() {
     }
 }
 
-/// Law: a dataset that is extended says that it is complete before the first change and after the last one, and not between: neither people
-/// nor programs take a part of it for the whole.
+/// Law: a dataset that is extended says that it is complete before the first change and after the last one, and not
+/// between: neither people nor programs take a part of it for the whole.
 #[test]
 fn what_is_extended_is_not_marked_complete() {
     let scratch = ScratchFolder::new("faults-extended");
@@ -189,8 +189,8 @@ impl Drop for SmallDisk {
 #[cfg(target_os = "linux")]
 const ENOUGH: u64 = 65_536;
 
-/// Law: on a real disk that is full after any number of bytes the error names path and cause, every file under a final name is whole, and with
-/// more space the same command completes the result to the same bytes.
+/// Law: on a real disk that is full after any number of bytes the error names path and cause, every file under a final
+/// name is whole, and with more space the same command completes the result to the same bytes.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_small_disk_fills_up() {

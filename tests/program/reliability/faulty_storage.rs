@@ -120,7 +120,8 @@ impl Faulty {
         Self::leaked(Plot { is_counted, fails, persists, fault, watched: None, done: Mutex::default() })
     }
 
-    /// The disk without a fault, on which at every operation each part that the dataset in `root` lists is there and whole.
+    /// The disk without a fault, on which at every operation each part that the dataset in `root` lists is there and
+    /// whole.
     pub fn watched(root: &Path) -> &'static Self {
         let (fault, watched) = (Fault::Kind(io::ErrorKind::Other), Some(root.to_owned()));
         let is_counted = |operation| operation == Operation::Write;
@@ -291,8 +292,8 @@ impl StoredFile for FaultyFile {
     }
 }
 
-/// Tries of a command whose folder is locked: a process that another test is about to start has the lock too, from its fork to its exec,
-/// which on a loaded machine takes longer than the command waits.
+/// Tries of a command whose folder is locked: a process that another test is about to start has the lock too, from its
+/// fork to its exec, which on a loaded machine takes longer than the command waits.
 const LOCK_TRIES: usize = 30;
 
 /// What `command` returns, as soon as no other process has the lock.

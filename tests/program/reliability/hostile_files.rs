@@ -1,5 +1,5 @@
-//! Files that are handed to the program, and files that it writes: nothing is waited for, nothing endless is read, and nothing is overwritten
-//! that it was not told to.
+//! Files that are handed to the program, and files that it writes: nothing is waited for, nothing endless is read, and
+//! nothing is overwritten that it was not told to.
 
 use std::fs;
 use std::process::Command;
@@ -65,8 +65,8 @@ fn what_is_no_file_of_numbers_is_refused_by_what_it_is() {
     }
 }
 
-/// Law: a result is complete in itself: without the file of numbers that its plan names, and in another folder, it is finished, verified and
-/// reported, and the bytes are those of the result that one process made.
+/// Law: a result is complete in itself: without the file of numbers that its plan names, and in another folder, it is
+/// finished, verified and reported, and the bytes are those of the result that one process made.
 #[test]
 fn a_result_has_its_data() {
     let scratch = folder("data");
@@ -219,7 +219,8 @@ fn too_many_files_of_numbers_are_refused() {
     let draws = (0..32).flat_map(|number| keys.map(|key| (number, key)));
     let table = |(number, key): (usize, &str)| {
         format!(
-            "[[disperse]]\nparameter = \"body.parts.p{number}.{key}\"\ndistribution = \"empirical\"\nfile = \"x.csv\"\ncolumn = \"x\"\n"
+            "[[disperse]]\nparameter = \"body.parts.p{number}.{key}\"\ndistribution = \"empirical\"\nfile = \
+            \"x.csv\"\ncolumn = \"x\"\n"
         )
     };
     scratch.file("x.csv", "x\n1\n2\n");
@@ -230,7 +231,8 @@ fn too_many_files_of_numbers_are_refused() {
     }
 }
 
-/// Law: a thread that the system does not start is done without, or said with exit code 4: nothing is wrong with the input, and nothing panics.
+/// Law: a thread that the system does not start is done without, or said with exit code 4: nothing is wrong with the
+/// input, and nothing panics.
 #[cfg(target_os = "linux")]
 #[test]
 fn threads_that_do_not_start_are_no_input_error() {
@@ -252,7 +254,8 @@ fn threads_that_do_not_start_are_no_input_error() {
     }
 }
 
-/// Law: no character of an argument that a terminal obeys reaches it, whichever part of the parser refuses the argument.
+/// Law: no character of an argument that a terminal obeys reaches it, whichever part of the parser refuses the
+/// argument.
 #[test]
 fn escapes_in_arguments_are_shown_as_text() {
     let scratch = folder("argument-escapes");
@@ -283,7 +286,8 @@ fn escapes_in_arguments_are_shown_as_text() {
     scratch.prints("", 2);
 }
 
-/// Law: a file that may not grow further is an error of input and output with its name, code 4; without the limit the same command ends with the same bytes.
+/// Law: a file that may not grow further is an error of input and output with its name, code 4; without the limit the
+/// same command ends with the same bytes.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_limit_of_file_sizes_is_an_error() {
@@ -309,8 +313,8 @@ fn a_limit_of_file_sizes_is_an_error() {
     limited("check small.toml", 0);
 }
 
-/// Law: a file of the campaign that cannot be read now ends the command with code 4, whichever it is; one that is missing is a mistake, code 2, and so is any
-/// mistake beside it.
+/// Law: a file of the campaign that cannot be read now ends the command with code 4, whichever it is; one that is
+/// missing is a mistake, code 2, and so is any mistake beside it.
 #[cfg(target_os = "linux")]
 #[test]
 fn what_cannot_be_read_now_is_no_mistake() {

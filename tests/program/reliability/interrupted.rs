@@ -1,5 +1,5 @@
-//! Campaigns that are killed, stopped by signals, divided into shards, damaged or made longer: the dataset is always that of one
-//! uninterrupted process, byte for byte.
+//! Campaigns that are killed, stopped by signals, divided into shards, damaged or made longer: the dataset is always
+//! that of one uninterrupted process, byte for byte.
 
 use std::fs;
 use std::process::{Child, Command, Stdio};
@@ -41,8 +41,8 @@ fn committed(scratch: &ScratchFolder, result: &str) -> usize {
     files.len()
 }
 
-/// Kills the campaign `kills` times at instants that follow from `seed`, continuing it until it is complete, and starts again; every
-/// complete result is that of the uninterrupted campaign, and no committed part is lost.
+/// Kills the campaign `kills` times at instants that follow from `seed`, continuing it until it is complete, and starts
+/// again; every complete result is that of the uninterrupted campaign, and no committed part is lost.
 fn kill_and_continue(kills: u32, seed: u64) {
     let scratch = folder(&format!("kill-{seed}"));
     let command = format!("campaign small.toml --samples {SAMPLES} --no-report");
@@ -95,7 +95,8 @@ fn a_finished_campaign_is_extended() {
     assert!(said.contains("768 samples already there, 1232 to run"), "{said}");
     assert_eq!(scratch.parts("grown")[..3], before[..3], "whole parts stay");
     scratch.prints("campaign small.toml --samples 2000 --out whole", 0);
-    // table engines see that it grew: the log has a commit more and a copy of the last part before (table_log.rs), which the last line lists
+    // table engines see that it grew: the log has a commit more and a copy of the last part before (table_log.rs),
+    // which the last line lists
     for result in ["grown", "whole"] {
         scratch.prints(&format!("verify {result}"), 0);
         let manifest = scratch.text(&format!("{result}/manifest.jsonl"));
@@ -147,8 +148,9 @@ fn a_damaged_manifest_is_recovered() {
     }
 }
 
-/// Law: what a campaign that was stopped has left beyond the samples that are asked for now is not part of the result: neither a part that is
-/// listed, since parts are not made in order, nor files that no line lists, as a crash before that line leaves them.
+/// Law: what a campaign that was stopped has left beyond the samples that are asked for now is not part of the result:
+/// neither a part that is listed, since parts are not made in order, nor files that no line lists, as a crash before
+/// that line leaves them.
 #[test]
 fn fewer_samples_than_before() {
     let scratch = folder("fewer");

@@ -1,8 +1,10 @@
-//! Loss of power: at any call that changes or flushes a file, everything that was not flushed by then is gone: content that was written,
-//! names that were given, changed or removed. The same command then ends with the same bytes as if nothing had happened.
+//! Loss of power: at any call that changes or flushes a file, everything that was not flushed by then is gone: content
+//! that was written, names that were given, changed or removed. The same command then ends with the same bytes as if
+//! nothing had happened.
 //!
-//! A small library (`power_loss.c`, compiled here and loaded before libc) keeps what is flushed, and ends the process before the chosen call; the
-//! test puts back what was kept. Kills without a loss of power are in `interrupted`, errors of files in `faults`.
+//! A small library (`power_loss.c`, compiled here and loaded before libc) keeps what is flushed, and ends the process
+//! before the chosen call; the test puts back what was kept. Kills without a loss of power are in `interrupted`, errors
+//! of files in `faults`.
 
 use std::collections::BTreeMap;
 use std::fs;

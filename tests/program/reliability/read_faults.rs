@@ -1,5 +1,6 @@
-//! A fault at the k-th read of a dataset, for every k, in every command that reads one: a file that cannot be read now is an error that names it
-//! and the cause. It is never taken for a file that is damaged: nothing is dropped, removed or written again for it.
+//! A fault at the k-th read of a dataset, for every k, in every command that reads one: a file that cannot be read now
+//! is an error that names it and the cause. It is never taken for a file that is damaged: nothing is dropped, removed
+//! or written again for it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -22,8 +23,8 @@ const SAMPLES: [u64; 2] = [260, 520];
 /// The numbers of Linux of the errors that reading has: EIO, EACCES, ENOENT.
 const UNREADABLE: [i32; 3] = [5, 13, 2];
 
-/// Of the reads within open files, every so many fail in the short version of the test: there are some hundred of each command, nearly all of
-/// columns. No multiple of it is a multiple of the reads of a column.
+/// Of the reads within open files, every so many fail in the short version of the test: there are some hundred of each
+/// command, nearly all of columns. No multiple of it is a multiple of the reads of a column.
 const STEP: usize = 23;
 
 fn is_read(operation: Operation) -> bool {
@@ -130,8 +131,8 @@ struct Count {
 }
 
 impl Case<'_> {
-    /// Lets reads of the command fail in every way, once and from then on: all that open, list and lock, and of those within an open file every
-    /// `step`-th.
+    /// Lets reads of the command fail in every way, once and from then on: all that open, list and lock, and of those
+    /// within an open file every `step`-th.
     fn check(&self, root: &Path, step: usize) -> Count {
         let (name, start) = (self.name, self.start);
         restore(root, start);
@@ -226,8 +227,9 @@ impl Case<'_> {
     }
 }
 
-/// Law: whichever read fails, in whichever way, once or from then on: the command says so with path and cause and code 4, or ends as if nothing had
-/// happened; no part that is sound is dropped, removed or made again; and the same command without the fault ends with the same bytes.
+/// Law: whichever read fails, in whichever way, once or from then on: the command says so with path and cause and code
+/// 4, or ends as if nothing had happened; no part that is sound is dropped, removed or made again; and the same command
+/// without the fault ends with the same bytes.
 #[test]
 fn reads_of_campaign_may_fail() {
     reads_fail("campaign", STEP);

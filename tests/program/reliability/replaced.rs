@@ -40,8 +40,9 @@ fn plant(scratch: &ScratchFolder, result: &Path) {
     }
 }
 
-/// Law: a fault at any operation of a replacement is an error that names a path; either the old result is whole in its place, or one of both is
-/// whole beside it; and the next command ends with the new result, with nothing beside it but what was not made for this, which is as it was.
+/// Law: a fault at any operation of a replacement is an error that names a path; either the old result is whole in its
+/// place, or one of both is whole beside it; and the next command ends with the new result, with nothing beside it but
+/// what was not made for this, which is as it was.
 #[test]
 fn every_operation_of_a_replacement_may_fail() {
     let scratch = ScratchFolder::new("replaced-faults");
@@ -127,7 +128,8 @@ fn names_of_folders_are_flushed() {
     assert!(contents(&root).contains_key("_SUCCESS"));
 }
 
-/// Law: a link that is named as the folder of a result means the folder that it leads to, whether that is there already or not, and stays.
+/// Law: a link that is named as the folder of a result means the folder that it leads to, whether that is there already
+/// or not, and stays.
 #[cfg(unix)]
 #[test]
 fn a_link_is_the_folder_that_it_leads_to() {
@@ -151,7 +153,8 @@ fn a_link_is_the_folder_that_it_leads_to() {
     assert!(said.contains("a link that leads to itself"), "{said}");
 }
 
-/// Law: the current folder takes a result and continues it; it is not replaced, and that is said before a sample is run.
+/// Law: the current folder takes a result and continues it; it is not replaced, and that is said before a sample is
+/// run.
 #[test]
 fn the_current_folder_is_not_replaced() {
     let scratch = folder("replaced-current");
@@ -198,8 +201,8 @@ fn a_mount_point_is_not_replaced() {
     ended.unwrap();
 }
 
-/// Law: a folder of a result that becomes a link during a run is not written through: the command ends with code 4 and names it, what the link
-/// leads to is as it was, and with the folder back the same command completes the result.
+/// Law: a folder of a result that becomes a link during a run is not written through: the command ends with code 4 and
+/// names it, what the link leads to is as it was, and with the folder back the same command completes the result.
 #[cfg(target_os = "linux")]
 #[test]
 fn links_swapped_in_during_a_run_are_not_followed() {

@@ -1,5 +1,5 @@
-//! Processes that begin in one folder at the same instant, on file systems with locks and without: what they make together is one result, or
-//! all but one are refused.
+//! Processes that begin in one folder at the same instant, on file systems with locks and without: what they make
+//! together is one result, or all but one are refused.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -75,7 +75,8 @@ fn shards_begin(scratch: &ScratchFolder, rounds: u32, locks: Locks<'_>) {
     fs::remove_dir_all(scratch.path("whole")).unwrap();
 }
 
-/// Law: shards that begin at the same instant on an empty folder all complete, and the result has the bytes of one process.
+/// Law: shards that begin at the same instant on an empty folder all complete, and the result has the bytes of one
+/// process.
 #[test]
 fn shards_begin_together() {
     shards_begin(&folder("together"), ROUNDS, None);
@@ -104,8 +105,9 @@ fn many_rounds_of_shards() {
     }
 }
 
-/// Lets campaigns that are not the same begin on an empty folder, `rounds` times: those of one of them at most complete, the others are
-/// refused, and what is there is a result of that one. With locks and as whole campaigns, one completes.
+/// Lets campaigns that are not the same begin on an empty folder, `rounds` times: those of one of them at most
+/// complete, the others are refused, and what is there is a result of that one. With locks and as whole campaigns, one
+/// completes.
 fn others_begin(scratch: &ScratchFolder, rounds: u32, locks: Locks<'_>) {
     let other = campaign().replace("duration_s = 1.0", "duration_s = 1.5");
     scratch.file("other.toml", &other);
@@ -137,8 +139,8 @@ fn others_begin(scratch: &ScratchFolder, rounds: u32, locks: Locks<'_>) {
     }
 }
 
-/// Law: of two plans, or two seeds, that begin at the same instant on an empty folder, one makes its result; the others are refused, and
-/// leave nothing in it.
+/// Law: of two plans, or two seeds, that begin at the same instant on an empty folder, one makes its result; the others
+/// are refused, and leave nothing in it.
 #[test]
 fn of_two_plans_one_wins() {
     others_begin(&folder("two-plans"), ROUNDS, None);
@@ -153,8 +155,8 @@ fn of_two_plans_one_wins_without_locks() {
     others_begin(&scratch, ROUNDS, Some((&library, WITHOUT[0])));
 }
 
-/// Law: an error of a lock that does not say that there are none ends every command that locks with the path, the cause and code 4, before
-/// anything is written.
+/// Law: an error of a lock that does not say that there are none ends every command that locks with the path, the cause
+/// and code 4, before anything is written.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_lock_that_fails_is_an_error() {

@@ -11,7 +11,8 @@ fn what_no_machine_can_do_is_refused() {
     let scratch = folder("sizes");
     scratch.file("points.toml", &campaign().replace("points = 11", "points = 10000000"));
     scratch.file("more.toml", &campaign().replace("samples = 600", "samples = 1000000000000000000"));
-    let stop = "[stop]\nobservable = \"energy_error_max\"\nquantile = 0.5\nhalf_width = 1e-30\nmax_samples = 9007199254740992\n";
+    let stop = "[stop]\nobservable = \"energy_error_max\"\nquantile = 0.5\nhalf_width = 1e-30\nmax_samples = \
+        9007199254740992\n";
     scratch.file("stop.toml", &format!("{}{stop}", campaign()));
     scratch.file("precise.toml", &campaign().replace("samples = 600", "samples = 900000000000"));
     for (command, said) in [
@@ -79,8 +80,8 @@ fn what_is_long_is_asked_for() {
     scratch.prints("campaign small.toml --out r --samples 700 --yes", 0);
 }
 
-/// Law: what needs `--yes` in an empty folder needs it too where it replaces a complete result, which stays as it is without; where it does not
-/// replace it, `--yes` is needed for what is left only.
+/// Law: what needs `--yes` in an empty folder needs it too where it replaces a complete result, which stays as it is
+/// without; where it does not replace it, `--yes` is needed for what is left only.
 #[test]
 fn what_is_replaced_is_asked_for() {
     let scratch = folder("long-again");

@@ -28,8 +28,8 @@ fn plant(scratch: &ScratchFolder, result: &str, names: &[&str]) -> Vec<PathBuf> 
     names.iter().map(path).collect()
 }
 
-/// Law: what is not part of a result blocks no command: it is named, where the files of the result are looked at, and left alone; and the
-/// result is the one without it.
+/// Law: what is not part of a result blocks no command: it is named, where the files of the result are looked at, and
+/// left alone; and the result is the one without it.
 #[test]
 fn strays_are_named_and_left_alone() {
     let scratch = folder("strays");
@@ -79,7 +79,8 @@ fn strays_are_named_and_left_alone() {
     assert!(strays.iter().all(|path| path.exists()));
 }
 
-/// Law: a part or a time series that no manifest lists is told as well, and blocks what would replace or remove it, and nothing else.
+/// Law: a part or a time series that no manifest lists is told as well, and blocks what would replace or remove it, and
+/// nothing else.
 #[test]
 fn what_no_manifest_lists_is_left_alone() {
     let scratch = folder("strays-part");

@@ -28,7 +28,8 @@ fn hash(scratch: &ScratchFolder, result: &str, below: &[&str]) -> String {
     sha256(all.concat().as_bytes())
 }
 
-/// Law: rows, statistics and everything else are the same bytes for 1, 2, 3 and 7 threads in 1, 4 and 13 shards; those of another seed are not.
+/// Law: rows, statistics and everything else are the same bytes for 1, 2, 3 and 7 threads in 1, 4 and 13 shards; those
+/// of another seed are not.
 #[test]
 fn threads_and_shards_change_no_byte() {
     let scratch = folder("threads-shards");
@@ -69,7 +70,8 @@ fn threads_and_shards_change_no_byte() {
     assert!(other[0] != first[0] && other[1] != first[1]);
 }
 
-/// Law: a shard checks and counts its own parts, and not those of others, which may be many; `finish` checks all of them.
+/// Law: a shard checks and counts its own parts, and not those of others, which may be many; `finish` checks all of
+/// them.
 #[test]
 fn a_shard_reads_its_own_parts() {
     let scratch = folder("shards-own");

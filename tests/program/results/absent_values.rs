@@ -1,4 +1,5 @@
-//! Null, never NaN: what is no finite number is absent in every file of a result, so that the maximum and the mean of a column are numbers.
+//! Null, never NaN: what is no finite number is absent in every file of a result, so that the maximum and the mean of a
+//! column are numbers.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +20,8 @@ fn tables(folder: &Path) -> Vec<PathBuf> {
     entries.flat_map(of).filter(is_table).collect()
 }
 
-/// The columns of a table whose maximum or mean, as a query engine computes them, is no finite number; and how many columns there are.
+/// The columns of a table whose maximum or mean, as a query engine computes them, is no finite number; and how many
+/// columns there are.
 fn without_maximum(path: &Path) -> (Vec<String>, usize) {
     let (mut wrong, mut columns) = (Vec::new(), 0);
     for batch in batches(path) {
@@ -40,8 +42,8 @@ fn without_maximum(path: &Path) -> (Vec<String>, usize) {
     (wrong, columns)
 }
 
-/// Law: in every table of a campaign with failed, audited, retained and unphysical runs, maximum and mean of every column are finite; a value
-/// that an `ok` run does not have is null, and in CSV an empty cell.
+/// Law: in every table of a campaign with failed, audited, retained and unphysical runs, maximum and mean of every
+/// column are finite; a value that an `ok` run does not have is null, and in CSV an empty cell.
 #[test]
 fn every_column_has_a_maximum_and_a_mean() {
     let scratch = folder("absent");

@@ -44,7 +44,8 @@ fn bits(audit: &Option<Option<Audit>>) -> Option<Option<Vec<u64>>> {
     })
 }
 
-/// Law: fraction 0 audits nothing, 1 everything, and no column of a row changes by a bit; audits do not depend on threads.
+/// Law: fraction 0 audits nothing, 1 everything, and no column of a row changes by a bit; audits do not depend on
+/// threads.
 #[test]
 fn rows_keep_their_bits_and_audits_are_those_of_any_thread() {
     for name in ["spin_sweep", "burn"] {
@@ -68,9 +69,10 @@ fn rows_keep_their_bits_and_audits_are_those_of_any_thread() {
     }
 }
 
-/// Law: the selection is a fraction of the samples (H0: each with probability 0.01, of 100,000; alpha = 1e-6, two-sided), does
-/// not depend on the order, and a larger fraction contains the samples of a smaller one. The seed decides which they are (H0: two seeds select
-/// independently; then about 10 are common, and 40 or more with a probability below 1e-12).
+/// Law: the selection is a fraction of the samples (H0: each with probability 0.01, of 100,000; alpha = 1e-6,
+/// two-sided), does not depend on the order, and a larger fraction contains the samples of a smaller one. The seed
+/// decides which they are (H0: two seeds select independently; then about 10 are common, and 40 or more with a
+/// probability below 1e-12).
 #[test]
 fn the_selection_is_a_share_and_grows_with_it() {
     let nominal = plan("no_debris", 100_000, 0.0);
@@ -93,7 +95,8 @@ fn the_selection_is_a_share_and_grows_with_it() {
     assert!(common < 40, "{common} of {}", small.len());
 }
 
-/// The audits of a plan. Law of all of them: an error is zero or above, of a state as of a column, where there is one; some are above.
+/// The audits of a plan. Law of all of them: an error is zero or above, of a state as of a column, where there is one;
+/// some are above.
 fn audits(plan: &Plan) -> Vec<Audit> {
     let audits: Vec<Audit> = rows(plan, 2).into_values().filter_map(|(.., audit)| audit.flatten()).collect();
     for audit in &audits {
@@ -146,8 +149,8 @@ fn a_wrong_kernel_is_caught() {
     assert!(caught.state() > 10.0 * caught.estimate && caught.state() > 1e-9, "{:e}", caught.state());
 }
 
-/// Law: the rotation of the debris is compared too: a moment of inertia that is wrong by 1e-4 shows in its error and in no other, and
-/// the error of a right run near the intermediate axis is what the instability makes of roundings.
+/// Law: the rotation of the debris is compared too: a moment of inertia that is wrong by 1e-4 shows in its error and in
+/// no other, and the error of a right run near the intermediate axis is what the instability makes of roundings.
 #[test]
 fn a_wrong_debris_is_caught() {
     let mut plan = plan("spin_sweep", 1, 1.0);
@@ -158,7 +161,8 @@ fn a_wrong_debris_is_caught() {
     wrong.mass.debris.as_mut().expect("a debris").inertia[0][0] *= 1.0 + 1e-4;
     let mut auditor = Auditor::new(&plan, Isa::best(), &plan.grid);
     let (right, caught) = (auditor.audit(&scene).unwrap(), auditor.compare(&wrong, &scene).unwrap());
-    // measured: 8.0e-10 and 9.6e-6; the right one is a rounding that the instability amplifies, of another size on another machine
+    // measured: 8.0e-10 and 9.6e-6; the right one is a rounding that the instability amplifies, of another size on
+    // another machine
     assert!(right.debris > 0.0 && right.debris < 4e-9, "{:e}", right.debris);
     assert!(caught.debris > 1e-6 && caught.state().to_bits() == right.state().to_bits(), "{:e}", caught.debris);
     // the estimate is of the debris: it covers the error of the right one, and not that of the wrong one
@@ -170,7 +174,8 @@ fn a_wrong_debris_is_caught() {
     assert!(audit.debris.is_nan() && audit.debris_estimate.is_nan() && audit.state() < 2e-10);
 }
 
-/// Law: a run too long for double-double is compared with plain Taylor integration at the smallest tolerance, and says so.
+/// Law: a run too long for double-double is compared with plain Taylor integration at the smallest tolerance, and says
+/// so.
 #[test]
 fn a_long_run_is_audited_in_plain_doubles() {
     let mut plan = plan("spin_sweep", 1, 1.0);
@@ -185,8 +190,8 @@ fn a_long_run_is_audited_in_plain_doubles() {
     assert!(long.state() > short.state() && long.estimate >= long.state(), "{:e} {:e}", long.state(), long.estimate);
 }
 
-/// Law: runs in air and sunlight are audited too, in double-double at the tolerance that their torques allow; where one is too long for that there is no
-/// audit, and it says so.
+/// Law: runs in air and sunlight are audited too, in double-double at the tolerance that their torques allow; where one
+/// is too long for that there is no audit, and it says so.
 #[test]
 fn air_and_sunlight_are_audited() {
     let plan = plan("drag_tumble", 3, 1.0);
@@ -204,8 +209,8 @@ fn air_and_sunlight_are_audited() {
     assert!(refused.to_string().starts_with("the spacecraft turns for"), "{refused}");
 }
 
-/// Law: the program writes the audit's columns, null for rows without audit, summarises them with every statistic, and reports the cost;
-/// all of this does not depend on the number of threads.
+/// Law: the program writes the audit's columns, null for rows without audit, summarises them with every statistic, and
+/// reports the cost; all of this does not depend on the number of threads.
 #[test]
 fn the_program_audits() {
     let scratch = ScratchFolder::new("campaign");
@@ -298,8 +303,8 @@ groups = ["energy_conservation", "numerics"]
 fraction = 0.9375
 "#;
 
-/// Law: each quantile of an audit's errors in the summary is that of type 7 of the column in the files, without the nominal sample; every
-/// selected sample is counted once, as audited or as failed.
+/// Law: each quantile of an audit's errors in the summary is that of type 7 of the column in the files, without the
+/// nominal sample; every selected sample is counted once, as audited or as failed.
 #[test]
 fn the_summary_of_the_audits_is_that_of_the_files() {
     let scratch = ScratchFolder::new("quantiles");
@@ -336,8 +341,9 @@ fn the_summary_of_the_audits_is_that_of_the_files() {
     assert_eq!(audited + failed, selected);
 }
 
-/// Law: the error of an audit is the maximum over the grid. A motor torque that speeds the body up, brings it back, and undoes the turn
-/// moves a run away from its reference solution and returns it: the error is that of the middle, not of the end.
+/// Law: the error of an audit is the maximum over the grid. A motor torque that speeds the body up, brings it back, and
+/// undoes the turn moves a run away from its reference solution and returns it: the error is that of the middle, not of
+/// the end.
 #[test]
 fn the_error_of_an_audit_is_its_maximum_over_the_grid() {
     let mut plan = plan("no_debris", 1, 1.0);
@@ -372,8 +378,9 @@ fn the_error_of_an_audit_is_its_maximum_over_the_grid() {
     }
 }
 
-/// Law: q and -q are the same attitude: an audit of the null-space method is small where its quaternions, which are made of DCMs, each as
-/// near to the one before as can be, have the other sign: with points that are more than half a turn apart.
+/// Law: q and -q are the same attitude: an audit of the null-space method is small where its quaternions, which are
+/// made of DCMs, each as near to the one before as can be, have the other sign: with points that are more than half a
+/// turn apart.
 #[test]
 fn the_sign_of_a_quaternion_is_no_error_of_an_audit() {
     let mut plan = plan("no_debris", 1, 1.0);

@@ -21,7 +21,8 @@ fn with_debris_rate(rate: f64) -> String {
     format!("{text}[audit]\nfraction = 1.0\n")
 }
 
-/// Law: a run whose audit is beyond the limit has none, and its row says why; the run itself is `ok`. Slower debris is audited.
+/// Law: a run whose audit is beyond the limit has none, and its row says why; the run itself is `ok`. Slower debris is
+/// audited.
 #[test]
 fn an_audit_has_a_limit() {
     let scratch = folder("audit-limit");
@@ -72,7 +73,8 @@ fn told(text: &str) -> Vec<u64> {
     told.into_inner().unwrap()
 }
 
-/// Law: of long runs, and of audited ones, progress is told within a batch; of short ones once for a batch. Each sample is told once.
+/// Law: of long runs, and of audited ones, progress is told within a batch; of short ones once for a batch. Each sample
+/// is told once.
 #[test]
 fn progress_is_told_within_a_batch() {
     let short = campaign().replace("samples = 600", "samples = 64").replace("duration_s = 1.0", "duration_s = 0.001");

@@ -1,5 +1,5 @@
-//! Requirements over time, at each time and at all times: their counts are those of the time series, and their verdicts those of exact
-//! binomial tests.
+//! Requirements over time, at each time and at all times: their counts are those of the time series, and their verdicts
+//! those of exact binomial tests.
 
 use serde_json::Value;
 use spindrift::statistics::binomial::{lower_bound, upper_bound};
@@ -12,7 +12,8 @@ const RUNS: usize = 599;
 /// A quantity with bands in the default groups.
 const SERIES: &str = "energy_body_j";
 
-/// The time series of every dispersed run at the points of the bands, which are all of the grid: times, and values run by run.
+/// The time series of every dispersed run at the points of the bands, which are all of the grid: times, and values run
+/// by run.
 fn series(scratch: &ScratchFolder) -> (Vec<f64>, Vec<Vec<f64>>) {
     scratch.file("all.toml", &format!("{}\n[retain]\ntrajectories = \"all\"\n", campaign()));
     scratch.prints("campaign all.toml --out all --no-report", 0);
@@ -33,9 +34,9 @@ fn verdict(scratch: &ScratchFolder, requirement: &str, code: i32) -> Value {
     entry(scratch, "gate")
 }
 
-/// Law: the worst point of time is that with the fewest runs within the limit, their number is within what the bands resolve, and the
-/// verdict is that of the exact test at every point; an interval of time leaves out what is outside. The bounds of the share contain those of
-/// the exact count.
+/// Law: the worst point of time is that with the fewest runs within the limit, their number is within what the bands
+/// resolve, and the verdict is that of the exact test at every point; an interval of time leaves out what is outside.
+/// The bounds of the share contain those of the exact count.
 #[test]
 fn counts_are_those_of_the_time_series() {
     let scratch = folder("band-requirements");
@@ -82,7 +83,8 @@ fn counts_are_those_of_the_time_series() {
     }
     assert_eq!(are_apart, [true; 2]);
 
-    // the counter-tests: a share that is missed; too few runs to tell; a part of the time, in which more runs keep the limit
+    // the counter-tests: a share that is missed; too few runs to tell; a part of the time, in which more runs keep the
+    // limit
     assert_eq!(verdict(&scratch, &format!("fraction = 0.999\nat_most = {limit:?}"), 3)["verdict"], "FAIL");
     assert_eq!(verdict(&scratch, &format!("quantile = 0.97\nat_most = {limit:?}"), 5)["verdict"], "UNDECIDED");
     let high = (0..times.len()).map(|point| *at(point).last().unwrap()).fold(f64::NEG_INFINITY, f64::max);
@@ -116,8 +118,9 @@ fn counts_are_those_of_the_time_series() {
     }
 }
 
-/// Law: a requirement at all times is about the extreme of each run at the observation points of the interval, exactly; where other runs are
-/// beyond the limit at other times, each time passes and all times fail. The rest of a row has the bits that it has without the requirement.
+/// Law: a requirement at all times is about the extreme of each run at the observation points of the interval, exactly;
+/// where other runs are beyond the limit at other times, each time passes and all times fail. The rest of a row has the
+/// bits that it has without the requirement.
 #[test]
 fn all_times_are_those_of_each_run() {
     let scratch = folder("all-times");
@@ -160,7 +163,8 @@ fn all_times_are_those_of_each_run() {
                 let side = if is_highest { "at_most" } else { "at_least" };
                 let tables = |all: bool| {
                     format!(
-                        "\n[[require]]\nband = \"{series}\"\nfraction = 0.6\n{side} = {limit:?}\nat_all_times = {all}\n{}{}",
+                        "\n[[require]]\nband = \"{series}\"\nfraction = 0.6\n{side} = {limit:?}\nat_all_times = \
+                        {all}\n{}{}",
                         end("from_s", from),
                         end("to_s", to)
                     )

@@ -27,8 +27,8 @@ value = 0.7
 ends_run = true
 "#;
 
-/// Law: files of rows are the same bytes where the campaign is run at once and where it is extended, and every one of them is made again bit for bit; damage of one is repaired to
-/// the same bytes.
+/// Law: files of rows are the same bytes where the campaign is run at once and where it is extended, and every one of
+/// them is made again bit for bit; damage of one is repaired to the same bytes.
 #[test]
 fn results_of_ended_runs_are_those_of_one_campaign() {
     let scratch = ScratchFolder::new("ended-runs");
@@ -52,7 +52,8 @@ fn results_of_ended_runs_are_those_of_one_campaign() {
     assert!(scratch.parts("grown") == whole, "repaired");
 }
 
-/// Law: the reference solution of an audit is that of the run as it ended: true errors are rounding, and estimates cover them in at least 95% of the runs.
+/// Law: the reference solution of an audit is that of the run as it ended: true errors are rounding, and estimates
+/// cover them in at least 95% of the runs.
 #[test]
 fn audits_know_where_a_run_has_ended() {
     let scratch = ScratchFolder::new("ended-audits");

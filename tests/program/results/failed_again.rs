@@ -1,4 +1,5 @@
-//! `campaign --only-failed-of`: the samples that failed, under another plan. `campaign --fail-fast`: the first of them is the end.
+//! `campaign --only-failed-of`: the samples that failed, under another plan. `campaign --fail-fast`: the first of them
+//! is the end.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -34,8 +35,9 @@ fn results(name: &str) -> ScratchFolder {
     scratch
 }
 
-/// Law: exactly the samples that failed run, and each row has the bits that it has in the whole campaign under the same plan; the result is
-/// the same bytes from shards, and after an interruption; statistics say that the samples are chosen.
+/// Law: exactly the samples that failed run, and each row has the bits that it has in the whole campaign under the same
+/// plan; the result is the same bytes from shards, and after an interruption; statistics say that the samples are
+/// chosen.
 #[test]
 fn failed_samples_run_under_another_plan() {
     let scratch = results("failed-again");
@@ -102,8 +104,8 @@ fn the_same_plan_fails_the_same_way() {
     assert!(said.contains("part-000001"), "{said}");
 }
 
-/// Law: with `--fail-fast` no part starts after one with a run that failed, the message replays that run, and the command without it continues
-/// to the bytes of an undisturbed campaign.
+/// Law: with `--fail-fast` no part starts after one with a run that failed, the message replays that run, and the
+/// command without it continues to the bytes of an undisturbed campaign.
 #[test]
 fn the_first_failure_ends_the_campaign() {
     let scratch = results("fail-fast");
@@ -144,8 +146,8 @@ fn every_failure_is_run_again() {
     assert_eq!(seen, ["inaccurate", "invalid_sample", "step_limit"]);
 }
 
-/// Law: of several parts that are made at the same time `--fail-fast` names the first run that failed, and the same command names it again.
-/// The first part takes longest, and its failure comes after those of the others.
+/// Law: of several parts that are made at the same time `--fail-fast` names the first run that failed, and the same
+/// command names it again. The first part takes longest, and its failure comes after those of the others.
 #[test]
 fn the_first_failure_is_that_of_the_first_sample() {
     let scratch = folder("fail-fast-threads");
@@ -162,7 +164,8 @@ fn the_first_failure_is_that_of_the_first_sample() {
     }
 }
 
-/// Law: every command that a campaign prints for a run gives the run of that row, whichever options replaced numbers of its file.
+/// Law: every command that a campaign prints for a run gives the run of that row, whichever options replaced numbers of
+/// its file.
 #[test]
 fn printed_commands_give_the_rows() {
     let scratch = folder("printed");

@@ -80,7 +80,8 @@ fn what_is_not_a_number_passes_nothing() {
     let mut check = scratch.command("check c.toml");
     let said = scratch.outputs(check.env("COLUMNS", "400"), 0);
     for text in [
-        "[[event]] never: ln(-1 - spin_axis_angle_rad) is not a number in 8 of the first 8 samples, first in sample 0 at 0 s",
+        "[[event]] never: ln(-1 - spin_axis_angle_rad) is not a number in 8 of the first 8 samples, first in sample 0 \
+        at 0 s",
         "[[extreme]] root: sqrt(-1 - spin_axis_angle_rad) is not a number in 8 of the first 8 samples",
         "[[observable]] slow: it is not a number in ",
     ] {

@@ -6,8 +6,8 @@ use crate::commands::screen_numbers::says;
 use crate::small_campaign::{campaign_without_debris, folder};
 use crate::support::scratch_folder::column;
 
-/// Law: half the distance between estimate and limit takes four times as many runs, of means and fractions, of independent samples and of
-/// replicates.
+/// Law: half the distance between estimate and limit takes four times as many runs, of means and fractions, of
+/// independent samples and of replicates.
 #[test]
 fn half_the_distance_takes_four_times_the_runs() {
     let scratch = folder("runs-that-decide");
@@ -44,8 +44,8 @@ fn half_the_distance_takes_four_times_the_runs() {
     }
 }
 
-/// Law: a requirement that fails by itself and not at its share of the error of both is undecided, and the confidences that are named are the one at
-/// which it is missed and then the one at which it is not.
+/// Law: a requirement that fails by itself and not at its share of the error of both is undecided, and the confidences
+/// that are named are the one at which it is missed and then the one at which it is not.
 #[test]
 fn a_requirement_may_fail_alone() {
     let scratch = folder("fails-alone");

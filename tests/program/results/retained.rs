@@ -43,8 +43,8 @@ fn retained(plan: &Plan, rows: &RowsReader, threads: Option<NonZeroUsize>) -> Re
     Ok(retained.chosen(of_files(&retained, rows, threads)?))
 }
 
-/// Law: each rule chooses the runs that it says, whatever the threads: none, all that were run, the failed, the worst by magnitude, as
-/// many as asked for, without the nominal one.
+/// Law: each rule chooses the runs that it says, whatever the threads: none, all that were run, the failed, the worst
+/// by magnitude, as many as asked for, without the nominal one.
 #[test]
 fn rules_choose_what_they_say() {
     let scratch = folder("retained");
@@ -67,7 +67,8 @@ fn rules_choose_what_they_say() {
     let failed = those(&|status| status == "step_limit");
     assert!(failed.len() > 3 && failed.len() < 300, "{} runs reach the limit", failed.len());
     assert_eq!(chosen("failed"), failed);
-    // greatest magnitudes: of errors, of a number with a sign, and of counts, where many are equal and the first are taken
+    // greatest magnitudes: of errors, of a number with a sign, and of counts, where many are equal and the first are
+    // taken
     for observable in ["energy_error_max", "energy_error_rate_per_s", "steps"] {
         let values = column(&table, observable).into_iter().zip(ended(&table));
         let with_value = values.filter(|(value, (sample, _))| *sample > 0 && !value.is_nan());
@@ -96,8 +97,8 @@ fn dataset(plan: &Plan, root: &Path) -> Folder {
     Folder::open(&Disk, root, (plan.text(), identity), (MANIFEST.to_owned(), None), BTreeMap::new()).unwrap()
 }
 
-/// Law: the file of a retained run is that of `simulate --sample K --out`, byte for byte, also of a run that failed, for any number of
-/// threads. Counter-test: that of another sample differs.
+/// Law: the file of a retained run is that of `simulate --sample K --out`, byte for byte, also of a run that failed,
+/// for any number of threads. Counter-test: that of another sample differs.
 #[test]
 fn files_are_those_of_simulate() {
     let scratch = folder("trajectories");
@@ -131,8 +132,8 @@ fn files_are_those_of_simulate() {
     assert!(refused.contains("missing") && refused.contains("sample-00000"), "{refused}");
 }
 
-/// Law: a campaign ends with the trajectories that its file asks for; where only that is changed, no sample is run again and the others are
-/// removed.
+/// Law: a campaign ends with the trajectories that its file asks for; where only that is changed, no sample is run
+/// again and the others are removed.
 #[test]
 fn a_campaign_keeps_what_its_file_asks_for() {
     let scratch = folder("retain");
@@ -161,7 +162,8 @@ fn a_campaign_keeps_what_its_file_asks_for() {
     assert!(kept("none", 1).is_empty());
 }
 
-/// Law: a campaign ends with bands of the runs that are ok, the same bytes for any number of threads; without points there are none.
+/// Law: a campaign ends with bands of the runs that are ok, the same bytes for any number of threads; without points
+/// there are none.
 #[test]
 fn a_campaign_ends_with_bands() {
     let scratch = folder("bands");

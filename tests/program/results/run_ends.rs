@@ -1,4 +1,5 @@
-//! A campaign whose runs end at events, from outside: files, statistics, requirements, page, replay and single runs agree on where they end.
+//! A campaign whose runs end at events, from outside: files, statistics, requirements, page, replay and single runs
+//! agree on where they end.
 
 use crate::page::numbers::Found;
 use crate::support::scratch_folder::{ScratchFolder, floats};
@@ -51,7 +52,8 @@ fn campaign(name: &str, arguments: &str) -> ScratchFolder {
     scratch
 }
 
-/// Law: `simulate --sample K` and the replay end where row K does; the verdicts are those of the rows; the strip of runs in flight counts those that have not ended.
+/// Law: `simulate --sample K` and the replay end where row K does; the verdicts are those of the rows; the strip of
+/// runs in flight counts those that have not ended.
 #[test]
 fn everything_ends_where_the_row_does() {
     let found = Found::read(campaign("everything", ""), String::new());

@@ -1,4 +1,5 @@
-//! `statistics.parquet` and `sensitivity.parquet` are those of the files of rows, and the same bytes for any number of threads.
+//! `statistics.parquet` and `sensitivity.parquet` are those of the files of rows, and the same bytes for any number of
+//! threads.
 
 use std::fs;
 
@@ -48,9 +49,9 @@ fn number(table: &RecordBatch, name: &str, row: usize) -> Option<f64> {
     (!column.is_null(row)).then(|| column.value(row))
 }
 
-/// Law: counts and extremes are exact, moments are those of the rows to 1e-12 of their size, quantiles are of type 7; failed runs are
-/// counted and left out, and so are runs without a value, column by column; intervals are of as many runs as have one; a quantile that the
-/// runs cannot bound says what it takes.
+/// Law: counts and extremes are exact, moments are those of the rows to 1e-12 of their size, quantiles are of type 7;
+/// failed runs are counted and left out, and so are runs without a value, column by column; intervals are of as many
+/// runs as have one; a quantile that the runs cannot bound says what it takes.
 #[test]
 fn statistics_are_those_of_the_files() {
     let scratch = folder("statistics-table");
@@ -176,8 +177,9 @@ fn designs_without_independent_samples_have_no_intervals() {
     }
 }
 
-/// Law: a magnitude of two numbers with mean zero is driven by both: the table, the screen and the card say so, in the same words. Its
-/// first-order index is 0.487 for each, its rank correlations are zero. 599 runs: the lower ends are above zero for any seed (0.3 on average, 0.36 wide).
+/// Law: a magnitude of two numbers with mean zero is driven by both: the table, the screen and the card say so, in the
+/// same words. Its first-order index is 0.487 for each, its rank correlations are zero. 599 runs: the lower ends are
+/// above zero for any seed (0.3 on average, 0.36 wide).
 #[test]
 fn a_magnitude_is_driven_by_what_it_is_made_of() {
     const SPIN: &str = r#"
@@ -219,8 +221,9 @@ quantile = 0.9
     assert!(page.contains(drivers) && drivers.contains(&said(&names[1])), "{drivers}");
 }
 
-/// Law: beyond 100,000 rows quantiles of an observable with an offset of 2e5 standard deviations are within a hundredth of one of those of the rows, a
-/// median of zeros is zero, and shards that are counted from their files give the bytes of one process that counts while it runs.
+/// Law: beyond 100,000 rows quantiles of an observable with an offset of 2e5 standard deviations are within a hundredth
+/// of one of those of the rows, a median of zeros is zero, and shards that are counted from their files give the bytes
+/// of one process that counts while it runs.
 #[test]
 #[ignore = "half a minute: cargo test --release --test program -- --ignored many_rows"]
 fn many_rows_have_quantiles_of_their_spread() {
@@ -255,8 +258,8 @@ expression = "max(initial.angular_velocity_rad_s.x, 0) * if(initial.angular_velo
     assert_eq!(number(&table, "p50", row("mostly_zero")), Some(0.0));
 }
 
-/// Law: the interval of a mean with 95% confidence has ends that each miss with 2.5%: for a replicated design they are the bounds at 97.5% of the mean
-/// of its replicates (whose coverage is that of `coverage_of_means.rs`).
+/// Law: the interval of a mean with 95% confidence has ends that each miss with 2.5%: for a replicated design they are
+/// the bounds at 97.5% of the mean of its replicates (whose coverage is that of `coverage_of_means.rs`).
 #[test]
 fn a_mean_of_replicates_has_its_interval_from_the_replicates() {
     const REPLICATES: usize = 8;
@@ -302,8 +305,8 @@ fn a_mean_of_replicates_has_its_interval_from_the_replicates() {
     assert!(checked > 20, "{checked}");
 }
 
-/// Law: the input that another one is most correlated with is that of the largest magnitude: with -0.9 as with 0.9, although the third has a
-/// correlation that is notable too, and positive.
+/// Law: the input that another one is most correlated with is that of the largest magnitude: with -0.9 as with 0.9,
+/// although the third has a correlation that is notable too, and positive.
 #[test]
 fn a_negative_correlation_is_one_too() {
     let scratch = folder("statistics-partners");

@@ -9,10 +9,12 @@ use crate::commands::screen_numbers::{junit_counts, numbers, says};
 use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::{ScratchFolder, column, ended};
 
-/// The campaign of 300 samples with `[stop]`: the median of the energy transfer of wheel 1 to within `half_width` J, with at most 2,400 samples.
+/// The campaign of 300 samples with `[stop]`: the median of the energy transfer of wheel 1 to within `half_width` J,
+/// with at most 2,400 samples.
 fn stopping(half_width: &str) -> String {
     let stop = format!(
-        "\n[stop]\nobservable = \"exchange_w1_peak_to_peak_j\"\nquantile = 0.5\nhalf_width = {half_width}\nmax_samples = 2400\n"
+        "\n[stop]\nobservable = \"exchange_w1_peak_to_peak_j\"\nquantile = 0.5\nhalf_width = {half_width}\nmax_samples \
+        = 2400\n"
     );
     campaign().replace("samples = 600", "samples = 300") + &stop
 }
@@ -34,8 +36,8 @@ fn median(scratch: &ScratchFolder, result: &str) -> f64 {
     values[values.len() / 2]
 }
 
-/// Law: a campaign stops at the first look whose interval is narrow enough, its rows are those of a campaign of so many samples, and the interval has
-/// the confidence of one of four looks. The nominal run is no part of the estimate.
+/// Law: a campaign stops at the first look whose interval is narrow enough, its rows are those of a campaign of so many
+/// samples, and the interval has the confidence of one of four looks. The nominal run is no part of the estimate.
 #[test]
 fn a_campaign_stops_when_it_is_precise_enough() {
     let scratch = folder("stop");
@@ -108,8 +110,9 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     assert!(said.contains("[stop]"), "{said}");
 }
 
-/// Law: with `when = "decided"` a campaign ends at the first look at which the exact test, at its share of the errors of all looks, decides;
-/// the verdict is that of the look, and a limit that is the median itself stays undecided: exit code 5.
+/// Law: with `when = "decided"` a campaign ends at the first look at which the exact test, at its share of the errors
+/// of all looks, decides; the verdict is that of the look, and a limit that is the median itself stays undecided: exit
+/// code 5.
 #[test]
 fn a_campaign_stops_when_its_requirements_are_decided() {
     const NAME: &str = "exchange_w1_peak_to_peak_j";
@@ -121,7 +124,8 @@ fn a_campaign_stops_when_its_requirements_are_decided() {
     let looks = [300_u64, 600, 1200, 2400];
     let campaign = |limit: f64| {
         let tables = format!(
-            "\n[[require]]\nobservable = \"{NAME}\"\nquantile = 0.5\nat_most = {limit:?}\n[stop]\nwhen = \"decided\"\nmax_samples = 2400\n"
+            "\n[[require]]\nobservable = \"{NAME}\"\nquantile = 0.5\nat_most = {limit:?}\n[stop]\nwhen = \
+            \"decided\"\nmax_samples = 2400\n"
         );
         campaign().replace("samples = 600", "samples = 300") + &tables
     };

@@ -1,7 +1,8 @@
-//! The Delta Lake log of a result: what the published protocol asks for, read on its own, and by the packages that read such tables.
+//! The Delta Lake log of a result: what the published protocol asks for, read on its own, and by the packages that read
+//! such tables.
 //!
-//! The protocol: <https://github.com/delta-io/delta/blob/master/PROTOCOL.md>. `SPINDRIFT_PYTHON` names the interpreter (default: `python3`);
-//! packages that it does not have are skipped, and said so.
+//! The protocol: <https://github.com/delta-io/delta/blob/master/PROTOCOL.md>. `SPINDRIFT_PYTHON` names the interpreter
+//! (default: `python3`); packages that it does not have are skipped, and said so.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -30,8 +31,8 @@ fn commits(scratch: &ScratchFolder, result: &str) -> Vec<Vec<Value>> {
     names.iter().map(actions).collect()
 }
 
-/// What a reader of the protocol sees: the columns, and the files with their sizes and numbers of rows. A later `add` of a file replaces an
-/// earlier one.
+/// What a reader of the protocol sees: the columns, and the files with their sizes and numbers of rows. A later `add`
+/// of a file replaces an earlier one.
 fn snapshot(commits: &[Vec<Value>]) -> (Value, BTreeMap<String, (u64, u64)>) {
     let mut files = BTreeMap::new();
     let mut columns = Value::Null;
@@ -70,8 +71,8 @@ fn snapshot(commits: &[Vec<Value>]) -> (Value, BTreeMap<String, (u64, u64)>) {
     (columns, files)
 }
 
-/// Law: the log lists every file of rows with its size and its number of rows, and its columns are those of the files, with types that
-/// Delta Lake has, and a comment with unit and meaning.
+/// Law: the log lists every file of rows with its size and its number of rows, and its columns are those of the files,
+/// with types that Delta Lake has, and a comment with unit and meaning.
 #[test]
 fn the_log_is_the_table() {
     let scratch = folder("table-log");
@@ -107,8 +108,8 @@ fn the_log_is_the_table() {
     }
 }
 
-/// Law: more samples are one more commit, which leaves the first and every file that it lists as they were; another question of the same rows is none. Files that are no
-/// part of the result are in no snapshot.
+/// Law: more samples are one more commit, which leaves the first and every file that it lists as they were; another
+/// question of the same rows is none. Files that are no part of the result are in no snapshot.
 #[test]
 fn an_extension_adds_a_commit() {
     let scratch = folder("table-log-grown");
@@ -143,8 +144,8 @@ fn python(scratch: &ScratchFolder, package: &str, code: &str) -> Option<String> 
     Some(String::from_utf8(output.stdout).unwrap().trim().to_owned())
 }
 
-/// Law: the packages `deltalake` and polars open the folder as one table with the rows of its parts, and a foreign file beside them is no
-/// part of it; after an extension they see the longer table.
+/// Law: the packages `deltalake` and polars open the folder as one table with the rows of its parts, and a foreign file
+/// beside them is no part of it; after an extension they see the longer table.
 #[test]
 fn table_engines_read_the_result() {
     let scratch = folder("table-log-engines");
@@ -154,7 +155,8 @@ fn table_engines_read_the_result() {
         print(t.height, t['sample_id'].dtype)";
     let deltalake = "from deltalake import DeltaTable\nt = DeltaTable('r')\n\
         c = {field.name: field for field in t.schema().fields}\n\
-        n = sum(t.get_add_actions(flatten=True).to_pydict()['num_records']) if hasattr(t.get_add_actions(flatten=True), 'to_pydict') else \
+        n = sum(t.get_add_actions(flatten=True).to_pydict()['num_records']) if \
+        hasattr(t.get_add_actions(flatten=True), 'to_pydict') else \
         sum(x.as_py() for x in t.get_add_actions(flatten=True)['num_records'])\n\
         first = DeltaTable('r', version=0)\n\
         import pyarrow.parquet as pq\n\
