@@ -133,21 +133,24 @@ fn rules() -> String {
 fn dependencies() -> String {
     let mut table = String::from("| crate | version | why | where |\n| --- | --- | --- | --- |\n");
     let listed = listed_dependencies();
-    let [program, kernels, python, benches] =
-        ["Cargo.toml", "kernels/Cargo.toml", "python/Cargo.toml", "benches/Cargo.toml"].map(manifest);
+    let [program, kernels, figures, python, benches] =
+        ["Cargo.toml", "kernels/Cargo.toml", "figures/Cargo.toml", "python/Cargo.toml", "benches/Cargo.toml"]
+            .map(manifest);
     let mut of_program = program["dependencies"].as_table().expect("a table").clone();
     of_program.extend(kernels["dependencies"].as_table().expect("a table").clone());
     let places = [
         (&toml::Value::Table(of_program), "program"),
         (&program["target"]["cfg(unix)"]["dependencies"], "program, on Unix"),
         (&program["build-dependencies"], "build of the program"),
+        (&figures["dependencies"], "program with figures"),
         (&python["dependencies"], "Python package"),
         (&program["dev-dependencies"], "tests"),
         (&benches["dependencies"], "benches"),
     ];
+    let own = |name: &str| ["spindrift", "spindrift-figures"].contains(&name);
     let mut named = BTreeSet::new();
     for (dependencies, place) in places {
-        for name in dependencies.as_table().expect("a table").keys().filter(|name| *name != "spindrift") {
+        for name in dependencies.as_table().expect("a table").keys().filter(|name| !own(name)) {
             // what the benches share with the program is in the table once
             if named.insert(name) {
                 let (version, why) = &listed[name];
@@ -155,7 +158,6 @@ fn dependencies() -> String {
             }
         }
     }
-    let own = |name: &str| name == "spindrift";
     let unused: Vec<&String> = listed.keys().filter(|name| !named.contains(name) && !own(name)).collect();
     assert!(unused.is_empty(), "no package uses {unused:?}");
     table

@@ -58,6 +58,10 @@ pub fn findings(plan: &Plan, analysed: &Analysis<'_>, noise: &[NoiseShare]) -> F
         Finding { rank: 1, ..Finding::new(Kind::Driver, format!("noise_{}", one.observable), name, said) }
     });
     list.extend(of_noise);
+    if plan.law.is_some() && noise.is_empty() && plan.rows() > 1 {
+        let said = "noise in the loop is not an input; `spindrift report . --noise 256` measures its share";
+        list.push(Finding::new(Kind::Driver, "noise", "", said));
+    }
     list.extend(errors(analysed));
     Findings::new(list, statistics.confidence)
 }

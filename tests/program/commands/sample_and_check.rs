@@ -294,7 +294,8 @@ fn a_figure_of_samples_is_without_the_nominal_one() {
         let found = Found::of_page(&scratch.text(&format!("{name}.html")));
         let figures = found.data["figures"].as_array().expect("figures").clone();
         let marks = figures.iter().flat_map(|figure| figure["marks"].as_array().expect("marks").clone());
-        let (nominal, others): (Vec<Value>, Vec<Value>) = marks.partition(|mark| mark["label"] == "nominal");
+        let is_nominal = |mark: &Value| mark["label"].as_str().is_some_and(|label| label.starts_with("nominal"));
+        let (nominal, others): (Vec<Value>, Vec<Value>) = marks.partition(is_nominal);
         assert_eq!(nominal.len(), 2);
         let numbers = |mark: &Value| {
             ["x", "y", "edges", "heights", "values"].map(|key| mark.get(key).map(|place| found.array(place)))

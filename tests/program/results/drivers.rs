@@ -30,17 +30,16 @@ fn a_dead_thruster_is_named() {
         format!("thruster p2 thrust scale = 0: {a} of {m} miss the limit; = 1: {b} of {n} miss the limit (risk ratio");
     let is_said = |line: &str| line.trim_start().starts_with("phase_rest_begin_s") && line.contains(&words);
     assert!(found.said.lines().any(is_said), "{words}: {}", found.said);
-    assert!(found.visible().contains(&words));
-    let chart = found.figure("influence_phase_rest_begin_s_event");
-    assert_eq!(chart["y"]["names"][0], "thruster p2 thrust scale", "{chart}");
-    assert!(chart["caption"].as_str().expect("a caption").ends_with(" The same runs miss: twice."), "{chart}");
+    assert!(found.visible().to_lowercase().contains(&words));
     let names: Vec<&str> = found.data["figures"]
         .as_array()
         .expect("figures")
         .iter()
         .filter_map(|figure| figure["name"].as_str())
         .collect();
-    assert!(!names.contains(&"influence_twice_event") && names.contains(&"influence_propellant_kg"), "{names:?}");
+    // the shares of runs that miss by the input, drawn once
+    let has = |start: &str| names.iter().any(|name| name.starts_with(start) && name.contains("p2_thrust_scale"));
+    assert!(has("shares_phase_rest_begin_s") && !has("shares_twice"), "{names:?}");
     let is_said = |line: &str| {
         line.trim_start().starts_with("propellant_kg")
             && line.contains("initial angular velocity x")
