@@ -40,7 +40,6 @@ export class Replay {
     this.camera = new three.PerspectiveCamera(40, 1.6, 0.01 * this.size, 400 * this.size);
     // the nominal run, where it is one of those that are shown
     this.nominal = data.runs[0].sample === 0 ? new Motion(data.runs[0], data.scene.wheels.length) : null;
-    this.still = [...place.querySelectorAll(".still")];
     this.camera.up.set(0, 0, 1);
     this.renderer = new three.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.controls = new three.OrbitControls(this.camera, this.renderer.domElement);
@@ -174,7 +173,7 @@ export class Replay {
     const column = control("div");
     column.append(this.live.box, this.numbers);
     beside.append(this.stage, column);
-    this.place.replaceChildren(bar, beside, this.slider, this.marks.box, this.clock, legend, this.notes, ...this.still);
+    this.place.replaceChildren(bar, beside, this.slider, this.marks.box, this.clock, legend, this.notes);
     this.stage.addEventListener("keydown", (event) => this.key(event));
     this.resize();
   }
@@ -399,7 +398,7 @@ export function startReplay(data, three) {
   try {
     return new Replay(data, three, place);
   } catch (error) {
-    place.querySelector(":scope > p:not(.still)").textContent = `This browser shows no 3D graphics (WebGL), so the replay is left out.${/webgl/i.test(error.message) ? "" : ` (${error.message})`}`;
+    place.querySelector(":scope > p").textContent = `This browser shows no 3D graphics (WebGL), so the replay is left out.${/webgl/i.test(error.message) ? "" : ` (${error.message})`}`;
     return null;
   }
 }

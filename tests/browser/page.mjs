@@ -12,7 +12,7 @@ import puppeteer from "puppeteer-core";
 import { checkFigures, checkHover, checkSaid, checkSelection, checkTexts } from "./figure_laws.mjs";
 import { checkInputs, checkLinks, checkNarrowTables, checkPaper, checkTables, checkWithoutScripts } from "./layout_laws.mjs";
 import { opened, problems, screenshots } from "./open_page.mjs";
-import { checkCursor, checkFullScreen, checkNumbers, checkReplay, checkStill } from "./replay_laws.mjs";
+import { checkCursor, checkFullScreen, checkNumbers, checkReplay } from "./replay_laws.mjs";
 
 const LARGEST = 2_000_000; // bytes of a page
 const MOST_SHEETS = 8; // of paper, of missions with all their figures
@@ -40,7 +40,6 @@ async function checked(browser, file) {
   if (await page.$(".replay")) {
     await checkFullScreen(page, name);
     await checkCursor(page, name);
-    await checkStill(page, name);
   }
   await page.mouse.move(0, 0);
   // as it opens, with what is folded

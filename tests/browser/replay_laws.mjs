@@ -134,15 +134,6 @@ export async function checkCursor(page, name) {
   if (time === 0) problems.push(`${name}: a click into a figure over time does not lead the replay`);
 }
 
-// Without WebGL, and on paper, a still is there instead.
-export async function checkStill(page, name) {
-  const isShown = () => page.$eval(".replay svg.still", (still) => getComputedStyle(still).display !== "none" && still.getBoundingClientRect().height > 100);
-  if (await isShown()) problems.push(`${name}: the still is there beside the replay`);
-  await page.emulateMediaType("print");
-  if (!(await isShown())) problems.push(`${name}: there is no still on paper`);
-  await page.emulateMediaType("screen");
-}
-
 // The numbers beside the replay are those of the run that is shown.
 export async function checkNumbers(page, name) {
   const shown = await page.evaluate(async () => {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use spindrift::campaign::{Overrides, Plan};
 
 /// Most bytes of a picture.
-const LARGEST: u64 = 200_000;
+const LARGEST: u64 = 600_000;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
