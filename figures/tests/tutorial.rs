@@ -1,5 +1,5 @@
-//! The pictures of `docs/tutorial.md` are those that its commands draw: its files are written and its commands run, by the
-//! program with figures.
+//! The pictures of `docs/tutorial.md` are those that its commands draw: its files are written and its commands run,
+//! by the program with figures.
 //!
 //! `SPINDRIFT_WRITE_DOCS=1 cargo test --release -p spindrift-figures --test tutorial` writes those that differ.
 
