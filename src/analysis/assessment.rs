@@ -4,7 +4,6 @@ use crate::campaign::{Requirement, ShownUnit, Statement};
 use crate::statistics::binomial::{Decision, upper_bound};
 use crate::statistics::gate::{Gate, GateLimit};
 use crate::statistics::looks::adjusted;
-use crate::statistics::quantile::percent;
 
 /// What the runs say of one requirement.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,35 +140,5 @@ impl Assessment {
                 (Statement::Fraction(target), _) => upper < target,
                 (Statement::Quantile(p), limit) => upper < limit.fraction(p),
             }
-    }
-
-    /// The requirement in words, with the bounds of the values where a mean is judged by them.
-    pub fn sentence(&self) -> String {
-        let requirement = &self.requirement;
-        let unit = if self.shown.unit.is_empty() { String::new() } else { format!(" {}", self.shown.unit) };
-        let limit = format!("{:?}", self.shown.written(requirement.limit.value()));
-        let side = if matches!(requirement.limit, GateLimit::AtMost(_)) { "at most" } else { "at least" };
-        let limit = format!("{side} {}{unit}", limit.trim_end_matches(".0"));
-        let (name, confidence) = (requirement.name(), percent(requirement.confidence));
-        let limit = format!("{limit}{}", requirement.times());
-        let what = match requirement.statement {
-            Statement::Quantile(p) if requirement.window().is_some() => {
-                format!("{}% of runs with {name} {limit}", percent(requirement.limit.fraction(p)))
-            }
-            Statement::Quantile(p) => format!("p{} of {name} {limit}", percent(p)),
-            Statement::Fraction(fraction) => {
-                // yes or no
-                let is_yes =
-                    name == "launched" && matches!(requirement.limit, GateLimit::AtLeast(limit) if limit > 0.0);
-                let which = if is_yes { "that launch".to_owned() } else { format!("with {name} {limit}") };
-                format!("{}% of runs {which}", percent(fraction))
-            }
-            Statement::Mean => {
-                let bounded = requirement.bounded.map(|ends| ends.map(|end| self.shown.written(end)));
-                let range = bounded.map(|[low, high]| format!(" (bounded = [{low:?}, {high:?}]{unit})"));
-                format!("mean of {name} {limit}{}", range.unwrap_or_default())
-            }
-        };
-        format!("{what}, with {confidence}% confidence")
     }
 }

@@ -8,7 +8,7 @@ use crate::statistics::correlation::Estimate;
 
 /// Least share of the variance, or squared rank correlation, of an input that is called a driver of the spread: a share
 /// without which the standard deviation is 5% smaller.
-const LEAST_SHARE: f64 = 0.1;
+pub const LEAST_SHARE: f64 = 0.1;
 /// An interval of a share that is wider says so little that the share is not said.
 const MOST_WIDTH: f64 = 0.7;
 
@@ -42,7 +42,7 @@ pub fn is_known(share: &Estimate) -> bool {
 /// certain, and matter to nobody.
 const LEAST_RATIO: f64 = 1.5;
 /// The same of the chance of [`Dependence::Shift`], as its distance from one half.
-const LEAST_CHANCE: f64 = 0.1;
+pub const LEAST_CHANCE: f64 = 0.1;
 
 /// What is asked of an outcome.
 #[derive(Clone, Copy, Debug, PartialEq)]

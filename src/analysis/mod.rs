@@ -1,7 +1,7 @@
 //! Layer 8: what the rows say.
 //!
-//! - [`fold`]: one pass over the parts, of rows in memory or in files ([`part_columns`]), in which everything that
-//!   follows gathers what it needs, each by an [`accumulator`].
+//! - [`analysed`]: all that follows is in one place. [`fold`]: one pass over the parts, of rows in memory or in files
+//!   ([`part_columns`]), in which everything that follows gathers what it needs, each by an [`accumulator`].
 //! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`], [`order_statistics`]);
 //!   [`tally`]: how runs ended ([`statuses`]), the worst ones ([`worst_runs`]), audits ([`audit_tally`]).
 //! - [`verdicts`]: of the requirements, each an [`assessment`] (of a number of each run: `row_verdicts`; over time:
@@ -17,6 +17,7 @@
 //! Not here: files and their protocol (`storage`), formulas of statistics (`statistics`), text and figures (`report`).
 
 pub mod accumulator;
+pub mod analysed;
 pub mod assessment;
 pub mod audit_tally;
 mod band_verdicts;

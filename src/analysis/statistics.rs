@@ -335,6 +335,14 @@ fn with_lost_runs(lost: u64, mean_interval: [Option<f64>; 2]) -> String {
     }
 }
 
+/// Whether values with these moments are all 0 or 1: x (1 - x), which is never negative between, has the mean 0.
+pub fn is_yes_or_no(moments: &Moments) -> bool {
+    let (Some(mean), Some(deviation)) = (moments.mean(), moments.standard_deviation()) else { return false };
+    let count = moments.count() as f64;
+    let of_square = deviation * deviation * (count - 1.0) / count + mean * mean;
+    moments.min() == Some(0.0) && moments.max() == Some(1.0) && (mean - of_square).abs() < 1e-9 * mean
+}
+
 /// What keeps runs with these moments from telling their mean and standard deviation.
 fn note(moments: &Moments, mean_interval: [Option<f64>; 2]) -> Option<String> {
     let skewness = moments.count().gt(&1).then(|| moments.skewness().unwrap_or(0.0))?;
@@ -344,7 +352,7 @@ fn note(moments: &Moments, mean_interval: [Option<f64>; 2]) -> Option<String> {
             "all values are equal: whether the mean is that value these runs cannot tell, a rare event would not show"
                 .to_owned(),
         ),
-        [Some(_), Some(_)] if share <= MOST_SHARE => None,
+        [Some(_), Some(_)] if share <= MOST_SHARE || is_yes_or_no(moments) => None,
         [Some(_), Some(_)] => Some(format!(
             "heavy tail: one run makes {:.0}% of the variance, and intervals of mean and standard deviation may be too \
             narrow",
@@ -419,6 +427,21 @@ mod tests {
         assert_eq!(median.value, Some(3.0));
         // a sixth is lost: no intervals
         assert_eq!(found.treatment(), "1 of 6 dispersed runs were not computed and are left out");
+    }
+
+    /// Law: values are yes or no if and only if each is 0 or 1 and both occur.
+    #[test]
+    fn yes_or_no_is_known_from_moments() {
+        for (values, known) in [
+            (vec![0.0, 1.0, 1.0], true),
+            ([vec![0.0; 999], vec![1.0]].concat(), true),
+            (vec![0.0, 0.5, 1.0], false),
+            ([vec![0.0; 999], vec![1.0, 1e-3]].concat(), false),
+            (vec![0.0, 2.0], false),
+            (vec![1.0, 1.0], false),
+        ] {
+            assert_eq!(is_yes_or_no(&Moments::of(values.iter().copied())), known, "{values:?}");
+        }
     }
 
     /// Law: beyond the exact ones, quantiles are within a hundredth of a standard deviation, whatever the offset of the

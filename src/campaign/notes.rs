@@ -14,7 +14,10 @@ impl Plan {
     pub fn notes(&self) -> Vec<String> {
         let mut notes = self.ignored.clone();
         if self.samples > 1 && self.dispersions.columns().is_empty() {
-            notes.push(format!("nothing is dispersed: all {} samples are the nominal scene", self.samples));
+            notes.push(match self.law {
+                Some(_) => "nothing is dispersed: samples differ by noise in the control loop alone".to_owned(),
+                None => format!("nothing is dispersed: all {} samples are the nominal scene", self.samples),
+            });
         }
         notes.extend(self.part_of_a_design());
         notes.extend(self.bound_inputs(self.samples - 1));

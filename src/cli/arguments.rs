@@ -34,6 +34,9 @@ pub enum Command {
     /// Merge shards into a finished result.
     #[command(name = "finish", after_help = help::FINISH)]
     CompleteResult(FinishOptions),
+    /// Print again what a finished result has found, as text or JSON.
+    #[command(after_help = help::SHOW)]
+    Show(ShowOptions),
     /// Check a result: checksums, recomputed rows, and every file derived from the rows.
     #[command(after_help = help::VERIFY)]
     Verify(VerifyOptions),
@@ -169,6 +172,22 @@ pub struct FinishOptions {
     /// Write every figure of the report to this folder: SVG where the program draws it, else a page.
     #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
     pub figures: Option<PathBuf>,
+    /// Number of threads, at most four per core [default: one per core].
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub threads: Option<std::num::NonZeroUsize>,
+}
+
+/// Arguments of `show`.
+#[derive(Debug, Args)]
+pub struct ShowOptions {
+    /// The result folder.
+    pub folder: PathBuf,
+    /// Print summary.json in place of text.
+    #[arg(long, conflicts_with = "verbose")]
+    pub json: bool,
+    /// Show all that the rows say, not one screen of it.
+    #[arg(long)]
+    pub verbose: bool,
     /// Number of threads, at most four per core [default: one per core].
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<std::num::NonZeroUsize>,

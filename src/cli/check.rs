@@ -16,11 +16,12 @@ use crate::ensemble::plausibility::implausible;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe, part_of_run};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::undefined;
+use crate::findings::loss;
 use crate::findings::number::{brief, bytes, counted, short, trimmed};
 use crate::math::Isa;
 use crate::observables::{Group, Request};
 use crate::ode::{PACE_STEPS, is_out_of_reach};
-use crate::report::failure_text;
+use crate::report::screen::reason_lines;
 use crate::run::{StateField, Status};
 use crate::scene::{Scene, WheelMode};
 use crate::storage::rows_file;
@@ -123,6 +124,8 @@ fn undefined_observables(ensemble: &Ensemble<'_>, probe: &RunProbe) -> Vec<Strin
     Observed::named(plan, own).into_iter().filter_map(note).collect()
 }
 
+/// Reasons of failures that are listed.
+const MOST_REASONS: usize = 8;
 /// How to see what the screen leaves out.
 const MORE: &str = "--verbose: percentiles, masses, momenta, what is integrated; --plan: every key";
 
@@ -157,7 +160,7 @@ fn failures(plan: &Plan, probe: &RunProbe) -> String {
     format!(
         "{head}{failed} of the first {} failed:\n{}",
         counted(count, "run"),
-        failure_text::text(&probe.reasons().groups())
+        reason_lines(loss::reasons(&probe.reasons(), count as u64).iter(), MOST_REASONS, usize::MAX)
     )
 }
 
@@ -282,7 +285,7 @@ fn estimate(ensemble: &Ensemble<'_>, probe: &RunProbe) -> String {
             format!(
                 "; at that pace integrator.max_steps ({}) does not suffice; {}",
                 plan.max_steps,
-                failure_text::remedy(Status::StepLimit).unwrap_or_default()
+                loss::remedy(Status::StepLimit).unwrap_or_default()
             )
         } else {
             String::new()

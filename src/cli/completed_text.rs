@@ -4,10 +4,9 @@ use std::path::Path;
 
 use crate::cli::screen::width;
 use crate::findings::number::{bytes, counted};
-use crate::report::audit_summary::cost;
-use crate::report::summary::{EndVerdict, SummaryEnd};
-use crate::report::verdict_table::{self, VerdictRow};
-use crate::report::{brief_text, drivers_text};
+use crate::findings::numerics::cost;
+use crate::report::screen;
+use crate::report::summary::SummaryEnd;
 use crate::storage::names::REPORT;
 use crate::table::wrapped::wrapped;
 use crate::workflow::Completed;
@@ -18,15 +17,14 @@ const SCREEN: usize = 24;
 /// The result in words, on one screen or with all that is known of it; `replayed` is the campaign file as a word of the
 /// command `simulate`.
 pub fn text(completed: &Completed, replayed: &str, is_verbose: bool) -> String {
-    let Completed { plan, summary, sensitivities, .. } = completed;
-    let head = question(plan.description.as_deref()) + &headline(completed);
+    let findings = &completed.findings;
+    let head = question(completed.plan.description.as_deref()) + &headline(completed);
     let body = if is_verbose {
-        let drivers = drivers_text::text(plan, sensitivities, width());
-        summary.text(&drivers, replayed, width()) + &files(completed)
+        screen::verbose(findings, replayed, width()) + &files(completed)
     } else {
         // the last line is the verdict
         let most = SCREEN.saturating_sub(head.lines().count() + 1);
-        brief_text::text(plan, summary, sensitivities, replayed, [most, width()])
+        screen::text(findings, replayed, [most, width()])
     };
     head + &body + &verdict(&completed.end, &completed.root)
 }
@@ -52,15 +50,8 @@ pub fn question(question: Option<&str>) -> String {
 
 /// The warnings and verdicts of a finished result in `root`, and its page.
 pub fn of_end(end: &SummaryEnd, root: &Path) -> String {
-    let row = |one: &EndVerdict| VerdictRow {
-        word: one.word.clone(),
-        required: one.statement.clone(),
-        found: one.found.clone(),
-        notes: String::new(),
-    };
-    let verdicts: Vec<VerdictRow> = end.verdicts.iter().map(row).collect();
     let warnings: String = end.warnings.iter().map(|one| format!("  {one}\n")).collect();
-    wrapped(&warnings, width()) + &verdict_table::text([""; 2], &verdicts, width()) + &verdict(end, root)
+    wrapped(&warnings, width()) + &screen::verdicts(&end.verdicts, width()) + &verdict(end, root)
 }
 
 /// The last line: the verdict, and the page in `root`, where there is one.

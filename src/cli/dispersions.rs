@@ -7,8 +7,9 @@ use crate::cli::screen::width;
 use crate::ensemble::drawn::{MASS_COLUMNS, magnitudes, mass_properties};
 use crate::ensemble::magnitude::Magnitude;
 use crate::ensemble::{DrawnScenes, Percentiles};
+use crate::findings::names::unit_of_input;
 use crate::findings::number::{counted, short, trimmed};
-use crate::report::origin_text::{origin, unit_of};
+use crate::report::origin_text::origin;
 use crate::sampling::{Design, Replaced, SampleId};
 use crate::table::Table;
 use crate::table::text::{Align, Text};
@@ -42,7 +43,7 @@ pub fn list(text: &mut String, plan: &Plan) -> std::fmt::Result {
             true => parameter.name(),
             false => format!("{}.{}", parameter.name(), (0..count).map(suffix).collect::<Vec<_>>().join(", ")),
         };
-        let shown = unit_of(plan, first);
+        let shown = unit_of_input(plan, first);
         let mut nominal: Vec<String> = of_group.iter().map(|one| trimmed(shown.value(one.nominal), 6)).collect();
         // components that are all the same are said once
         if nominal.iter().all(|one| *one == nominal[0]) {
@@ -101,10 +102,10 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
     let names: Vec<String> = of_columns.chain(magnitudes.iter().map(|magnitude| magnitude.name())).collect();
     let column_of = |magnitude: &Magnitude| columns.iter().position(|column| column.parameter == magnitude.parameter);
     let of_magnitude = |magnitude: &Magnitude| match column_of(magnitude) {
-        Some(column) if magnitude.unit() == magnitude.parameter.unit() => unit_of(plan, column),
+        Some(column) if magnitude.unit() == magnitude.parameter.unit() => unit_of_input(plan, column),
         _ => plan.analysis.display.of(&magnitude.name(), magnitude.unit()),
     };
-    let of_columns = (0..columns.len()).map(|column| unit_of(plan, column));
+    let of_columns = (0..columns.len()).map(|column| unit_of_input(plan, column));
     let units: Vec<ShownUnit> = of_columns.chain(magnitudes.iter().map(of_magnitude)).collect();
     // few draws have no percentiles of one in a hundred
     let is_few = drawn.count() < FEW;
@@ -176,7 +177,7 @@ pub fn shown(plan: &Plan, sample: SampleId) -> String {
     let _ = draws.scene(sample);
     let mut table = Table::with([Align::Left, Align::Whole, Align::Whole].map(|align| ("", align)));
     for (index, (column, value)) in plan.dispersions.columns().iter().zip(draws.applied()).enumerate() {
-        let shown = unit_of(plan, index);
+        let shown = unit_of_input(plan, index);
         let number =
             |value: f64| format!("{} {}", trimmed(shown.value(value), SHOWN_DIGITS), shown.unit).trim_end().to_owned();
         let nominal = format!("nominal {}", number(column.nominal));

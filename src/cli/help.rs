@@ -32,6 +32,12 @@ Examples:
   spindrift finish results/spin_sweep
   spindrift finish results/spin_sweep --junit verdicts.xml";
 
+/// Of `show`.
+pub const SHOW: &str = "\
+Examples:
+  spindrift show results/spin_sweep --verbose
+  spindrift show results/spin_sweep --json";
+
 /// Of `verify`.
 pub const VERIFY: &str = "\
 Examples:

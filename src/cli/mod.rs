@@ -4,8 +4,8 @@
 //! - [`arguments`]: commands and options; [`argument_values`]: their values; [`help`]: what their help texts end with.
 //! - [`outputs`]: which files a command may write.
 //! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`index`], [`new`],
-//!   [`precision`], [`report`], [`sample`], [`simulate`]: one command each; [`completed_text`]: what is printed of a
-//!   result.
+//!   [`precision`], [`report`], [`sample`], [`show`], [`simulate`]: one command each; [`completed_text`]: what is
+//!   printed of a result.
 //! - [`dispersions`]: the dispersions of a plan as text.
 //! - [`terminal`]: notes and the progress bar; [`screen`]: printing, [`terminal_width`]: how wide, [`colour`]: in
 //!   colour; [`signals`].
@@ -34,6 +34,7 @@ pub mod run_campaign;
 pub mod sample;
 mod scene_text;
 pub mod screen;
+pub mod show;
 pub mod signals;
 pub mod simulate;
 pub mod terminal;

@@ -6,7 +6,7 @@ use std::ffi::OsString;
 use crate::cli::arguments::{Command, arguments};
 use crate::cli::{
     check, columns, command_outcome, compare, finish_campaign, index, new, precision, report, run_campaign, sample,
-    signals, simulate, verify,
+    show, signals, simulate, verify,
 };
 
 /// Does what `words` say, the name of the program first; the exit code.
@@ -15,6 +15,7 @@ pub fn run(words: impl Iterator<Item = OsString>) -> u8 {
     let ended = match arguments(words).command {
         Command::Campaign(options) => run_campaign::run(&options),
         Command::CompleteResult(options) => finish_campaign::run(&options),
+        Command::Show(options) => show::run(&options),
         Command::Verify(options) => verify::run(&options),
         Command::Check(options) => check::run(&options),
         Command::Compare(options) => compare::run(&options),

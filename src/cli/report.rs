@@ -6,7 +6,7 @@ use crate::cli::outputs::refuse_within;
 use crate::cli::terminal::Terminal;
 use crate::cli::{completed_text, screen};
 use crate::findings::number::bytes;
-use crate::report::share_text;
+use crate::table::wrapped::wrapped;
 use crate::workflow::Session;
 use crate::workflow::page::{Remade, remade};
 
@@ -22,6 +22,8 @@ pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {
     let Remade { path, size, question, end, noise } = remade(&session, &options.folder, figures, options.noise)?;
     let question = completed_text::question(question.as_deref());
     let verdict = end.verdict_line(&path);
-    screen::print(&format!("{question}{}{verdict} ({})\n", share_text::noise_lines(&noise), bytes(size)))?;
+    let noise: String = noise.iter().map(|one| format!("  {}: {}\n", one.title, one.sentence)).collect();
+    let noise = wrapped(&noise, screen::width());
+    screen::print(&format!("{question}{noise}{verdict} ({})\n", bytes(size)))?;
     Ok(CommandOutcome::Done)
 }

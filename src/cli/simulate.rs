@@ -9,11 +9,11 @@ use crate::cli::outputs::refuse_inputs;
 use crate::cli::{dispersions, screen};
 use crate::ensemble::SingleRun;
 use crate::ensemble::audit::AuditValue;
+use crate::findings::loss;
+use crate::findings::loss::readable;
 use crate::findings::number::{counted, short};
 use crate::math::Isa;
-use crate::report::failure_text::readable;
 use crate::report::figure_files::{check_format, instead};
-use crate::report::mission_text;
 use crate::report::page::runs::GROUPS;
 use crate::report::simulation_figure::{left_out, simulation_figure};
 use crate::report::time_table::time_table;
@@ -77,7 +77,7 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
     }
     let names = run.request.columns().into_iter().map(|column| column.quantity.name().to_owned());
     let row: Vec<(String, f64)> = names.zip(run.row.iter().copied()).collect();
-    if let Some(end) = mission_text::of_run(&row) {
+    if let Some(end) = loss::of_run(&row) {
         screen::note(&end);
     }
     if run.outcome.status != Status::Done {

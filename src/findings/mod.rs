@@ -1,216 +1,49 @@
 //! Layer 9: what a campaign has found, in words and numbers, once. Screen, page, JSON, JUnit and notebook choose from
 //! it by rank and width, and compose nothing.
 //!
-//! - [`requirement`]: a finding for each requirement, the nearest to its limit first.
-//! - [`number`]: numbers in text, the one formatter.
-//! - [`names`]: names of columns and parameters in words.
-//! - [`shell_word`]: words of commands.
+//! - [`findings`]: all of it. [`finding`]: of what it consists.
+//! - `warnings`: what comes first. [`requirement`]: the nearest to its limit first. [`loss`]: runs without numbers,
+//!   missions, `[stop]`. [`outcome`]: distributions. [`drivers`]: what outcomes depend on. [`numerics`]: errors,
+//!   audits.
+//! - [`number`]: numbers in text, the one formatter. [`names`]: columns and parameters in words. [`shell_word`]: words
+//!   of commands.
 
+pub mod drivers;
+pub mod finding;
+pub mod loss;
 pub mod names;
 pub mod number;
+pub mod numerics;
+pub mod outcome;
 pub mod requirement;
 pub mod shell_word;
+mod warnings;
 
-use crate::campaign::ShownUnit;
-use crate::sampling::SampleId;
-use crate::statistics::binomial::Decision;
-use crate::statistics::gate::GateLimit;
+pub use self::finding::{Figures, Finding, Findings, Kind, Number, Verdict};
+use crate::analysis::analysed::Analysed;
+use crate::analysis::noise_share::NoiseShare;
+use crate::campaign::Plan;
 use crate::statistics::quantile::percent;
 
-/// Whether what is asked is so.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    Pass,
-    Fail,
-    /// The runs do not tell.
-    Undecided,
-}
-
-impl Verdict {
-    /// Those of a decision.
-    pub fn of(decision: Decision) -> Self {
-        match decision {
-            Decision::Pass => Verdict::Pass,
-            Decision::Fail => Verdict::Fail,
-            Decision::Undecided(_) => Verdict::Undecided,
-        }
+/// What `analysed` says of `plan`; `noise`: the share of noise in its outcomes, where that was measured.
+pub fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -> Findings {
+    let mut list = warnings::warnings(plan, analysed);
+    let verdicts = requirement::findings(plan, &analysed.verdicts, &analysed.statistics);
+    let order = [Verdict::Fail, Verdict::Undecided, Verdict::Pass];
+    let verdict = order.into_iter().find(|one| verdicts.iter().any(|finding| finding.verdict == Some(*one)));
+    list.extend(verdicts);
+    list.extend(loss::stop(plan, analysed));
+    list.extend(loss::losses(analysed));
+    list.extend(loss::missions(plan, analysed));
+    list.extend(loss::notes(analysed));
+    list.extend(outcome::findings(plan, analysed));
+    list.extend(drivers::findings(plan, analysed, noise));
+    list.extend(numerics::findings(plan, analysed));
+    fn has_interval(one: &Finding) -> bool {
+        one.numbers.iter().any(Number::has_interval) || one.children.iter().any(has_interval)
     }
-
-    pub const fn word(self) -> &'static str {
-        match self {
-            Verdict::Pass => "PASS",
-            Verdict::Fail => "FAIL",
-            Verdict::Undecided => "UNDECIDED",
-        }
-    }
-}
-
-/// A number that was found, with how sure it is.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Number {
-    /// What it is: "p95", "mean", "runs within the limit".
-    pub name: String,
-    /// Its unit in files; `%` of a share, which is a fraction in files.
-    pub unit: String,
-    /// Exact, in `unit`, shares from 0 to 1; NaN where there is none.
-    pub value: f64,
-    /// Ends of its interval; NaN where the runs do not bound it on that side.
-    pub interval: [f64; 2],
-    /// What is asked of it, in `unit`, where something is.
-    pub limit: Option<GateLimit>,
-    /// Of how many runs it is.
-    pub of: u64,
-    /// In which unit people see it.
-    pub shown: ShownUnit,
-}
-
-impl Number {
-    /// A number in `unit`, shown in `shown`.
-    pub fn new(name: &str, (value, interval): (f64, [f64; 2]), of: u64, unit: &str, shown: &ShownUnit) -> Self {
-        let (name, unit, shown) = (name.to_owned(), unit.to_owned(), shown.clone());
-        Number { name, unit, value, interval, limit: None, of, shown }
-    }
-
-    /// A share of `of` runs.
-    pub fn share(name: &str, value: f64, interval: [f64; 2], of: u64) -> Self {
-        Number::new(name, (value, interval), of, "%", &ShownUnit::own("%"))
-    }
-
-    pub fn has_interval(&self) -> bool {
-        self.interval.iter().any(|end| end.is_finite())
-    }
-
-    /// In the unit in which it is shown: value, ends of the interval, limit. A share is in per cent.
-    pub fn in_shown(&self) -> (f64, [f64; 2], Option<f64>) {
-        let shown = |value: f64| if self.unit == "%" { 100.0 * value } else { self.shown.value(value) };
-        (shown(self.value), self.interval.map(shown), self.limit.map(|limit| shown(limit.value())))
-    }
-
-    /// The number with interval and unit: "98.40% [91.45, 99.96]", "0.938 [0.901, 0.994] deg"; "-" where there is none.
-    pub fn text(&self) -> String {
-        if !self.value.is_finite() {
-            return "-".to_owned();
-        }
-        if self.unit == "%" {
-            return number::share([self.value; 2], self.interval);
-        }
-        let (value, interval, _) = self.in_shown();
-        format!("{} {}", number::with_interval(value, interval), self.shown.unit).trim_end().to_owned()
-    }
-
-    /// Its limit with the unit, as it was written: "2 deg".
-    pub fn limit_text(&self) -> Option<String> {
-        let limit = self.limit?.value();
-        if self.unit == "%" {
-            return Some(format!("{}%", percent(limit)));
-        }
-        Some(format!("{} {}", number::written(self.shown.written(limit)), self.shown.unit).trim_end().to_owned())
-    }
-}
-
-/// What a renderer may draw for a finding: names of figures.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Figures {
-    /// Beside the finding, some lines high.
-    pub small: Option<String>,
-    pub large: Option<String>,
-}
-
-/// What a finding is about.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Kind {
-    /// To know before any number: the title says what it is about in capitals.
-    Warning,
-    Requirement,
-    /// What the verdicts say together.
-    Verdicts,
-    /// Whether `[stop]` has reached its goal.
-    Stop,
-    /// A reason for which runs have no numbers.
-    Loss,
-    /// A way in which the missions of a control loop ended.
-    Mission,
-    #[default]
-    Note,
-    /// How an outcome is distributed.
-    Outcome,
-    /// What an outcome, or an event of it, depends on.
-    Driver,
-    /// How well runs were computed.
-    Numerics,
-}
-
-/// One thing that a campaign has found. Lists of them are in the order of what matters.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Finding {
-    pub kind: Kind,
-    /// The same for the same question in every result: `requirement_1`.
-    pub id: String,
-    /// Where it is shown: on a screen (0), with all that is known (1), or in files only (2).
-    pub rank: u8,
-    pub verdict: Option<Verdict>,
-    /// What it is about, in a few words: "pointing error at launch <= 2 deg in 95%".
-    pub title: String,
-    /// What was found, as a sentence without its end.
-    pub sentence: String,
-    /// The first one is that of the title.
-    pub numbers: Vec<Number>,
-    /// What else has to be known, each a sentence without its end, in the order of their worth.
-    pub notes: Vec<String>,
-    pub figures: Figures,
-    /// The sample whose run shows it.
-    pub sample: Option<SampleId>,
-    pub children: Vec<Finding>,
-}
-
-impl Finding {
-    /// The finding `id`, with its title and sentence.
-    pub fn new(kind: Kind, id: impl Into<String>, title: impl Into<String>, sentence: impl Into<String>) -> Self {
-        let (id, title, sentence) = (id.into(), title.into(), sentence.into());
-        Finding { kind, id, title, sentence, ..Finding::default() }
-    }
-
-    /// The number called `name`.
-    pub fn number(&self, name: &str) -> Option<&Number> {
-        self.numbers.iter().find(|number| number.name == name)
-    }
-
-    /// The command that shows its run; `file` is the campaign as a word of a command.
-    pub fn command(&self, file: &str) -> Option<String> {
-        self.sample.map(|sample| format!("spindrift simulate {file} --sample {sample}"))
-    }
-}
-
-/// What a campaign has found, in the order of what matters.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Findings {
-    pub list: Vec<Finding>,
-    /// The verdict on all requirements, where there are any.
-    pub verdict: Option<Verdict>,
-    /// Confidence of the intervals; `None` where no number has one.
-    pub confidence: Option<f64>,
-}
-
-impl Findings {
-    /// Those of a list; `confidence` is that of their intervals.
-    pub fn new(list: Vec<Finding>, confidence: f64) -> Self {
-        fn has_interval(one: &Finding) -> bool {
-            one.numbers.iter().any(Number::has_interval) || one.children.iter().any(has_interval)
-        }
-        let order = [Verdict::Fail, Verdict::Undecided, Verdict::Pass];
-        let verdict = order.into_iter().find(|one| list.iter().any(|finding| finding.verdict == Some(*one)));
-        let confidence = list.iter().any(has_interval).then_some(confidence);
-        Findings { list, verdict, confidence }
-    }
-
-    /// Those of a kind, in their order.
-    pub fn of(&self, kind: Kind) -> impl Iterator<Item = &Finding> {
-        self.list.iter().filter(move |one| one.kind == kind)
-    }
-
-    /// What the intervals in brackets are, once for all of them.
-    pub fn brackets(&self) -> Option<String> {
-        let confidence = self.confidence?;
-        Some(format!("two-sided {}% intervals (Clopper-Pearson for shares)", percent(confidence)))
-    }
+    let confidence = list.iter().any(has_interval).then_some(analysed.statistics.confidence);
+    let asked = requirement::common_confidence(&analysed.verdicts);
+    let asked = asked.map_or(String::new(), |confidence| format!(", with {}% confidence", percent(confidence)));
+    Findings { list, verdict, asked: format!("requirement{asked}"), confidence }
 }

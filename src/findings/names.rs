@@ -2,7 +2,7 @@
 //! of the screen. The technical
 //! names stay in files, tooltips and commands.
 
-use crate::campaign::Plan;
+use crate::campaign::{Plan, ShownUnit};
 use crate::run::Quantity;
 use crate::scene::Parameter;
 
@@ -165,9 +165,30 @@ pub fn of_input(plan: &Plan, place: usize) -> String {
     of_component(column.parameter, column.component)
 }
 
-/// What the dispersed number whose column is `column` is called; of another column, its own words.
+/// What the dispersed number is called whose column is `column`, or what is dispersed by one distribution, which has
+/// the name of its key; of another column, its own
+/// words.
 pub fn of_input_column(plan: &Plan, column: &str) -> String {
-    place_of(plan, column).map_or_else(|| of_column(column, ""), |place| of_input(plan, place))
+    if let Some(place) = place_of(plan, column) {
+        return of_input(plan, place);
+    }
+    let (key, component) = column.rsplit_once('.').unwrap_or((column, ""));
+    let mut columns = plan.dispersions.columns().iter().map(|one| (one.parameter, one.parameter.name()));
+    let found = columns.find(|(_, name)| name == column || name == key);
+    found.map_or_else(
+        || of_column(column, ""),
+        |(parameter, name)| {
+            let of = of_parameter(parameter);
+            if name == column { of } else { format!("{of} {component}") }
+        },
+    )
+}
+
+/// The unit in which the dispersed number at `place` is shown.
+pub fn unit_of_input(plan: &Plan, place: usize) -> ShownUnit {
+    let parameter = plan.dispersions.columns()[place].parameter;
+    let unit = if parameter.unit() == "1" { "" } else { parameter.unit() };
+    plan.analysis.display.of(&parameter.name(), unit)
 }
 
 /// With a capital at its beginning.

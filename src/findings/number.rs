@@ -113,14 +113,18 @@ fn rounded(value: f64, place: i32, up: Option<bool>) -> f64 {
     whole / times * over
 }
 
-/// `value` with its last digit at 10^`place`.
-fn at_place(value: f64, place: i32) -> String {
+/// `value` with its last digit at 10^`place`; with powers of ten where the `largest` beside it has them.
+fn at_place(value: f64, place: i32, largest: f64) -> String {
     let size = value.abs();
     if value == 0.0 {
-        return format!("{:.*}", (-place).clamp(0, 6) as usize, 0.0);
+        return if (1e-3..1e6).contains(&largest) {
+            format!("{:.*}", (-place).max(0) as usize, 0.0)
+        } else {
+            "0".to_owned()
+        };
     }
     let power = libm::floor(libm::log10(size) + 1e-12) as i32;
-    if (1e-3..1e6).contains(&size) && place > -12 {
+    if (1e-3..1e6).contains(&largest) && place > -12 {
         format!("{value:.*}", (-place).max(0) as usize)
     } else {
         format!("{value:.*e}", (power - place).clamp(0, MOST_DIGITS - 1) as usize)
@@ -159,8 +163,8 @@ fn interval_texts(value: f64, ends: [f64; 2], bounds: [f64; 2]) -> (String, [Opt
         place -= 1;
     }
     let place = place.max(least_place);
-    let text = |one: f64| one.is_finite().then(|| at_place(one, place));
-    (at_place(rounded(value, place, None), place), shown(place).map(text))
+    let text = |one: f64| one.is_finite().then(|| at_place(one, place, most));
+    (at_place(rounded(value, place, None), place, most), shown(place).map(text))
 }
 
 /// The same as one text: "0.938 [0.901, 0.994]", with `?` in place of an end that is not known; without brackets where

@@ -4,9 +4,10 @@ use crate::analysis::assessment::{Assessment, RARE};
 use crate::analysis::order_statistics::without_value;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::verdicts::Verdicts;
-use crate::campaign::{Plan, Statement};
+use crate::campaign::{Plan, ShownUnit, Statement};
+use crate::findings::finding::{Finding, Kind, Number, Verdict};
+use crate::findings::names;
 use crate::findings::number::{self, counted, outward, share, short, time, trimmed, written};
-use crate::findings::{Finding, Kind, Number, Verdict, names};
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
@@ -19,28 +20,43 @@ const DIGITS: i32 = 12;
 // what the documents say of the runs that would decide
 const _: () = assert!(POWER == 0.9);
 
-/// A finding for each requirement of `plan`: those that fail first, then those that are undecided; within each the
-/// nearest to its limit first.
+/// A finding for each requirement: those that fail first, then those that are undecided; within each the nearest to its
+/// limit first. Then what they say together.
 pub fn findings(plan: &Plan, verdicts: &Verdicts, statistics: &Statistics) -> Vec<Finding> {
-    let list = verdicts.list.iter().enumerate();
-    let mut found: Vec<(Finding, (u8, f64))> =
-        list.map(|(place, one)| (finding(plan, place, one, statistics), rank(one))).collect();
+    let confidence = common_confidence(verdicts);
+    let finding = |(place, one): (usize, &Assessment)| {
+        let numbers = numbers(one, Some(statistics));
+        let id = format!("requirement_{}", place + 1);
+        let title = if confidence.is_some() { title(one) } else { question(one) };
+        let found = Finding::new(Kind::Requirement, id, title, sentence(plan, one, &numbers));
+        let verdict = Some(Verdict::of(one.gate.decision));
+        (Finding { verdict, notes: notes(one), numbers, ..found }, rank(one))
+    };
+    let mut found: Vec<(Finding, (u8, f64))> = verdicts.list.iter().enumerate().map(finding).collect();
     found.sort_by(|(_, a), (_, b)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    found.into_iter().map(|(finding, _)| finding).collect()
+    let about = |(place, said): (usize, String)| Finding {
+        rank: u8::from(place > 0),
+        ..Finding::new(Kind::Verdicts, "together", "", said)
+    };
+    let together = together(verdicts).into_iter().enumerate().map(|(place, said)| (place + 1, said));
+    let needed = most_needed(plan, verdicts).map(|said| (0, said));
+    found.into_iter().map(|(finding, _)| finding).chain(needed.into_iter().chain(together).map(about)).collect()
 }
 
-fn finding(plan: &Plan, place: usize, one: &Assessment, statistics: &Statistics) -> Finding {
-    let numbers = numbers(one, statistics);
-    Finding {
-        kind: Kind::Requirement,
-        id: format!("requirement_{}", place + 1),
-        verdict: Some(Verdict::of(one.gate.decision)),
-        title: title(one),
-        sentence: sentence(one, &numbers),
-        notes: notes(plan, one),
-        numbers,
-        ..Finding::default()
-    }
+/// The confidence of all verdicts; `None` where they differ.
+pub fn common_confidence(verdicts: &Verdicts) -> Option<f64> {
+    let mut all = verdicts.list.iter().map(|one| one.requirement.confidence);
+    let first = all.next()?;
+    all.all(|other| other == first).then_some(first)
+}
+
+/// How many runs would decide all that is undecided, as far as that is known.
+fn most_needed(plan: &Plan, verdicts: &Verdicts) -> Option<String> {
+    let needed = verdicts.list.iter().filter_map(|one| match one.gate.decision {
+        Decision::Undecided(Some(runs)) if one.reason.is_none() => Some(runs.max(one.runs + 1)),
+        _ => None,
+    });
+    needed.max().map(|runs| runs_needed(plan, Some(runs), "what is undecided"))
 }
 
 /// Verdicts in their order, and how far the estimate is from the limit: in half widths of its interval, so that numbers
@@ -72,8 +88,9 @@ pub fn title(one: &Assessment) -> String {
     let requirement = &one.requirement;
     let name = names::of_column(requirement.name(), &one.unit);
     let side = if matches!(requirement.limit, GateLimit::AtMost(_)) { "<=" } else { ">=" };
-    let unit = one.shown.unit.as_str();
-    let limit = format!("{} {unit}", written(one.shown.written(requirement.limit.value())));
+    let shown_unit = shown(one);
+    let unit = shown_unit.unit.as_str();
+    let limit = format!("{} {unit}", written(shown(one).written(requirement.limit.value())));
     let is = match (requirement.name(), requirement.limit) {
         // yes or no
         ("launched", GateLimit::AtLeast(limit)) if limit > 0.0 => name,
@@ -89,7 +106,7 @@ pub fn title(one: &Assessment) -> String {
             format!("{is}{never} in {}%", percent(fraction))
         }
         Statement::Mean => {
-            let range = requirement.bounded.map(|ends| ends.map(|end| written(one.shown.written(end))));
+            let range = requirement.bounded.map(|ends| ends.map(|end| written(shown(one).written(end))));
             let range = range.map(|[low, high]| format!(" (bounded = [{low}, {high}] {unit}"));
             format!("mean of {is}{}", range.map_or(String::new(), |text| text.trim_end().to_owned() + ")"))
         }
@@ -110,30 +127,45 @@ pub fn question(one: &Assessment) -> String {
 }
 
 /// What decides first: the quantile where there is one, the mean or the share of the runs within the limit.
-fn numbers(one: &Assessment, statistics: &Statistics) -> Vec<Number> {
+pub fn numbers(one: &Assessment, statistics: Option<&Statistics>) -> Vec<Number> {
     let limit = one.requirement.limit;
-    let value = |name: String, value: f64, interval: [f64; 2]| {
-        let longest = limit.value().abs().max(value.abs());
-        let shown = one.shown.clone().of_time(longest, Some(limit.value()));
-        Number { name, unit: one.unit.clone(), value, interval, limit: Some(limit), of: one.runs, shown }
+    let value = |name: &str, value: f64, interval: [f64; 2]| {
+        let shown = shown(one);
+        Number { limit: Some(limit), ..Number::new(name, (value, interval), one.runs, &one.unit, &shown) }
     };
     let target = GateLimit::AtLeast(target(one));
     let within = Number { limit: Some(target), ..Number::share(WITHIN, one.gate.estimate, one.interval, one.runs) };
     match one.requirement.statement {
-        Statement::Mean => vec![value("mean".to_owned(), one.gate.estimate, one.interval)],
+        Statement::Mean => vec![value("mean", one.gate.estimate, one.interval)],
         Statement::Fraction(_) => vec![within],
         Statement::Quantile(p) => {
-            let interval = statistics.required(&one.requirement).map_or([None; 2], |quantile| quantile.interval);
-            let interval = if one.has_interval() { interval } else { [None; 2] };
-            let quantile = one
-                .value
-                .map(|found| value(format!("p{}", percent(p)), found, interval.map(|end| end.unwrap_or(f64::NAN))));
+            let found = statistics.and_then(|statistics| statistics.required(&one.requirement));
+            let interval = found.filter(|_| one.has_interval()).map_or([None; 2], |quantile| quantile.interval);
+            let ends = interval.map(|end| end.unwrap_or(f64::NAN));
+            let quantile = one.value.map(|found| value(&format!("p{}", percent(p)), found, ends));
             quantile.into_iter().chain([within]).collect()
         }
     }
 }
 
-fn sentence(one: &Assessment, numbers: &[Number]) -> String {
+/// The unit in which a requirement is said.
+fn shown(one: &Assessment) -> ShownUnit {
+    let limit = one.requirement.limit.value();
+    one.shown.clone().of_time(limit.abs(), Some(limit))
+}
+
+fn sentence(plan: &Plan, one: &Assessment, numbers: &[Number]) -> String {
+    let needed = match (&one.reason, one.gate.decision) {
+        (None, Decision::Undecided(runs)) => {
+            format!("; {}", runs_needed(plan, runs.map(|runs| runs.max(one.runs + 1)), "it"))
+        }
+        _ => String::new(),
+    };
+    found(one, numbers) + &needed
+}
+
+/// What was found, without what would decide.
+fn found(one: &Assessment, numbers: &[Number]) -> String {
     let runs = counted(one.runs, "run");
     let values = numbers.iter().filter(|number| number.name != WITHIN && number.value.is_finite());
     let mut said: Vec<String> = values.map(|number| format!("{} {}", number.name, number.text())).collect();
@@ -151,16 +183,14 @@ fn sentence(one: &Assessment, numbers: &[Number]) -> String {
         _ => String::new(),
     };
     said.push(format!("{} of {runs} within the limit{at}{share}", one.runs - one.violations));
+    said.extend((one.missing > 0).then(|| without_value(&one.missing.to_string())));
     said.join("; ")
 }
 
 /// What else has to be known of a verdict, what decided it first.
-fn notes(plan: &Plan, one: &Assessment) -> Vec<String> {
+fn notes(one: &Assessment) -> Vec<String> {
     let mut notes: Vec<String> = decided_by(one).into_iter().collect();
     notes.extend(one.reason.clone());
-    if let (None, Decision::Undecided(runs)) = (&one.reason, one.gate.decision) {
-        notes.push(runs_needed(plan, runs.map(|runs| runs.max(one.runs + 1))));
-    }
     if let Some(worst) = one.worst {
         if worst.unresolved > 0 {
             let runs = counted(worst.unresolved, "more run");
@@ -173,16 +203,13 @@ fn notes(plan: &Plan, one: &Assessment) -> Vec<String> {
             worst.points
         ));
     }
-    if one.missing > 0 {
-        notes.push(without_value(&one.missing.to_string()));
-    }
     notes.extend(assumed(one));
     notes.extend(one.note.clone());
     notes
 }
 
 /// What a decision on a mean assumes of events that the runs do not show.
-fn assumed(one: &Assessment) -> Option<String> {
+pub fn assumed(one: &Assessment) -> Option<String> {
     let room = format!("{} {}", short(one.shown.value(one.room_for_rare_events()?)), one.shown.unit);
     Some(format!(
         "if events rarer than {RARE} in {} runs move the mean by less than {}; with bounded = [lowest, highest] it \
@@ -216,19 +243,19 @@ fn decided_by(one: &Assessment) -> Option<String> {
 }
 
 /// How many dispersed `runs` would decide; `None`: no number of them.
-fn runs_needed(plan: &Plan, runs: Option<u64>) -> String {
+fn runs_needed(plan: &Plan, runs: Option<u64>, what: &str) -> String {
     const IF: &str = "if the truth is as observed";
     match runs {
-        None => format!("no number of runs would decide it, {IF}"),
+        None => format!("no number of runs would decide {what}, {IF}"),
         Some(runs) if plan.samples > 1 => {
-            format!("about {runs} dispersed runs (samples = {}) should decide it, {IF}", runs + 1)
+            format!("about {runs} dispersed runs (samples = {}) should decide {what}, {IF}", runs + 1)
         }
-        Some(runs) => format!("about {runs} runs should decide it, {IF}"),
+        Some(runs) => format!("about {runs} runs should decide {what}, {IF}"),
     }
 }
 
 /// What the verdicts say together: how often one of them is wrong, and what to do about those that are undecided.
-pub fn together(verdicts: &Verdicts) -> Vec<String> {
+fn together(verdicts: &Verdicts) -> Vec<String> {
     let mut said = Vec::new();
     let least = verdicts.list.iter().map(|one| one.requirement.confidence).fold(1.0, f64::min);
     if verdicts.list.len() > 1 {

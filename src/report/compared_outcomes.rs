@@ -4,11 +4,9 @@ use crate::analysis::comparison::{Absence, ColumnComparison, Comparison, Shift};
 use crate::analysis::outcomes::outcomes;
 use crate::campaign::{Plan, ShownUnit, Statement};
 use crate::findings::names;
-use crate::findings::number::counted;
-use crate::findings::number::{brief, outward, trimmed};
+use crate::findings::number::{self, brief, counted, outward, trimmed};
 use crate::observables::Group;
 use crate::report::compared::Compared;
-use crate::report::share_text;
 use crate::statistics::quantile::percent;
 use crate::table::Table;
 use crate::table::text::{Align, Text};
@@ -139,7 +137,7 @@ fn cells(compared: Compared<'_>, column: &ColumnComparison, shift: &Shift) -> [S
     };
     let is_share = shift.statistic == "mean" && is_yes_or_no(compared, column);
     let value = |value: f64| match is_share {
-        true => format!("{}%", share_text::percent(value)),
+        true => format!("{}%", number::percent(value)),
         false => brief(shown.value(value)),
     };
     let interval = match column.mean.as_ref().filter(|_| shift.statistic == "mean") {
@@ -209,7 +207,7 @@ pub fn absent(compared: Compared<'_>, most: usize) -> String {
     let Compared { comparison, .. } = compared;
     let all = comparison.columns.iter().filter(|column| comparison.is_changed(&column.absence)).collect();
     let line = |what: &str, absence: &Absence| {
-        let [before, after] = absence.shares().map(share_text::percent);
+        let [before, after] = absence.shares().map(number::percent);
         format!("  {what}: {before}% of the runs before, {after}% after, more than chance explains\n")
     };
     let failures = comparison.is_changed(&comparison.failures).then(|| line("not ok", &comparison.failures));

@@ -1,20 +1,14 @@
 //! Where the values of a dispersed number come from, in words.
 
-use crate::campaign::{Plan, ShownUnit};
+use crate::campaign::Plan;
+use crate::findings::names::unit_of_input;
 use crate::findings::number::trimmed;
 use crate::sampling::NumberWords;
-
-/// The unit in which the dispersed number `column` of `plan` is shown.
-pub fn unit_of(plan: &Plan, column: usize) -> ShownUnit {
-    let parameter = plan.dispersions.columns()[column].parameter;
-    let unit = if parameter.unit() == "1" { "" } else { parameter.unit() };
-    plan.analysis.display.of(&parameter.name(), unit)
-}
 
 /// The distribution of the dispersed number `column` of `plan`, in the unit in which it is shown; or what gives its
 /// values.
 pub fn origin(plan: &Plan, column: usize) -> String {
-    let shown = unit_of(plan, column);
+    let shown = unit_of_input(plan, column);
     let number = |value: f64| trimmed(value, 4);
     let amount = |value: f64| format!("{} {}", number(shown.value(value)), shown.unit).trim_end().to_owned();
     let of_angles = plan.analysis.display.of(&plan.dispersions.columns()[column].parameter.name(), "rad");

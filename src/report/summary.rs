@@ -1,193 +1,252 @@
-//! [`Summary`]: the statistics of a campaign, as `summary.json`; as text on the screen: `summary_text`.
+//! `summary.json`: [`json`] writes what a campaign has found, for programs; [`SummaryEnd`] reads from it how a campaign
+//! ended.
 
 use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
+use crate::analysis::analysed::Analysed;
 use crate::analysis::assessment::Assessment;
 use crate::analysis::ending::Ending;
-use crate::analysis::missions::{MissionShare, Missions};
-use crate::analysis::outcomes::named;
-use crate::analysis::statistics::Statistics;
-use crate::analysis::statuses::{Ended, Statuses};
+use crate::analysis::missions::MissionShare;
+use crate::analysis::statistics::{ColumnStatistics, Statistics};
+use crate::analysis::statuses::Ended;
 use crate::analysis::stopping::{LookFound, Stopping};
-use crate::analysis::tally::{Tally, Worst};
-use crate::analysis::verdicts::Verdicts;
+use crate::analysis::tally::Worst;
 use crate::campaign::{Plan, Statement};
 use crate::ensemble::FailureReason;
 use crate::findings::number::counted;
-use crate::report::audit_summary::{AuditSummary, Numerics};
-use crate::report::observable_lines::{ObservableLine, lines};
-use crate::report::{requirements, stopping_text};
+use crate::findings::numerics::{AuditSummary, Numerics};
+use crate::findings::outcome::summarised;
+use crate::findings::{Finding, Findings, Kind, Number, Verdict, requirement};
 use crate::run::Status;
-use crate::sampling::Replaced;
+use crate::statistics::binomial::Decision;
 use crate::statistics::contingency::Occurrence;
+use crate::statistics::gate::GateLimit;
 use crate::storage::folder::IS_FINISHED;
 
 /// How many failed samples of each status are listed by number.
-pub(super) const LISTED: usize = 3;
+const LISTED: usize = 3;
 
-/// The statistics of a campaign.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Summary {
-    pub(super) name: String,
-    pub(super) seed: u64,
-    pub(super) samples: u64,
-    pub(super) plan_hash: String,
-    pub(super) without_nominal: bool,
-    pub(super) statuses: Statuses,
-    pub(super) worst: Vec<Worst>,
-    pub(super) lines: Vec<ObservableLine>,
-    /// The observables that the file requires, names or derives.
-    pub(super) named: Vec<String>,
-    /// Number of columns with statistics.
-    pub(super) columns: usize,
-    pub(super) verdicts: Verdicts,
-    pub(super) missions: Missions,
-    pub(super) intervals: String,
-    pub(super) treatment: String,
-    pub(super) confidence: f64,
-    pub(super) quantile_error: f64,
-    pub(super) audit: Option<AuditSummary>,
-    pub(super) replaced: Vec<Replaced>,
-    /// What comes before every number.
-    pub(super) warnings: Vec<String>,
-    /// What the numbers leave unsaid.
-    pub(super) notes: Vec<String>,
-    /// The last look of a campaign with `[stop]`, and in words.
-    pub(super) stopping: Option<(Stopping, String)>,
+/// The text of `summary.json`. Nothing in it depends on the machine or the clock.
+pub fn json(plan: &Plan, analysed: &Analysed, findings: &Findings) -> String {
+    let Analysed { statistics, tally, missions, stopping, .. } = analysed;
+    let statuses = &tally.statuses;
+    let counts: Map<String, Value> =
+        statuses.list().iter().map(|ended| (ended.status.name().to_owned(), json!(ended.count))).collect();
+    let numbers = |ended: &Ended| ended.first.iter().take(LISTED).map(|(sample, _)| sample.0).collect::<Vec<_>>();
+    let first_failed: Map<String, Value> =
+        statuses.failed().map(|ended| (ended.status.name().to_owned(), json!(numbers(ended)))).collect();
+    let reason = |one: &FailureReason| {
+        let (status, sample) = (one.status.name(), one.first.0);
+        json!({ "status": status, "count": one.count, "sample": sample, "reason": one.text })
+    };
+    let reasons: Vec<Value> = statuses.reasons().groups().into_iter().map(reason).collect();
+    let runs = |worst: &Worst| -> Vec<Value> {
+        worst.list.runs.iter().map(|(sample, error)| json!({ "sample": sample.0, "error": error })).collect()
+    };
+    let worst: Map<String, Value> =
+        tally.worst.iter().map(|worst| (worst.name.replace(' ', "_"), json!(runs(worst)))).collect();
+    let samples = if tally.without_nominal { "dispersed, without the nominal sample 0" } else { "nominal" };
+    let untold = findings.of(Kind::Driver).filter(|one| one.id == "untold").map(|one| one.sentence.clone());
+    let notes = findings.of(Kind::Note).map(|one| format!("{}: {}", one.title, one.sentence));
+    let notes: Vec<String> = notes.chain(untold).collect();
+    let observables = summarised(plan, statistics).into_iter().map(|column| observable(analysed, column));
+    let mut value = json!({
+        "program": "spindrift",
+        (IS_FINISHED): true,
+        "version": env!("CARGO_PKG_VERSION"),
+        "campaign": plan.name,
+        "plan_hash": plan.hash(),
+        "seed": plan.seed,
+        "samples": plan.samples,
+        "warnings": findings.warnings(),
+        "notes": notes,
+        "statuses": counts,
+        "first_failed": first_failed,
+        "failure_reasons": reasons,
+        "worst_runs": worst,
+        "statistics": {
+            "samples": samples,
+            "failed_runs": statistics.treatment(),
+            "quantiles": "type 7 of Hyndman and Fan, over the runs that are ok",
+            "relative_error_of_quantiles": statistics.quantile_error,
+            "intervals": statistics.population.intervals(),
+            "confidence": statistics.confidence,
+        },
+        "requirements": requirements(analysed, findings),
+        "drivers": findings.of(Kind::Driver).map(driver).collect::<Vec<_>>(),
+        "observables": observables.collect::<Vec<_>>(),
+    });
+    let replaced = plan.dispersions.replaced_correlations();
+    if !replaced.is_empty() {
+        let list = replaced.iter();
+        let list = list.map(|one| json!({ "parameters": one.names, "asked": one.asked, "used": one.used }));
+        value["nearest_correlations_of_scores"] = list.collect();
+    }
+    if !missions.is_empty() {
+        value["missions"] = missions.iter().map(mission).collect();
+    }
+    if let Some(audit) = AuditSummary::of(plan, tally) {
+        value["audit"] = json!(audit);
+    }
+    if let Some(stopping) = stopping {
+        value["stop"] = stop(stopping);
+    }
+    format!("{value:#}\n")
 }
 
-impl Summary {
-    /// The `statistics` and `verdicts` of the campaign `plan`, with the audits and the worst runs in `tally`.
-    pub fn new(plan: &Plan, tally: &Tally, statistics: &Statistics, verdicts: Verdicts) -> Self {
-        let numerics = |name: &str| {
-            let index = tally.headlines.iter().position(|headline| headline == name)?;
-            Numerics::new(tally.audits.as_ref()?, index, statistics.column(name)?.spread?)
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+/// Its statistics; what does not exist is null.
+fn observable(analysed: &Analysed, column: &ColumnStatistics) -> Value {
+    let known = |value: Option<f64>| value.filter(|value| value.is_finite());
+    let (name, moments) = (column.quantity.name(), &column.moments);
+    let quantiles = column.quantiles.iter().map(|one| {
+        let mut value = json!({ "p": one.p, "value": known(one.value), "interval": one.interval.map(known) });
+        if let Some(note) = &one.note {
+            value["note"] = json!(note);
+        }
+        value
+    });
+    let mut value = json!({
+        "name": name,
+        "unit": column.quantity.unit(),
+        "count": moments.count(),
+        "without_value": column.without_value,
+        "mean": known(moments.mean()),
+        "mean_interval": column.mean_interval,
+        "standard_deviation": known(moments.standard_deviation()),
+        "standard_deviation_interval": column.deviation_interval,
+        "skewness": known(moments.skewness()),
+        "min": known(moments.min()),
+        "max": known(moments.max()),
+        "quantiles": quantiles.collect::<Vec<_>>(),
+    });
+    if let Some(note) = &column.note {
+        value["mean_note"] = json!(note);
+    }
+    if let Some(numerics) = Numerics::of(analysed, name) {
+        value["numerical_error"] = json!(numerics);
+    }
+    value
+}
+
+fn requirements(analysed: &Analysed, findings: &Findings) -> Value {
+    let verdicts = &analysed.verdicts;
+    let one = |(place, one): (usize, &Assessment)| {
+        let asked = &one.requirement;
+        let (statement, target) = match asked.statement {
+            Statement::Quantile(p) => ("quantile", Some(p)),
+            Statement::Fraction(fraction) => ("fraction", Some(fraction)),
+            Statement::Mean => ("mean", None),
         };
-        let audit = tally.audits.as_ref().map(|audits| AuditSummary::new(audits, plan.audit_fraction));
-        Summary {
-            warnings: Vec::new(),
-            notes: Vec::new(),
-            name: plan.name.clone(),
-            seed: plan.seed,
-            samples: plan.samples,
-            plan_hash: plan.hash(),
-            statuses: tally.statuses.clone(),
-            without_nominal: tally.without_nominal,
-            worst: tally.worst.clone(),
-            lines: lines(plan, statistics, numerics),
-            named: named(plan),
-            columns: statistics.columns.len(),
-            verdicts,
-            intervals: statistics.population.intervals(),
-            treatment: statistics.treatment(),
-            confidence: statistics.confidence,
-            quantile_error: statistics.quantile_error,
-            audit,
-            replaced: plan.dispersions.replaced_correlations().to_vec(),
-            stopping: None,
-            missions: Missions::new(),
-        }
-    }
-
-    /// The same, with what comes before every number, and what these leave unsaid.
-    #[must_use]
-    pub fn with_warnings(self, warnings: Vec<String>, notes: Vec<String>) -> Self {
-        Summary { warnings, notes, ..self }
-    }
-
-    /// The same, with how the missions of a control loop ended.
-    #[must_use]
-    pub fn with_missions(self, missions: Missions) -> Self {
-        Summary { missions, ..self }
-    }
-
-    /// The same, with the look that ended the campaign of `plan`.
-    #[must_use]
-    pub fn with_stopping(self, plan: &Plan, stopping: Option<Stopping>) -> Self {
-        let stopping = stopping.map(|found| (found.clone(), stopping_text::text(plan, &found)));
-        Summary { stopping, ..self }
-    }
-
-    /// The text of `summary.json`. Nothing in it depends on the machine or the clock.
-    pub fn json(&self) -> String {
-        let statuses: Map<String, Value> =
-            self.statuses.list().iter().map(|ended| (ended.status.name().to_owned(), json!(ended.count))).collect();
-        let numbers = |ended: &Ended| ended.first.iter().take(LISTED).map(|(sample, _)| sample.0).collect::<Vec<_>>();
-        let first_failed: Map<String, Value> =
-            self.statuses.failed().map(|ended| (ended.status.name().to_owned(), json!(numbers(ended)))).collect();
-        let reason = |one: &FailureReason| {
-            json!({ "status": one.status.name(), "count": one.count,
-            "sample": one.first.0, "reason": one.text })
+        let (side, limit) = match asked.limit {
+            GateLimit::AtMost(limit) => ("at_most", limit),
+            GateLimit::AtLeast(limit) => ("at_least", limit),
         };
-        let reasons: Vec<Value> = self.statuses.reasons().groups().into_iter().map(reason).collect();
-        let runs = |worst: &Worst| -> Vec<Value> {
-            worst.list.runs.iter().map(|(sample, error)| json!({ "sample": sample.0, "error": error })).collect()
+        let needed = match one.gate.decision {
+            Decision::Undecided(runs) => runs,
+            _ => None,
         };
-        let worst: Map<String, Value> =
-            self.worst.iter().map(|worst| (worst.name.replace(' ', "_"), json!(runs(worst)))).collect();
-        let mut value = json!({
-            "program": "spindrift",
-            (IS_FINISHED): true,
-            "version": env!("CARGO_PKG_VERSION"),
-            "campaign": self.name,
-            "plan_hash": self.plan_hash,
-            "seed": self.seed,
-            "samples": self.samples,
-            "warnings": self.warnings,
-            "notes": self.notes,
-            "statuses": statuses,
-            "first_failed": first_failed,
-            "failure_reasons": reasons,
-            "worst_runs": worst,
-            "statistics": {
-                "samples": if self.without_nominal { "dispersed, without the nominal sample 0" } else { "nominal" },
-                "failed_runs": self.treatment,
-                "quantiles": "type 7 of Hyndman and Fan, over the runs that are ok",
-                "relative_error_of_quantiles": self.quantile_error,
-                "intervals": self.intervals,
-                "confidence": self.confidence,
-            },
-            "requirements": requirements::json(&self.verdicts),
-            "observables": self.lines,
-        });
-        if !self.replaced.is_empty() {
-            let list = self.replaced.iter();
-            let list = list.map(|one| json!({ "parameters": one.names, "asked": one.asked, "used": one.used }));
-            value["nearest_correlations_of_scores"] = Value::Array(list.collect());
-        }
-        if !self.missions.is_empty() {
-            let one = |share: &MissionShare| {
-                json!({ "end": share.end,
-                "phases": share.phases.iter().map(|(name, count)| json!({ "phase": name.as_str(),
-                    "count": count })).collect::<Vec<_>>(), "count": share.count, "runs": share.runs,
-                        "not_computed": share.missing, "shares": share.shares(), "interval": share.interval })
-            };
-            value["missions"] = Value::Array(self.missions.iter().map(one).collect());
-        }
-        if let Some(audit) = &self.audit {
-            value["audit"] = json!(audit);
-        }
-        if let Some((stopping, _)) = &self.stopping {
-            let (look, undecided) = match &stopping.found {
-                LookFound::Precision(look) => (Some(look), None),
-                LookFound::Undecided(count) => (None, Some(count)),
-            };
-            value["stop"] = json!({
-                "look": stopping.look,
-                "looks": stopping.looks,
-                "samples": stopping.samples,
-                "reached": stopping.is_reached(),
-                "undecided": undecided,
-                "precise_enough": look.map(|look| look.stops),
-                "estimate": look.map(|look| look.estimate),
-                "interval": look.map(|look| look.interval),
-                "confidence": look.map(|look| look.confidence),
-            });
-        }
-        format!("{value:#}\n")
-    }
+        let id = format!("requirement_{}", place + 1);
+        let said = findings.of(Kind::Requirement).find(|one| one.id == id);
+        json!({
+            "requirement": requirement::question(one),
+            "verdict": Verdict::of(one.gate.decision).word(),
+            "in_short": requirement::title(one),
+            "found": said.and_then(|said| said.numbers.first()).map(Number::text),
+            "says": said.map(|said| &said.sentence),
+            "notes": said.map(|said| &said.notes),
+            "observable": asked.observable(),
+            "band": asked.band().map(|band| json!({
+                "quantity": band.series,
+                "from_s": band.from_s,
+                "to_s": band.to_s,
+                "at_all_times": asked.window().is_some(),
+                "worst_at_s": one.worst.map(|worst| worst.time_s),
+                "points": one.worst.map(|worst| worst.points),
+                "unresolved": one.worst.map(|worst| worst.unresolved),
+            })),
+            "unit": one.unit,
+            "statement": statement,
+            "target": target,
+            side: limit,
+            "confidence": asked.confidence,
+            "confidence_of_pass_and_bounds": one.confidences[0],
+            "confidence_of_fail": one.confidences[1],
+            "estimate": finite(one.gate.estimate),
+            "bounds": one.gate.bounds.map(finite),
+            "interval": one.interval.map(finite),
+            "bounded": asked.bounded,
+            "assumes": requirement::assumed(one),
+            "value": one.value.and_then(finite),
+            "runs": one.runs,
+            "violations": one.violations,
+            "runs_without_a_value": one.missing,
+            "failed_runs": one.failed,
+            "runs_that_would_decide": needed,
+            "reason": one.reason,
+            "note": one.note,
+        })
+    };
+    json!({
+        "list": verdicts.list.iter().enumerate().map(one).collect::<Vec<_>>(),
+        "looks": verdicts.looks,
+        "confidence_of_intervals": verdicts.confidence,
+        "together": findings.of(Kind::Verdicts).map(|one| &one.sentence).collect::<Vec<_>>(),
+        "samples": verdicts.samples,
+        "samples_that_are_not_physical": verdicts.invalid,
+    })
+}
+
+/// What an outcome depends on, with the shares of its drivers.
+fn driver(one: &Finding) -> Value {
+    let share = |input: &Finding| {
+        let share = input.numbers.first();
+        json!({
+            "input": input.id,
+            "name": input.title,
+            "share_of_the_variance": share.and_then(|share| finite(share.value)),
+            "interval": share.map(|share| share.interval.map(finite)),
+            "runs": share.map(|share| share.of),
+        })
+    };
+    let inputs: Vec<Value> = one.children.iter().map(share).collect();
+    json!({ "id": one.id, "about": one.title, "says": one.sentence, "inputs": inputs })
+}
+
+fn mission(share: &MissionShare) -> Value {
+    let phase = |(name, count): &(crate::scene::Name, u64)| json!({ "phase": name.as_str(), "count": count });
+    json!({
+        "end": share.end,
+        "phases": share.phases.iter().map(phase).collect::<Vec<_>>(),
+        "count": share.count,
+        "runs": share.runs,
+        "not_computed": share.missing,
+        "shares": share.shares(),
+        "interval": share.interval,
+    })
+}
+
+fn stop(stopping: &Stopping) -> Value {
+    let (look, undecided) = match &stopping.found {
+        LookFound::Precision(look) => (Some(look), None),
+        LookFound::Undecided(count) => (None, Some(count)),
+    };
+    json!({
+        "look": stopping.look,
+        "looks": stopping.looks,
+        "samples": stopping.samples,
+        "reached": stopping.is_reached(),
+        "undecided": undecided,
+        "precise_enough": look.map(|look| look.stops),
+        "estimate": look.map(|look| look.estimate),
+        "interval": look.map(|look| look.interval),
+        "confidence": look.map(|look| look.confidence),
+    })
 }
 
 /// A requirement with its verdict.
@@ -224,13 +283,14 @@ pub struct SummaryEnd {
 }
 
 impl SummaryEnd {
-    /// What the summary of a campaign says that ended like this, without its warnings.
-    pub fn of(ending: &Ending) -> Self {
+    /// What the summary of a campaign says that ended like this, without its warnings; quantiles have intervals with
+    /// `statistics` only.
+    pub fn of(ending: &Ending, statistics: Option<&Statistics>) -> Self {
         let verdict = |one: &Assessment| EndVerdict {
-            requirement: one.sentence(),
-            word: one.word().to_owned(),
-            statement: requirements::statement(one),
-            found: requirements::estimate(one),
+            requirement: requirement::question(one),
+            word: Verdict::of(one.gate.decision).word().to_owned(),
+            statement: requirement::title(one),
+            found: requirement::numbers(one, statistics).first().map(Number::text).unwrap_or_default(),
             observable: one.requirement.observable().map(str::to_owned),
             violations: (one.requirement.statement != Statement::Mean)
                 .then_some(Occurrence { events: one.violations, runs: one.runs }),
@@ -300,7 +360,8 @@ impl SummaryEnd {
     }
 
     /// The verdicts of the campaign in one line, or how many runs were computed where nothing is required, and where
-    /// the rest stands: `3 PASS, 1 FAIL -> results/x/report.html`.
+    /// the rest stands: `3 PASS, 1 FAIL ->
+    /// results/x/report.html`.
     pub fn verdict_line(&self, place: &Path) -> String {
         let count = |word: &&str| (self.count(word), word.to_string());
         let found = ["PASS", "FAIL", "UNDECIDED"].iter().map(count).filter(|(count, _)| *count > 0);
@@ -322,17 +383,6 @@ impl SummaryEnd {
     /// The number of requirements with the verdict `word`.
     pub fn count(&self, word: &str) -> usize {
         self.verdicts.iter().filter(|one| one.word == word).count()
-    }
-}
-
-impl Summary {
-    /// The samples of the campaign in words: how many are dispersed, and the nominal one.
-    pub fn samples(&self) -> String {
-        if self.without_nominal {
-            format!("{} dispersed + nominal", self.samples - 1)
-        } else {
-            "nominal sample".to_owned()
-        }
     }
 }
 

@@ -6,8 +6,9 @@ use std::fmt::Display;
 use crate::analysis::fold::Gathered;
 use crate::analysis::{derived_table, sensitivity_table, statistics_table, trajectories};
 use crate::ensemble::Ensemble;
+use crate::findings::{Findings, findings};
 use crate::report::page::Page;
-use crate::report::summary::Summary;
+use crate::report::summary;
 use crate::sampling::SampleId;
 use crate::storage::bands_table;
 use crate::storage::columnar::{self, Packing};
@@ -66,7 +67,7 @@ pub(super) struct Derivation<'a> {
 pub(super) struct Derived {
     pub analysed: Analysed,
     pub page: Option<Page>,
-    pub summary: Summary,
+    pub findings: Findings,
 }
 
 /// Makes the files from what was `gathered` from the rows, each for `files`.
@@ -79,7 +80,7 @@ pub(super) fn derive(
     files: &dyn Destination,
 ) -> Result<Derived, WorkflowError> {
     let (plan, threads) = (job.ensemble.plan(), job.session.threads);
-    let analysed = computed(plan, job.reader, gathered, threads)?;
+    let analysed = computed(plan, job.reader, gathered, threads).map_err(WorkflowError::files)?;
     let encoded = |table: Table<'_>| Some(columnar::encoded(&table, provenance(plan), Packing::Zstd));
     take(files, STATISTICS, encoded(statistics_table::table(&analysed.statistics)))?;
     take(files, SENSITIVITY, encoded(sensitivity_table::table(&analysed.sensitivities)))?;
@@ -95,12 +96,10 @@ pub(super) fn derive(
         }
     };
     take(files, REPORT, page.as_ref().map(|page| Ok::<_, WorkflowError>(page.html.clone().into_bytes())))?;
-    let summary = Summary::new(plan, &analysed.tally, &analysed.statistics, analysed.verdicts.clone())
-        .with_stopping(plan, analysed.stopping.clone())
-        .with_missions(analysed.missions.clone())
-        .with_warnings(analysed.warnings.clone(), analysed.notes.clone());
-    take(files, SUMMARY, Some(Ok::<_, WorkflowError>(summary.json().into_bytes())))?;
-    Ok(Derived { analysed, page, summary })
+    let findings = findings(plan, &analysed, &[]);
+    let text = summary::json(plan, &analysed, &findings);
+    take(files, SUMMARY, Some(Ok::<_, WorkflowError>(text.into_bytes())))?;
+    Ok(Derived { analysed, page, findings })
 }
 
 /// Gives `files` the file `name`, or says that there is none.

@@ -6,7 +6,7 @@ use crate::analysis::ending::ending;
 use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
 use crate::findings::shell_word::quoted_path;
-use crate::report::summary::SummaryEnd;
+use crate::report::summary::{EndVerdict, SummaryEnd};
 use crate::storage::claim::Finished;
 use crate::storage::manifest::PartsRead;
 use crate::storage::names::{MANIFEST, SUMMARY};
@@ -26,11 +26,13 @@ pub(super) fn end_of(
     session: &Session<'_>,
 ) -> Result<SummaryEnd, WorkflowError> {
     let ensemble = Ensemble::new(plan, session.isa);
-    let end = SummaryEnd::of(&ending(&ensemble, rows, session.threads).map_err(WorkflowError::files)?);
+    let end = SummaryEnd::of(&ending(&ensemble, rows, session.threads).map_err(WorkflowError::files)?, None);
     if let Some(said) = SummaryEnd::read(summary)
         && said.without_words() == end.without_words()
     {
-        return Ok(SummaryEnd { warnings: said.warnings, ..end });
+        let both = end.verdicts.into_iter().zip(said.verdicts);
+        let verdicts = both.map(|(rows, said)| EndVerdict { found: said.found, ..rows }).collect();
+        return Ok(SummaryEnd { warnings: said.warnings, verdicts, ..end });
     }
     Err(WorkflowError::Files(format!(
         "{}: does not say what the rows say, though it has the checksum that {MANIFEST} lists; this makes it again: \

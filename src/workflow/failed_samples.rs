@@ -7,8 +7,8 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::campaign::{FilesRead, Overrides, Plan};
 use crate::ensemble::{Rows, Sink};
+use crate::findings::loss::readable;
 use crate::findings::number::counted;
-use crate::report::failure_text::readable;
 use crate::run::Status;
 use crate::sampling::SampleId;
 use crate::storage::claim::open;

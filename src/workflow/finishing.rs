@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::analysis::fold::Gathered;
-use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::campaign::{FilesRead, Plan};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, PartId};
+use crate::findings::Findings;
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
-use crate::report::summary::{Summary, SummaryEnd};
+use crate::report::summary::SummaryEnd;
 use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
 use crate::storage::folder::Folder;
 use crate::storage::manifest::PartRecord;
@@ -24,7 +24,7 @@ use crate::storage::replacement::replace;
 use crate::storage::rows_file::{columns, identity};
 use crate::storage::rows_reader::RowsReader;
 use crate::storage::table_log;
-use crate::workflow::analysed::write_junit;
+use crate::workflow::analysed::{end_of_analysed, write_junit};
 use crate::workflow::derived::{Derivation, Derived, PageKind, derive};
 use crate::workflow::ending::end_of_finished;
 use crate::workflow::error::WorkflowError;
@@ -59,9 +59,7 @@ pub struct Made {
 pub struct Completed {
     pub plan: Plan,
     pub root: PathBuf,
-    pub summary: Summary,
-    /// What drives the main observables.
-    pub sensitivities: Vec<InputSensitivity>,
+    pub findings: Findings,
     pub end: SummaryEnd,
     /// What this process has run of it.
     pub made: Option<Made>,
@@ -108,12 +106,12 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
     let session = job.session;
     let derivation =
         Derivation { session, ensemble: job.ensemble, reader: &reader, records: &records, page, retained: &retained };
-    let Derived { analysed, page, summary } = derive(&derivation, gathered, folder)?;
+    let Derived { analysed, page, findings } = derive(&derivation, gathered, folder)?;
     if let Some(page) = page {
         page::save_figures(&session, plan, &page, job.outputs.figures.as_deref())?;
     }
     write_junit(plan, &analysed, job.outputs.junit.as_deref())?;
-    let end = analysed.end();
+    let end = end_of_analysed(&analysed, &findings);
     let growing = growing(job.ensemble, &records);
     table_log::update(folder, &columns(job.ensemble), growing).map_err(WorkflowError::files)?;
     folder.finish().map_err(WorkflowError::files)?;
@@ -123,8 +121,7 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
     Ok(Completed {
         plan: plan.clone(),
         root: job.root.to_owned(),
-        summary,
-        sensitivities: analysed.sensitivities,
+        findings,
         end,
         made: job.made,
         is_audited: analysed.tally.audits.is_some(),

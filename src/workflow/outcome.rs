@@ -1,9 +1,13 @@
-//! [`CampaignOutcome`]: how a campaign ended.
+//! [`CampaignOutcome`]: how a campaign ended; [`again`]: the same of a finished result.
 
-use crate::report::summary::SummaryEnd;
+use crate::findings::findings;
+use crate::report::summary::{self, SummaryEnd};
 use crate::storage::claim::Shard;
+use crate::workflow::analysed::end_of_analysed;
+use crate::workflow::error::WorkflowError;
 use crate::workflow::failed_samples::FailedRun;
 use crate::workflow::finishing::{Completed, Made};
+use crate::workflow::results::Results;
 
 /// How a campaign ended that could run.
 #[derive(Clone, Debug)]
@@ -26,4 +30,25 @@ pub enum CampaignOutcome {
     },
     /// A run failed, where that ends the campaign.
     FailedFast(FailedRun),
+}
+
+/// What a result was when it was finished, and the text of its summary.
+///
+/// # Errors
+/// Where a file cannot be read.
+pub fn again(results: &Results<'_>) -> Result<(Completed, String), WorkflowError> {
+    let (plan, analysed) = (results.plan(), results.analysed()?);
+    let findings = findings(plan, &analysed, &[]);
+    let summary = summary::json(plan, &analysed, &findings);
+    let completed = Completed {
+        plan: plan.clone(),
+        root: results.root().to_owned(),
+        end: end_of_analysed(&analysed, &findings),
+        findings,
+        made: None,
+        is_audited: analysed.tally.audits.is_some(),
+        files: results.parts().len(),
+        bytes: results.parts().iter().flat_map(|part| &part.files).map(|file| file.bytes).sum(),
+    };
+    Ok((completed, summary))
 }

@@ -3,17 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use crate::analysis::fold::Gathered;
-use crate::analysis::noise_share::{NoiseShare, noise_shares};
+use crate::analysis::noise_share::noise_shares;
 use crate::analysis::outcomes::outcomes;
 use crate::campaign::Plan;
 use crate::control::laws::asked;
 use crate::ensemble::Ensemble;
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
+use crate::findings::{Finding, Findings, Kind, findings};
 use crate::report::figure_files::FigureSheet;
-use crate::report::page::found::findings;
 use crate::report::page::runs::{KnownRow, asked as asked_of, listed};
-use crate::report::page::{Analysis, Contents, Page};
+use crate::report::page::{Contents, Page};
 use crate::report::summary::SummaryEnd;
 use crate::sampling::SampleId;
 use crate::storage::claim::open;
@@ -23,7 +23,7 @@ use crate::storage::manifest::{FileRecord, PartRecord};
 use crate::storage::names::{MANIFEST, REPORT};
 use crate::storage::rows_reader::{RowsError, RowsReader};
 use crate::storage::whole_file::place;
-use crate::workflow::analysed::{Analysed, computed};
+use crate::workflow::analysed::{Analysed, computed, end_of_analysed};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 use crate::workflow::source::plan_of_sound;
@@ -39,7 +39,7 @@ pub struct Remade {
     pub question: Option<String>,
     pub end: SummaryEnd,
     /// The share of noise in the outcomes, where it was asked for.
-    pub noise: Vec<NoiseShare>,
+    pub noise: Vec<Finding>,
 }
 
 /// Makes the page of the finished result in `root` again, and its figures as files in the folder `figures`. `noise`:
@@ -55,15 +55,15 @@ pub fn remade(
     noise: Option<u64>,
 ) -> Result<Remade, WorkflowError> {
     let (storage, threads, root) = (session.storage, session.threads, &*fetched(session, root)?);
-    let (found, _locks) = open(storage, root, false)?;
-    let Some(manifest) = found.manifests.get(MANIFEST).filter(|_| found.is_finished) else {
+    let (there, _locks) = open(storage, root, false)?;
+    let Some(manifest) = there.manifests.get(MANIFEST).filter(|_| there.is_finished) else {
         return Err(WorkflowError::Input(format!(
             "the result in `{}` is not finished; the campaign's command continues it, or: spindrift finish {}",
             root.display(),
             quoted_path(root)
         )));
     };
-    let plan = plan_of_sound(session, (root, &found), Some(REPORT))?;
+    let plan = plan_of_sound(session, (root, &there), Some(REPORT))?;
     asked::refuse_unanswered(plan.loop_spec()).map_err(WorkflowError::Input)?;
     if noise.is_some() && plan.law.is_none() {
         return Err(WorkflowError::Input(format!(
@@ -72,18 +72,20 @@ pub fn remade(
         )));
     }
     let ensemble = Ensemble::new(&plan, session.isa);
-    let records: Vec<PartRecord> = found.parts().into_values().collect();
+    let records: Vec<PartRecord> = there.parts().into_values().collect();
     let parts = PartsRead::of(&records, |name| root.join(name));
     let reader = RowsReader::new(storage, parts.rows);
     let gathered = Gathered::of_files(&ensemble, (&reader, &parts.bands), threads).map_err(WorkflowError::files)?;
-    let analysed = computed(&plan, &reader, gathered, threads)?;
-    let (page, noise) = made_page(session, &ensemble, &analysed, (&reader, &records), noise)?;
+    let analysed = computed(&plan, &reader, gathered, threads).map_err(WorkflowError::files)?;
+    let (page, found) = made_page(session, &ensemble, &analysed, (&reader, &records), noise)?;
     let path = root.join(REPORT);
     place(storage, &path, page.html.as_bytes()).map_err(WorkflowError::files)?;
-    relist(storage, root, (manifest, &found.plan), FileRecord::of(REPORT, page.html.as_bytes()))
+    relist(storage, root, (manifest, &there.plan), FileRecord::of(REPORT, page.html.as_bytes()))
         .map_err(WorkflowError::files)?;
     save_figures(session, &plan, &page, figures)?;
-    Ok(Remade { path, size: page.html.len() as u64, question: plan.description.clone(), end: analysed.end(), noise })
+    let end = end_of_analysed(&analysed, &found);
+    let noise = found.of(Kind::Driver).filter(|one| one.id.starts_with("noise_")).cloned().collect();
+    Ok(Remade { path, size: page.html.len() as u64, question: plan.description.clone(), end, noise })
 }
 
 /// Begins the mark in a page that says by how many scenes the share of noise was measured, so that the same page can be
@@ -91,8 +93,8 @@ pub fn remade(
 const NOISE_MARK: &str = "<meta name=\"noise-scenes\" content=\"";
 const BEFORE_MARK: &str = "<meta charset=\"utf-8\">\n";
 
-/// The page of a result whose parts are `records`, and the share of noise in its outcomes, measured by so many
-/// `scenes`, where that is asked for.
+/// The page of a result whose parts are `records`, and what it says, with the share of noise in its outcomes, measured
+/// by so many `scenes`, where that is asked for.
 ///
 /// # Errors
 /// Where threads cannot be started, or rows cannot be read.
@@ -102,28 +104,17 @@ pub(super) fn made_page(
     analysed: &Analysed,
     (reader, records): (&RowsReader, &[PartRecord]),
     scenes: Option<u64>,
-) -> Result<(Page, Vec<NoiseShare>), WorkflowError> {
+) -> Result<(Page, Findings), WorkflowError> {
     let plan = ensemble.plan();
     let machine = (session.isa, session.threads);
     let noise = scenes.map(|scenes| noise_shares(plan, &outcomes(plan), scenes, machine));
     let noise = noise.transpose().map_err(WorkflowError::files)?.unwrap_or_default();
-    let of_page = Analysis {
-        survey: &analysed.survey,
-        statistics: &analysed.statistics,
-        verdicts: &analysed.verdicts,
-        sensitivities: &analysed.sensitivities,
-        missions: &analysed.missions,
-        bands: analysed.bands.as_ref(),
-        stopping: analysed.stopping.as_ref(),
-        warnings: &analysed.warnings,
-        notes: &analysed.notes,
-    };
-    let found = findings(plan, &of_page, &noise);
+    let found = findings(plan, analysed, &noise);
     let listed = listed(plan, &analysed.survey, &asked_of(plan, &found));
     let samples: Vec<SampleId> = listed.iter().map(|(sample, _)| *sample).collect();
     let rows = rows_of(ensemble, reader, records, &samples).map_err(WorkflowError::files)?;
     let files = records.iter().flat_map(|part| &part.files).map(|file| (file.name.clone(), file.sha256.clone()));
-    let contents = Contents { analysed: of_page, found: &found, listed, rows, files: files.collect() };
+    let contents = Contents { analysed, found: &found, listed, rows, files: files.collect() };
     let mut page = Page::new(ensemble, &contents);
     if let Some(text) = &page.left_out {
         session.watch.note(&format!("{REPORT}: {text}"));
@@ -132,7 +123,7 @@ pub(super) fn made_page(
         let marked = format!("{BEFORE_MARK}{NOISE_MARK}{scenes}\">\n");
         page.html = page.html.replacen(BEFORE_MARK, &marked, 1);
     }
-    Ok((page, noise))
+    Ok((page, found))
 }
 
 /// The rows of `samples`, from the parts that have them.

@@ -96,7 +96,7 @@ impl<'a> Results<'a> {
         let (ensemble, threads) = (Ensemble::new(&self.plan, self.session.isa), self.session.threads);
         let gathered =
             Gathered::of_files(&ensemble, (&self.reader, &self.bands), threads).map_err(WorkflowError::files)?;
-        computed(&self.plan, &self.reader, gathered, threads)
+        computed(&self.plan, &self.reader, gathered, threads).map_err(WorkflowError::files)
     }
 
     /// Statistics of every observable.

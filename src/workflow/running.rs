@@ -11,8 +11,8 @@ use crate::campaign::Plan;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
 use crate::ensemble::{Ensemble, Part, Parts, run as run_parts};
+use crate::findings::loss::stop_text;
 use crate::findings::number::counted;
-use crate::report::stopping_text::text as stopping_text;
 use crate::storage::claim::{Ready, Shard};
 use crate::storage::manifest::PartRecord;
 use crate::storage::part_sink::{CountRows, PartSink, write_parts};
@@ -56,7 +56,7 @@ pub(super) fn run_missing(job: &Running<'_>) -> Result<CampaignOutcome, Workflow
         let (rows, bands) = rows_of(ready);
         match look(plan, (&rows, &bands), target, job.session.threads).map_err(WorkflowError::files)? {
             Some(found) if !found.ends() => {
-                job.session.watch.note(&format!("{}: {}", plan.name, stopping_text(plan, &found)));
+                job.session.watch.note(&format!("{}: {}", plan.name, stop_text(plan, &found)));
             }
             _ => break,
         }

@@ -11,9 +11,9 @@ use spindrift::Overrides;
 use spindrift::Plan;
 use spindrift::analysis::drivers::{Question, rankings};
 use spindrift::analysis::sensitivity::Prepared;
+use spindrift::findings::drivers as drivers_text;
 use spindrift::findings::names;
 use spindrift::math::normal::quantile;
-use spindrift::report::drivers_text;
 use spindrift::statistics::binomial;
 
 use crate::causal_structures::{Structure, structures};

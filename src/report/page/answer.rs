@@ -302,7 +302,7 @@ pub fn ended(found: &Findings, nominal_end: Option<&str>, is_off: bool) -> Strin
         });
         format!("<li class=\"{}\">{bar}{}</li>", escaped(&one.id), full(&one.sentence))
     };
-    let missions: Vec<String> = found.of(Kind::Mission).map(mission).collect();
+    let missions: Vec<String> = found.of(Kind::Mission).filter(|one| one.id != "missions").map(mission).collect();
     let missions =
         if missions.is_empty() { String::new() } else { format!("<ul class=\"missions\">{}</ul>", missions.concat()) };
     let nominal = nominal_end.map_or_else(String::new, |end| {

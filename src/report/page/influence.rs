@@ -2,17 +2,17 @@
 //! share of the runs in which an event occurs against them.
 
 use crate::analysis::drivers::{Question, Ranking};
-use crate::analysis::event::{Event, Occurs, distinct};
+use crate::analysis::event::{Event, distinct};
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::order_statistics::share_interval;
 use crate::analysis::survey::{SCATTER, Survey, SurveyedOutcome, chosen};
 use crate::campaign::Plan;
+use crate::findings::drivers::{outcomes, part, ranked, verb};
 use crate::findings::names;
 use crate::findings::names::sentence;
+use crate::findings::names::unit_of_input;
 use crate::findings::number::{significant, typeset};
-use crate::report::drivers_text::{outcomes, ranked, verb};
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
-use crate::report::origin_text::unit_of;
 use crate::report::page::errors::{computed, having, interval_label, magnitude, of_runs, shown_rows};
 use crate::report::page::fates::{self, Fate};
 use crate::run::Quantity;
@@ -69,15 +69,6 @@ pub fn figures(plan: &Plan, survey: &Survey, all: &[InputSensitivity], has_inter
     }
     figures.retain(Figure::is_visible);
     figures
-}
-
-/// What the ranking of an event adds to the name of its outcome, in names of figures.
-pub fn part(event: &Event) -> String {
-    match event.occurs {
-        Occurs::Missed { requirement, is_only: false } => format!("_event_{}", requirement + 1),
-        _ if event.has_few_values => String::new(),
-        _ => "_event".to_owned(),
-    }
 }
 
 /// The share of each input with the ends of its interval, NaN where there is none, in the order of the ranking.
@@ -162,7 +153,7 @@ fn conditional(
     let missed = Event::missed(plan, name, &values, &vec![true; values.len()]);
     let mut all = missed.into_iter().chain(Event::of_values(plan, name, &values));
     let (_, occurs) = all.find(|(other, _)| other.occurs == event.occurs)?;
-    let shown = unit_of(plan, input);
+    let shown = unit_of_input(plan, input);
     let amount = |value: f64| significant(shown.value(value), 3);
     let mut classes: Vec<(String, [u64; 2])> = Vec::new();
     let order = ascending_order(&inputs);

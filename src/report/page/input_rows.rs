@@ -4,10 +4,11 @@
 use crate::campaign::Plan;
 use crate::findings::names;
 use crate::findings::names::sentence;
+use crate::findings::names::unit_of_input;
 use crate::math::incomplete_gamma::incomplete_gamma;
 use crate::report::escaped::escaped;
 use crate::report::figure::{Figure, Mark};
-use crate::report::origin_text::{origin, unit_of};
+use crate::report::origin_text::origin;
 use crate::report::page::readable::with_unit;
 
 /// Size of a small histogram, pixels.
@@ -22,7 +23,7 @@ pub fn rows(plan: &Plan, figures: &[Figure]) -> String {
         let column = &plan.dispersions.columns()[index];
         let technical = column.parameter.column_name(column.component);
         let figure = figures.iter().find(|figure| figure.name == format!("input_{technical}"))?;
-        let shown = unit_of(plan, index);
+        let shown = unit_of_input(plan, index);
         let fit = match fit(figure) {
             Some(p) if p < 1e-3 => "p < 0.001".to_owned(),
             Some(p) => format!("p = {p:.3}"),

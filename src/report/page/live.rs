@@ -5,11 +5,11 @@ use serde_json::{Value, json};
 use crate::campaign::Plan;
 use crate::campaign::event::Event;
 use crate::ensemble::SingleRun;
+use crate::findings::loss;
 use crate::findings::names;
 use crate::findings::names::sentence;
 use crate::math::vector::{difference, norm};
 use crate::observables::Series;
-use crate::report::mission_text;
 use crate::report::page::payload::Payload;
 use crate::report::page::sky;
 use crate::run::StateField;
@@ -192,7 +192,7 @@ pub fn marks(plan: &Plan, row: &[(String, f64)]) -> Vec<Value> {
     let spec = plan.law.as_ref().and_then(|law| law.spec());
     let phases = spec.iter().flat_map(|spec| &spec.phases);
     let mut marks: Vec<(f64, String)> = phases.filter_map(|phase| begins(phase.name.as_str())).collect();
-    let end = of_row(row, "end_time_s").zip(mission_text::of_row(row));
+    let end = of_row(row, "end_time_s").zip(loss::of_row(row));
     marks.extend(end.map(|(time, text)| (time, text.trim_start_matches("mission ").to_owned())));
     let ended_by =
         |event: &Event| Some((of_row(row, &format!("{}_time_s", event.name))?, format!("ended by {}", event.name)));

@@ -18,7 +18,6 @@ pub(in crate::report) mod document;
 mod errors;
 mod fates;
 pub(in crate::report) mod figure_json;
-pub mod found;
 pub mod influence;
 mod input_rows;
 mod inputs;
@@ -40,47 +39,22 @@ use self::fates::Fate;
 use self::figure_json::json_of;
 use self::payload::Payload;
 use self::runs::{KnownRow, ShownRun};
-use crate::analysis::input_sensitivity::InputSensitivity;
-use crate::analysis::missions::Missions;
-use crate::analysis::statistics::{ColumnStatistics, Statistics};
-use crate::analysis::stopping::Stopping;
+use crate::analysis::analysed::Analysed;
+use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::{self, Survey};
-use crate::analysis::verdicts::Verdicts;
 use crate::campaign::Plan;
-use crate::campaign::event::Event;
 use crate::ensemble::run_cost::replays;
-use crate::ensemble::{Bands, Ensemble, SingleRun};
-use crate::findings::number::counted;
-use crate::findings::{Finding, Findings, Kind, names};
+use crate::ensemble::{Ensemble, SingleRun};
+use crate::findings::outcome::event_time;
+use crate::findings::{Finding, Findings, Kind, loss, names};
 use crate::report::figure::{Figure, FigureSection, Mark, Scale};
-use crate::report::mission_text;
 use crate::report::over_time::curves::{Curves, TimeBands};
 use crate::sampling::{Design, SampleId};
-
-/// What was computed of the rows.
-#[derive(Clone, Copy, Debug)]
-pub struct Analysis<'a> {
-    pub survey: &'a Survey,
-    pub statistics: &'a Statistics,
-    pub verdicts: &'a Verdicts,
-    /// What every input means for the main observables.
-    pub sensitivities: &'a [InputSensitivity],
-    /// How missions ended, under a control loop.
-    pub missions: &'a Missions,
-    /// Quantiles over time, where they were kept.
-    pub bands: Option<&'a Bands>,
-    /// The look that ended the campaign, where it has `[stop]`.
-    pub stopping: Option<&'a Stopping>,
-    /// What a reader has to know before any number.
-    pub warnings: &'a [String],
-    /// What the numbers leave unsaid.
-    pub notes: &'a [String],
-}
 
 /// What the page is made of.
 #[derive(Clone, Debug)]
 pub struct Contents<'a> {
-    pub analysed: Analysis<'a>,
+    pub analysed: &'a Analysed,
     /// What is said of it.
     pub found: &'a Findings,
     /// The runs that it lists, in their order, each with why it does ([`runs::listed`]).
@@ -116,28 +90,22 @@ pub fn is_independent(plan: &Plan) -> bool {
     matches!(plan.design, Design::Random(_))
 }
 
-/// When the events of the file happen: the median of each over the runs in which it does, and how many these are.
+/// When the events of the file happen.
 fn event_times(plan: &Plan, statistics: &[ColumnStatistics]) -> Vec<Mark> {
-    let of = |event: &Event| {
-        let name = format!("{}_time_s", event.name);
-        let row = statistics.iter().find(|row| row.quantity.name() == name)?;
-        let at = row.quantiles.iter().find(|one| one.p == 0.5)?.value?;
-        let label = format!("{}, median of {}", event.name.replace('_', " "), counted(row.moments.count(), "run"));
-        at.is_finite().then_some(Mark::Limit { label, at, vertical: true })
-    };
-    plan.events.iter().filter_map(of).collect()
+    let times = statistics.iter().filter_map(|column| event_time(plan, column));
+    times.map(|(label, at)| Mark::Limit { label, at, vertical: true }).collect()
 }
 
 impl Page {
     /// The page of a campaign. Runs the nominal and the worst samples again, to show them over time.
     pub fn new(ensemble: &Ensemble<'_>, contents: &Contents<'_>) -> Self {
-        let (plan, analysed, found) = (ensemble.plan(), &contents.analysed, contents.found);
-        let survey = analysed.survey;
+        let (plan, analysed, found) = (ensemble.plan(), contents.analysed, contents.found);
+        let survey = &analysed.survey;
         let flown = contents.replays(plan);
         let shown = runs::shown_runs(plan, (&contents.listed, &contents.rows), flown, ensemble.isa());
         let first = shown.iter().find(|run| run.sample == SampleId(0));
         let nominal = first.and_then(|run| run.run.as_ref());
-        let bands = analysed.bands.map_or_else(Vec::new, bands::time_bands);
+        let bands = analysed.bands.as_ref().map_or_else(Vec::new, bands::time_bands);
         let flown: Vec<&SingleRun> = shown.iter().filter_map(|run| run.run.as_ref()).collect();
         let figures = figures(ensemble, (analysed, found), (nominal, flown), &bands);
 
@@ -151,8 +119,7 @@ impl Page {
             "replay": has_replay.then(|| json!({ "scene": replay::scene(plan), "runs": motions })),
             "pairs": pairs(plan, survey, &mut payload),
         });
-        let end =
-            first.and_then(|run| mission_text::of_run(&run.row)).filter(|_| plan.law.is_some() && plan.rows() > 1);
+        let end = first.and_then(|run| loss::of_run(&run.row)).filter(|_| plan.law.is_some() && plan.rows() > 1);
         let first_screen = [
             answer::header(plan, found, survey),
             answer::first(found),
@@ -170,11 +137,11 @@ impl Page {
 /// The figures in the order of the page, in the units that people see.
 fn figures(
     ensemble: &Ensemble<'_>,
-    (analysed, found): (&Analysis<'_>, &Findings),
+    (analysed, found): (&Analysed, &Findings),
     (nominal, flown): (Option<&SingleRun>, Vec<&SingleRun>),
     bands: &[TimeBands],
 ) -> Vec<Figure> {
-    let (plan, survey, statistics) = (ensemble.plan(), analysed.survey, analysed.statistics);
+    let (plan, survey, statistics) = (ensemble.plan(), &analysed.survey, &analysed.statistics);
     let has_intervals = is_independent(plan) && !statistics.loss().is_big();
     let wheels = ensemble.request().wheels.to_vec();
     let curves = Curves::of_page(plan, nominal, bands, &wheels);
@@ -186,7 +153,7 @@ fn figures(
         figure.marks.extend(events.iter().filter(|_| is_marked).cloned());
         figure
     };
-    let mut figures = influence::figures(plan, survey, analysed.sensitivities, has_intervals);
+    let mut figures = influence::figures(plan, survey, &analysed.sensitivities, has_intervals);
     figures.extend(curves.figures().into_iter().map(marked));
     figures.extend(curves.drift());
     figures.extend(outcomes::figures(plan, survey, &statistics.columns, has_intervals));
@@ -210,8 +177,8 @@ fn sections(
     has_replay: bool,
     drawn: &[Figure],
 ) -> Vec<PageSection> {
-    let (analysed, found) = (&contents.analysed, contents.found);
-    let (survey, statistics) = (analysed.survey, analysed.statistics);
+    let (analysed, found) = (contents.analysed, contents.found);
+    let (survey, statistics) = (&analysed.survey, &analysed.statistics);
     let has = |section: FigureSection| drawn.iter().any(|figure| figure.section == section);
     let of = |anchor, title, lead: String, html: String| PageSection {
         anchor,

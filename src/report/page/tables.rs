@@ -6,11 +6,11 @@ use crate::analysis::survey::Survey;
 use crate::campaign::{Display, Plan};
 use crate::control::ControlLaw;
 use crate::control::laws::asked;
+use crate::findings::loss;
 use crate::findings::names;
 use crate::findings::names::sentence;
+use crate::findings::names::unit_of_input;
 use crate::report::escaped::escaped;
-use crate::report::mission_text;
-use crate::report::origin_text::unit_of;
 use crate::report::page::readable::{in_brackets, number, with_unit};
 use crate::report::page::runs::ShownRun;
 use crate::run::Status;
@@ -114,7 +114,7 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
             .zip(&shown.inputs)
             .enumerate()
             .map(|(index, (column, value))| {
-                let shown = unit_of(plan, index);
+                let shown = unit_of_input(plan, index);
                 let name = names::of_component(column.parameter, column.component);
                 let sigmas = (value - column.nominal).abs() / spreads[index];
                 let values = drawn([*value, column.nominal].map(|value| shown.value(value)), &shown.unit);
@@ -135,7 +135,7 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
         let why = if shown.sample.0 == 0 { "nominal run" } else { &shown.why };
         // a run that was computed and whose mission did not end has nothing to tell
         let ended = if shown.status == Status::Done {
-            mission_text::of_row(&shown.row).map(|end| escaped(&sentence(&end)))
+            loss::of_row(&shown.row).map(|end| escaped(&sentence(&end)))
         } else {
             Some(format!("<b>{}</b>: {}", shown.status.name(), escaped(&shown.reason)))
         };
@@ -154,9 +154,9 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
         );
     }
     format!(
-        "<div class=\"table\" id=\"worst\" tabindex=\"0\"><table><thead><tr><th>sample</th><th>why it is \
-        listed</th><th>inputs farthest from nominal</th><th>command</th><th>3D</th></tr></thead>\
-         <tbody>\n{body}</tbody></table></div>\n"
+        "<div class=\"table\" id=\"worst\" tabindex=\"0\"><table><thead><tr><th>sample</th><th>why it is listed</th>\
+        <th>inputs farthest from nominal</th><th>command</th><th>3D</th></tr></thead><tbody>\n{body}</tbody></table>\
+        </div>\n"
     )
 }
 
@@ -226,8 +226,8 @@ mod tests {
         for (values, text) in [
             ([0.9, 1.0], "0.9\u{a0}m (nominal 1\u{a0}m, "),
             ([1.0 + 2.5e-4, 1.0], "1\u{a0}m + 2.5\u{202f}\u{d7}\u{202f}10\u{207b}\u{2074}\u{a0}m ("),
-            ([6_976.0, 6_978.0], "6978\u{a0}m \u{2212} 2\u{a0}m ("),
-            ([-0.3, 0.0], "-0.3\u{a0}m ("),
+            ([6_976_000.0, 6_978_000.0], "6.978\u{202f}\u{d7}\u{202f}10\u{2076}\u{a0}m \u{2212} 2000\u{a0}m ("),
+            ([-0.3, 0.0], "\u{2212}0.3\u{a0}m ("),
             ([1.0, 1.0], "1\u{a0}m (nominal 1\u{a0}m, "),
         ] {
             assert_eq!(drawn(values, "m"), text);

@@ -51,7 +51,7 @@ expression = "body.inertia_scale + attitude_estimate_error_final_rad"
 fn said(text: &str, outcome: &str) -> [f64; 3] {
     let line = text
         .lines()
-        .find(|line| line.trim_start().starts_with(&format!("{outcome} ")))
+        .find(|line| line.trim_start().starts_with(&format!("{outcome}: ")))
         .unwrap_or_else(|| panic!("{text}"));
     let (_, numbers) = line.split_once("noise within the loop is ").unwrap();
     let mut numbers = numbers.split(['%', '[', ',', ']']).filter_map(|word| word.trim().parse::<f64>().ok());
@@ -71,26 +71,24 @@ fn noise_is_told_from_scenes() {
     let run = found("noise", &noisy());
     let parts = run.rows(&["attitude_estimate_error_final_rad", "body_inertia_scale"]);
     let [of_noise, of_scene] = [0, 1].map(|k| variance(&parts.iter().map(|(_, row)| row[k]).collect::<Vec<f64>>()));
-    assert!(run.visible().contains("spindrift report . --noise 256"), "the page says how");
-    let text = run.scratch.prints("report r --noise 400", 0);
+    assert!(run.visible().contains("report . --noise 256"), "the page says how");
+    let text = run.scratch.prints_wide("report r --noise 400", 0);
     // the page says how it was made, and is made again
     run.scratch.prints("verify r --fraction 0", 0);
-    assert!(
-        text.contains("of_scene                           noise within the loop changes it in none of 400 scenes"),
-        "{text}"
-    );
-    let [share, low, high] = said(&text, "attitude_estimate_error_final_rad");
+    assert!(text.contains("of scene: noise within the loop changes it in none of 400 scenes"), "{text}");
+    let [share, low, high] = said(&text, "attitude estimate error at the end");
     assert!(share > 90.0 && low < 100.0 && high == 100.0, "{text}");
-    let [share, low, high] = said(&text, "of_both");
+    let [share, low, high] = said(&text, "of both");
     let expected = 100.0 * of_noise / (of_noise + of_scene);
     assert!((20.0..60.0).contains(&expected) && (low..high).contains(&expected), "{expected}: {text}");
     assert!((share / expected - 1.0).abs() < 0.2 && high - low < 20.0, "{expected}: {text}");
     let again = Found::read(run.scratch, String::new());
+    let page = again.visible();
     let words = format!(
         "oise within the loop is {}",
-        text.split_once("of_both").unwrap().1.split_once("loop is ").unwrap().1.lines().next().unwrap()
+        text.split_once("of both").unwrap().1.split_once("loop is ").unwrap().1.lines().next().unwrap()
     );
-    assert!(again.visible().contains(&words), "the page does not say {words}");
+    assert!(page.contains(&words), "{page} does not say {words}");
 
     let scratch = again.scratch;
     let noisy = noisy();

@@ -114,7 +114,11 @@ fn answers_are_the_summary() {
             let number = |key: &str| one[key].as_f64().unwrap_or_else(|| panic!("{key}: {one}"));
             let asked = plain(between(row, "<span class=\"asked\">", "</span>"));
             let (_, limit) = asked.split_once(if is_most { "\u{2264} " } else { "\u{2265} " }).expect("a limit");
-            same(limit.split(" in ").next().expect("a number"), &one[side], &asked);
+            same(
+                limit.split(" in ").next().and_then(|text| text.split(", ").next()).expect("a number"),
+                &one[side],
+                &asked,
+            );
             let share = Value::from(one["target"].as_f64().map_or(f64::NAN, |target| {
                 if one["statement"] == "quantile" && !is_most { 1.0 - target } else { target }
             }));

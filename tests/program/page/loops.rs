@@ -143,7 +143,12 @@ fn events_are_marked_at_their_medians() {
         times.retain(|time| time.is_finite());
         times.sort_by(f64::total_cmp);
         let middle = times[(times.len() - 1) / 2]..=times[times.len() / 2];
-        let label = format!("{}, median of {} runs", event.replace('_', " "), times.len());
+        let label = format!("{}, median of ", event.replace('_', " "));
+        let all = found.column("sample_id").len();
+        let label = match times.len() {
+            some if some < all => format!("{label}the {some} of {all} runs that do"),
+            _ => format!("{label}{all} runs"),
+        };
         for figure in
             figures.iter().filter(|figure| !["phases", "drift_energy", "drift_momentum"].contains(&name(figure)))
         {
@@ -353,10 +358,9 @@ fn a_quantile_without_a_number_is_a_share() {
     assert!(one["value"].is_null(), "{one}");
     let runs = ["runs", "violations"].map(|key| one[key].as_f64().expect(key));
     let share = 100.0 * (runs[0] - runs[1]) / runs[0];
-    let row = found.said.lines().find(|line| line.contains("time until phase rest, ")).expect("a row");
-    // the number of runs, the median of those that have a value, no quantile, and the largest
-    let cells: Vec<&str> = row.split_once(", min").expect("minutes").1.split_whitespace().collect();
-    assert!(cells.len() == 4 && cells[2] == "-", "{row}");
+    // numbers of those that have a value say of how many runs they are
+    let row = found.said.lines().find(|line| line.contains("time until phase rest (in ")).expect("a row");
+    assert!(row.contains(&format!(" of {} runs)", runs[0])), "{row}");
     let page = found.visible();
     let row = page.split("<details class=\"answer ").nth(1).expect("a row");
     let shown = numbers::read_number(between(row, "<span class=\"number\"><b>", "%</b>"));

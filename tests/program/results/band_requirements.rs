@@ -92,7 +92,7 @@ fn counts_are_those_of_the_time_series() {
     assert_eq!((&every["violations"], &every["band"]["points"]), (&Value::from(0), &Value::from(9)));
     assert_eq!(
         every["requirement"],
-        format!("99% of runs with {SERIES} at most {high:?} J at each time from 0.05 s to 0.95 s, with 95% confidence")
+        format!("energy of the body <= {high:?} J at each time from 0.05 s to 0.95 s in 99%, with 95% confidence")
     );
     // the value is the quantile at the worst time of the interval, whichever time it begins at
     for (from, to) in [(0, 10), (3, 10), (6, 8), (9, 9)] {

@@ -52,7 +52,7 @@ fn a_loss_is_said_first_and_is_not_random() {
         &[missing as f64, runs as f64, share, missing as f64],
     );
     let warning = said.find("NOT COMPUTED").expect("a warning");
-    assert!(warning < said.find("requirements").expect("requirements"), "{said}");
+    assert!(warning < said.find("requirement,").expect("requirements"), "{said}");
     let summary = scratch.summary("lost");
     let warnings = summary["warnings"].as_array().expect("warnings");
     let first = warnings[0].as_str().expect("a text");
@@ -94,7 +94,7 @@ fn a_loss_is_said_first_and_is_not_random() {
         let found = text.split_once("p95 is among the runs without a value; ").expect("no number").1;
         let interval = interval((runs - missing) as u64, runs as u64, 0.95).map(|end| 100.0 * end);
         let known = [(runs - missing) as f64, runs as f64, 100.0 - share, interval[0], interval[1], missing as f64];
-        says(found, "# of # runs within the limit: #% [#, #] (# runs without a value count as violations)", &known);
+        says(found, "# of # runs within the limit: #% [#, #]; # runs without a value count as violations", &known);
     }
     // the interval is named once on the screen
     assert_eq!(said.matches("in brackets:").count(), 1, "{said}");
@@ -245,7 +245,7 @@ fn an_audit_that_fails_is_no_success() {
     // no error is so large that any estimate covers it
     let covered = estimates.iter().zip(&errors).filter(|(estimate, error)| estimate >= error).count();
     assert!(covered < 10 && errors.iter().all(|error| *error < 0.1), "{covered} of {}", errors.len());
-    let words = format!("AUDIT FAILED: state_error_estimate covers the true error in {covered} of {}", errors.len());
+    let words = format!("AUDIT FAILED: state error estimate covers the true error in {covered} of {}", errors.len());
     let flat = said.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(flat.find(&words).expect("the word") < flat.find("outcome").expect("numbers"), "{said}");
     assert!(scratch.summary("few")["warnings"][0].as_str().is_some_and(|text| text.starts_with(&words)));

@@ -14,6 +14,7 @@ pub mod requirements;
 pub mod result_files;
 pub mod retained;
 pub mod run_ends;
+pub mod said_once;
 pub mod statistics;
 pub mod stopping;
 pub mod table_log;

@@ -57,8 +57,8 @@ fn a_campaign_stops_when_it_is_precise_enough() {
         let found = numbers(said, "look # of at most #, # samples: p50 of ");
         assert_eq!(found, ["look", "looks", "samples"].map(at));
         let [low, high] = [0, 1].map(|end| never["stop"]["interval"][end].as_f64().expect("an end"));
-        let known = [at("estimate"), low, high, at("confidence"), 1e-30];
-        says(said, "_peak_to_peak_j = # in [#, #] at # confidence, wanted half width #", &known);
+        let known = [at("estimate"), low, high, 100.0 * at("confidence"), 1e-30];
+        says(said, " = # [#, #] J at #% confidence, wanted half width # J", &known);
     }
     assert!((never["stop"]["confidence"].as_f64().unwrap() - (1.0 - 0.05 / 4.0)).abs() < 1e-12);
 

@@ -1,20 +1,27 @@
-//! What drives an outcome, in words: on the screen, on the cards and at the charts of the page.
+//! What an outcome depends on: its drivers with what they mean for it, and what could have been found where there are
+//! none.
 
-use crate::analysis::drivers::{Question, Ranked, Ranking, is_known, rankings};
+use crate::analysis::analysed::Analysed;
+use crate::analysis::drivers::{LEAST_CHANCE, LEAST_SHARE, Question, Ranked, Ranking, is_known, rankings};
 use crate::analysis::effects::{Dependence, Direction, Level};
 use crate::analysis::event::{Event, Occurs};
 use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
+use crate::analysis::noise_share::NoiseShare;
 use crate::analysis::observed::Observed;
+use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, ShownUnit};
+use crate::findings::finding::{Figures, Finding, Kind, Number};
+use crate::findings::loss;
 use crate::findings::names;
-use crate::findings::number::{brief, counted, outward, short};
-use crate::report::origin_text::unit_of;
-use crate::report::share_text::with_interval;
+use crate::findings::number::{self, brief, counted, outward, share, short};
+use crate::math::normal;
+use crate::run::Status;
 use crate::sampling::Design;
+use crate::statistics::binomial::{Decision, POWER};
+use crate::statistics::contingency::Occurrence;
 use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
-use crate::table::Table;
-use crate::table::text::Align;
+use crate::statistics::share_within::FEWEST_OTHERS;
 
 const NAMED: usize = 2;
 
@@ -75,13 +82,14 @@ fn limit(plan: &Plan, requirement: usize) -> String {
     let one = &plan.analysis.requirements[requirement];
     let observed = Observed::named(plan, one.observable().into_iter());
     let unit = observed.first().map_or("", |observed| observed.quantity.unit());
-    let shown = plan.analysis.display.of(one.name(), if unit == "1" { "" } else { unit });
     let (word, value) = match one.limit {
         GateLimit::AtMost(value) => ("at most", value),
         GateLimit::AtLeast(value) => ("at least", value),
     };
+    let shown = plan.analysis.display.of(one.name(), if unit == "1" { "" } else { unit });
+    let shown = shown.of_time(value.abs(), Some(value));
     let never = if one.never_meets { " (no value meets it)" } else { "" };
-    format!("{word} {}{never}", format!("{} {}", short(shown.value(value)), shown.unit).trim_end())
+    format!("{word} {}{never}", format!("{} {}", number::written(shown.written(value)), shown.unit).trim_end())
 }
 
 /// The runs in which the event of `outcome` occurs: "the runs that fail", "the worst 5% of runs".
@@ -128,7 +136,8 @@ fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ra
     let phrase = |ranked: &Ranked<'_>| {
         let column = &ranked.input.input;
         let name = names::of_input_column(plan, column);
-        let shown = names::place_of(plan, column).map_or_else(|| ShownUnit::own(""), |place| unit_of(plan, place));
+        let shown =
+            names::place_of(plan, column).map_or_else(|| ShownUnit::own(""), |place| names::unit_of_input(plan, place));
         let amount = |value: f64| format!("{} {}", short(shown.value(value)), shown.unit).trim_end().to_owned();
         let dependence = ranked.effect.map(|effect| &effect.dependence)?;
         Some(match dependence {
@@ -173,7 +182,8 @@ fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ra
     if named.is_empty() {
         let of = event.of;
         let verb = verb(plan, outcome, event, of.events);
-        return format!("{} of {} runs {verb}; no input was found that explains which", of.events, of.runs);
+        let power = power_on_event(plan, ranking, of, &verb);
+        return format!("{} of {} runs {verb}; no input was found that explains which{power}", of.events, of.runs);
     }
     named.join("; ")
 }
@@ -209,11 +219,11 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     if drivers.is_empty() {
         let most = ranking.inputs.iter().map(|ranked| ranked.share.filter(is_known).map(|share| share.upper));
         return match most.collect::<Option<Vec<f64>>>() {
-            Some(ends) => {
+            Some(ends) if ends.iter().all(|end| *end < 0.995) => {
                 let most = (100.0 * ends.into_iter().fold(0.0, f64::max)).ceil();
                 format!("no single input explains more than {most:.0}% of the variance{rest}")
             }
-            None => format!("no input was found to drive it in {runs}"),
+            _ => format!("no input was found to drive it in {runs}{}", power_on_spread(plan, ranking)),
         };
     }
     if first.input.total.is_some() {
@@ -228,7 +238,7 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
         // an estimate that is not above zero says nothing beside a test that found the input
         let share = driver.share.filter(|share| is_known(share) && !share.lower.is_nan() && share.value > 0.0);
         let within = |end: f64| end.clamp(0.0, 1.0);
-        let share = share.map(|share| with_interval([within(share.value); 2], [share.lower, share.upper].map(within)));
+        let share = share.map(|share| number::share([within(share.value); 2], [share.lower, share.upper].map(within)));
         let share = match share {
             Some(share) if is_said => format!(" {share}"),
             Some(share) => format!(" explains {share} of the variance"),
@@ -260,26 +270,186 @@ fn rest(plan: &Plan, ranking: &Ranking<'_>) -> Option<String> {
     Some(format!("the rest is {noise}interactions, or effects too small to show"))
 }
 
-/// The rankings of an outcome in words; empty where no influence was estimated.
-pub fn driven_by(plan: &Plan, all: &[InputSensitivity], outcome: &str) -> Vec<String> {
-    ranked(plan, all, outcome).iter().map(|ranking| sentence(plan, outcome, ranking)).collect()
+/// The normal quantiles of a test of one of so many inputs at the confidence of the plan, and of its power.
+fn reach(plan: &Plan, inputs: usize) -> f64 {
+    let level = 0.5 * (1.0 - plan.analysis.confidence) / inputs.max(1) as f64;
+    -normal::quantile(level) + normal::quantile(POWER)
 }
 
-/// Lines of `width` characters for each outcome; nothing where no influence was estimated.
-pub fn text(plan: &Plan, all: &[InputSensitivity], width: usize) -> String {
-    let mut table = Table::with([("", Align::Left), ("", Align::Sentence)]);
-    let mut has_rest = false;
+/// What would have been found in nine of ten such campaigns: by Fisher's transformation of a rank correlation.
+fn power_on_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
+    let rows = ranking.inputs.first().map_or(0, |first| first.input.rows);
+    let tested = ranking.inputs.iter().filter(|ranked| ranked.input.p_value.is_some()).count();
+    if rows <= 3 || tested == 0 {
+        return String::new();
+    }
+    let r = libm::tanh(reach(plan, tested) / libm::sqrt(rows as f64 - 3.0));
+    let share = (100.0 * f64::max(r * r, LEAST_SHARE)).ceil();
+    format!("; one that it rises or falls with, and that explains {share:.0}% of it, is found in 90% of such campaigns")
+}
+
+/// The same of an event: by the chance that a run with it has the larger value (H. B. Mann & D. R. Whitney, 1947).
+fn power_on_event(plan: &Plan, ranking: &Ranking<'_>, of: Occurrence, verb: &str) -> String {
+    let (with, without) = (of.events as f64, (of.runs - of.events) as f64);
+    if ranking.inputs.is_empty() || with * without == 0.0 {
+        return String::new();
+    }
+    let error = libm::sqrt((with + without + 1.0) / (12.0 * with * without));
+    let chance = 0.5 + f64::max(reach(plan, ranking.inputs.len()) * error, LEAST_CHANCE);
+    if chance >= 0.995 {
+        return "; so few runs show none".to_owned();
+    }
+    let chance = (100.0 * chance).ceil();
+    format!(
+        "; one that is larger in a run that {verb} than in another with a chance of {chance:.0}% is found in 90% of \
+         such campaigns"
+    )
+}
+
+/// The drivers of an outcome in sentences, of the rankings that have some.
+pub(super) fn found(plan: &Plan, all: &[InputSensitivity], outcome: &str) -> Vec<String> {
+    let rankings = ranked(plan, all, outcome);
+    let known = rankings.iter().filter(|ranking| ranking.drivers().next().is_some());
+    known.map(|ranking| sentence(plan, outcome, ranking)).collect()
+}
+
+/// Outcomes whose drivers a screen names where nothing is required.
+const DRIVEN: usize = 3;
+
+/// A finding for each ranking: of outcomes that are not met first, in each of the event of a requirement that is not
+/// met, and the spread last; those with a driver before
+/// the others. Its children are its drivers.
+pub(super) fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -> Vec<Finding> {
+    let (all, verdicts) = (&analysed.sensitivities, &analysed.verdicts);
+    // the strongest first, of those that matter as much
+    let share = |one: &Finding| one.children.first().and_then(|driver| driver.numbers.first()).map(|share| share.value);
+    let strength = |one: &Finding| share(one).filter(|share| share.is_finite()).unwrap_or(0.0);
+    let mut found: Vec<(Finding, [bool; 3])> = Vec::new();
     for outcome in outcomes(plan, all) {
         for ranking in &ranked(plan, all, outcome) {
-            table.row([outcome.to_owned(), sentence(plan, outcome, ranking)]);
-            has_rest |= ranking.question == Question::Spread && rest(plan, ranking).is_some();
+            let one = finding(plan, analysed, outcome, ranking);
+            let order = [one.children.is_empty(), is_met(verdicts, outcome), is_settled(verdicts, ranking)];
+            found.push((one, order));
         }
     }
-    let mut text = table.text(width);
-    if has_rest && !matches!(plan.design, Design::Saltelli(_)) {
-        text += &format!("  shares of the variance: {SEE_INTERACTIONS}\n");
+    found.sort_by(|(one, order), (other, after)| order.cmp(after).then(strength(other).total_cmp(&strength(one))));
+    let mut found: Vec<Finding> = found.into_iter().map(|(one, _)| one).collect();
+    let most = if verdicts.list.is_empty() { DRIVEN } else { 1 };
+    let mut seen: Vec<String> = Vec::new();
+    for one in &mut found {
+        let outcome = one.title.split(": ").next().unwrap_or_default().to_owned();
+        let is_first = !one.children.is_empty() && seen.len() < most && !seen.contains(&outcome);
+        seen.extend(is_first.then_some(outcome));
+        one.rank = u8::from(!is_first);
     }
-    if text.is_empty() { text } else { format!("\n  drivers\n{text}") }
+    let about =
+        |id: &str, title: &str, rank: u8, said: String| Finding { rank, ..Finding::new(Kind::Driver, id, title, said) };
+    if let Some(why) = loss::all_fail(&analysed.missions) {
+        found.insert(0, about("all_fail", "failures", 0, why));
+    } else if let Some(why) = refused(plan, all) {
+        found = vec![about("untold", "", 0, why)];
+    } else if analysed.tally.without_nominal
+        && seen.is_empty()
+        && !all.is_empty()
+        && !analysed.statistics.loss().is_big()
+    {
+        let computed = Status::ALL.into_iter().zip(analysed.tally.statuses.of_population());
+        let runs: u64 = computed.filter(|(status, _)| *status == Status::Done).map(|(_, count)| count).sum();
+        let first = found.first().map(|one| one.sentence.clone());
+        let first = first.and_then(|text| text.split_once("; one that").map(|(_, rest)| format!("; one that{rest}")));
+        let said = format!("no significant driver found in {}", counted(runs, "dispersed run"));
+        found.insert(0, about("no_driver", "", 0, said + &first.unwrap_or_default()));
+    }
+    let has_rest = found.iter().any(|one| one.sentence.contains("; the rest is "));
+    if has_rest && !matches!(plan.design, Design::Saltelli(_)) {
+        found.push(about("interactions", "shares of the variance", 1, SEE_INTERACTIONS.to_owned()));
+    }
+    if plan.law.is_some() && noise.is_empty() && !all.is_empty() {
+        let said = "noise in the loop is no input: spindrift report . --noise 256 measures its share";
+        found.push(about("noise", "", 1, said.to_owned()));
+    }
+    found.extend(noise.iter().map(|one| noise_finding(plan, one)));
+    found
+}
+
+/// Whether every requirement on an outcome is met.
+fn is_met(verdicts: &Verdicts, outcome: &str) -> bool {
+    let mut of = verdicts.list.iter().filter(|one| one.requirement.observable() == Some(outcome));
+    of.all(|one| one.gate.decision == Decision::Pass)
+}
+
+/// Whether a ranking is of an event that matters less: of a requirement that is met, or of the spread.
+fn is_settled(verdicts: &Verdicts, ranking: &Ranking<'_>) -> bool {
+    match ranking.question {
+        Question::Event(Event { occurs: Occurs::Missed { requirement, .. }, .. }) => {
+            verdicts.list.get(requirement).is_some_and(|one| one.gate.decision == Decision::Pass)
+        }
+        Question::Event(_) => false,
+        Question::Spread => true,
+    }
+}
+
+fn finding(plan: &Plan, analysed: &Analysed, outcome: &str, ranking: &Ranking<'_>) -> Finding {
+    let unit = analysed.statistics.column(outcome).map_or("", |column| column.quantity.unit());
+    let name = names::of_column(outcome, unit);
+    let (title, part) = match &ranking.question {
+        Question::Spread => (name, String::new()),
+        Question::Event(event) => (format!("{name}: which runs {}", verb(plan, outcome, event, u64::MAX)), part(event)),
+    };
+    let driver = |ranked: &Ranked<'_>| {
+        let input = &ranked.input.input;
+        let figures = Figures { small: Some(format!("scatter_{outcome}_{input}")), large: None };
+        let share = ranked.share.filter(is_known).map(|share| {
+            Number::share("share of the variance", share.value, [share.lower, share.upper], ranked.input.rows)
+        });
+        let found = Finding::new(Kind::Driver, input, names::of_input_column(plan, input), "");
+        Finding { numbers: share.into_iter().collect(), figures, ..found }
+    };
+    let figures = Figures { small: None, large: Some(format!("influence_{outcome}{part}")) };
+    let found = Finding::new(Kind::Driver, format!("drivers_{outcome}{part}"), title, sentence(plan, outcome, ranking));
+    Finding { children: ranking.drivers().map(driver).collect(), figures, ..found }
+}
+
+/// What the ranking of an event adds to the name of its outcome, in names of figures.
+pub fn part(event: &Event) -> String {
+    match event.occurs {
+        Occurs::Missed { requirement, is_only: false } => format!("_event_{}", requirement + 1),
+        _ if event.has_few_values => String::new(),
+        _ => "_event".to_owned(),
+    }
+}
+
+fn noise_finding(plan: &Plan, one: &NoiseShare) -> Finding {
+    let observed = Observed::named(plan, core::iter::once(one.observable.as_str()));
+    let name = observed.first().map_or(one.observable.clone(), |observed| names::of_quantity(&observed.quantity));
+    let shares =
+        one.share.map(|of| Number::share("share of noise", of.value, [of.lower, of.upper], 2 * one.scenes as u64));
+    let found = Finding::new(Kind::Driver, format!("noise_{}", one.observable), name, noise_sentence(one));
+    Finding { numbers: shares.into_iter().collect(), rank: 1, ..found }
+}
+
+/// The share of noise in one outcome, without its name.
+pub fn noise_sentence(one: &NoiseShare) -> String {
+    let scenes = one.scenes;
+    match one.share {
+        // no interval: of what never happened the differences are unknown
+        Some(share) if share.value == 0.0 => {
+            format!("noise within the loop changes it in none of {scenes} scenes, each flown twice")
+        }
+        Some(of) => {
+            let said = share([of.value; 2], [of.lower, of.upper]);
+            format!("noise within the loop is {said} of the variance ({scenes} scenes, each flown twice)")
+        }
+        None if one.others > 0 => format!(
+            "the share of noise within the loop is not known: {} of {} runs have another value than the others, and it \
+             takes {FEWEST_OTHERS} ({scenes} scenes, each flown twice)",
+            one.others,
+            2 * scenes
+        ),
+        None => format!(
+            "noise within the loop has no share of a variance ({scenes} scenes with a value, which do not vary)"
+        ),
+    }
 }
 
 #[cfg(test)]
@@ -291,7 +461,8 @@ mod tests {
     use crate::statistics::correlation::Estimate;
 
     /// Law: each kind of dependence is said as it is: on which side the runs with the event are, their median before
-    /// that of the others, the level that differs most first, each with its counts.
+    /// that of the others, the level that differs most
+    /// first, each with its counts.
     #[test]
     fn dependences_are_said_as_they_are() {
         let text = include_str!("../../campaigns/spin_sweep.toml");
@@ -348,7 +519,7 @@ mod tests {
                 let said = sentence(&plan, "y", &ranking);
                 assert_eq!(said.contains("first"), is_driver, "{said}");
                 assert_eq!(said.contains("more than 63% of the variance"), is_known && !is_driver, "{said}");
-                assert_eq!(said.contains("explains 50% [40, 62.5] of the variance"), is_driver, "{said}");
+                assert_eq!(said.contains("explains 50% [40, 63] of the variance"), is_driver, "{said}");
                 let alone = Ranking { question: Question::Spread, inputs: vec![of(0, share)] };
                 let said = sentence(&plan, "y", &alone);
                 assert_eq!(said.contains('%'), is_known, "{said}");

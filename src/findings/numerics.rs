@@ -1,17 +1,19 @@
-//! [`AuditSummary`]: the statistics of the audits, for `summary.json` and the screen.
-//!
-//! CPU time is on the screen only: `summary.json` does not depend on the machine.
+//! How well runs were computed: largest errors, audits ([`AuditSummary`]), and the runs to look at for that.
 
 use serde::Serialize;
 
+use crate::analysis::analysed::Analysed;
 use crate::analysis::audit_tally::{AuditTally, Coverage, PROMISED_COVERAGE};
+use crate::analysis::tally::Tally;
+use crate::campaign::{Plan, ShownUnit};
 use crate::ensemble::audit::AuditValue;
-use crate::findings::number::{counted, short};
+use crate::findings::finding::{Finding, Kind, Number};
+use crate::findings::names;
+use crate::findings::number::{self, counted, short};
+use crate::findings::outcome::shown;
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use crate::statistics::quantile::percent;
 use crate::statistics::spread::Spread;
-use crate::table::Table;
-use crate::table::text::Align;
 
 /// The numerical errors of an observable over the audited runs, beside the spread of its values over the campaign.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -110,9 +112,15 @@ impl Estimate {
 }
 
 impl Numerics {
+    /// Those of the observable `name`; `None` where no audit has its error.
+    pub fn of(analysed: &Analysed, name: &str) -> Option<Self> {
+        let index = analysed.tally.headlines.iter().position(|headline| headline == name)?;
+        Numerics::new(analysed.tally.audits.as_ref()?, index, analysed.statistics.column(name)?.spread?)
+    }
+
     /// Errors of the observable `index` among those with statistics, beside the `spread` of its values; `None` where
     /// there are no errors.
-    pub fn new(audits: &AuditTally, index: usize, spread: f64) -> Option<Self> {
+    fn new(audits: &AuditTally, index: usize, spread: f64) -> Option<Self> {
         let errors = &audits.observables[index];
         let p95 = errors.quantile(0.95)?;
         Some(Numerics {
@@ -128,6 +136,11 @@ impl Numerics {
 }
 
 impl AuditSummary {
+    /// That of the audits in `tally`; `None` where the campaign has none.
+    pub fn of(plan: &Plan, tally: &Tally) -> Option<Self> {
+        tally.audits.as_ref().map(|audits| AuditSummary::new(audits, plan.audit_fraction))
+    }
+
     /// The statistics of `audits`, of a campaign that audits `fraction` of its samples.
     pub fn new(audits: &AuditTally, fraction: f64) -> Self {
         AuditSummary {
@@ -145,34 +158,21 @@ impl AuditSummary {
     }
 
     /// The estimates, each with the name of its column.
-    fn estimates(&self) -> impl Iterator<Item = (&'static str, Estimate)> {
-        let debris = self.debris_estimate.map(|estimate| (DEBRIS_STATE_ERROR_ESTIMATE.name(), estimate));
-        std::iter::once((STATE_ERROR_ESTIMATE.name(), self.estimate)).chain(debris)
-    }
-
-    /// A line for each estimate: how many of the true errors it covers.
-    pub fn coverage(&self) -> String {
-        let line = |(name, one): (&str, Estimate)| {
-            format!(
-                "  {name} covers {} of {} ({:.1}%), {} times the error in the median\n",
-                one.covered,
-                one.audited,
-                100.0 * one.coverage.unwrap_or(0.0),
-                one.median_ratio.map_or("-".to_owned(), short),
-            )
-        };
-        self.estimates().map(line).collect()
+    fn estimates(&self) -> impl Iterator<Item = (String, Estimate)> {
+        let debris = self.debris_estimate.map(|estimate| (DEBRIS_STATE_ERROR_ESTIMATE, estimate));
+        let all = std::iter::once((STATE_ERROR_ESTIMATE, self.estimate)).chain(debris);
+        all.map(|(column, estimate)| (names::of_column(column.name(), ""), estimate))
     }
 
     /// The estimates that cover the true error in fewer runs than promised, each as a sentence; none where chance may
     /// be why.
-    pub fn broken_promises(&self) -> Vec<String> {
+    pub(super) fn broken_promises(&self) -> Vec<String> {
         let broken = self.estimates().filter(|(_, estimate)| estimate.excess > 0);
-        let sentence = |(name, one): (&str, Estimate)| {
+        let sentence = |(name, one): (String, Estimate)| {
             format!(
-                "AUDIT FAILED: {name} covers the true error in {} of {} audited runs, at least {}% are promised; with \
-                that promise kept, so few or fewer would have the probability {}. The numerical errors of these runs \
-                are larger than their estimates",
+                "{name} covers the true error in {} of {} audited runs, at least {}% are promised; with that \
+                 promise kept, so few or fewer would have the probability {}. The numerical errors of these runs are \
+                 larger than their estimates",
                 one.covered,
                 one.audited,
                 percent(one.promised),
@@ -188,43 +188,120 @@ pub fn cost([runs, audits]: [f64; 2]) -> String {
     format!("{} s of CPU time, {:.1}% of the total", short(audits), 100.0 * audits / (runs + audits).max(1e-9))
 }
 
-/// Numbers in four digits; `-` for none.
-pub(super) fn shorts<const N: usize>(values: [Option<f64>; N]) -> [String; N] {
-    values.map(|value| value.map_or("-".to_owned(), short))
+/// The errors in the sentence on numerics, each with what it is of.
+const ERRORS: [(&str, &str); 5] = [
+    ("energy_error_max", "energy"),
+    ("angular_momentum_error_max", "angular momentum"),
+    ("linear_momentum_error_max", "linear momentum"),
+    ("state_error_estimate", "estimated state error"),
+    ("debris_state_error_estimate", "that of the debris"),
+];
+
+/// Largest errors, audits, and the runs to look at: with the greatest errors, and the first that failed in each way.
+pub(super) fn findings(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
+    let statistics = &analysed.statistics;
+    let number = |name: &str, value: Option<f64>, runs: u64, unit: &str| {
+        let found = (value.unwrap_or(f64::NAN), [f64::NAN; 2]);
+        Number { digits: 4, ..Number::new(name, found, runs, unit, &ShownUnit::own(unit)) }
+    };
+    let largest = |(name, of): &(&str, &str)| {
+        let column = statistics.column(name)?;
+        Some(number(of, Some(column.moments.max()?), column.moments.count(), ""))
+    };
+    let errors: Vec<Number> = ERRORS.iter().filter_map(largest).collect();
+    let mut found = Vec::new();
+    if !errors.is_empty() {
+        let said: Vec<String> = errors.iter().map(|one| format!("{} {}", one.name, one.text())).collect();
+        let said = Finding::new(Kind::Numerics, "errors", "largest errors, relative", said.join(", "));
+        found.push(Finding { numbers: errors, rank: 1, ..said });
+    }
+    if let Some(audit) = AuditSummary::of(plan, &analysed.tally) {
+        found.extend(audit.estimates().map(|(name, one)| coverage(&name, &one)));
+        found.push(audit.finding(number));
+        found.extend(observed(plan, analysed, number));
+    }
+    for worst in &analysed.tally.worst {
+        let Some((sample, error)) = worst.list.runs.first() else { continue };
+        let title = format!("worst {} {}", worst.name, short(*error));
+        let numbers = vec![number(worst.name, Some(*error), 1, "")];
+        let run = Finding::new(Kind::Runs, "worst", title, "");
+        found.push(Finding { rank: 1, numbers, sample: Some(*sample), ..run });
+    }
+    for ended in analysed.tally.statuses.failed() {
+        let sample = ended.first.first().map(|(sample, _)| *sample);
+        let run = Finding::new(Kind::Runs, "first", format!("the first {}", ended.status.name()), "");
+        found.push(Finding { sample, ..run });
+    }
+    found
+}
+
+/// How many of the true errors an estimate covers.
+fn coverage(name: &str, one: &Estimate) -> Finding {
+    let share = one.coverage.unwrap_or(0.0);
+    let said = format!(
+        "{name} covers {} of {} true errors ({}%), {} times the error in the median",
+        one.covered,
+        one.audited,
+        number::percent(share),
+        one.median_ratio.map_or("-".to_owned(), short),
+    );
+    let covered = Number::share("covered", share, [f64::NAN; 2], one.audited);
+    Finding { numbers: vec![covered], ..Finding::new(Kind::Numerics, "coverage", "audited errors", said) }
+}
+
+/// The numerical errors of the outcomes over the audited runs, beside the spread of their values.
+fn observed(
+    plan: &Plan,
+    analysed: &Analysed,
+    number: impl Fn(&str, Option<f64>, u64, &str) -> Number,
+) -> Option<Finding> {
+    let of = |name: &String| {
+        let column = analysed.statistics.column(name)?;
+        let numerics = Numerics::of(analysed, name)?;
+        let unit = column.quantity.unit();
+        let number = |what: &str, value| number(what, value, numerics.count, unit);
+        let share = Number { unit: String::new(), ..number("share", numerics.share_of_spread) };
+        let mut numbers = vec![number("median", numerics.median), number("p95", numerics.p95)];
+        numbers.extend([number("max", numerics.max), share]);
+        let title = names::of_quantity(&column.quantity);
+        Some(Finding { numbers, ..Finding::new(Kind::Numerics, name, title, "") })
+    };
+    let children: Vec<Finding> = shown(plan).iter().filter_map(of).collect();
+    let title = "numerical error, and how much of the spread (p95 - p5) it is";
+    let found = Finding::new(Kind::Numerics, "numerical_errors", title, "");
+    (!children.is_empty()).then_some(Finding { children, rank: 1, ..found })
 }
 
 impl AuditSummary {
-    /// The audits in lines of `width` characters.
-    pub fn text(&self, width: usize) -> String {
+    /// How many runs were compared with what, and how large their errors are.
+    fn finding(&self, number: impl Fn(&str, Option<f64>, u64, &str) -> Number) -> Finding {
         let (audited, plain) = (self.audited, self.audited - self.in_double_double);
-        let mut head = format!(
-            "  audit: {} compared with reference solutions, {} of them in double-double",
+        let mut said = format!(
+            "{} compared with reference solutions, {} of them in double-double",
             counted(audited, "run"),
             self.in_double_double
         );
         if plain > 0 {
-            head += &format!(", {plain} too long for that, in plain doubles with tolerance 1e-16");
+            said += &format!(", {plain} too long for that, in plain doubles with tolerance 1e-16");
         }
         if self.failed > 0 {
-            head += &format!("; {} more did not reach their end", self.failed);
+            said += &format!("; {} more did not reach their end", self.failed);
         }
-        head.push('\n');
-        if audited == 0 {
-            return head;
-        }
-        let heads = ["median", "p95", "p99", "max"].map(|head| (head, Align::Right));
-        let mut table = Table::with([("true error of the rotation", Align::Title)].into_iter().chain(heads));
-        let spacecraft = [
-            (AuditValue::State, self.state_error),
-            (AuditValue::Omega, self.omega_error),
-            (AuditValue::Attitude, self.attitude_error_rad),
+        let errors = [
+            (AuditValue::State, Some(self.state_error)),
+            (AuditValue::Omega, Some(self.omega_error)),
+            (AuditValue::Attitude, Some(self.attitude_error_rad)),
+            (AuditValue::Debris, self.debris_error),
         ];
-        let debris = self.debris_error.map(|errors| (AuditValue::Debris, errors));
-        for (name, of) in spacecraft.into_iter().chain(debris) {
-            let name = [name.quantity().name().to_owned()];
-            table.row(name.into_iter().chain(shorts([of.median, of.p95, of.p99, of.max])));
-        }
-        head + &table.text(width) + &self.coverage()
+        let of = |(value, errors): (AuditValue, Option<Quantiles>)| {
+            let (errors, quantity) = (errors?, value.quantity());
+            let all = [("median", errors.median), ("p95", errors.p95), ("p99", errors.p99), ("max", errors.max)];
+            let numbers = all.map(|(name, value)| number(name, value, audited, quantity.unit())).to_vec();
+            let found = Finding::new(Kind::Numerics, quantity.name(), names::of_quantity(quantity), "");
+            Some(Finding { numbers, ..found })
+        };
+        let children = if audited > 0 { errors.into_iter().filter_map(of).collect() } else { Vec::new() };
+        Finding { children, rank: 1, ..Finding::new(Kind::Numerics, "audit", "audit", said) }
     }
 }
 
@@ -239,9 +316,12 @@ mod tests {
     fn every_selected_run_is_accounted_for() {
         let line = |audited: u64, in_double_double: u64, failed: u64| {
             let audits = AuditTally { audited, in_double_double, failed, ..AuditTally::default() };
-            AuditSummary::new(&audits, 0.5).text(200).lines().next().map(str::to_owned).unwrap_or_default()
+            let number = |name: &str, value: Option<f64>, of, unit: &str| {
+                Number::new(name, (value.unwrap_or(f64::NAN), [f64::NAN; 2]), of, unit, &ShownUnit::own(unit))
+            };
+            AuditSummary::new(&audits, 0.5).finding(number).sentence
         };
-        let head = "  audit: 7 runs compared with reference solutions";
+        let head = "7 runs compared with reference solutions";
         let plain = "too long for that, in plain doubles with tolerance 1e-16";
         assert_eq!(line(7, 7, 0), format!("{head}, 7 of them in double-double"));
         assert_eq!(line(7, 4, 0), format!("{head}, 4 of them in double-double, 3 {plain}"));
@@ -287,8 +367,8 @@ mod tests {
         assert!(of([7, 7], [0, 0]).is_empty() && of([6, 7], [95, 100]).is_empty());
         let found = of([0, 7], [10, 20]);
         let words = [
-            "AUDIT FAILED: state_error_estimate covers the true error in 0 of 7",
-            "AUDIT FAILED: debris_state_error_estimate covers the true error in 10 of 20",
+            "state error estimate covers the true error in 0 of 7",
+            "debris state error estimate covers the true error in 10 of 20",
         ];
         assert!(
             found.len() == 2 && found.iter().zip(words).all(|(found, words)| found.starts_with(words)),

@@ -1,0 +1,253 @@
+//! What a campaign has found, on one screen: [`text`]; with all that is known, as `--verbose` prints it: [`verbose`].
+//! Both choose from the findings, and say what they leave out.
+
+use crate::findings::{Finding, Findings, Kind, Number};
+use crate::report::summary::EndVerdict;
+use crate::table::Table;
+use crate::table::text::{Align, Text};
+use crate::table::wrapped::{message, wrapped};
+
+/// Reasons of failures that a screen lists, and all that are listed.
+const MOST_REASONS: [usize; 2] = [3, 12];
+/// Outcomes that are shown however many lines there are.
+const LEAST_OUTCOMES: usize = 1;
+
+/// The text for at most `most` lines of `width` characters, where outcomes can be left out for that. `file` is the
+/// campaign as a word of the commands that show a run.
+pub fn text(findings: &Findings, file: &str, [most, width]: [usize; 2]) -> String {
+    let of = |kind: Kind| findings.of(kind).filter(|one| one.rank == 0).collect::<Vec<_>>();
+    let mut text = lines(&of(Kind::Warning), width);
+    text += &requirements(findings, width);
+    text += &sentences(&[of(Kind::Verdicts), of(Kind::Stop)].concat(), width);
+    text += &reasons(findings, MOST_REASONS[0], width);
+    text += &sentences(&[of(Kind::Mission), of(Kind::Note)].concat(), width);
+    let mut end = sentences(&of(Kind::Driver), width);
+    let others = findings.of(Kind::Driver).filter(|one| one.rank == 1 && !one.children.is_empty()).count();
+    end += &left_out(others, ["outcome with drivers", "outcomes with drivers"], width);
+    end += &sentences(&of(Kind::Numerics), width);
+    end += &commands(&of(Kind::Runs), file, width);
+    let gap = if text.is_empty() { "" } else { "\n" };
+    let room = most.saturating_sub([&text, gap, &end].map(|part| part.matches('\n').count()).iter().sum::<usize>());
+    let all = of(Kind::Outcome);
+    let mut outcomes = self::outcomes(&all, width, false);
+    let lines = outcomes.lines().count();
+    if lines > room {
+        // the line that counts those that are left out
+        let (numbers, about): (Vec<&Finding>, Vec<&Finding>) = all.iter().partition(|one| !one.numbers.is_empty());
+        let most = room.saturating_sub(lines.saturating_sub(numbers.len()) + 1).max(LEAST_OUTCOMES).min(numbers.len());
+        outcomes = self::outcomes(&numbers[..most], width, false);
+        outcomes += &left_out(numbers.len() - most, ["outcome", "outcomes"], width);
+        outcomes += &self::outcomes(&about, width, false);
+    }
+    if outcomes.is_empty() { text + &end } else { text + gap + &outcomes + &end }
+}
+
+/// All that is known, but what is in files only.
+pub fn verbose(findings: &Findings, file: &str, width: usize) -> String {
+    let of = |kind: Kind| findings.of(kind).filter(|one| one.rank <= 1).collect::<Vec<_>>();
+    let mut parts = vec![lines(&of(Kind::Warning), width)];
+    let mut said = if findings.verdict.is_some() { format!("  {}\n", findings.asked) } else { String::new() };
+    for one in findings.of(Kind::Requirement) {
+        let word = one.verdict.map_or("", |verdict| verdict.word());
+        said += &wrapped(&format!("  {word:<10} {}\n", one.title), width);
+        let all: Vec<&str> = core::iter::once(&one.sentence).chain(&one.notes).map(String::as_str).collect();
+        said += &wrapped(&format!("             {}\n", all.join("; ")), width);
+    }
+    parts.push(said + &sentences(&of(Kind::Verdicts), width));
+    parts.push(sentences(&of(Kind::Stop), width));
+    parts.push(sentences(&of(Kind::Loss), width) + &reasons(findings, MOST_REASONS[1], width));
+    let missions = of(Kind::Mission).into_iter().filter(|one| one.id != "missions").collect::<Vec<_>>();
+    parts.push(sentences(&missions, width));
+    parts.push(sentences(&of(Kind::Note), width));
+    let more = findings.of(Kind::Outcome).filter(|one| one.rank > 1).count();
+    let more =
+        if more > 0 { format!("  and {more} more in statistics.parquet, with all others\n") } else { String::new() };
+    parts.push(outcomes(&of(Kind::Outcome), width, true) + &more);
+    parts.push(findings.brackets().map_or(String::new(), |said| {
+        wrapped(&format!("  in brackets: {said}; ?: not bounded by so few runs\n"), width)
+    }));
+    let mut drivers = Table::with([("drivers", Align::Left), ("", Align::Sentence)]);
+    of(Kind::Driver).iter().for_each(|one| drivers.row([&one.title, &one.sentence]));
+    parts.push(if drivers.rows() > 0 { drivers.text(width) } else { String::new() });
+    for one in of(Kind::Numerics) {
+        let children: Vec<&Finding> = one.children.iter().collect();
+        let columns = distinct(children.iter().flat_map(|one| &one.numbers).map(|number| &number.name));
+        let table = numbers_table(&children, ("", &columns), true);
+        let head = if one.sentence.is_empty() { format!("  {}\n", one.title) } else { sentences(&[one], width) };
+        parts.push(head + &if children.is_empty() { String::new() } else { table.text(width) });
+    }
+    parts.push(commands(&of(Kind::Runs), file, width));
+    parts.into_iter().filter(|part| !part.is_empty()).map(|part| format!("\n{part}")).collect()
+}
+
+/// The verdicts of a finished result.
+pub fn verdicts(list: &[EndVerdict], width: usize) -> String {
+    let rows: Vec<[String; 4]> =
+        list.iter().map(|one| [one.word.clone(), one.statement.clone(), one.found.clone(), String::new()]).collect();
+    verdict_table(["", ""], &rows, width)
+}
+
+/// A line for each requirement.
+fn requirements(findings: &Findings, width: usize) -> String {
+    let of = |one: &Finding| {
+        let word = one.verdict.map_or("", |verdict| verdict.word());
+        let found = one.numbers.first().map_or_else(|| "-".to_owned(), Number::text);
+        [word.to_owned(), one.title.clone(), found, one.notes.join("; ")]
+    };
+    let rows: Vec<[String; 4]> = findings.of(Kind::Requirement).map(of).collect();
+    let has_interval = findings.of(Kind::Requirement).any(|one| one.numbers.iter().any(Number::has_interval));
+    let found = format!("found{}", findings.in_brackets().filter(|_| has_interval).unwrap_or_default());
+    if rows.is_empty() { String::new() } else { verdict_table([&findings.asked, &found], &rows, width) }
+}
+
+/// Rows of word, requirement, what was found, notes. Where that is too wide, what was found is below what is required.
+fn verdict_table([required, found]: [&str; 2], rows: &[[String; 4]], width: usize) -> String {
+    let heads = [("", Align::Left), (required, Align::Left), (found, Align::Left), ("", Align::Sentence)];
+    let mut table = Table::with(heads);
+    let longest = rows.iter().map(|[word, ..]| word.len()).max().unwrap_or(0);
+    let mut lines = match required {
+        "" => String::new(),
+        _ => wrapped(&format!("  {:longest$}  {required}: {found}\n", ""), width),
+    };
+    for [word, required, found, notes] in rows {
+        table.row([word, required, found, notes]);
+        let said = [found, notes].into_iter().filter(|text| !text.is_empty()).map(String::as_str);
+        let said = said.collect::<Vec<_>>().join("; ");
+        lines += &wrapped(&format!("  {word:longest$}  {required}\n"), width);
+        if !said.is_empty() {
+            lines += &wrapped(&format!("  {:longest$}    {said}\n", ""), width);
+        }
+    }
+    if Text::of(&table).width_of(3) > width { lines } else { table.text(width) }
+}
+
+/// A paragraph for each, with its title before it.
+fn lines(list: &[&Finding], width: usize) -> String {
+    let line = |one: &&Finding| wrapped(&format!("  {}: {}\n", one.title, one.sentence), width);
+    list.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// A sentence for each, with its title where that is not a part of it; of drivers with what is asked.
+fn sentences(list: &[&Finding], width: usize) -> String {
+    let line = |one: &&Finding| {
+        let title = match one.kind {
+            Kind::Driver if one.title.is_empty() => String::new(),
+            // what an event is asked is in its title
+            Kind::Driver if one.title.contains(": ") => format!("{}: ", one.title),
+            Kind::Driver => format!("what drives {}: ", one.title),
+            Kind::Outcome if !one.numbers.is_empty() => format!("{}: ", one.title),
+            Kind::Stop | Kind::Note => format!("{}: ", one.title),
+            Kind::Mission if one.id == "missions" => format!("{}: ", one.title),
+            Kind::Numerics if one.rank > 0 => format!("{}: ", one.title),
+            _ => String::new(),
+        };
+        wrapped(&format!("  {title}{}\n", one.sentence), width)
+    };
+    list.iter().map(line).collect()
+}
+
+fn reasons(findings: &Findings, most: usize, width: usize) -> String {
+    reason_lines(findings.of(Kind::Loss).flat_map(|one| &one.children), most, width)
+}
+
+/// A line for each reason for which runs were not computed, and what can be done about it.
+pub fn reason_lines<'f>(all: impl Iterator<Item = &'f Finding>, most: usize, width: usize) -> String {
+    let all: Vec<&Finding> = all.collect();
+    let mut text = String::new();
+    for one in all.iter().take(most) {
+        text += &wrapped(&format!("    {}: {}\n", one.title, one.sentence), width);
+        text += &one.notes.iter().map(|note| wrapped(&format!("      {note}\n"), width)).collect::<String>();
+    }
+    text + &left_out(all.len().saturating_sub(most), ["reason", "reasons"], width)
+}
+
+fn left_out(count: usize, [one, several]: [&str; 2], width: usize) -> String {
+    let what = if count == 1 { one } else { several };
+    if count == 0 {
+        String::new()
+    } else {
+        wrapped(&format!("  and {count} more {what}; --verbose shows all\n"), width)
+    }
+}
+
+/// The command that shows the run of each, which stays whole, to be copied.
+fn commands(list: &[&Finding], file: &str, width: usize) -> String {
+    let line = |one: &&Finding| Some(format!("  {}: {}\n", one.title, one.command(file)?));
+    message(&list.iter().filter_map(line).collect::<String>(), width)
+}
+
+/// A table of outcomes with as many numbers as fit: the median, what is required or the spread, the maximum; `is_all`:
+/// with means and minima too. Outcomes of yes or no,
+/// and what there is to know of all, are sentences.
+fn outcomes(list: &[&Finding], width: usize, is_all: bool) -> String {
+    let is_in_table = |one: &&&Finding| !one.numbers.is_empty() && one.number("yes").is_none();
+    let shown: Vec<&Finding> = list.iter().filter(is_in_table).copied().collect();
+    let others: Vec<&Finding> = list.iter().filter(|one| !is_in_table(one)).copied().collect();
+    let (yes_or_no, about): (Vec<&Finding>, Vec<&Finding>) =
+        others.into_iter().partition(|one| !one.numbers.is_empty());
+    let [yes_or_no, about] = [yes_or_no, about].map(|list| sentences(&list, width));
+    if shown.is_empty() {
+        return yes_or_no + &about;
+    }
+    let numbers = || shown.iter().flat_map(|one| &one.numbers);
+    let named = |is_chosen: &dyn Fn(&Number) -> bool| {
+        distinct(numbers().filter(|number| is_chosen(number)).map(|number| &number.name))
+    };
+    let is_one_of = |names: &'static [&'static str]| move |number: &Number| names.contains(&number.name.as_str());
+    let mut columns = named(&is_one_of(&["value", "median"]));
+    let required = named(&|number: &Number| number.limit.is_some());
+    columns.extend(if required.is_empty() || is_all { named(&is_one_of(&["p5", "p95"])) } else { Vec::new() });
+    let is_with_spread = required.is_empty() || is_all;
+    columns.extend(required.into_iter().filter(|name| !columns.contains(name)).collect::<Vec<_>>());
+    if is_with_spread {
+        columns[1..].sort_by_key(|name| name.trim_start_matches('p').parse::<f64>().map_or(0, |p| (1e6 * p) as u64));
+    }
+    if columns.len() == 1 {
+        columns.extend(named(&|number: &Number| number.name.starts_with('p')));
+    }
+    if is_all {
+        columns.extend(named(&is_one_of(&["mean", "min"])));
+    }
+    let with_max: Vec<String> = columns.iter().cloned().chain(named(&is_one_of(&["max"]))).collect();
+    let choices = [(&with_max, true), (&columns, true), (&with_max, false), (&columns, false)];
+    let mut tables = choices.map(|(columns, has_intervals)| numbers_table(&shown, ("outcome", columns), has_intervals));
+    let fits = |table: &Table<'_>| Text::of(table).width() <= width;
+    let place = tables.iter().position(fits).unwrap_or(tables.len() - 1);
+    let table = core::mem::take(&mut tables[if is_all { 0 } else { place }]).text(width);
+    let is_shown = |note: &&String| match note.split_once(' ') {
+        Some((name, _)) if name.starts_with('p') => with_max.iter().any(|one| one == name),
+        _ => is_all,
+    };
+    let notes = distinct(shown.iter().flat_map(|one| &one.notes).filter(is_shown));
+    let notes = notes.into_iter().take(if is_all { usize::MAX } else { 1 });
+    let notes: String = notes.map(|note| wrapped(&format!("  {note}\n"), width)).collect();
+    table + &yes_or_no + &notes + &about
+}
+
+/// Findings with those numbers that have the names `columns`.
+fn numbers_table(list: &[&Finding], (title, columns): (&str, &[String]), has_intervals: bool) -> Table<'static> {
+    let heads = columns.iter().map(|name| (name.clone(), Align::Right));
+    let mut table = Table::with([(title.to_owned(), Align::Title)].into_iter().chain(heads));
+    for one in list {
+        let text = |number: &Number| match has_intervals {
+            true => number.bare(),
+            false => Number { interval: [f64::NAN; 2], ..number.clone() }.bare(),
+        };
+        let unit = one.numbers.first().map_or("", |number| number.shown.unit.as_str());
+        let title = format!("{}, {unit}", one.title);
+        let cells = columns.iter().map(|name| one.number(name).map_or_else(String::new, text));
+        table.row([title.trim_end_matches(", ").to_owned()].into_iter().chain(cells));
+    }
+    table
+}
+
+/// Texts in their order, each once.
+fn distinct<'s>(all: impl Iterator<Item = &'s String>) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for one in all {
+        if !found.contains(one) {
+            found.push(one.clone());
+        }
+    }
+    found
+}

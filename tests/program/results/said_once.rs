@@ -1,0 +1,146 @@
+//! What a campaign has found is said once: screen, long screen, `summary.json`, JUnit and page have the same sentences,
+//! numbers and names.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::small_campaign::{campaign_without_debris, folder, mixed_failures};
+use crate::support::scratch_folder::ScratchFolder;
+
+/// The text of a page without markup.
+fn untagged(page: &str) -> String {
+    let texts = page.split('<').map(|part| part.split_once('>').map_or(part, |(_, text)| text));
+    texts.collect::<Vec<_>>().concat()
+}
+
+/// Text in one line, in small letters, as a terminal has it: with plain minus signs and powers of ten.
+fn plain(text: &str) -> String {
+    let mut out = text.replace('\u{2212}', "-").replace(['\u{202f}', '\u{a0}'], "");
+    for (digit, raised) in "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().enumerate() {
+        out = out.replace(raised, &digit.to_string());
+    }
+    let out = out.replace('⁻', "-").replace("\u{d7}10", "e").replace('\u{2264}', "<=").replace('\u{2265}', ">=");
+    let out = ["&lt;|<", "&gt;|>", "&quot;|\"", "&#39;|'", "&amp;|&"].into_iter().fold(out, |out, pair| {
+        let (mark, letter) = pair.split_once('|').unwrap();
+        out.replace(mark, letter)
+    });
+    out.split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase()
+}
+
+fn texts<'v>(list: &'v Value, key: &str) -> Vec<&'v str> {
+    list.as_array().unwrap().iter().filter_map(|one| one[key].as_str()).collect()
+}
+
+/// Estimates with their intervals.
+fn with_intervals(text: &str) -> Vec<String> {
+    let found = text.match_indices('[').filter_map(|(at, _)| {
+        let end = at + text[at..].find(']')?;
+        let value = text[..at].trim_end().rsplit(' ').next()?;
+        let is_number = |one: &str| one.trim_end_matches('%').parse::<f64>().is_ok();
+        let is_interval = text[at + 1..end].split(", ").all(|one| one == "?" || is_number(one));
+        (is_number(value) && is_interval).then(|| format!("{value} {}", &text[at..=end]))
+    });
+    found.collect()
+}
+
+/// The law of one campaign, the file `name` in `scratch`.
+fn agrees(scratch: &ScratchFolder, name: &str, samples: &str) {
+    let run = |arguments: &str| {
+        let output = scratch.command(arguments).env("COLUMNS", "2000").output().unwrap();
+        assert!(output.status.code().is_some_and(|code| ![2, 4].contains(&code)), "{name}: {arguments}: {output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let brief = run(&format!("campaign {name} {samples} --out r --overwrite --junit j.xml"));
+    let (again, verbose, json) = (run("show r"), plain(&run("show r --verbose")), run("show r --json"));
+    assert_eq!(json, scratch.text("r/summary.json"), "{name}");
+    let body = |text: &str| {
+        text.lines().filter(|line| line.starts_with(' ')).map(str::to_owned).collect::<Vec<_>>().join("\n")
+    };
+    // the first lines of a run say how long it took
+    assert_eq!(body(&brief.replace(name, "r/plan.toml")), body(&again), "{name}");
+    let summary: Value = serde_json::from_str(&json).unwrap();
+    let page = scratch.text("r/report.html");
+    let page = plain(&untagged(page.split("<script").next().unwrap()));
+    let (brief, junit) = (plain(&body(&brief)), plain(&scratch.text("j.xml")));
+    let has = |place: &str, text: &str, said: &str| {
+        assert!(
+            text.contains(&plain(said).trim_end_matches('.').to_owned()),
+            "{name}: {place} has not `{said}`: {text}"
+        );
+    };
+    let list = &summary["requirements"]["list"];
+    for one in list.as_array().unwrap() {
+        let [short, found, says] = ["in_short", "found", "says"].map(|key| one[key].as_str().unwrap());
+        for (place, text) in [("screen", &brief), ("long screen", &verbose), ("page", &page), ("JUnit", &junit)] {
+            has(place, text, short);
+        }
+        has("screen", &brief, found);
+        has("long screen", &verbose, says);
+        has("page", &page, says);
+        if one["verdict"] != "PASS" {
+            has("JUnit", &junit, says);
+        }
+    }
+    for said in summary["warnings"].as_array().unwrap().iter().map(|said| said.as_str().unwrap()) {
+        for (place, text) in [("screen", &brief), ("long screen", &verbose), ("page", &page)] {
+            has(place, text, said);
+        }
+    }
+    let drivers = texts(&summary["drivers"], "says");
+    for said in &drivers {
+        has("long screen", &verbose, said);
+        if summary["samples"] != 1 {
+            has("page", &page, said);
+        }
+    }
+    for (_, rest) in brief.match_indices("what drives ").map(|(at, _)| brief.split_at(at)) {
+        assert!(drivers.iter().any(|said| rest.contains(&plain(said))), "{name}: {rest}");
+    }
+    for found in with_intervals(&brief) {
+        has("long screen", &verbose, &found);
+    }
+    for column in texts(&summary["observables"], "name").into_iter().filter(|column| column.contains('_')) {
+        assert!(!brief.contains(column), "{name}: {column} is no name for people: {brief}");
+    }
+    for wrong in ["more than 100%", "nan", "inf "] {
+        assert!(!brief.contains(wrong), "{name}: {wrong}: {brief}");
+    }
+}
+
+/// Law: each sentence, number and name of one renderer is that of the others, in every shipped campaign.
+#[test]
+fn shipped_campaigns_are_said_once() {
+    let scratch = folder("said-once");
+    let campaigns = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let mut files: Vec<_> = fs::read_dir(&campaigns).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    for file in files.iter().filter(|file| file.extension().is_some_and(|kind| kind == "toml")) {
+        let text = fs::read_to_string(file).unwrap();
+        // a table or a grid has its own number of samples
+        let samples = if text.contains("kind = \"table\"") { "" } else { "--samples 24" };
+        agrees(&scratch, &file.display().to_string(), samples);
+    }
+}
+
+/// The same of hard ones: runs that fail in several ways, all runs lost, one run, few events, every run the same.
+#[test]
+fn hard_campaigns_are_said_once() {
+    let scratch = folder("said-once-hard");
+    let require = |statement: &str| format!("[[require]]\nobservable = \"energy_error_max\"\n{statement}\n");
+    let free = campaign_without_debris().replace("samples = 600", "samples = 60");
+    let events = "[[event]]\nname = \"slow\"\nquantity = \"angular_rate_rad_s\"\nvalue = 31.0\n";
+    let lost = free.replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1");
+    for (name, text) in [
+        ("mixed", mixed_failures() + &require("quantile = 0.9\nat_most = 1e-9")),
+        ("lost", lost + &require("fraction = 0.9\nat_most = 1e-9")),
+        ("one", free.replace("samples = 60", "samples = 1") + &require("mean = true\nat_most = 1.0")),
+        ("none", free.clone()),
+        ("events", free.clone() + events),
+        ("two", free.clone() + &require("quantile = 0.9\nat_most = 3e-16") + &require("fraction = 0.5\nat_most = 1.0")),
+    ] {
+        scratch.file(&format!("{name}.toml"), &text);
+        agrees(&scratch, &format!("{name}.toml"), "");
+    }
+}
