@@ -8,13 +8,13 @@ use std::time::{Duration, Instant};
 
 use crate::campaign::Plan;
 use crate::storage::atomic::explained;
-use crate::storage::disk::{Storage, at, meant, new_folder, no_link};
+use crate::storage::disk::{Storage, at, meant, new_folder};
 use crate::storage::folder::{Folder, MOST_MANIFEST, MOST_SUMMARY, begin};
 pub use crate::storage::folder_error::FolderError;
 use crate::storage::folder_error::{occupied, row_differences};
 use crate::storage::found::{FolderContents, Found, contents};
 use crate::storage::manifest::{Identity, Manifest, PartRecord};
-use crate::storage::names::{MANIFEST, SUMMARY, TABLE_LOG, manifest_of};
+use crate::storage::names::{MANIFEST, SUMMARY, manifest_of};
 use crate::storage::recovery::is_lost;
 use crate::storage::replacement::{self, remove_replaced, remove_unfinished, replace};
 use crate::storage::verify::{damaged as damaged_parts, derived_damage};
@@ -240,11 +240,6 @@ fn ready(
             }
             None => damaged.push(format!("{SUMMARY}: its content has changed")),
         }
-    }
-    for commit in &found.foreign_commits {
-        let (path, folder) = (root.join(commit), root.join(TABLE_LOG));
-        no_link(&folder).map_err(at(&folder))?;
-        storage.remove(&path).map_err(at(&path))?;
     }
     let is_plan_there = found.plan == plan.text() && found.plan_damage.is_none();
     let what = (plan.text(), identity.clone());

@@ -171,7 +171,7 @@ pub fn encoded(table: &Table<'_>, mut metadata: BTreeMap<String, String>, packin
 fn field(column: &Column) -> Result<TypePtr> {
     let (physical, logical) = match column.content {
         Content::Real => (Physical::DOUBLE, None),
-        // table engines have no unsigned integers (Delta Lake, Spark, Trino); no count comes near 2^63
+        // table engines have no unsigned integers (Spark, Trino); no count comes near 2^63
         Content::Count => (Physical::INT64, None),
         Content::Word => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
     };

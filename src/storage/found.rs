@@ -10,7 +10,7 @@ use crate::storage::folder::MOST_MANIFEST;
 use crate::storage::identity::in_rows;
 use crate::storage::manifest::{FileRecord, Identity, Manifest, PartRecord};
 use crate::storage::names::{
-    DATA, FOLDERS, MANIFEST, PLAN, REPLACEMENT, REPORT, SHARDS, SUCCESS, TABLE_LOG, UNFINISHED, is_derived, is_ours,
+    DATA, FOLDERS, MANIFEST, PLAN, REPLACEMENT, REPORT, SHARDS, SUCCESS, UNFINISHED, is_derived, is_ours,
 };
 use crate::storage::stored_file::is_unfit;
 
@@ -56,9 +56,6 @@ pub struct Found {
     /// Of a result that is not finished: the files that follow from rows and that no manifest lists. Nothing says what
     /// should be in them.
     pub unchecked: Vec<String>,
-    /// Commits of the table's log that no manifest lists although everything is there: a table engine would believe
-    /// them.
-    pub foreign_commits: Vec<String>,
 }
 
 impl Found {
@@ -110,13 +107,12 @@ impl Found {
         self.parts().values().map(|part| part.first_sample.saturating_add(part.rows)).max().unwrap_or(0)
     }
 
-    /// What is wrong with manifests, plan and log, each with its file.
+    /// What is wrong with manifests and plan, each with its file.
     pub fn damage(&self) -> Vec<String> {
         let lines = |(name, manifest): (&String, &Manifest)| -> Vec<String> {
             manifest.damaged.iter().map(|line| format!("{name}:{line}: damaged line")).collect()
         };
-        let commits = self.foreign_commits.iter().map(|name| format!("{name}: is not a commit of this result"));
-        self.manifests.iter().flat_map(lines).chain(self.plan_damage.clone()).chain(commits).collect()
+        self.manifests.iter().flat_map(lines).chain(self.plan_damage.clone()).collect()
     }
 }
 
@@ -197,8 +193,8 @@ pub fn contents(storage: &dyn Storage, root: &Path) -> Result<FolderContents, St
         found.unchecked = top.chain(&files).filter(|name| is_unchecked(name)).cloned().collect();
     } else {
         let top = top.iter().filter(|entry| entry.is_file && is_derived(&entry.name)).map(|entry| entry.name.clone());
-        let files = files.into_iter().chain(top).filter(|name| !name.ends_with(UNFINISHED) && !listed.contains(name));
-        (found.foreign_commits, found.unlisted) = files.partition(|name| name.starts_with(TABLE_LOG));
+        let is_unlisted = |name: &String| !name.ends_with(UNFINISHED) && !listed.contains(name);
+        found.unlisted = files.into_iter().chain(top).filter(is_unlisted).collect();
     }
     (found.plan, found.plan_damage) = plan_of(&found.manifests, plan_text(storage, root)?);
     Ok(FolderContents::Dataset(Box::new(found)))

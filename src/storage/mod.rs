@@ -5,7 +5,6 @@
 //! - [`folder`]: the dataset, and the protocol by which parts are added, [`whole_file`]: and each file. [`manifest`]:
 //!   what it consists of, [`mod@identity`]: what its rows are, [`names`]: of its files.
 //! - [`replacement`]: a result takes the place of an older one.
-//! - [`table_log`]: the log by which table engines read the rows.
 //! - [`verify`]: whether files are what was written, [`recovery`]: the manifest of a result that has lost it.
 //! - [`disk`]: file operations, [`stored_file`]: of open files.
 //! - [`atomic`]: files that are whole or absent.
@@ -44,7 +43,6 @@ pub mod rows_file;
 pub mod rows_reader;
 pub mod stored_file;
 pub mod table_file;
-pub mod table_log;
 pub mod timeseries;
 pub mod verify;
 pub mod whole_file;

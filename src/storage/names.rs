@@ -25,11 +25,6 @@ pub const PART_BANDS: &str = "bands";
 pub const SHARDS: &str = "shards";
 /// Folder of the time series that are kept.
 pub const TRAJECTORIES: &str = "trajectories";
-/// Folder of the log by which table engines read the rows.
-pub const TABLE_LOG: &str = "_delta_log";
-/// Folder of the last, incomplete parts that versions of the table list: `runs/` has the same part with its further
-/// rows later.
-pub const VERSIONS: &str = "versions";
 /// Folder of copies of the files of numbers and the module that the plan names, each by its SHA-256.
 pub const DATA: &str = crate::campaign::data::COPIES;
 /// Suffix of a file that is not whole yet.
@@ -42,7 +37,7 @@ pub const TOP_FILES: [&str; 9] =
     [PLAN, MANIFEST, SUCCESS, SUMMARY, STATISTICS, OBSERVABLES, SENSITIVITY, BANDS, REPORT];
 
 /// The folders of a dataset.
-pub const FOLDERS: [&str; 7] = [RUNS, PART_BANDS, SHARDS, TRAJECTORIES, TABLE_LOG, VERSIONS, DATA];
+pub const FOLDERS: [&str; 5] = [RUNS, PART_BANDS, SHARDS, TRAJECTORIES, DATA];
 
 /// The name of the file of rows of `part`, below the folder of the dataset.
 pub fn rows_of(part: PartId) -> String {
@@ -52,12 +47,6 @@ pub fn rows_of(part: PartId) -> String {
 /// The name of the file of bands of `part`, below the folder of the dataset.
 pub fn bands_of(part: PartId) -> String {
     format!("{PART_BANDS}/part-{:06}.parquet", part.0)
-}
-
-/// The name under which versions of the table list `part` where it has `rows` rows and can have more, below the folder
-/// of the dataset.
-pub fn version_of(part: PartId, rows: u64) -> String {
-    format!("{VERSIONS}/part-{:06}-{rows:06}.parquet", part.0)
 }
 
 /// The name of the manifest of shard `shard` of `shards`, counted from 1.
@@ -116,13 +105,6 @@ pub fn is_ours(folder: &str, name: &str) -> bool {
         "" => TOP_FILES.contains(&name) || name == REPLACEMENT,
         RUNS | PART_BANDS => numbered("part-", ".parquet", 6),
         TRAJECTORIES => numbered("sample-", ".parquet", 6),
-        TABLE_LOG => numbered("", ".json", 20),
-        VERSIONS => name.rsplit_once('-').is_some_and(|(part, rows)| {
-            let digits = |text: Option<&str>| {
-                text.is_some_and(|text| text.len() >= 6 && text.bytes().all(|byte| byte.is_ascii_digit()))
-            };
-            digits(part.strip_prefix("part-")) && digits(rows.strip_suffix(".parquet"))
-        }),
         DATA => name.split_once('.').is_some_and(|(sha256, extension)| {
             let is_checksum = sha256.len() == 64 && sha256.bytes().all(|byte| byte.is_ascii_hexdigit());
             is_checksum && ["csv", "parquet", "wasm"].contains(&extension)
@@ -145,9 +127,7 @@ mod tests {
     /// Law: every name that a dataset gives is its own, whole or not; names of other programs are not.
     #[test]
     fn own_names_are_recognised() {
-        let version = version_of(PartId(3), 900);
-        for name in [rows_of(PartId(3)), bands_of(PartId(3)), rows_of(PartId(12_345_678)), manifest_of(2, 13), version]
-        {
+        for name in [rows_of(PartId(3)), bands_of(PartId(3)), rows_of(PartId(12_345_678)), manifest_of(2, 13)] {
             let (folder, file) = name.split_once('/').unwrap();
             assert!(is_ours(folder, file) && is_ours(folder, &format!("{file}{UNFINISHED}")), "{name}");
             let (one, other) = (unfinished(Path::new(file)), unfinished(Path::new(file)));

@@ -15,13 +15,10 @@ use crate::storage::disk::{StorageError, at};
 use crate::storage::found::Found;
 use crate::storage::manifest::PartsRead;
 use crate::storage::manifest::{FileRecord, PartRecord};
-use crate::storage::names::{DATA, PLAN, REPORT, SUMMARY, TABLE_LOG, TRAJECTORIES, VERSIONS};
-use crate::storage::rows_file::{columns, identity};
+use crate::storage::names::{DATA, PLAN, REPORT, SUMMARY, TRAJECTORIES};
 use crate::storage::rows_reader::RowsReader;
-use crate::storage::table_log;
 use crate::workflow::derived::{Derivation, Destination, PageKind, derive};
 use crate::workflow::error::WorkflowError;
-use crate::workflow::finishing::growing;
 use crate::workflow::page::noise_scenes;
 use crate::workflow::session::Session;
 
@@ -116,22 +113,9 @@ pub(super) fn derived_problems(
     for name in series.iter().chain(&copies).filter(|name| !files.is_listed(name)) {
         files.add(name, "is missing, and no line of the manifest lists it");
     }
-    let is_log = table_log::is_of(
-        (storage, root),
-        &identity(ensemble),
-        &columns(ensemble),
-        (records, growing(ensemble, records)),
-    );
-    if !is_log.map_err(WorkflowError::files)? {
-        files.add(TABLE_LOG, "is not the log of these rows");
-    }
     let made = files.made.into_inner().unwrap_or_else(PoisonError::into_inner);
     let mut problems = files.problems.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let is_known = |name: &str| {
-        let folder = name.split('/').next().unwrap_or_default();
-        // the log names its own files
-        made.contains(name) || series.contains(name) || copies.contains(name) || [TABLE_LOG, VERSIONS].contains(&folder)
-    };
+    let is_known = |name: &str| made.contains(name) || series.contains(name) || copies.contains(name);
     problems.extend(
         (files.listed.keys().filter(|name| !is_known(name)))
             .map(|name| format!("{name}: is listed, and plan and rows have no such file")),

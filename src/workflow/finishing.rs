@@ -10,20 +10,18 @@ use std::time::Duration;
 use crate::analysis::fold::Gathered;
 use crate::campaign::{FilesRead, Plan};
 use crate::ensemble::run_cost::parts;
-use crate::ensemble::{Ensemble, Part, PartId};
+use crate::ensemble::{Ensemble, Part};
 use crate::findings::Findings;
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
 use crate::report::summary::SummaryEnd;
 use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
 use crate::storage::folder::Folder;
-use crate::storage::manifest::PartRecord;
 use crate::storage::manifest::PartsRead;
 use crate::storage::names::{PLAN, TRAJECTORIES};
 use crate::storage::replacement::replace;
-use crate::storage::rows_file::{columns, identity};
+use crate::storage::rows_file::identity;
 use crate::storage::rows_reader::RowsReader;
-use crate::storage::table_log;
 use crate::workflow::analysed::{end_of_analysed, write_junit};
 use crate::workflow::derived::{Derivation, Derived, PageKind, derive};
 use crate::workflow::ending::end_of_finished;
@@ -112,8 +110,6 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
     }
     write_junit(plan, &analysed, job.outputs.junit.as_deref())?;
     let end = end_of_analysed(&analysed, &findings);
-    let growing = growing(job.ensemble, &records);
-    table_log::update(folder, &columns(job.ensemble), growing).map_err(WorkflowError::files)?;
     folder.finish().map_err(WorkflowError::files)?;
     if let Some(old) = &job.ready.replaces {
         replace(folder.storage(), folder.root(), old).map_err(WorkflowError::files)?;
@@ -128,14 +124,6 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
         files: records.len(),
         bytes: folder.size(),
     })
-}
-
-/// The last of the parts `records`, where it gets further rows when the campaign is made longer.
-pub(super) fn growing(ensemble: &Ensemble<'_>, records: &[PartRecord]) -> Option<PartId> {
-    // it is larger in a campaign without an end
-    let endless = parts(ensemble.plan(), ensemble.isa()).with_samples(u64::MAX);
-    let is_growing = |part: &Part| endless.part(part.id).is_some_and(|whole| whole.count > part.count);
-    records.last().map(PartRecord::samples).filter(is_growing).map(|part| part.id)
 }
 
 /// Prepares the folder of time series: without those that an earlier end of the campaign left there, and none where

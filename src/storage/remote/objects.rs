@@ -306,7 +306,7 @@ impl Remote {
             keep(storage, root, MANIFEST, &text)?;
             keep(storage, root, SUCCESS, b"")?;
             if let FolderContents::Dataset(found) = contents(storage, root)? {
-                rest.extend(found.unlisted.into_iter().chain(found.foreign_commits));
+                rest.extend(found.unlisted);
             }
             for path in rest.iter().map(|name| root.join(name)) {
                 storage.remove(&path).map_err(at(&path))?;

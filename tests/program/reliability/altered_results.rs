@@ -68,9 +68,7 @@ fn every_altered_file_is_found_under_right_checksums() {
         !is_own && !["runs/", "bands/"].iter().any(|folder| name.starts_with(folder))
     };
     let names: Vec<&String> = whole.keys().filter(is_derived).collect();
-    for kind in
-        ["summary", "statistics", "sensitivity", "observables", "bands", "report", "trajectories/", "_delta_log/"]
-    {
+    for kind in ["summary", "statistics", "sensitivity", "observables", "bands", "report", "trajectories/"] {
         assert!(names.iter().any(|name| name.starts_with(kind)), "{kind} in {names:?}");
     }
     for name in names {
@@ -80,7 +78,6 @@ fn every_altered_file_is_found_under_right_checksums() {
         alter(&scratch, name, &altered);
         let said = scratch.prints("verify r --fraction 1", 4);
         let shown = match name.split('/').next() {
-            Some("versions" | "_delta_log") => "_delta_log: is not the log of these rows",
             // its name is its checksum, which the plan has
             Some("data") => "must be the SHA-256 of the file",
             _ => name,
@@ -204,7 +201,7 @@ fn what_is_not_made_yet_is_no_damage() {
     }
 }
 
-/// Law: a result that was made longer has the log and the copies of both versions, and is sound.
+/// Law: a result that was made longer is sound.
 #[test]
 fn a_longer_result_is_sound() {
     let scratch = folder("altered-longer");

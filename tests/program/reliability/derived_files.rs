@@ -47,7 +47,7 @@ fn every_damage_is_found_and_made_again() {
     for kind in ["summary.json", "statistics", "sensitivity", "bands.parquet", "report.html", "plan.toml"] {
         assert!(names.iter().any(|name| name.contains(kind)), "{kind} in {names:?}");
     }
-    for folder in ["runs/", "bands/", "trajectories/", "_delta_log/", "versions/", "data/"] {
+    for folder in ["runs/", "bands/", "trajectories/", "data/"] {
         assert!(names.iter().any(|name| name.starts_with(folder)), "{folder} in {names:?}");
     }
     let damages: [fn(&mut Vec<u8>); 4] = [
@@ -218,25 +218,13 @@ fn a_lost_manifest_is_made_again() {
     assert!(!root.join("manifest.jsonl").exists());
 }
 
-/// Law: a commit of the table's log that the program did not write is damage, since engines would believe it; other
-/// files under names of the result that nothing lists are named, and left alone.
+/// Law: files under names of the result that nothing lists are named, and left alone.
 #[test]
-fn what_engines_would_read_is_listed() {
+fn unlisted_files_are_left_alone() {
     let scratch = folder("derived-foreign");
     scratch.prints("campaign small.toml --no-report --out r", 0);
     let root = scratch.path("r");
     let whole = contents(&root);
-    let commit = "r/_delta_log/00000000000000000001.json";
-    let remove = "{\"remove\":{\"path\":\"runs/part-000000.parquet\",\"deletionTimestamp\":0,\"dataChange\":true}}\n";
-    for repair in ["verify r --repair", "campaign small.toml --no-report --out r", "finish r --no-report"] {
-        scratch.file(commit, remove);
-        for command in ["verify r --fraction 0", "report r", "compare r r"] {
-            let said = scratch.prints(command, 4);
-            assert!(said.contains("_delta_log/00000000000000000001.json"), "{command}: {said}");
-        }
-        scratch.prints(repair, 0);
-        assert!(contents(&root) == whole, "{repair}");
-    }
     scratch.file("r/report.html", "another page");
     let said = scratch.prints("verify r", 0);
     assert!(said.contains("report.html: not part of the result"), "{said}");

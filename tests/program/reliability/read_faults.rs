@@ -274,7 +274,6 @@ fn reads_fail(of: &str, step: usize) {
     let whole = contents(&root);
     make_large(&Disk, &root).unwrap();
     let longer = contents(&root);
-    assert_eq!(longer.keys().filter(|name| name.starts_with("_delta_log/")).count(), 2, "a campaign made longer");
     // what a killed process leaves: parts and their manifest
     let without_end = |files: &Files, parts: usize| -> Files {
         let made = ["runs/", "bands/"];

@@ -17,4 +17,3 @@ pub mod run_ends;
 pub mod said_once;
 pub mod statistics;
 pub mod stopping;
-pub mod table_log;
