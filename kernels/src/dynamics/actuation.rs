@@ -1,16 +1,15 @@
-//! The actuation interface: what acts on a spacecraft, asked for at the start of every arc.
+//! The actuation interface: forces and torques applied to a spacecraft, requested at the start of every arc.
 //!
-//! A run consists of *arcs* of constant actuation. Where one ends, the engine asks the run's [`ActuationLaw`] what acts
-//! next and until when, and shows it the state there. A law sees its own run only: engines propagate several runs at
-//! once, and no value of one reaches another.
+//! A run consists of *arcs* of constant actuation. At the end of an arc the engine passes the state to the run's
+//! [`ActuationLaw`], which returns the next actuation and its end. A law sees its own run only, although engines
+//! propagate several runs together.
 //!
-//! - [`OpenLoop`]: the schedule of a scene, which depends on time alone. The default.
-//! - [`ZeroOrderHold`]: sampled-data control: a law is asked once per control period and its answer is held.
-//! - [`Sum`]: several sources at once.
-//! - A closure `|time, body, wheels| -> Actuation` is a law.
+//! - [`OpenLoop`]: the schedule of a scene, which depends on time alone; the default.
+//! - [`ZeroOrderHold`]: sampled-data control. [`Sum`]: several sources together.
+//! - Any closure `|time, body, wheels| -> Actuation`.
 //!
-//! Values are *applied* values: scales, delays and limits of actuators are the law's own matter. Not here: sensors,
-//! estimators and control laws proper, and the equations on which the values act.
+//! Values are *applied* values: a law accounts for scales, delays and limits of its actuators. Not here: sensors,
+//! estimators, control laws, equations of motion.
 
 use crate::run::Telemetry;
 use crate::scene::schedule::actuation_at;
@@ -46,30 +45,26 @@ impl WheelState {
         WheelState { rates: [0.0; MAX_WHEELS], momenta: [0.0; MAX_WHEELS], angles: [0.0; MAX_WHEELS] };
 }
 
-/// Decides what acts on one run, arc by arc.
+/// Decides the actuation of one run, arc by arc.
 ///
-/// The answer may depend on everything that the law was told before, and on nothing else: then a run is a function of
-/// its scene and its law, whatever runs beside it.
+/// An answer may depend on earlier arguments only, so that a run is a function of its scene and its law.
 pub trait ActuationLaw {
-    /// What acts from `time` (s since the start of the run) on, given the state there: the arc ends at `until`, or
-    /// earlier where another source or the end of the run ends it. Called at time zero and at the end of every arc, in
-    /// ascending order; `until` must be after `time`.
+    /// Actuation from `time` (s since the start of the run) on, in the given state. Called at time zero and at the end
+    /// of every arc; `until` must be after `time`, and another source or the end of the run may end the arc earlier.
     fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation;
 
-    /// The run has come to its end at `time`, where the state is this. Called once, after the last arc, of a run that
-    /// reaches its end: a law that works at ticks of its own can look at the state there. Nothing acts any more.
+    /// Called once at the end of the run, after the last arc, so that a law with ticks of its own sees the final state.
     fn end(&mut self, _time: f64, _body: &BodyState, _wheels: &WheelState) {}
 
-    /// Writes what the law has to report when its run has ended: the values of the columns that it declares, in their
-    /// order. All are NaN before, which is a value that the run does not have.
+    /// Writes the values of the columns that the law declares, in order, after the run. They are NaN before the call.
     fn report(&self, _values: &mut [f64]) {}
 
-    /// Why the law has ended its run as [`crate::run::Status::Diverged`], where it has.
+    /// The reason for which the law ended its run as [`crate::run::Status::Diverged`], if it did.
     fn divergence(&self) -> Option<String> {
         None
     }
 
-    /// What the law has recorded of its run, where it was made to record.
+    /// The telemetry of the run, if the law records it.
     fn telemetry(&self) -> Option<&Telemetry> {
         None
     }
@@ -81,9 +76,7 @@ impl<F: FnMut(f64, &BodyState, &WheelState) -> Actuation> ActuationLaw for F {
     }
 }
 
-/// A schedule that was fixed before the run: the arcs of a scene, or those that another run has flown.
-///
-/// Between the arcs of the schedule and after the last nothing acts.
+/// A schedule fixed before the run. Nothing acts between its arcs and after the last one.
 #[derive(Clone, Copy, Debug)]
 pub struct OpenLoop<'a> {
     /// The arcs, in order, not overlapping.
@@ -91,7 +84,7 @@ pub struct OpenLoop<'a> {
 }
 
 impl OpenLoop<'_> {
-    /// What acts at `time`, whatever the state is.
+    /// Actuation at `time`.
     #[inline]
     pub fn at(&self, time: f64) -> Actuation {
         actuation_at(self.schedule, time)
@@ -104,9 +97,7 @@ impl ActuationLaw for OpenLoop<'_> {
     }
 }
 
-/// Asks a law once per control period, at times 0, T, 2T, ..., and holds its answer in between.
-///
-/// The `until` of the answer is not used: it holds for the whole period.
+/// Samples a law at times 0, T, 2T, ... and holds each answer for the whole period, whatever its `until`.
 #[derive(Clone, Debug)]
 pub struct ZeroOrderHold<L> {
     period: f64,
@@ -122,7 +113,7 @@ impl<L: ActuationLaw> ZeroOrderHold<L> {
         ZeroOrderHold { period, law, next: 0, held: Actuation::none(0.0) }
     }
 
-    /// The law that is sampled.
+    /// The sampled law.
     pub fn law(&self) -> &L {
         &self.law
     }
@@ -131,7 +122,7 @@ impl<L: ActuationLaw> ZeroOrderHold<L> {
 impl<L: ActuationLaw> ActuationLaw for ZeroOrderHold<L> {
     fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
         if time >= self.held.until {
-            // the time of a sample is a product, so that rounding does not add up
+            // a product, so that rounding errors do not accumulate
             while self.next as f64 * self.period <= time {
                 self.next += 1;
             }
@@ -150,9 +141,8 @@ impl<L: ActuationLaw> ActuationLaw for ZeroOrderHold<L> {
     }
 }
 
-/// Two sources at once: their thrusts and torques add, the earlier `until` ends the arc. More by nesting.
-///
-/// Each source is asked when its own last answer has ended, and only then.
+/// Two sources together: thrusts and torques add, the earlier `until` ends the arc. Each source is sampled when its own
+/// last answer ends.
 #[derive(Clone, Debug)]
 pub struct Sum<A, B> {
     first: (A, Actuation),
@@ -162,7 +152,6 @@ pub struct Sum<A, B> {
 impl<A: ActuationLaw, B: ActuationLaw> Sum<A, B> {
     /// `first` and `second`.
     pub fn new(first: A, second: B) -> Self {
-        // both are asked at the first arc
         let asked = Actuation::none(f64::NEG_INFINITY);
         Sum { first: (first, asked), second: (second, asked) }
     }
@@ -185,7 +174,7 @@ impl<A: ActuationLaw, B: ActuationLaw> ActuationLaw for Sum<A, B> {
     }
 }
 
-/// What two sources apply together, until the first of them changes.
+/// Sum of two actuations, until the first of them changes.
 pub fn sum(first: &Actuation, second: &Actuation) -> Actuation {
     Actuation {
         until: first.until.min(second.until),
@@ -209,16 +198,16 @@ impl<L: ActuationLaw> LawSource for Vec<L> {
     }
 }
 
-/// How the runs of a batch are actuated.
+/// Actuation of the runs of a batch.
 pub enum Laws<'a> {
-    /// Each run by the schedule of its own scene.
+    /// Each run follows the schedule of its scene.
     OpenLoop,
-    /// Each run by a law of its own, in place of the schedule of its scene.
+    /// Each run follows its own law, and its schedule is ignored.
     Feedback(&'a mut dyn LawSource),
 }
 
 impl Laws<'_> {
-    /// The law of run `run`; `None` where it follows the schedule of its scene.
+    /// The law of run `run`; `None` if the run follows its schedule.
     pub fn of(&mut self, run: usize) -> Option<&mut dyn ActuationLaw> {
         match self {
             Laws::OpenLoop => None,
@@ -226,7 +215,7 @@ impl Laws<'_> {
         }
     }
 
-    /// The same laws, borrowed for a shorter time.
+    /// Reborrows the laws for a shorter time.
     pub fn reborrow(&mut self) -> Laws<'_> {
         match self {
             Laws::OpenLoop => Laws::OpenLoop,
@@ -246,7 +235,6 @@ mod tests {
         Actuation::none(until).with_thrust(&[thrust])
     }
 
-    /// The arcs of `law` up to `duration`: start, end, thrust. A law that never ends fails here.
     fn arcs(law: &mut dyn ActuationLaw, duration: f64) -> Vec<(f64, f64, f64)> {
         let (mut time, mut list) = (0.0, Vec::new());
         while time < duration {
@@ -275,7 +263,6 @@ mod tests {
             asked.push(time);
             thrust(f64::INFINITY, time)
         });
-        // in between, the answer is held
         assert_eq!(law.arc(0.0, &BODY, &WheelState::AT_REST), thrust(0.1, 0.0));
         assert_eq!(law.arc(0.05, &BODY, &WheelState::AT_REST), thrust(0.1, 0.0));
         let flown = arcs(&mut law, 0.35);

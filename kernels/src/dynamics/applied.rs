@@ -1,5 +1,4 @@
-//! The arc that a run flies next: by the schedule of its scene, or by a law, and the effects that are constant over an
-//! arc.
+//! The next arc of a run, by schedule or by law, with the effects that are constant over an arc.
 
 use super::actuation::{ActuationLaw, BodyState, OpenLoop, WheelState};
 use super::effects::add_constant_effects;
@@ -14,11 +13,10 @@ pub fn scheduled_arc(scene: &Scene, time: f64, duration: f64) -> Arc {
     arc
 }
 
-/// The arc that a run of `scene` flies from `time` on: that of its schedule, or what its `law` answers to the `state`
-/// there.
+/// The arc of a run of `scene` from `time` on, by its schedule, or by its `law` in the state `state`.
 ///
 /// # Panics
-/// Where the answer of a law ends before it starts: the run would never end.
+/// If an answer of the law ends before it starts: the run would never end.
 pub fn next_arc(
     scene: &Scene,
     law: Option<&mut dyn ActuationLaw>,
@@ -31,11 +29,11 @@ pub fn next_arc(
     law_arc(scene, law, time, (&body, &wheels), duration)
 }
 
-/// The arc that `law` answers at `time`, where the state is `state`. The motor of a wheel that is missing, or whose
-/// speed is held, takes no command.
+/// The arc by `law` at `time` in the state `state`. Motors of missing wheels and of wheels of constant speed take no
+/// command.
 ///
 /// # Panics
-/// Where the answer ends before it starts: the run would never end.
+/// If the answer ends before it starts: the run would never end.
 #[inline]
 pub fn law_arc(
     scene: &Scene,

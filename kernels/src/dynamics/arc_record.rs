@@ -1,26 +1,25 @@
-//! [`ArcRecord`]: the arcs that a run has flown, as what changes from each to the next.
+//! [`ArcRecord`]: the arcs of a run, stored as differences.
 //!
-//! A control loop flies an arc a tick, and of the numbers of an actuation few change: forty bytes an arc for three
-//! wheels, where an [`Arc`] has 264.
+//! A control loop has an arc per tick, and few numbers change between arcs: 40 bytes per arc with three wheels, against
+//! 264 for an [`Arc`].
 
 use crate::scene::{Actuation, Arc, MAX_THRUSTERS, MAX_WHEELS};
 
-/// Numbers of an actuation beside its end.
+/// Numbers of an actuation, without its end.
 const NUMBERS: usize = MAX_THRUSTERS + MAX_WHEELS + 6;
 
-/// The bit of [`Actuation::ends_run`] beside those of the numbers.
+/// Bit of [`Actuation::ends_run`].
 const ENDS_RUN: u64 = 1 << NUMBERS;
 
 /// The arcs of a run in order, from time zero without a gap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArcRecord {
-    /// Of each arc: one bit for each number that is another than before, the end, and these numbers.
+    /// For each arc: a mask of the numbers that changed, the end, and these numbers.
     words: Vec<u64>,
     count: usize,
     last: Arc,
 }
 
-/// Before the first arc.
 const START: Arc = Arc { start: 0.0, applied: Actuation::none(0.0) };
 
 impl Default for ArcRecord {
@@ -30,13 +29,13 @@ impl Default for ArcRecord {
 }
 
 impl ArcRecord {
-    /// Forgets all arcs; the memory is kept.
+    /// Removes all arcs and keeps the memory.
     pub fn clear(&mut self) {
         self.words.clear();
         (self.count, self.last) = (0, START);
     }
 
-    /// Adds an arc, which starts where the last one ends.
+    /// Appends an arc, which starts at the end of the last one.
     #[inline]
     pub fn push(&mut self, arc: &Arc) {
         let (last, new) = (&mut self.last.applied, &arc.applied);
@@ -72,7 +71,7 @@ impl ArcRecord {
         self.count
     }
 
-    /// Whether there are none.
+    /// True if there are no arcs.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
@@ -82,7 +81,7 @@ impl ArcRecord {
         (self.count > 0).then_some(&self.last)
     }
 
-    /// The arcs in order, each where the one before it was.
+    /// A reader of the arcs in order, which lends each arc.
     pub fn reader(&self) -> ArcReader<'_> {
         ArcReader { words: self.words.iter(), arc: START }
     }
@@ -93,13 +92,13 @@ impl ArcRecord {
         std::iter::from_fn(move || reader.next().copied())
     }
 
-    /// The arcs in order, each as it is.
+    /// Copies of the arcs in order.
     pub fn to_vec(&self) -> Vec<Arc> {
         self.iter().collect()
     }
 }
 
-/// Reads a record arc by arc, without a copy of what does not change.
+/// Reads a record arc by arc without copying unchanged numbers.
 #[derive(Clone, Debug)]
 pub struct ArcReader<'a> {
     words: std::slice::Iter<'a, u64>,
@@ -131,10 +130,10 @@ impl Extend<Arc> for ArcRecord {
     }
 }
 
-/// One bit for each number of `new` that differs from that of `old`, by its bits.
+/// Mask of the numbers that differ between `new` and `old`, bit for bit.
 #[inline]
 fn changes<const K: usize>(old: &[f64; K], new: &[f64; K]) -> u64 {
-    // most of them are as they were, and that is seen of several at once
+    // most are unchanged: one test of all together
     if old.iter().zip(new).fold(0, |any, (old, new)| any | (old.to_bits() ^ new.to_bits())) == 0 {
         return 0;
     }
@@ -145,7 +144,6 @@ fn changes<const K: usize>(old: &[f64; K], new: &[f64; K]) -> u64 {
     changed
 }
 
-/// Number `number` of an actuation.
 fn number_mut(applied: &mut Actuation, number: usize) -> &mut f64 {
     const BODY: usize = MAX_THRUSTERS + MAX_WHEELS;
     const DIPOLE: usize = BODY + 3;

@@ -1,7 +1,7 @@
-//! The debris D: a free rigid body in uniform translation, or beside an orbit ([`super::relative_orbit`]).
+//! The debris D: a free rigid body in uniform translation, or near an orbit ([`super::relative_orbit`]).
 //!
-//! An isotropic body (cube) turns at a constant rate about an axis fixed in it and in space, so its attitude has a
-//! closed form. A box is a gyrostat without wheels and is integrated as one; only its constants are made here.
+//! An isotropic body (cube) turns at a constant rate, so that its attitude has a closed form. A box is integrated as a
+//! gyrostat without wheels.
 
 use fearless_simd::Simd;
 
@@ -17,18 +17,18 @@ use crate::run::{Grid, LocalErrors, StateField, StateTable, Trajectory};
 use crate::scene::mass::Body;
 use crate::scene::{Offset, Scene};
 
-/// Whether every axis of the body is principal with the same moment, so that it turns uniformly.
+/// True if all principal moments are equal, so that the body turns uniformly.
 pub fn is_isotropic(body: &Body) -> bool {
     let j = body.inertia;
     let diagonal = j[0][0] == j[1][1] && j[1][1] == j[2][2];
     diagonal && j[0][1] == 0.0 && j[0][2] == 0.0 && j[1][2] == 0.0
 }
 
-/// The errors of [`complete_isotropic`]: half a unit in the last place of the rate, a few roundings of the attitude.
+/// Errors of [`complete_isotropic`]: half a unit in the last place of the rate, a few roundings of the attitude.
 pub const ISOTROPIC_ERRORS: LocalErrors =
     LocalErrors { rounding: 0.5 * f64::EPSILON, attitude: 2.0 * f64::EPSILON, ..LocalErrors::NONE };
 
-/// Sets `run` to the free rotation of the debris, before its first arc; false where the scene has none.
+/// Initialises `run` with the free rotation of the debris; false if the scene has none.
 pub fn set_rotation<R: Real>(run: &mut Gyrostat<R>, scene: &Scene) -> bool {
     let Some(body) = &scene.mass.debris else { return false };
     let zero = run.mass.zero();
@@ -42,7 +42,7 @@ pub fn set_rotation<R: Real>(run: &mut Gyrostat<R>, scene: &Scene) -> bool {
     true
 }
 
-/// Fills position and velocity of the debris in `table`, as far as the table has them.
+/// Fills position and velocity of the debris in uniform translation.
 #[inline(always)]
 pub fn complete_translation<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &mut StateTable) {
     let initial = &scene.initial;
@@ -61,8 +61,8 @@ pub fn complete_translation<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table:
     }
 }
 
-/// The same where there is an orbit: `relative` is the motion of the debris, of the mass `mass` (kg), beside it. Adds
-/// gravity's work on it to that on the spacecraft.
+/// Fills position and velocity of a debris of `mass` kg on the path `relative`, and adds gravity's work on it to the
+/// work on the spacecraft.
 pub fn complete_orbit(relative: &mut RelativeOrbit, mass: f64, grid: &Grid, table: &mut StateTable) {
     let (has_position, has_velocity) = (table.has(StateField::DebrisPosition), table.has(StateField::DebrisVelocity));
     let has_work = table.has(StateField::Work);
@@ -91,17 +91,14 @@ pub fn complete_orbit(relative: &mut RelativeOrbit, mass: f64, grid: &Grid, tabl
     }
 }
 
-/// A straight line in time.
 struct Line<V> {
     start: V,
     slope: V,
 }
 
-/// Fills attitude and rate of an isotropic debris in `table`: q_ed(t) = q_ed(0) (x) exp(omega t/2), omega constant in
-/// F_d.
+/// Fills attitude and rate of an isotropic debris: q_ed(t) = q_ed(0) (x) exp(omega t/2) with constant omega in F_d.
 ///
-/// The angle is reduced to a part of a turn as a sum of two numbers, so that it is as accurate after 1e10 rad as at the
-/// start.
+/// The angle is reduced to a fraction of a turn as a sum of two numbers, so that no digits are lost after 1e10 rad.
 #[inline(always)]
 pub fn complete_isotropic<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &mut StateTable) {
     let omega = scene.initial.omega_de_d;
@@ -132,10 +129,9 @@ pub fn complete_isotropic<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &
     }
 }
 
-/// 4 pi.
 const FOUR_PI: DoubleDouble = DoubleDouble { high: 12.566_370_614_359_172, low: 4.898_587_196_589_413e-16 };
 
-/// Fills attitude and rate of a box from the components that a method integrated for [`set_rotation`]'s run.
+/// Fills attitude and rate of a box from the integrated components of a run of [`set_rotation`].
 #[inline(always)]
 pub fn complete_rotation<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, table: &mut StateTable) {
     for first in (0..table.stride()).step_by(WIDTH) {

@@ -1,18 +1,17 @@
-//! How the Earth is turned at a date: the angle from e1, towards the vernal equinox, to the meridian of Greenwich.
+//! Orientation of the Earth at a date: the angle from e1, towards the vernal equinox, to the Greenwich meridian.
 //!
-//! Where a date counts, F_e is the frame of the mean equator and equinox of the epoch: e3 along the Earth's axis, e1
-//! towards the equinox. The rotation from Earth-fixed axes is then one about e3 by Greenwich mean sidereal time: the
-//! Earth rotation angle (N. Capitaine, B. Guinot, D. McCarthy, 2000, Astronomy and Astrophysics 355, 398, eq. 14) and
-//! the precession since J2000 (N. Capitaine, P. Wallace, J. Chapront, 2003, Astronomy and Astrophysics 412, 567, eq.
-//! 42; IAU 2006).
+//! With a date, F_e is the frame of the mean equator and equinox of the epoch, and Earth-fixed axes are turned about e3
+//! by Greenwich mean sidereal time: Earth rotation angle (N. Capitaine, B. Guinot, D. McCarthy, 2000, Astronomy and
+//! Astrophysics 355, 398, eq. 14) plus precession since J2000 (N. Capitaine, P. Wallace, J. Chapront, 2003, Astronomy
+//! and Astrophysics 412, 567, eq. 42; IAU 2006).
 //!
-//! Left out: UTC is taken as UT1 (0.9 s at most, 0.004 deg), the nutation of the axis (0.003 deg) and of the equinox
-//! (0.005 deg), polar motion (0.0002 deg), the precession since the epoch (0.00004 deg a day): below 0.01 deg in all.
+//! Neglected, below 0.01 deg in all: UT1 - UTC (0.9 s, 0.004 deg), nutation of the axis (0.003 deg) and of the equinox
+//! (0.005 deg), polar motion (0.0002 deg), precession since the epoch (0.00004 deg per day).
 
 use crate::scene::epoch::Epoch;
 
-/// Rotation of the Earth relative to the equinox of the epoch, turns/s: 1.00273781191135448 turns a day (Capitaine et
-/// al., 2000) and the precession in right ascension, 4612.156534 arcsec in a Julian century.
+/// Rotation rate of the Earth relative to the equinox of the epoch, turns/s: 1.00273781191135448 turns per day
+/// (Capitaine et al., 2000) plus precession in right ascension, 4612.156534 arcsec per Julian century.
 pub const TURNS_PER_SECOND: f64 = (1.002_737_811_911_354_6 + 4_612.156_534 / (1_296_000.0 * 36_525.0)) / 86_400.0;
 
 /// Greenwich mean sidereal time at `epoch`, turns, from 0 to 1.
@@ -20,7 +19,7 @@ pub fn turns_at(epoch: Epoch) -> f64 {
     let [_, part] = epoch.julian_date();
     let days = epoch.days_since_j2000();
     let centuries = days / 36_525.0;
-    // whole turns taken off: days = n + part + 1/2
+    // without whole turns: days = n + part + 1/2
     let rotation = 0.779_057_273_264 + 0.5 + part + 0.002_737_811_911_354_48 * days;
     let precession = 0.014_506 + (4_612.156_534 + (1.391_581_7 - 0.000_000_44 * centuries) * centuries) * centuries;
     let turns = rotation + precession / 1_296_000.0;
@@ -31,8 +30,8 @@ pub fn turns_at(epoch: Epoch) -> f64 {
 mod tests {
     use super::*;
 
-    /// Law: SOFA's `gmst06` (`erfa.gmst06(jd1, jd2, jd1, jd2 + 69/86400)` of pyerfa 2.0.1.5), rad, to rounding of the
-    /// two Julian dates.
+    /// Truth: SOFA's `gmst06` (`erfa.gmst06(jd1, jd2, jd1, jd2 + 69/86400)`, pyerfa 2.0.1.5), rad, to rounding of the
+    /// dates.
     #[test]
     fn sidereal_time_is_that_of_sofa() {
         for (text, expected) in [
@@ -47,7 +46,7 @@ mod tests {
         }
     }
 
-    /// Law: the rate is the change of the angle in a day, up to the quadratic term of precession, 1.6e-11 turns.
+    /// Law: the rate is the change of the angle per day, up to quadratic precession, 1.6e-11 turns.
     #[test]
     fn the_rate_is_the_change_of_the_angle() {
         let [before, after] =

@@ -1,46 +1,45 @@
-//! [`Gravity`]: the pull of a central body, and how much another it is at an offset.
+//! [`Gravity`]: the pull of a central body, and its difference (tide) between two points.
 //!
-//! With k = (3/2) J2 R^2 of a body that is flattened along e3 (D. Vallado, *Fundamentals of Astrodynamics and
-//! Applications*, 2013, (8-29) and (9-39); k is zero of a point mass):
+//! With k = (3/2) J2 R^2 for a body that is flattened along e3, zero for a point mass (D. Vallado, *Fundamentals of
+//! Astrodynamics and Applications*, 2013, (8-29) and (9-39)):
 //!
 //! ```text
 //! a = -mu/|r|^3 (1 + k/|r|^2 (1 - 5 z^2/|r|^2)) r - 2 mu k z/|r|^5 e3
 //! U = mu/|r| + mu k (1/3 - z^2/|r|^2)/|r|^3,   a = grad U
 //! ```
 //!
-//! At r = O + d the pull is another than at O by the tide (R. Battin, *An Introduction to the Mathematics and Methods
-//! of Astrodynamics*, 1999, section 8.4). With q = d . (d + 2 O)/|O|^2 and w_n = (|O|/|r|)^n - 1 = (1 + q)^(-n/2) - 1:
+//! The tide is a(O + d) - a(O), r = O + d (R. Battin, *An Introduction to the Mathematics and Methods of
+//! Astrodynamics*, 1999, section 8.4). With q = d . (d + 2 O)/|O|^2 and w_n = (|O|/|r|)^n - 1 = (1 + q)^(-n/2) - 1:
 //!
 //! ```text
 //! tide = -mu/|O|^3 (d + w3 r) - mu k/|O|^5 (s + 2 s_z e3) + 5 mu k/|O|^7 (O_z^2 d + (d_z (d_z + 2 O_z) + w7 r_z^2) r),
 //! s = d + w5 r
 //! ```
 //!
-//! Nothing cancels: of an offset of metres all digits count, although a distance of 7000 km has its last one at a
-//! nanometre.
+//! No terms cancel: an offset of metres keeps all its digits, although the last digit of 7000 km is a nanometre.
 
 use super::orbit_state::OrbitState;
 use crate::math::Real;
 use crate::math::vector::{dot, scaled, sum};
 use crate::scene::Orbit;
 
-/// The gravity of a central body, one per lane.
+/// Gravity of a central body, one run per lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity<R> {
     /// Gravitational parameter, m^3/s^2.
     pub mu: R,
-    /// k, m^2; `None` where the bodies of all lanes are point masses.
+    /// k, m^2; `None` if the bodies of all lanes are point masses.
     pub oblateness: Option<R>,
 }
 
 impl<R: Real> Gravity<R> {
-    /// The same in a unit of time of `unit` seconds.
+    /// Converts to a unit of time of `unit` seconds.
     #[inline(always)]
     pub fn in_unit(&self, unit: R) -> Self {
         Gravity { mu: self.mu * (unit * unit), oblateness: self.oblateness }
     }
 
-    /// The acceleration at `position` (F_e, m), `distance` from the centre, m/s^2.
+    /// Acceleration at `position` (F_e, m), `distance` from the centre, m/s^2.
     #[inline(always)]
     pub fn acceleration(&self, position: [R; 3], distance: R) -> [R; 3] {
         let pull = self.mu / (distance * distance * distance);
@@ -57,7 +56,7 @@ impl<R: Real> Gravity<R> {
         all
     }
 
-    /// The part of U that is not that of a point mass, at `place`, J/kg; `None` where there is none.
+    /// The oblateness term of U at `place`, J/kg; `None` for a point mass.
     #[inline(always)]
     pub fn potential_of_oblateness(&self, place: &OrbitState<R>) -> Option<R> {
         let k = self.oblateness?;
@@ -67,7 +66,7 @@ impl<R: Real> Gravity<R> {
         Some(self.mu * k * share / (distance * distance * distance))
     }
 
-    /// The work on a kilogram from `start` to `place`, J.
+    /// Work on 1 kg from `start` to `place`, J.
     #[inline(always)]
     pub fn work(&self, start: &OrbitState<R>, place: &OrbitState<R>) -> R {
         let mut work = self.mu * ((start.distance - place.distance) / (start.distance * place.distance));
@@ -77,13 +76,13 @@ impl<R: Real> Gravity<R> {
         work
     }
 
-    /// The same on `mass` kilograms.
+    /// Work on `mass` kilograms from `start` to `place`, J.
     #[inline(always)]
     pub fn work_on(&self, mass: R, start: &OrbitState<R>, place: &OrbitState<R>) -> R {
         Gravity { mu: mass * self.mu, ..*self }.work(start, place)
     }
 
-    /// What gravity accelerates at the offset `offset` (m) more than at `place`, F_e, m/s^2.
+    /// Acceleration at `place` + `offset` (m) minus that at `place`, F_e, m/s^2.
     #[inline(always)]
     pub fn tide(&self, place: &OrbitState<R>, offset: [R; 3]) -> [R; 3] {
         let number = |value: f64| self.mu.splat(value);
@@ -110,12 +109,12 @@ impl<R: Real> Gravity<R> {
 }
 
 impl Gravity<f64> {
-    /// That of the central body of `orbit`.
+    /// Gravity of the central body of `orbit`.
     pub fn of(orbit: &Orbit) -> Self {
         Gravity { mu: orbit.mu, oblateness: orbit.oblateness() }
     }
 
-    /// The same in all lanes of `zero`.
+    /// Broadcasts to all lanes of `zero`.
     #[inline(always)]
     pub fn in_lanes<R: Real>(&self, zero: R) -> Gravity<R> {
         Gravity { mu: zero.splat(self.mu), oblateness: self.oblateness.map(|k| zero.splat(k)) }
@@ -123,7 +122,7 @@ impl Gravity<f64> {
 }
 
 impl<R: Real> Gravity<R> {
-    /// Puts `own` into lane `lane`.
+    /// Copies `own` into lane `lane`.
     #[inline(always)]
     pub fn set_lane(&mut self, lane: usize, own: &Gravity<f64>) {
         self.mu.set_lane(lane, own.mu);
@@ -153,7 +152,6 @@ pub(super) fn stronger_powers<R: Real>(q: R, w3: R) -> [R; 2] {
     [w5, w5.mul_add(w2, w5 + w2)]
 }
 
-/// 2 `place` + `offset`.
 #[inline(always)]
 pub(super) fn twice_and<R: Real>(place: [R; 3], offset: [R; 3]) -> [R; 3] {
     let two = place[0].splat(2.0);
@@ -166,13 +164,12 @@ mod tests {
     use crate::math::double_double::DoubleDouble;
     use crate::math::vector::{difference, norm};
 
-    /// The Earth with 1.5 J2 R^2, and with a hundred times of it.
     fn gravities() -> [Gravity<f64>; 3] {
         let k = 1.5 * 1.08262668e-3 * 6_378_137.0 * 6_378_137.0;
         [None, Some(k), Some(100.0 * k)].map(|oblateness| Gravity { mu: 3.986004418e14, oblateness })
     }
 
-    /// Law: the tide is the difference of two pulls, which double-double has with ten digits to spare, from millimetres
+    /// Law: the tide is the difference of two pulls in double-double, which has ten digits to spare, from millimetres
     /// to thousands of kilometres.
     #[test]
     fn the_tide_is_a_difference_of_pulls() {
@@ -194,8 +191,8 @@ mod tests {
         }
     }
 
-    /// Law: the acceleration is the gradient of U, by central differences; above the equator it is mu/r^2 (1 + k/r^2),
-    /// above a pole mu/r^2 (1 - 2 k/r^2).
+    /// Law: the acceleration is the gradient of U, by central differences; mu/r^2 (1 + k/r^2) above the equator, mu/r^2
+    /// (1 - 2 k/r^2) above a pole.
     #[test]
     fn the_pull_is_the_gradient_of_the_potential() {
         let [_, gravity, flat] = gravities();

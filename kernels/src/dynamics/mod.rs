@@ -1,18 +1,11 @@
-//! Layer 2: the equations of motion, each kernel generic over [`crate::math::Real`] where speed matters, and what acts
-//! on them.
+//! Layer 2: equations of motion and the forces and torques in them; generic over [`crate::math::Real`] for speed.
 //!
-//! - [`actuation`]: the interface by which a run is asked for its arcs of constant actuation.
-//! - [`applied`]: the arc that a run flies next.
-//! - [`arc_record`]: the arcs that a run has flown.
-//! - [`debris`]: the free body beside the spacecraft.
-//! - [`earth_rotation`]: how the Earth is turned at a date.
-//! - [`effects`]: what acts beside the actuators. [`gravity`]: the pull of a central body. [`orbit`]: motion on a
-//!   two-body orbit in closed form; [`orbit_series`]: Taylor series of an orbit; [`orbit_path`]: motion on any orbit;
-//!   [`orbit_state`]: position and velocity on it. [`offset_series`]: motion relative to a point on it;
-//!   [`relative_orbit`]: that of a free body.
-//! - [`magnetic_field`]: the Earth's magnetic field. [`environment`]: air, the Sun and the Earth's shadow.
-//! - [`gyrostat`]: the reduced form, fast: three rates, an attitude, and further components where a scene needs them.
-//! - [`null_space`]: Berdoz's 62-state null-space form.
+//! - [`actuation`]: interface of laws. [`applied`]: the next arc of a run. [`arc_record`]: its arcs so far.
+//! - [`effects`]: forces and torques other than actuators. [`environment`]: air, Sun, the Earth's shadow.
+//!   [`magnetic_field`], [`earth_rotation`].
+//! - [`gravity`]; [`orbit`]: two-body orbits in closed form; [`orbit_series`]: Taylor series; [`orbit_path`]: any
+//!   orbit; [`orbit_state`]: position and velocity. [`offset_series`], [`relative_orbit`]: motion relative to an orbit.
+//! - [`gyrostat`]: the reduced form, fast. [`null_space`]: Berdoz's 62-state form. [`debris`]: the free body.
 
 pub mod actuation;
 pub mod applied;

@@ -1,4 +1,4 @@
-//! [`OffsetSeries`]: the motion relative to a point on an orbit by Encke's method, as Taylor coefficients of the tide
+//! [`OffsetSeries`]: motion relative to a point on an orbit by Encke's method: Taylor coefficients of the tide
 //! ([`super::gravity`]).
 
 use super::gravity::{Gravity, stronger, stronger_powers, twice_and};
@@ -6,44 +6,43 @@ use super::orbit_series::{OrbitSeries, convolution, next_of_power};
 use crate::math::Real;
 use crate::math::vector::{scaled, sum};
 
-/// The coefficients of the offset and of what it makes, of one step, in the lanes' units of time.
+/// Coefficients of the offset and its products in one step, in the lanes' units of time.
 #[derive(Clone, Debug)]
 pub struct OffsetSeries<R> {
-    /// Of the orbit from which the offset is.
+    /// The reference orbit.
     orbit: OrbitSeries<R>,
-    /// Of d, F_e, m.
+    /// d, F_e, m.
     offset: Vec<[R; 3]>,
-    /// Of 2 O + d.
+    /// 2 O + d.
     lever: Vec<[R; 3]>,
-    /// Of r, m.
+    /// r, m.
     place: Vec<[R; 3]>,
-    /// Of 1 + q, the first without the one, and of its power -3/2.
+    /// 1 + q (without the one in the first coefficient), and its power -3/2.
     ratio: Vec<R>,
     power: Vec<R>,
     /// w at the start of the step.
     nearer: R,
-    /// Of d + w r.
+    /// d + w r.
     stretched: Vec<[R; 3]>,
-    /// Where the central body is flattened.
     flattened: Flattened<R>,
 }
 
-/// The coefficients that a flattened body adds.
+/// Coefficients of the oblateness terms.
 #[derive(Clone, Debug)]
 struct Flattened<R> {
-    /// Of the powers -5/2 and -7/2 of 1 + q.
+    /// Powers -5/2 and -7/2 of 1 + q.
     five: Vec<R>,
     seven: Vec<R>,
     /// w5 and w7 at the start of the step.
     nearer: [R; 2],
-    /// Of s = d + w5 r.
+    /// s = d + w5 r.
     stretched: Vec<[R; 3]>,
-    /// Of r_z^2 - O_z^2, and of r_z^2.
+    /// r_z^2 - O_z^2, and r_z^2.
     change: Vec<R>,
     height: Vec<R>,
-    /// Of r_z^2 (1 + w7) - O_z^2.
+    /// r_z^2 (1 + w7) - O_z^2.
     bent: Vec<R>,
-    /// Of O_z^2 d + bent r.
+    /// O_z^2 d + bent r.
     lifted: Vec<[R; 3]>,
 }
 
@@ -75,14 +74,14 @@ impl<R: Real> OffsetSeries<R> {
         }
     }
 
-    /// Starts a step where the point on the orbit is at `position` with `velocity` (m per unit of time) in `gravity`
-    /// (m^3 per unit squared).
+    /// Starts a step with the reference point at `position` with `velocity` (m per unit of time) in `gravity` (m^3 per
+    /// unit squared).
     #[inline(always)]
     pub fn begin(&mut self, gravity: Gravity<R>, position: [R; 3], velocity: [R; 3]) {
         self.orbit.begin(gravity, position, velocity);
     }
 
-    /// Coefficient n of the tide, m per unit squared, given that of the offset; call in ascending order of `n`.
+    /// Coefficient n of the tide, m per unit squared, from that of the offset; in ascending order of `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize, of_offset: [R; 3]) -> [R; 3] {
         let OffsetSeries { orbit, offset, lever, place, ratio, power, nearer, stretched, flattened } = self;
@@ -122,7 +121,7 @@ impl<R: Real> OffsetSeries<R> {
         tide
     }
 
-    /// The orbit from which the offset is.
+    /// The reference orbit.
     #[inline(always)]
     pub fn orbit(&self) -> &OrbitSeries<R> {
         &self.orbit
@@ -136,8 +135,8 @@ impl<R: Real> OffsetSeries<R> {
 }
 
 impl<R: Real> Flattened<R> {
-    /// Coefficient n of what a flattened body adds to the tide, from those of the orbit, of d, 2 O + d and r, of q, and
-    /// w3 at the start of the step.
+    /// Coefficient n of the oblateness terms of the tide, from those of the orbit, d, 2 O + d, r and q, and w3 at the
+    /// start of the step.
     #[inline(always)]
     fn extend(
         &mut self,
@@ -165,7 +164,7 @@ impl<R: Real> Flattened<R> {
         height[n] = of_orbit.height[n] + change[n];
         bent[n] = nearer[1].mul_add(height[n], change[n]);
         if n > 0 {
-            // the power of order zero is w7, not one more
+            // the power of order zero is w7, not 1 + w7
             bent[n] += convolution(&seven[1..=n], &height[..n]);
         }
         lifted[n] = [zero; 3];
@@ -184,7 +183,7 @@ impl<R: Real> Flattened<R> {
     }
 }
 
-/// Coefficient n > 0 of the power `alpha` of 1 + q, from those of q and the ones before.
+/// Coefficient n > 0 of the power `alpha` of 1 + q, from those of q and the lower ones.
 #[inline(always)]
 fn power_of_ratio<R: Real>(alpha: f64, n: usize, ratio: &mut [R], power: &[R]) -> R {
     let first = ratio[0];
@@ -194,8 +193,7 @@ fn power_of_ratio<R: Real>(alpha: f64, n: usize, ratio: &mut [R], power: &[R]) -
     next
 }
 
-/// The last coefficient of d + w r, from that of d, and those of r and of 1 + w, whose first is `nearer` without the
-/// one.
+/// Last coefficient of d + w r, from those of d, r and 1 + w; the first of 1 + w is `nearer`, without the one.
 #[inline(always)]
 fn stretched_offset<R: Real>(offset: [R; 3], nearer: R, power: &[R], place: &[[R; 3]]) -> [R; 3] {
     let n = place.len() - 1;
@@ -215,10 +213,10 @@ mod tests {
     use crate::dynamics::orbit_state::OrbitState;
     use crate::math::vector::{difference, norm};
 
-    /// Law: the first coefficient of the series is the closed form, and the second is its slope along the motion.
+    /// Law: the first coefficient of the series is the closed form, the second is its slope along the motion.
     #[test]
     fn the_series_begins_with_the_closed_form() {
-        // a point mass, the Earth, and one that is a hundred times flatter
+        // a point mass, the Earth, and a hundred times flatter
         for oblateness in [None, Some(6.606e10), Some(6.6e12)] {
             let gravity = Gravity { mu: 3.986004418e14, oblateness };
             let (position, velocity) = ([4.1e6, -5.2e6, 1.7e6], [3e3, 4e3, 5e3]);
@@ -226,7 +224,7 @@ mod tests {
             let mut series = OffsetSeries::new(0.0, 3);
             series.begin(gravity, position, velocity);
             let first = series.extend(0, offset);
-            // the orbit bends, by r'' of the second order
+            // the orbit bends, by r'' at second order
             let at = |time: f64| {
                 let pull = gravity.acceleration(position, norm(position));
                 let position = sum(sum(position, scaled(time, velocity)), scaled(0.5 * time * time, pull));

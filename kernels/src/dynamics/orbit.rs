@@ -1,6 +1,6 @@
-//! [`KeplerOrbit`]: position and velocity on a two-body orbit at any time, in closed form.
+//! [`KeplerOrbit`]: position and velocity on a two-body orbit in closed form.
 //!
-//! With E the eccentric anomaly and x = E - E0 its change since time zero (R. Battin, *An Introduction to the
+//! With the eccentric anomaly E and its change x = E - E0 since time zero (R. Battin, *An Introduction to the
 //! Mathematics and Methods of Astrodynamics*, 1999, section 4.3):
 //!
 //! ```text
@@ -9,13 +9,9 @@
 //! F' = -sqrt(mu a)/(|r| |r0|) sin x,   G' = 1 - a/|r| (1 - cos x)
 //! ```
 //!
-//! Circles need no case of their own: no direction of a periapsis is used. E solves Kepler's equation E - e sin E = M,
-//! M = M0 + 2 pi t/P, in turns reduced to half a turn, so that a thousand orbits later only t/P is rounded.
-//!
-//! Of an orbit about a flattened body this is the two-body orbit that touches it at time zero; its own motion is in
-//! [`super::orbit_path`].
-//!
-//! Not here: the orbit at time zero from what is written (`scene::orbit`).
+//! No direction of a periapsis appears, so that circles are no special case. E solves E - e sin E = M, M = M0 + 2 pi
+//! t/P, in turns reduced to half a turn: a thousand orbits later only t/P is rounded. About a flattened body this is
+//! the osculating orbit at time zero, see [`super::orbit_path`]. Keys of an orbit are in `scene::orbit`.
 
 use super::gravity::Gravity;
 use super::orbit_state::OrbitState;
@@ -24,18 +20,18 @@ use crate::math::vector::{constant, dot, norm, scaled, sum};
 use crate::math::{Mask, Real};
 use crate::scene::Orbit;
 
-/// Newton's method has converged where its last correction of E is below this, rad: the next one would be e/(2 (1 - e))
-/// times its square, below rounding up to e = 0.99.
+/// Convergence of Newton's method: the last correction of E, rad. The next one would be e/(2 (1 - e)) times its square,
+/// below rounding up to e = 0.99.
 const CONVERGED: f64 = 1e-9;
 
-/// Corrections at most: up to e = 0.999 measured 9.
+/// Limit of corrections; 9 were measured up to e = 0.999.
 const MOST_CORRECTIONS: usize = 30;
 
-/// Danby's start of Newton's method, E = M + 0.85 e sign(sin M) (J. M. A. Danby, *Fundamentals of Celestial Mechanics*,
-/// 1988, section 6.6).
+/// Danby's initial guess, E = M + 0.85 e sign(sin M) (J. M. A. Danby, *Fundamentals of Celestial Mechanics*, 1988,
+/// section 6.6).
 const START: f64 = 0.85;
 
-/// A two-body orbit, one per lane.
+/// A two-body orbit, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct KeplerOrbit<R> {
     /// Position at time zero, F_e, m.
@@ -58,7 +54,6 @@ pub struct KeplerOrbit<R> {
     /// a sigma/sqrt(mu) and |r0| sqrt(a/mu), s.
     level: R,
     rise: R,
-    /// The gravity of the central body.
     gravity: Gravity<R>,
     /// sqrt(mu a)/|r0|, m/s.
     fall: R,
@@ -100,13 +95,13 @@ impl KeplerOrbit<f64> {
         }
     }
 
-    /// Upper bound of the angular rate along the orbit, with a margin: that of a circle at its periapsis, rad/s.
+    /// Upper bound of the angular rate, rad/s: that of a circle at periapsis.
     pub fn rate(&self) -> f64 {
         let lowest = self.axis * (1.0 - self.eccentricity);
         (self.gravity.mu / lowest).sqrt() / lowest
     }
 
-    /// A circle that no run is on: what empty lanes have.
+    /// An arbitrary circle for empty lanes.
     pub fn blank() -> Self {
         KeplerOrbit::new(&Orbit {
             mu: 1.0,
@@ -118,7 +113,7 @@ impl KeplerOrbit<f64> {
         })
     }
 
-    /// The same in all lanes of `zero`.
+    /// Broadcasts to all lanes of `zero`.
     #[inline(always)]
     pub fn in_lanes<R: Real>(&self, zero: R) -> KeplerOrbit<R> {
         KeplerOrbit {
@@ -143,7 +138,7 @@ impl KeplerOrbit<f64> {
 }
 
 impl<R: Real> KeplerOrbit<R> {
-    /// Puts `orbit` into lane `lane`.
+    /// Copies `orbit` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, orbit: &KeplerOrbit<f64>) {
         for i in 0..3 {
             self.position[i].set_lane(lane, orbit.position[i]);
@@ -183,8 +178,8 @@ impl<R: Real> KeplerOrbit<R> {
         self.state_at([time, time.zero()])
     }
 
-    /// The state at a time that is the sum of two numbers, s: after 1,000 orbits a single one is rounded to 1e-12 rad
-    /// of the orbit.
+    /// The state at a time that is a sum of two numbers, s: a single one rounds the position to 1e-12 rad after 1,000
+    /// orbits.
     #[inline(always)]
     pub fn state_at(&self, [time, low]: [R; 2]) -> OrbitState<R> {
         let one = time.splat(1.0);
@@ -203,20 +198,18 @@ impl<R: Real> KeplerOrbit<R> {
         }
     }
 
-    /// The work of a point mass since time zero on a kilogram that is now `distance` from the central body: mu/|r| -
-    /// mu/|r0|, J.
+    /// Work of a point mass on 1 kg from time zero to the distance `distance`, mu/|r| - mu/|r0|, J.
     #[inline(always)]
     pub fn work(&self, distance: R) -> R {
         self.pull * ((self.start - distance) / distance)
     }
 
-    /// E at the time `time + low`, turns, by Newton's method; a lane that has converged stays as it is, whatever the
-    /// others do.
+    /// E at `time + low`, turns, by Newton's method; a converged lane is frozen, independently of the others.
     #[inline(always)]
     fn eccentric_anomaly(&self, [time, low]: [R; 2]) -> R {
         let number = |value: f64| time.splat(value);
         let e = self.eccentricity;
-        // whole turns go before the product is rounded: after 1,000 periods its rounding is 7e-13 rad
+        // remove whole turns before the product is rounded: 7e-13 rad after 1,000 periods
         let whole = (time * self.per_period).nearest_integer();
         let mean = time.mul_add(self.per_period, -whole) + low.mul_add(self.per_period, self.mean);
         let mean = mean - mean.nearest_integer();
@@ -251,8 +244,8 @@ mod tests {
         Orbit { mu: MU, position: [radius, 0.0, 0.0], velocity, body_radius: 0.0, j2: None, epoch: None }
     }
 
-    /// Law: energy and angular momentum of the orbit are constant, |r| is the distance, and one period later the state
-    /// is the same; from circles to an eccentricity of 0.98.
+    /// Law: constant energy and angular momentum, |r| is the distance, and the state repeats after one period; from
+    /// circles to an eccentricity of 0.98.
     #[test]
     fn the_constants_of_the_orbit_are_constant() {
         for (speed, radial) in
@@ -285,7 +278,7 @@ mod tests {
         }
     }
 
-    /// Law: the state follows v = r' and v' = -mu r/|r|^3, by central differences of fourth order.
+    /// Law: v = r' and v' = -mu r/|r|^3, by central differences of fourth order.
     #[test]
     fn the_state_obeys_the_equations_of_motion() {
         let kepler = KeplerOrbit::new(&orbit(7e6, 1.2, 0.1));

@@ -1,36 +1,33 @@
-//! [`OrbitInBody`]: Taylor coefficients of where the central body is seen from a body that turns on its orbit, and of
-//! the products of its components.
+//! [`OrbitInBody`]: Taylor coefficients of the position from the central body in the body frame, and of its products.
 //!
-//! In the frame B of the body, with the rate omega, the position r and the velocity v on an orbit about a point mass
-//! follow
+//! In the frame B with the rate omega, position r and velocity v on a two-body orbit follow
 //!
 //! ```text
 //! r' = v - omega x r        v' = -s r - omega x v        s = mu rho^(-3/2)        rho = r . r
 //! ```
 //!
-//! without the attitude: 15 products of series, where turning a position of F_e by the quaternion of the body, q* (x) r
-//! (x) q, takes 32. Elsewhere, about a flattened body or beside the orbit, it is turned: in all lanes alike, since the
-//! runs of a plan all have a J2 or none.
+//! with 15 products of series, against 32 to turn a position in F_e by the quaternion, q* (x) r (x) q. About a
+//! flattened body or near the orbit it is turned; all runs of a plan agree in this.
 
 use super::effects::within_arcs::MotionSeries;
 use super::orbit_series::next_of_power;
 use crate::math::Real;
 use crate::math::vector::{conjugate, dcm_from_quaternion, dot, hamilton, scaled, transposed_product};
 
-/// The coefficients of one step, in the lanes' units of time.
+/// Coefficients of one step, in the lanes' units of time.
 #[derive(Clone, Debug)]
 pub struct OrbitInBody<R> {
-    /// Of r, B, m.
+    /// r, B, m.
     position: Vec<[R; 3]>,
-    /// Of v, B, m per unit, where r follows from it.
+    /// v, B, m per unit, if r follows from it.
     velocity: Vec<[R; 3]>,
-    /// Of s, 1 per unit squared.
+    /// s, 1 per unit squared.
     pull: Vec<R>,
-    /// Of r (x) q, with r in F_e, where r is turned.
+    /// r (x) q, with r in F_e, if r is turned.
     turned: Vec<[R; 4]>,
-    /// Of r_x^2, r_y^2, r_z^2, r_y r_z, r_z r_x and r_x r_y.
+    /// r_x^2, r_y^2, r_z^2, r_y r_z, r_z r_x, r_x r_y.
     products: Vec<[R; 6]>,
-    /// Of rho, m^2.
+    /// rho, m^2.
     square: Vec<R>,
 }
 
@@ -48,7 +45,7 @@ impl<R: Real> OrbitInBody<R> {
         }
     }
 
-    /// Computes the coefficients n, given those of the motion; call in ascending order of `n`.
+    /// Computes the coefficients n from those of the motion, in ascending order of `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize, motion: &MotionSeries<R>) {
         if motion.is_on_two_body_orbit() {
@@ -61,7 +58,7 @@ impl<R: Real> OrbitInBody<R> {
         let Self { square, pull, .. } = self;
         square[n] = xx + (yy + zz);
         if n == 0 {
-            // of F_e: a lane that waits for a run has no attitude, and its distance must be above zero all the same
+            // from F_e: an idle lane has no attitude, and its distance must still be positive
             let [start, ..] = motion.orbit.position() else { return };
             square[0] = dot(*start, *start);
             let inverse = xx.splat(1.0) / square[0].sqrt();
@@ -114,7 +111,7 @@ impl<R: Real> OrbitInBody<R> {
         self.position[n] = [of_position[1], of_position[2], of_position[3]];
     }
 
-    /// Coefficient n of s/rho, given those before.
+    /// Coefficient n of s/rho, from the lower ones.
     #[inline(always)]
     pub fn pull_over_square(&self, n: usize, before: &[R]) -> R {
         let Self { pull, square, .. } = self;
@@ -125,7 +122,7 @@ impl<R: Real> OrbitInBody<R> {
         left / square[0]
     }
 
-    /// Coefficient n of r x (J r), of a symmetric `inertia` in B.
+    /// Coefficient n of r x (J r) for a symmetric `inertia` in B.
     #[inline(always)]
     pub fn lever(&self, n: usize, inertia: &[[R; 3]; 3]) -> [R; 3] {
         let [xx, yy, zz, yz, zx, xy] = self.products[n];
@@ -145,7 +142,7 @@ fn minus_cross<R: Real>(a: [R; 3], b: [R; 3], sum: [R; 3]) -> [R; 3] {
     [a[1].neg_mul_add(b[2], x), a[2].neg_mul_add(b[0], y), a[0].neg_mul_add(b[1], z)]
 }
 
-/// The last coefficients of the products of the components of a vector, from those of the vector.
+/// Last coefficients of the products of the components of r.
 #[inline(always)]
 fn products<R: Real>(r: &[[R; 3]]) -> [R; 6] {
     let zero = r[0][0].zero();
@@ -160,7 +157,6 @@ fn products<R: Real>(r: &[[R; 3]]) -> [R; 6] {
     [xx, yy, zz, yz, zx, xy]
 }
 
-/// a + b.
 #[inline(always)]
 fn added<R: Real>(a: [R; 4], b: [R; 4]) -> [R; 4] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]]

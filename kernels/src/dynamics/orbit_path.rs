@@ -1,9 +1,9 @@
-//! [`OrbitPath`]: where the point on an orbit is at any time: in closed form about a point mass, by Taylor series step
-//! by step about a flattened body.
+//! [`OrbitPath`]: the point on an orbit at any time, in closed form about a point mass, by Taylor series about a
+//! flattened body.
 //!
-//! The steps depend on the orbit alone, and are kept: the same bits at the same time, whatever was asked before. Each
-//! is the series of [`super::orbit_series`] to order 22 over e^-2 of its radius of convergence (A. Jorba & M. Zou,
-//! Experimental Mathematics 14, 2005): the first term left out is e^-44.
+//! Steps depend on the orbit alone and are kept, so that a time always gives the same bits. Each is the series of
+//! [`super::orbit_series`] to order 22 over e^-2 of its radius of convergence (A. Jorba & M. Zou, Experimental
+//! Mathematics 14, 2005): the first neglected term is e^-44.
 
 use std::sync::{Arc, OnceLock};
 
@@ -20,44 +20,43 @@ use crate::scene::Orbit;
 /// Order of the series.
 const ORDER: usize = 22;
 
-/// Steps of the first block of a path; each block has twice as many as the one before.
+/// Steps of the first block; each block has twice as many as the one before.
 const FIRST_BLOCK: usize = 8;
 
-/// Blocks at most: more steps than any run has.
+/// Limit of blocks, beyond the steps of any run.
 const MOST_BLOCKS: usize = 28;
 
 /// The path of a point on an orbit.
 #[derive(Clone, Debug)]
 pub struct OrbitPath {
-    /// The two-body orbit that touches it at time zero.
+    /// The osculating two-body orbit at time zero.
     start: KeplerOrbit<f64>,
-    /// About a flattened body its steps.
+    /// Steps about a flattened body.
     steps: Option<Arc<Steps>>,
 }
 
-/// The steps of a path about a flattened body, block by block; a block is computed when it is first asked for.
+/// Steps about a flattened body in blocks, each computed on first use.
 type Steps = [OnceLock<Box<[Step]>>; MOST_BLOCKS];
 
-/// A step of a path about a flattened body.
 #[derive(Clone, Debug)]
 struct Step {
-    /// Its start as a sum of two numbers, and its length, s.
+    /// Start as a sum of two numbers, and length, s.
     time: [f64; 2],
     length: f64,
-    /// Of the position, F_e, m, in s.
+    /// Coefficients of the position, F_e, m, in s.
     coefficients: [[f64; 3]; ORDER + 2],
-    /// What position and velocity at its start are rounded by.
+    /// Rounding errors of position and velocity at the start.
     low: [[f64; 3]; 2],
 }
 
 impl OrbitPath {
-    /// That of `orbit`.
+    /// The path of `orbit`.
     pub fn new(orbit: &Orbit) -> Self {
         let start = KeplerOrbit::new(orbit);
         OrbitPath { start, steps: no_steps(&start) }
     }
 
-    /// Another orbit. The same one keeps its steps.
+    /// Changes to `orbit`; an equal orbit keeps its steps.
     pub fn reset(&mut self, orbit: &Orbit) {
         let start = KeplerOrbit::new(orbit);
         let is_same = start.start() == self.start.start() && start.gravity() == self.start.gravity();
@@ -72,12 +71,12 @@ impl OrbitPath {
         self.start.gravity()
     }
 
-    /// The two-body orbit that touches it at time zero.
+    /// The osculating two-body orbit at time zero.
     pub fn at_start(&self) -> &KeplerOrbit<f64> {
         &self.start
     }
 
-    /// The state at `time`, s, which is not before zero.
+    /// The state at `time` >= 0, s.
     pub fn state(&self, time: f64) -> OrbitState<f64> {
         self.state_at([time, 0.0])
     }
@@ -99,7 +98,7 @@ impl OrbitPath {
         OrbitState::unknown(0.0)
     }
 
-    /// Block `index`, after those before.
+    /// Block `index`, computed after those before.
     fn block<'s>(&self, steps: &'s Steps, index: usize) -> &'s [Step] {
         steps[index].get_or_init(|| {
             let mut series = OrbitSeries::new(0.0, ORDER);
@@ -115,7 +114,7 @@ impl OrbitPath {
         })
     }
 
-    /// The states at the time `time` of each lane, s.
+    /// The states at the times of all lanes, s.
     #[inline(always)]
     pub fn states<R: Real>(&self, time: R) -> OrbitState<R> {
         match self.steps {
@@ -131,13 +130,13 @@ impl OrbitPath {
     }
 }
 
-/// The steps of a path that starts on `start`, none of which is computed; `None` where there is a closed form.
+/// Uncomputed steps of a path that starts on `start`; `None` if it has a closed form.
 fn no_steps(start: &KeplerOrbit<f64>) -> Option<Arc<Steps>> {
     start.gravity().oblateness.map(|_| Arc::new([const { OnceLock::new() }; MOST_BLOCKS]))
 }
 
 impl Step {
-    /// The step from `state`, position and velocity (F_e, m and m/s), which are rounded by `low`, at `time`.
+    /// The step from `state` (position and velocity, F_e, m and m/s) at `time`, with rounding errors `low`.
     fn from(
         series: &mut OrbitSeries<f64>,
         gravity: Gravity<f64>,
@@ -156,7 +155,7 @@ impl Step {
         Step { time, length, coefficients, low }
     }
 
-    /// Where its end is: time, state, and what that is rounded by.
+    /// Its end: time, state and rounding errors.
     fn end(&self) -> ([f64; 2], [[f64; 3]; 2], [[f64; 3]; 2]) {
         let changes = change(&self.coefficients, self.low[1], self.length);
         let (mut state, mut low) = ([self.coefficients[0], self.coefficients[1]], self.low);
@@ -169,7 +168,7 @@ impl Step {
         ([time, rest], state, low)
     }
 
-    /// The time since its start, s.
+    /// Time since its start, s.
     fn within(&self, [time, low]: [f64; 2]) -> f64 {
         (time - self.time[0]) + (low - self.time[1])
     }
@@ -182,8 +181,8 @@ impl Step {
     }
 }
 
-/// What position and velocity change by until `within` seconds after the start of a step with these coefficients of the
-/// position, the second of which is rounded by `low`.
+/// Change of position and velocity until `within` seconds after the start of a step; the velocity there has the
+/// rounding error `low`.
 pub(super) fn change(coefficients: &[[f64; 3]], low: [f64; 3], within: f64) -> [[f64; 3]; 2] {
     let (mut position, mut velocity) = ([0.0_f64; 3], [0.0_f64; 3]);
     for (n, coefficients) in coefficients.iter().enumerate().skip(2).rev() {
@@ -196,30 +195,29 @@ pub(super) fn change(coefficients: &[[f64; 3]], low: [f64; 3], within: f64) -> [
     [position, scaled(within, velocity)]
 }
 
-/// The step that the coefficient `term` of order `n` allows, where what is integrated has the size `size`: e^-2 of the
-/// radius of convergence.
+/// Step allowed by the coefficient `term` of order `n` of a quantity of size `size`: e^-2 of the radius of convergence.
 pub(super) fn step_length(n: usize, size: f64, term: [f64; 3]) -> f64 {
     let term = norm(term);
     let radius = if term > 0.0 { libm::pow(size / term, 1.0 / n as f64) } else { f64::INFINITY };
     libm::exp(-2.0) * radius
 }
 
-/// Paths, one per lane.
+/// Paths, one run per lane.
 #[derive(Clone, Debug)]
 pub struct PathsInLanes<R> {
     start: KeplerOrbit<R>,
-    /// Those about flattened bodies; none where there is none in any lane.
+    /// Paths about flattened bodies.
     oblate: [Option<OrbitPath>; WIDEST],
     has_oblate: bool,
 }
 
 impl<R: Real> PathsInLanes<R> {
-    /// Circles that no run is on.
+    /// Arbitrary circles for empty lanes.
     pub fn blank(zero: R) -> Self {
         PathsInLanes { start: KeplerOrbit::blank().in_lanes(zero), oblate: [const { None }; WIDEST], has_oblate: false }
     }
 
-    /// Puts `path` into lane `lane`.
+    /// Copies `path` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, path: &OrbitPath) {
         self.start.set_lane(lane, &path.start);
         self.oblate[lane] = path.steps.is_some().then(|| path.clone());
@@ -263,8 +261,7 @@ mod tests {
         }
     }
 
-    /// Law: a path is a function of the time alone, whatever was asked before; the same orbit keeps its steps, another
-    /// one has its own.
+    /// Law: a path is a function of time alone; an equal orbit keeps its steps, another one has its own.
     #[test]
     fn the_path_is_a_function_of_the_time() {
         let orbit = oblate([100.0, 7100.0, 2900.0]);
@@ -284,8 +281,8 @@ mod tests {
         assert!(!shared(&path, &late_first) && path.state(17.0) != late_first.state(17.0));
     }
 
-    /// Law: energy and the momentum about the body's axis are constant over a hundred orbits, and velocity and
-    /// acceleration are slopes; the momentum across the axis is not constant.
+    /// Law: energy and the momentum about the body's axis are constant over a hundred orbits; velocity and acceleration
+    /// are slopes; the momentum across the axis is not constant.
     #[test]
     fn energy_and_momentum_about_the_axis_are_constant() {
         for velocity in [[100.0, 7100.0, 2900.0], [-500.0, 3000.0, 7900.0], [0.0, -7300.0, 0.0]] {

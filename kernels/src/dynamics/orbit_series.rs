@@ -1,9 +1,8 @@
-//! [`OrbitSeries`]: Taylor coefficients of an orbit by recurrences, and of powers of the distance.
+//! [`OrbitSeries`]: Taylor coefficients of an orbit and of powers of the distance, by recurrences.
 //!
-//! With rho = r . r and s = mu rho^(-3/2): r'' = -s r about a point mass, about a flattened body ([`super::gravity`])
-//! r'' = -(s + f - g z^2) r - 2 f z e3 with f = mu k rho^(-5/2) and g = 5 mu k rho^(-7/2); and for any power alpha the
-//! coefficients of rho^alpha follow from those of rho (A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section
-//! 2.2):
+//! With rho = r . r, s = mu rho^(-3/2): r'' = -s r about a point mass; r'' = -(s + f - g z^2) r - 2 f z e3 about a
+//! flattened body ([`super::gravity`]), f = mu k rho^(-5/2), g = 5 mu k rho^(-7/2). Powers of rho (A. Jorba & M. Zou,
+//! Experimental Mathematics 14, 2005, section 2.2):
 //!
 //! ```text
 //! (rho^alpha)_n = sum over j < n of (alpha (n - j) - j) (rho^alpha)_j rho_(n-j) / (n rho_0)
@@ -14,30 +13,29 @@ use super::orbit_state::OrbitState;
 use crate::math::Real;
 use crate::math::vector::{norm, scaled};
 
-/// The coefficients of one step, in the lanes' units of time.
+/// Coefficients of one step, in the lanes' units of time.
 #[derive(Clone, Debug)]
 pub struct OrbitSeries<R> {
     gravity: Gravity<R>,
-    /// Of r, F_e, m.
+    /// r, F_e, m.
     position: Vec<[R; 3]>,
-    /// Of rho.
+    /// rho.
     square: Vec<R>,
-    /// Of mu rho^(-3/2).
+    /// mu rho^(-3/2).
     pull: Vec<R>,
-    /// Of a flattened body.
     flattened: Flattened<R>,
 }
 
-/// The coefficients that a flattened body adds.
+/// Coefficients of the oblateness terms.
 #[derive(Clone, Debug)]
 pub struct Flattened<R> {
-    /// Of f.
+    /// f.
     pub five: Vec<R>,
-    /// Of g.
+    /// g.
     pub seven: Vec<R>,
-    /// Of z^2.
+    /// z^2.
     pub height: Vec<R>,
-    /// Of s + f - g z^2.
+    /// s + f - g z^2.
     all: Vec<R>,
 }
 
@@ -62,7 +60,7 @@ impl<R: Real> OrbitSeries<R> {
         self.position[1] = velocity;
     }
 
-    /// Computes the coefficients n of rho and its power and n + 2 of r; call in ascending order of `n`.
+    /// Computes the coefficients n of rho and its power and n + 2 of r, in ascending order of `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize) {
         let Gravity { mu, oblateness } = self.gravity;
@@ -99,7 +97,7 @@ impl<R: Real> OrbitSeries<R> {
         self.gravity
     }
 
-    /// What a flattened body adds; not known of a point mass.
+    /// The oblateness terms; undefined for a point mass.
     #[inline(always)]
     pub fn flattened(&self) -> &Flattened<R> {
         &self.flattened
@@ -111,7 +109,7 @@ impl<R: Real> OrbitSeries<R> {
         &self.position
     }
 
-    /// Sets the coefficient `n` of a position that is known, and computes that of rho; call in ascending order of `n`.
+    /// Sets coefficient `n` of a known position, and computes that of rho, in ascending order of `n`.
     #[inline(always)]
     pub fn place(&mut self, n: usize, position: [R; 3]) {
         self.position[n] = position;
@@ -137,7 +135,7 @@ impl<R: Real> OrbitSeries<R> {
         let (mut position, mut velocity) = ([zero; 3], [zero; 3]);
         for (n, coefficients) in self.position.iter().enumerate().rev() {
             for i in 0..3 {
-                // of a product of polynomials: (x p)' = p + x p'
+                // derivative of a product of polynomials: (x p)' = p + x p'
                 velocity[i] = if n == 0 {
                     velocity[i]
                 } else {
@@ -151,7 +149,7 @@ impl<R: Real> OrbitSeries<R> {
 }
 
 impl<R: Real> Flattened<R> {
-    /// Computes the coefficients n of a body of the oblateness `k` (m^2) from those of r, rho and s.
+    /// Computes the coefficients n for the oblateness `k` (m^2) from those of r, rho and s.
     #[inline(always)]
     fn extend(&mut self, n: usize, k: R, (position, square, pull): (&[[R; 3]], &[R], &[R])) {
         let zero = k.zero();
@@ -172,7 +170,7 @@ impl<R: Real> Flattened<R> {
         self.all[n] = pull[n] + (self.five[n] - bent);
     }
 
-    /// The last coefficient of f z, from those of r.
+    /// Last coefficient of f z, from those of r.
     #[inline(always)]
     fn along(&self, position: &[[R; 3]]) -> R {
         let mut sum = self.five[0].zero();
@@ -183,7 +181,7 @@ impl<R: Real> Flattened<R> {
     }
 }
 
-/// The last coefficient of the product of two series.
+/// Last coefficient of the product of two series.
 #[inline(always)]
 pub fn convolution<R: Real>(a: &[R], b: &[R]) -> R {
     let mut sum = a[0].zero();
@@ -193,7 +191,7 @@ pub fn convolution<R: Real>(a: &[R], b: &[R]) -> R {
     sum
 }
 
-/// The last coefficient of r . r, from those of r.
+/// Last coefficient of r . r.
 #[inline(always)]
 fn product_with_itself<R: Real>(position: &[[R; 3]]) -> R {
     let mut sum = position[0][0].zero();
@@ -205,7 +203,7 @@ fn product_with_itself<R: Real>(position: &[[R; 3]]) -> R {
     sum
 }
 
-/// Coefficient `n` > 0 of rho^`alpha`, times any constant, from the coefficients of rho and those before.
+/// Coefficient `n` > 0 of rho^`alpha`, times any constant, from those of rho and the lower ones.
 #[inline(always)]
 pub fn next_of_power<R: Real>(alpha: f64, n: usize, square: &[R], power: &[R]) -> R {
     let zero = square[0].zero();
@@ -226,7 +224,7 @@ mod tests {
     use crate::math::vector::difference;
     use crate::scene::Orbit;
 
-    /// Law: the series of an orbit is its closed form, up to a twelfth of a period ahead of a circle and of an ellipse.
+    /// Law: the series of a circle and of an ellipse is the closed form, up to a twelfth of a period ahead.
     #[test]
     fn the_series_is_the_closed_form() {
         const MU: f64 = 3.986004418e14;
@@ -240,7 +238,6 @@ mod tests {
                 epoch: None,
             };
             let closed = KeplerOrbit::new(&scene);
-            // a unit of time of 512 s
             let unit = 512.0;
             let mut series = OrbitSeries::new(0.0, 30);
             series.begin(closed.gravity().in_unit(unit), scene.position, scaled(unit, scene.velocity));

@@ -1,9 +1,9 @@
-//! [`OrbitState`]: where a body is relative to the central body, and how it moves.
+//! [`OrbitState`]: position and velocity relative to the central body.
 
 use crate::math::Real;
 use crate::math::vector::{norm, sum};
 
-/// Position and velocity relative to the central body, one per lane.
+/// Position and velocity relative to the central body, one run per lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrbitState<R> {
     /// Position from the central body, F_e, m.
@@ -15,14 +15,14 @@ pub struct OrbitState<R> {
 }
 
 impl<R: Real> OrbitState<R> {
-    /// The state at `offset` from this one: position (m) and velocity (m/s), F_e.
+    /// The state at an offset of position (m) and velocity (m/s), F_e.
     #[inline(always)]
     pub fn displaced(&self, [position, velocity]: [[R; 3]; 2]) -> Self {
         let position = sum(self.position, position);
         OrbitState { position, velocity: sum(self.velocity, velocity), distance: norm(position) }
     }
 
-    /// Puts `own` into lane `lane`.
+    /// Copies `own` into lane `lane`.
     #[inline(always)]
     pub fn set_lane(&mut self, lane: usize, own: &OrbitState<f64>) {
         for i in 0..3 {
@@ -32,13 +32,13 @@ impl<R: Real> OrbitState<R> {
         self.distance.set_lane(lane, own.distance);
     }
 
-    /// One without velocity at `position`, F_e, m.
+    /// A state of zero velocity at `position`, F_e, m.
     #[inline(always)]
     pub fn at_rest(position: [R; 3]) -> Self {
         OrbitState { position, velocity: [position[0].zero(); 3], distance: norm(position) }
     }
 
-    /// One that is not a number, in the lanes of `like`: whoever reads an orbit that there is not has no result.
+    /// NaN in the lanes of `like`, so that any use of a missing orbit has no result.
     pub fn unknown(like: R) -> Self {
         let nan = like.splat(f64::NAN);
         OrbitState { position: [nan; 3], velocity: [nan; 3], distance: nan }

@@ -1,7 +1,7 @@
 //! [`RelativeOrbit`]: a free body near a point on an orbit, at any time.
 //!
-//! The offset is integrated as such, by its Taylor series ([`super::offset_series`]) in steps that depend on the run
-//! alone: the same bits at the same time, whatever was asked before.
+//! The offset itself is integrated by its Taylor series ([`super::offset_series`]) in steps that depend on the run
+//! alone, so that a time always gives the same bits.
 
 use super::gravity::Gravity;
 use super::offset_series::OffsetSeries;
@@ -11,22 +11,22 @@ use crate::math::sums::two_sum;
 use crate::math::vector::{dot, norm, scaled, sum};
 use crate::scene::orbit::Offset;
 
-/// Order of the series: with the steps of A. Jorba & M. Zou (2005), e^-2 of the radius of convergence, the first term
-/// left out is e^-44.
+/// Order of the series: over e^-2 of the radius of convergence (A. Jorba & M. Zou, 2005) the first neglected term is
+/// e^-44.
 const ORDER: usize = 22;
 
-/// The motion of a free body beside an orbit.
+/// Motion of a free body near an orbit.
 #[derive(Clone, Debug)]
 pub struct RelativeOrbit {
     orbit: OrbitPath,
     start: Offset,
     series: OffsetSeries<f64>,
-    /// Coefficients of the offset along the step: F_e, m, in s.
+    /// Coefficients of the offset: F_e, m, in s.
     offset: Vec<[f64; 3]>,
-    /// The step: its start as a sum of two numbers, and its length, s.
+    /// The step: start as a sum of two numbers, and length, s.
     time: [f64; 2],
     length: f64,
-    /// What position and velocity at the start of the step are rounded by.
+    /// Rounding errors of position and velocity at the start of the step.
     low: [[f64; 3]; 2],
 }
 
@@ -46,7 +46,7 @@ impl RelativeOrbit {
         relative
     }
 
-    /// Another body, in the same memory.
+    /// Changes to another body, in the same memory.
     pub fn reset(&mut self, orbit: &OrbitPath, start: Offset) {
         (self.orbit, self.start) = (orbit.clone(), start);
         self.rewind();
@@ -57,13 +57,12 @@ impl RelativeOrbit {
         self.orbit.gravity()
     }
 
-    /// Goes back to time zero.
     fn rewind(&mut self) {
         (self.time, self.low) = ([0.0; 2], [[0.0; 3]; 2]);
         self.step_from([self.start.position, self.start.velocity]);
     }
 
-    /// Where the orbit is at `time`, s, and the offset there.
+    /// The state on the orbit at `time`, s, and the offset there.
     pub fn at(&mut self, time: f64) -> (OrbitState<f64>, Offset) {
         if time < self.time[0] {
             self.rewind();
@@ -81,12 +80,11 @@ impl RelativeOrbit {
         (self.orbit.state(time), offset)
     }
 
-    /// What position and velocity change by until `within` seconds after the start of the step.
+    /// Change of position and velocity until `within` seconds after the start of the step.
     fn value(&self, within: f64) -> [[f64; 3]; 2] {
         change(&self.offset, self.low[1], within)
     }
 
-    /// Takes the step.
     fn advance(&mut self) {
         let changes = self.value(self.length);
         let mut state = [self.offset[0], self.offset[1]];
@@ -100,7 +98,7 @@ impl RelativeOrbit {
         self.step_from(state);
     }
 
-    /// The series from position and velocity of the offset on.
+    /// Starts the series at position and velocity of the offset.
     fn step_from(&mut self, [position, velocity]: [[f64; 3]; 2]) {
         let place = self.orbit.state_at(self.time);
         self.series.begin(self.orbit.gravity(), place.position, place.velocity);
@@ -112,10 +110,10 @@ impl RelativeOrbit {
         self.length = self.step_length(place.distance);
     }
 
-    /// The step that the series of place and offset allow, s.
+    /// Step allowed by the series of orbit and offset, s.
     fn step_length(&self, distance: f64) -> f64 {
         let along = self.series.orbit().position();
-        // the offset may pass through zero: its size is what it is after some minutes
+        // the offset may pass through zero: its size some minutes later
         let size = norm(self.offset[0]) + dot(self.offset[1], self.offset[1]).sqrt() * (distance / norm(along[1]));
         [ORDER - 1, ORDER].into_iter().fold(f64::INFINITY, |shortest: f64, n| {
             shortest.min(step_length(n, distance, along[n])).min(step_length(n, size, self.offset[n]))
@@ -144,10 +142,10 @@ mod tests {
 
     const OFFSET: Offset = Offset { position: [-28.0, -14.0, 18.0], velocity: [0.05, 0.02, -0.03] };
 
-    /// One of the same energy: it comes back, to rounding of these numbers.
+    /// An orbit of equal energy, to rounding of these numbers.
     const CLOSED: Offset = Offset { position: [-28.0, -14.0, 18.0], velocity: [0.05030686, 0.04178697, -0.0211011] };
 
-    /// Law: the answer is a function of the time alone.
+    /// Law: the answer is a function of time alone.
     #[test]
     fn the_order_of_the_questions_does_not_matter() {
         let mut relative = RelativeOrbit::new(&ellipse(), OFFSET);
@@ -184,7 +182,7 @@ mod tests {
     /// PY
     /// ```
     ///
-    /// A nanometre after a day, or 1e-12 of an offset that has grown to kilometres: its error grows with it.
+    /// Bound: a nanometre after a day, or 1e-12 of an offset that has grown to kilometres.
     #[test]
     fn the_offset_is_the_difference_of_two_orbits() {
         #[rustfmt::skip]

@@ -1,33 +1,31 @@
-//! `changing_effects`: the effects that change within an arc as the equations of motion have them, from the list in the
-//! parent module.
+//! `changing_effects!`: structs of the effects that change within an arc, generated from the list in the parent module.
 
-/// The effects that change within an arc, from the list of their files: those of the form `Series`, then those of the
-/// form `Evaluated`:
+/// Generates the structs from the list of effect files:
 ///
 /// ```text
 /// series { file: Constants, Series; }
 /// evaluated { file: Constants; }
 /// ```
 ///
-/// `Constants<R>` has `NEEDS_ORBIT`, `none(zero)`, `set_lane(lane, &Constants<f64>)` and `torque(&Motion<R>)`, in B, N
-/// m; those of the form `Evaluated` have a force too, `force(&Motion<R>)`, in B, N, and branches
-/// ([`crate::ode::switches`]): `is_rough(zero)`, `switches(&[Motion<R>; M], visit)` and `choose_branches(lanes,
-/// &Motion<R>)`. `Series<R>` has `new(zero, order)`, `NEEDS_POSITION`, `begin(&Constants<R>, time, unit)` and
-/// `extend(n, &MotionSeries<R>)`, coefficient n of the torque in the unit of time. The file has `of(zero, scene,
-/// c_sb)`, the constants in the frame B that `c_sb` maps to F_s, `None` where the effect does not act;
-/// `largest_torque(scene)`, an upper bound, N m; and `largest_rate(scene)`, the fastest motion that it makes, rad/s.
+/// `Constants<R>`: `NEEDS_ORBIT`, `none(zero)`, `set_lane(lane, &Constants<f64>)`, `torque(&Motion<R>)` in B, N m. The
+/// form `Evaluated` also has `force(&Motion<R>)` in B, N, and branches ([`crate::ode::switches`]): `is_rough(zero)`,
+/// `switches(&[Motion<R>; M], visit)`, `choose_branches(lanes, &Motion<R>)`. `Series<R>`: `new(zero, order)`,
+/// `NEEDS_POSITION`, `begin(&Constants<R>, time, unit)`, `extend(n, &MotionSeries<R>)`, the n-th coefficient of the
+/// torque in the unit of time. Functions of the file: `of(zero, scene, c_sb)`, the constants in the frame B (`c_sb`
+/// maps it to F_s), `None` if the effect does not act; `largest_torque(scene)`, an upper bound, N m;
+/// `largest_rate(scene)`, the fastest motion that it causes, rad/s.
 macro_rules! changing_effects {
     (series { $($series:ident: $Of:ident, $Series:ident;)* } evaluated { $($evaluated:ident: $Evaluated:ident;)* }) => {
         changing_effects::changing_effects! { all { $($series: $Of;)* $($evaluated: $Evaluated;)* } }
 
         impl<R: $crate::math::Real> ChangingEffects<R> {
-            /// Whether one acts that has branches.
+            /// True if an effect with branches acts.
             #[inline(always)]
             pub fn has_switches(&self) -> bool {
                 false $(|| self.$evaluated.is_some())*
             }
 
-            /// Where one is not smooth even within its branches.
+            /// Lanes in which an effect is not smooth even within its branches.
             #[inline(always)]
             pub fn is_rough(&self, zero: R) -> R::Mask {
                 let mut rough = zero.never();
@@ -39,7 +37,7 @@ macro_rules! changing_effects {
                 rough
             }
 
-            /// The sum of their forces, B, N, where they move the centre of mass.
+            /// Sum of the forces on the centre of mass, B, N, if they move it.
             #[inline(always)]
             pub fn force(&self, motion: &within_arcs::Motion<R>) -> Option<[R; 3]> {
                 if !self.is_coupled {
@@ -64,7 +62,7 @@ macro_rules! changing_effects {
                 )*
             }
 
-            /// The smallest of the switch functions in their branches.
+            /// Smallest switch function in the present branches.
             #[inline(always)]
             pub fn margin(&self, motion: &within_arcs::Motion<R>) -> R {
                 let mut least = motion.time.splat(f64::INFINITY);
@@ -76,7 +74,7 @@ macro_rules! changing_effects {
                 least
             }
 
-            /// The fraction of a step at which one of them may be below zero that is above at both ends
+            /// Fraction of a step at which a switch function that is positive at both ends may be negative
             /// ([`crate::ode::switches::dip`]).
             #[inline(always)]
             pub fn dip(&self, motions: &[within_arcs::Motion<R>; 4]) -> R {
@@ -89,7 +87,7 @@ macro_rules! changing_effects {
                 first
             }
 
-            /// Gives `visit` each switch function in its branch, in `M` states.
+            /// Calls `visit` with each switch function at `M` states.
             #[inline(always)]
             fn switches<const M: usize>(&self, motions: &[within_arcs::Motion<R>; M], mut visit: impl FnMut([R; M])) {
                 $(
@@ -100,15 +98,15 @@ macro_rules! changing_effects {
             }
         }
 
-        /// The Taylor series of the effects along a step.
+        /// Taylor series of the effects along a step.
         #[derive(Clone, Debug)]
         pub struct ChangingSeries<R> {
-            /// What they depend on.
+            /// Series of the motion on which they depend.
             pub motion: within_arcs::MotionSeries<R>,
             has_orbit: bool,
             keeps_orbit: bool,
             $($series: (bool, $series::$Series<R>),)*
-            /// Of all torques on the body, B, N m in the unit of time.
+            /// Sum of all torques on the body, B, N m in the unit of time.
             torque: Vec<[R; 3]>,
         }
 
@@ -124,14 +122,14 @@ macro_rules! changing_effects {
                 }
             }
 
-            /// The same, which has the coefficients of an orbit in any case: it is integrated by them.
+            /// Keeps the coefficients of the orbit in any case, for an integration by them.
             pub fn with_orbit(self) -> Self {
                 ChangingSeries { keeps_orbit: true, ..self }
             }
 
-            /// Starts a step of `acting` at `time` (s) in a unit of time of `unit` seconds. `place` is the gravity of
-            /// the central body and where the orbit is then (m, m/s), where it is needed; the spacecraft may leave it
-            /// where `may_leave`.
+            /// Starts a step of `acting` at `time` (s) in a unit of time of `unit` seconds. `place`: gravity of the
+            /// central body and position on the orbit (m, m/s), if needed; `may_leave`: the spacecraft may leave the
+            /// orbit.
             #[inline(always)]
             pub fn begin(
                 &mut self,
@@ -156,9 +154,8 @@ macro_rules! changing_effects {
                 )*
             }
 
-            /// Coefficient n of the sum of the torques, given those of the motion: attitude, rate and offset from the
-            /// orbit (m); call in ascending order of `n`. `constant` is what acts beside them, for
-            /// [`ChangingSeries::torque`].
+            /// Coefficient n of the sum of the torques, from the coefficients of attitude, rate and offset from the
+            /// orbit (m), in ascending order of `n`. [`ChangingSeries::torque`] also includes `constant`.
             #[inline(always)]
             pub fn extend(
                 &mut self,
@@ -181,7 +178,7 @@ macro_rules! changing_effects {
                 own
             }
 
-            /// The coefficients of the torque, with what acts beside it, B, N m in the unit of time.
+            /// Coefficients of the total torque, constant part included, B, N m in the unit of time.
             #[inline(always)]
             pub fn torque(&self) -> &[[R; 3]] {
                 &self.torque
@@ -189,50 +186,50 @@ macro_rules! changing_effects {
         }
     };
     (all { $($file:ident: $Constants:ident;)* }) => {
-        /// The constants of the effects that change within an arc, one run per lane; `None` of those that do not act.
+        /// Constants of the effects that change within an arc, one run per lane; `None` for inactive effects.
         #[derive(Clone, Copy, Debug)]
         pub struct ChangingEffects<R> {
             $(
                 #[doc = concat!("That of `", stringify!($file), "`.")]
                 pub $file: Option<$file::$Constants<R>>,
             )*
-            /// Whether their forces move the centre of mass.
+            /// True if their forces move the centre of mass.
             pub is_coupled: bool,
         }
 
         impl<R: $crate::math::Real> ChangingEffects<R> {
-            /// None.
+            /// No effects.
             pub const fn none() -> Self {
                 ChangingEffects { $($file: None,)* is_coupled: false }
             }
 
-            /// Those on `scene` in the frame B, which `c_sb` maps to F_s; `zero` says in which arithmetic.
+            /// The effects on `scene` in the frame B, which `c_sb` maps to F_s, in the arithmetic of `zero`.
             pub fn of(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Self {
                 ChangingEffects { $($file: $file::of(zero, scene, c_sb),)* is_coupled: scene.environment.moves() }
             }
 
-            /// Whether none acts.
+            /// True if no effect acts.
             pub fn is_empty(&self) -> bool {
                 true $(&& self.$file.is_none())*
             }
 
-            /// Whether one acts that depends on where the spacecraft is.
+            /// True if an effect depends on the position.
             pub fn needs_orbit(&self) -> bool {
                 false $(|| $file::$Constants::<R>::NEEDS_ORBIT && self.$file.is_some())*
             }
 
-            /// Puts `own` into lane `lane` of as many as `zero` has.
+            /// Copies the effects of `own` into lane `lane`.
             pub fn set_lane(&mut self, zero: R, lane: usize, own: &ChangingEffects<f64>) {
                 $(
                     if let Some(own) = &own.$file {
                         self.$file.get_or_insert_with(|| $file::$Constants::none(zero)).set_lane(lane, own);
                     }
                 )*
-                // the same in all runs of a plan
+                // equal in all runs of a plan
                 self.is_coupled |= own.is_coupled;
             }
 
-            /// The sum of their torques, B, N m.
+            /// Sum of the torques, B, N m.
             #[inline(always)]
             pub fn torque(&self, motion: &within_arcs::Motion<R>) -> [R; 3] {
                 let mut total = [motion.time.zero(); 3];
@@ -245,12 +242,12 @@ macro_rules! changing_effects {
             }
         }
 
-        /// Upper bound of the torque of the effects on `scene` that change within an arc, N m.
+        /// Upper bound of the torque of these effects on `scene`, N m.
         pub fn largest_changing_torque(scene: &Scene) -> f64 {
             0.0 $(+ $file::largest_torque(scene))*
         }
 
-        /// The fastest motion that the effects on `scene` make which change within an arc, rad/s.
+        /// The fastest motion that these effects cause on `scene`, rad/s.
         pub fn largest_changing_rate(scene: &Scene) -> f64 {
             let mut largest = 0.0_f64;
             $(largest = largest.max($file::largest_rate(scene));)*

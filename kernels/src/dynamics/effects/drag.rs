@@ -1,10 +1,9 @@
-//! Drag: what the air turns, plate by plate.
+//! Aerodynamic drag on flat plates.
 //!
-//! f = -rho/2 C_d A max(0, n . v) v with v the velocity relative to the air, which turns with the Earth, and n the
-//! outward normal; at the plate's centre (J. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section
-//! 17.2.3; the velocity of the plate relative to the centre of mass, of the order of 1e-5 of v, is neglected). A plate
-//! that faces away feels nothing, and none shades another. The force changes the orbit where the file asks for it
-//! (`environment.coupled`).
+//! f = -rho/2 C_d A max(0, n . v) v at the plate's centre, with the outward normal n and the velocity v relative to air
+//! that rotates with the Earth (J. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 17.2.3).
+//! Neglected: velocity of a plate relative to the centre of mass (1e-5 of v), shadowing of plates by each other. The
+//! force acts on the orbit if `environment.coupled` is set.
 
 use super::plates::{PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
@@ -15,7 +14,7 @@ use crate::math::Real;
 use crate::math::vector::{cross, dcm_from_quaternion, norm, scaled, sum, transposed_product};
 use crate::scene::Scene;
 
-/// The drag on one run, one per lane.
+/// Drag, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Drag<R> {
     /// Drag coefficient.
@@ -24,27 +23,27 @@ pub struct Drag<R> {
 }
 
 impl<R: Real> Drag<R> {
-    /// It depends on where the spacecraft is.
+    /// Depends on the position.
     pub const NEEDS_ORBIT: bool = true;
 
-    /// One that does not act.
+    /// Inactive.
     pub fn none(zero: R) -> Self {
         Drag { plates: PlatesInLanes::none(zero), air: Air::none(zero) }
     }
 
-    /// Puts `own` into lane `lane`.
+    /// Copies `own` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, own: &Drag<f64>) {
         self.plates.set_lane(lane, &own.plates);
         self.air.set_lane(lane, &own.air);
     }
 
-    /// The torque on a body, B, N m.
+    /// Torque on a body, B, N m.
     #[inline(always)]
     pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
         self.torque_at(self.air.density(motion.place.distance), flow(motion))
     }
 
-    /// The force on a body, B, N.
+    /// Force on a body, B, N.
     #[inline(always)]
     pub fn force(&self, motion: &Motion<R>) -> [R; 3] {
         let velocity = flow(motion);
@@ -57,20 +56,20 @@ impl<R: Real> Drag<R> {
         scaled(density * density.splat(-0.5) * all, velocity)
     }
 
-    /// Chooses the sides of the plates and the layer of the air in the lanes `lanes`.
+    /// Chooses the sides of the plates and the layer of the atmosphere.
     #[inline(always)]
     pub fn choose_branches(&mut self, lanes: R::Mask, motion: &Motion<R>) {
         self.air.choose_branches(lanes, motion.place.distance);
         self.plates.choose_branches(lanes, flow(motion));
     }
 
-    /// Nowhere: within a layer and with the same plates it is smooth.
+    /// No lane: drag is smooth for given plates and layer.
     #[inline(always)]
     pub fn is_rough(&self, zero: R) -> R::Mask {
         zero.never()
     }
 
-    /// Gives `visit` the switch functions in `M` states.
+    /// Calls `visit` with the switch functions at `M` states.
     #[inline(always)]
     pub fn switches<const M: usize>(&self, motions: &[Motion<R>; M], visit: &mut impl FnMut([R; M])) {
         let mut distances = [motions[0].time; M];
@@ -84,13 +83,13 @@ impl<R: Real> Drag<R> {
         self.plates.switches(&directions, visit);
     }
 
-    /// The density of the air at the distance `distance` m from the Earth's centre, kg/m^3.
+    /// Density at `distance` m from the Earth's centre, kg/m^3.
     #[inline(always)]
     pub fn density(&self, distance: R) -> R {
         self.air.density(distance)
     }
 
-    /// The torque in air of the density `density` (kg/m^3), where `velocity` is that relative to the air, B, m/s.
+    /// Torque at the density `density` (kg/m^3) and the velocity `velocity` relative to the air, B, m/s.
     #[inline(always)]
     pub fn torque_at(&self, density: R, velocity: [R; 3]) -> [R; 3] {
         let mut arm = [density.zero(); 3];
@@ -102,13 +101,13 @@ impl<R: Real> Drag<R> {
     }
 }
 
-/// The velocity relative to the air, B, m/s.
+/// Velocity relative to the air, B, m/s.
 #[inline(always)]
 fn flow<R: Real>(motion: &Motion<R>) -> [R; 3] {
     transposed_product(dcm_from_quaternion(motion.attitude), Air::relative_velocity(&motion.place))
 }
 
-/// The air about the Earth of `scene`.
+/// The atmosphere of `scene`, if drag acts.
 pub fn air_of(scene: &Scene) -> Option<Air<f64>> {
     let orbit = scene.orbit.as_ref().filter(|_| scene.environment.drag)?;
     let exponential = scene.environment.exponential().map(Option::unwrap_or_default);
@@ -116,7 +115,7 @@ pub fn air_of(scene: &Scene) -> Option<Air<f64>> {
     Some(Air::new(scene.environment.density_scale, orbit.body_radius, exponential, table))
 }
 
-/// The drag on `scene` in the frame B, which `c_sb` maps to F_s.
+/// Drag on `scene` in the frame B, which `c_sb` maps to F_s.
 pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<Drag<R>> {
     let own = air_of(scene)?;
     let mut air = Air::none(zero);
@@ -124,7 +123,7 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
     Some(Drag { plates: PlatesInLanes::of(zero, scene, c_sb, |plate| [plate.drag_coefficient]), air })
 }
 
-/// Upper bound of the torque on `scene`, N m: at the periapsis, against the Earth's rotation, all plates across the
+/// Upper bound of the torque on `scene`, N m: at periapsis, against the Earth's rotation, all plates normal to the
 /// flow.
 pub fn largest_torque(scene: &Scene) -> f64 {
     let Some((orbit, air)) = scene.orbit.as_ref().zip(air_of(scene)) else { return 0.0 };
@@ -133,7 +132,7 @@ pub fn largest_torque(scene: &Scene) -> f64 {
     0.5 * air.density(lowest) * speed * speed * largest_lever(scene, |plate| plate.drag_coefficient)
 }
 
-/// Largest rate of oscillations of `scene` in the flow, rad/s.
+/// Largest rate of oscillation in the flow, rad/s.
 pub fn largest_rate(scene: &Scene) -> f64 {
     super::plates::largest_rate(scene, largest_torque(scene))
 }
@@ -155,8 +154,7 @@ mod tests {
         Scene::resolve(&SceneInput { orbit, environment, plates, ..SceneInput::default() }).expect("a legal scene")
     }
 
-    /// Law: a plate across the flow has the force rho/2 C_d A v^2 against it; at 60 deg half of it; from behind none.
-    /// The cube's centre of mass is p.
+    /// Law: the force on a plate normal to the flow is rho/2 C_d A v^2; half of it at 60 deg; zero from behind.
     #[test]
     fn a_plate_is_dragged_by_the_area_it_shows() {
         let plate = PlateInput {
@@ -181,8 +179,7 @@ mod tests {
         }
     }
 
-    /// Law: a closed convex surface that is symmetric about the centre of mass is not turned, whatever its attitude;
-    /// and the bound holds.
+    /// Law: a convex surface symmetric about the centre of mass has no torque at any attitude; the upper bound holds.
     #[test]
     fn a_cube_about_its_centre_is_not_turned() {
         let cube = scene(Vec::new());
@@ -194,7 +191,7 @@ mod tests {
         assert!(largest_torque(&cube) > 0.0);
     }
 
-    /// Law: the density is that at the height above `body_radius_m`, times its scale.
+    /// Law: the density is the one at the height above `body_radius_m`, times its scale.
     #[test]
     fn the_air_of_a_scene() {
         let mut cube = scene(Vec::new());

@@ -1,7 +1,7 @@
-//! The gravity gradient: what the central body's pull, stronger on the near side, turns about the centre of mass.
+//! Gravity gradient torque: tau = 3 mu/|r|^5 r x (J r).
 //!
-//! tau = 3 mu/|r|^5 r x (J r), with J about the centre of mass, wheels locked, and r from the central body, both in the
-//! same frame (P. Hughes, *Spacecraft Attitude Dynamics*, 1986, section 8.1: of first order in size over |r|).
+//! J is the inertia about the centre of mass with locked wheels, r the position from the central body, both in one
+//! frame (P. Hughes, *Spacecraft Attitude Dynamics*, 1986, section 8.1: first order in size over |r|).
 
 use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::orbit_in_body::OrbitInBody;
@@ -11,22 +11,22 @@ use crate::math::symmetric::principal_axes;
 use crate::math::vector::{constant_matrix, cross, dcm_from_quaternion, product, scaled, transposed_product};
 use crate::scene::Scene;
 
-/// The gravity gradient of one run, one per lane.
+/// Gravity gradient, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct GravityGradient<R> {
-    /// 3 mu, m^3/s^2; zero where it does not act.
+    /// 3 mu, m^3/s^2; zero if inactive.
     pub strength: R,
-    /// J, by rows in the frame whose attitude is given, kg m^2.
+    /// J by rows, in the frame of the attitude, kg m^2.
     pub inertia: [[R; 3]; 3],
 }
 
 impl<R: Real> GravityGradient<R> {
-    /// One that does not act.
+    /// Inactive.
     pub fn none(zero: R) -> Self {
         GravityGradient { strength: zero, inertia: [[zero; 3]; 3] }
     }
 
-    /// Puts `gradient` into lane `lane`.
+    /// Copies `gradient` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, gradient: &GravityGradient<f64>) {
         self.strength.set_lane(lane, gradient.strength);
         for i in 0..3 {
@@ -36,10 +36,10 @@ impl<R: Real> GravityGradient<R> {
         }
     }
 
-    /// It depends on where the spacecraft is.
+    /// Depends on the position.
     pub const NEEDS_ORBIT: bool = true;
 
-    /// The torque on a body, B, N m.
+    /// Torque on a body, B, N m.
     #[inline(always)]
     pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
         let OrbitState { position, distance, .. } = motion.place;
@@ -48,7 +48,7 @@ impl<R: Real> GravityGradient<R> {
         self.torque_at(up, inverse)
     }
 
-    /// The same where `up` is the unit vector from the central body, B, and `inverse` one over the distance, 1/m.
+    /// Torque for the local vertical `up` (unit vector, B) and the inverse distance `inverse`, 1/m.
     #[inline(always)]
     pub fn torque_at(&self, up: [R; 3], inverse: R) -> [R; 3] {
         let strength = self.strength * (inverse * (inverse * inverse));
@@ -56,7 +56,7 @@ impl<R: Real> GravityGradient<R> {
     }
 }
 
-/// The gravity gradient on `scene` in the frame B, which `c_sb` maps to F_s.
+/// Gravity gradient on `scene` in the frame B, which `c_sb` maps to F_s.
 pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<GravityGradient<R>> {
     let orbit = scene.orbit.as_ref().filter(|_| scene.environment.gravity_gradient)?;
     let inertia_s = constant_matrix(zero, scene.mass.inertia);
@@ -73,18 +73,16 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
     Some(GravityGradient { strength: zero.splat(3.0) * zero.splat(orbit.mu), inertia })
 }
 
-/// Taylor coefficients of the gravity gradient along a step, by recurrences.
-///
-/// With r in B and s = mu rho^(-3/2), rho = r . r, the torque is 3 s/rho r x (J r): products of series
+/// Taylor coefficients of the torque 3 s/rho r x (J r) with s = mu rho^(-3/2), rho = r . r, by products of series
 /// ([`OrbitInBody`]).
 #[derive(Clone, Debug)]
 pub struct GradientSeries<R> {
     /// J in B, kg m^2.
     inertia: [[R; 3]; 3],
     orbit: OrbitInBody<R>,
-    /// Of 3 r x (J r).
+    /// 3 r x (J r).
     lever: Vec<[R; 3]>,
-    /// Of s/rho.
+    /// s/rho.
     strength: Vec<R>,
 }
 
@@ -99,7 +97,7 @@ impl<R: Real> GradientSeries<R> {
         }
     }
 
-    /// Whether it needs the coefficients of the position in F_e about a point mass.
+    /// True if the series needs the position in F_e on a two-body orbit.
     pub const NEEDS_POSITION: bool = false;
 
     /// Starts a step.
@@ -108,7 +106,7 @@ impl<R: Real> GradientSeries<R> {
         self.inertia = gradient.inertia;
     }
 
-    /// Coefficient n of the torque, B, N m in the unit of time. Call in ascending order of `n`.
+    /// Coefficient n of the torque, B, N m in the unit of time; in ascending order of `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize, motion: &MotionSeries<R>) -> [R; 3] {
         let GradientSeries { inertia, orbit, lever, strength } = self;
@@ -126,8 +124,8 @@ impl<R: Real> GradientSeries<R> {
     }
 }
 
-/// Upper bound of the torque on `scene`, N m: at the periapsis, the axes of the largest and the smallest moment at 45
-/// degrees to the vertical.
+/// Upper bound of the torque on `scene`, N m: at periapsis, axes of the largest and smallest moment at 45 degrees to
+/// the vertical.
 pub fn largest_torque(scene: &Scene) -> f64 {
     let Some(orbit) = scene.orbit.as_ref().filter(|_| scene.environment.gravity_gradient) else { return 0.0 };
     let lowest = orbit.lowest();
@@ -136,7 +134,7 @@ pub fn largest_torque(scene: &Scene) -> f64 {
     1.5 * orbit.mu / (lowest * lowest * lowest) * (most - least)
 }
 
-/// Largest rate of librations of `scene`, rad/s: sqrt(3 mu/r^3) at the periapsis, that of a dumbbell.
+/// Largest rate of libration, rad/s: sqrt(3 mu/r^3) at periapsis, the rate of a dumbbell.
 pub fn largest_rate(scene: &Scene) -> f64 {
     let Some(orbit) = scene.orbit.as_ref().filter(|_| scene.environment.gravity_gradient) else { return 0.0 };
     let lowest = orbit.lowest();
@@ -148,8 +146,8 @@ mod tests {
     use super::*;
     use crate::math::vector::norm;
 
-    /// Law: a dumbbell of two point masses m at distance d from the centre is turned by the difference of the pulls on
-    /// them, to first order of d/|r|, whatever the attitude; along the vertical and across it not at all.
+    /// Law: the torque on a dumbbell is that of the pulls on its ends, to first order of d/|r|, at any attitude; zero
+    /// along and across the vertical.
     #[test]
     fn a_dumbbell_is_turned_by_the_pulls_on_its_ends() {
         const MU: f64 = 3.986004418e14;

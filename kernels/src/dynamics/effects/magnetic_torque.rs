@@ -1,8 +1,7 @@
-//! The magnetic torque: what the field of the central body turns a spacecraft by that is a magnet, by itself or by the
-//! current in its torque rods.
+//! Magnetic torque of the residual dipole and of the torque rods.
 //!
-//! tau = m x B (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 17.2), with the dipole m
-//! fixed in the body over an arc and the field of [`crate::dynamics::magnetic_field`] at its place and time.
+//! tau = m x B (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 17.2) with the dipole m
+//! constant in the body over an arc and the field of [`crate::dynamics::magnetic_field`].
 
 use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::magnetic_field::series::FieldSeries;
@@ -12,29 +11,29 @@ use crate::math::symmetric::principal_axes;
 use crate::math::vector::{conjugate, constant, cross, dcm_from_quaternion, hamilton, norm, sum, transposed_product};
 use crate::scene::Scene;
 
-/// The magnetic torque of one run, one per lane.
+/// Magnetic torque, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct MagneticTorque<R> {
     field: MagneticField<R>,
-    /// The dipole of the body itself, B, A m^2.
+    /// Residual dipole, B, A m^2.
     residual: [R; 3],
-    /// That with the torque rods, in the present arc.
+    /// Residual dipole plus torque rods in the present arc.
     dipole: [R; 3],
 }
 
 impl<R: Real> MagneticTorque<R> {
-    /// One that does not act.
+    /// Inactive.
     pub fn none(zero: R) -> Self {
         MagneticTorque { field: MagneticField::none(zero), residual: [zero; 3], dipole: [zero; 3] }
     }
 
-    /// Puts `own` into lane `lane`.
+    /// Copies `own` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, own: &MagneticTorque<f64>) {
         self.field.set_lane(lane, &own.field);
         self.set_arc(lane, own);
     }
 
-    /// Puts the dipole of the present arc of `own` into lane `lane`.
+    /// Copies the dipole of the present arc of `own` into lane `lane`.
     pub fn set_arc(&mut self, lane: usize, own: &MagneticTorque<f64>) {
         for i in 0..3 {
             self.residual[i].set_lane(lane, own.residual[i]);
@@ -42,15 +41,15 @@ impl<R: Real> MagneticTorque<R> {
         }
     }
 
-    /// Begins an arc in which the torque rods have the dipole `rods`, B, A m^2.
+    /// Starts an arc with the dipole `rods` of the torque rods, B, A m^2.
     pub fn begin_arc(&mut self, rods: [R; 3]) {
         self.dipole = sum(self.residual, rods);
     }
 
-    /// It depends on where the spacecraft is.
+    /// Depends on the position.
     pub const NEEDS_ORBIT: bool = true;
 
-    /// The torque on a body, B, N m.
+    /// Torque on a body, B, N m.
     #[inline(always)]
     pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
         let field_e = self.field.at(motion.time, motion.place.position);
@@ -58,12 +57,12 @@ impl<R: Real> MagneticTorque<R> {
     }
 }
 
-/// The dipole of the body of `scene` itself, F_s, A m^2, where the field turns that or torque rods.
+/// Residual dipole of `scene`, F_s, A m^2; `None` if there is neither a dipole nor torque rods.
 pub fn residual_dipole(scene: &Scene) -> Option<[f64; 3]> {
     scene.environment.magnetic_dipole_a_m2.or((!scene.torque_rods.is_empty()).then_some([0.0; 3]))
 }
 
-/// The magnetic torque on `scene` in the frame B, which `c_sb` maps to F_s.
+/// Magnetic torque on `scene` in the frame B, which `c_sb` maps to F_s.
 pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<MagneticTorque<R>> {
     let dipole = constant(zero, residual_dipole(scene)?);
     let field = MagneticField::of(scene)?.in_lanes(zero);
@@ -71,13 +70,13 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
     Some(MagneticTorque { field, residual, dipole: residual })
 }
 
-/// Taylor coefficients of the magnetic torque along a step: m x (q* (x) B (x) q), products of series.
+/// Taylor coefficients of the torque m x (q* (x) B (x) q), by products of series.
 #[derive(Clone, Debug)]
 pub struct MagneticSeries<R> {
     /// m, A m^2 s^2 per unit of time squared.
     dipole: [R; 3],
     field: FieldSeries<R>,
-    /// Of B (x) q.
+    /// B (x) q.
     turned: Vec<[R; 4]>,
 }
 
@@ -97,7 +96,7 @@ impl<R: Real> MagneticSeries<R> {
         self.field.begin(&torque.field, time, unit);
     }
 
-    /// Coefficient n of the torque, B, N m in the unit of time. Call in ascending order of `n`.
+    /// Coefficient n of the torque, B, N m in the unit of time; in ascending order of `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize, motion: &MotionSeries<R>) -> [R; 3] {
         let MagneticSeries { dipole, field, turned, .. } = self;
@@ -122,8 +121,7 @@ impl<R: Real> MagneticSeries<R> {
     }
 }
 
-/// Upper bound of the torque on `scene`, N m: the dipole with all rods at their limits across the largest field at the
-/// periapsis.
+/// Upper bound of the torque on `scene`, N m: all rods at their limits, normal to the largest field at periapsis.
 pub fn largest_torque(scene: &Scene) -> f64 {
     let (Some(orbit), Some(dipole)) = (&scene.orbit, residual_dipole(scene)) else { return 0.0 };
     let stuck = scene.failures.iter().filter_map(|failure| failure.dipole_a_m2);
@@ -132,7 +130,7 @@ pub fn largest_torque(scene: &Scene) -> f64 {
     all * largest(orbit.lowest())
 }
 
-/// Largest rate of librations of `scene` about the field, rad/s: sqrt(|m| |B|/J) of the smallest moment.
+/// Largest rate of libration about the field, rad/s: sqrt(|m| |B|/J) for the smallest moment.
 pub fn largest_rate(scene: &Scene) -> f64 {
     let torque = largest_torque(scene);
     if torque == 0.0 {
@@ -149,8 +147,8 @@ mod tests {
     use crate::math::vector::{difference, dot};
     use crate::scene::{Epoch, FieldModel};
 
-    /// Law: two poles of the charge q at +-d/2 in the field are pulled by +-q B: about the middle a couple of m x B
-    /// with m = q d; none along the field; rods add to the dipole.
+    /// Law: two poles of the charge q at +-d/2 feel +-q B, a couple of m x B with m = q d; none along the field; rods
+    /// add to the dipole.
     #[test]
     fn a_magnet_turns_towards_the_field() {
         let field = MagneticField::new(FieldModel::Igrf, Epoch::parse("2026-11-24T00:00:00Z").expect("a date"));

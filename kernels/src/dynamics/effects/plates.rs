@@ -1,43 +1,42 @@
-//! [`PlatesInLanes`]: the plates of a spacecraft for one run per lane, in the frame B of the equations.
+//! [`PlatesInLanes`]: the plates of a spacecraft, one run per lane, in the frame B of the equations.
 //!
-//! The cosine between a plate's normal and what comes upon it is its switch function: below zero the plate faces away.
-//! Where steps end at switches the side is chosen once and then frozen.
+//! The switch function of a plate is the cosine between its normal and the incoming direction; a plate faces away below
+//! zero. If steps end at switches, the side is chosen once and then frozen.
 
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{constant, difference, dot, norm, transposed_product};
 use crate::scene::{MAX_PLATES, Plate, Scene};
 
-/// Plates with `K` numbers each, which say what acts on them. A lane with fewer plates has the others without an area.
+/// Plates with `K` numbers each. A lane with fewer plates has plates of zero area.
 #[derive(Clone, Copy, Debug)]
 pub struct PlatesInLanes<R, const K: usize> {
     plates: [PlateInLanes<R, K>; MAX_PLATES],
     count: usize,
 }
 
-/// A plate.
+/// A plate, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct PlateInLanes<R, const K: usize> {
     /// Outward unit normal, B.
     pub normal: [R; 3],
     /// Centre from the centre of mass, B, m.
     pub arm: [R; 3],
-    /// What acts on it, times its area.
+    /// Numbers of the effect, times the plate's area.
     pub numbers: [R; K],
-    /// The least and the largest that it feels of the cosine: zero and infinity until its side is chosen, then minus
-    /// infinity and infinity, or zero.
+    /// Lower and upper limit of the effective cosine: [0, inf] until a side is chosen, then [-inf, inf] or [0, 0].
     limits: [R; 2],
 }
 
 impl<R: Real, const K: usize> PlatesInLanes<R, K> {
-    /// None.
+    /// No plates.
     pub fn none(zero: R) -> Self {
         let limits = [zero, zero.splat(f64::INFINITY)];
         let plate = PlateInLanes { normal: [zero; 3], arm: [zero; 3], numbers: [zero; K], limits };
         PlatesInLanes { plates: [plate; MAX_PLATES], count: 0 }
     }
 
-    /// Those of `scene` in the frame B, which `c_sb` maps to F_s, with the numbers `numbers` of each.
+    /// The plates of `scene` in the frame B, which `c_sb` maps to F_s.
     pub fn of(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>, numbers: impl Fn(&Plate) -> [f64; K]) -> Self {
         let mut plates = Self::none(zero);
         let into_b = |v: [f64; 3]| c_sb.map_or(constant(zero, v), |c_sb| transposed_product(c_sb, constant(zero, v)));
@@ -50,7 +49,7 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
         plates
     }
 
-    /// Puts `own` into lane `lane`.
+    /// Copies `own` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, own: &PlatesInLanes<f64, K>) {
         self.count = self.count.max(own.count);
         for (plate, own) in self.plates[..self.count].iter_mut().zip(&own.plates) {
@@ -67,7 +66,7 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
         }
     }
 
-    /// Chooses the side of each plate in the lanes `lanes`, where `direction` is that against which something comes.
+    /// Chooses the side of each plate in the lanes `lanes`; the flow comes from `direction`.
     #[inline(always)]
     pub fn choose_branches(&mut self, lanes: R::Mask, direction: [R; 3]) {
         let zero = direction[0].zero();
@@ -79,7 +78,7 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
         }
     }
 
-    /// Gives `visit` the switch function of each plate in its branch, at the same unit vector in `M` states.
+    /// Calls `visit` with the switch function of each plate at `M` unit vectors.
     #[inline(always)]
     pub fn switches<const M: usize>(&self, directions: &[[R; 3]; M], visit: &mut impl FnMut([R; M])) {
         for plate in self.iter() {
@@ -100,23 +99,22 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
 }
 
 impl<R: Real, const K: usize> PlateInLanes<R, K> {
-    /// The cosine of the angle between the normal and the unit vector `direction`, zero where the plate faces away; on
-    /// a side that was chosen the cosine itself, or zero.
+    /// Effective cosine between the normal and the unit vector `direction`: zero if the plate faces away; on a chosen
+    /// side the cosine itself, or zero.
     #[inline(always)]
     pub fn facing(&self, direction: [R; 3]) -> R {
         dot(self.normal, direction).larger(self.limits[0]).smaller(self.limits[1])
     }
 }
 
-/// Sum of the areas of the plates of `scene` times their distances from the centre of mass, m^3, with `weight` of each:
-/// no torque of a pressure of one is larger.
+/// Sum over the plates of `weight` times area times distance from the centre of mass, m^3: an upper bound of the torque
+/// per unit pressure.
 pub fn largest_lever(scene: &Scene, weight: impl Fn(&Plate) -> f64) -> f64 {
     let of = |plate: &Plate| weight(plate) * plate.area * norm(difference(plate.center, scene.mass.center));
     scene.plates.iter().map(of).sum()
 }
 
-/// The rate of oscillations of `scene` under a torque of `largest` N m, rad/s: it changes over an angle of one at the
-/// plates' distance.
+/// Rate of oscillation of `scene` under a torque of `largest` N m that changes over one radian, rad/s.
 pub(super) fn largest_rate(scene: &Scene, largest: f64) -> f64 {
     if largest == 0.0 {
         return 0.0;

@@ -1,11 +1,10 @@
-//! Solar radiation pressure: what sunlight turns, plate by plate.
+//! Solar radiation pressure on flat plates.
 //!
-//! f = -P A cos(theta) ((1 - c_s) s + 2 (c_s cos(theta) + c_d/3) n) where cos(theta) = n . s > 0, with s the unit
-//! vector to the Sun and the shares c_s and c_d of the light that are reflected as by a mirror and in all directions
-//! (J. Wertz, *Spacecraft Attitude Determination and Control*, 1978, (17-27)..(17-30)); at the plate's centre. P falls
-//! with the square of the distance to the Sun and with the visible share of its disc
-//! ([`crate::dynamics::environment::shadow`]). No plate shades another; the light that the Earth reflects is neglected.
-//! The force changes the orbit where the file asks for it (`environment.coupled`).
+//! f = -P A cos(theta) ((1 - c_s) s + 2 (c_s cos(theta) + c_d/3) n) at the plate's centre, cos(theta) = n . s > 0, with
+//! the unit vector s to the Sun and the shares c_s and c_d of specular and diffuse reflection (J. Wertz, *Spacecraft
+//! Attitude Determination and Control*, 1978, (17-27)..(17-30)). P falls with the square of the distance to the Sun and
+//! with the visible share of its disc ([`crate::dynamics::environment::shadow`]). Neglected: shadowing of plates by
+//! each other, light from the Earth. The force acts on the orbit if `environment.coupled` is set.
 
 use super::plates::{PlateInLanes, PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
@@ -15,13 +14,13 @@ use crate::math::Real;
 use crate::math::vector::{cross, dcm_from_quaternion, scaled, sum, transposed_product};
 use crate::scene::{Scene, Shadow};
 
-/// One over the seconds of a day.
+/// 1/(seconds per day).
 const DAY: f64 = 1.0 / 86_400.0;
 
-/// The Sun's smallest distance, au, below which the series never gets.
+/// Lower bound of the Sun's distance in the series, au.
 const NEAREST: f64 = 0.983;
 
-/// The light on one run, one per lane.
+/// Light pressure, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct SolarPressure<R> {
     /// 1 - c_s, 2 c_s and 2 c_d/3, each times the pressure at 1 au, N/m^2.
@@ -30,7 +29,7 @@ pub struct SolarPressure<R> {
     zone: Zone<R>,
 }
 
-/// When it is where the Sun shines, one per lane.
+/// Date, Earth radius and shadow model, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Light<R> {
     /// Days from J2000.0 to time zero.
@@ -41,7 +40,7 @@ pub struct Light<R> {
 }
 
 impl<R: Real> Light<R> {
-    /// That of `scene`, where its orbit has an epoch.
+    /// The light on `scene`, if its orbit has an epoch.
     pub fn of(zero: R, scene: &Scene) -> Option<Self> {
         let orbit = scene.orbit.as_ref()?;
         let shadow = scene.environment.shadow;
@@ -52,14 +51,13 @@ impl<R: Real> Light<R> {
         })
     }
 
-    /// The Sun at `time`, s, and the share of its disc that is visible from `position`, F_e, m.
+    /// The Sun at `time` (s) and the visible share of its disc from `position`, F_e, m.
     #[inline(always)]
     pub fn at(&self, time: R, position: [R; 3]) -> (Sun<R>, R) {
         let sun = self.sun(time);
         (sun, lit(self.shadow, position, &sun, self.radius))
     }
 
-    /// The Sun at `time`, s.
     #[inline(always)]
     fn sun(&self, time: R) -> Sun<R> {
         sun(time.mul_add(time.splat(DAY), self.epoch))
@@ -67,26 +65,26 @@ impl<R: Real> Light<R> {
 }
 
 impl<R: Real> SolarPressure<R> {
-    /// It depends on where the spacecraft is.
+    /// Depends on the position.
     pub const NEEDS_ORBIT: bool = true;
 
-    /// One that does not act.
+    /// Inactive.
     pub fn none(zero: R) -> Self {
         let light = Light { epoch: zero, radius: zero, shadow: Shadow::Cone };
         SolarPressure { plates: PlatesInLanes::none(zero), light, zone: Zone::none(zero) }
     }
 
-    /// Puts `own` into lane `lane`.
+    /// Copies `own` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, own: &SolarPressure<f64>) {
         self.plates.set_lane(lane, &own.plates);
         self.zone.set_lane(lane, &own.zone);
         self.light.epoch.set_lane(lane, own.light.epoch);
         self.light.radius.set_lane(lane, own.light.radius);
-        // no number: the same in all runs of a plan
+        // equal in all runs of a plan
         self.light.shadow = own.light.shadow;
     }
 
-    /// The torque on a body, B, N m.
+    /// Torque on a body, B, N m.
     #[inline(always)]
     pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
         let sun = self.light.sun(motion.time);
@@ -94,7 +92,7 @@ impl<R: Real> SolarPressure<R> {
         self.torque_at(lit / (sun.distance * sun.distance), seen(&sun, motion))
     }
 
-    /// The force on a body, B, N.
+    /// Force on a body, B, N.
     #[inline(always)]
     pub fn force(&self, motion: &Motion<R>) -> [R; 3] {
         let sun = self.light.sun(motion.time);
@@ -108,7 +106,7 @@ impl<R: Real> SolarPressure<R> {
         scaled(-(lit / (sun.distance * sun.distance)), all)
     }
 
-    /// Chooses the sides of the plates, and light or shadow, in the lanes `lanes`.
+    /// Chooses the sides of the plates and the shadow zone in the lanes `lanes`.
     #[inline(always)]
     pub fn choose_branches(&mut self, lanes: R::Mask, motion: &Motion<R>) {
         let sun = self.light.sun(motion.time);
@@ -116,13 +114,13 @@ impl<R: Real> SolarPressure<R> {
         self.plates.choose_branches(lanes, seen(&sun, motion));
     }
 
-    /// In part shadow.
+    /// The lanes in penumbra.
     #[inline(always)]
     pub fn is_rough(&self, zero: R) -> R::Mask {
         self.zone.is_part(zero)
     }
 
-    /// Gives `visit` the switch functions in `M` states.
+    /// Calls `visit` with the switch functions at `M` states.
     #[inline(always)]
     pub fn switches<const M: usize>(&self, motions: &[Motion<R>; M], visit: &mut impl FnMut([R; M])) {
         let mut edges = [[motions[0].time; M]; 2];
@@ -138,7 +136,7 @@ impl<R: Real> SolarPressure<R> {
         self.plates.switches(&directions, visit);
     }
 
-    /// The same at `share` of the pressure at 1 au, where `sun` is the unit vector to the Sun, B.
+    /// Torque at `share` of the pressure at 1 au and the unit vector `sun` to the Sun, B.
     #[inline(always)]
     pub fn torque_at(&self, share: R, sun: [R; 3]) -> [R; 3] {
         let mut torque = [share.zero(); 3];
@@ -150,8 +148,8 @@ impl<R: Real> SolarPressure<R> {
     }
 }
 
-/// The cosine that `plate` shows to the Sun in the direction `sun`, B, and what light of one newton a square metre
-/// pushes it by against that direction, over the cosine, N.
+/// Cosine of `plate` to the Sun in the direction `sun` (B), and the force against that direction per cosine and unit
+/// pressure.
 #[inline(always)]
 fn push<R: Real>(plate: &PlateInLanes<R, 3>, sun: [R; 3]) -> (R, [R; 3]) {
     let [along, mirrored, scattered] = plate.numbers;
@@ -159,13 +157,12 @@ fn push<R: Real>(plate: &PlateInLanes<R, 3>, sun: [R; 3]) -> (R, [R; 3]) {
     (facing, sum(scaled(along, sun), scaled(mirrored.mul_add(facing, scattered), plate.normal)))
 }
 
-/// The unit vector to the Sun, B.
 #[inline(always)]
 fn seen<R: Real>(sun: &Sun<R>, motion: &Motion<R>) -> [R; 3] {
     transposed_product(dcm_from_quaternion(motion.attitude), sun.direction)
 }
 
-/// The light on `scene` in the frame B, which `c_sb` maps to F_s.
+/// Light pressure on `scene` in the frame B, which `c_sb` maps to F_s.
 pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<SolarPressure<R>> {
     let light = Light::of(zero, scene).filter(|_| scene.environment.solar_pressure)?;
     let pressure = scene.environment.solar_pressure_n_m2;
@@ -175,7 +172,7 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
     Some(SolarPressure { plates, light, zone: Zone::none(zero) })
 }
 
-/// Upper bound of the torque on `scene`, N m: in light at the smallest distance, all plates across it.
+/// Upper bound of the torque on `scene`, N m: at the smallest distance, all plates normal to the light.
 pub fn largest_torque(scene: &Scene) -> f64 {
     if !scene.environment.solar_pressure || scene.orbit.is_none() {
         return 0.0;
@@ -184,7 +181,7 @@ pub fn largest_torque(scene: &Scene) -> f64 {
     pressure * largest_lever(scene, |plate| 1.0 + plate.specular + 2.0 / 3.0 * plate.diffuse)
 }
 
-/// Largest rate of oscillations of `scene` in the light, rad/s.
+/// Largest rate of oscillation in the light, rad/s.
 pub fn largest_rate(scene: &Scene) -> f64 {
     super::plates::largest_rate(scene, largest_torque(scene))
 }
@@ -210,8 +207,8 @@ mod tests {
         of(0.0, &Scene::resolve(&input).expect("a legal scene"), None).expect("light")
     }
 
-    /// Law: the momentum of light. Absorbed it pushes along the rays with P A cos; mirrored along the normal with 2 P A
-    /// cos^2; scattered along the rays and 2/3 of it along the normal; from behind not at all.
+    /// Law: absorbed light pushes along the rays with P A cos; mirrored light along the normal with 2 P A cos^2;
+    /// scattered light along the rays plus 2/3 of it along the normal; zero from behind.
     #[test]
     fn light_pushes_by_its_momentum() {
         let arm = [1.0, -2.0, 0.5];

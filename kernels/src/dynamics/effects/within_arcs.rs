@@ -1,9 +1,7 @@
-//! The effects that change within an arc: what they depend on ([`Motion`], [`MotionSeries`]), and as the equations of
-//! motion have them: none ([`NoEffects`]), or those of the list ([`ChangingEffects`], [`ChangingSeries`]).
+//! Effects that change within an arc: their arguments ([`Motion`], [`MotionSeries`]) and their interface to the
+//! equations of motion, [`NoEffects`] or [`Acting`].
 //!
-//! The file of such an effect has its constants for one run per lane, with the torque, and the series of the torque;
-//! the list in the parent module names both. `changing_effects` makes those from the list, and says what they must
-//! have.
+//! `changing_effects!` generates the constants and series of all effects from the list in the parent module.
 
 use super::ChangingEffects;
 use super::ChangingSeries;
@@ -16,27 +14,27 @@ use crate::dynamics::orbit_state::OrbitState;
 use crate::math::Real;
 use crate::math::vector::scaled;
 
-/// What acts beside the actuators, one run per lane.
+/// Forces and torques other than actuators, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Beside<R> {
     /// Torque on the body, B, N m.
     pub torque: [R; 3],
-    /// Force on it, B, N, where there is one.
+    /// Force on the body, B, N, if any.
     pub force: Option<[R; 3]>,
-    /// Where the motion of the centre of mass is relative to a point on an orbit: what that point does.
+    /// Motion of the reference point, if the state is relative to a point on an orbit.
     pub carrier: Option<Carrier<R>>,
 }
 
-/// What a motion relative to a point on an orbit takes from it.
+/// Motion of the point on an orbit to which a state is relative.
 #[derive(Clone, Copy, Debug)]
 pub struct Carrier<R> {
     /// Velocity of the point, F_e, m/s.
     pub velocity: [R; 3],
-    /// What gravity accelerates the spacecraft more than the point, F_e, m/s^2.
+    /// Gravity at the spacecraft minus gravity at the point, F_e, m/s^2.
     pub tide: [R; 3],
 }
 
-/// What the torque of an effect may depend on, one run per lane.
+/// Arguments of an effect's torque, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion<R> {
     /// Time, s.
@@ -45,13 +43,12 @@ pub struct Motion<R> {
     pub attitude: [R; 4],
     /// Angular velocity relative to F_e, B, rad/s.
     pub rate: [R; 3],
-    /// Where the spacecraft is on its orbit; known where an effect needs the orbit ([`ChangingEffects::needs_orbit`]),
-    /// not a number elsewhere.
+    /// Position on the orbit if an effect needs it ([`ChangingEffects::needs_orbit`]), otherwise NaN.
     pub place: OrbitState<R>,
 }
 
 impl<R: Real> Motion<R> {
-    /// That of a body whose integrated components are `state`, at `time`, s, where it is at `place`.
+    /// The motion of a body with the integrated components `state` at `time` (s) and `place`.
     #[inline(always)]
     pub fn of<const N: usize>(time: R, state: &[R; N], place: OrbitState<R>) -> Self {
         let attitude = [state[ATTITUDE], state[ATTITUDE + 1], state[ATTITUDE + 2], state[ATTITUDE + 3]];
@@ -60,23 +57,22 @@ impl<R: Real> Motion<R> {
     }
 }
 
-/// What the Taylor series of an effect may depend on: coefficients up to the order that is being computed, in the
-/// lanes' units of time.
+/// Arguments of an effect's Taylor series: coefficients up to the present order, in the lanes' units of time.
 #[derive(Clone, Debug)]
 pub struct MotionSeries<R> {
-    /// Of the attitude, B -> F_e.
+    /// Attitude, B -> F_e.
     pub attitude: Vec<[R; 4]>,
-    /// Of the angular velocity, B.
+    /// Angular velocity, B.
     pub rate: Vec<[R; 3]>,
-    /// Of where the spacecraft is on its orbit or beside it, where an effect needs it or it may leave its orbit.
+    /// Position, on the orbit or near it, if an effect needs it or the spacecraft may leave its orbit.
     pub orbit: OrbitSeries<R>,
-    /// Of the offset from the orbit.
+    /// Offset from the orbit.
     offset: OffsetSeries<R>,
-    /// Whether the spacecraft may leave its orbit.
+    /// True if the spacecraft may leave its orbit.
     may_leave: bool,
-    /// Whether somebody asks for the coefficients of an orbit beyond its start.
+    /// True if coefficients of the orbit beyond its start are needed.
     keeps_orbit: bool,
-    /// What gravity accelerates the spacecraft more than the point on the orbit, F_e, m per unit squared.
+    /// Gravity at the spacecraft minus gravity at the point on the orbit, F_e, m per unit squared.
     tide: Vec<[R; 3]>,
 }
 
@@ -94,9 +90,8 @@ impl<R: Real> MotionSeries<R> {
         }
     }
 
-    /// Starts a step where the point on the orbit is at `position` with `velocity` (m per unit of time) in `gravity`
-    /// (m^3 per unit squared). The coefficients of an orbit about a point mass are computed where somebody asks:
-    /// `keeps_orbit`.
+    /// Starts a step with the reference point at `position` with `velocity` (m per unit of time) in `gravity` (m^3 per
+    /// unit squared). Coefficients of a two-body orbit are computed only with `keeps_orbit`.
     #[inline(always)]
     pub fn begin_orbit(
         &mut self,
@@ -114,7 +109,7 @@ impl<R: Real> MotionSeries<R> {
         }
     }
 
-    /// Computes the coefficients n of the orbit, given those of the offset, m.
+    /// Computes the coefficients n of the orbit from those of the offset, m.
     #[inline(always)]
     pub fn extend_orbit(&mut self, n: usize, offset: [R; 3]) {
         if self.may_leave {
@@ -125,74 +120,75 @@ impl<R: Real> MotionSeries<R> {
         }
     }
 
-    /// Whether the spacecraft is, and stays, on an orbit about a point mass.
+    /// True if the spacecraft stays on a two-body orbit.
     #[inline(always)]
     pub fn is_on_two_body_orbit(&self) -> bool {
         !self.may_leave && self.orbit.gravity().oblateness.is_none()
     }
 
-    /// Whether the spacecraft may leave its orbit.
+    /// True if the spacecraft may leave its orbit.
     #[inline(always)]
     pub fn may_leave(&self) -> bool {
         self.may_leave
     }
 
-    /// The orbit itself, from which the spacecraft may have an offset.
+    /// The reference orbit.
     #[inline(always)]
     pub fn reference(&self) -> &OrbitSeries<R> {
         if self.may_leave { self.offset.orbit() } else { &self.orbit }
     }
 
-    /// Coefficient n of the tide, m per unit squared, where the spacecraft may leave its orbit.
+    /// Coefficient n of the tide, m per unit squared, if the spacecraft may leave its orbit.
     #[inline(always)]
     pub fn tide(&self, n: usize) -> Option<[R; 3]> {
         self.may_leave.then(|| self.tide[n])
     }
 }
 
-/// The effects that change within an arc, of one run per lane.
+/// The effects that change within an arc, one run per lane.
 pub trait WithinArcs<R: Real> {
-    /// Whether there are any.
+    /// True if there are any.
     const ACT: bool;
 
-    /// Those of empty lanes; `zero` says how many.
+    /// Effects of empty lanes.
     fn none(zero: R) -> Self;
 
-    /// Puts those of `run` into lane `lane`.
+    /// Copies the effects of `run` into lane `lane`.
     fn set_lane(&mut self, lane: usize, run: &Gyrostat<f64>);
 
-    /// Puts what changes in those of `run` from arc to arc into lane `lane`.
+    /// Copies the arc-dependent constants of `run` into lane `lane`.
     fn set_arc(&mut self, lane: usize, run: &Gyrostat<f64>);
 
-    /// What they do at `time` (s) to a body whose integrated components are `state`, SI.
+    /// Actions on a body with the integrated components `state` (SI) at `time` (s).
     fn act<const N: usize>(&self, time: R, state: &[R; N]) -> Beside<R>;
 
-    /// Whether they have branches.
+    /// True if they have branches.
     fn has_switches(&self) -> bool;
 
-    /// Where they are not smooth even within their branches ([`crate::ode::System::is_rough`]).
+    /// Lanes in which they are not smooth even within their branches ([`crate::ode::System::is_rough`]).
     fn is_rough(&self, zero: R) -> R::Mask;
 
-    /// The smallest of their switch functions, where they act as in [`WithinArcs::act`].
+    /// Smallest switch function; arguments as in [`WithinArcs::act`].
     fn margin<const N: usize>(&self, time: R, state: &[R; N]) -> R;
 
-    /// The fraction of a step at which one of them may be below zero that is above at both ends
-    /// ([`crate::ode::switches::dip`]), from the times and states at four fractions.
+    /// Fraction of a step at which a switch function that is positive at both ends may be negative
+    /// ([`crate::ode::switches::dip`]), from times and states at four fractions.
     fn dip<const N: usize>(&self, times: [R; 4], states: [&[R; N]; 4]) -> R;
 
     /// Chooses the branches in the lanes `lanes`.
     fn choose_branches<const N: usize>(&mut self, lanes: R::Mask, time: R, state: &[R; N]);
 
-    /// Where a spacecraft may leave its orbit: one over the time in which its offset changes, 1/s, and its mass, kg.
+    /// Inverse time in which the offset from the orbit changes (1/s) and mass (kg), if the spacecraft may leave its
+    /// orbit.
     fn scales_of_offset(&self) -> Option<[R; 2]>;
 
-    /// Their Taylor series from the time on that is the sum of `time` (s), begun in `memory`, in a unit of time of
-    /// `unit` seconds; `None` where there are none.
+    /// The Taylor series from `time` (a sum of two numbers, s) on in a unit of time of `unit` seconds, held in
+    /// `memory`; `None` without effects.
     fn series<'m>(&self, time: [R; 2], unit: R, memory: &'m mut ChangingSeries<R>)
     -> Option<&'m mut ChangingSeries<R>>;
 }
 
-/// No effect changes within an arc.
+/// No effects.
 #[derive(Clone, Copy, Debug)]
 pub struct NoEffects;
 
@@ -251,17 +247,16 @@ impl<R: Real> WithinArcs<R> for NoEffects {
     }
 }
 
-/// The effects of the list, with the orbit where one of them needs it.
+/// The effects of the list, with the orbit if one of them needs it.
 #[derive(Clone, Debug)]
 pub struct Acting<R> {
     zero: R,
     orbit: Option<PathsInLanes<R>>,
     effects: ChangingEffects<R>,
-    /// Where runs may leave their orbits: their masses, kg, and rates of their orbits, rad/s.
     leaving: Option<Leaving<R>>,
 }
 
-/// What the motion relative to an orbit needs, one run per lane.
+/// Masses (kg) and orbital rates (rad/s) of runs that may leave their orbits.
 #[derive(Clone, Copy, Debug)]
 struct Leaving<R> {
     mass: R,
@@ -270,7 +265,7 @@ struct Leaving<R> {
 }
 
 impl<R: Real> Acting<R> {
-    /// Where the spacecraft is, and what the point on its orbit does where it may leave that.
+    /// Position, and the motion of the reference point if the spacecraft may leave its orbit.
     #[inline(always)]
     fn place<const N: usize>(&self, time: R, state: &[R; N]) -> (OrbitState<R>, Option<Carrier<R>>) {
         let place = match &self.orbit {
@@ -286,8 +281,8 @@ impl<R: Real> Acting<R> {
     }
 }
 
-/// Where a spacecraft is whose integrated components are `state`, beside the point `place` on its orbit, and what that
-/// point does.
+/// Position of a spacecraft with the integrated components `state` near the point `place` on its orbit, and the motion
+/// of that point.
 #[inline(always)]
 pub fn beside_orbit<R: Real, const N: usize>(
     gravity: &Gravity<R>,

@@ -1,10 +1,9 @@
-//! [`Air`]: the density of the atmosphere by height, from a table or an exponential, and the velocity relative to it.
+//! [`Air`]: atmospheric density by height, from a table or an exponential, and the velocity relative to the air.
 //!
-//! Between two heights of an [`AirTable`] the density is exponential through both of its values; below the first and
-//! above the last the layer next to it goes on. [`AirTable::VALLADO`] is that of D. Vallado, *Fundamentals of
-//! Astrodynamics and Applications*, 4th ed., 2013, table 8-4: the US Standard Atmosphere (1976) up to 25 km, and
-//! CIRA-72 above. Vallado has rounded scale heights instead, at whose ends the density jumps by up to 0.14%; those
-//! jumps would be found by every step control, and are not in nature.
+//! The density is exponential between two heights of an [`AirTable`]; its first and last layers extend beyond the
+//! table. [`AirTable::VALLADO`]: D. Vallado, *Fundamentals of Astrodynamics and Applications*, 4th ed., 2013, table 8-4
+//! (US Standard Atmosphere 1976 up to 25 km, CIRA-72 above). Vallado's rounded scale heights are not used: the density
+//! would jump by up to 0.14% between layers, which disturbs step control.
 
 use super::{EARTH_RATE, each_lane};
 use crate::dynamics::orbit_state::OrbitState;
@@ -12,7 +11,7 @@ use crate::math::lanes::WIDEST;
 use crate::math::{Mask, Real};
 use crate::scene::EnvironmentInput;
 
-/// Heights and densities that are known; the density never rises with the height.
+/// Heights with known densities; the density never rises with height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AirTable {
     /// Heights above the Earth's surface, m, ascending; two or more.
@@ -21,15 +20,15 @@ pub struct AirTable {
     pub densities: &'static [f64],
 }
 
-/// Heights in the switch functions of the layers are in this unit, km.
+/// Unit of height in the switch functions of the layers, km.
 const SWITCH_UNIT: f64 = 100.0;
 
-/// A layer of a table: its base and its thickness, km, the density at its base, kg/m^3, and the logarithm of that at
-/// its top relative to it; then for its base and its top infinity where it goes on beyond, or zero.
+/// A layer: base and thickness, km; density at its base, kg/m^3; logarithm of the density ratio of top to base; then,
+/// for base and top, infinity if the layer extends beyond, otherwise zero.
 type Layer<R> = [R; 6];
 
 impl AirTable {
-    /// Vallado's table, with his scale height of 268 km above 1000 km as one height more.
+    /// Vallado's table, with one height more for the scale height of 268 km above 1000 km.
     pub const VALLADO: AirTable = AirTable {
         heights: &[
             0.0, 25e3, 30e3, 40e3, 50e3, 60e3, 70e3, 80e3, 90e3, 100e3, 110e3, 120e3, 130e3, 140e3, 150e3, 180e3,
@@ -69,7 +68,7 @@ impl AirTable {
         ],
     };
 
-    /// The table of `environment`, or Vallado's where it has none.
+    /// The table of `environment`, by default Vallado's.
     pub fn of(environment: &EnvironmentInput) -> Self {
         match (environment.air_heights_m, environment.air_densities_kg_m3) {
             (Some(heights), Some(densities)) => AirTable { heights, densities },
@@ -77,13 +76,12 @@ impl AirTable {
         }
     }
 
-    /// The density at `height` m above the surface, kg/m^3.
+    /// Density at `height` m above the surface, kg/m^3.
     pub fn density(&self, height: f64) -> f64 {
         let [base, thickness, density, logarithm, ..] = self.layer_at(height);
         density_in([base, thickness, density, logarithm], height)
     }
 
-    /// The layer at `height` m.
     fn layer_at(&self, height: f64) -> Layer<f64> {
         // layers are in km
         let km = |height: f64| height / 1e3;
@@ -98,40 +96,39 @@ impl AirTable {
     }
 }
 
-/// The density of a layer at `height` m, in the layer or beyond.
+/// Density of a layer at `height` m, extrapolated outside the layer.
 fn density_in([base, thickness, density, logarithm]: [f64; 4], height: f64) -> f64 {
     density * libm::exp((height * 1e-3 - base) / thickness * logarithm)
 }
 
-/// The air about the Earth, one per lane.
+/// The Earth's atmosphere, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Air<R> {
-    /// Factor of the density.
+    /// Density scale.
     pub scale: R,
     /// Radius of the Earth, m.
     pub surface: R,
-    /// Density of an exponential atmosphere at its base, kg/m^3, the height of the base, m, and the scale height, m; a
-    /// scale height of zero where the table is used.
+    /// Exponential atmosphere: density at the base, kg/m^3, height of the base, m, scale height, m; a scale height of
+    /// zero selects the table.
     pub exponential: [R; 3],
-    /// The table of each lane.
     tables: [AirTable; WIDEST],
-    /// The layer of the table that was chosen; a thickness of zero until then.
+    /// Chosen layer of the table; a thickness of zero before the choice.
     layer: Layer<R>,
 }
 
 impl<R: Real> Air<R> {
-    /// None.
+    /// No air.
     pub fn none(zero: R) -> Self {
         let tables = [AirTable::VALLADO; WIDEST];
         Air { scale: zero, surface: zero, exponential: [zero; 3], tables, layer: [zero; 6] }
     }
 
-    /// With its density times `scale`, above a surface of the radius `surface` m; no layer is chosen.
+    /// Atmosphere above a surface of radius `surface` m, its density times `scale`; no layer is chosen.
     pub fn new(scale: R, surface: R, exponential: [R; 3], table: AirTable) -> Self {
         Air { scale, surface, exponential, tables: [table; WIDEST], ..Self::none(scale.zero()) }
     }
 
-    /// Puts `air` into lane `lane`.
+    /// Copies `air` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, air: &Air<f64>) {
         self.scale.set_lane(lane, air.scale);
         self.surface.set_lane(lane, air.surface);
@@ -144,7 +141,7 @@ impl<R: Real> Air<R> {
         }
     }
 
-    /// Chooses the layer of the table in the lanes `lanes`, at `distance` m from the Earth's centre.
+    /// Chooses the layer in the lanes `lanes`, at `distance` m from the Earth's centre.
     #[inline(always)]
     pub fn choose_branches(&mut self, lanes: R::Mask, distance: R) {
         let height = distance - self.surface;
@@ -155,8 +152,8 @@ impl<R: Real> Air<R> {
         }
     }
 
-    /// Gives `visit` the switch functions of the layer that was chosen, one for each of its ends, at `distance` m from
-    /// the Earth's centre in `M` states.
+    /// Calls `visit` with the switch functions of both ends of the chosen layer, at `M` distances from the Earth's
+    /// centre, m.
     #[inline(always)]
     pub fn switches<const M: usize>(&self, distances: &[R; M], visit: &mut impl FnMut([R; M])) {
         let number = |value: f64| self.scale.splat(value);
@@ -173,7 +170,7 @@ impl<R: Real> Air<R> {
         visit(below);
     }
 
-    /// The density where the distance from the Earth's centre is `distance` m, kg/m^3.
+    /// Density at `distance` m from the Earth's centre, kg/m^3.
     #[inline(always)]
     pub fn density(&self, distance: R) -> R {
         let [density, base, scale_height] = self.exponential;
@@ -191,7 +188,7 @@ impl<R: Real> Air<R> {
             })
     }
 
-    /// The velocity of a spacecraft at `place` relative to air that turns with the Earth, F_e, m/s.
+    /// Velocity relative to air that rotates with the Earth, F_e, m/s.
     #[inline(always)]
     pub fn relative_velocity(place: &OrbitState<R>) -> [R; 3] {
         let [x, y, _] = place.position;
@@ -207,7 +204,6 @@ mod tests {
     use crate::math::Isa;
     use crate::math::isa::WideWork;
 
-    /// Scale heights of Vallado's table, km, in its order.
     const SCALE_HEIGHTS: [f64; 28] = [
         7.249, 6.349, 6.682, 7.554, 8.382, 7.714, 6.549, 5.799, 5.382, 5.877, 7.263, 9.473, 12.636, 16.149, 22.523,
         29.740, 37.105, 45.546, 53.628, 53.298, 58.515, 60.828, 63.822, 71.835, 88.667, 124.64, 181.05, 268.00,
@@ -230,12 +226,11 @@ mod tests {
         assert!(worst < 2e-3, "{worst:e}");
     }
 
-    /// Height (km) and density of row `index` of Vallado's table.
     fn vallado(index: usize) -> [f64; 2] {
         [AirTable::VALLADO.heights[index] / 1e3, AirTable::VALLADO.densities[index]]
     }
 
-    /// Law: the density falls with the height, without jumps.
+    /// Law: the density falls with height, without jumps.
     #[test]
     fn the_density_is_continuous() {
         for [height, density] in (0..28).map(vallado) {
@@ -245,8 +240,7 @@ mod tests {
         }
     }
 
-    /// Law: a table of two heights is one exponential, between them and beyond, which the three keys give too; of three
-    /// heights the layers on both sides of the second go on.
+    /// Law: a table of two heights is one exponential, everywhere; the outer layers of three heights extend.
     #[test]
     fn a_table_of_an_exponential_is_the_exponential() {
         let (base, scale) = (4e5, 6.1e4);
@@ -266,7 +260,7 @@ mod tests {
         }
     }
 
-    /// Law: lanes have tables of their own, and each that of its run.
+    /// Law: each lane has the table of its run.
     #[test]
     fn every_lane_has_its_table() {
         struct Lanes([AirTable; 3]);
@@ -294,8 +288,8 @@ mod tests {
         Isa::best().run_wide(Lanes([bent, AirTable::VALLADO, thin]));
     }
 
-    /// Law: in a layer that was chosen the density is that of the table, beyond it that of the same exponential; and
-    /// the switch functions are zero at its ends, of which the last layer has one.
+    /// Law: a chosen layer agrees with the table inside and extends outside; its switch functions vanish at its ends,
+    /// and the last layer has one end.
     #[test]
     fn a_layer_that_was_chosen_goes_on() {
         let surface = 6.4e6;
@@ -317,7 +311,7 @@ mod tests {
         }
     }
 
-    /// Law: air at the equator moves with the ground, 465 m/s, and a spacecraft in the opposite sense feels the sum.
+    /// Law: air at the equator moves with the ground, 465 m/s, and adds to the speed of a retrograde spacecraft.
     #[test]
     fn the_air_turns_with_the_earth() {
         let place =

@@ -1,11 +1,8 @@
-//! What surrounds a spacecraft on an orbit about the Earth: [`air`] and its density, the direction of the [`sun`], and
-//! the Earth's [`shadow`].
+//! Surroundings of a spacecraft on an Earth orbit: [`air`], direction of the [`sun`], the Earth's [`shadow`].
 //!
-//! In F_e the third axis is the Earth's axis of rotation, and the first points to the mean equinox of date. Each file
-//! works on numbers of any kind; functions that are not made of [`Real`] operations alone are evaluated lane by lane,
-//! so that a lane has the bits of a scalar, and more digits than those of `f64` are not to be had from them.
-//!
-//! Not here: the torques of air and light ([`super::effects`]).
+//! In F_e the third axis is the Earth's axis of rotation, the first points to the mean equinox of date. Functions
+//! beyond [`Real`] operations are evaluated lane by lane, so that a lane has the bits of a scalar and no more digits
+//! than `f64`. Torques of air and light are in [`super::effects`].
 
 pub mod air;
 pub mod shadow;
@@ -13,10 +10,10 @@ pub mod sun;
 
 use crate::math::Real;
 
-/// Angular velocity of the Earth's rotation, rad/s (IERS Conventions 2010, table 1.2: nominal mean).
+/// Rotation rate of the Earth, rad/s (IERS Conventions 2010, table 1.2: nominal mean).
 pub const EARTH_RATE: f64 = 7.292115e-5;
 
-/// `f` of every lane and its numbers.
+/// `f` of each lane and its numbers.
 #[inline(always)]
 fn each_lane<R: Real, const K: usize>(numbers: [R; K], f: impl Fn(usize, [f64; K]) -> f64) -> R {
     let mut results = numbers[0];

@@ -1,9 +1,9 @@
-//! [`lit`]: the share of the Sun's disc that the Earth leaves visible.
+//! [`lit`]: visible share of the Sun's disc behind the Earth.
 //!
-//! Cone: both discs as seen from the spacecraft, of angular radii a = asin(R_sun/d) and b = asin(R/|r|) at the angle c;
-//! where they overlap in part, the area of the overlap of two plane circles (O. Montenbruck & E. Gill, *Satellite
-//! Orbits*, 2000, section 3.4.2). Cylinder: in shadow on the night side within one radius of the line from the Sun
-//! through the centre. Where steps end at switches, these are the edges of both shadows ([`Zone`]).
+//! Cone: both discs as seen from the spacecraft, angular radii a = asin(R_sun/d) and b = asin(R/|r|) at the angle c; in
+//! penumbra the overlap of two plane circles (O. Montenbruck & E. Gill, *Satellite Orbits*, 2000, section 3.4.2).
+//! Cylinder: shadow on the night side within one radius of the line from the Sun through the centre. Switches are the
+//! edges of the shadows ([`Zone`]).
 
 use super::each_lane;
 use super::sun::{ASTRONOMICAL_UNIT, Sun};
@@ -14,11 +14,11 @@ use crate::scene::Shadow;
 /// Radius of the Sun, m (IAU 2015, nominal).
 const SUN_RADIUS: f64 = 6.957e8;
 
-/// The tangent of an angle that the Sun's radius is never seen under: 0.00473 at the smallest distance.
+/// Upper bound of the tangent of the Sun's angular radius: 0.00473 at the smallest distance.
 const WIDEST: f64 = 0.005;
 
-/// The share of the Sun's disc that is visible from `position` (F_e, m), where the Earth has the radius `radius`, m: 1
-/// in light, 0 in full shadow.
+/// Visible share of the Sun's disc from `position` (F_e, m) behind an Earth of radius `radius`, m: 1 in light, 0 in
+/// umbra.
 #[inline(always)]
 pub fn lit<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> R {
     let along = dot(position, sun.direction);
@@ -38,8 +38,7 @@ pub fn lit<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -
     R::select(edge, visible_share(edge, position, sun, radius), plain)
 }
 
-/// The visible share of the Sun's disc behind that of the Earth, in the lanes `lanes`: three inverse functions and more
-/// for each.
+/// Visible share of the Sun's disc in the lanes `lanes`, by three inverse functions each.
 #[inline(always)]
 fn visible_share<R: Real>(lanes: R::Mask, position: [R; 3], sun: &Sun<R>, radius: R) -> R {
     let to_sun = difference(scaled(sun.distance * radius.splat(ASTRONOMICAL_UNIT), sun.direction), position);
@@ -47,18 +46,17 @@ fn visible_share<R: Real>(lanes: R::Mask, position: [R; 3], sun: &Sun<R>, radius
     each_lane(numbers, |lane, numbers| if lanes.test(lane) { visible_disc(numbers) } else { 0.0 })
 }
 
-/// Which of light, part shadow and full shadow was chosen: on which side of the surfaces of part and of full shadow, 1
-/// outside and -1 inside.
+/// Chosen zone (light, penumbra, umbra): the sides of the surfaces of penumbra and umbra, 1 outside and -1 inside.
 #[derive(Clone, Copy, Debug)]
 pub struct Zone<R>([R; 2]);
 
 impl<R: Real> Zone<R> {
-    /// None yet.
+    /// No zone is chosen.
     pub fn none(zero: R) -> Self {
         Zone([zero; 2])
     }
 
-    /// Puts `own` into lane `lane`.
+    /// Copies `own` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, own: &Zone<f64>) {
         for (side, own) in self.0.iter_mut().zip(own.0) {
             side.set_lane(lane, own);
@@ -74,21 +72,21 @@ impl<R: Real> Zone<R> {
         }
     }
 
-    /// Where it is part shadow, whose light is not smooth at its edges: from there on the overlap of two discs grows
-    /// with the power 3/2 of the depth.
+    /// The lanes in penumbra, where light is not smooth at the edges: the overlap of two discs grows with depth to the
+    /// power 3/2.
     #[inline(always)]
     pub fn is_part(&self, zero: R) -> R::Mask {
         self.0[0].lt(zero) & zero.lt(self.0[1])
     }
 
-    /// The switch functions in this zone.
+    /// Switch functions of this zone.
     #[inline(always)]
     pub fn switches(&self, shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> [R; 2] {
         let [part, full] = edges(shadow, position, sun, radius);
         [self.0[0] * part, self.0[1] * full]
     }
 
-    /// [`lit`] in this zone, and beyond it what is in it.
+    /// [`lit`] in this zone, extended beyond its edges.
     #[inline(always)]
     pub fn lit(&self, shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> R {
         let [part, full] = self.0;
@@ -104,11 +102,11 @@ impl<R: Real> Zone<R> {
     }
 }
 
-/// How far `position` is outside of part and full shadow, in radii of the Earth; on the day side the distance from a
-/// sphere that touches both.
+/// Distances of `position` from the surfaces of penumbra and umbra, in Earth radii, positive outside; on the day side
+/// the distance from a sphere that touches both.
 ///
-/// The surfaces are the cones that touch Sun and Earth, of half angles with the sines (R_sun + R)/d and (R_sun - R)/d,
-/// or a cylinder.
+/// The surfaces are cones tangent to Sun and Earth, with half angles of the sines (R_sun + R)/d and (R_sun - R)/d, or a
+/// cylinder.
 #[inline(always)]
 fn edges<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> [R; 2] {
     let zero = radius.zero();
@@ -127,8 +125,8 @@ fn edges<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> 
     }
 }
 
-/// The visible share of a disc, from the distances of Sun and Earth, the cross and dot product of the vectors to them,
-/// and the Earth's radius.
+/// Visible share of a disc, from the distances of Sun and Earth, the cross and dot product of the vectors to them, and
+/// the Earth's radius.
 fn visible_disc([sun, earth, cross, dot, radius]: [f64; 5]) -> f64 {
     let a = libm::asin((SUN_RADIUS / sun).min(1.0));
     let b = libm::asin((radius / earth).min(1.0));
@@ -161,8 +159,8 @@ mod tests {
         lit(shadow, position, &sun, RADIUS)
     }
 
-    /// Law: the edges are where the share leaves 1 and reaches 0, to the rounding of angles; within a zone the share is
-    /// that of the sky, and beyond it what is in it.
+    /// Law: the edges are where the share leaves 1 and reaches 0, to rounding of angles; a zone has the share of the
+    /// sky, and extends beyond its edges.
     #[test]
     fn the_zones_meet_at_their_edges() {
         let sun = Sun { direction: [1.0, 0.0, 0.0], distance: 0.99 };
@@ -197,9 +195,8 @@ mod tests {
         assert_eq!(edges(Shadow::Cone, [7e6, 0.0, 0.0], &sun, RADIUS).map(|edge| edge > 0.0), [true; 2]);
     }
 
-    /// Law: the cylinder is as wide as the Earth; the cone of full shadow is narrower, that of part shadow wider, both
-    /// by |r| tan(0.2666 deg); half of the disc is visible near the edge of the cylinder; and the share grows from one
-    /// to the other without a jump.
+    /// Law: the cylinder is as wide as the Earth; umbra and penumbra differ from it by |r| tan(0.2666 deg); half of the
+    /// disc is visible near the edge of the cylinder; the share has no jump.
     #[test]
     fn the_shadows_have_their_widths() {
         let behind = 7e6;
@@ -221,14 +218,13 @@ mod tests {
 
     /// Truth: Basilisk, `src/simulation/environment/eclipse/_UnitTest/test_eclipse.py`, penumbra: 500 km, i = 5, node
     /// 48.2, periapsis 0, anomaly 107.5 deg, 2021-05-04 07:47:48.965 UTC: 0.62310760206735027 with the Sun of DE430 in
-    /// J2000. Its own Sun of date is turned back by the precession (IAU 1976, to first order). The disc is 0.53 deg
-    /// wide: 0.01 deg of the Sun are up to 0.025 of its area, the bound; measured 0.007.
+    /// J2000. The Sun of date is turned back by precession (IAU 1976, first order). The disc is 0.53 deg wide: 0.01 deg
+    /// are up to 0.025 of its area, the bound; measured 0.007.
     #[test]
     fn the_penumbra_of_basilisk() {
         let days = 7_793.825_261_169_0;
         let sun = super::super::sun::sun(days);
         let centuries = days / 36_525.0;
-        // the angles zeta, z and theta, rad
         let [zeta, z, theta] =
             [2306.2181, 2306.2181, 2004.3109].map(|rate| (rate * centuries / 3_600.0_f64).to_radians());
         let turn = |[x, y, w]: [f64; 3], angle: f64| {

@@ -1,7 +1,7 @@
-//! [`sun`]: where the Sun is, by the low-precision series of the *Astronomical Almanac* (page C5; also J. Meeus,
+//! [`sun`]: position of the Sun by the low-precision series of the *Astronomical Almanac* (page C5; also J. Meeus,
 //! *Astronomical Algorithms*, 1998, chapter 25).
 //!
-//! With n days since J2000.0, mean longitude L = 280.460 + 0.9856474 n, mean anomaly g = 357.528 + 0.9856003 n, all in
+//! With n days since J2000.0, mean longitude L = 280.460 + 0.9856474 n, mean anomaly g = 357.528 + 0.9856003 n, in
 //! degrees:
 //!
 //! ```text
@@ -9,8 +9,8 @@
 //! R = 1.00014 - 0.01671 cos g - 0.00014 cos 2g  (au)
 //! ```
 //!
-//! The direction is the apparent one, in the mean equator and equinox of date. The Almanac states an error of 0.01 deg
-//! from 1950 to 2050; the test below measures it.
+//! Apparent direction in the mean equator and equinox of date; error 0.01 deg from 1950 to 2050 (Almanac; measured
+//! below).
 
 use crate::math::Real;
 use crate::math::sine::sin_cos_turns;
@@ -19,16 +19,16 @@ use crate::scene::Epoch;
 /// An astronomical unit, m (IAU 2012).
 pub const ASTRONOMICAL_UNIT: f64 = 149_597_870_700.0;
 
-/// Where the Sun is, seen from the Earth's centre.
+/// Position of the Sun from the Earth's centre.
 #[derive(Clone, Copy, Debug)]
 pub struct Sun<R> {
-    /// The unit vector to it, F_e.
+    /// Unit vector to the Sun, F_e.
     pub direction: [R; 3],
-    /// Its distance, au.
+    /// Distance, au.
     pub distance: R,
 }
 
-/// The Sun `days` days after J2000.0 (2000-01-01 12:00; the difference of UTC and terrestrial time is 8e-4 deg).
+/// The Sun `days` days after J2000.0 (2000-01-01 12:00; UTC for terrestrial time costs 8e-4 deg).
 #[inline(always)]
 pub fn sun<R: Real>(days: R) -> Sun<R> {
     let number = |value: f64| days.splat(value);
@@ -50,7 +50,7 @@ pub fn sun_after(epoch: Epoch, time: f64) -> Sun<f64> {
     sun(epoch.days_since_j2000() + time / 86_400.0)
 }
 
-/// An angle of `start` degrees that grows by `rate` degrees a day, in turns: whole ones are taken away before they cost
+/// An angle of `start` degrees that grows by `rate` degrees per day, in turns, without whole turns, which would cost
 /// digits.
 #[inline(always)]
 fn turns<R: Real>(days: R, start: f64, rate: f64) -> R {
@@ -64,8 +64,7 @@ mod tests {
     use crate::math::vector::{cross, dot, norm};
 
     /// Truth: astropy 8.0.2, `t = Time(2451545.0, n, format="jd", scale="utc")`,
-    /// `get_sun(t).transform_to(PrecessedGeocentric(equinox=t, obstime=t))`: n, the unit vector, and the distance in
-    /// au.
+    /// `get_sun(t).transform_to(PrecessedGeocentric(equinox=t, obstime=t))`: n, unit vector, distance in au.
     const ASTROPY: [(f64, [f64; 3], f64); 12] = [
         (-18000.25, [-0.998_352_160, 0.052_647_105, 0.022_830_819], 1.0041826),
         (-5000.0, [0.828_884_621, 0.513_250_759, 0.222_539_755], 1.0057953),

@@ -1,4 +1,4 @@
-//! From the components that a method integrated to the physical states: eight observation points at a time.
+//! Physical states from integrated components, eight observation points at a time.
 
 use fearless_simd::Simd;
 
@@ -15,9 +15,8 @@ use crate::math::vector::{
 use crate::math::{Lanes, Real};
 use crate::run::{Grid, StateField, StateTable, Trajectory};
 
-/// The smallest number of integrated components from which the spacecraft's fields of `table` follow.
-///
-/// `thrust` and `motors` say whether thrust or body torque, and motor torque, may act.
+/// The smallest number of integrated components from which the spacecraft's requested fields follow; `thrust` (or body
+/// torque) and `motors` may act.
 pub fn components(has: impl Fn(StateField) -> bool, thrust: bool, motors: bool) -> usize {
     let forced = has(StateField::ComPosition)
         || has(StateField::ComVelocity)
@@ -37,11 +36,10 @@ pub fn components(has: impl Fn(StateField) -> bool, thrust: bool, motors: bool) 
     }
 }
 
-/// Fills the spacecraft's fields of `table` from the integrated components; fields that need components beyond those of
+/// Fills the spacecraft's fields of `table` from the integrated components. Fields beyond the components of
 /// `trajectory` are those of a run without thrust or motors.
 ///
-/// How many components there are is asked here and not a parameter of the type: one copy for all kernels, at no
-/// measurable cost.
+/// The number of components is a run-time value: one copy for all kernels, at no measurable cost.
 #[inline(always)]
 pub fn complete<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, grid: &Grid, table: &mut StateTable) {
     complete_rotation(simd, run, trajectory, table);
@@ -69,7 +67,7 @@ pub fn complete<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, 
     }
 }
 
-/// Rates and attitudes; where B is F_s the components are the states, and are copied.
+/// Rates and attitudes; copied if B is F_s.
 #[inline(always)]
 fn complete_rotation<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, table: &mut StateTable) {
     let attitude = trajectory.components() >= WITH_ATTITUDE && table.has(StateField::Attitude);
@@ -96,8 +94,7 @@ fn complete_rotation<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Traject
     }
 }
 
-/// Angular velocity in the body's frame at the eight points from `first` on, rad/s, converted from the principal frame
-/// B.
+/// Angular velocity in the body frame at the eight points from `first` on, rad/s, from the principal frame B.
 #[inline(always)]
 pub fn body_rate<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, first: usize) -> [Lanes<S>; 3] {
     let chunk = Chunk { simd, first };
@@ -108,7 +105,7 @@ pub fn body_rate<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory,
     }
 }
 
-/// Attitude quaternion, body -> F_e, at the same points; the attitude must be among the components.
+/// Attitude quaternion, body -> F_e, at the eight points from `first` on; needs the attitude among the components.
 #[inline(always)]
 pub fn body_attitude<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, first: usize) -> [Lanes<S>; 4] {
     let chunk = Chunk { simd, first };
@@ -120,7 +117,7 @@ pub fn body_attitude<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Traject
     }
 }
 
-/// Wheel rates and, where requested, the angles.
+/// Wheel rates and, if requested, angles.
 #[inline(always)]
 fn complete_wheels<S: Simd>(
     chunk: Chunk<S>,
@@ -163,7 +160,7 @@ fn complete_wheels<S: Simd>(
     }
 }
 
-/// Position, velocity, impulses and work at all points, of runs with `THRUST` or without.
+/// Position, velocity, impulses and work at all points, with or without `THRUST`.
 #[inline(always)]
 fn complete_translations<S: Simd, const THRUST: bool>(
     simd: S,
@@ -179,7 +176,7 @@ fn complete_translations<S: Simd, const THRUST: bool>(
     }
 }
 
-/// Work of the thrusters, torques on the body and gravity, and of the wheel motors, including those that hold a speed.
+/// Work of thrusters, body torques, gravity and wheel motors, including motors that hold a speed.
 #[inline(always)]
 fn complete_work<S: Simd, const THRUST: bool>(
     chunk: Chunk<S>,
@@ -215,7 +212,6 @@ fn complete_work<S: Simd, const THRUST: bool>(
     motors.store(&mut table.column_mut(StateField::Work, 1)[chunk.first..]);
 }
 
-/// Position and velocity of c, and impulses.
 #[inline(always)]
 fn complete_translation<S: Simd, const THRUST: bool>(
     chunk: Chunk<S>,
@@ -234,7 +230,7 @@ fn complete_translation<S: Simd, const THRUST: bool>(
     }
 }
 
-/// Position, velocity and impulse of c on an orbit or beside it; gravity's impulse is a part of the last.
+/// Position, velocity and impulse of c on an orbit or near it; the impulse includes gravity's.
 #[inline(always)]
 fn complete_orbit<S: Simd>(
     chunk: Chunk<S>,
@@ -261,7 +257,7 @@ fn complete_orbit<S: Simd>(
     chunk.write3(table, StateField::Impulse, scaled(chunk.splat(run.mass), gained));
 }
 
-/// Position, velocity and impulse of c on the line that thrust bends.
+/// Position, velocity and impulse of c on a straight line bent by thrust.
 #[inline(always)]
 fn complete_line<S: Simd, const THRUST: bool>(
     chunk: Chunk<S>,
@@ -292,7 +288,6 @@ fn complete_line<S: Simd, const THRUST: bool>(
     }
 }
 
-/// Eight points of a table, from point `first` on.
 #[derive(Clone, Copy)]
 struct Chunk<S: Simd> {
     simd: S,
@@ -346,7 +341,7 @@ impl<S: Simd> Chunk<S> {
         }
     }
 
-    /// A quantity that is known in closed form on each arc, as a function of the time since its start.
+    /// A quantity with a closed form on each arc, as a function of the time since the start of the arc.
     #[inline(always)]
     fn along(
         self,

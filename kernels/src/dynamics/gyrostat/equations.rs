@@ -1,11 +1,11 @@
-//! The gyrostat's right-hand side in lanes, for Runge-Kutta methods.
+//! Right-hand side of the gyrostat in lanes, for Runge-Kutta methods.
 
 use super::{ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK};
 use crate::dynamics::effects::within_arcs::Beside;
 use crate::math::Real;
 use crate::math::vector::{cross, dcm_from_quaternion, difference, dot, product, scaled, sum};
 
-/// The constants of the equations, one run per lane; those of an arc are set at its start.
+/// Constants of the equations, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Constants<R> {
     /// (J_2 - J_3)/J_1 and cyclic.
@@ -14,14 +14,13 @@ pub struct Constants<R> {
     pub inverse: [R; 3],
     /// Wheels' momentum vector at the start of the arc, B, N m s.
     pub momentum: [R; 3],
-    /// Its rate: the sum of tau_i a_i, B, N m.
+    /// Rate of `momentum`: the sum of tau_i a_i, B, N m.
     pub momentum_rate: [R; 3],
-    /// External torque about c, of the thrusters and on the body, B, N m.
+    /// Torque of the thrusters about c plus body torque, B, N m.
     pub torque: [R; 3],
     /// Force of the thrusters, B, N.
     pub force: [R; 3],
-    /// Velocity of c at time zero, F_e, m/s; zero where the components of the impulse are those of a motion relative to
-    /// an orbit.
+    /// Velocity of c at time zero, F_e, m/s; zero if the impulse components describe a motion relative to an orbit.
     pub velocity: [R; 3],
     /// m, kg.
     pub mass: R,
@@ -29,14 +28,14 @@ pub struct Constants<R> {
     pub inverse_mass: R,
     /// Sum of tau_i h_i/J_i at the start of the arc, W.
     pub motor_power: R,
-    /// Its rate, the sum of tau_i^2/J_i, W/s.
+    /// Rate of `motor_power`: the sum of tau_i^2/J_i, W/s.
     pub motor_power_rate: R,
     /// Start of the arc, s.
     pub start: R,
 }
 
 impl<R: Real> Constants<R> {
-    /// All zero; `zero` says how many lanes.
+    /// All zero, in the arithmetic of `zero`.
     pub fn zero(zero: R) -> Self {
         let z = [zero; 3];
         Constants {
@@ -55,9 +54,8 @@ impl<R: Real> Constants<R> {
         }
     }
 
-    /// Puts what does not change during a run into lane `lane`; `unit` is the unit of time of the lane, s.
-    ///
-    /// With a power of two as the unit every conversion is exact.
+    /// Copies the constants of a run into lane `lane`; `unit` is the lane's unit of time, s, a power of two, so that
+    /// conversions are exact.
     #[inline(always)]
     pub fn set_run(&mut self, lane: usize, run: &Gyrostat<f64>, unit: f64) {
         let j = run.moments;
@@ -72,7 +70,7 @@ impl<R: Real> Constants<R> {
         self.inverse_mass.set_lane(lane, 1.0 / run.mass);
     }
 
-    /// Puts arc `arc` of the run into lane `lane`; times and rates in units of `unit` seconds.
+    /// Copies the constants of arc `arc` of the run into lane `lane`; times and rates in units of `unit` seconds.
     #[inline(always)]
     pub fn set_arc(&mut self, lane: usize, run: &Gyrostat<f64>, arc: usize, unit: f64) {
         let arc = &run.arcs[arc];
@@ -90,10 +88,8 @@ impl<R: Real> Constants<R> {
         self.start.set_lane(lane, arc.arc.start / unit);
     }
 
-    /// The constants of arc `arc` of one run in the run's own arithmetic; times and rates in units of `unit` seconds.
-    ///
-    /// The same as [`Constants::set_run`] and [`Constants::set_arc`] put into a lane, for reference solutions in more
-    /// digits.
+    /// The constants of arc `arc` in the arithmetic of the run, for reference solutions; equal to
+    /// [`Constants::set_run`] and [`Constants::set_arc`].
     #[inline(always)]
     pub fn of(run: &Gyrostat<R>, arc: usize, unit: f64) -> Self {
         let arc = &run.arcs[arc];
@@ -122,14 +118,15 @@ impl<R: Real> Constants<R> {
         constants
     }
 
-    /// What constant torques - external ones and those of the motors - add to omega' in B.
+    /// Part of omega' in B from constant external and motor torques.
     #[inline(always)]
     pub fn torque_acceleration(&self) -> [R; 3] {
         let [x, y, z] = difference(self.torque, self.momentum_rate);
         [self.inverse[0] * x, self.inverse[1] * y, self.inverse[2] * z]
     }
 
-    /// omega' in B at the external torque `torque`: J* omega' = H x omega + tau_ext - sum tau_i a_i, H = J* omega + h.
+    /// omega' in B under the external torque `torque`: J* omega' = H x omega + tau_ext - sum tau_i a_i, H = J* omega +
+    /// h.
     #[inline(always)]
     pub fn angular_acceleration(&self, time: R, omega: [R; 3], torque: [R; 3]) -> [R; 3] {
         let since = time - self.start;
@@ -144,8 +141,8 @@ impl<R: Real> Constants<R> {
         acceleration
     }
 
-    /// The derivative of the first `N` components, in the order of the indices of the parent module.
-    /// `beside` is what acts beside the thrusters: its torque is the external one, with that of the arc.
+    /// Derivative of the first `N` components, in the order of the indices of the parent module. The torque of `beside`
+    /// includes that of the arc.
     #[inline(always)]
     pub fn derivative<const N: usize>(&self, time: R, y: &[R; N], beside: &Beside<R>) -> [R; N] {
         let torque = beside.torque;

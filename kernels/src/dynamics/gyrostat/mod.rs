@@ -1,34 +1,30 @@
 //! The gyrostat: the spacecraft with its wheels, reduced to its independent motions.
 //!
-//! For balanced axisymmetric wheels with fixed centres the inertia in F_s is constant, and the spacecraft is a
+//! With balanced axisymmetric wheels on fixed centres the inertia in F_s is constant, and the spacecraft is a
 //! Zhukovskii-Volterra gyrostat (N. E. Zhukovskii, 1885; V. Volterra, Acta Math. 22, 1899; J. Wittenburg, *Dynamics of
-//! Multibody Systems*, 2008, section 4.6). About the centre of mass c, with J* = J - sum J_i a_i a_i^T over any number
-//! of wheels:
+//! Multibody Systems*, 2008, section 4.6). About the centre of mass c, with J* = J - sum J_i a_i a_i^T over all wheels:
 //!
 //! ```text
 //! H = J* omega + sum h_i a_i,    J* omega' = H x omega + tau_ext - sum tau_i a_i,    h_i' = tau_i
 //! ```
 //!
-//! A wheel whose motor holds its speed has other constants: its axial inertia stays in the inertia that resists a
-//! change of omega, and its momentum relative to the body, J_i Omega_i, is constant. With K = J* + sum over held wheels
-//! of J_i a_i a_i^T (all held: K = J) the same equations hold:
+//! A wheel of constant speed keeps its axial inertia in the body's inertia, and its relative momentum J_i Omega_i is
+//! constant. With K = J* + sum over held wheels of J_i a_i a_i^T (K = J if all are held) the same equations hold:
 //!
 //! ```text
 //! H = K omega + sum over free wheels h_i a_i + sum over held wheels J_i Omega_i a_i
 //! ```
 //!
-//! Its motor's torque is J_i omega' . a_i, and the work of that, Omega_i J_i (omega - omega(0)) . a_i, is known without
-//! a quadrature.
+//! The motor of a held wheel exerts J_i omega' . a_i; its work Omega_i J_i (omega - omega(0)) . a_i needs no
+//! quadrature.
 //!
-//! Everything here is written in the *principal frame* B of K (where J* is diagonal already, B is F_s), so that
-//! products of inertia cost nothing: omega_i' is one product of two rates plus linear terms. Between switches the
-//! torques and thrusts are constant, h_i is linear in time and is not integrated.
+//! Everything is in the *principal frame* B of K (F_s if J* is diagonal): omega_i' is one product of two rates plus
+//! linear terms. Torques and thrusts are constant between switches, h_i is linear in time and not integrated.
 //!
-//! - [`Gyrostat`]: one run's constants, initial state and arcs. [`wheel`]: rate, momentum and angle of its wheels.
-//! - [`equations`]: the right-hand side, for Runge-Kutta methods in lanes.
-//! - [`completion`]: integrated components -> the physical [`crate::run::StateTable`]. [`observed`]: the state that a
-//!   law sees.
-//! - `time_scale`: the time in which the motion changes.
+//! - [`Gyrostat`]: constants, initial state and arcs of a run. [`wheel`]: rate, momentum and angle of its wheels.
+//! - [`equations`]: the right-hand side in lanes. [`completion`]: physical [`crate::run::StateTable`]. [`observed`]:
+//!   the state shown to a law.
+//! - `time_scale`: the time scale of the motion.
 //!
 //! Not here: Taylor recurrences of the same equations (`propagation::taylor`), the debris (`super::debris`).
 
@@ -78,27 +74,27 @@ pub const WITH_MOTORS: usize = 11;
 /// With all integrals of thrust.
 pub const WITH_THRUST: usize = 21;
 
-/// An arc of a run: what is applied, in B, and the wheels at its start.
+/// An arc of a run: actuation in B, and the wheels at its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GyrostatArc<R> {
-    /// Start, end and applied values.
+    /// Start, end and actuation.
     pub arc: Arc,
     /// Force of the thrusters, B, N.
     pub force_b: [R; 3],
     /// Torque of the thrusters about c plus the body torque, B, N m.
     pub torque_b: [R; 3],
-    /// The wheels at the start, as many as the run has; zero beyond.
+    /// The wheels at the start; zero beyond the number of wheels.
     pub wheels: [WheelMotion<R>; MAX_WHEELS],
-    /// The wheels' momenta beside K omega at the start as one vector, B, N m s.
+    /// Momentum of the wheels without K omega, at the start, B, N m s.
     pub momentum_b: [R; 3],
-    /// The motor torques on the wheels as one vector, B, N m.
+    /// Sum of the motor torques on the wheels, B, N m.
     pub motor_torque_b: [R; 3],
 }
 
-/// One run of the gyrostat: constants in the principal frame B of K, the initial state and the arcs flown so far.
+/// One run of the gyrostat: constants in the principal frame B of K, initial state, arcs so far.
 #[derive(Clone, Debug)]
 pub struct Gyrostat<R> {
-    /// Maps B components to F_s components, by rows; `None` where B is F_s.
+    /// DCM from B to F_s, by rows; `None` if B is F_s.
     pub c_sb: Option<[[R; 3]; 3]>,
     /// The quaternion of `c_sb`.
     pub q_sb: [R; 4],
@@ -116,28 +112,27 @@ pub struct Gyrostat<R> {
     pub r_co_e: [R; 3],
     /// Velocity of c at time zero, m/s.
     pub v_co_e: [R; 3],
-    /// The orbit of c, where it is on one: then it is not in the straight line of position and velocity at time zero.
+    /// The orbit of c, if any.
     pub orbit: Option<OrbitPath>,
-    /// Where c may leave its orbit: its position (m) and velocity (m/s) relative to the point on the orbit at time
-    /// zero, F_e. The components of the impulse and its integral are then those of the relative motion, m d' and m d.
+    /// Position (m) and velocity (m/s) of c at time zero relative to a point on the orbit, F_e, if c may leave the
+    /// orbit. The impulse components are then those of the relative motion, m d' and m d.
     pub offset: Option<[[R; 3]; 2]>,
     /// The effects that change within an arc, in B.
     pub effects: ChangingEffects<R>,
-    /// The arcs flown so far, which cover the time from zero to the end of the last without a gap; under a law only
-    /// those with observation points, and the last.
+    /// The arcs so far, without gaps from time zero; under a law only arcs with observation points, and the last.
     pub arcs: Vec<GyrostatArc<R>>,
     /// All arcs flown under a law.
     pub flown: ArcRecord,
-    /// Under a law, the number of observation points up to the start of the last arc.
+    /// Under a law: observation points before the last arc.
     passed: usize,
-    /// All arcs of the schedule, where it was laid out for the time scale: they need not be computed again.
+    /// All arcs of the schedule, if laid out for the time scale.
     scheduled: Vec<GyrostatArc<R>>,
-    /// Largest rate of the run's motion so far known, rad/s, from which [`Gyrostat::time_unit`] follows.
+    /// Largest rate of the motion so far, rad/s, for [`Gyrostat::time_unit`].
     rate: f64,
 }
 
 impl<R: Real> Gyrostat<R> {
-    /// The gyrostat of `scene` with all arcs of its schedule up to `duration` seconds; `zero` says in which arithmetic.
+    /// The gyrostat of `scene` with its whole schedule up to `duration` seconds, in the arithmetic of `zero`.
     pub fn new(zero: R, scene: &Scene, duration: f64) -> Self {
         let mut gyrostat = Self::blank(zero);
         gyrostat.reset(zero, scene);
@@ -145,7 +140,7 @@ impl<R: Real> Gyrostat<R> {
         gyrostat
     }
 
-    /// Nothing yet: a buffer for [`Gyrostat::reset`].
+    /// An empty buffer for [`Gyrostat::reset`].
     pub fn blank(zero: R) -> Self {
         let z3 = [zero; 3];
         Gyrostat {
@@ -169,7 +164,7 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// The gyrostat of `scene` at time zero, before its first arc; the memory of the arcs is reused.
+    /// Resets to `scene` at time zero, before its first arc, and reuses the memory.
     pub fn reset(&mut self, zero: R, scene: &Scene) {
         let exact3 = |v: [f64; 3]| v.map(|x| zero.splat(x));
         let mass = &scene.mass;
@@ -190,7 +185,7 @@ impl<R: Real> Gyrostat<R> {
         }
         let changes = ForceModel::of(scene).changes_within_arcs();
         if changes || !self.effects.is_empty() {
-            // some kilobytes, which runs without them do not copy
+            // some kilobytes, not copied for runs without effects
             self.effects = ChangingEffects::of(zero, scene, self.c_sb);
         }
         if changes {
@@ -210,8 +205,7 @@ impl<R: Real> Gyrostat<R> {
         self.set_wheels(zero, scene);
     }
 
-    /// The integrated components of impulse and its integral at time zero, m d' (N s) and m d (kg m), where c may leave
-    /// its orbit.
+    /// Impulse components at time zero, m d' (N s) and m d (kg m), if c may leave its orbit.
     pub fn start_of_offset(&self) -> Option<[R; 6]> {
         self.offset.map(|[position, velocity]| {
             let [a, b, c] = scaled(self.mass, velocity);
@@ -220,7 +214,7 @@ impl<R: Real> Gyrostat<R> {
         })
     }
 
-    /// Takes the wheels of `scene` at time zero; body and angular velocity are known.
+    /// Sets the wheels of `scene` at time zero, once body and angular velocity are set.
     fn set_wheels(&mut self, zero: R, scene: &Scene) {
         self.wheels.clear();
         for (i, wheel) in scene.mass.wheels.iter().enumerate() {
@@ -230,14 +224,14 @@ impl<R: Real> Gyrostat<R> {
             let inverse_axial = zero.splat(1.0) / axial;
             let (held, momentum) = match wheel.mode {
                 WheelMode::Free => (None, axial * (dot(axis_b, self.omega_b) + rate)),
-                // a locked wheel is a part of the body, and not in the list
+                // a locked wheel is part of the body, and not in the list
                 WheelMode::SpeedHeld | WheelMode::Locked => (Some(rate), axial * rate),
             };
             self.wheels.push(GyrostatWheel { axis_b, axial, inverse_axial, held, angle, momentum });
         }
     }
 
-    /// Sets angular velocity in B and attitude at time zero, before the first arc.
+    /// Sets angular velocity (B) and attitude at time zero, before the first arc.
     pub fn start_from(&mut self, omega_b: [R; 3], q_eb: [R; 4]) {
         self.omega_b = omega_b;
         self.q_eb = q_eb;
@@ -248,7 +242,7 @@ impl<R: Real> Gyrostat<R> {
         self.scheduled.clear();
     }
 
-    /// Takes the principal axes of the inertia `j`, kg m^2 by rows, as the frame B.
+    /// Sets the frame B to the principal axes of the inertia `j`, kg m^2, by rows.
     pub fn set_body(&mut self, zero: R, j: [[f64; 3]; 3]) {
         let exact3 = |v: [f64; 3]| v.map(|x| zero.splat(x));
         if j[0][1] == 0.0 && j[0][2] == 0.0 && j[1][2] == 0.0 {
@@ -263,7 +257,7 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// Vector components in F_s -> B.
+    /// Converts vector components from F_s to B.
     #[inline(always)]
     pub fn into_b(&self, v_s: [R; 3]) -> [R; 3] {
         match self.c_sb {
@@ -272,13 +266,12 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// The dipole of the torque rods in `arc`, B, A m^2.
+    /// Dipole of the torque rods in `arc`, B, A m^2.
     #[inline(always)]
     pub fn rods_b(&self, arc: &Arc) -> [R; 3] {
         self.into_b(constant(self.mass, arc.applied.dipole))
     }
 
-    /// Switches the torque rods as they are in `arc`.
     #[inline(always)]
     fn switch_rods(&mut self, arc: &Arc) {
         if self.effects.magnetic_torque.is_some() {
@@ -295,7 +288,7 @@ impl<R: Real> Gyrostat<R> {
         self.arcs.push(arc);
     }
 
-    /// Starts the next arc of a run of `scene` under a law, observed at `times`; `wheels` are its wheels there.
+    /// Starts the next arc under a law, observed at `times`; `wheels` are the wheels at its start.
     #[inline(always)]
     pub fn begin_flown_arc(&mut self, scene: &Scene, arc: Arc, wheels: [WheelMotion<R>; MAX_WHEELS], times: &[f64]) {
         self.flown.push(&arc);
@@ -307,7 +300,7 @@ impl<R: Real> Gyrostat<R> {
                 self.passed += 1;
             }
             if self.passed == before {
-                // nobody asks for the last one any more
+                // without observation points: no longer needed
                 *last = next;
                 return;
             }
@@ -315,14 +308,13 @@ impl<R: Real> Gyrostat<R> {
         self.arcs.push(next);
     }
 
-    /// `arc` of a run of `scene`, at whose start its wheels are `wheels`.
     #[inline(always)]
     fn arc_from(&self, scene: &Scene, arc: Arc, wheels: [WheelMotion<R>; MAX_WHEELS]) -> GyrostatArc<R> {
         let zero = self.mass.zero();
         let applied = &arc.applied;
         let mut torque_s = scene.thruster_torque_s(applied.thrust);
         if applied.body_torque != [0.0; 3] {
-            // apart from the common case, in which a sum with zero could still turn -0 into 0
+            // a special case, since a sum with zero could turn -0 into 0
             torque_s = sum(torque_s, applied.body_torque);
         }
         GyrostatArc {
@@ -335,7 +327,7 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// Starts an arc without any actuation until `end`, for a body without actuators.
+    /// Starts an arc without actuation until `end`, for a body without actuators.
     pub fn begin_free_arc(&mut self, end: f64) {
         let zero = [self.mass.zero(); 3];
         let start = self.arcs.last().map_or(0.0, |last| last.arc.end());
@@ -356,8 +348,7 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// The motions of the wheels at `time` in the last arc (or zero before the first); zero beyond the wheels of the
-    /// run.
+    /// The wheels at `time` in the last arc (zero before the first).
     #[inline(always)]
     pub fn wheels_at(&self, time: f64) -> [WheelMotion<R>; MAX_WHEELS] {
         let zero = self.mass.zero();
@@ -372,19 +363,19 @@ impl<R: Real> Gyrostat<R> {
         motions
     }
 
-    /// The arc that `time` lies in; the one that ends there, at a switch.
+    /// The arc of `time`; at a switch, the one that ends.
     #[inline]
     pub fn arc_at(&self, time: f64) -> &GyrostatArc<R> {
         &self.arcs[self.arc_index_at(time)]
     }
 
-    /// The index of the arc that `time` lies in; of the one that ends there, at a switch.
+    /// The index of [`Gyrostat::arc_at`].
     #[inline]
     pub fn arc_index_at(&self, time: f64) -> usize {
         self.arcs.partition_point(|arc| arc.arc.end() < time).min(self.arcs.len() - 1)
     }
 
-    /// The motion of wheel `index` at `time` within `arc`.
+    /// Wheel `index` at `time` within `arc`.
     #[inline(always)]
     pub fn wheel_at(&self, arc: &GyrostatArc<R>, index: usize, time: f64) -> WheelMotion<R> {
         let since = self.mass.splat(time) - self.mass.splat(arc.arc.start);
@@ -392,14 +383,14 @@ impl<R: Real> Gyrostat<R> {
         arc.wheels[index].after(&self.wheels[index], torque, since)
     }
 
-    /// The sum of J_i Omega_i a_i over the wheels whose speed is held, B, N m s, where there are any. Since time zero
-    /// their motors have done the work of this vector . (omega - omega(0)).
+    /// The sum of J_i Omega_i a_i over wheels of constant speed, B, N m s, if there are any. The work of their motors
+    /// since time zero is this vector . (omega - omega(0)).
     pub fn held_momentum_b(&self) -> Option<[R; 3]> {
         let of = |wheel: &GyrostatWheel<R>| wheel.held.map(|rate| scaled(wheel.axial * rate, wheel.axis_b));
         self.wheels.iter().filter_map(of).reduce(sum)
     }
 
-    /// Sum of tau_i h_i/J_i at the start of `arc`, W, and its rate, W/s.
+    /// The sum of tau_i h_i/J_i at the start of `arc`, W, and its rate, W/s.
     #[inline(always)]
     pub fn motor_power(&self, arc: &GyrostatArc<R>) -> [R; 2] {
         let zero = self.mass.zero();
@@ -408,28 +399,28 @@ impl<R: Real> Gyrostat<R> {
             let torque = zero.splat(arc.arc.applied.motor_torque[index]);
             let per_momentum = torque * wheel.inverse_axial;
             let own = [per_momentum * arc.wheels[index].momentum, per_momentum * torque];
-            // the first as it is: a sum with zero would turn -0 into 0
+            // a sum with zero would turn -0 into 0
             total = if index == 0 { own } else { [total[0] + own[0], total[1] + own[1]] };
         }
         total
     }
 
-    /// The sum of m_i a_i over the wheels, in B, for a number of each wheel: its momentum, N m s, or its torque, N m.
+    /// The sum of m_i a_i over the wheels, B, for a number m_i per wheel.
     #[inline(always)]
     fn along_axes_b(&self, number: impl Fn(usize) -> R) -> [R; 3] {
         let mut total = [self.mass.zero(); 3];
         for (index, wheel) in self.wheels.iter().enumerate() {
             let own = scaled(number(index), wheel.axis_b);
-            // the first as it is: a sum with zero would turn -0 into 0
+            // a sum with zero would turn -0 into 0
             total = if index == 0 { own } else { sum(total, own) };
         }
         total
     }
 
-    /// Prepares the time scale of a run that will fly the schedule of `scene`, which is known before it starts.
+    /// Sets the time scale of a run that flies the schedule of `scene`.
     pub fn expect_schedule(&mut self, scene: &Scene, duration: f64) {
         if scene.schedule.is_empty() && !scene.environment.acts() {
-            // one arc without torque: no need to lay it out for its rate
+            // one arc without torque: its rate needs no layout
             let momentum_b = self.along_axes_b(|index| self.wheels[index].momentum);
             self.rate = self.rate.max(time_scale::rate_of_momentum(self.moments, momentum_b));
             return;
@@ -438,7 +429,7 @@ impl<R: Real> Gyrostat<R> {
         core::mem::swap(&mut self.arcs, &mut self.scheduled);
     }
 
-    /// Starts the next arc of the schedule of `scene`, at `time`.
+    /// Starts the arc of the schedule of `scene` at `time`.
     pub fn begin_scheduled_arc(&mut self, scene: &Scene, time: f64, duration: f64) {
         match self.scheduled.get(self.arcs.len()) {
             Some(next) => {
@@ -450,14 +441,14 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// Takes the orbit into account in the time scale, for what integrates it beside the run.
+    /// Includes the orbit in the time scale, for integration of the orbit with the run.
     pub fn note_orbit(&mut self) {
         if let Some(orbit) = &self.orbit {
             self.rate = self.rate.max(orbit.at_start().rate());
         }
     }
 
-    /// Takes the last arc into account in the time scale, for a run whose arcs are not known before it starts.
+    /// Includes the last arc in the time scale, for a run under a law.
     #[inline(always)]
     pub fn note_rate(&mut self) {
         if let Some(last) = self.arcs.last() {
@@ -467,7 +458,7 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// A power of two near the time scale of the run, s: from its rates, its wheels and what acts on it.
+    /// Power of two near the time scale of the run, s.
     pub fn time_unit(&self) -> f64 {
         time_scale::time_unit(self.rate)
     }

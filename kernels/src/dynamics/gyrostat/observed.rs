@@ -1,4 +1,4 @@
-//! [`observed_state`]: the state of a gyrostat that an actuation law sees.
+//! [`observed_state`]: the state of a gyrostat shown to an actuation law.
 
 use super::wheel::WheelMotion;
 use super::{ANGLE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_THRUST};
@@ -7,8 +7,8 @@ use crate::math::Real;
 use crate::math::vector::{conjugate, hamilton, product, scaled, sum};
 use crate::scene::MAX_WHEELS;
 
-/// The state of `run` at `time`, the end of its last arc (or zero before the first), from the integrated components
-/// there, SI, in the order of the indices of the parent module. `motions` are those of the wheels there.
+/// The state of `run` at `time`, the end of its last arc (or zero), from the integrated components in SI and the
+/// `motions` of the wheels.
 #[inline(always)]
 pub fn observed_state<R: Real>(
     run: &Gyrostat<R>,
@@ -52,7 +52,7 @@ pub fn observed_state<R: Real>(
     (body, wheels)
 }
 
-/// The components rounded to `f64`.
+/// The first lane, rounded to `f64`.
 #[inline(always)]
 fn first_lane<R: Real, const K: usize>(v: [R; K]) -> [f64; K] {
     let mut values = [0.0; K];

@@ -1,30 +1,28 @@
-//! The time in which the motion of a gyrostat changes, and the unit of time that follows from it.
+//! Time scale of the motion of a gyrostat, and the unit of time that follows from it.
 
 use crate::math::Real;
 
-/// Below this rate, rad/s, nothing is resolved more finely: 2^-200.
+/// Rates below this, rad/s, are not resolved: 2^-200.
 const SLOWEST: f64 = 6.223_015_277_861_142e-61;
 
-/// The largest magnitude among the components, rounded to `f64`.
+/// The largest component in magnitude, rounded to `f64`.
 #[inline(always)]
 pub(super) fn largest<R: Real>(v: [R; 3]) -> f64 {
     v[0].lane(0).abs().max(v[1].lane(0).abs()).max(v[2].lane(0).abs())
 }
 
-/// The smallest principal moment, kg m^2.
 #[inline(always)]
 fn smallest<R: Real>(moments: [R; 3]) -> f64 {
     moments[0].lane(0).min(moments[1].lane(0)).min(moments[2].lane(0))
 }
 
-/// The rate that the wheels' momentum `momentum_b` (N m s) adds to the motion of a body of principal moments `moments`,
-/// rad/s.
+/// Rate of the motion due to the wheels' momentum `momentum_b` (N m s) for the principal moments `moments`, rad/s.
 #[inline(always)]
 pub(super) fn rate_of_momentum<R: Real>(moments: [R; 3], momentum_b: [R; 3]) -> f64 {
     largest(momentum_b) / smallest(moments)
 }
 
-/// The rate that torques (N m; the largest counts) add to the motion after one radian, rad/s.
+/// Rate after one radian of acceleration by the larger of two torques (N m), rad/s.
 #[inline(always)]
 pub(super) fn rate_of_torques<R: Real>(moments: [R; 3], [first, second]: [[R; 3]; 2]) -> f64 {
     (largest(first).max(largest(second)) / smallest(moments)).sqrt()

@@ -1,7 +1,5 @@
-//! [`GyrostatWheel`]: what is constant about one wheel of a run, and its rate, momentum and angle, in closed form.
-//!
-//! The only place where wheel rates and angles are derived: for a run's arcs, for observation points in lanes, for what
-//! a law sees and for reference solutions in more digits.
+//! [`GyrostatWheel`]: constants of a wheel, and its rate, momentum and angle in closed form, for arcs, lanes of
+//! observation points, laws and reference solutions.
 
 use crate::math::Real;
 use crate::math::vector::{constant, dot};
@@ -15,26 +13,25 @@ pub struct GyrostatWheel<R> {
     pub axial: R,
     /// 1/J_i, 1/(kg m^2).
     pub inverse_axial: R,
-    /// Rate relative to the body where a motor holds it, rad/s; `None` of a free wheel.
+    /// Constant rate relative to the body, rad/s; `None` for a free wheel.
     pub held: Option<R>,
     /// Angle at time zero, rad.
     pub angle: R,
-    /// Momentum beside K omega at time zero, N m s: h_i of a free wheel, J_i Omega_i of one whose speed is held.
+    /// Momentum without K omega at time zero, N m s: h_i of a free wheel, J_i Omega_i of one of constant speed.
     pub momentum: R,
 }
 
-/// Momentum and turn of one wheel at a time.
+/// Momentum and turn of a wheel at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelMotion<R> {
-    /// Momentum beside K omega, N m s: h_i of a free wheel, J_i Omega_i of one whose speed is held.
+    /// Momentum without K omega, N m s: h_i of a free wheel, J_i Omega_i of one of constant speed.
     pub momentum: R,
-    /// Integral of h_i/J_i over time since time zero, rad (of free wheels).
+    /// Integral of h_i/J_i since time zero, rad (free wheels).
     pub turn: R,
 }
 
 impl<R: Real> WheelMotion<R> {
-    /// The motion of `wheel` after `since` seconds at the motor torque `torque` (N m), from this one on: h_i is linear
-    /// in time.
+    /// The motion after `since` seconds at the motor torque `torque` (N m); h_i is linear in time.
     #[inline(always)]
     pub fn after(&self, wheel: &GyrostatWheel<R>, torque: R, since: R) -> Self {
         WheelMotion { momentum: self.momentum_after(torque, since), turn: self.turn_after(wheel, torque, since) }
@@ -53,7 +50,7 @@ impl<R: Real> WheelMotion<R> {
         (mean * wheel.inverse_axial).mul_add(since, self.turn)
     }
 
-    /// The same number in all lanes of `zero`.
+    /// Broadcasts to all lanes of `zero`.
     #[inline(always)]
     pub fn in_lanes<L: Real>(&self, zero: L) -> WheelMotion<L> {
         WheelMotion { momentum: zero.splat(self.momentum.lane(0)), turn: zero.splat(self.turn.lane(0)) }
@@ -67,8 +64,7 @@ impl<R: Real> GyrostatWheel<R> {
         WheelMotion { momentum: self.momentum, turn: self.momentum.zero() }
     }
 
-    /// Rate relative to the body, rad/s, of a wheel of momentum `momentum` while the body turns with `omega_b`:
-    /// h_i/J_i - a_i . omega, or what it is held at.
+    /// Rate relative to the body, rad/s, at the body rate `omega_b`: h_i/J_i - a_i . omega, or the constant rate.
     #[inline(always)]
     pub fn rate(&self, momentum: R, omega_b: [R; 3]) -> R {
         match self.held {
@@ -86,8 +82,8 @@ impl<R: Real> GyrostatWheel<R> {
         }
     }
 
-    /// Angle relative to the body at `time` (s), rad, not wrapped, where the integrals since time zero of h_i/J_i and
-    /// of omega are `turn` and `turned_b`.
+    /// Angle relative to the body at `time` (s), rad, not wrapped; `turn` and `turned_b` are the integrals of h_i/J_i
+    /// and omega since time zero.
     #[inline(always)]
     pub fn angle(&self, time: R, turn: R, turned_b: [R; 3]) -> R {
         match self.held {
@@ -96,7 +92,7 @@ impl<R: Real> GyrostatWheel<R> {
         }
     }
 
-    /// The same numbers in all lanes of `zero`.
+    /// Broadcasts to all lanes of `zero`.
     #[inline(always)]
     #[expect(clippy::manual_map, reason = "a closure given to `map` is compiled outside the kernel's instruction set")]
     pub fn in_lanes<L: Real>(&self, zero: L) -> GyrostatWheel<L> {

@@ -1,20 +1,20 @@
 //! Coefficients of IGRF-14, the International Geomagnetic Reference Field (International Association of Geomagnetism
-//! and Aeronomy, 2024, doi:10.5281/zenodo.14012302), and the weights of the harmonics in each component of the field.
+//! and Aeronomy, 2024, doi:10.5281/zenodo.14012302), and the weights of the harmonics in the field.
 //!
 //! The field is minus the gradient of a sum of solid harmonics V_nm, W_nm (L. Cunningham, 1970, Celestial Mechanics 2,
-//! 207; O. Montenbruck & E. Gill, *Satellite Orbits*, 2000, eqs. 3.27 to 3.33), whose derivatives are harmonics of the
-//! next degree: each component of the field is a sum of weights times harmonics of the degrees 2 to 14.
+//! 207; O. Montenbruck & E. Gill, *Satellite Orbits*, 2000, eqs. 3.27 to 3.33). Their derivatives are harmonics of the
+//! next degree, so that a component of the field is a weighted sum of harmonics of degrees 2 to 14.
 
 use crate::scene::FieldModel;
 use std::sync::LazyLock;
 
-/// Radius to which the coefficients belong, m.
+/// Reference radius of the coefficients, m.
 pub const RADIUS: f64 = 6_371_200.0;
 
 /// Largest degree of the model.
 pub const DEGREE: usize = 13;
 
-/// The year from which on the secular variation applies; before, the field is interpolated from 2020 on.
+/// Year from which the secular variation applies; earlier fields are interpolated from 2020.
 pub const MIDDLE: f64 = 2025.0;
 
 /// Number of harmonics of the degrees 2 to 14.
@@ -26,29 +26,28 @@ pub const fn index(k: usize, j: usize) -> usize {
     k * (k + 1) / 2 + j - 3
 }
 
-/// The weights of V and W in each component of the field, Earth-fixed, T or T/year: x of V and W, y of V and W, z of V
-/// and W.
+/// Weights of V and W in the Earth-fixed x, y and z of the field, T or T/year.
 pub type Weights = [[f64; 6]; HARMONICS];
 
-/// The weights of the field in 2025, and what is added for each year after it and before it.
+/// Weights of the field in 2025 and their annual changes after and before.
 #[derive(Debug)]
 pub struct Tables {
     /// In 2025, T.
     pub middle: Weights,
-    /// For each year after, T.
+    /// Change per year after 2025, T.
     pub after: Weights,
-    /// The mean change in each year from 2020 to 2025, T.
+    /// Mean change per year from 2020 to 2025, T.
     pub before: Weights,
 }
 
-/// The tables, made from the coefficients once.
+/// The tables, computed once.
 pub static TABLES: LazyLock<Tables> = LazyLock::new(|| Tables {
     middle: weights(|[_, middle, _]| middle),
     after: weights(|[_, _, change]| change),
     before: weights(|[first, middle, _]| (middle - first) / (MIDDLE - FieldModel::YEARS[0])),
 });
 
-/// The weights of the coefficients that `of` takes from each row.
+/// Weights from the coefficients that `of` selects in each row.
 fn weights(of: impl Fn([f64; 3]) -> f64) -> Weights {
     const NANO: f64 = 1e-9;
     let gauss = |n: usize, m: usize| -> [f64; 2] {
@@ -91,14 +90,13 @@ fn weights(of: impl Fn([f64; 3]) -> f64) -> Weights {
     table
 }
 
-/// Schmidt's factor of the functions of degree `n` and order `m`: sqrt((2 - delta_0m) (n - m)!/(n + m)!).
+/// Schmidt's factor of degree `n` and order `m`: sqrt((2 - delta_0m) (n - m)!/(n + m)!).
 fn schmidt(n: usize, m: usize) -> f64 {
     let ratio = (n - m + 1..=n + m).fold(1.0, |ratio, factor| ratio / factor as f64);
     (if m == 0 { ratio } else { 2.0 * ratio }).sqrt()
 }
 
-/// Of each coefficient g_10, g_11, h_11, g_20, g_21, h_21, ...: in 2020 and in 2025, nT, and its secular variation from
-/// 2025 to 2030, nT/year.
+/// g_10, g_11, h_11, g_20, g_21, h_21, ...: in 2020 and 2025, nT, and secular variation from 2025 to 2030, nT/year.
 #[rustfmt::skip]
 const COEFFICIENTS: [[f64; 3]; DEGREE * (DEGREE + 2)] = [
     [-29403.41, -29350.0, 12.6], [-1451.37, -1410.3, 10.0], [4653.35, 4545.5, -21.5],

@@ -1,18 +1,16 @@
-//! [`MagneticField`]: the Earth's magnetic field at a place and time, by IGRF-14 to degree 13 or by its dipole.
+//! [`MagneticField`]: the Earth's magnetic field by IGRF-14 to degree 13, or its dipole (degree 1, tilted by 9
+//! degrees).
 //!
-//! The field turns with the Earth ([`super::earth_rotation`]). It is that of the date at time zero: its secular
-//! variation during a run, some 0.2 nT a day, is left out. The dipole is the part of degree 1, tilted by some 9 degrees
-//! against the Earth's axis.
-//!
-//! With X = a x/r^2 and so on, a the radius of reference, the harmonics follow from V_00 = a/r by recurrences (O.
-//! Montenbruck & E. Gill, *Satellite Orbits*, 2000, eqs. 3.29 to 3.31):
+//! The field turns with the Earth ([`super::earth_rotation`]) and is that of the date at time zero: secular variation
+//! during a run, 0.2 nT per day, is neglected. With X = a x/r^2 etc. and the reference radius a, the harmonics follow
+//! from V_00 = a/r (O. Montenbruck & E. Gill, *Satellite Orbits*, 2000, eqs. 3.29 to 3.31):
 //!
 //! ```text
 //! V_jj = (2j - 1) (X V_(j-1)(j-1) - Y W_(j-1)(j-1)),   W_jj = (2j - 1) (X W_(j-1)(j-1) + Y V_(j-1)(j-1))
 //! (k - j) V_kj = (2k - 1) Z V_(k-1)j - (k + j - 1) (a/r)^2 V_(k-2)j, and W_kj in the same way
 //! ```
 //!
-//! - [`coefficients`]: the coefficients of IGRF-14. [`series`]: the Taylor series along an orbit.
+//! [`coefficients`]: coefficients of IGRF-14. [`series`]: Taylor series along an orbit.
 
 pub mod coefficients;
 pub mod series;
@@ -24,28 +22,28 @@ use crate::math::sine::sin_cos_turns;
 use crate::math::vector::{dot, scaled};
 use crate::scene::{Epoch, FieldModel, Scene};
 
-/// The field, of one run per lane.
+/// The field, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct MagneticField<R> {
     tables: &'static Tables,
     /// The largest degree of any lane.
     degree: usize,
-    /// One in the lanes that have the degrees above the first, zero in others.
+    /// One in lanes with degrees above the first, zero in others.
     higher: R,
-    /// Years since 2025, zero before; and the same of years before, negative.
+    /// Years after 2025, and (negative) before 2025; zero otherwise.
     after: R,
     before: R,
-    /// How the Earth is turned at time zero, turns.
+    /// Rotation angle of the Earth at time zero, turns.
     turns: R,
 }
 
 impl MagneticField<f64> {
-    /// The field of `scene`, where it has one.
+    /// The field of `scene`, if any.
     pub fn of(scene: &Scene) -> Option<Self> {
         Some(Self::new(scene.environment.magnetic_field?, scene.orbit.as_ref()?.epoch?))
     }
 
-    /// The field by `model` at the date `epoch`, whose year is one of [`FieldModel::YEARS`].
+    /// The field by `model` at `epoch`, in the years [`FieldModel::YEARS`].
     pub fn new(model: FieldModel, epoch: Epoch) -> Self {
         let (degree, higher) = match model {
             FieldModel::Dipole => (1, 0.0),
@@ -56,7 +54,7 @@ impl MagneticField<f64> {
         MagneticField { tables: &TABLES, degree, higher, after, before, turns: turns_at(epoch) }
     }
 
-    /// The same in all lanes of `zero`.
+    /// Broadcasts to all lanes of `zero`.
     pub fn in_lanes<R: Real>(&self, zero: R) -> MagneticField<R> {
         MagneticField {
             tables: self.tables,
@@ -75,7 +73,7 @@ impl<R: Real> MagneticField<R> {
         MagneticField { tables: &TABLES, degree: 0, higher: zero, after: zero, before: zero, turns: zero }
     }
 
-    /// Puts `own` into lane `lane`.
+    /// Copies `own` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, own: &MagneticField<f64>) {
         self.degree = self.degree.max(own.degree);
         self.higher.set_lane(lane, own.higher);
@@ -84,7 +82,7 @@ impl<R: Real> MagneticField<R> {
         self.turns.set_lane(lane, own.turns);
     }
 
-    /// The field at `position` (F_e, m) at `time` (s), F_e, T.
+    /// The field at `position` (F_e, m) and `time` (s), F_e, T.
     #[inline(always)]
     pub fn at(&self, time: R, position: [R; 3]) -> [R; 3] {
         let zero = time.zero();
@@ -108,7 +106,7 @@ impl<R: Real> MagneticField<R> {
             let (mut before, mut now) = ([zero; 2], diagonal);
             for k in j..=top {
                 if k > j {
-                    // sums and not closures, which may be compiled without vector instructions
+                    // no closures: they may be compiled without vector instructions
                     let [along, across] = factors(k, j);
                     let (along, across) = (zero.splat(along) * z, zero.splat(across) * near);
                     let next = [along * now[0] - across * before[0], along * now[1] - across * before[1]];
@@ -127,14 +125,14 @@ impl<R: Real> MagneticField<R> {
         turned(cos, sin, dipole)
     }
 
-    /// Sine and cosine of the angle by which the Earth is turned at `time`, s.
+    /// Sine and cosine of the Earth's rotation angle at `time`, s.
     #[inline(always)]
     fn turn(&self, time: R) -> (R, R) {
         let turns = time.mul_add(time.splat(TURNS_PER_SECOND), self.turns);
         sin_cos_turns(turns - turns.nearest_integer())
     }
 
-    /// The weights of the harmonics of index `index` at the date.
+    /// Weights of the harmonics of index `index` at the date.
     #[inline(always)]
     fn weights(&self, index: usize) -> [R; 6] {
         let Tables { middle, after, before } = self.tables;
@@ -148,14 +146,14 @@ impl<R: Real> MagneticField<R> {
     }
 }
 
-/// The factors of Z V_(k-1)j and (a/r)^2 V_(k-2)j in V_kj.
+/// Factors of Z V_(k-1)j and (a/r)^2 V_(k-2)j in V_kj.
 #[inline(always)]
 fn factors(k: usize, j: usize) -> [f64; 2] {
     let difference = (k - j) as f64;
     [(2 * k - 1) as f64 / difference, (k + j - 1) as f64 / difference]
 }
 
-/// Adds what the harmonics `now`, V and W, contribute to a field.
+/// Adds the contribution of the harmonics `now`, V and W, to a field.
 #[inline(always)]
 fn add_weighed<R: Real>(field: &mut [R; 3], weights: &[R; 6], now: [R; 2]) {
     for i in 0..3 {
@@ -163,14 +161,14 @@ fn add_weighed<R: Real>(field: &mut [R; 3], weights: &[R; 6], now: [R; 2]) {
     }
 }
 
-/// A vector turned about e3 by the angle of the cosine `cos` and the sine `sin`.
+/// Rotation about e3.
 #[inline(always)]
 fn turned<R: Real>(cos: R, sin: R, [x, y, z]: [R; 3]) -> [R; 3] {
     [cos * x - sin * y, sin * x + cos * y, z]
 }
 
-/// Upper bound of the field at a distance of at least `distance` m, T: 70,000 nT at the radius of reference, where
-/// IGRF-14 reaches 67,000 nT, and each degree falls at least as the dipole.
+/// Upper bound of the field beyond `distance` m, T: 70,000 nT at the reference radius (IGRF-14: 67,000 nT), falling at
+/// least like a dipole.
 pub fn largest(distance: f64) -> f64 {
     let ratio = RADIUS / distance;
     let dipole = ratio * ratio * ratio;
@@ -183,10 +181,9 @@ pub(super) mod tests {
     use crate::math::isa::{Isa, WideWork};
     use crate::math::vector::{difference, norm};
 
-    /// Dates, times in s, positions in m, and the fields in nT in F_e of `pyIGRF14` 1.0.4 (`calculate.igrf12syn(year,
-    /// 2, r, lat, lon)`, with years of their own length as here), of `ppigrf` 2.1.0 (`igrf_gc(r, colatitude, lon,
-    /// date)`, which interpolates in days: up to 0.2 nT apart) and of its degree 1 (`max_degree=1`), turned to F_e by
-    /// `gmst06` of pyerfa 2.0.1.5.
+    /// Dates, times in s, positions in m, and fields in nT in F_e: `pyIGRF14` 1.0.4 (`calculate.igrf12syn(year, 2, r,
+    /// lat, lon)`, same length of years), `ppigrf` 2.1.0 (`igrf_gc(r, colatitude, lon, date)`, interpolates in days: up
+    /// to 0.2 nT apart) and its degree 1 (`max_degree=1`), turned to F_e by `gmst06` of pyerfa 2.0.1.5.
     #[expect(clippy::type_complexity, reason = "rows of a table")]
     pub const TRUTH: [(&str, f64, [f64; 3], [f64; 3], [f64; 3], [f64; 3]); 5] = [
         (
@@ -235,8 +232,8 @@ pub(super) mod tests {
         Epoch::parse(text).expect(text)
     }
 
-    /// Law: two packages that are independent of each other give the same field, to 0.2 nT where their dates differ and
-    /// to rounding of the Earth's angle (1e-10) with the same dates.
+    /// Law: the field of two independent packages, to 0.2 nT if their dates differ, to rounding of the Earth's angle
+    /// (1e-10) otherwise.
     #[test]
     fn the_field_is_that_of_two_packages() {
         for (date, time, position, field, other, dipole) in TRUTH {
@@ -251,7 +248,7 @@ pub(super) mod tests {
         }
     }
 
-    /// Law: a lane has the field of its own date and model, bit for bit, whatever is beside it.
+    /// Law: a lane has the field of its own date and model, bit for bit.
     #[test]
     fn lanes_do_not_share_a_field() {
         let fields: Vec<(MagneticField<f64>, f64, [f64; 3])> = (0..8)

@@ -1,6 +1,4 @@
-//! [`FieldSeries`]: Taylor coefficients of the magnetic field along an orbit.
-//!
-//! Each recurrence of the harmonics is a product of series; the Earth's angle has the series of sine and cosine.
+//! [`FieldSeries`]: Taylor coefficients of the magnetic field along an orbit, by products of series.
 
 use super::coefficients::{HARMONICS, RADIUS, index};
 use super::{MagneticField, add_weighed, factors};
@@ -8,7 +6,7 @@ use crate::dynamics::earth_rotation::TURNS_PER_SECOND;
 use crate::dynamics::orbit_series::{OrbitSeries, next_of_power};
 use crate::math::Real;
 
-/// The coefficients of one step, in the lanes' units of time.
+/// Coefficients of one step, in the lanes' units of time.
 #[derive(Clone, Debug)]
 pub struct FieldSeries<R> {
     field: MagneticField<R>,
@@ -16,23 +14,23 @@ pub struct FieldSeries<R> {
     weights: Vec<[R; 6]>,
     /// The Earth's rotation, rad per unit of time.
     rate: R,
-    /// Of cosine and sine of the Earth's angle.
+    /// Cosine and sine of the Earth's rotation angle.
     turn: Vec<[R; 2]>,
-    /// Of 1/r^2, 1/m^2.
+    /// 1/r^2, 1/m^2.
     inverse: Vec<R>,
-    /// Of the position, Earth-fixed, m.
+    /// Position, Earth-fixed, m.
     fixed: Vec<[R; 3]>,
-    /// Of X, Y, Z and (a/r)^2.
+    /// X, Y, Z and (a/r)^2.
     over: Vec<[R; 4]>,
-    /// Of V and W, one harmonic after the other: degree 0 and 1, then those of the list of weights.
+    /// V and W by harmonic: degrees 0 and 1, then those of the list of weights.
     harmonics: Vec<[R; 2]>,
-    /// Of the field, Earth-fixed, T.
+    /// Field, Earth-fixed, T.
     own: Vec<[R; 3]>,
-    /// Of the field, F_e, T.
+    /// Field, F_e, T.
     series: Vec<[R; 3]>,
 }
 
-/// The place of the harmonics of degree `k` and order `j` among all.
+/// Position of the harmonics of degree `k` and order `j` in `harmonics`.
 #[inline(always)]
 const fn place(k: usize, j: usize) -> usize {
     k * (k + 1) / 2 + j
@@ -77,7 +75,7 @@ impl<R: Real> FieldSeries<R> {
         }
     }
 
-    /// Coefficient n of the field, F_e, T. Call in ascending order of `n`, after that of the orbit.
+    /// Coefficient n of the field, F_e, T; in ascending order of `n`, after the orbit's.
     #[inline(always)]
     pub fn extend(&mut self, n: usize, orbit: &OrbitSeries<R>) -> [R; 3] {
         let zero = self.rate.zero();
@@ -125,7 +123,7 @@ impl<R: Real> FieldSeries<R> {
                 harmonics[place(j, j) * length + n] = [factor * v, factor * w];
             }
             for k in j + 1..=top {
-                // loops and not closures, which may be compiled without vector instructions
+                // no closures: they may be compiled without vector instructions
                 let [along, across] = factors(k, j);
                 let (along, across) = (zero.splat(along), zero.splat(across));
                 let (mut near, mut far) = ([zero; 2], [zero; 2]);
@@ -189,7 +187,7 @@ mod tests {
     use crate::math::vector::{difference, norm};
     use crate::scene::{FieldModel, Orbit};
 
-    /// Law: the series along an orbit is the field at the places of the orbit, to rounding, for both models.
+    /// Law: the series along an orbit is the field there, to rounding, for both models.
     #[test]
     fn the_series_is_the_field_along_the_orbit() {
         const ORDER: usize = 24;

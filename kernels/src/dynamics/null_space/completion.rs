@@ -1,4 +1,4 @@
-//! From integrated components to the table of physical states.
+//! Physical states from integrated components.
 
 use super::energy::kinetic_energies;
 use super::parameters::{Parameters, WheelParameters};
@@ -9,10 +9,10 @@ use crate::math::vector::{cross, dot, product, scaled_quaternion_from_dcm, sum};
 use crate::run::{Grid, StateField, StateTable, Trajectory};
 use crate::scene::Scene;
 
-/// Fills the fields that `table` has from the integrated components of a run of `scene`, and pads them.
+/// Fills and pads the fields of `table` from the integrated components of a run of `scene`.
 ///
-/// Quaternions come from the integrated DCMs, of unit norm, with a sign that does not change from point to point,
-/// starting from the scene's own. Debris that the scene does not have is at rest. No allocation.
+/// Quaternions are those of the integrated DCMs, of unit norm and continuous sign, starting from the scene's. Missing
+/// debris is at rest. No allocation.
 #[inline(always)]
 pub fn complete<const W: usize, const N: usize>(
     scene: &Scene,
@@ -67,7 +67,7 @@ pub fn complete<const W: usize, const N: usize>(
     table.pad();
 }
 
-/// The state that an actuation law sees; of the two quaternions of the attitude the one nearer to `near`.
+/// The state shown to an actuation law; of the two attitude quaternions the one nearer to `near`.
 #[inline(always)]
 pub fn observed_state<const W: usize>(
     parameters: &Parameters<W>,
@@ -91,9 +91,8 @@ pub fn observed_state<const W: usize>(
     (body, wheels)
 }
 
-/// The unit quaternion of a DCM by columns, the one of the two that is nearer to `near`.
-///
-/// By Shepperd's method; the final normalisation distributes the deviation of the DCM from orthonormality.
+/// Unit quaternion of a DCM by columns, the one nearer to `near`, by Shepperd's method; the final normalisation
+/// distributes the deviation of the DCM from orthonormality.
 #[inline(always)]
 pub fn quaternion(c: Columns, near: [f64; 4]) -> [f64; 4] {
     let (_, q) = scaled_quaternion_from_dcm(transposed(c));

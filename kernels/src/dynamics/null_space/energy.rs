@@ -1,4 +1,4 @@
-//! Kinetic energies (36): T_b = 1/2 nu_b^T M_b nu_b of fuselage, wheels and debris, in F_e.
+//! Kinetic energies (36) of fuselage, wheels and debris in F_e: T_b = 1/2 nu_b^T M_b nu_b.
 
 use super::kinematics::WheelMotion;
 use super::parameters::Parameters;
@@ -8,16 +8,16 @@ use crate::math::vector::{cross, dot, product};
 /// The kinetic energies of the bodies, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KineticEnergies<const W: usize> {
-    /// Of the fuselage.
+    /// Fuselage.
     pub fuselage: f64,
-    /// Of each wheel; zero for a missing one.
+    /// Wheels; zero for a missing one.
     pub wheels: [f64; W],
-    /// Of the debris; missing debris is at rest.
+    /// Debris; zero if missing.
     pub debris: f64,
 }
 
 impl<const W: usize> KineticEnergies<W> {
-    /// Of all bodies together, J.
+    /// Total, J.
     pub fn total(&self) -> f64 {
         self.fuselage + self.wheels.iter().sum::<f64>() + self.debris
     }
@@ -29,7 +29,7 @@ pub fn kinetic_energies<const W: usize>(parameters: &Parameters<W>, state: &Stat
     let energy = |mass: f64, v: [f64; 3], inertia: [[f64; 3]; 3], omega: [f64; 3]| {
         0.5 * (mass * dot(v, v) + dot(omega, product(inertia, omega)))
     };
-    // 1/2 m v_p^2 + v_p . C (omega x c) + 1/2 omega . J_p omega: M_s has the first moment beside its diagonal
+    // M_s has the first moment: 1/2 m v_p^2 + v_p . C (omega x c) + 1/2 omega . J_p omega
     let omega = state.omega_s;
     let coupling = dot(rotated_back(state.fuselage.dcm, state.v_p), cross(omega, parameters.fuselage_first));
     let fuselage = energy(parameters.fuselage_mass, state.v_p, parameters.fuselage_inertia, omega) + coupling;

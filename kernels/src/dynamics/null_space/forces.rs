@@ -1,7 +1,7 @@
-//! Non-inertial terms and actuators, body by body: -M-dot nu - Omega M nu + a_non (39), and B u (26), (72)-(74).
+//! Non-inertial terms -M-dot nu - Omega M nu + a_non (39) and actuators B u (26), (72)-(74), body by body.
 //!
-//! The three non-inertial terms are separate, as in the paper, although for the fuselage their sum is -omega x J omega
-//! and C omega x (c x omega): so each can be compared with Berdoz's.
+//! The three non-inertial terms are separate, as in the paper, for comparison with Berdoz's; their sum for the fuselage
+//! is -omega x J omega and C omega x (c x omega).
 
 use super::kinematics::WheelMotion;
 use super::parameters::{Parameters, WheelParameters};
@@ -10,7 +10,7 @@ use crate::math::vector::{cross, difference, dot, product, scaled, sum};
 use crate::scene::Actuation;
 use crate::scene::thruster::report_offset;
 
-/// A force in F_e and a torque in the body's frame about the body's point (p, g1, g2, g_d).
+/// Force in F_e and torque in the body's frame about the body's point (p, g1, g2, g_d).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wrench {
     /// Force in F_e, N.
@@ -19,21 +19,21 @@ pub struct Wrench {
     pub torque: [f64; 3],
 }
 
-/// The applied forces of an arc: B u (26) and the body torque, in the frames of the bodies.
+/// Applied forces of an arc: B u (26) and body torque, in the frames of the bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive<const W: usize> {
     /// Force of the thrusters in F_s, N.
     pub force_s: [f64; 3],
-    /// Torque of the thrusters about p plus the body torque, in F_s, N m.
+    /// Torque of the thrusters plus body torque about p, in F_s, N m.
     pub torque_p_s: [f64; 3],
-    /// The same about c.
+    /// Torque of the thrusters plus body torque about c, in F_s, N m.
     pub torque_c_s: [f64; 3],
     /// Motor torques on the wheels, N m.
     pub motors: [f64; W],
 }
 
 impl<const W: usize> Drive<W> {
-    /// B_s u (72), each thruster turned by its misalignment.
+    /// B_s u (72), with misaligned thrusters.
     pub fn of(parameters: &Parameters<W>, actuation: &Actuation) -> Self {
         let (mut force_s, mut torque_p_s) = ([0.0; 3], [0.0; 3]);
         if let Some(offset) = report_offset(&parameters.thrusters) {
@@ -78,7 +78,7 @@ pub fn fuselage_inertial<const W: usize>(parameters: &Parameters<W>, state: &Sta
     }
 }
 
-/// B_s u (72): the thrusters, and the motors' reaction.
+/// B_s u (72): thrusters and reaction of the motors.
 #[inline(always)]
 pub fn fuselage_applied<const W: usize>(parameters: &Parameters<W>, state: &State<W>, drive: &Drive<W>) -> Wrench {
     let mut torque = drive.torque_p_s;
@@ -88,7 +88,8 @@ pub fn fuselage_applied<const W: usize>(parameters: &Parameters<W>, state: &Stat
     Wrench { force: rotated(state.fuselage.dcm, drive.force_s), torque }
 }
 
-/// -M Pi-dot nu-hat - Omega M nu of a wheel, and its motor (73), (74). M-dot and a_non vanish about the centre of mass.
+/// -M Pi-dot nu-hat - Omega M nu and motor torque (73), (74) of a wheel. M-dot and a_non vanish about the centre of
+/// mass.
 #[inline(always)]
 pub fn wheel_wrench(wheel: &WheelParameters, motion: &WheelMotion, motor: f64) -> Wrench {
     let gyroscopic = cross(motion.omega, product(wheel.inertia, motion.omega));
@@ -99,15 +100,14 @@ pub fn wheel_wrench(wheel: &WheelParameters, motion: &WheelMotion, motor: f64) -
     }
 }
 
-/// The torque of the motor that keeps a wheel's rate constant, N m: a^T J C_ws omega_s-dot minus the `inertial` part of
-/// the wheel's row of (39). It has no effect on omega_s: its action on the wheel and on the fuselage cancels in Pi^T B
-/// u.
+/// Torque of the motor of a wheel of constant speed, N m: a^T J C_ws omega_s-dot minus the `inertial` part of the
+/// wheel's row of (39). Its actions on wheel and fuselage cancel in Pi^T B u.
 #[inline(always)]
 pub fn holding_torque(wheel: &WheelParameters, motion: &WheelMotion, omega_s_dot: [f64; 3], inertial: f64) -> f64 {
     dot(product(wheel.inertia, wheel.axis), rotated(motion.c_ws, omega_s_dot)) - inertial
 }
 
-/// The power of the thrusters, F . v at the points where they act, and of the motors, tau . Omega; W.
+/// Power of the thrusters, F . v, and of the motors, tau . Omega; W.
 #[inline(always)]
 pub fn power<const W: usize>(state: &State<W>, drive: &Drive<W>, motors: [f64; W]) -> [f64; 2] {
     let w = rotated_back(state.fuselage.dcm, state.v_p);

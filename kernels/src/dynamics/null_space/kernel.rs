@@ -8,14 +8,14 @@ use super::state::{Pose, State, rotated};
 use crate::math::vector::{cross, product, scaled, sum};
 use crate::scene::{Actuation, Scene};
 
-/// The right-hand side for one scene of at most `W` wheels and one arc of constant actuation.
+/// Right-hand side for a scene with at most `W` wheels and one arc of constant actuation.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel<const W: usize> {
     parameters: Parameters<W>,
     drive: Drive<W>,
     debris_factor: Factor<3>,
-    /// J_d - J_d,11 1: a multiple of the unit matrix causes no torque, and so the rate of a cube is constant to the
-    /// last bit.
+    /// J_d - J_d,11 1: a multiple of the unit matrix causes no torque, and the rate of a cube is constant to the last
+    /// bit.
     debris_deviator: [[f64; 3]; 3],
 }
 
@@ -35,7 +35,7 @@ impl<const W: usize> Kernel<W> {
         }
     }
 
-    /// Starts an arc: what acts from here on.
+    /// Starts an arc.
     pub fn drive(&mut self, actuation: &Actuation) {
         self.drive = Drive::of(&self.parameters, actuation);
     }
@@ -45,8 +45,8 @@ impl<const W: usize> Kernel<W> {
         &self.parameters
     }
 
-    /// The derivative of all components. No allocation, no branch on the data; 0.56 us on one core with AVX2
-    /// (`cargo bench -p spindrift-benches --bench kernels`), inside [`crate::math::Isa::run`].
+    /// Derivative of all components. No allocation, no branch on data; 0.56 us per core with AVX2 (`cargo bench -p
+    /// spindrift-benches --bench kernels`) inside [`crate::math::Isa::run`].
     ///
     /// Tests: `block_form_equals_the_matrices_as_printed`, `agrees_with_the_gyrostat`.
     #[inline(always)]

@@ -1,12 +1,10 @@
-//! S and Gamma (9), (51)-(54), (68); Pi and Pi-dot (58): the blocks that are neither zero nor one.
+//! S and Gamma (9), (51)-(54), (68); Pi and Pi-dot (58): the blocks other than zero and one.
 
 use super::parameters::WheelParameters;
 use super::state::{Columns, State, rotated, rotated_back};
 use crate::math::vector::{cross, difference, dot, scaled, sum};
 
-/// S omega (68): the rate of a DCM's columns, C-dot = C omega^x.
-///
-/// Column j is C (omega x e_j); written with the body's own three columns.
+/// S omega (68): C-dot = C omega^x by columns, column j being C (omega x e_j).
 #[inline(always)]
 pub fn dcm_rate(c: Columns, omega: [f64; 3]) -> Columns {
     let turned = |x: f64, a: [f64; 3], y: f64, b: [f64; 3]| {
@@ -19,7 +17,7 @@ pub fn dcm_rate(c: Columns, omega: [f64; 3]) -> Columns {
     ]
 }
 
-/// The columns of C r^x: C (r x e_j).
+/// Columns of C r^x: C (r x e_j).
 #[inline(always)]
 pub fn lever(c: Columns, r: [f64; 3]) -> Columns {
     dcm_rate(c, r)
@@ -43,7 +41,7 @@ pub struct WheelMotion {
 }
 
 impl WheelMotion {
-    /// Before anything is known.
+    /// All zero.
     pub const AT_REST: WheelMotion = WheelMotion {
         lever: [[0.0; 3]; 3],
         c_ws: [[0.0; 3]; 3],
@@ -75,18 +73,16 @@ impl WheelMotion {
         }
     }
 
-    /// Pi^T of a force (in F_e) and torque (in the wheel's frame) on the wheel: the rows of omega_s and of the wheel's
-    /// rate. (The rows of v_p are the force itself.)
+    /// Pi^T of a force (in F_e) and torque (wheel frame) on the wheel: rows of omega_s and of the wheel's rate. The
+    /// rows of v_p are the force.
     #[inline(always)]
     pub fn reduced(&self, force: [f64; 3], torque: [f64; 3], axis: [f64; 3]) -> ([f64; 3], f64) {
         (sum(rotated_back(self.lever, force), rotated_back(self.c_ws, torque)), dot(axis, torque))
     }
 }
 
-/// Calls `body` with the index of each of `W` wheels, in order.
-///
-/// Two wheels, Berdoz's, are written out: the compiler does not unroll a loop over so large a body, and what a loop
-/// indexes stays in memory.
+/// Calls `body` for each of `W` wheels, in order. Berdoz's two are written out: the compiler does not unroll so large a
+/// body, and indexed values stay in memory.
 #[inline(always)]
 pub fn for_each_wheel<const W: usize>(mut body: impl FnMut(usize)) {
     if W == 2 {

@@ -1,11 +1,8 @@
 //! M-hat = Pi^T M Pi (25) and its solution by Cholesky's method.
 //!
-//! M-hat is block diagonal: the spacecraft's (v_p, omega_s, wheel rates), m_d 1, J_d. In the spacecraft's the block of
-//! v_p is m 1, so that its part of the factor is sqrt(m) 1 and only the block of omega_s and the wheel rates remains to
-//! be factored.
-//!
-//! The rate of a wheel of constant speed is not an unknown; its row and column are those of the unit matrix, so that
-//! its rate of change is zero.
+//! M-hat has the blocks spacecraft (v_p, omega_s, wheel rates), m_d 1 and J_d. The spacecraft's v_p block is m 1 with
+//! the factor sqrt(m) 1, so that only omega_s and the wheel rates are factored. The row and column of a wheel of
+//! constant speed are those of the unit matrix: its acceleration is zero.
 
 #![expect(clippy::needless_range_loop, reason = "indices of a matrix, as in the formulas")]
 
@@ -17,19 +14,18 @@ use crate::math::vector::{dot, product, scaled};
 /// A lower triangular Cholesky factor with the reciprocals on its diagonal.
 pub type Factor<const N: usize> = [[f64; N]; N];
 
-/// The spacecraft's block of M-hat, with `W` wheels.
+/// Spacecraft block of M-hat with `W` wheels.
 #[derive(Clone, Copy, Debug)]
 pub struct SpacecraftMass<const W: usize> {
     /// v_p with v_p: m, times the unit matrix, kg.
     pub total: f64,
     /// v_p (rows) with omega_s (columns), by columns, kg m: -C_es (c_s + sum m_i z_i)^x.
     pub coupling: [[f64; 3]; 3],
-    /// The rates with themselves.
+    /// The block of omega_s and the wheel rates.
     pub rotation: RotationBlock<W>,
 }
 
-/// The block of omega_s and the wheel rates of a symmetric matrix, or of its lower triangular factor; kg m^2. Of the
-/// squares the lower triangle is filled.
+/// The block of omega_s and the wheel rates in a symmetric matrix (lower triangle), or its Cholesky factor; kg m^2.
 #[derive(Clone, Copy, Debug)]
 pub struct RotationBlock<const W: usize> {
     /// omega_s with omega_s.
@@ -55,7 +51,6 @@ impl<const W: usize> SpacecraftMass<W> {
             #[inline(always)]
             |w| {
                 let (wheel, motion) = (&parameters.wheels[w], &wheels[w]);
-                // J C_ws, by columns, and J a
                 let turned = [
                     product(wheel.inertia, motion.c_ws[0]),
                     product(wheel.inertia, motion.c_ws[1]),
@@ -79,12 +74,11 @@ impl<const W: usize> SpacecraftMass<W> {
         }
     }
 
-    /// Solves for (v_p-dot, omega_s-dot, the rates of change of the wheel rates), given the rows of v_p, omega_s and
-    /// the wheel rates.
+    /// (v_p-dot, omega_s-dot, wheel accelerations) from the right-hand sides of v_p, omega_s and the wheel rates.
     #[inline(always)]
     pub fn solution(&self, force: [f64; 3], torque: [f64; 3], axial: [f64; W]) -> ([f64; 3], [f64; 3], [f64; W]) {
         let root = 1.0 / self.total.sqrt();
-        // not `map`: it is compiled separately, without the instructions of the caller
+        // no `map`: it is compiled without the instructions of the caller
         let b = [scaled(root, self.coupling[0]), scaled(root, self.coupling[1]), scaled(root, self.coupling[2])];
         let mut rest = self.rotation;
         for i in 0..3 {
@@ -108,8 +102,7 @@ impl<const W: usize> SpacecraftMass<W> {
 }
 
 impl<const W: usize> RotationBlock<W> {
-    /// The Cholesky factor, with the reciprocals on its diagonal; the operations of [`cholesky`] on the whole block, in
-    /// the same order.
+    /// Cholesky factor with the reciprocals on its diagonal, by the operations of [`cholesky`] in the same order.
     #[inline(always)]
     pub fn factor(&self) -> Self {
         let omega = cholesky(self.omega);
@@ -135,7 +128,7 @@ impl<const W: usize> RotationBlock<W> {
         RotationBlock { omega, mixed, wheels: cholesky(wheels) }
     }
 
-    /// L^-T L^-1 of the rows of omega_s and the wheel rates, where this is the factor L.
+    /// L^-T L^-1 of the rows of omega_s and the wheel rates, with this factor L.
     #[inline(always)]
     pub fn solved(&self, omega: [f64; 3], wheels: [f64; W]) -> ([f64; 3], [f64; W]) {
         let mut x = forward(&self.omega, omega);

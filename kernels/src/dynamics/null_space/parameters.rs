@@ -4,9 +4,8 @@ use crate::math::list::List;
 use crate::scene::mass::{Body, Wheel};
 use crate::scene::{MAX_THRUSTERS, Scene, Thruster, WheelMode};
 
-/// The constants of a scene for a kernel of `W` wheels. Absent bodies remain in the equations, decoupled: a missing
-/// wheel has zero mass and inertia and a unit on its diagonal of M-hat, missing debris is a body of unit mass and
-/// inertia at rest.
+/// Constants of a scene for a kernel of `W` wheels. Missing bodies stay in the equations, decoupled: a wheel of zero
+/// mass and inertia with a unit on its diagonal of M-hat; debris of unit mass and inertia at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<const W: usize> {
     /// Mass m_s of the fuselage, kg.
@@ -42,10 +41,9 @@ pub struct WheelParameters {
     pub axis: [f64; 3],
     /// Inertia about the centre in the wheel's frame, kg m^2, by rows.
     pub inertia: [[f64; 3]; 3],
-    /// One if the wheel's rate is an unknown of M-hat; zero if its motor keeps it constant, and its row says that the
-    /// rate does not change.
+    /// One if the wheel's rate is an unknown of M-hat; zero for constant speed.
     pub free: f64,
-    /// Added to a^T J a on the diagonal of M-hat: zero, or one if the wheel is missing or of constant speed.
+    /// Added to a^T J a on the diagonal of M-hat: one if the wheel is missing or of constant speed, else zero.
     pub idle: f64,
 }
 

@@ -1,6 +1,5 @@
-//! Residuals of the constraints (27)-(34) in three kinds, each as one maximum magnitude: the drift of the integration.
-//!
-//! The null space satisfies the constraints on the speeds by construction; the integrated coordinates drift from them.
+//! Residuals of the constraints (27)-(34): the drift of the integrated coordinates. The null space satisfies the speed
+//! constraints by construction.
 
 use super::kinematics::WheelMotion;
 use super::parameters::Parameters;
@@ -8,12 +7,11 @@ use super::state::{Columns, State, rotated, rotated_back};
 use crate::math::vector::{cross, difference, dot, scaled, sum};
 use crate::scene::Scene;
 
-/// The largest residual of each kind in `state`: [kinematic, collocation, attitude]. Bodies that the scene does not
-/// have do not count.
+/// Largest residuals in `state`: [kinematic, collocation, attitude]; missing bodies do not count.
 ///
-/// - kinematic (m/s and rad/s): Xi nu, with nu = Pi nu-hat: the wheel's centre moves as a point of the fuselage,
-///   and the wheel turns against the fuselage about its axis only (both seen in F_s through the integrated DCMs);
-/// - collocation (m, and sines of angles): the wheel's centre is at z_i, its axis along the fuselage's a_i;
+/// - kinematic (m/s, rad/s): Xi nu with nu = Pi nu-hat: the wheel's centre moves with the fuselage, and the wheel turns
+///   about its axis only (in F_s through the integrated DCMs);
+/// - collocation (m, sines of angles): the wheel's centre is at z_i, its axis along a_i;
 /// - attitude: entries of C^T C - 1 of all DCMs.
 #[inline(always)]
 pub fn residuals<const W: usize>(scene: &Scene, parameters: &Parameters<W>, state: &State<W>) -> [f64; 3] {

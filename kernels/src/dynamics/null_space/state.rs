@@ -1,4 +1,4 @@
-//! The layout of the state, and Sigma (59), which makes it from the measurable state.
+//! Layout of the state, and Sigma (59), the full state from the measurable one.
 
 use crate::math::vector::{dcm_from_quaternion, product, sum, transposed_product};
 use crate::scene::Scene;
@@ -24,8 +24,8 @@ pub const fn states(wheels: usize) -> usize {
     coordinates(wheels) + speeds(wheels)
 }
 
-/// Number of everything that is integrated with `wheels` wheels: the states, and the quadrature states, which are the
-/// work of thrusters and motors, impulse (3), angular impulse (3) and the angle of each wheel.
+/// Number of integrated components with `wheels` wheels: states, then work of thrusters and motors, impulse (3),
+/// angular impulse (3), wheel angles.
 pub const fn components(wheels: usize) -> usize {
     states(wheels) + 8 + wheels
 }
@@ -39,7 +39,7 @@ pub struct Pose {
     pub dcm: Columns,
 }
 
-/// The state by its parts, with `W` wheels. Frames and units as in [`crate::scene::InitialState`].
+/// The state with `W` wheels. Frames and units as in [`crate::scene::InitialState`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<const W: usize> {
     /// The fuselage: p and C_es.
@@ -64,7 +64,7 @@ pub struct State<const W: usize> {
     pub impulse: [f64; 3],
     /// Angular impulse about c in F_e, N m s.
     pub angular_impulse: [f64; 3],
-    /// Wheel angles, not wrapped, rad: the wheels' DCMs determine them only up to whole turns.
+    /// Wheel angles, not wrapped, rad; the wheels' DCMs lack whole turns.
     pub wheel_angles: [f64; W],
 }
 
@@ -102,7 +102,6 @@ impl<const W: usize> State<W> {
         let first = coordinates(W);
         [first, first + 3, first + 6, first + 6 + W, first + 9 + W]
     };
-    /// Index of the works, the impulse, the angular impulse and the wheel angles.
     const INTEGRAL: [usize; 4] = [states(W), states(W) + 2, states(W) + 5, states(W) + 8];
 
     /// From the vector of components.
@@ -132,7 +131,7 @@ impl<const W: usize> State<W> {
         }
     }
 
-    /// The vector of components; also of a derivative, which has the same layout.
+    /// The vector of components; also of a derivative.
     #[inline(always)]
     pub fn components<const N: usize>(&self) -> [f64; N] {
         const { assert!(N == components(W), "as many components as the wheels make") }
@@ -157,10 +156,8 @@ impl<const W: usize> State<W> {
     }
 }
 
-/// Sigma (59): the full state from the measurable one.
-///
-/// C_es and C_ed from their quaternions; C_ew = C_es C_sw(angle) (42), (43); wheel centres r_p + C_es z_i; the
-/// integrals start at zero, the angles at their initial values. A missing wheel is at p and moves with the fuselage.
+/// Sigma (59): the full state from the measurable one. C_ew = C_es C_sw(angle) (42), (43); wheel centres r_p + C_es
+/// z_i; integrals start at zero. A missing wheel is at p and moves with the fuselage.
 pub fn sigma<const W: usize>(scene: &Scene) -> State<W> {
     let initial = &scene.initial;
     let c_es = transposed(dcm_from_quaternion(initial.q_es));
@@ -189,11 +186,9 @@ pub fn sigma<const W: usize>(scene: &Scene) -> State<W> {
     state
 }
 
-/// C_sw of a wheel that has turned by `angle` about the unit axis `axis`, by columns: the transposes of C_2 and C_3 in
-/// (42), (43).
-///
-/// At angle zero the wheel's frame is F_s, whatever the alignment error of the axis: so the axis has the same
-/// components in both frames at any angle.
+/// C_sw of a wheel turned by `angle` about the unit axis `axis`, by columns: transposes of C_2 and C_3 in (42), (43).
+/// The wheel's frame is F_s at angle zero for any alignment error, so that the axis has the same components in both
+/// frames.
 fn wheel_columns(axis: [f64; 3], angle: f64) -> Columns {
     let (sine, cosine) = libm::sincos(angle);
     let [x, y, z] = axis;
@@ -202,19 +197,16 @@ fn wheel_columns(axis: [f64; 3], angle: f64) -> Columns {
     std::array::from_fn(|j| std::array::from_fn(|i| (versine * axis[i]).mul_add(axis[j], rows[i][j])))
 }
 
-/// Rows to columns and back.
 #[inline(always)]
 pub(super) fn transposed(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     [[m[0][0], m[1][0], m[2][0]], [m[0][1], m[1][1], m[2][1]], [m[0][2], m[1][2], m[2][2]]]
 }
 
-/// C v of a DCM by columns.
 #[inline(always)]
 pub(super) fn rotated(c: Columns, v: [f64; 3]) -> [f64; 3] {
     transposed_product(c, v)
 }
 
-/// C^T v of a DCM by columns.
 #[inline(always)]
 pub(super) fn rotated_back(c: Columns, v: [f64; 3]) -> [f64; 3] {
     product(c, v)
@@ -248,8 +240,7 @@ mod tests {
         for (columns, expected) in [(state.wheels[0].dcm, c2), (state.wheels[1].dcm, c3)] {
             for i in 0..3 {
                 for j in 0..3 {
-                    // sums of products of sines and cosines, which are the same here to the last digit; a few roundings
-                    // are allowed
+                    // sums of products of sines and cosines, equal to a few roundings
                     assert!((columns[i][j] - expected[i][j]).abs() < 1e-15);
                 }
             }
