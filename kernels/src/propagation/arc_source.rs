@@ -1,4 +1,4 @@
-//! [`ArcSource`]: where the runs of a batch get their arcs from, one at a time.
+//! [`ArcSource`]: the arcs of the runs of a batch, one at a time.
 
 use crate::dynamics::actuation::Laws;
 use crate::dynamics::applied::law_arc;
@@ -9,11 +9,11 @@ use crate::scene::Scene;
 
 /// The arcs of the runs of a batch.
 pub struct ArcSource<'a> {
-    /// The scene of each run; empty for bodies on which nothing acts.
+    /// The scene of each run; empty for bodies without actuation.
     scenes: &'a [Scene],
     laws: Laws<'a>,
     duration: f64,
-    /// The observation times of runs under laws, s.
+    /// Observation times of runs under laws, s.
     times: &'a [f64],
 }
 
@@ -23,7 +23,7 @@ impl<'a> ArcSource<'a> {
         ArcSource { scenes, laws, duration: grid.duration(), times: grid.times() }
     }
 
-    /// Runs of bodies on which nothing acts: one arc each.
+    /// Runs of bodies without actuation: one arc each.
     pub fn free(duration: f64) -> Self {
         ArcSource { scenes: &[], laws: Laws::OpenLoop, duration, times: &[] }
     }
@@ -33,18 +33,18 @@ impl<'a> ArcSource<'a> {
         self.duration
     }
 
-    /// Prepares `gyrostat` for run `run`, before its first arc: where the arcs are known, they count in its time scale.
+    /// Sets the time scale of `gyrostat` for run `run` before its first arc, from its arcs if they are known.
     pub fn prepare(&self, run: usize, gyrostat: &mut Gyrostat<f64>) {
         if let (Some(scene), Laws::OpenLoop) = (self.scenes.get(run), &self.laws) {
             gyrostat.expect_schedule(scene, self.duration);
         }
     }
 
-    /// Starts the next arc of run `run` at `time`. `components` gives the integrated components there, SI, and is
-    /// called only where a law asks for the state.
+    /// Starts the next arc of run `run` at `time`. `components` are the integrated components, SI, evaluated only for a
+    /// law.
     ///
     /// # Panics
-    /// Where a law's answer ends before it starts.
+    /// If a law's answer ends before it starts.
     #[inline(always)]
     pub fn begin_arc(
         &mut self,
@@ -58,7 +58,7 @@ impl<'a> ArcSource<'a> {
             return;
         };
         let Some(law) = self.laws.of(run) else {
-            // its arcs were prepared before the run
+            // set before the run
             return gyrostat.begin_scheduled_arc(scene, time, self.duration);
         };
         let wheels = gyrostat.wheels_at(time);

@@ -1,6 +1,5 @@
-//! From settings to an [`Engine`]: kernels and instruction sets that each method is compiled for.
-//!
-//! A separate file, because the engines know the settings, and the settings do not know the engines.
+//! Engines from settings: kernels and instruction sets of each method. A separate file, since the engines depend on the
+//! settings.
 
 use core::marker::PhantomData;
 
@@ -24,7 +23,7 @@ impl PropagationSettings {
     /// The engine for one worker on the instruction set `isa`.
     ///
     /// # Panics
-    /// Where the method does not integrate an effect of the scenes ([`Method::integrates`]).
+    /// If the method does not integrate an effect of the scenes ([`Method::integrates`]).
     pub fn engine(&self, isa: Isa) -> Box<dyn Engine> {
         let engine = match self.method {
             Method::Auto | Method::Taylor => isa.run_wide(BuildTaylor(self)),
@@ -36,7 +35,6 @@ impl PropagationSettings {
     }
 }
 
-/// Builds the engine of a Taylor method.
 struct BuildTaylor<'a>(&'a PropagationSettings);
 
 impl WideWork for BuildTaylor<'_> {
@@ -47,7 +45,6 @@ impl WideWork for BuildTaylor<'_> {
     }
 }
 
-/// Builds the engine of an integrator on gyrostats.
 struct BuildGyrostat<'a>(&'a PropagationSettings, Integrator);
 
 impl NarrowWork for BuildGyrostat<'_> {
@@ -62,7 +59,7 @@ impl NarrowWork for BuildGyrostat<'_> {
     }
 }
 
-/// Builds the engine of the null-space formulation: one run after another.
+/// The null-space engine: one run at a time.
 struct BuildNullSpace<'a>(&'a PropagationSettings);
 
 impl NarrowWork for BuildNullSpace<'_> {
@@ -82,9 +79,8 @@ impl NarrowWork for BuildNullSpace<'_> {
     }
 }
 
-/// The Taylor engine with the components that the settings need.
-///
-/// A forced run integrates at least what motors need: fewer kernels to compile, and hardly slower.
+/// The Taylor engine with the needed components. Forced runs always have those of motors: fewer kernels to compile, and
+/// hardly slower.
 fn taylor<S: Simd, R: Real + Send + 'static>(simd: S, zero: R, settings: &PropagationSettings) -> Box<dyn Engine> {
     if settings.changes_within_arcs() {
         // all integrals by series
@@ -107,7 +103,6 @@ fn taylor<S: Simd, R: Real + Send + 'static>(simd: S, zero: R, settings: &Propag
     }
 }
 
-/// The engine of an integrator; `zero` determines the number of lanes.
 fn gyrostat<S: Simd, R: Real + Send + 'static>(
     simd: S,
     zero: R,
@@ -117,8 +112,9 @@ fn gyrostat<S: Simd, R: Real + Send + 'static>(
         _ if settings.changes_within_arcs() => {
             integrator.visit(OnGyrostats { simd, zero, settings, effects: PhantomData::<Acting<R>> })
         }
-        // Only Dormand-Prince has a separate kernel for scenes without actuation: every kernel costs compile time, and
-        // the other integrators are for comparison.
+        // Only Dormand-Prince has a kernel without actuation: kernels cost compile time, and the other integrators are
+        // for
+        // comparison.
         Integrator::DormandPrince if !(settings.thrust || settings.motors) => {
             Box::new(RungeKuttaEngine::<S, R, _, NoEffects, WITH_ANGLES>::new(
                 simd,
@@ -131,7 +127,7 @@ fn gyrostat<S: Simd, R: Real + Send + 'static>(
     }
 }
 
-/// Makes the engine of an integrator's method, under the effects `E`.
+/// Builds the engine of an integrator under the effects `E`.
 struct OnGyrostats<'a, S, R, E> {
     simd: S,
     zero: R,

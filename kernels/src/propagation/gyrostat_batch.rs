@@ -1,7 +1,5 @@
-//! [`GyrostatBatch`]: a batch of scenes as gyrostats, and what completes their components to physical states.
-//!
-//! Shared by every method on the gyrostat: the runs of the spacecraft, the rotation of debris that is not isotropic
-//! (integrated first, as gyrostats without wheels), and the conversion to the state table.
+//! [`GyrostatBatch`]: a batch of scenes as gyrostats, shared by every method on the gyrostat: runs of the spacecraft,
+//! rotation of non-isotropic debris (integrated first, as gyrostats without wheels), and completion to state tables.
 
 use fearless_simd::Simd;
 
@@ -16,14 +14,14 @@ use crate::dynamics::relative_orbit::RelativeOrbit;
 use crate::run::{Grid, Outcome, StateTable, Trajectory};
 use crate::scene::{Offsets, Scene};
 
-/// The runs of a batch in buffers that are reused.
+/// Reusable buffers for the runs of a batch.
 #[derive(Clone, Debug)]
 pub struct GyrostatBatch {
     runs: Vec<Gyrostat<f64>>,
     completion: StateCompletion,
 }
 
-/// What completes the runs of a batch.
+/// Completes the runs of a batch to state tables.
 #[derive(Clone, Debug)]
 pub struct StateCompletion {
     grid: Grid,
@@ -32,10 +30,10 @@ pub struct StateCompletion {
     debris_trajectories: Vec<Trajectory>,
     debris_outcomes: Vec<Outcome>,
     debris_is_integrated: bool,
-    /// The motion of the debris beside an orbit, where there is one.
+    /// Motion of the debris near an orbit, if any.
     debris_orbit: Option<Box<RelativeOrbit>>,
     table: StateTable,
-    /// The arcs of the run that has just ended, where it followed a schedule.
+    /// Arcs of the run just completed, if it followed a schedule.
     arcs: ArcRecord,
 }
 
@@ -58,7 +56,7 @@ impl GyrostatBatch {
         }
     }
 
-    /// The runs of `scenes`, before their first arcs, which are to come from `arcs`; and what completes them.
+    /// The runs of `scenes` before their first arcs, which `arcs` will provide; and their completion.
     pub fn load(&mut self, scenes: &[Scene], arcs: &ArcSource<'_>) -> (&mut [Gyrostat<f64>], &mut StateCompletion) {
         while self.runs.len() < scenes.len() {
             self.runs.push(Gyrostat::blank(0.0));
@@ -70,7 +68,7 @@ impl GyrostatBatch {
         (&mut self.runs[..scenes.len()], &mut self.completion)
     }
 
-    /// The debris of `scenes` as gyrostats without wheels; `None` where no rotation needs to be integrated.
+    /// The debris of `scenes` as gyrostats without wheels; `None` if no rotation needs integration.
     pub fn load_debris(&mut self, scenes: &[Scene]) -> Option<DebrisRuns<'_>> {
         let completion = &mut self.completion;
         let observes = completion.observes_debris_rotation;
@@ -99,15 +97,14 @@ impl GyrostatBatch {
 pub struct DebrisRuns<'b> {
     /// Gyrostats without wheels, one for each scene.
     pub runs: &'b mut [Gyrostat<f64>],
-    /// Where their components are kept.
+    /// Their components.
     pub trajectories: &'b mut [Trajectory],
-    /// Where it is kept how their integration ended.
+    /// Outcomes of their integration.
     pub outcomes: &'b mut [Outcome],
 }
 
 impl StateCompletion {
-    /// Completes run `index`, `run`, whose integrated components are `trajectory`, to physical states and passes it to
-    /// `finish`.
+    /// Completes run `index` with the components `trajectory` to physical states and passes it to `finish`.
     #[expect(clippy::too_many_arguments, reason = "one call per engine; a struct would be taken apart at once")]
     pub fn complete<S: Simd>(
         &mut self,
@@ -131,7 +128,7 @@ impl StateCompletion {
         finish(CompletedRun { index, table: &self.table, outcome: &outcome, arcs });
     }
 
-    /// The outcome of run `index` with its debris: the run ends where the first of both bodies does.
+    /// Outcome of run `index` with its debris: the run ends with the first of both bodies.
     fn with_debris(&self, outcome: &Outcome, scene: &Scene, index: usize) -> Outcome {
         match &scene.mass.debris {
             Some(body) if debris::is_isotropic(body) => Outcome { debris_errors: debris::ISOTROPIC_ERRORS, ..*outcome },
@@ -161,7 +158,7 @@ impl StateCompletion {
             let relative = debris_orbit.get_or_insert_with(|| Box::new(RelativeOrbit::new(orbit, *debris)));
             relative.reset(orbit, *debris);
         }
-        // called through closures, which are compiled apart: it enters the instruction set again
+        // called through closures, which are compiled separately: enter the instruction set again
         simd.vectorize(
             #[inline(always)]
             || {

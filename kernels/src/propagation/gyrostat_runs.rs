@@ -11,10 +11,10 @@ use crate::ode::explicit::Step;
 use crate::ode::switches::beside;
 use crate::ode::{Runs, System, Tolerance};
 
-/// Offsets from an orbit below this, m, are compared with it.
+/// Reference size of offsets from an orbit smaller than this, m.
 pub const SMALLEST_OFFSET: f64 = 1e-3;
 
-/// Runs of the gyrostat's first `N` components, one per lane, under the effects `E`.
+/// Runs of the gyrostat's first `N` components under the effects `E`, one per lane.
 pub struct GyrostatRuns<'a, R, E> {
     runs: &'a mut [Gyrostat<f64>],
     arcs: ArcSource<'a>,
@@ -22,12 +22,12 @@ pub struct GyrostatRuns<'a, R, E> {
     effects: E,
     /// The run in each lane.
     run_in_lane: [usize; WIDTH],
-    /// Time scale of the run in each lane as a rate, rad/s: smaller rates are compared with it.
+    /// Time scale of the run in each lane as a rate, rad/s, a floor for rates in the error norm.
     scale: R,
 }
 
 impl<'a, R: Real, E: WithinArcs<R>> GyrostatRuns<'a, R, E> {
-    /// The given runs, before their first arcs, which come from `arcs`; `zero` determines the number of lanes.
+    /// Runs before their first arcs, which `arcs` will provide; `zero` determines the number of lanes.
     pub fn new(zero: R, runs: &'a mut [Gyrostat<f64>], arcs: ArcSource<'a>) -> Self {
         GyrostatRuns {
             runs,
@@ -39,7 +39,7 @@ impl<'a, R: Real, E: WithinArcs<R>> GyrostatRuns<'a, R, E> {
         }
     }
 
-    /// Run `run`, with the arcs flown so far.
+    /// Run `run` with its arcs so far.
     pub fn run(&self, run: usize) -> &Gyrostat<f64> {
         &self.runs[run]
     }
@@ -56,9 +56,9 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_
         self.constants.derivative(time, state, &beside)
     }
 
-    /// The largest component of the rate's error against |omega| (at least the run's own time scale, times
-    /// absolute/relative), of the attitude's against |q|, and of the offset from an orbit against that; the quadrature
-    /// states do not count. Not a number if any component is not finite.
+    /// The largest error of: the rate against |omega| (at least the time scale times absolute/relative), the attitude
+    /// against |q|, the offset from an orbit against itself; quadrature states do not count. NaN if any component is
+    /// not finite.
     #[inline(always)]
     fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R {
         let threshold = self.scale.splat(tolerance.absolute / tolerance.relative);
@@ -79,7 +79,7 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_
         if let (Some([rate, mass]), true) = (self.effects.scales_of_offset(), N >= WITH_THRUST) {
             let slowness = rate.splat(1.0) / rate;
             let three = |of: &[R; N], first: usize| [of[first], of[first + 1], of[first + 2]];
-            // a distance, or what the velocity makes of it while the orbit turns by a radian
+            // the distance, or the velocity times the time of one radian of the orbit
             let reach = |of: &[R; N]| norm(three(of, IMPULSE_INTEGRAL)).larger(slowness * norm(three(of, IMPULSE)));
             let size = reach(old).larger(reach(new)).larger(rate.splat(SMALLEST_OFFSET) * mass);
             ratio = ratio.larger(reach(error) / size);

@@ -1,11 +1,9 @@
-//! Which forms of effects each kind of engine integrates: an answer for each form, without a default, so that a new
-//! form does not compile until every engine has said so.
-//!
-//! A separate file, because the engines know the settings, and the settings do not know the engines.
+//! Forms of effects that each kind of engine integrates, by exhaustive `match`: a new form does not compile until every
+//! engine has an answer. A separate file, since the engines depend on the settings.
 
 use crate::dynamics::effects::Form;
 
-/// Taylor methods: what has a series.
+/// Taylor methods: forms with a series.
 pub const fn by_taylor(form: Form) -> bool {
     match form {
         Form::Constant | Form::Series | Form::Translation | Form::Force => true,
@@ -20,19 +18,19 @@ pub const fn by_runge_kutta(form: Form) -> bool {
     }
 }
 
-/// The reference solution: Taylor series, or extrapolation where an effect has none.
+/// Reference solutions: Taylor series, or extrapolation for effects without one.
 pub const fn by_reference(form: Form) -> bool {
     match form {
         Form::Constant | Form::Series | Form::Evaluated | Form::Translation | Form::Force => true,
     }
 }
 
-/// Those without: what they say of their error comes from the Taylor series of the motion.
+/// Runge-Kutta methods without an error estimate: their errors are estimated from the Taylor series of the motion.
 pub const fn by_fixed_steps(form: Form) -> bool {
     by_taylor(form)
 }
 
-/// The null-space formulation: what is constant over an arc.
+/// The null-space formulation: constant over an arc.
 pub const fn by_null_space(form: Form) -> bool {
     match form {
         Form::Constant => true,

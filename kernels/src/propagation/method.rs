@@ -4,21 +4,21 @@ use super::integrated_effects::{by_fixed_steps, by_null_space, by_runge_kutta, b
 use crate::dynamics::effects::ForceModel;
 use crate::ode::Integrator;
 
-/// A formulation of the equations of motion together with an integration method.
+/// A formulation of the equations of motion with an integration method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// Gyrostat, Taylor series with periodic folding where the motion is periodic: the fastest.
+    /// Gyrostat, Taylor series with periodic folding: the fastest.
     Auto,
-    /// Gyrostat, Taylor series with order and step chosen from the tolerance (Jorba & Zou 2005).
+    /// Gyrostat, Taylor series, order and step from the tolerance (Jorba & Zou 2005).
     Taylor,
-    /// Gyrostat, an integrator of the list in [`crate::ode::integrators`].
+    /// Gyrostat, an integrator of [`crate::ode::integrators`].
     Gyrostat(Integrator),
     /// Berdoz's 62-state null-space formulation, Dormand-Prince 5(4).
     NullSpace,
 }
 
 impl Method {
-    /// All methods, in the order in which they are listed to a user.
+    /// All methods, in the order of lists for a user.
     pub const ALL: [Method; 3 + Integrator::ALL.len()] = {
         let mut all = [Method::Auto; 3 + Integrator::ALL.len()];
         all[1] = Method::Taylor;
@@ -46,7 +46,7 @@ impl Method {
         Self::ALL.into_iter().find(|method| method.name() == name)
     }
 
-    /// Whether the engine of the method integrates every effect of `model`.
+    /// True if the engine of the method integrates every effect of `model`.
     pub fn integrates(self, model: ForceModel) -> bool {
         match self {
             Method::Auto => self.chosen(model) != self || model.is_integrated(by_taylor),
@@ -57,8 +57,8 @@ impl Method {
         }
     }
 
-    /// The method that is used under the effects of `model`: of `auto`, which is a Taylor method, the fastest other one
-    /// where Taylor series leave an effect out; any other as it is.
+    /// The method used under the effects of `model`: for `auto`, if Taylor series leave an effect out, the fastest
+    /// other method; any other method is unchanged.
     #[must_use]
     pub fn chosen(self, model: ForceModel) -> Method {
         if self != Method::Auto || model.is_integrated(by_taylor) {
@@ -68,7 +68,7 @@ impl Method {
         others.into_iter().find(|method| method.integrates(model)).unwrap_or(self)
     }
 
-    /// Whether the method takes steps of a fixed length (`integrator.step_s`) instead of following the tolerance.
+    /// True if the method takes fixed steps (`integrator.step_s`) instead of following the tolerance.
     pub fn has_fixed_step(self) -> bool {
         matches!(self, Method::Gyrostat(integrator) if integrator.has_fixed_step())
     }

@@ -1,15 +1,15 @@
 //! Layer 3: engines that turn scenes into state tables.
 //!
-//! Every method computes, per run, the integrated components at the observation times; the kernel then completes them
-//! to the physical [`crate::run::StateTable`]. Runs are in lanes that never share a decision.
+//! Every method computes the integrated components at the observation times, which are then completed to the physical
+//! [`crate::run::StateTable`]. Runs are in lanes that share no decision.
 //!
-//! - [`PropagationSettings`]: what is decided once per plan; `factory` makes an [`Engine`] of them.
-//! - [`taylor`]: Taylor series with periodic folding, and the double-double reference solution.
-//! - [`runge_kutta_engine`]: Runge-Kutta methods on the gyrostat. [`null_space_engine`]: Berdoz's formulation.
-//! - [`integrated_effects`]: which effects each of them integrates.
-//! - [`arc_source`]: the arcs of constant actuation. [`gyrostat_batch`]: what all methods on the gyrostat share.
-//!   [`trajectory_recorder`]: from integrators to trajectories.
-//! - [`local_error`], [`series_remainder`]: the errors of the steps of a run.
+//! - [`PropagationSettings`]: settings of a plan; `factory`: the [`Engine`] for them. [`integrated_effects`]: effects
+//!   of each engine.
+//! - [`taylor`]: Taylor series with periodic folding; double-double reference solution. [`runge_kutta_engine`]:
+//!   Runge-Kutta methods on the gyrostat. [`null_space_engine`]: Berdoz's formulation.
+//! - [`arc_source`]: arcs of constant actuation. [`gyrostat_batch`]: shared by methods on the gyrostat.
+//!   [`trajectory_recorder`]: trajectories from integrators.
+//! - [`local_error`], [`series_remainder`]: errors of the steps of a run.
 
 pub mod arc_source;
 pub mod engine;

@@ -16,15 +16,15 @@ use crate::ode::{Adaptive, DormandPrinceRestepped, LaneMethod, integrate};
 use crate::run::{LocalErrors, Outcome, StateField, StateTable, Trajectory};
 use crate::scene::{MAX_WHEELS, Scene};
 
-/// The method: points inside a step by a step of their own, which costs little beside the right-hand side.
+/// Points inside a step by a step of their own, cheap next to the right-hand side.
 type Pair = Adaptive<DormandPrinceRestepped>;
 
-/// Number of components of Berdoz's two wheels.
+/// Components for Berdoz's two wheels.
 pub const TWO_WHEELS: usize = components(2);
-/// Number of components of as many wheels as a spacecraft may have.
+/// Components for the largest number of wheels.
 pub const ALL_WHEELS: usize = components(MAX_WHEELS);
 
-/// One worker's memory, for kernels of `W` wheels and `N` components.
+/// Memory of a worker, for kernels of `W` wheels and `N` components.
 pub struct NullSpaceEngine<S, const W: usize, const N: usize> {
     simd: S,
     settings: PropagationSettings,
@@ -66,7 +66,8 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
                 let mut outcome = *outcome;
                 outcome.debris_errors = of_debris(&outcome.local_errors, table);
                 outcome.local_errors = of_body(&outcome.local_errors, table, grid.duration());
-                // errors of the other states feed back into omega; no state does into that of the debris, which is free
+                // errors of the other states feed back into omega; none feeds back into the rate of the debris, which
+                // is free
                 outcome.local_errors.feedback = outcome.local_errors.truncation;
                 finish(CompletedRun { index, table, outcome: &outcome, arcs: runs.arcs() });
             },
@@ -76,17 +77,15 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
     }
 }
 
-/// The error of a step, which local extrapolation continues with the formula of order five, grows with this power of
-/// the rate at which a body turns.
+/// Power of a body's rate in the error of a step, which local extrapolation continues with the formula of order five.
 const ORDER: i32 = 6;
 
-/// The rates of a body at all points, where they are observed.
+/// Rates of a body at all points, if observed.
 fn rates(table: &StateTable, field: StateField) -> impl Iterator<Item = [f64; 3]> + '_ {
     (0..if table.has(field) { table.points() } else { 0 }).map(move |point| table.at(field, point))
 }
 
-/// The errors of the debris in a run with the states `table`, whose steps, which are those of the faster body, are
-/// estimated to have made `errors`.
+/// Errors of the debris, from the estimated `errors` of the steps, which follow the faster body.
 fn of_debris(errors: &LocalErrors, table: &StateTable) -> LocalErrors {
     let ratio = fastest(rates(table, StateField::DebrisRate)) / fastest(rates(table, StateField::Rate));
     let share = if ratio < 1.0 { (0..ORDER).fold(1.0, |power, _| power * ratio) } else { 1.0 };
@@ -94,9 +93,8 @@ fn of_debris(errors: &LocalErrors, table: &StateTable) -> LocalErrors {
     in_units(errors, rates(table, StateField::DebrisRate), 0.0)
 }
 
-/// The errors of the body in a run of `duration` seconds with the states `table`, whose steps are estimated to have
-/// made `errors`, mostly of wheels that turn faster: that of the attitude is at most in proportion to the angle by
-/// which the body turns, where that is below a radian.
+/// Errors of the body in a run of `duration` seconds, from the estimated `errors` of steps that mostly follow faster
+/// wheels: the attitude's is at most proportional to the angle by which the body turns, below a radian.
 fn of_body(errors: &LocalErrors, table: &StateTable, duration: f64) -> LocalErrors {
     let share = (fastest(rates(table, StateField::Rate)) * duration).min(1.0);
     let attitude = (share * errors.attitude).max(errors.rounding);

@@ -1,4 +1,4 @@
-//! [`NullSpaceRuns`]: runs of the null-space formulation, one at a time, with kernels of `W` wheels and `N` components.
+//! [`NullSpaceRuns`]: runs of the null-space formulation, one at a time.
 
 use crate::dynamics::actuation::Laws;
 use crate::dynamics::applied::next_arc;
@@ -7,14 +7,14 @@ use crate::dynamics::null_space::{Kernel, State, observed_state, sigma};
 use crate::ode::{Runs, System, Tolerance};
 use crate::scene::Scene;
 
-/// Runs of the null-space formulation for the scenes of a batch, each of at most `W` wheels; `f64`, one lane.
+/// Runs of the scenes of a batch with at most `W` wheels; `f64`, one lane.
 pub struct NullSpaceRuns<'a, const W: usize> {
     scenes: &'a [Scene],
     laws: Laws<'a>,
     duration: f64,
     run: usize,
     kernel: Kernel<W>,
-    /// The attitude quaternion at the start of the arc: the next one has the nearer sign.
+    /// Attitude quaternion at the start of the arc, which decides the sign of the next one.
     q_es: [f64; 4],
     arcs: ArcRecord,
 }
@@ -37,18 +37,18 @@ impl<'a, const W: usize> NullSpaceRuns<'a, W> {
         }
     }
 
-    /// The same runs under `laws`, their arcs recorded in the memory of `arcs`.
+    /// Puts the runs under `laws` and records arcs in the memory of `arcs`.
     #[must_use]
     pub fn under(self, laws: Laws<'a>, arcs: ArcRecord) -> Self {
         NullSpaceRuns { laws, arcs, ..self }
     }
 
-    /// The arcs of the run in the lane, so far.
+    /// Arcs of the run in the lane so far.
     pub fn arcs(&self) -> &ArcRecord {
         &self.arcs
     }
 
-    /// Gives the memory of the arcs back.
+    /// Returns the memory of the arcs.
     pub fn into_arcs(self) -> ArcRecord {
         self.arcs
     }
@@ -60,8 +60,8 @@ impl<const W: usize, const N: usize> System<f64, N> for NullSpaceRuns<'_, W> {
         self.kernel.derivative(state)
     }
 
-    /// As MATLAB's ode45: max |e_i| / (rtol max(|y_i|, |y_i new|, atol / rtol)) over the states (Shampine & Reichelt
-    /// 1997); the quadrature states do not count. Not a number if any component is not finite.
+    /// The norm of MATLAB's ode45, max |e_i| / (rtol max(|y_i|, |y_i new|, atol / rtol)) over the states (Shampine &
+    /// Reichelt 1997); quadrature states do not count. NaN if any component is not finite.
     #[inline(always)]
     fn error_ratio(&self, error: &[f64; N], old: &[f64; N], new: &[f64; N], tolerance: Tolerance) -> f64 {
         let threshold = tolerance.absolute / tolerance.relative;
@@ -122,7 +122,6 @@ mod tests {
         (error[3], old[3], new[3]) = (1e-3, 1.0, -2.0); // relative to the larger end
         (error[61], old[61], new[61]) = (4e-7, 1e-4, 0.0); // below the threshold 1e-3
         error[62] = 1e9; // an integral
-        // two roundings of the quotient and one of the tolerance; measured: 5.6e-17
         assert!((runs.error_ratio(&error, &old, &new, tolerance) - 0.5).abs() < 4e-16);
         error[3] = 0.0;
         assert!((runs.error_ratio(&error, &old, &new, tolerance) - 0.4).abs() < 4e-16);

@@ -1,27 +1,26 @@
-//! [`rotation_errors`]: the error of a run's rotation against its reference solution, in all digits of the reference
-//! solution.
+//! [`rotation_errors`]: errors of a run's rotation against its reference solution, in all digits of the latter.
 
 use super::taylor::reference_solution::ReferenceSolution;
 use crate::run::{Grid, StateField, StateTable, rate_scale};
 
-/// The error of the rotation at one observation point, or the largest of a run.
+/// Error of the rotation at one observation point, or the largest of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotationError {
-    /// |omega - reference|, relative to the largest |omega| of the run, or to one radian over its duration where that
-    /// is more ([`rate_scale`]).
+    /// |omega - reference| over the largest |omega| of the run, or over one radian per duration if that is more
+    /// ([`rate_scale`]).
     pub omega: f64,
-    /// Twice the distance of the attitude quaternions, the nearer sign, rad: the angle between the attitudes where the
-    /// norm is kept. Zero where the reference solution has no attitude.
+    /// Twice the distance of the attitude quaternions of nearer sign, rad: the angle between the attitudes of unit
+    /// norm. Zero if the reference solution has no attitude.
     pub attitude: f64,
 }
 
 impl RotationError {
-    /// The larger of both errors; NaN where either is NaN.
+    /// The larger of both errors; NaN if either is NaN.
     pub fn state(&self) -> f64 {
         larger_or_nan(self.omega, self.attitude)
     }
 
-    /// The largest errors of a run, each over all its points; NaN where an error is NaN at any point.
+    /// The largest errors over all points of a run; NaN if an error is NaN at any point.
     pub fn largest(errors: impl Iterator<Item = RotationError>) -> Self {
         errors.fold(RotationError { omega: 0.0, attitude: 0.0 }, |largest, error| RotationError {
             omega: larger_or_nan(largest.omega, error.omega),
@@ -30,13 +29,12 @@ impl RotationError {
     }
 }
 
-/// The larger number; NaN where either is NaN.
+/// The larger number; NaN if either is NaN.
 fn larger_or_nan(a: f64, b: f64) -> f64 {
     if b.is_nan() || b > a { b } else { a }
 }
 
-/// The error at each point of `table`, which has the points of `grid`, the rate, and the attitude where `reference` has
-/// it.
+/// The error at each point of `table` on `grid`: of the rate, and of the attitude if `reference` has it.
 pub fn rotation_errors<'a>(
     reference: &'a ReferenceSolution,
     grid: &Grid,
@@ -45,7 +43,7 @@ pub fn rotation_errors<'a>(
     errors_of(reference, grid, table, [StateField::Rate, StateField::Attitude])
 }
 
-/// The same of the debris, whose rate and attitude are in `table`.
+/// The errors of the debris.
 pub fn debris_rotation_errors<'a>(
     reference: &'a ReferenceSolution,
     grid: &Grid,
@@ -78,8 +76,8 @@ mod tests {
     use super::*;
     use crate::run::StateFields;
 
-    /// Rates and attitudes at three points; the middle one is off by `rate` and `turn`, and `sign` is that of its
-    /// quaternion.
+    /// Rates and attitudes at three points; the middle one is off by `rate` and `turn`, with a quaternion of the sign
+    /// `sign`.
     fn table([rate, turn, sign]: [f64; 3]) -> StateTable {
         let mut table = StateTable::new(StateFields::NONE.with(StateField::Rate).with(StateField::Attitude), 0, 3);
         for point in 0..3 {
@@ -102,7 +100,7 @@ mod tests {
     fn the_error_in_the_middle_of_a_run_counts() {
         let found = largest([0.5, 1e-3, 1.0]);
         assert_eq!(found.omega, 0.25);
-        // twice the distance of the quaternions, 4 sin(a/4), is a^3/96 shorter than the angle: 1.04e-11
+        // twice the distance of the quaternions, 4 sin(a/4), is a^3/96 = 1.04e-11 shorter than the angle
         assert!((found.attitude - 1e-3).abs() < 2e-11, "{:e}", found.attitude);
         assert_eq!(found.state(), 0.25);
     }

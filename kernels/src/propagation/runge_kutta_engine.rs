@@ -22,7 +22,7 @@ use crate::ode::{Control, ErrorModel, LaneMethod, integrate};
 use crate::run::{Grid, LocalErrors, Outcome, Trajectory};
 use crate::scene::Scene;
 
-/// One worker's memory, for runs under the effects `E`.
+/// Memory of a worker, for runs under the effects `E`.
 pub struct RungeKuttaEngine<S, R, M, E, const N: usize> {
     simd: S,
     zero: R,
@@ -64,8 +64,9 @@ impl<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize> RungeKut
             integrate_on::<S, R, M, E, N>((*simd, *zero, *method), runs, (grid, control), lanes, finish);
         };
         if let Some(DebrisRuns { runs, trajectories, outcomes }) = batch.load_debris(scenes) {
-            // the debris is a gyrostat without wheels; only its attitude is needed, but one kernel for both compiles
-            // faster
+            // one kernel for debris (a gyrostat without wheels) and spacecraft compiles faster, although the debris
+            // needs its
+            // attitude only
             let mut runs = GyrostatRuns::new(*zero, runs, ArcSource::free(duration));
             integrate(&mut runs, &mut |runs, index, trajectory, outcome| {
                 trajectories[index].copy_from(trajectory);
@@ -86,8 +87,7 @@ impl<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize> RungeKut
     }
 }
 
-/// The errors of a run, in units; steps are controlled relative to |omega| or to `threshold` times the rate of its time
-/// scale.
+/// Errors of a run, in units; step control is relative to |omega| or `threshold` times the rate of the time scale.
 fn errors_of(
     remainders: &mut Option<Remainders>,
     run: &Gyrostat<f64>,
@@ -102,10 +102,10 @@ fn errors_of(
     in_units(outcome.local_errors, rates, threshold / run.time_unit())
 }
 
-/// Receives a run that has ended: the runs, its index, its components at the observation points, its outcome.
+/// Receives a completed run: runs, index, components at the observation points, outcome.
 type RunCallback<'a, R, E> = dyn FnMut(&GyrostatRuns<'_, R, E>, usize, &Trajectory, &Outcome) + 'a;
 
-/// The integration, compiled for its instruction set. Not inlined: so it is compiled once for spacecraft and debris.
+/// The integration in its instruction set. Not inlined: compiled once for spacecraft and debris.
 #[inline(never)]
 fn integrate_on<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize>(
     (simd, zero, method): (S, R, M),

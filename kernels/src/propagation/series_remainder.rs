@@ -1,4 +1,4 @@
-//! [`Remainders`]: the errors of methods without an error estimate, from the Taylor series of the motion.
+//! [`Remainders`]: errors of methods without an error estimate, from the Taylor series of the motion.
 
 use super::local_error::{rounding, rounding_of_turns};
 use super::taylor::jet::{Reciprocals, Scratch, expand};
@@ -9,13 +9,13 @@ use crate::math::vector::{scaled, sum};
 use crate::ode::Remainder;
 use crate::run::{Grid, LocalErrors, Outcome, Trajectory};
 
-/// Points of a run at which the series is expanded, at most.
+/// Maximum number of points of a run at which the series is expanded.
 const EXPANSIONS: usize = 16;
 
 /// Components: rate and attitude.
 const N: usize = WITH_ATTITUDE;
 
-/// A [`Remainder`] with the memory to evaluate it.
+/// A [`Remainder`] with its memory.
 #[derive(Clone, Debug)]
 pub struct Remainders {
     method: Remainder,
@@ -37,7 +37,7 @@ impl Remainders {
         }
     }
 
-    /// The sums for a run of equal steps, from the series at up to sixteen of its observation points.
+    /// Error sums of a run of equal steps, from the series at up to sixteen observation points.
     pub fn sum(&mut self, run: &Gyrostat<f64>, states: &Trajectory, grid: &Grid, outcome: &Outcome) -> LocalErrors {
         let (points, steps) = (outcome.points, outcome.effort.steps);
         if points == 0 || steps == 0 {
@@ -61,8 +61,8 @@ impl Remainders {
         LocalErrors { truncation: all * changing, rounding, feedback: 0.0, attitude: attitude + all * turning }
     }
 
-    /// The series of the motion through point `point` of `states` at `time`, in seconds. No thrust bends the orbit over
-    /// a step.
+    /// Expands the motion through point `point` of `states` at `time`, s. The orbit is taken as unaffected by thrust
+    /// over a step.
     fn expand(&mut self, run: &Gyrostat<f64>, time: f64, states: &Trajectory, point: usize) {
         let arc = run.arc_index_at(time);
         let mut constants = Constants::of(run, arc, 1.0);

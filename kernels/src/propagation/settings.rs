@@ -1,4 +1,4 @@
-//! [`PropagationSettings`]: what is decided once per plan: method, tolerance, grid, and which fields the tables have.
+//! [`PropagationSettings`]: method, tolerance, grid and table fields of a plan.
 
 use super::method::Method;
 use crate::dynamics::actuation::Laws;
@@ -9,7 +9,7 @@ use crate::ode::Control;
 use crate::run::{Grid, StateField, StateFields};
 use crate::scene::{Actuated, Scene};
 
-/// What a campaign's runs have in common: how they are integrated and what is kept.
+/// Integration settings common to a campaign's runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PropagationSettings {
     /// Kernel and method.
@@ -22,19 +22,18 @@ pub struct PropagationSettings {
     pub fields: StateFields,
     /// Number of wheels of the spacecraft.
     pub wheels: usize,
-    /// The effects that act.
+    /// The acting effects.
     pub forces: ForceModel,
-    /// Whether thrust or body torque may act.
+    /// True if thrust or body torque may act.
     pub thrust: bool,
-    /// Whether motor torque may act.
+    /// True if motor torque may act.
     pub motors: bool,
-    /// Whether runs may have laws of their own ([`super::Engine::propagate_under`]): then all components are
-    /// integrated.
+    /// True if runs may have laws of their own ([`super::Engine::propagate_under`]): all components are integrated.
     pub feedback: bool,
 }
 
 impl PropagationSettings {
-    /// Settings for scenes with the schedule of `nominal` (the magnitudes may differ from run to run).
+    /// Settings for scenes with the schedule of `nominal`, of any magnitudes.
     pub fn new(method: Method, control: Control, grid: Grid, fields: StateFields, nominal: &Scene) -> Self {
         let forces = ForceModel::of(nominal);
         PropagationSettings {
@@ -50,40 +49,38 @@ impl PropagationSettings {
         }
     }
 
-    /// The same settings for runs that have laws of their own, which command `commands` in addition to the schedules. A
-    /// law sees the whole state; integrals of thrust are made only where thrust or a torque on the body may act.
+    /// Settings for runs under laws that command `commands` in addition to the schedules. A law sees the whole state;
+    /// integrals of thrust are computed only if thrust or body torque may act.
     #[must_use]
     pub fn with_feedback(self, commands: Actuated) -> Self {
         let thrust = self.thrust || commands.external();
         PropagationSettings { thrust, motors: self.motors || commands.motors, feedback: true, ..self }
     }
 
-    /// Checks that runs of these settings can be flown under `laws`.
-    ///
     /// # Panics
-    /// Where they cannot.
+    /// If runs of these settings cannot be flown under `laws`.
     pub(super) fn check_laws(&self, laws: &Laws<'_>) {
         assert!(self.feedback || matches!(laws, Laws::OpenLoop), "laws need PropagationSettings::with_feedback");
     }
 
-    /// Whether an effect changes within an arc, so that the kernel has it.
+    /// True if an effect changes within an arc and must be in the kernel.
     pub fn changes_within_arcs(&self) -> bool {
         self.forces.changes_within_arcs()
     }
 
-    /// Number of components that the gyrostat kernel integrates.
+    /// Number of components integrated by the gyrostat kernel.
     pub fn components(&self) -> usize {
         let needed = components(|field| self.fields.contains(field), self.thrust, self.motors);
         match (self.feedback, self.thrust) {
             (false, _) => needed,
             (true, true) => WITH_THRUST,
-            // attitude, and the angles of the wheels
+            // attitude and wheel angles
             (true, false) => needed.max(WITH_ANGLES),
         }
     }
 }
 
-/// Whether the fields need the rotation of the debris.
+/// True if the fields need the rotation of the debris.
 pub fn observes_debris_rotation(fields: StateFields) -> bool {
     fields.contains(StateField::DebrisRate) || fields.contains(StateField::DebrisAttitude)
 }

@@ -1,10 +1,10 @@
-//! [`TrajectoryRecorder`]: writes the states of runs in lanes to trajectories, and turns completions into outcomes.
+//! [`TrajectoryRecorder`]: trajectories and outcomes of runs in lanes.
 
 use super::local_error::local_errors;
 use crate::ode::{EndedRun, ErrorModel, Recorder, Termination};
 use crate::run::{Grid, LocalErrors, Outcome, Status, StepStatistics, Trajectory};
 
-/// The trajectory of the run in a lane and its next observation point.
+/// Trajectory and next observation point of the run in a lane.
 #[derive(Clone, Debug)]
 pub struct LaneTrajectory {
     trajectory: Trajectory,
@@ -19,7 +19,6 @@ impl LaneTrajectory {
 }
 
 /// Records runs at the times of a grid and calls `finish(runs, lane, run, trajectory, outcome)` at the end of each.
-///
 /// Points that were not reached are NaN. No allocation.
 pub struct TrajectoryRecorder<'a, F> {
     grid: &'a Grid,
@@ -78,7 +77,6 @@ where
     }
 }
 
-/// The status of a run that ended by `termination`.
 fn status(termination: Termination) -> Status {
     match termination {
         Termination::Completed => Status::Done,

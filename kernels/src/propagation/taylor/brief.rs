@@ -1,13 +1,13 @@
-//! [`BriefRule`]: arcs much shorter than a step, flown in one step of the order that their length needs.
+//! [`BriefRule`]: arcs much shorter than a step, flown in one step of lower order.
 //!
-//! Let rho^2 = |omega|^2 + (|h|/J)^2 + (|torque| + |h'|)/J with the smallest moment J. With u = omega/rho and s = rho t
-//! the equations of motion are bounded by u' = u^2 + (|h|/(J rho)) u + (..)/rho^2, whose series has coefficients below
-//! one, and so that of the attitude, below one half. In an arc of length L the first neglected term is below y^(n+1) of
-//! rho, y = rho L, and of all arcs of a run together below the tolerance a radian where y^n is at most the tolerance:
-//! the order is the smallest such n, a function of the lane alone.
+//! Let rho^2 = |omega|^2 + (|h|/J)^2 + (|torque| + |h'|)/J with the smallest moment J. With u = omega/rho, s = rho t
+//! the equations are bounded by u' = u^2 + (|h|/(J rho)) u + (..)/rho^2, whose series has coefficients below one, the
+//! attitude's below one half. In an arc of length L the first neglected term is below y^(n+1) of rho, y = rho L; over
+//! all arcs of a run the sum is below the tolerance per radian if y^n is at most the tolerance. The order is the
+//! smallest such n, a function of the lane alone.
 //!
-//! The coefficients are computed up to the largest order among the lanes, and those beyond a lane's own order are set
-//! to zero, so that what the lane adds up does not depend on its neighbours.
+//! Coefficients are computed up to the largest order of all lanes; those beyond a lane's own order are set to zero, so
+//! that its sums do not depend on its neighbours.
 
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::math::vector::dot;
@@ -16,42 +16,41 @@ use crate::math::{Mask, Real};
 /// The smallest order.
 pub(super) const LEAST: usize = 3;
 
-/// A tolerance below rounding is met with a margin, as by the steps of other arcs (`super::step`).
+/// Margin for tolerances below rounding, as in `super::step`.
 const BELOW_ROUNDING: f64 = 1.0 / 4096.0;
 
-/// The arcs that one step of a lower order covers.
+/// Orders of brief arcs.
 #[derive(Clone, Debug)]
 pub(super) struct BriefRule {
-    /// The largest y^2 at the orders from [`LEAST`] on.
+    /// Largest y^2 at the orders from [`LEAST`] on.
     squares: Vec<f64>,
-    /// The order of other steps.
+    /// Order of other steps.
     full: usize,
 }
 
-/// The orders of the lanes in one step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Brief<R: Real> {
-    /// The lanes whose arc is brief.
+    /// Lanes with a brief arc.
     pub lanes: R::Mask,
-    /// The order of each of them.
+    /// Their orders.
     pub order: R,
-    /// y of each of them.
+    /// Their y.
     pub turn: R,
-    /// The order up to which the step needs coefficients.
+    /// Highest order of coefficients needed in the step.
     pub most: usize,
 }
 
 impl BriefRule {
-    /// The rule for a relative tolerance, beside steps of order `full`.
+    /// The rule for a relative tolerance, next to steps of order `full`.
     pub(super) fn new(tolerance: f64, full: usize) -> Self {
         let tolerance = if tolerance < f64::EPSILON { BELOW_ROUNDING * tolerance } else { tolerance };
-        // two orders less at least, or it is not worth it
+        // at least two orders less, or it is not worth it
         let squares = (LEAST..full.saturating_sub(1)).map(|n| libm::pow(tolerance, 2.0 / n as f64)).collect();
         BriefRule { squares, full }
     }
 
-    /// The orders of the lanes whose arc begins now and lasts for `length`; `may` is one where that may be a brief one.
-    /// `None` where none is.
+    /// Orders of lanes whose arc starts now and lasts for `length`; `may` is one in lanes that may have a brief arc.
+    /// `None` without brief arcs.
     #[inline(always)]
     pub(super) fn orders<R: Real>(
         &self,
@@ -81,13 +80,13 @@ impl BriefRule {
 }
 
 impl<R: Real> Brief<R> {
-    /// Whether the lanes take a step of the full order too.
+    /// True if some lanes take a step of full order.
     #[inline(always)]
     pub(super) fn is_mixed(&self, full: usize) -> bool {
         self.most == full
     }
 
-    /// Sets the coefficients beyond each lane's own order to zero.
+    /// Sets the coefficients beyond each lane's order to zero.
     #[inline(always)]
     pub(super) fn truncate<const J: usize>(&self, jet: &mut [[R; J]]) {
         let zero = self.order.zero();
@@ -102,7 +101,7 @@ impl<R: Real> Brief<R> {
     }
 }
 
-/// y^2 of an arc of length `length` that begins at the rate `omega`, both in the lane's unit of time.
+/// y^2 of an arc of length `length` from the rate `omega` on, in the lane's unit of time.
 #[inline(always)]
 pub(super) fn turn_squared<R: Real>(constants: &Constants<R>, omega: [R; 3], length: R) -> R {
     let Constants { inverse, momentum, torque, momentum_rate, .. } = constants;
@@ -122,8 +121,7 @@ mod tests {
     use crate::dynamics::gyrostat::{ATTITUDE, WITH_ATTITUDE};
     use crate::math::vector::norm;
 
-    /// Law: the neglected terms of a brief arc are below y times the tolerance, and the orders are not wasted: two less
-    /// are not enough.
+    /// Law: the neglected terms of a brief arc are below y times the tolerance; two orders less are not enough.
     #[test]
     fn the_order_is_what_the_arc_needs() {
         const N: usize = WITH_ATTITUDE;

@@ -1,4 +1,4 @@
-//! Series of steps and their values, each lane at its own time.
+//! Series of steps and their evaluation, each lane at its own time.
 #![expect(
     clippy::needless_range_loop,
     clippy::manual_memcpy,
@@ -9,7 +9,7 @@ use fearless_simd::Simd;
 
 use crate::math::{Lanes, Real};
 
-/// The series of one step in lanes, and when it began: time since the start of the arc as an unevaluated sum.
+/// The series of one step in lanes, and its start since the start of the arc as an unevaluated sum.
 #[derive(Clone, Debug)]
 pub struct Segment<R, const J: usize> {
     /// Taylor coefficients, order by order.
@@ -27,14 +27,13 @@ impl<R: Real, const J: usize> Segment<R, J> {
     }
 }
 
-/// All components of the series `jet`, each at the `U` times `x`.
-///
-/// By groups of components, so that the sums of a group stay in registers and a coefficient that was loaded serves all
+/// All components of `jet` at the `U` times `x`, by groups whose sums stay in registers while a loaded coefficient
+/// serves all times.
 /// times.
 #[inline(always)]
 pub fn values<R: Real, const J: usize, const U: usize>(jet: &[[R; J]], x: [R; U]) -> [[R; J]; U] {
     let mut all = [jet[0]; U];
-    // the rate by itself, the quaternion two by two, the angle by itself
+    // rate alone, quaternion two by two, angle alone
     group::<R, J, 3, U>(jet, 0, x, &mut all);
     if J > 3 {
         group::<R, J, 2, U>(jet, 3, x, &mut all);
@@ -43,7 +42,7 @@ pub fn values<R: Real, const J: usize, const U: usize>(jet: &[[R; J]], x: [R; U]
     if J > 7 {
         group::<R, J, 3, U>(jet, 7, x, &mut all);
     }
-    // integrals of effects, where they have series
+    // integrals of effects, if they have series
     for first in 10..J {
         group::<R, J, 1, U>(jet, first, x, &mut all);
     }
@@ -91,8 +90,8 @@ pub fn value_at<R: Real, const J: usize>(jet: &[[R; J]], component: usize, lane:
     sum
 }
 
-/// All components of the series in lane `lane`, each at eight times of this one lane in each of the `U` vectors `x`: a
-/// coefficient is broadcast from where it is among those of the other lanes. The operations are those of [`values`].
+/// All components in lane `lane` at eight times per vector of `x`: a coefficient is broadcast from among the other
+/// lanes. Same operations as [`values`].
 #[inline(always)]
 pub fn values_in_lane<S: Simd, R: Real, const J: usize, const U: usize>(
     jet: &[[R; J]],
@@ -110,7 +109,6 @@ pub fn values_in_lane<S: Simd, R: Real, const J: usize, const U: usize>(
     all
 }
 
-/// Horner's scheme for `G` components from `first` on.
 #[inline(always)]
 fn group_in_lane<S: Simd, R: Real, const J: usize, const G: usize, const U: usize>(
     jet: &[[R; J]],

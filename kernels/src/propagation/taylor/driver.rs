@@ -1,7 +1,7 @@
-//! [`integrate`]: runs in lanes, step by step, each with its own step, arc, period and end.
+//! [`integrate`]: runs in lanes, each with its own step, arc, period and end.
 //!
-//! A step is the same few vector operations for all lanes; a single lane is only examined when something happens to it:
-//! an observation point passed, omega came back to where it started, an arc ended, or something went wrong.
+//! A step is a few vector operations for all lanes; a single lane is examined only at events: an observation point, a
+//! return of omega, the end of an arc, a failure.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -21,11 +21,10 @@ use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
 use crate::run::{Grid, Status};
 
-/// Integrates `runs`, whose arcs come from `arcs`, over `grid`; `finish` is called once for each, in the order in which
-/// they end.
+/// Integrates `runs` with arcs from `arcs` over `grid`, and calls `finish` for each in order of completion.
 ///
-/// `N` components are integrated, the first `J` of them by series of their own. Every result is a function of the run
-/// and its law alone: lanes share no decision.
+/// `N` components are integrated, the first `J` by series of their own. Results are a function of the run and its law
+/// alone.
 #[inline(always)]
 pub fn integrate<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>(
     simd: S,
@@ -45,7 +44,6 @@ pub fn integrate<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J
     }
 }
 
-/// Steps the lanes and decides what happens to them.
 struct Driver<'a, S, R, E, const N: usize, const J: usize, const FORCED: bool> {
     lanes: RunLanes<'a, S, R, E, N, J>,
 }
@@ -53,7 +51,7 @@ struct Driver<'a, S, R, E, const N: usize, const J: usize, const FORCED: bool> {
 impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>
     Driver<'_, S, R, E, N, J, FORCED>
 {
-    /// One step of every lane.
+    /// Takes one step of every lane.
     #[inline(always)]
     fn step(&mut self, finish: &mut RunCallback<'_>) {
         let has_begun = FORCED && core::mem::take(&mut self.lanes.has_begun);
@@ -75,7 +73,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         segment.start = vectors.time;
         segment.start_low = vectors.time_low;
         let full = work.rule.order;
-        // a bound of the torque is known for constant torques only
+        // the bound of the torque holds for constant torques only
         let brief = if has_begun && !E::ACT {
             let omega = [begin[0], begin[1], begin[2]];
             work.brief.orders(&constants, omega, (vectors.length, vectors.time, vectors.may_be_brief))
@@ -167,7 +165,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         self.lanes.write_points(&rows, due);
     }
 
-    /// Examines the lanes to which something happened: those that are not `calm`, and all of them at an alarm.
+    /// Examines the lanes that are not `calm`; all of them at an alarm.
     #[inline(never)]
     fn examine(&mut self, calm: R::Mask, back: R::Mask, length: R, finish: &mut RunCallback<'_>) {
         self.lanes.simd.vectorize(
@@ -191,7 +189,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         let clock = lanes.work.ring.clock;
         let mut occupied = lanes.states.iter().flatten();
         if clock > 0 && occupied.all(|state| state.begun == clock && state.steps_before == 0) {
-            // all lanes have just been loaded: the ring restarts too, and the memory that it uses stays small
+            // all lanes have just been loaded: restart the ring to keep its memory small
             lanes.work.ring.clock = 0;
             lanes.states.iter_mut().flatten().for_each(|state| state.begun = 0);
         }
@@ -207,7 +205,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
             let given_up = state.judged(clock, work.settings.max_steps);
             let at = match state.waiting {
                 Some(waiting) => state.patience(&waiting).min(state.begun + kept),
-                // a body that does not move at all has its period after the first step
+                // a body at rest has its period after the first step
                 None if state.is_searching && state.begun == clock => clock + 1,
                 None if state.is_searching => state.begun + kept,
                 None => usize::MAX,
@@ -217,7 +215,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         self.lanes.alarm = alarm.max(clock + 1);
     }
 
-    /// Decides what happens to a lane after a step: folding by a period, the end of an arc or of a run.
+    /// Handles a lane after a step: folding by a period, end of an arc or of a run.
     #[inline(always)]
     fn examine_lane(&mut self, lane: usize, back: bool, length: f64, finish: &mut RunCallback<'_>) {
         let lanes = &mut self.lanes;
@@ -263,7 +261,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         }
     }
 
-    /// Evaluates all points of the arcs in the lanes that wait, and lets those lanes continue.
+    /// Evaluates all points of the arcs in the waiting lanes and continues those lanes.
     #[inline(never)]
     fn fold(&mut self, finish: &mut RunCallback<'_>) {
         let simd = self.lanes.simd;

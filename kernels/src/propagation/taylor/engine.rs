@@ -21,7 +21,7 @@ use crate::propagation::settings::PropagationSettings;
 use crate::run::Grid;
 use crate::scene::Scene;
 
-/// One worker's memory: `N` components, the first `J` of which have series of their own, under the effects `E`.
+/// Memory of a worker for `N` components, the first `J` with series of their own, under the effects `E`.
 pub struct TaylorEngine<S, R, E, const N: usize, const J: usize, const FORCED: bool> {
     simd: S,
     zero: R,
@@ -35,7 +35,7 @@ pub struct TaylorEngine<S, R, E, const N: usize, const J: usize, const FORCED: b
 impl<S: Simd, R: Real + Send + 'static, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>
     TaylorEngine<S, R, E, N, J, FORCED>
 {
-    /// Memory for the runs of `plan`; `zero` says how many lanes.
+    /// Memory for the runs of `plan`, in the lanes of `zero`.
     pub fn new(simd: S, zero: R, plan: &PropagationSettings) -> Self {
         let mut own = settings(plan);
         own.periodic &= !E::ACT;
@@ -90,8 +90,8 @@ impl<S: Simd, R: Real + Send + 'static, E: WithinArcs<R>, const N: usize, const 
     }
 }
 
-/// The integration, compiled for its instruction set. Not inlined: so the engines of all numbers of components share
-/// one kernel for the debris, which is that of spacecraft without actuators, and it is compiled once.
+/// The integration in its instruction set. Not inlined: all engines share one kernel for the debris, that of spacecraft
+/// without actuators.
 #[inline(never)]
 fn integrate_on<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>(
     simd: S,
@@ -107,7 +107,6 @@ fn integrate_on<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J:
     );
 }
 
-/// What `plan` asks of an integration.
 fn settings(plan: &PropagationSettings) -> Settings {
     Settings {
         tolerance: plan.control.tolerance.relative,

@@ -1,4 +1,4 @@
-//! [`FoldBuffer`]: the folded observation points of several lanes, sorted by series and evaluated.
+//! [`FoldBuffer`]: folded observation points of several lanes, sorted by series and evaluated.
 
 use fearless_simd::Simd;
 
@@ -7,29 +7,28 @@ use super::series_ring::LARGEST;
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 
-/// Observation points of the runs in the lanes that wait with a known period: the time of each within the period, and
-/// the components there. Rows are per lane.
+/// Observation points of waiting lanes with a known period: time within the period, and components. Rows are per lane.
 #[derive(Clone, Debug)]
 pub struct FoldBuffer {
-    /// Points of a lane with padding: the length of a row of `rest`, `whole`, `segment`, `place`.
+    /// Points of a lane with padding: row length of `rest`, `whole`, `segment`, `place`.
     pub stride: usize,
-    /// The length of a row of `x`: the points of each series are padded to whole vectors.
+    /// Row length of `x`: the points of each series are padded to whole vectors.
     capacity: usize,
-    /// How many places of it each lane uses: the length of a component in a row of `values`.
+    /// Used length of `x` per lane: the length of a component in a row of `values`.
     used: Vec<usize>,
     /// Time since the start of the arc minus whole periods.
     pub rest: Vec<f64>,
     /// Whole periods before each point.
     pub whole: Vec<f64>,
-    /// The series of a point, counted from the oldest of all lanes.
+    /// Series of a point, counted from the oldest of all lanes.
     pub segment: Vec<u32>,
-    /// The place of a point in `x` and `values` (before `FoldBuffer::sort`: its number within its series).
+    /// Position of a point in `x` and `values` (before `FoldBuffer::sort`: its number within its series).
     pub place: Vec<u32>,
-    /// Points of a lane in a series, series by series.
+    /// Points per series of a lane.
     pub count: Vec<u32>,
-    /// First place of each series.
+    /// First position of each series.
     first: Vec<u32>,
-    /// Starts of the series, high and low part, series by series.
+    /// Starts of the series, high and low part.
     pub start: [Vec<f64>; 2],
     /// Time since the start of the series.
     x: Vec<f64>,
@@ -37,7 +36,7 @@ pub struct FoldBuffer {
     values: Vec<f64>,
 }
 
-/// Most series of all lanes together.
+/// Limit of series of all lanes together.
 const SERIES: usize = 2 * LARGEST;
 
 impl FoldBuffer {
@@ -61,7 +60,7 @@ impl FoldBuffer {
         }
     }
 
-    /// Notes when `series` series start, and clears all counts.
+    /// Records the starts of `series` series and clears all counts.
     #[inline(always)]
     pub(super) fn note_starts<'a, R: Real + 'a, const J: usize>(
         &mut self,
@@ -76,8 +75,8 @@ impl FoldBuffer {
         self.count[..series * R::LANES].fill(0);
     }
 
-    /// Gives the `points` points of `lane`, whose series are numbered `series`, their places: those of a series are
-    /// adjacent.
+    /// Assigns positions to the `points` points of `lane`, those of a series adjacent; `series` are the numbers of its
+    /// series.
     #[inline(always)]
     pub(super) fn sort<R: Real>(&mut self, lane: usize, points: usize, series: core::ops::Range<usize>) {
         let first = &mut self.first[lane * (SERIES + 1)..];
@@ -88,7 +87,7 @@ impl FoldBuffer {
         }
         first[series.end] = next;
         self.used[lane] = next as usize;
-        // slices: the compiler then knows that a store does not change them
+        // slices, so that the compiler knows that stores do not change them
         let first = &first[..=series.end];
         let x = &mut self.x[lane * self.capacity..][..next as usize];
         x.fill(0.0);
@@ -102,8 +101,7 @@ impl FoldBuffer {
         }
     }
 
-    /// Evaluates series `number` of `lane`, which is `jet`, at its points: eight are a vector, two vectors share a
-    /// coefficient.
+    /// Evaluates series `number` of `lane`, `jet`, at its points: two vectors of eight share a coefficient.
     #[inline(always)]
     pub(super) fn evaluate<S: Simd, R: Real, const J: usize>(
         &mut self,
@@ -129,7 +127,7 @@ impl FoldBuffer {
         }
     }
 
-    /// The components of the eight points of `lane` at `places`.
+    /// Components of the eight points of `lane` at `places`.
     #[inline(always)]
     pub(super) fn at_places<S: Simd, const J: usize>(
         &self,
@@ -152,7 +150,6 @@ impl FoldBuffer {
     }
 }
 
-/// Writes the components of the eight points from place `at` on, where a component has `used` places.
 #[inline(always)]
 fn note<S: Simd, const J: usize>(values: &mut [f64], used: usize, at: usize, found: &[Lanes<S>; J]) {
     for (component, value) in found.iter().enumerate() {

@@ -1,11 +1,9 @@
-//! Taylor coefficients of the gyrostat's motion by recurrences.
+//! Taylor coefficients of the gyrostat's motion ([`crate::dynamics::gyrostat`]) by recurrences.
 //!
-//! Everything is quadratic, so the coefficient of order n + 1 is a Cauchy product of those up to n, divided by n + 1
+//! All equations are quadratic: the coefficient of order n + 1 is a Cauchy product of those up to n, divided by n + 1
 //! (R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section 2).
-//! Written for the equations of [`crate::dynamics::gyrostat`]; components as there.
-//!
-//! The recurrences of thrust (impulses, works) serve [`super::reference_solution`] alone: integration in `f64` takes
-//! these integrals from [`super::thrust`], so that each tests the other.
+//! The recurrences of thrust (impulses, works) serve [`super::reference_solution`] alone; integration in `f64` uses
+//! [`super::thrust`], so that each tests the other.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use crate::dynamics::effects::ChangingSeries;
@@ -17,18 +15,16 @@ use crate::dynamics::gyrostat::{
 use crate::math::vector::{cross, dot, scaled};
 use crate::math::{Mask, Real};
 
-/// The largest order of a jet: a tolerance of 1e-16 needs 22; double-double needs twice that.
+/// Largest order of a jet: 22 for a tolerance of 1e-16, twice that for double-double.
 pub const MAX_ORDER: usize = 40;
 
-/// 1/n as the sum of two `Real`, for n = 1 ..= order.
-///
-/// A rounded 1/n is wrong in the same direction in every step: with it the quaternion's norm grew by 2e-17 a step,
-/// which added up (`tests/accuracy/round_off.rs`).
+/// 1/n as a sum of two `Real`, n = 1 ..= order. A rounded 1/n errs in the same direction in every step: the
+/// quaternion's norm grew by 2e-17 per step (`tests/accuracy/round_off.rs`).
 #[derive(Clone, Debug)]
 pub struct Reciprocals<R>(Vec<[R; 2]>);
 
 impl<R: Real> Reciprocals<R> {
-    /// The table up to 1/(`order`); entry zero is not used.
+    /// The table up to 1/(`order`); entry zero is unused.
     pub fn new(zero: R, order: usize) -> Self {
         let one = zero.splat(1.0);
         let pair = |n: usize| {
@@ -47,7 +43,7 @@ pub struct Scratch<R> {
     turned_force: [[R; 4]; MAX_ORDER],
     /// q (x) tau.
     turned_torque: [[R; 4]; MAX_ORDER],
-    /// The force in F_e.
+    /// Force in F_e.
     force_e: [[R; 3]; MAX_ORDER],
 }
 
@@ -62,11 +58,10 @@ impl<R: Real> Scratch<R> {
     }
 }
 
-/// Fills `jet[1 ..= order]` with the Taylor coefficients of the first `N` components, given `jet[0]`, the state.
+/// Fills `jet[1 ..= order]` with the Taylor coefficients of the first `N` components from the state `jet[0]`.
 ///
-/// `constants.momentum` is the wheels' momentum *at the start of the step*. Where `FORCED` is false, torques, thrusts
-/// and the rate of the momentum are taken as zero. `effects` are those that change within an arc, where there are any,
-/// begun at the start of the step.
+/// `constants.momentum` is the wheels' momentum *at the start of the step*. Without `FORCED`, torques, thrusts and the
+/// rate of the momentum are zero. `effects` have been begun at the start of the step.
 #[inline(always)]
 pub fn expand<R: Real, const N: usize, const FORCED: bool>(
     constants: &Constants<R>,
@@ -81,7 +76,7 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
     let zero = jet[0][0].zero();
     let half = zero.splat(0.5);
     let Scratch { turned_force, turned_torque, force_e } = scratch;
-    // without effects an arc has a force, a torque, or both: effects alone turn, and push nothing
+    // without effects an arc has a force, a torque or both: effects exert torques only
     let [x, y, z] = constants.force;
     let is_pushed = effects.is_none() || zero.lt(x.abs() + (y.abs() + z.abs())).any();
     for n in 0..order {
@@ -156,13 +151,12 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
     }
 }
 
-/// The attitude quaternion of one order.
 #[inline(always)]
 fn attitude_of<R: Real, const N: usize>(coefficients: &[R; N]) -> [R; 4] {
     [coefficients[ATTITUDE], coefficients[ATTITUDE + 1], coefficients[ATTITUDE + 2], coefficients[ATTITUDE + 3]]
 }
 
-/// One order of the offset from an orbit, m.
+/// Offset from an orbit at one order, m.
 #[inline(always)]
 fn offset_of<R: Real, const N: usize>(constants: &Constants<R>, coefficients: &[R; N]) -> [R; 3] {
     if N < WITH_THRUST {
@@ -172,7 +166,7 @@ fn offset_of<R: Real, const N: usize>(constants: &Constants<R>, coefficients: &[
     scaled(constants.inverse_mass, [coefficients[first], coefficients[first + 1], coefficients[first + 2]])
 }
 
-/// Coefficients n of q (x) torque and of torque . omega.
+/// Coefficients n of q (x) torque and torque . omega.
 #[inline(always)]
 fn products_of_torque<R: Real, const N: usize>(jet: &[[R; N]], torque: &[[R; 3]], n: usize) -> ([R; 4], R) {
     let zero = jet[0][0].zero();
@@ -186,7 +180,7 @@ fn products_of_torque<R: Real, const N: usize>(jet: &[[R; N]], torque: &[[R; 3]]
     (turned, spun[0] + (spun[1] + spun[2]))
 }
 
-/// Coefficient n of omega' = ratio omega omega + (h x omega + torque - h')/J, given those of the products of two rates.
+/// Coefficient n of omega' = ratio omega omega + (h x omega + torque - h')/J, from the products of two rates.
 #[inline(always)]
 fn angular_acceleration<R: Real, const N: usize, const FORCED: bool>(
     constants: &Constants<R>,
@@ -217,18 +211,18 @@ fn angular_acceleration<R: Real, const N: usize, const FORCED: bool>(
     acceleration
 }
 
-/// Coefficients of the products of series that the motion needs.
+/// Coefficients of products of series.
 struct Sums<R> {
-    /// Of omega_2 omega_3 and its cyclic permutations.
+    /// omega_2 omega_3 and cyclic.
     rate: [R; 3],
-    /// Of q (x) omega.
+    /// q (x) omega.
     attitude: [R; 4],
 }
 
-/// Coefficient n of the products, as far as the first `N` components go.
+/// Coefficient n of the products needed by the first `N` components.
 ///
-/// One pass over both series, so that ten loads feed fifteen fused operations. The two products with the coefficient
-/// that was computed last come last: the others need not wait for it.
+/// One pass over both series: ten loads feed fifteen fused operations. Products with the latest coefficient come last,
+/// so that the others need not wait for it.
 #[inline(always)]
 fn cauchy_products<R: Real, const N: usize>(jet: &[[R; N]], n: usize) -> Sums<R> {
     let zero = jet[0][0].zero();
@@ -255,13 +249,13 @@ fn cauchy_products<R: Real, const N: usize>(jet: &[[R; N]], n: usize) -> Sums<R>
     Sums { rate: [even[0] + odd[0], even[1] + odd[1], even[2] + odd[2]], attitude }
 }
 
-/// `sum` plus the products of unlike components of two rates.
+/// `sum` plus products of unlike components of two rates.
 #[inline(always)]
 fn rate_products<R: Real, const N: usize>(a: &[R; N], b: &[R; N], sum: [R; 3]) -> [R; 3] {
     [a[1].mul_add(b[2], sum[0]), a[2].mul_add(b[0], sum[1]), a[0].mul_add(b[1], sum[2])]
 }
 
-/// `sum` plus q (x) omega with the quaternion of `a` and the rate of `b`.
+/// `sum` plus q (x) omega, q from `a`, omega from `b`.
 #[inline(always)]
 fn attitude_products<R: Real, const N: usize>(a: &[R; N], b: &[R; N], sum: [R; 4]) -> [R; 4] {
     if N < WITH_ATTITUDE {
@@ -289,7 +283,7 @@ fn quaternion_products<R: Real>([q0, q1, q2, q3]: [R; 4], [o1, o2, o3]: [R; 3], 
     [w, x, y, z]
 }
 
-/// Coefficient n of the vector part of g (x) q*, with g = q (x) v: the vector v of B in F_e.
+/// Coefficient n of the vector part of g (x) q* with g = q (x) v: the vector v of B in F_e.
 #[inline(always)]
 fn turned<R: Real, const N: usize>(jet: &[[R; N]], g: &[[R; 4]; MAX_ORDER], n: usize) -> [R; 3] {
     let zero = jet[0][0].zero();
@@ -312,14 +306,14 @@ fn turned<R: Real, const N: usize>(jet: &[[R; N]], g: &[[R; 4]; MAX_ORDER], n: u
     [a, b, c]
 }
 
-/// Coefficient n of the force times the velocity of the point on the orbit, whose position is `orbit`.
+/// Coefficient n of force times velocity of the point on the orbit, whose position is `orbit`.
 #[inline(always)]
 fn carried_power<R: Real>(orbit: &[[R; 3]], force_e: &[[R; 3]; MAX_ORDER], n: usize) -> R {
     let zero = orbit[0][0].zero();
     (0..=n).fold(zero, |sum, m| zero.splat((n - m + 1) as f64).mul_add(dot(force_e[m], orbit[n - m + 1]), sum))
 }
 
-/// Coefficient n of F_e . v_c; on an orbit, of the velocity relative to its point.
+/// Coefficient n of F_e . v_c; on an orbit, with the velocity relative to its point.
 #[inline(always)]
 fn thrust_power<R: Real, const N: usize>(
     constants: &Constants<R>,
@@ -328,7 +322,7 @@ fn thrust_power<R: Real, const N: usize>(
     n: usize,
 ) -> R {
     let zero = jet[0][0].zero();
-    // impulse . force first, then the initial velocity, which is a constant
+    // impulse . force first, then the constant initial velocity
     let mut sums = [zero; 3];
     for m in 0..=n {
         for i in 0..3 {

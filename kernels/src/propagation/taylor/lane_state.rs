@@ -1,4 +1,4 @@
-//! [`SeriesLane`]: where one lane is in its run.
+//! [`SeriesLane`]: progress of one lane in its run.
 
 use super::period::Period;
 use super::truncation::TruncationSums;
@@ -6,52 +6,50 @@ use crate::dynamics::gyrostat::{IMPULSE, IMPULSE_INTEGRAL, WITH_ANGLES, WITH_THR
 use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::run::Grid;
 
-/// Where one lane is in its run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SeriesLane {
     /// The index of the run.
     pub run: usize,
-    /// Unit of time, s: a power of two near the time scale of the motion, so that every conversion is exact.
+    /// Unit of time, s: a power of two near the time scale of the motion, so that conversions are exact.
     pub unit: f64,
     /// Start and end of the arc, s.
     pub start: f64,
     pub end: f64,
-    /// Whether the arc is the last of the run.
+    /// True in the last arc of the run.
     pub is_last: bool,
     /// Length of the arc, units.
     pub length: f64,
-    /// First observation point that is not evaluated yet.
+    /// Next observation point to evaluate.
     pub point: usize,
-    /// The step at which the arc began: while a return is looked for, the series since then are kept.
+    /// Step at which the arc began; series since then are kept during the search for a return.
     pub begun: usize,
     /// Steps of the run before the arc.
     pub steps_before: u64,
-    /// Largest number of periods by which an arc of the run is unfolded, one where none is.
+    /// Largest number of periods by which an arc of the run is unfolded, at least one.
     pub periods: f64,
-    /// Whether a return is looked for.
+    /// True during the search for a return.
     pub is_searching: bool,
-    /// Set where the lane waits for its points to be evaluated together with those of other lanes.
+    /// Set while the lane waits for its points to be evaluated with those of other lanes.
     pub waiting: Option<Waiting>,
-    /// The quadrature states (components without series of their own) at the start of the arc.
+    /// Quadrature states (components without series of their own) at the start of the arc.
     pub quadratures: [f64; QUADRATURES],
 }
 
-/// A lane that waits.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Waiting {
-    /// The period; `None` where the run ended before one was found.
+    /// The period; `None` if the run ended before one was found.
     pub period: Option<Period>,
-    /// The step after which the lane began to wait.
+    /// Step after which the lane began to wait.
     pub since: usize,
-    /// Truncation of the run's steps by then.
+    /// Truncation of the run's steps up to then.
     pub truncation: TruncationSums,
 }
 
-/// Number of components that have no series of their own.
+/// Number of components without series of their own.
 pub(super) const QUADRATURES: usize = WITH_THRUST - WITH_ANGLES;
 
 impl SeriesLane {
-    /// A lane at the start of run `run`, before its first arc.
+    /// A lane before the first arc of run `run`.
     pub(super) fn new(run: usize, unit: f64, clock: usize) -> Self {
         SeriesLane {
             run,
@@ -70,7 +68,7 @@ impl SeriesLane {
         }
     }
 
-    /// The step up to which the lane waits for most of the others.
+    /// Step up to which the lane waits for most of the others.
     pub(super) fn patience(&self, waiting: &Waiting) -> usize {
         waiting.since + 2 + (waiting.since - self.begun) / 4
     }
@@ -81,23 +79,23 @@ impl SeriesLane {
         self.steps_before + (until - self.begun) as u64
     }
 
-    /// The step after `clock` at which the lane is examined for [`SeriesLane::gives_up`].
+    /// Step after `clock` at which [`SeriesLane::gives_up`] is next checked.
     pub(super) fn judged(&self, clock: usize, max_steps: u64) -> u64 {
         let begun = self.begun as u64;
         let limit = begun.saturating_add(max_steps.saturating_sub(self.steps_before));
         if (clock as u64) < begun + PACE_STEPS { limit.min(begun + PACE_STEPS) } else { limit }
     }
 
-    /// Whether the run has taken all steps that it may take by step `clock`, `time` units after the start of its arc,
-    /// or cannot get to the end of the arc with them.
+    /// True if by step `clock`, `time` units after the start of its arc, the run has used up its steps, or cannot reach
+    /// the end of the arc with them.
     pub(super) fn gives_up(&self, clock: usize, time: f64, max_steps: u64) -> bool {
         let steps = self.steps(clock);
         let is_judged = steps - self.steps_before == PACE_STEPS;
         steps >= max_steps || is_judged && is_out_of_reach(max_steps - self.steps_before, time, self.length)
     }
 
-    /// Time of the next observation point of the arc since its start, units; infinite where there is none or a return
-    /// is looked for.
+    /// Next observation point since the start of the arc, units; infinite if there is none, and during the search for a
+    /// return.
     pub(super) fn next_point(&self, grid: &Grid) -> f64 {
         match grid.times().get(self.point) {
             Some(time) if !self.is_searching && (self.is_last || *time <= self.end) => (time - self.start) / self.unit,
@@ -105,7 +103,7 @@ impl SeriesLane {
         }
     }
 
-    /// The quadrature states `time` units after the start of an arc without actuation.
+    /// Quadrature states `time` units after the start of an arc without actuation.
     pub(super) fn quadratures_after<const N: usize, const J: usize>(&self, time: f64) -> [f64; QUADRATURES] {
         let mut quadratures = self.quadratures;
         if N >= WITH_THRUST {

@@ -1,31 +1,31 @@
-//! [`LaneVectors`]: the quantities that every step computes with, all lanes at once.
+//! [`LaneVectors`]: operands of every step, all lanes together.
 
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ANGULAR_IMPULSE, IMPULSE, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_MOTORS, WITH_THRUST};
 use crate::math::Real;
 
-/// State, time and constants of the arcs in the lanes, each in its own unit of time.
+/// State, time and arc constants of the lanes, each in its own unit of time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LaneVectors<R, const N: usize> {
     pub constants: Constants<R>,
-    /// The integrated components, as an unevaluated sum with `state_low`.
+    /// Integrated components, an unevaluated sum with `state_low`.
     pub state: [R; N],
     pub state_low: [R; N],
-    /// Time since the start of the arc, units, as an unevaluated sum.
+    /// Time since the start of the arc, units, an unevaluated sum.
     pub time: R,
     pub time_low: R,
-    /// Length of the arc, units; infinite where the lane is empty or waits.
+    /// Length of the arc, units; infinite if the lane is empty or waits.
     pub length: R,
-    /// Time of the next observation point of the arc, units; infinite where there is none or a return is looked for.
+    /// Next observation point of the arc, units; infinite if there is none, and during the search for a return.
     pub next_point: R,
-    /// One over the unit of time, 1/s.
+    /// 1/unit of time, 1/s.
     pub per_unit: R,
-    /// One where the arc may be flown in one step of a lower order, else zero.
+    /// One if the arc may be flown in one step of lower order, else zero.
     pub may_be_brief: R,
 }
 
 impl<R: Real, const N: usize> LaneVectors<R, N> {
-    /// Empty lanes; `zero` says how many.
+    /// Empty lanes like `zero`.
     pub fn new(zero: R) -> Self {
         LaneVectors {
             constants: Constants::zero(zero),
@@ -48,7 +48,7 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
         }
     }
 
-    /// Lets the lane step on without an end: empty, or waiting.
+    /// Makes an empty or waiting lane step on without an end.
     pub fn idle(&mut self, lane: usize) {
         self.length.set_lane(lane, f64::INFINITY);
         self.next_point.set_lane(lane, f64::INFINITY);
@@ -61,7 +61,7 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
         [self.state[OMEGA].lane(lane), self.state[OMEGA + 1].lane(lane), self.state[OMEGA + 2].lane(lane)]
     }
 
-    /// The components in `lane`, SI; zero where they are not integrated.
+    /// Components in `lane`, SI; zero if not integrated.
     pub fn components(&self, lane: usize) -> [f64; WITH_THRUST] {
         let factors = si_factors::<f64, N>(self.per_unit.lane(lane));
         let mut components = [0.0; WITH_THRUST];
@@ -71,8 +71,8 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
         components
     }
 
-    /// Changes the unit of time in `lane` from `old` to `new` seconds: both are powers of two, so that nothing is
-    /// rounded.
+    /// Changes the unit of time in `lane` from `old` to `new` seconds, both powers of two, so that conversions are
+    /// exact.
     pub fn rescale(&mut self, lane: usize, old: f64, new: f64) {
         let (from, to) = (si_factors::<f64, N>(1.0 / old), si_factors::<f64, N>(1.0 / new));
         for i in 0..N {
@@ -83,7 +83,7 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
     }
 }
 
-/// The factors from components in the lane's unit of time to SI, given one over the unit.
+/// Factors from the lane's unit of time to SI, given 1/unit.
 #[inline(always)]
 pub(super) fn si_factors<R: Real, const N: usize>(per_unit: R) -> [R; N] {
     let mut factors = [per_unit.splat(1.0); N];

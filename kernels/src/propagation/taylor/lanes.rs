@@ -1,4 +1,4 @@
-//! [`RunLanes`]: which run is in which lane, and how a lane is loaded, begins an arc, waits, and ends.
+//! [`RunLanes`]: assignment of runs to lanes: loading, start of arcs, waiting, end.
 
 use fearless_simd::Simd;
 
@@ -19,18 +19,18 @@ use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
 use crate::run::{Grid, LocalErrors, Outcome, Status, StepStatistics, Trajectory};
 
-/// Receives a run that has ended: its index, the run with the arcs flown, its components at the points, how it ended.
+/// Receives a completed run: index, run with its arcs, components at the points, outcome.
 pub(super) type RunCallback<'a> = dyn FnMut(usize, &Gyrostat<f64>, &mut Trajectory, &Outcome) + 'a;
 
-/// Runs in lanes: `N` components, the first `J` of which have series, under the effects `E`.
+/// Runs in lanes: `N` components, the first `J` with series, under the effects `E`.
 pub(super) struct RunLanes<'a, S, R, E, const N: usize, const J: usize> {
     pub simd: S,
     pub runs: &'a mut [Gyrostat<f64>],
     pub arcs: ArcSource<'a>,
     pub grid: &'a Grid,
-    /// Whether an arc has begun since the last step.
+    /// True if an arc has begun since the last step.
     pub has_begun: bool,
-    /// The next run that has no lane yet.
+    /// Next run to load.
     pub next: usize,
     pub vectors: LaneVectors<R, N>,
     pub effects: E,
@@ -38,13 +38,13 @@ pub(super) struct RunLanes<'a, S, R, E, const N: usize, const J: usize> {
     /// Truncation of the steps of each lane's run.
     pub truncation: Truncation<R>,
     pub states: [Option<SeriesLane>; WIDEST],
-    /// The step after which all lanes are examined, whatever happens before.
+    /// Step after which all lanes are examined at the latest.
     pub alarm: usize,
     pub work: &'a mut Workspace<R, J>,
 }
 
 impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> RunLanes<'a, S, R, E, N, J> {
-    /// Empty lanes for `runs`, whose arcs come from `arcs`.
+    /// Empty lanes for `runs` with arcs from `arcs`.
     #[inline(always)]
     pub(super) fn new(
         (simd, zero): (S, R),
@@ -84,7 +84,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         let unit = run.time_unit();
         self.set_unit(lane, self.next, unit);
         self.effects.set_lane(lane, &self.runs[self.next]);
-        // the memory of its arcs is that of the lane
+        // the arcs use the memory of the lane
         core::mem::swap(&mut self.runs[self.next].flown, &mut self.work.records[lane]);
         self.runs[self.next].flown.clear();
         let run = &self.runs[self.next];
@@ -107,19 +107,18 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         self.begin_arc(lane);
     }
 
-    /// Sets the constants of run `run` in `lane` at a unit of time of `unit` seconds.
+    /// Sets the constants of run `run` in `lane`; `unit` is the unit of time, s.
     fn set_unit(&mut self, lane: usize, run: usize, unit: f64) {
         self.vectors.constants.set_run(lane, &self.runs[run], unit);
         self.vectors.per_unit.set_lane(lane, 1.0 / unit);
     }
 
-    /// Lets `lane` step on without an end: empty, or waiting.
     fn idle(&mut self, lane: usize) {
         self.vectors.idle(lane);
         self.detector.set(lane, None);
     }
 
-    /// Begins the arc that follows the last one in `lane`.
+    /// Begins the next arc in `lane`.
     #[inline(never)]
     pub(super) fn begin_arc(&mut self, lane: usize) {
         self.simd.vectorize(
@@ -128,7 +127,6 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         );
     }
 
-    /// The same, compiled for the instruction set.
     #[inline(always)]
     fn begin_arc_vectorized(&mut self, lane: usize) {
         let Some(mut state) = self.states[lane] else { return };
@@ -139,7 +137,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         let arc = run.arcs.len() - 1;
         let bounds = run.arcs[arc].arc;
         if unit != state.unit {
-            // a law may set the body turning faster than its start let expect
+            // a law may accelerate the body beyond its initial time scale
             self.vectors.rescale(lane, state.unit, unit);
             self.truncation.rescale(lane, unit / state.unit);
             self.set_unit(lane, state.run, unit);
@@ -174,12 +172,11 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         };
         self.detector.set(lane, section.as_ref());
         self.set_next_point(lane);
-        // a body that does not move at all has found its period with the first step
+        // a body at rest finds its period with the first step
         self.alarm = self.work.ring.clock + 1;
     }
 
-    /// Whether omega may come back to where it is in a free arc of length `length` that begins in `lane`: not where it
-    /// does not turn by a radian.
+    /// True if omega may return in a free arc of length `length` in `lane`: the body turns by more than a radian.
     #[inline(always)]
     fn may_return(&self, lane: usize, length: f64) -> bool {
         let LaneVectors { constants, .. } = &self.vectors;
@@ -189,14 +186,14 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         turn_squared(&alone, self.vectors.omega(lane), length) >= 1.0
     }
 
-    /// Sets the time of the next observation point of the arc in `lane`.
+    /// Sets the next observation point of the arc in `lane`.
     #[inline(always)]
     pub(super) fn set_next_point(&mut self, lane: usize) {
         let Some(state) = &self.states[lane] else { return };
         self.vectors.next_point.set_lane(lane, state.next_point(self.grid));
     }
 
-    /// Writes a point of the lanes that are `due`.
+    /// Writes a point of the lanes `due`.
     #[inline(always)]
     pub(super) fn write_points(&mut self, rows: &[[f64; WIDEST]; N], due: R::Mask) {
         for lane in 0..R::LANES {
@@ -212,13 +209,13 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         }
     }
 
-    /// Writes the points of `lane` that have not reached its trajectory.
+    /// Writes the pending points of `lane` to its trajectory.
     fn flush_points(&mut self, lane: usize) {
         let Workspace { points, trajectories, .. } = &mut *self.work;
         points.flush::<N>(lane, &mut trajectories[lane]);
     }
 
-    /// Lets `lane` wait for its points to be evaluated together with those of other lanes.
+    /// Makes `lane` wait for its points to be evaluated with those of other lanes.
     pub(super) fn wait(&mut self, lane: usize, period: Option<Period>) {
         if let Some(state) = &mut self.states[lane] {
             if let Some(period) = &period {
@@ -257,7 +254,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         self.pass_on(lane, &state, (Status::Done, self.grid.duration(), self.grid.points()), finish);
     }
 
-    /// Passes on a run that cannot continue.
+    /// Passes on a failed run.
     #[cold]
     pub(super) fn fail(&mut self, lane: usize, status: Status, finish: &mut RunCallback<'_>) {
         self.flush_points(lane);
@@ -272,7 +269,6 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         self.pass_on(lane, &state, (status, reached.mul_add(state.unit, state.start), points), finish);
     }
 
-    /// Passes the run of `lane` to `finish` and loads the next.
     fn pass_on(
         &mut self,
         lane: usize,
@@ -294,7 +290,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         self.load_lane(lane);
     }
 
-    /// Keeps the series of more steps for a long period, or stops looking for it.
+    /// Keeps the series of more steps for a long period, or ends the search.
     #[cold]
     pub(super) fn keep_more_series(&mut self, lane: usize) {
         if self.work.ring.grow(self.vectors.time.zero()) {

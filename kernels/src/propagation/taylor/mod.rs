@@ -1,20 +1,18 @@
-//! Taylor series of the gyrostat in lanes, with periodic propagation of what is free of torque.
+//! Taylor series of the gyrostat in lanes, with periodic propagation of torque-free motion.
 //!
-//! - [`jet`]: the recurrences. [`step`]: order and step size. [`thrust`]: integrals of the thrust along a step.
-//!   `brief`: the order of arcs much shorter than a step. `truncation`: estimates of what the steps leave out.
-//!   [`dense`]: evaluation of series.
-//! - [`driver`]: the steps of all lanes and what happens to them; `lanes`: which run is in which lane; `lane_state`,
-//!   `lane_vectors`: where each is in its run; `points`, `point_rows`: observation points during a step; [`workspace`],
-//!   `series_ring`: memory.
-//! - [`period`], `period_search`: the period of omega and time folded by it; [`return_detector`]: its search in all
-//!   lanes at once; `period_folding`, `fold_buffer`: the points of runs whose period is known.
-//! - [`reference_solution`]: reference solutions of any scene by the same recurrences in double-double;
-//!   `switched_reference`: where torques have no series; `reference_run`: what both have of a run.
+//! - [`jet`]: recurrences. [`step`]: order and step size. [`thrust`]: integrals of thrust along a step. `brief`: order
+//!   of arcs much shorter than a step. `truncation`: estimated truncation. [`dense`]: evaluation of series.
+//! - [`driver`]: steps of all lanes; `lanes`: assignment of runs; `lane_state`, `lane_vectors`: progress of each;
+//!   `points`, `point_rows`: observation points during a step; [`workspace`], `series_ring`: memory.
+//! - [`period`], `period_search`, [`return_detector`]: the period of omega and its search; `period_folding`,
+//!   `fold_buffer`: points of runs with a known period.
+//! - [`reference_solution`]: reference solutions in double-double by the same recurrences; `switched_reference`: for
+//!   torques without series; `reference_run`: shared by both.
 //!
-//! The motion of omega without torque is periodic: it stays on the curve in which the energy ellipsoid meets the
-//! momentum sphere. One period turns the attitude by a fixed rotation about the constant angular momentum L, so a run
-//! of any length costs one period and the observation points. Where no period shows up (near the separatrix, or with
-//! torque), the same steps are the Taylor integration of the whole run.
+//! Without torque omega is periodic: it stays on the intersection of energy ellipsoid and momentum sphere. A period
+//! turns the attitude by a fixed rotation about the constant angular momentum L, so that a run of any length costs one
+//! period plus its observation points. Without a period (near the separatrix, or with torque) the same steps integrate
+//! the whole run.
 
 mod brief;
 pub mod dense;

@@ -1,10 +1,9 @@
-//! The period of omega, and folding time by it.
+//! The period of omega, and time folded by it.
 //!
-//! Without torque omega(t) moves on a closed curve. A return is a crossing of the plane through omega(0) across its
-//! velocity, in the same sense, close to omega(0). Over one period P the attitude turns by a fixed rotation about the
-//! angular momentum L, which is constant in F_e (L. Poinsot, *Theorie nouvelle de la rotation des corps*, 1851; for
-//! gyrostats V. Volterra, 1899): q(t + n P) = r^n (x) q(t) with r = q(P) (x) q(0)*. Integrals of what is periodic grow
-//! by the same amount in every period.
+//! Without torque omega(t) moves on a closed curve. A return is a crossing, in the same sense and close to omega(0), of
+//! the plane through omega(0) normal to its velocity. Over a period P the attitude turns by a fixed rotation about L,
+//! constant in F_e (L. Poinsot, *Theorie nouvelle de la rotation des corps*, 1851; gyrostats: V. Volterra, 1899): q(t +
+//! n P) = r^n (x) q(t), r = q(P) (x) q(0)*. Integrals of periodic quantities grow equally in every period.
 #![expect(clippy::needless_range_loop, reason = "components and orders are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -14,43 +13,42 @@ use crate::math::sine::sin_cos_turns;
 use crate::math::vector::{constant, hamilton, scaled};
 use crate::math::{Lanes, Real};
 
-/// How far a return may be off the start, as a share of the curve's extent: far below the distance of two branches of
-/// the curve, far above the round-off of one period.
+/// Tolerated distance of a return from the start as a share of the curve's extent: far below the distance of two
+/// branches, far above the round-off of one period.
 const RETURN_OF_EXTENT: f64 = 1e-6;
-/// The same as a share of the rate itself: the round-off on a curve that is small compared with |omega|.
+/// Tolerated distance as a share of the rate: round-off on a curve that is small compared with |omega|.
 const RETURN_OF_RATE: f64 = 1e-13;
-/// The same in units of the tolerance: truncation at loose tolerances.
+/// Tolerated distance in units of the tolerance: truncation at loose tolerances.
 const RETURN_OF_TOLERANCE: f64 = 100.0;
-/// Newton steps on one polynomial before a crossing is given up; three or four are usual.
+/// Limit of Newton steps on one polynomial; three or four are usual.
 const NEWTON_STEPS: usize = 12;
 
 /// One period of an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Period {
-    /// Length, in the lane's unit of time, as an unevaluated sum.
+    /// Length, units, an unevaluated sum.
     pub length: [f64; 2],
-    /// Half the angle by which a period turns the attitude, in turns.
+    /// Half the rotation angle of a period, turns.
     pub half_turns: f64,
-    /// Axis of that turn, unit vector in F_e.
+    /// Rotation axis, unit vector in F_e.
     pub axis_e: [f64; 3],
 }
 
-/// The section across the curve of omega at the start of an arc; [`super::return_detector::ReturnDetector`] keeps it up
-/// to date.
+/// Section across the curve of omega at the start of an arc, updated by [`super::return_detector::ReturnDetector`].
 #[derive(Clone, Copy, Debug)]
 pub struct PoincareSection {
     /// omega at the start.
     pub start: [f64; 3],
     /// Unit vector along omega' at the start.
     pub direction: [f64; 3],
-    /// Largest squared distance from the start at the ends of steps so far.
+    /// Largest squared distance from the start at the ends of steps.
     pub extent2: f64,
     /// Position along `direction` at the end of the last step.
     pub side: f64,
 }
 
 impl PoincareSection {
-    /// The section across the motion at the start of an arc; `None` where omega does not move at all.
+    /// The section at the start of an arc; `None` if omega does not move.
     #[inline]
     pub fn new(omega: [f64; 3], rate: [f64; 3]) -> Option<Self> {
         let norm2 = rate[0] * rate[0] + rate[1] * rate[1] + rate[2] * rate[2];
@@ -61,8 +59,8 @@ impl PoincareSection {
         Some(PoincareSection { start: omega, direction: rate.map(|x| x * inverse), extent2: 0.0, side: 0.0 })
     }
 
-    /// The time within a step at which omega is back, given the step's series in lane `lane` and its length; `None`
-    /// where the crossing is on another branch of the curve.
+    /// Time within a step at which omega returns, from the step's series in lane `lane` and its length; `None` for a
+    /// crossing on another branch of the curve.
     #[inline(always)]
     pub fn crossing<R: Real, const N: usize>(
         &self,
@@ -72,7 +70,6 @@ impl PoincareSection {
         length: f64,
         tolerance: f64,
     ) -> Option<f64> {
-        // the position along the direction, as a series
         let d = self.direction;
         let mut along = [0.0; MAX_ORDER + 1];
         for n in 0..=order {
@@ -82,7 +79,7 @@ impl PoincareSection {
             }
             along[n] = omega[0].mul_add(d[0], omega[1].mul_add(d[1], omega[2] * d[2]));
         }
-        // a secant between both ends, then Newton's method inside the bracket
+        // secant between both ends, then Newton's method inside the bracket
         let mut x = length * (along[0] / (along[0] - self.side));
         let (mut low, mut high) = (0.0, length);
         for _ in 0..NEWTON_STEPS {
@@ -121,9 +118,9 @@ impl PoincareSection {
 
 impl Period {
     /// The period of an arc, of length `length`, that takes the attitude from `start` to `end`; `momentum_e` is the
-    /// angular momentum in F_e and `scale` the magnitude |J| |omega| relative to which it counts as zero.
+    /// angular momentum in F_e, `scale` its reference magnitude |J| |omega|.
     ///
-    /// `None` where the axis of the turn is too poorly known to be used many times over.
+    /// `None` if the axis is too inaccurate for many repetitions.
     #[inline]
     pub fn new(length: [f64; 2], start: [f64; 4], end: [f64; 4], momentum_e: [f64; 3], scale: f64) -> Option<Self> {
         let norm = crate::math::vector::norm(momentum_e);
@@ -133,7 +130,7 @@ impl Period {
         let axis_e = if norm > SMALL_MOMENTUM * scale {
             momentum_e.map(|component| component / norm)
         } else {
-            // without momentum omega itself is constant, and the turn is about it
+            // without momentum omega is constant, and the rotation is about it
             let sine = crate::math::vector::norm(axis_part);
             if sine < SMALL_SINE {
                 return None;
@@ -151,7 +148,7 @@ impl Period {
         let (high, low) = (time.splat(self.length[0]), time.splat(self.length[1]));
         let inverse = time.splat(1.0 / self.length[0]);
         let whole = (time * inverse).floor();
-        // exact up to one rounding: whole * high is not rounded
+        // whole * high is exact: one rounding in all
         let rest = (-whole).mul_add(low, (-whole).mul_add(high, time));
         let zero = time.zero();
         let one = time.splat(1.0);
@@ -162,10 +159,10 @@ impl Period {
         (whole, rest)
     }
 
-    /// The quaternion of the turn of `whole` periods.
+    /// Quaternion of `whole` periods.
     #[inline(always)]
     pub fn turn<S: Simd>(&self, whole: Lanes<S>) -> [Lanes<S>; 4] {
-        // the product is exact as a sum of two, so the error is that of half_turns alone, times the number of periods
+        // exact as a sum of two: the error is that of half_turns times the number of periods
         let half_turns = whole.splat(self.half_turns);
         let high = whole * half_turns;
         let low = whole.mul_add(half_turns, -high);
@@ -175,7 +172,7 @@ impl Period {
     }
 }
 
-/// Below this share of |J| |omega| the direction of the angular momentum is not taken as the axis.
+/// Share of |J| |omega| below which the angular momentum does not define the axis.
 const SMALL_MOMENTUM: f64 = 1e-3;
-/// Below this sine the vector part of the turn of a period does not give its axis to full precision.
+/// Sine below which the vector part of the rotation does not give the axis to full precision.
 const SMALL_SINE: f64 = 0.1;

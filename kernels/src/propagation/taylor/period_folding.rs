@@ -1,9 +1,8 @@
-//! The points of runs that wait with a known period: folded into it, evaluated together, unfolded.
+//! Points of waiting runs with a known period: folded, evaluated together, unfolded.
 //!
-//! The points of a run, folded by its period, are scattered over the few steps of that period. They are sorted by
-//! series and evaluated eight at a time, one run after another; series by series for all lanes that wait, so that a
-//! series stays in the first-level cache. What follows is in order of time again, eight points to a vector: the
-//! rotation by whole periods and the growth of the integrals.
+//! Folded points are scattered over the few steps of a period. They are sorted by series and evaluated eight at a time,
+//! series by series for all waiting lanes, so that a series stays in the first-level cache. Rotation by whole periods
+//! and growth of the integrals follow in order of time, eight points per vector.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -20,28 +19,26 @@ use crate::math::vector::hamilton;
 use crate::math::{Lanes, Real};
 use crate::run::{Grid, Trajectory};
 
-/// Largest number of steps that a lane waits beyond as many as its period took.
+/// Largest number of steps that a lane waits beyond those of its period.
 const SLACK: usize = 8;
 
-/// A lane whose points are folded.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FoldedLane {
     pub lane: usize,
     pub state: SeriesLane,
     pub period: Option<Period>,
-    /// The step after the last series.
+    /// Step after the last series.
     pub end: usize,
     /// Number of points of the arc.
     pub points: usize,
 }
 
-/// The lanes that wait.
 pub(super) type FoldedLanes = [Option<FoldedLane>; WIDEST];
 
-/// Whether the lanes that wait should be evaluated now, after step `clock` with series of the last `kept` steps.
+/// True if the waiting lanes should be evaluated after step `clock`, with the series of the last `kept` steps.
 ///
-/// An evaluation costs the same for one lane as for all, so it waits for those that still look for their period, but
-/// not for long, and not beyond the series that are kept.
+/// An evaluation costs the same for one lane as for all, so that it waits for lanes still in search of their period,
+/// but not for long, and not beyond the kept series.
 pub(super) fn is_due(lanes: &[Option<SeriesLane>; WIDEST], clock: usize, kept: usize) -> bool {
     let (mut waiting, mut searching) = (0, 0);
     let (mut patient, mut now) = (true, false);
@@ -61,7 +58,7 @@ pub(super) fn is_due(lanes: &[Option<SeriesLane>; WIDEST], clock: usize, kept: u
     waiting > 0 && (now || searching == 0 || (!patient && waiting >= 3 * searching))
 }
 
-/// The lanes that wait, with the points of their arcs.
+/// The waiting lanes with the points of their arcs.
 pub(super) fn folded_lanes(lanes: &[Option<SeriesLane>; WIDEST], grid: &Grid) -> FoldedLanes {
     let mut folded = [None; WIDEST];
     for (lane, state) in lanes.iter().enumerate() {
@@ -76,7 +73,6 @@ pub(super) fn folded_lanes(lanes: &[Option<SeriesLane>; WIDEST], grid: &Grid) ->
     folded
 }
 
-/// What a folding reads and writes.
 pub(super) struct PeriodFolding<'a, S, R, const J: usize> {
     pub simd: S,
     pub grid: &'a Grid,
@@ -86,8 +82,7 @@ pub(super) struct PeriodFolding<'a, S, R, const J: usize> {
 }
 
 impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
-    /// Fills the first `J` columns of the trajectories of `folded`. Not inlined: so it is compiled once for all numbers
-    /// of components.
+    /// Fills the first `J` columns of the trajectories of `folded`. Not inlined: compiled once for all `N`.
     #[inline(never)]
     pub(super) fn evaluate(&mut self, folded: &FoldedLanes) {
         self.simd.vectorize(
@@ -96,7 +91,6 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
         );
     }
 
-    /// The same, compiled for its instruction set.
     #[inline(always)]
     fn evaluate_vectorized(&mut self, folded: &FoldedLanes) {
         let Some(oldest) = folded.iter().flatten().map(|share| share.state.begun).min() else { return };
@@ -131,7 +125,7 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
         let inverse = Lanes::broadcast(simd, 1.0 / state.unit);
         let FoldBuffer { stride, rest, whole, segment, place, count, start: [starts, _], .. } = &mut *self.folds;
         let row = lane * *stride;
-        // slices: the compiler then knows that a store does not change them
+        // slices, so that the compiler knows that stores do not change them
         let (starts, count) = (starts.as_slice(), &mut count[*lane..]);
         let row_end = row + points.next_multiple_of(WIDTH);
         let (rest, whole) = (&mut rest[row..row_end], &mut whole[row..row_end]);
@@ -146,7 +140,7 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
             };
             turns.store(&mut whole[first..]);
             folded.store(&mut rest[first..]);
-            // the number of the last series minus those that start after the point; the low bits of 2^52 + n are n
+            // the last series minus those that start after the point; the low bits of 2^52 + n are n
             let mut number = Lanes::broadcast(simd, TWO_52 + (end_series - 1) as f64);
             for later in first_series + 1..end_series {
                 let before = folded.lt(Lanes::broadcast(simd, starts[later * lanes + lane]));
@@ -164,7 +158,7 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
         }
     }
 
-    /// Brings the values of a lane's points into order of time, SI, rotated and grown by whole periods.
+    /// Brings a lane's points into order of time, in SI, rotated and grown by whole periods.
     #[inline(always)]
     fn unfold(&mut self, share: &FoldedLane) {
         let FoldedLane { lane, state, period, end, points } = share;
@@ -209,8 +203,8 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
         }
     }
 
-    /// Fills the columns from `J` to `N`, those of quadrature states, of the trajectory of `share`. Apart from the
-    /// others, so that those are compiled once for all `N`.
+    /// Fills the columns `J` to `N` (quadrature states) of the trajectory of `share`; separate, so that the others are
+    /// compiled once for all `N`.
     #[inline(always)]
     pub(super) fn fill_quadratures<const N: usize>(&mut self, share: &FoldedLane) {
         let FoldedLane { lane, state, points, .. } = share;
@@ -226,7 +220,7 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
         }
     }
 
-    /// The state at the end of the arc of `share`, whose period is `period`.
+    /// State at the end of the arc of `share` with the period `period`.
     #[inline(always)]
     pub(super) fn state_at_end<const N: usize>(&self, share: &FoldedLane, period: &Period) -> [f64; N] {
         let FoldedLane { lane, state, end, .. } = share;
@@ -262,7 +256,7 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
     }
 }
 
-/// Growth of the angle in `lane` over one period, given its first and last series.
+/// Growth of the angle in `lane` over one period, from its first and last series.
 #[inline(always)]
 fn angle_growth<R: Real, const J: usize>(
     first: &Segment<R, J>,
@@ -293,8 +287,8 @@ fn times_from<S: Simd>(simd: S, padded: &[f64], first: usize) -> Lanes<S> {
     Lanes::load(simd, &times)
 }
 
-/// Writes up to eight points of component `component`: all eight where the column is long enough, since later points
-/// are written later.
+/// Writes up to eight points of component `component`; all eight if the column is long enough, since later points are
+/// written later.
 #[inline(always)]
 fn write_points<S: Simd>(trajectory: &mut Trajectory, component: usize, first: usize, count: usize, values: Lanes<S>) {
     let column = &mut trajectory.column_mut(component)[first..];

@@ -1,4 +1,4 @@
-//! The return of omega to where an arc began, and the period that follows from it, in one lane.
+//! Return of omega to the start of an arc, and the period that follows from it, in one lane.
 
 use super::dense::value_at;
 use super::lane_state::SeriesLane;
@@ -8,8 +8,8 @@ use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
 use crate::math::Real;
 use crate::math::vector::{dcm_from_quaternion, product};
 
-/// The section across the motion of `omega` in a free arc, per unit of time: `ratio` and `inverse` are those of the
-/// moments of inertia, `momentum` is that of the wheels.
+/// Section across the motion of `omega` in a free arc, per unit of time, for the moments' `ratio` and `inverse` and the
+/// wheels' `momentum`.
 pub(super) fn section(
     ratio: [f64; 3],
     inverse: [f64; 3],
@@ -26,8 +26,8 @@ pub(super) fn section(
     PoincareSection::new(omega, rate)
 }
 
-/// The time within the last step, of length `length`, at which omega is where the arc began; `crossed` says whether the
-/// step may have come back through `section`.
+/// Time of the return within the last step, of length `length`; `crossed`: the step may have come back through
+/// `section`.
 #[inline(always)]
 pub(super) fn return_time<R: Real, const J: usize>(
     section: &PoincareSection,
@@ -48,8 +48,7 @@ pub(super) fn return_time<R: Real, const J: usize>(
     section.crossing(&ring.last().jet, lane, order, length, tolerance)
 }
 
-/// The period of the arc, whose last step comes back after `within` units; `momentum_b` is that of the wheels, B, per
-/// unit.
+/// Period of the arc, whose last step returns after `within` units; `momentum_b` is that of the wheels, B, per unit.
 #[inline(always)]
 pub(super) fn period<R: Real, const J: usize>(
     run: &Gyrostat<f64>,

@@ -1,19 +1,17 @@
-//! [`PointRows`]: the last observation points of each lane, point by point, until eight of them go into the columns of
-//! its trajectory.
+//! [`PointRows`]: the last observation points of each lane, until eight of them go into the columns of its trajectory.
 //!
-//! The columns of a point are as many lines of memory as it has components. Those of all lanes together are more than
-//! the first cache holds: a point written straight into them waited for memory at every component, a tenth of the time
-//! of a run under thrust.
+//! The columns of a point are as many cache lines as it has components, more than the first-level cache holds for all
+//! lanes: writing points directly cost a tenth of the time of a run under thrust.
 
 use crate::math::lanes::{WIDEST, WIDTH};
 use crate::run::Trajectory;
 
-/// Points that are not in the trajectories yet.
+/// Points pending for the trajectories.
 #[derive(Clone, Debug)]
 pub(super) struct PointRows {
-    /// Lane by lane eight points of all components; the place of a point is its number modulo eight.
+    /// Eight points of all components per lane; the position of a point is its number modulo eight.
     values: Vec<f64>,
-    /// The points of each lane that are here: the first, and the one after the last.
+    /// Pending points of each lane: the first, and one after the last.
     first: [usize; WIDEST],
     next: [usize; WIDEST],
 }
@@ -24,7 +22,7 @@ impl PointRows {
         PointRows { values: vec![0.0; lanes * WIDTH * components], first: [0; WIDEST], next: [0; WIDEST] }
     }
 
-    /// Adds point `point` of `lane` from `rows`, which have all lanes of each component; it follows the one before.
+    /// Adds the next point of `lane`, number `point`, from `rows`, which hold all lanes of each component.
     #[inline(always)]
     pub(super) fn push<const N: usize>(
         &mut self,

@@ -1,4 +1,4 @@
-//! Observation points: of all lanes at once during a step, and one by one from series that were kept.
+//! Observation points: of all lanes during a step, and one by one from kept series.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use super::dense::{Segment, value_at, values};
@@ -12,7 +12,6 @@ use crate::math::Real;
 use crate::math::lanes::WIDEST;
 use crate::run::{Grid, Trajectory};
 
-/// A step that was taken.
 pub(super) struct TakenStep<R, const N: usize> {
     /// The constants at its start.
     pub constants: Constants<R>,
@@ -22,22 +21,20 @@ pub(super) struct TakenStep<R, const N: usize> {
     pub order: usize,
     /// Its length, units.
     pub length: R,
-    /// What the thrust adds over it.
+    /// Increments by thrust over the step.
     pub push: Push<R>,
 }
 
-/// A step whose points are evaluated.
 pub(super) struct StepSeries<'a, R, const N: usize, const J: usize> {
     pub segment: &'a Segment<R, J>,
     pub step: &'a TakenStep<R, N>,
     pub quadrature: &'a mut Quadrature<R>,
-    /// One over the unit of time, 1/s.
+    /// 1/unit of time, 1/s.
     pub per_unit: R,
 }
 
 impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
-    /// The components at the times `at` since the start of the arc, SI, lane by lane. The quadrature states only where
-    /// `FORCED`.
+    /// Components at the times `at` since the start of the arc, SI, by lane. Quadrature states only with `FORCED`.
     #[inline(always)]
     pub(super) fn components<const FORCED: bool>(&mut self, at: R, due: R::Mask) -> [[f64; WIDEST]; N] {
         let zero = at.zero();
@@ -72,16 +69,15 @@ impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
     }
 }
 
-/// Where the evaluation of kept points ends.
+/// End of an evaluation of kept points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Until {
-    /// At the end of the arc.
     EndOfArc,
     /// Before this time since the start of the arc, units.
     Time(f64),
 }
 
-/// Evaluates the points of an arc without actuation one by one from the series that were kept.
+/// Evaluates the points of an arc without actuation one by one from the kept series.
 #[cold]
 #[inline(never)]
 pub(super) fn evaluate_kept<R: Real, const N: usize, const J: usize>(

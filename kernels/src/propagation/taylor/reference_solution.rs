@@ -1,16 +1,13 @@
-//! [`ReferenceSolution`]: the reference solution of any scene, by the same Taylor recurrences in double-double (106
-//! bits).
+//! [`ReferenceSolution`]: reference solution of any scene by the Taylor recurrences in double-double (106 bits).
 //!
 //! One run at a time, every arc restarted exactly at its switch, order and step from a tolerance near the rounding of
-//! the arithmetic (A. Jorba & M. Zou, Experimental Mathematics 14, 2005). The debris is integrated in the same way as a
-//! gyrostat without wheels, a cube like any other box.
-//!
-//! **What it is the solution of**: the mass properties and the initial state of a [`Scene`] are `f64` numbers, the same
-//! for every method. The reference solution is the exact motion for *those* numbers; the rounding in the computation of
-//! mass properties from dimensions and densities is not an error of integration and is not counted here.
-//!
-//! A scene with an effect that has no Taylor series is integrated by extrapolation in the same arithmetic
+//! the arithmetic (A. Jorba & M. Zou, Experimental Mathematics 14, 2005). Debris is a gyrostat without wheels, a cube
+//! like any box. Scenes with an effect without Taylor series are integrated by extrapolation in the same arithmetic
 //! (`switched_reference`).
+//!
+//! Mass properties and initial state of a [`Scene`] are `f64` numbers, the same for every method, and the reference
+//! solution is the exact motion for *those* numbers: rounding of mass properties computed from dimensions and densities
+//! is no error of integration.
 //!
 //! Not here: periodic folding (a solution that shared it could not judge it), lanes, failures as rows.
 
@@ -45,11 +42,11 @@ use crate::run::{Grid, StateField, StateFields, StateTable};
 use crate::scene::MAX_WHEELS;
 use crate::scene::{Offsets, Scene};
 
-/// Relative tolerance of a reference solution: five times the rounding of double-double (2^-105 = 2.5e-32), below which
-/// smaller steps only add rounding errors.
+/// Relative tolerance: five times the rounding of double-double (2^-105 = 2.5e-32), below which smaller steps only add
+/// rounding errors.
 pub const TOLERANCE: f64 = 1e-31;
 
-/// The states of a run at its observation points, as unevaluated sums of two tables.
+/// States of a run at its observation points, as unevaluated sums of two tables.
 #[derive(Clone, Debug)]
 pub struct ReferenceSolution {
     /// The states rounded to `f64`.
@@ -59,23 +56,22 @@ pub struct ReferenceSolution {
 }
 
 impl ReferenceSolution {
-    /// The motion of `scene` by its own schedule, observed at the times of `grid`, in the fields of `fields` that a
-    /// gyrostat has (all but [`StateField::Dcm`] and [`StateField::Residuals`], which stay zero). The debris is only
-    /// integrated where it is observed.
+    /// Motion of `scene` by its own schedule at the times of `grid`, in the `fields` of a gyrostat ([`StateField::Dcm`]
+    /// and [`StateField::Residuals`] stay zero). Debris is integrated only if observed.
     ///
     /// # Errors
-    /// [`Status::NonFinite`] or [`Status::StepLimit`], where the run does not reach its end.
+    /// [`Status::NonFinite`] or [`Status::StepLimit`] if the run does not reach its end.
     pub fn new(isa: Isa, scene: &Scene, grid: &Grid, fields: StateFields, tolerance: f64) -> Result<Self, Status> {
         Self::solve(isa, scene, None, grid, fields, tolerance)
     }
 
-    /// The same under `law` in place of the scene's schedule. The law sees the state rounded to `f64`.
+    /// Motion under `law` in place of the scene's schedule. The law sees the state rounded to `f64`.
     ///
     /// # Errors
     /// As [`ReferenceSolution::new`].
     ///
     /// # Panics
-    /// Where an answer of the law ends before it starts.
+    /// If an answer of the law ends before it starts.
     pub fn under(
         law: &mut dyn ActuationLaw,
         isa: Isa,
@@ -87,13 +83,12 @@ impl ReferenceSolution {
         Self::solve(isa, scene, Some(law), grid, fields, tolerance)
     }
 
-    /// Whether it has every effect of `model`.
+    /// True if reference solutions include every effect of `model`.
     pub fn integrates(model: ForceModel) -> bool {
         model.is_integrated(integrated_effects::by_reference)
     }
 
-    /// Its tolerance under `model`, where [`TOLERANCE`] is asked for: that, or what torques without a Taylor series
-    /// allow.
+    /// Tolerance under `model`: [`TOLERANCE`], or the limit set by torques without a Taylor series.
     pub fn tolerance(model: ForceModel) -> f64 {
         if model.is_integrated(integrated_effects::by_taylor) { TOLERANCE } else { switched_reference::TOLERANCE }
     }
@@ -135,13 +130,13 @@ impl ReferenceSolution {
         ReferenceSolution { high: table.clone(), low: table }
     }
 
-    /// The components of `field` at point `point`, in all digits.
+    /// Components of `field` at point `point`, in all digits.
     pub fn at<const K: usize>(&self, field: StateField, point: usize) -> [DoubleDouble; K] {
         let (high, low) = (self.high.at::<K>(field, point), self.low.at::<K>(field, point));
         std::array::from_fn(|i| DoubleDouble { high: high[i], low: low[i] })
     }
 
-    /// |`sign` x - reference| of the components x of `field` at `point` of `table`, in all digits of the reference.
+    /// |`sign` x - reference| for the components x of `field` at `point` of `table`, in all digits of the reference.
     pub fn distance<const K: usize>(&self, table: &StateTable, field: StateField, point: usize, sign: f64) -> f64 {
         let (high, low) = (self.high.at::<K>(field, point), self.low.at::<K>(field, point));
         let state = table.at::<K>(field, point);
@@ -186,7 +181,6 @@ impl ReferenceSolution {
         self.put(StateField::Work, point, &[y[THRUST_WORK], motors]);
     }
 
-    /// Fills the fields of the debris.
     fn complete_debris(&mut self, isa: Isa, scene: &Scene, grid: &Grid, rule: StepRule) -> Result<(), Status> {
         let exact = |vector: [f64; 3]| vector.map(DoubleDouble::exact);
         if let (Some(orbit), Some(Offsets { debris, .. })) = (&scene.orbit, &scene.offsets) {
@@ -233,7 +227,7 @@ impl ReferenceSolution {
     }
 }
 
-/// Angular velocity in B and in the body's own frame, and the attitude of that frame.
+/// Angular velocity in B and in the body frame, and attitude of the body frame.
 fn rotation(
     run: &Gyrostat<DoubleDouble>,
     y: &[DoubleDouble; N],
@@ -262,7 +256,7 @@ impl NarrowWork for Integration<'_, '_> {
 }
 
 impl Integration<'_, '_> {
-    /// Starts the arc at `time`, where the components are `state` in units of `unit` seconds.
+    /// Starts the arc at `time`, from the components `state` in units of `unit` seconds.
     pub(super) fn begin_arc(&mut self, time: f64, unit: f64, state: &[DoubleDouble; N]) {
         let duration = self.grid.duration();
         let Some(scene) = self.scene else {
@@ -284,7 +278,7 @@ impl Integration<'_, '_> {
         }
     }
 
-    /// The integrated components at the observation points, SI.
+    /// Integrated components at the observation points, SI.
     #[inline(always)]
     fn states(mut self) -> Result<Vec<[DoubleDouble; N]>, Status> {
         let (grid, rule) = (self.grid, self.rule);
@@ -314,7 +308,7 @@ impl Integration<'_, '_> {
             self.begin_arc(reached, unit, &state);
             let new_unit = self.coarse.time_unit();
             if new_unit != unit {
-                // powers of two: nothing is rounded
+                // powers of two: exact
                 scale(&mut state, si_factors(1.0 / unit));
                 scale(&mut state, si_factors(new_unit));
                 unit = new_unit;
@@ -329,8 +323,7 @@ impl Integration<'_, '_> {
             let start = DoubleDouble::exact(bounds.start);
             let length = (DoubleDouble::exact(bounds.end()) - start) * per_second;
             let is_forced = turns || arc.force_b.iter().chain(&arc.torque_b).any(|component| component.high != 0.0);
-            // a thrust turns with omega where the quaternion turns with omega/2: the series of its integrals need half
-            // the step
+            // thrust turns with omega, the quaternion with omega/2: the series of its integrals need half the step
             let share = DoubleDouble::exact(if is_forced { 0.5 } else { 1.0 });
             let mut time = zero;
             let mut lands = false;
@@ -391,12 +384,12 @@ impl Integration<'_, '_> {
     }
 }
 
-/// The orbit of the debris by itself: no offset from another, so that it can judge one. Times in s.
+/// Orbit of the debris by itself, not by an offset, so that it can judge one. Times in s.
 struct FreeOrbit {
     gravity: Gravity<DoubleDouble>,
     rule: StepRule,
     series: OrbitSeries<DoubleDouble>,
-    /// The step: its start and its length.
+    /// Start and length of the step.
     start: DoubleDouble,
     length: DoubleDouble,
 }
@@ -417,7 +410,7 @@ impl FreeOrbit {
         self.length = step_of_orbit(&self.series, &self.rule);
     }
 
-    /// The state at `time`, not before the last one asked for.
+    /// State at `time`, in ascending order.
     fn at(&mut self, time: DoubleDouble) -> OrbitState<DoubleDouble> {
         while self.length.lt(time - self.start) {
             let end = self.series.at(self.length);
@@ -428,13 +421,12 @@ impl FreeOrbit {
     }
 }
 
-/// The step that the series of the position allows.
+/// Step allowed by the series of the position.
 fn step_of_orbit(along: &OrbitSeries<DoubleDouble>, rule: &StepRule) -> DoubleDouble {
     let position = along.position();
     rule.step_of_series([0, rule.order - 1, rule.order].map(|n| dot(position[n], position[n])))
 }
 
-/// Multiplies each component by its factor.
 #[inline(always)]
 fn scale(values: &mut [DoubleDouble; N], factors: [f64; N]) {
     for i in 0..N {
@@ -442,7 +434,6 @@ fn scale(values: &mut [DoubleDouble; N], factors: [f64; N]) {
     }
 }
 
-/// The series `jet` at `x`.
 #[inline(always)]
 fn value(jet: &[[DoubleDouble; N]], x: DoubleDouble) -> [DoubleDouble; N] {
     let mut sums = jet[jet.len() - 1];

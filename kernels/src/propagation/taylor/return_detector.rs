@@ -1,13 +1,10 @@
-//! [`ReturnDetector`]: looking for the period of omega, all lanes at once.
-//!
-//! The [`super::period::PoincareSection`]s of all lanes: where omega started, in which direction it moved, and on which
-//! side of the plane across that direction it is.
+//! [`ReturnDetector`]: search for the period of omega in all lanes, by their [`super::period::PoincareSection`]s.
 
 use super::period::PoincareSection;
 use crate::math::Real;
 use crate::math::vector::{difference, dot};
 
-/// The sections of all lanes; a lane that looks for no return has a direction of zero and never comes back.
+/// Sections of all lanes; a lane without a search has a direction of zero and never returns.
 #[derive(Clone, Copy, Debug)]
 pub struct ReturnDetector<R> {
     start: [R; 3],
@@ -17,7 +14,7 @@ pub struct ReturnDetector<R> {
 }
 
 impl<R: Real> ReturnDetector<R> {
-    /// No lane looks for a return.
+    /// No searches.
     pub fn none(zero: R) -> Self {
         ReturnDetector { start: [zero; 3], direction: [zero; 3], extent2: zero, side: zero }
     }
@@ -34,7 +31,7 @@ impl<R: Real> ReturnDetector<R> {
         self.side.set_lane(lane, section.side);
     }
 
-    /// The section in `lane`, with `side` as it was before the last step.
+    /// Section of `lane`, with `side` from before the last step.
     pub fn section(&self, lane: usize) -> PoincareSection {
         let three = |v: &[R; 3]| [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
         PoincareSection {
@@ -45,7 +42,7 @@ impl<R: Real> ReturnDetector<R> {
         }
     }
 
-    /// Updates the sections with omega at the end of a step; true where the step may have come back through the
+    /// Updates the sections with omega at the end of a step; true in lanes that may have come back through their
     /// section.
     #[inline(always)]
     pub fn passes(&mut self, omega: [R; 3]) -> R::Mask {

@@ -1,14 +1,14 @@
-//! [`SeriesRing`]: the series of the last steps of all lanes.
+//! [`SeriesRing`]: series of the last steps of all lanes.
 
 use super::dense::Segment;
 use crate::math::Real;
 
-/// Steps whose series are kept at first; a period within them is found without any allocation.
+/// Initial capacity in steps; a period within it is found without allocation.
 const INITIAL: usize = 24;
-/// Steps whose series are kept at most; a run that takes more without a period continues as plain Taylor integration.
+/// Largest capacity; a run without a period within it continues as plain Taylor integration.
 pub const LARGEST: usize = 192;
 
-/// The series of the last steps; step k is in slot k modulo the length.
+/// Series of the last steps; step k is in slot k modulo the length.
 #[derive(Clone, Debug)]
 pub struct SeriesRing<R, const J: usize> {
     segments: Vec<Segment<R, J>>,
@@ -18,18 +18,18 @@ pub struct SeriesRing<R, const J: usize> {
 }
 
 impl<R: Real, const J: usize> SeriesRing<R, J> {
-    /// Memory for series of order `order`; `zero` says in how many lanes.
+    /// Memory for series of order `order` in the lanes of `zero`.
     pub fn new(zero: R, order: usize) -> Self {
         SeriesRing { segments: (0..INITIAL).map(|_| Segment::new(zero, order)).collect(), order, clock: 0 }
     }
 
-    /// Number of steps whose series are kept.
+    /// Number of kept steps.
     #[inline(always)]
     pub fn len(&self) -> usize {
         self.segments.len()
     }
 
-    /// Whether nothing is kept: never.
+    /// Never: at least one step is kept.
     pub fn is_empty(&self) -> bool {
         self.segments.is_empty()
     }
@@ -40,20 +40,20 @@ impl<R: Real, const J: usize> SeriesRing<R, J> {
         &self.segments[step % self.segments.len()]
     }
 
-    /// Memory for the series of the step that begins now.
+    /// Memory for the series of the step that begins.
     #[inline(always)]
     pub fn current(&mut self) -> &mut Segment<R, J> {
         let slot = self.clock % self.segments.len();
         &mut self.segments[slot]
     }
 
-    /// The series of the step that has just ended.
+    /// Series of the last step.
     #[inline(always)]
     pub fn last(&self) -> &Segment<R, J> {
         self.segment(self.clock - 1)
     }
 
-    /// Doubles the length, keeping the series; false where it is at its largest already.
+    /// Doubles the capacity and keeps the series; false at [`LARGEST`].
     pub fn grow(&mut self, zero: R) -> bool {
         let old = self.segments.len();
         if old >= LARGEST {

@@ -1,18 +1,18 @@
 //! Order and step size from the tolerance (A. Jorba & M. Zou, Experimental Mathematics 14, 2005, sections 3.1 and 3.2).
 //!
-//! The order of Jorba & Zou, 1 - ln(tolerance)/2, costs least where a step costs as much as its Cauchy products. Here
-//! it does not: points, integrals of thrust and the search for a period cost the same at any order. `MORE_ORDERS` make
-//! the steps longer at the same truncation.
+//! Their order, 1 - ln(tolerance)/2, is cheapest if a step costs as much as its Cauchy products. Here observation
+//! points, integrals of thrust and the search for a period cost the same at any order: `MORE_ORDERS` lengthen the steps
+//! at the same truncation.
 //!
-//! **The attitude.** Where omega is below w/(1 - t/rho) coefficient by coefficient, with rho the radius of convergence,
-//! q' = q (x) omega/2 gives q below (1 - t/rho)^(-s), s = w rho/2, whose coefficient n is binomial(s + n - 1, n)/rho^n.
-//! The root of order n of that binomial is at most 1.04 (1 + s/(n!)^(1/n)) up to n = 27, and near that for s > 3. So
-//! the first neglected term, of order n, meets the tolerance where tolerance^(1/n)/h = 1/rho + w/(2 (n!)^(1/n)): the
-//! reciprocals of the step that the radius allows and of the one that turning at a constant rate allows add up. The
-//! coefficients of omega are below the majorant's: a share of `RADIUS_SHARE` of the first is enough.
+//! **The attitude.** If omega is bounded by w/(1 - t/rho) coefficient by coefficient, with the radius of convergence
+//! rho, then q' = q (x) omega/2 bounds q by (1 - t/rho)^(-s), s = w rho/2, with the coefficients binomial(s + n - 1,
+//! n)/rho^n. The n-th root of that binomial is at most 1.04 (1 + s/(n!)^(1/n)) up to n = 27, and near that for s > 3.
+//! The first neglected term, of order n, meets the tolerance if tolerance^(1/n)/h = 1/rho + w/(2 (n!)^(1/n)): the
+//! reciprocals of the steps allowed by the radius and by rotation at a constant rate add. The coefficients of omega are
+//! below the majorant's, so that a share `RADIUS_SHARE` of the first suffices.
 //!
-//! Decided from the angular velocity alone, so that a campaign that asks for the attitude and one that does not take
-//! the same steps and get the same bits.
+//! The decision uses the angular velocity alone, so that campaigns with and without attitude take the same steps and
+//! get the same bits.
 
 use crate::dynamics::gyrostat::{ANGULAR_IMPULSE, IMPULSE};
 use crate::math::Real;
@@ -25,45 +25,41 @@ use crate::propagation::gyrostat_runs::SMALLEST_OFFSET;
 pub struct StepRule {
     /// Order of the series.
     pub order: usize,
-    /// log2 of the factor between the estimated radius of convergence and the step of omega's series.
+    /// log2 of the ratio of estimated radius of convergence to the step of omega's series.
     log_safety: f64,
-    /// That step over the one of the attitude where the radius alone limits it, times [`RADIUS_SHARE`].
+    /// That step over the attitude's step limited by the radius alone, times [`RADIUS_SHARE`].
     share: f64,
-    /// Largest |omega| h/2 at which the series of exp(omega t/2) up to the order meets the tolerance.
+    /// Largest |omega| h/2 at which the series of exp(omega t/2) meets the tolerance.
     turn: f64,
-    /// log2 of twice that.
+    /// log2 of twice `turn`.
     log_slowest: f64,
-    /// log2 of the time, s, at which the series of exp(alpha t^2/4) up to the order meets the tolerance for |alpha| = 1
-    /// rad/s^2.
+    /// log2 of the time, s, at which the series of exp(alpha t^2/4) meets the tolerance for |alpha| = 1 rad/s^2.
     log_growth: f64,
 }
 
-/// Tolerances below the rounding of the arithmetic are met with a margin: truncation has a sign and rounding has none,
-/// so that the remaining truncation adds up in every step. At the tolerance itself energy drifted by 6e-19 and the
-/// quaternion's norm by 8.3e-17 a step (`tests/accuracy/round_off.rs`): two orders more, and this share of the
-/// tolerance for the series of the attitude.
+/// Margin for tolerances below the rounding of the arithmetic: truncation has a sign, unlike rounding, and accumulates.
+/// At the tolerance itself energy drifted by 6e-19 and the quaternion's norm by 8.3e-17 per step
+/// (`tests/accuracy/round_off.rs`): two orders more, and this share of the tolerance for the attitude.
 const BELOW_ROUNDING: f64 = 1.0 / 4096.0;
-/// The orders that go with it. Larger steps than these add more rounding, and the margin is larger than the attitude's
-/// own term.
+/// Additional orders below rounding. Longer steps add rounding, and the margin exceeds the attitude's own term.
 const MORE_BELOW_ROUNDING: usize = 2;
-/// Orders beyond that of Jorba & Zou. The forced scene of `benches/peers/run.sh` takes 112 steps at 1e-4 instead of
-/// 295, and 0.57 of the time; 128 at 1e-10 instead of 199, and 0.85. Orders 2, 6 and 8 beyond are within the noise of
-/// 4, or slower.
+/// Orders beyond Jorba & Zou's. The forced scene of `benches/peers/run.sh` takes 112 steps at 1e-4 instead of 295, in
+/// 0.57 of the time; 128 at 1e-10 instead of 199, in 0.85. Orders 2, 6 and 8 beyond are not faster.
 const MORE_ORDERS: usize = 4;
-/// How much of the majorant's reciprocal radius counts: with it the attitude's error is at most four tolerances in the
-/// file of `spindrift new` (12 to 44 without the term), and one in `detumble` (17 to 40).
+/// Share of the majorant's reciprocal radius: the attitude's error is at most four tolerances in the file of `spindrift
+/// new` (12 to 44 without the term), and one in `detumble` (17 to 40).
 const RADIUS_SHARE: f64 = 0.6;
 
-/// The product of two series has the tail of both: where the time of the rate and that of the angular acceleration are
-/// equal, the step is this (log2) shorter than either, and less for every octave between them. Exact sums of the
-/// neglected coefficients at the orders 13 and 22 ask for 0.71 at equal times and 0.3 an octave apart; two octaves
-/// apart they are 3 to 12 times the tolerance of the attitude's series, which is far below that of the rates.
+/// The tail of a product is that of both series: if the times of rate and angular acceleration are equal, the step is
+/// this (log2) shorter than either, and less per octave between them. Exact sums of neglected coefficients at the
+/// orders 13 and 22 need 0.71 at equal times and 0.3 an octave apart; two octaves apart they are 3 to 12 times the
+/// attitude's tolerance, far below that of the rates.
 const EQUAL_TIMES: f64 = 0.75;
-/// How much less, for an octave.
+/// Decrease of [`EQUAL_TIMES`] per octave.
 const AN_OCTAVE: f64 = 0.375;
 
 impl StepRule {
-    /// The rule for a relative tolerance in [1e-33, 1e-1], in an arithmetic with more digits than that.
+    /// The rule for a relative tolerance in [1e-33, 1e-1], in an arithmetic with more digits.
     pub fn new(tolerance: f64) -> Self {
         Self::with_order(optimal_order(tolerance), 0, 0.0, tolerance)
     }
@@ -78,8 +74,7 @@ impl StepRule {
         }
     }
 
-    /// Order `optimal` + `more`, with the last term of omega's series as small as at the order `optimal`, and
-    /// `radius_share` as [`RADIUS_SHARE`].
+    /// Order `optimal` + `more`, with the last term of omega's series as small as at the order `optimal`.
     fn with_order(optimal: usize, more: usize, radius_share: f64, tolerance: f64) -> Self {
         let order = optimal + more;
         let factorial: f64 = (1..=order + 1).map(|n| n as f64).product();
@@ -95,21 +90,18 @@ impl StepRule {
         StepRule { order, log_safety, share, turn, log_slowest, log_growth }
     }
 
-    /// What the terms beyond the last one that omega's series keeps amount to, as a share of that.
+    /// Sum of the terms beyond the last one of omega's series, as a share of that one.
     pub(super) fn rest(&self) -> f64 {
         let ratio = libm::exp2(self.log_safety);
         ratio / (1.0 - ratio)
     }
 
-    /// The step for the jet of a rate, lane by lane, in the lane's unit of time; always positive, at most 2^30.
+    /// Step for the jet of a rate, by lane, in the lane's unit of time; positive, at most 2^30.
     ///
-    /// The size against which the tail of the series is held is that of the rate and of its change over a unit of time,
-    /// which the caller chooses near the time scale of the motion.
-    ///
-    /// The attitude's series limits the step too, and alone where the rate is a polynomial of low order: at a constant
-    /// rate omega that of exp(omega t/2), at a constant angular acceleration alpha that of exp(alpha t^2/4). Constant
-    /// torques make the second: `alpha` is what they add to the acceleration, `None` of free runs. See `EQUAL_TIMES`
-    /// for where both count.
+    /// The tail is compared with the rate and its change over a unit of time, which is near the time scale of the
+    /// motion. The attitude's series limits the step too, alone if the rate is a polynomial of low order: exp(omega
+    /// t/2) at constant rate, exp(alpha t^2/4) at constant angular acceleration. `alpha` is the acceleration by
+    /// constant torques, `None` in free runs. See `EQUAL_TIMES` if both count.
     #[inline(always)]
     pub fn step<R: Real, const N: usize>(&self, jet: &[[R; N]], alpha: Option<[R; 3]>) -> R {
         let scale = rate_squared(&jet[0]) + rate_squared(&jet[1]);
@@ -117,7 +109,7 @@ impl StepRule {
         let number = |value: f64| scale.splat(value);
         let p = self.order as f64;
         let size = log2_rough(scale);
-        // the tail is measured by squares: half the logarithm
+        // half the logarithm, since the tail is measured by squares
         let from_last = (size - log2_rough(last)) * number(0.5 / p);
         let from_before = (size - log2_rough(before)) * number(0.5 / (p - 1.0));
         let radius = from_last.smaller(from_before);
@@ -131,7 +123,7 @@ impl StepRule {
         of_rate.smaller(of_turn / number(self.share).mul_add(of_turn / of_rate, number(1.0)))
     }
 
-    /// The step for any series alone, from the squares of its first, its last but one and its last coefficient.
+    /// Step for any series alone, from the squares of its first, last but one and last coefficient.
     #[inline(always)]
     pub fn step_of_series<R: Real>(&self, [first, before, last]: [R; 3]) -> R {
         let number = |value: f64| first.splat(value);
@@ -141,8 +133,8 @@ impl StepRule {
         clamped_exp2(from_last.smaller(from_before) + number(self.log_safety))
     }
 
-    /// The step that the angular impulse allows, whose series the jet has: the torque of an effect turns up to twice as
-    /// fast as the body, which shows in omega only where it is strong.
+    /// Step allowed by the series of the angular impulse: an effect's torque turns up to twice as fast as the body,
+    /// which shows in omega only if it is strong.
     #[inline(always)]
     pub fn step_of_impulse<R: Real, const N: usize>(&self, jet: &[[R; N]]) -> R {
         let size = |n: usize| {
@@ -152,8 +144,8 @@ impl StepRule {
         self.step_of_series([size(1), size(self.order - 1), size(self.order)])
     }
 
-    /// The step that the motion relative to an orbit allows, of a spacecraft of the mass `mass`: the series of its
-    /// momentum.
+    /// Step allowed by the motion relative to an orbit, from the series of its momentum, for a spacecraft of the mass
+    /// `mass`.
     #[inline(always)]
     pub fn step_of_offset<R: Real, const N: usize>(&self, jet: &[[R; N]], mass: R) -> R {
         let size = |n: usize| {
@@ -182,7 +174,6 @@ fn clamped_exp2<R: Real>(log: R) -> R {
     exp2_rough(log.smaller(log.splat(30.0)).larger(log.splat(-900.0)))
 }
 
-/// |omega|^2 of one order of a jet.
 #[inline(always)]
 fn rate_squared<R: Real, const N: usize>(coefficients: &[R; N]) -> R {
     let rate = [coefficients[0], coefficients[1], coefficients[2]];
@@ -199,7 +190,7 @@ mod tests {
         assert_eq!([1e-16, 1e-8, 1e-4].map(|tolerance| StepRule::in_f64(tolerance).order), [22, 15, 10]);
     }
 
-    /// The majorant (1 - t/rho)^(-s) of the attitude, at the step of the rule with the whole of the radius's share.
+    /// The majorant (1 - t/rho)^(-s) of the attitude, at the step of the rule with the full share of the radius.
     #[test]
     fn the_first_term_left_out_of_the_attitude_meets_the_tolerance() {
         for tolerance in [1e-4, 1e-8, 1e-13] {
@@ -207,11 +198,10 @@ mod tests {
             let n = rule.order + 1;
             let step_over_radius = libm::exp2(rule.log_safety) / (rule.share / RADIUS_SHARE);
             for (s, least) in [(0.1, 0.003), (1.0, 0.08), (3.0, 0.3), (10.0, 0.7), (20.0, 0.8), (100.0, 0.9)] {
-                // 1/h in units of the radius: of the radius alone, and of turning at a constant rate |omega| = 2 s
+                // 1/h in units of the radius: by the radius alone, and by rotation at a constant rate |omega| = 2 s
                 let inverse = 1.0 / step_over_radius + 2.0 * s / rule.largest_turn();
                 let binomial: f64 = (0..n).map(|k| (s + k as f64) / (k as f64 + 1.0)).product();
                 let term = binomial * libm::pow(inverse, -(n as f64));
-                // by formula: at most 2.6 at order 27
                 assert!((least..3.0).contains(&(term / tolerance)), "{tolerance} {s}: {term:e}");
             }
         }

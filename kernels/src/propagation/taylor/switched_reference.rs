@@ -1,11 +1,9 @@
-//! The states of a reference solution under effects that have branches and no Taylor series: by extrapolation
-//! ([`crate::ode::extrapolation`]) in double-double, with steps that end at switches, which are located by steps of
-//! other lengths from the same start.
+//! Reference solutions under effects with branches and without Taylor series: extrapolation
+//! ([`crate::ode::extrapolation`]) in double-double, with steps that end at switches, located by steps of other lengths
+//! from the same start.
 //!
-//! Shadows, densities and the direction of the Sun are numbers of `f64` in any arithmetic
-//! ([`crate::dynamics::environment`]); they make the torque of air and light uncertain by some 1e-16 of itself. The
-//! tolerance is [`TOLERANCE`].
-//!
+//! Shadows, densities and the direction of the Sun are `f64` numbers in any arithmetic
+//! ([`crate::dynamics::environment`]), which makes torques of air and light uncertain by some 1e-16; see [`TOLERANCE`].
 //! The orbit is integrated with the attitude: no closed form, so that it can judge one.
 
 use fearless_simd::Simd;
@@ -26,65 +24,61 @@ use crate::ode::switches::beside;
 use crate::ode::{System, Tolerance};
 use crate::run::Status;
 
-/// Relative tolerance of a step: below what the torques are uncertain by, where they change the rate by some percent
-/// within a step.
+/// Relative tolerance of a step: below the uncertainty of torques that change the rate by some percent per step.
 pub const TOLERANCE: f64 = 1e-17;
 
-/// Components of position and velocity on the orbit, after those of the gyrostat.
+/// Position and velocity on the orbit, after the components of the gyrostat.
 const POSITION: usize = N;
 const VELOCITY: usize = N + 3;
 const ALL: usize = N + 6;
 
-/// A switch function below minus this has changed its sign, and a switch is located where it is smaller: its rounding
-/// is 1e-16 to 1e-15.
+/// Switch functions below minus this have changed sign, and a switch is located to this accuracy; their rounding is
+/// 1e-16 to 1e-15.
 const NOISE: f64 = 1e-13;
 
-/// Branches are chosen by the signs after this fraction of a step. What is missed is of the second order, 1e-18.
+/// Branches are chosen by the signs after this fraction of a step; the error is of second order, 1e-18.
 const AHEAD: f64 = 1e-9;
 
-/// Steps that replace one at most.
+/// Limit of steps that replace one.
 const MOST_CUTS: usize = 60;
 
-/// The shortest step as a fraction of the time scale of the run.
+/// Shortest step as a fraction of the time scale of the run.
 const SHORTEST: f64 = 1e-12;
 
-/// Factors of the length of a step: after one that did not converge, one that took all columns, and one that took few.
+/// Factors on the step length: after no convergence, after all columns, after few columns.
 const FACTORS: [f64; 3] = [0.4, 0.8, 1.6];
 
-/// Columns of a step that could have been longer.
+/// Number of columns of a step that could have been longer.
 const FEW: usize = COLUMNS - 4;
 
-/// Offsets from an orbit below this, m, are compared with it.
+/// Reference size of offsets from an orbit smaller than this, m.
 const SMALLEST_OFFSET: f64 = 1e-3;
 
 type State = [DoubleDouble; ALL];
 
-/// The equations of motion of an arc. In double-double they are long: each of their functions is one, compiled for the
-/// instruction set of `simd`, and not a copy in every place that calls it.
+/// Equations of motion of an arc. Long in double-double: each function is compiled once for the instruction set of
+/// `simd`, not copied into every caller.
 struct Motions<S> {
     simd: S,
     constants: Constants<DoubleDouble>,
     effects: ChangingEffects<DoubleDouble>,
     gravity: Gravity<DoubleDouble>,
     may_leave: bool,
-    /// A rate that smaller ones are compared with, rad/s.
+    /// Floor of rates in the error norm, rad/s.
     rate: DoubleDouble,
 }
 
-/// Three components from `first` on.
 #[inline(always)]
 fn three(state: &State, first: usize) -> [DoubleDouble; 3] {
     [state[first], state[first + 1], state[first + 2]]
 }
 
-/// The point on the orbit.
 #[inline(always)]
 fn carrier(state: &State) -> OrbitState<DoubleDouble> {
     let position = three(state, POSITION);
     OrbitState { position, velocity: three(state, VELOCITY), distance: norm(position) }
 }
 
-/// The components of the gyrostat.
 #[inline(always)]
 fn gyrostat(state: &State) -> [DoubleDouble; N] {
     let mut own = [DoubleDouble::exact(0.0); N];
@@ -93,7 +87,7 @@ fn gyrostat(state: &State) -> [DoubleDouble; N] {
 }
 
 impl<S: Simd> Motions<S> {
-    /// The motion that the effects depend on, with what the point on the orbit does where the spacecraft may leave it.
+    /// Arguments of the effects, with the motion of the point on the orbit if the spacecraft may leave it.
     #[inline(always)]
     fn motion(&self, time: DoubleDouble, state: &State) -> (Motion<DoubleDouble>, Beside<DoubleDouble>) {
         let (mut place, mut point) = (carrier(state), None);
@@ -141,7 +135,7 @@ impl<S: Simd> System<DoubleDouble, ALL> for Motions<S> {
         )
     }
 
-    /// The largest error of the rate, the attitude, the orbit and the offset from it, each relative to its size.
+    /// The largest error of rate, attitude, orbit and offset, each relative to its size.
     #[inline(always)]
     fn error_ratio(&self, error: &State, old: &State, new: &State, tolerance: Tolerance) -> DoubleDouble {
         let size = |first: usize| norm(three(old, first)).larger(norm(three(new, first)));
@@ -191,27 +185,25 @@ impl<S: Simd> System<DoubleDouble, ALL> for Motions<S> {
     }
 }
 
-/// A step of a run.
 struct Taken {
     length: DoubleDouble,
     end: State,
-    /// The derivative and the smallest switch function at its end.
+    /// Derivative and smallest switch function at its end.
     slope: State,
     margin: f64,
     columns: usize,
 }
 
-/// The steps of a run.
 struct Steps {
     extrapolation: Box<Extrapolation<DoubleDouble, ALL>>,
-    /// The length of the next step, and the shortest, s.
+    /// Length of the next step, and shortest step, s.
     length: f64,
     shortest: f64,
     count: u64,
 }
 
 impl Steps {
-    /// The step of `length` seconds from `time`, or as much of it as converges.
+    /// The step of `length` seconds from `time`, or a shorter one that converges.
     #[inline(always)]
     fn attempt<S: Simd>(
         &mut self,
@@ -240,7 +232,7 @@ impl Steps {
         }
     }
 
-    /// The step from `time` of at most `left` seconds, and whether it ends at a switch, before which there is none.
+    /// The step from `time` of at most `left` seconds, without a switch inside; true if it ends at one.
     #[inline(always)]
     fn next<S: Simd>(
         &mut self,
@@ -273,7 +265,7 @@ impl Steps {
                     [(low.0, low.1 * if stays < -1 { 0.5 } else { 1.0 }), here]
                 }
                 None => {
-                    // a pair of switches within the step: first to where they are looked for
+                    // a pair of switches within the step: first to where they are suspected
                     let step = Step { time, end: time + taken.length, length: taken.length };
                     let dip = motions.dip(step, [start, [&taken.end, &taken.slope]]);
                     if dip.lt(DoubleDouble::exact(1.0)) && cut < MOST_CUTS {
@@ -289,7 +281,7 @@ impl Steps {
             if taken.margin.abs() < NOISE || (high.0 - low.0).high < self.shortest || cut >= MOST_CUTS {
                 return Ok((taken, true));
             }
-            // false position, where the end that stays has its margin halved
+            // false position; the end that stays has its margin halved
             let share = (low.1 / (low.1 - high.1)).clamp(AHEAD, 1.0 - AHEAD);
             length = (high.0 - low.0).mul_add(DoubleDouble::exact(share), low.0);
             between = Some([low, high]);
@@ -299,7 +291,7 @@ impl Steps {
 }
 
 impl Integration<'_, '_> {
-    /// The integrated components at the observation points, SI.
+    /// Integrated components at the observation points, SI.
     #[inline(always)]
     pub(super) fn switched_states(mut self, simd: impl Simd) -> Result<Vec<[DoubleDouble; N]>, Status> {
         let zero = DoubleDouble::exact(0.0);

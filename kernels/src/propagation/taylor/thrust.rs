@@ -1,15 +1,13 @@
-//! Integrals of the thrust along a step, by Gauss quadrature of the attitude's own series.
+//! Integrals of thrust along a step, by Gauss quadrature of the attitude's series.
 //!
-//! A thrust turns with omega where the quaternion turns with omega/2: as Taylor series these integrals (impulse, its
-//! own integral, angular impulse, works) would need half the step, and two more Cauchy products of quaternions. But
-//! within a step the attitude is known as a polynomial, exact to the tolerance, so the integrals are taken from it at
-//! the nodes of Gauss-Legendre quadrature: m nodes integrate exp(i Omega t) over h to (Omega h)^2m (m!)^4/((2m+1)
-//! (2m)!^3) (P. J. Davis & P. Rabinowitz, *Methods of Numerical Integration*, 2nd ed. 1984, section 2.7), and m is
-//! chosen from the largest turn that a step may have. Force and torque are constant in B, so that it is the direction
-//! cosine matrix that is integrated: ten sums of products of the quaternion's components.
+//! Thrust turns with omega, the quaternion with omega/2: Taylor series of these integrals (impulse, its integral,
+//! angular impulse, works) would need half the step and two more Cauchy products of quaternions. But the attitude is a
+//! polynomial within a step, exact to the tolerance, so that Gauss-Legendre quadrature applies: m nodes integrate exp(i
+//! Omega t) over h to (Omega h)^2m (m!)^4/((2m+1) (2m)!^3) (P. J. Davis & P. Rabinowitz, *Methods of Numerical
+//! Integration*, 2nd ed. 1984, section 2.7), with m for the largest turn of a step. Force and torque are constant in B:
+//! the direction cosine matrix is integrated, ten sums of products of the quaternion's components.
 //!
-//! An observation point inside a step is reached from whichever end of the step is nearer, with the nodes that half a
-//! step needs.
+//! A point inside a step is reached from the nearer end, with the nodes for half a step.
 
 use super::step::StepRule;
 use crate::dynamics::gyrostat::equations::Constants;
@@ -21,21 +19,21 @@ use crate::math::vector::{dot, product, scaled};
 
 /// Error of the quadrature, as a share of the tolerance.
 const SHARE: f64 = 0.1;
-/// Largest number of nodes: more than the tightest tolerance in `f64` needs.
+/// Limit of nodes: more than the tightest tolerance in `f64` needs.
 const MOST_NODES: usize = 12;
 
 /// Nodes and weights of Gauss-Legendre quadrature on [0, 1].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quadrature<R> {
-    /// Node and weight, for a whole step.
+    /// Node and weight, for a step.
     step: Vec<(f64, f64)>,
-    /// The same for half a step.
+    /// Node and weight, for half a step.
     half: Vec<(f64, f64)>,
-    /// The attitude at each node: memory.
+    /// Scratch: the attitude at each node.
     attitudes: Vec<[R; 4]>,
 }
 
-/// What the thrust adds over an interval, F_e.
+/// Increments by thrust over an interval, F_e.
 #[derive(Clone, Copy, Debug)]
 pub struct Push<R> {
     /// Integral of the force.
@@ -47,8 +45,8 @@ pub struct Push<R> {
 }
 
 impl<R: Real> Quadrature<R> {
-    /// The smallest number of nodes that integrates a turning vector over the largest step of `rule` to the tolerance;
-    /// `zero` says in how many lanes.
+    /// The smallest number of nodes that integrates a turning vector over the largest step of `rule` to the tolerance,
+    /// in the lanes of `zero`.
     pub fn new(zero: R, rule: &StepRule, tolerance: f64) -> Self {
         let nodes = |turn: f64| -> Vec<(f64, f64)> {
             let enough = (2..MOST_NODES).find(|m| error(*m, turn) <= SHARE * tolerance).unwrap_or(MOST_NODES);
@@ -59,13 +57,13 @@ impl<R: Real> Quadrature<R> {
         Quadrature { step, half, attitudes }
     }
 
-    /// What the thrust adds over a step of length `x` along the series `jet`.
+    /// Increments over a step of length `x` along the series `jet`.
     #[inline(always)]
     pub fn over_step<const J: usize>(&mut self, constants: &Constants<R>, jet: &[[R; J]], x: R) -> Push<R> {
         push((&self.step, &mut self.attitudes), constants, jet, [x.zero(), x])
     }
 
-    /// What it adds until `x` after the start of a step of length `length`, over which it adds `whole`.
+    /// Increments until `x` after the start of a step of length `length` with the increments `whole`.
     #[inline(always)]
     pub fn until<const J: usize>(
         &mut self,
@@ -98,15 +96,12 @@ impl<R: Real> Push<R> {
         Push { impulse: [zero; 3], path: [zero; 3], angular: [zero; 3] }
     }
 
-    /// The increase of the components from [`MOTOR_WORK`] on from the start of a step to `x` after it, zero in the
-    /// others.
+    /// Increase of the components from [`MOTOR_WORK`] on, from the start of a step to `x` after it, zero in the others.
     ///
-    /// `start` is the whole state at the start of the step, and `angle` the increase of the angle until `x`.
-    /// `constants` are those of the start of the step.
-    ///
-    /// Only `N` = [`WITH_THRUST`] has the components of thrust. Their work needs no quadrature of its own: Gauss
-    /// collocation conserves quadratic invariants (J. M. Sanz-Serna, BIT 28, 1988), so that the sum over the nodes of
-    /// force times impulse is half the change of the impulse's square.
+    /// `start` is the state at the start of the step, `angle` the increase of the angle until `x`, `constants` those of
+    /// the start of the step. Only `N` = [`WITH_THRUST`] has components of thrust. Their work needs no quadrature:
+    /// Gauss collocation conserves quadratic invariants (J. M. Sanz-Serna, BIT 28, 1988), so that the sum of force
+    /// times impulse over the nodes is half the change of the squared impulse.
     #[inline(always)]
     pub fn growth<const N: usize>(&self, constants: &Constants<R>, start: &[R; N], angle: [R; 3], x: R) -> [R; N] {
         let half = x.splat(0.5);
@@ -130,7 +125,7 @@ impl<R: Real> Push<R> {
     }
 }
 
-/// What the thrust adds over `length` from `from` on, with the quadrature `nodes`.
+/// Increments over `length` from `from` on, by the quadrature `nodes`.
 #[inline(always)]
 fn push<R: Real, const J: usize>(
     (nodes, attitudes): (&[(f64, f64)], &mut [[R; 4]]),
@@ -142,7 +137,7 @@ fn push<R: Real, const J: usize>(
     for ((node, _), q) in nodes.iter().zip(&mut *attitudes) {
         *q = attitude(jet, length.splat(*node).mul_add(length, from));
     }
-    // one after the other: the registers hold ten sums of two vectors, and not twenty
+    // one after the other: the registers hold ten sums of two vectors, not twenty
     let (mut turned, mut moment) = (AttitudeProducts::none(zero), AttitudeProducts::none(zero));
     for ((_, weight), q) in nodes.iter().zip(&*attitudes) {
         turned.add(zero.splat(*weight), q);
@@ -174,7 +169,6 @@ impl<R: Real> AttitudeProducts<R> {
         AttitudeProducts { squares: [zero; 4], scalar: [zero; 3], vector: [zero; 3] }
     }
 
-    /// Adds those of `q`, times `weight`.
     #[inline(always)]
     fn add(&mut self, weight: R, q: &[R; 4]) {
         let weighted = [weight * q[0], weight * q[1], weight * q[2], weight * q[3]];
@@ -188,7 +182,7 @@ impl<R: Real> AttitudeProducts<R> {
         }
     }
 
-    /// The weighted sum of the direction cosine matrices, by rows; see [`crate::math::vector::dcm_from_quaternion`].
+    /// Weighted sum of the direction cosine matrices, by rows; see [`crate::math::vector::dcm_from_quaternion`].
     #[inline(always)]
     fn dcm(&self) -> [[R; 3]; 3] {
         let [ww, xx, yy, zz] = self.squares;
@@ -202,7 +196,6 @@ impl<R: Real> AttitudeProducts<R> {
     }
 }
 
-/// The attitude's series at `x`.
 #[inline(always)]
 fn attitude<R: Real, const J: usize>(jet: &[[R; J]], x: R) -> [R; 4] {
     let last = &jet[jet.len() - 1];
@@ -221,7 +214,7 @@ pub fn angle_of<R: Real, const N: usize>(state: &[R; N]) -> [R; 3] {
     [state[ANGLE], state[ANGLE + 1], state[ANGLE + 2]]
 }
 
-/// Relative error of the m-point rule for exp(i Omega t) over a step in which it turns by `turn`.
+/// Relative error of the m-point rule for exp(i Omega t) over a turn of `turn`.
 fn error(m: usize, turn: f64) -> f64 {
     let factorial = |n: usize| (1..=n).map(|k| k as f64).product::<f64>();
     let power = libm::pow(turn, 2.0 * m as f64);
@@ -239,7 +232,7 @@ fn node(m: usize, i: usize) -> (f64, f64) {
         }
         (value, m as f64 * (before - x * value) / (1.0 - x * x))
     };
-    // F. G. Tricomi's first guess (Ann. Mat. Pura Appl. 31, 1950)
+    // F. G. Tricomi's initial guess (Ann. Mat. Pura Appl. 31, 1950)
     let mut x = libm::cos(core::f64::consts::PI * (i as f64 + 0.75) / (m as f64 + 0.5));
     for _ in 0..8 {
         let (value, slope) = legendre(x);
@@ -260,10 +253,9 @@ mod tests {
             for degree in 0..2 * m {
                 let sum: f64 = (0..m).map(|i| node(m, i)).map(|(x, w)| w * libm::pow(x, degree as f64)).sum();
                 let exact = 1.0 / (degree as f64 + 1.0);
-                // roundings of up to sixteen terms below one; measured: 3.3e-16
                 assert!((sum - exact).abs() < 3e-15, "{m} nodes, degree {degree}: {sum}");
             }
-            // but not of the next degree: the test above can fail
+            // but not of the next degree: the test can fail
             let sum: f64 = (0..m).map(|i| node(m, i)).map(|(x, w)| w * libm::pow(x, 2.0 * m as f64)).sum();
             assert!(m > 8 || (sum - 1.0 / (2.0 * m as f64 + 1.0)).abs() > 1e-13, "{m} nodes");
         }
@@ -287,7 +279,7 @@ mod tests {
         }
     }
 
-    /// Law: what the thrust adds until a point is the same from either end of the step.
+    /// Law: increments until a point are the same from either end of the step.
     #[test]
     fn a_point_is_reached_from_the_nearer_end() {
         let (tolerance, zero) = (1e-14, 0.0_f64);
@@ -295,7 +287,7 @@ mod tests {
         let mut quadrature = Quadrature::new(zero, &rule, tolerance);
         let force = [3.0, -1.0, 2.0];
         let constants = Constants { force, torque: [0.5, 2.0, -1.0], ..Constants::zero(zero) };
-        // the body turns about s1 at a constant rate: q = (cos, sin, 0, 0) of half the angle, in one series
+        // rotation about s1 at a constant rate: q = (cos, sin, 0, 0) of half the angle
         let rate = 3.0;
         let mut jet = vec![[zero; WITH_ATTITUDE]; rule.order + 1];
         for (n, coefficients) in jet.iter_mut().enumerate() {
@@ -309,7 +301,7 @@ mod tests {
             let x = share * length;
             let found = quadrature.until(&constants, &jet, (length, &whole), x);
             let alone = quadrature.over_step(&constants, &jet, x);
-            // the integral of the rotation about s1 by rate t, and that integral again
+            // the integral of the rotation about s1 by rate t, and its integral
             let (sine, cosine) = (libm::sin(rate * x) / rate, (1.0 - libm::cos(rate * x)) / rate);
             let exact = [force[0] * x, force[1] * sine - force[2] * cosine, force[1] * cosine + force[2] * sine];
             let again = (x - sine) / rate;

@@ -1,4 +1,4 @@
-//! [`Truncation`]: the truncation errors of Taylor steps, from the last term that they keep.
+//! [`Truncation`]: truncation errors of Taylor steps, from the last term kept.
 
 use super::brief::{Brief, LEAST};
 use super::step::StepRule;
@@ -9,54 +9,51 @@ use crate::math::vector::{dcm_from_quaternion, dot, norm, product, scaled, sum};
 use crate::propagation::local_error::rounding;
 use crate::run::LocalErrors;
 
-/// What the rest of omega's series amounts to in a brief step, as a share of the last term that it keeps: terms fall by
-/// e^-2 or more.
+/// Sum of the rest of omega's series in a brief step, as a share of the last term: terms fall by e^-2 or more.
 const BRIEF_REST: f64 = 0.15;
 
-/// The sums of one run.
+/// Sums of one run.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TruncationSums {
-    /// What is left out of omega, added up, rad per unit of time.
+    /// Truncation of omega, rad per unit of time.
     rate: f64,
-    /// First terms left out of the attitude, added up, rad.
+    /// First neglected terms of the attitude, rad.
     turn: f64,
 }
 
 /// Sums over the steps of a run, in lanes.
 ///
-/// Where effects act within arcs, and a run has librations and turns by the hundred, what steps leave out of omega has
-/// every direction, and magnitudes that are added are far from the error. There each step counts as a vector: as the
-/// angular momentum that it leaves out, which lasts in inertial axes. The sum of a run is the largest magnitude that
-/// the sum of vectors has had, and the root of the sum of squares: a step's direction is only estimated. It is that of
-/// the last two terms of even and odd order together, with the sign that the term after them has: terms of a series
-/// alternate as those two orders apart do.
+/// If effects act within arcs, a run has hundreds of librations and turns, truncation of omega has every direction, and
+/// a sum of magnitudes is far from the error. There each step counts as a vector: the neglected angular momentum, which
+/// persists in inertial axes. The sum of a run is the largest magnitude of the vector sum so far, plus the root of the
+/// sum of squares, since directions are only estimated: that of the last two terms of even and odd order together, with
+/// the sign of the term two orders later (terms two orders apart alternate).
 ///
-/// The first term left out of a series is estimated from the series: the last one kept, times the root of what that is
-/// of the term two orders before; or the one before the last, times what that is of the term two orders before it,
-/// whichever is larger: from rest at a constant acceleration all terms of odd order of the attitude are zero. Where
-/// only rates are integrated the attitude counts as turning with constant omega, (|omega| h/2)^(p+1)/(p+1)!.
+/// The first neglected term is estimated as the last one kept, times the root of its ratio to the term two orders
+/// before; or as the last but one, times its ratio to the term two orders before, if larger: from rest at constant
+/// acceleration all odd terms of the attitude are zero. If only rates are integrated, the attitude counts as turning
+/// with constant omega, (|omega| h/2)^(p+1)/(p+1)!.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Truncation<R> {
     order: usize,
     /// 2/(p+1)!.
     factor: f64,
-    /// What is left out of omega's series over the first term of that.
+    /// Ratio of the neglected sum of omega's series to its first term.
     all: f64,
-    /// What is left out of omega, added up, rad per unit of time.
+    /// Truncation of omega, rad per unit of time.
     rate: R,
-    /// First terms left out of the attitude, added up, rad.
+    /// First neglected terms of the attitude, rad.
     turn: R,
-    /// What is left out of the angular momentum where effects act within arcs, over the mean moment of inertia, added
-    /// up in inertial axes.
+    /// Neglected angular momentum under effects within arcs, over the mean moment of inertia, in inertial axes.
     momentum: [R; 3],
-    /// The largest square of that so far.
+    /// Largest square of `momentum` so far.
     farthest: R,
-    /// The squares of its parts, added up.
+    /// Sum of the squares of its parts.
     squares: R,
 }
 
 impl<R: Real> Truncation<R> {
-    /// No steps yet, by `rule`; `zero` says how many lanes.
+    /// No steps yet, by `rule`, in the lanes of `zero`.
     pub(super) fn new(zero: R, rule: &StepRule) -> Self {
         let order = rule.order;
         let factorial: f64 = (1..=order + 1).map(|n| n as f64).product();
@@ -78,7 +75,7 @@ impl<R: Real> Truncation<R> {
         TruncationSums { rate: self.rate.lane(lane) + directed, turn: self.turn.lane(lane) }
     }
 
-    /// Continues the sums of the run in `lane` in a unit of time that is `ratio` times as long.
+    /// Converts the sums in `lane` to a unit of time that is `ratio` times as long.
     pub(super) fn rescale(&mut self, lane: usize, ratio: f64) {
         let rescale = |sum: &mut R, ratio: f64| sum.set_lane(lane, sum.lane(lane) * ratio);
         rescale(&mut self.rate, ratio);
@@ -104,8 +101,7 @@ impl<R: Real> Truncation<R> {
         self.add_turn(jet, length);
     }
 
-    /// The same where effects act within arcs, in lanes of the constants `constants`: the rate's part with its
-    /// direction.
+    /// Adds a step under effects within arcs, the rate's part with its direction.
     #[inline(always)]
     pub(super) fn add_directed<const N: usize>(&mut self, jet: &[[R; N]], length: R, constants: &Constants<R>) {
         let rate = self.left_out_of_rate(jet, length);
@@ -126,7 +122,7 @@ impl<R: Real> Truncation<R> {
         self.farthest = self.farthest.larger(dot(self.momentum, self.momentum));
     }
 
-    /// What a step of length `length` leaves out of omega's series, in magnitude.
+    /// Truncation of omega's series in a step of length `length`, in magnitude.
     #[inline(always)]
     fn left_out_of_rate<const N: usize>(&self, jet: &[[R; N]], length: R) -> R {
         let order = self.order;
@@ -134,7 +130,7 @@ impl<R: Real> Truncation<R> {
         length.splat(self.all) * (raised_to(length, order - 1) * left_out(sizes, length))
     }
 
-    /// Adds what a step of length `length` leaves out of the attitude.
+    /// Adds the truncation of the attitude in a step of length `length`.
     #[inline(always)]
     fn add_turn<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
         let order = self.order;
@@ -148,8 +144,7 @@ impl<R: Real> Truncation<R> {
 }
 
 impl<R: Real> Truncation<R> {
-    /// Adds the step of length `length` of the lanes in `brief`, along the series `jet`: what they leave out is bounded
-    /// by their last two terms.
+    /// Adds brief steps of length `length` along `jet`, bounded by their last two terms.
     #[inline(always)]
     pub(super) fn add_brief<const N: usize>(&mut self, jet: &[[R; N]], length: R, brief: &Brief<R>) {
         let zero = length.zero();
@@ -171,9 +166,8 @@ impl<R: Real> Truncation<R> {
 }
 
 impl TruncationSums {
-    /// The errors after `steps` steps, whose motion is repeated `periods` times; the unit of time is `unit` seconds.
-    /// What a period leaves out shifts it, and with it the rate and the attitude, by as much again in every
-    /// repetition.
+    /// Errors after `steps` steps whose motion is repeated `periods` times; the unit of time is `unit` seconds.
+    /// Truncation over a period shifts it, and with it rate and attitude, again in every repetition.
     pub(super) fn errors(&self, steps: u64, periods: f64, unit: f64) -> LocalErrors {
         let LocalErrors { rounding, attitude, .. } = rounding(steps);
         let truncation = periods * self.rate / unit;
@@ -181,8 +175,8 @@ impl TruncationSums {
     }
 }
 
-/// The first term left out of a series of order p in a step of length `length`, over `length` to the power p - 1;
-/// `sizes` are those of the coefficients p - 3 to p.
+/// First neglected term of a series of order p in a step of length `length`, over `length` to the power p - 1; `sizes`
+/// are those of the coefficients p - 3 to p.
 #[inline(always)]
 fn left_out<R: Real>(sizes: [R; 4], length: R) -> R {
     let [third, second, before, last] = sizes;
@@ -191,25 +185,22 @@ fn left_out<R: Real>(sizes: [R; 4], length: R) -> R {
     from_last.larger(before * share(before * square, third))
 }
 
-/// The share that `term` is of `of`, at most one.
+/// `term` over `of`, at most one.
 #[inline(always)]
 fn share<R: Real>(term: R, of: R) -> R {
     (term / of.larger(of.splat(f64::MIN_POSITIVE))).smaller(of.splat(1.0))
 }
 
-/// omega of one order of a series.
 #[inline(always)]
 fn rates<R: Real, const N: usize>(term: &[R; N]) -> [R; 3] {
     [term[OMEGA], term[OMEGA + 1], term[OMEGA + 2]]
 }
 
-/// |omega| of one order of a series.
 #[inline(always)]
 fn size<R: Real, const N: usize>(term: &[R; N]) -> R {
     norm(rates(term))
 }
 
-/// |q| of one order of a series.
 #[inline(always)]
 fn turn<R: Real, const N: usize>(term: &[R; N]) -> R {
     let vector = norm([term[ATTITUDE + 1], term[ATTITUDE + 2], term[ATTITUDE + 3]]);

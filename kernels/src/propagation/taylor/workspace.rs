@@ -1,4 +1,4 @@
-//! [`Workspace`]: the memory of a Taylor integration, reused from batch to batch.
+//! [`Workspace`]: reusable memory of a Taylor integration.
 
 use super::brief::BriefRule;
 use super::fold_buffer::FoldBuffer;
@@ -12,25 +12,25 @@ use crate::dynamics::effects::ChangingSeries;
 use crate::math::Real;
 use crate::run::Trajectory;
 
-/// What is asked of an integration.
+/// Settings of an integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Relative tolerance.
     pub tolerance: f64,
-    /// Whether arcs without actuation are propagated by their period.
+    /// True to propagate arcs without actuation by their period.
     pub periodic: bool,
-    /// Steps after which a run is given up.
+    /// Limit of steps of a run.
     pub max_steps: u64,
 }
 
-/// The reusable memory of runs of `N` components; the first `J` have series.
+/// Memory for runs of `N` components, the first `J` with series.
 #[derive(Clone, Debug)]
 pub struct Workspace<R, const J: usize> {
     /// Order and step size.
     pub rule: StepRule,
-    /// The order of brief arcs.
+    /// Order of brief arcs.
     pub(super) brief: BriefRule,
-    /// What is asked for.
+    /// Settings.
     pub settings: Settings,
     /// Nodes of the integrals of thrust.
     pub quadrature: Quadrature<R>,
@@ -38,22 +38,22 @@ pub struct Workspace<R, const J: usize> {
     pub reciprocals: Reciprocals<R>,
     /// Intermediate series of the recurrences.
     pub scratch: Scratch<R>,
-    /// Series of the effects that change within an arc; of order zero where none acts.
+    /// Series of the effects that change within an arc; of order zero if none acts.
     pub effects: ChangingSeries<R>,
     /// Series of the last steps.
     pub ring: SeriesRing<R, J>,
-    /// The last points of the run in each lane.
+    /// Last points of the run in each lane.
     pub(super) points: PointRows,
-    /// The run in each lane at its points.
+    /// Points of the run in each lane.
     pub trajectories: Vec<Trajectory>,
-    /// Memory of the arcs that the run in each lane flies.
+    /// Memory for the arcs of the run in each lane.
     pub records: Vec<ArcRecord>,
-    /// Points of runs whose period is known.
+    /// Points of runs with a known period.
     pub folds: FoldBuffer,
 }
 
 impl<R: Real, const J: usize> Workspace<R, J> {
-    /// Memory for runs of `components` components observed at `points` points; `zero` says how many lanes.
+    /// Memory for runs of `components` components at `points` points, in the lanes of `zero`.
     pub fn new(zero: R, settings: Settings, components: usize, points: usize) -> Self {
         let rule = StepRule::in_f64(settings.tolerance);
         Workspace {
