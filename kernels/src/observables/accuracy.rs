@@ -1,4 +1,4 @@
-//! [`Accuracy`]: whether the numbers of a run that reached its end can be used at all.
+//! [`Accuracy`]: limits of accuracy beyond which a completed run is of no use.
 
 use super::Group;
 use super::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
@@ -6,13 +6,13 @@ use super::reduction::ErrorStatistic;
 use super::request::Request;
 use super::table::{ColumnId, Series, error_id};
 
-/// The smallest estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate)
-/// of a run that is `inaccurate`.
+/// Smallest estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate) for
+/// `inaccurate`.
 pub const INACCURATE_STATE: f64 = 0.1;
-/// The smallest relative error of a balance - energy, linear or angular momentum - of a run that is `inaccurate`.
+/// Smallest relative error of a balance (energy, linear or angular momentum) for `inaccurate`.
 pub const INACCURATE_BALANCE: f64 = 1e-2;
 
-/// The relative errors of the balances of spacecraft and debris: their maximum is the conservation error of a run.
+/// Relative errors of the balances of spacecraft and debris; their maximum is the conservation error of a run.
 pub const BALANCES: [ColumnId; 5] = [
     error_id(Group::EnergyConservation, Series::EnergyError, ErrorStatistic::Max),
     error_id(Group::MomentumConservation, Series::LinearMomentumError, ErrorStatistic::Max),
@@ -21,17 +21,15 @@ pub const BALANCES: [ColumnId; 5] = [
     error_id(Group::MomentumConservation, Series::DebrisAngularError, ErrorStatistic::Max),
 ];
 
-/// The estimated errors of the rotational states of spacecraft and debris.
+/// Estimated errors of the rotational states of spacecraft and debris.
 pub const STATE_ERRORS: [ColumnId; 2] = [STATE_ERROR_ESTIMATE, DEBRIS_STATE_ERROR_ESTIMATE];
 
-/// The columns of a row that say how accurate its run is, and what they must stay below. Columns of groups that are not
-/// requested judge nothing.
+/// The accuracy columns of a row with their limits; columns of groups that are not requested do not count.
 #[derive(Clone, Debug)]
 pub struct Accuracy {
     limits: Vec<AccuracyLimit>,
 }
 
-/// A column that must stay below a limit.
 #[derive(Clone, Copy, Debug)]
 struct AccuracyLimit {
     /// Index in the row.
@@ -43,7 +41,7 @@ struct AccuracyLimit {
 impl AccuracyLimit {
     #[inline]
     fn holds(&self, row: &[f64]) -> bool {
-        // NaN is not
+        // false for NaN
         row[self.index] < self.limit
     }
 }
@@ -58,18 +56,18 @@ impl Accuracy {
         Accuracy { limits: balances.chain(states).filter_map(limit).collect() }
     }
 
-    /// Whether no column says how accurate a run is: the groups are not requested.
+    /// True if none of the columns is requested.
     pub fn is_blind(&self) -> bool {
         self.limits.is_empty()
     }
 
-    /// Whether every column of `row` is a number below its limit.
+    /// True if every column of `row` is below its limit.
     #[inline]
     pub fn holds(&self, row: &[f64]) -> bool {
         self.limits.iter().all(|limit| limit.holds(row))
     }
 
-    /// Which columns of `row` are not below their limits, in words.
+    /// The columns of `row` beyond their limits, in words.
     pub fn reason(&self, row: &[f64]) -> String {
         let beyond = self.limits.iter().filter(|limit| !limit.holds(row));
         let words = beyond.map(|AccuracyLimit { index, name, limit, .. }| match row[*index] {
@@ -86,7 +84,7 @@ mod tests {
     use crate::observables::request::wheel_names;
     use crate::scene::Actuated;
 
-    /// Law: an error at its limit, and one that is not a number, are no accuracy.
+    /// Law: an error at its limit, or NaN, is inaccurate.
     #[test]
     fn what_is_not_a_number_is_not_accurate() {
         let request = Request {

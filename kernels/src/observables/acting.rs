@@ -1,4 +1,4 @@
-//! [`Acting`]: when anything acts on a run, and how much torque that is at most.
+//! [`Acting`]: times of actuation of a run, and an upper bound of the torque.
 
 use crate::dynamics::arc_record::ArcRecord;
 use crate::dynamics::effects::{largest_changing_torque, largest_constant_torque};
@@ -6,30 +6,28 @@ use crate::math::Real;
 use crate::math::vector::dot;
 use crate::scene::{Arc, Scene};
 
-/// What acts on a run.
 #[derive(Clone, Copy)]
 pub(super) struct Acting<'a> {
     scene: &'a Scene,
     arcs: Arcs<'a>,
 }
 
-/// The arcs of the actuators.
 #[derive(Clone, Copy)]
 enum Arcs<'a> {
-    /// Those of a schedule, which may have gaps; the environment acts beside them.
+    /// A schedule, which may have gaps; the environment acts in addition.
     Scheduled(&'a [Arc]),
-    /// Those flown, without a gap; they contain the effects that are constant over an arc.
+    /// Arcs flown, without gaps, with the effects that are constant over an arc.
     Flown(&'a ArcRecord),
 }
 
-/// The dipoles of torque rods as time goes on.
+/// Dipoles of torque rods in order of time.
 pub(super) struct Rods<I> {
     later: I,
     last: Option<Arc>,
 }
 
 impl<I: Iterator<Item = Arc>> Rods<I> {
-    /// That at `time`, F_s, A m^2, in the arc that ends there at a switch; times do not descend.
+    /// The dipole at `time`, F_s, A m^2; at a switch, of the arc that ends. Times do not descend.
     pub(super) fn dipole(&mut self, time: f64) -> [f64; 3] {
         while self.last.is_none_or(|arc| arc.end() < time)
             && let Some(next) = self.later.next()
@@ -46,12 +44,12 @@ impl<'a> Acting<'a> {
         Acting { scene, arcs: Arcs::Scheduled(&scene.schedule) }
     }
 
-    /// The arcs that a run of `scene` has flown, which contain its constant effects.
+    /// The arcs flown by a run of `scene`, with its constant effects.
     pub(super) fn flown(scene: &'a Scene, arcs: &'a ArcRecord) -> Self {
         Acting { scene, arcs: Arcs::Flown(arcs) }
     }
 
-    /// The dipoles of torque rods, where a law drives some.
+    /// Dipoles of torque rods, if a law drives some.
     pub(super) fn rods(&self) -> Option<Rods<impl Iterator<Item = Arc> + use<'a>>> {
         match self.arcs {
             Arcs::Flown(arcs) if !self.scene.torque_rods.is_empty() => Some(Rods { later: arcs.iter(), last: None }),
@@ -59,12 +57,11 @@ impl<'a> Acting<'a> {
         }
     }
 
-    /// The scene.
     pub(super) fn scene(&self) -> &'a Scene {
         self.scene
     }
 
-    /// The time at which a law has ended the run, s.
+    /// Time at which a law ended the run, s.
     pub(super) fn end(&self) -> Option<f64> {
         let last = match self.arcs {
             Arcs::Scheduled(arcs) => arcs.last(),
@@ -73,7 +70,7 @@ impl<'a> Acting<'a> {
         last.filter(|arc| arc.applied.ends_run).map(|arc| arc.start)
     }
 
-    /// Whether nothing acts in the first `duration` seconds.
+    /// True if nothing acts in the first `duration` seconds.
     pub(super) fn is_free(&self, duration: f64) -> bool {
         match self.arcs {
             Arcs::Scheduled(arcs) => !self.scene.environment.acts() && arcs.iter().all(|arc| arc.start >= duration),
@@ -81,7 +78,6 @@ impl<'a> Acting<'a> {
         }
     }
 
-    /// Whether anything acts at `time`.
     #[inline(always)]
     pub(super) fn acts(&self, time: f64) -> bool {
         match self.arcs {
@@ -92,8 +88,7 @@ impl<'a> Acting<'a> {
         }
     }
 
-    /// Upper bound of the torque on the body, N m: the magnitudes of thrusters, motors, effects and the arcs' own
-    /// torque on the body added.
+    /// Upper bound of the torque on the body, N m: sum of the magnitudes of thrusters, motors, effects and body torque.
     #[inline(always)]
     pub(super) fn largest_torque(&self) -> f64 {
         let changing = largest_changing_torque(self.scene);
@@ -112,7 +107,7 @@ impl<'a> Acting<'a> {
         }
     }
 
-    /// That in `arc`, beside `effects`.
+    /// Bound in `arc`, next to `effects`.
     fn torque(&self, arc: &Arc, effects: f64) -> f64 {
         let applied = &arc.applied;
         let thrust = self.scene.thruster_torque_s(applied.thrust);

@@ -1,11 +1,8 @@
-//! [`BandReader`]: the numbers of a run at the points of its bands, and the buckets of their deviations from the
-//! nominal run.
+//! [`BandReader`]: the values of a run at the points of its bands, and the buckets of their deviations from the nominal
+//! run.
 //!
-//! Hundreds of numbers of every run of a campaign: loops without branches over flat arrays, compiled for each
-//! instruction set ([`crate::math::isa::Work`]). The operations are IEEE 754, so all instruction sets give the same
-//! buckets.
-//!
-//! Not here: counting the buckets (`ensemble`).
+//! Hundreds of values of every run: loops without branches over flat arrays, compiled for each instruction set
+//! ([`crate::math::isa::Work`]), which all give the same buckets (IEEE 754). Buckets are counted in `ensemble`.
 
 use fearless_simd::Simd;
 
@@ -16,32 +13,32 @@ use crate::math::isa::Work;
 use crate::run::StateTable;
 use crate::statistics::deviation::{Code, code};
 
-/// Reads runs; one per worker, reused from run to run without allocating.
+/// Reads runs; one per worker, without allocation.
 #[derive(Clone, Debug)]
 pub struct BandReader {
     sources: Vec<BandSeries>,
     /// Observation points, ascending.
     points: Vec<usize>,
-    /// What deviations are from, series by series and point by point.
+    /// Reference of the deviations, by series and point.
     reference: Vec<f64>,
     kept: Vec<f64>,
     deviations: Vec<f64>,
 }
 
-/// Where what is read of a run is written, series by series and point by point.
+/// Output for a run, by series and point.
 pub struct BandColumns<'a> {
     /// The smallest kept numbers so far.
     pub min: &'a mut [f64],
     /// The largest kept numbers so far.
     pub max: &'a mut [f64],
-    /// How many runs so far have no number.
+    /// Number of runs without a value so far.
     pub without: &'a mut [u64],
-    /// The buckets of the deviations of this run, where it is counted.
+    /// Buckets of the deviations of this run, if counted.
     pub codes: Option<&'a mut [Code]>,
 }
 
 impl BandReader {
-    /// Reads `sources` at `points`, in ascending order; deviations are from zero until [`BandReader::compare_with`].
+    /// Reads `sources` at `points`, ascending; deviations are from zero until [`BandReader::compare_with`].
     pub fn new(sources: Vec<BandSeries>, points: Vec<usize>) -> Self {
         let columns = sources.len() * points.len();
         BandReader {
@@ -63,29 +60,29 @@ impl BandReader {
         &self.points
     }
 
-    /// Number of columns: of series times points.
+    /// Number of columns: series times points.
     pub fn columns(&self) -> usize {
         self.reference.len()
     }
 
-    /// Deviations are from the kept numbers `nominal`, from zero where these are NaN.
+    /// Sets the reference of deviations to the kept numbers `nominal`, zero for NaN.
     pub fn compare_with(&mut self, nominal: &[f64]) {
         for (reference, nominal) in self.reference.iter_mut().zip(nominal) {
             *reference = if nominal.is_nan() { 0.0 } else { *nominal };
         }
     }
 
-    /// The numbers that are kept of the run with the states `table` that `observer` observed last; NaN at points that
-    /// it did not reach, and from point `end` on.
+    /// Kept numbers of the run with the states `table` last observed by `observer`; NaN at points not reached, and from
+    /// point `end` on.
     pub fn kept(&mut self, observer: &Observer, table: &StateTable, end: usize) -> &[f64] {
         self.keep(observer, table, end);
         &self.kept
     }
 
-    /// Reads the run with the states `table` that `observer` observed last, on `isa`, as [`BandReader::kept`].
+    /// Reads the run with the states `table` last observed by `observer`, on `isa`, as [`BandReader::kept`].
     ///
     /// # Panics
-    /// Where a list has another length than [`BandReader::columns`].
+    /// If the length of a list is not [`BandReader::columns`].
     pub fn read(&mut self, isa: Isa, observer: &Observer, table: &StateTable, end: usize, out: BandColumns<'_>) {
         isa.run(Reading { reader: self, observer, table, end, out });
     }

@@ -1,7 +1,6 @@
-//! [`BandSeries`]: the quantities over time whose quantiles over a campaign are bands.
-//!
-//! They are series of the table of observables, and changes of such series since the start (the energy transfer).
-//! Nothing is computed for them that the observed columns do not need, apart from |omega| at the points of the bands.
+//! [`BandSeries`]: quantities over time whose quantiles over a campaign are bands: series of the table of observables,
+//! and changes of series since the start (energy transfer). Only |omega| at the points of the bands needs a computation
+//! beyond the observed columns.
 
 use super::group::Group;
 use super::law_columns::LawSeries;
@@ -11,22 +10,21 @@ use super::table::{CHANGES, Column, Series};
 use super::window::Window;
 use crate::run::{Quantity, StateField, StateTable};
 
-/// In what form a quantity is kept: so that it is cheap to compute at every point of every run, and a deviation of it
-/// to count.
+/// Stored form of a quantity: cheap at every point of every run, with deviations that can be counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// The quantity itself.
     Value,
-    /// The tangent of half of it: of angles from 0 to pi, without an arc tangent at every point.
+    /// Tangent of half of it: angles from 0 to pi without an arc tangent at every point.
     HalfTangent,
 }
 
-/// The tangent of a right angle: finite, as are products of two.
+/// Tangent of a right angle: finite, also in products of two.
 const VERTICAL: f64 = 1e100;
 
 impl Form {
-    /// The deviation of `kept` from `nominal`, in the same form. Of half tangents, tan(a - b) = (tan a - tan b)/(1 +
-    /// tan a tan b); a relative error of it is at least as large as that of the angle.
+    /// Deviation of `kept` from `nominal`, in the same form. For half tangents tan(a - b) = (tan a - tan b)/(1 + tan a
+    /// tan b), with at least the relative error of the angle.
     #[inline(always)]
     pub fn deviation(self, kept: f64, nominal: f64) -> f64 {
         match self {
@@ -35,7 +33,7 @@ impl Form {
         }
     }
 
-    /// The quantity of a kept number; also the deviation of a kept deviation.
+    /// The quantity of a kept number, or the deviation of a kept deviation.
     pub fn shown(self, kept: f64) -> f64 {
         match self {
             Form::Value => kept,
@@ -48,26 +46,24 @@ impl Form {
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandSeries {
     pub(super) series: Series,
-    /// What the series stores.
     stored: Stored,
-    /// What its values are divided by.
+    /// Divisor of its values.
     pub(super) scale: Option<(Series, Reduction)>,
-    /// Whether it is the change of the series since the start.
+    /// True for the change of the series since the start.
     pub(super) is_change: bool,
-    /// Whether no column needs the series, and it is computed at the points of the bands alone, from the states.
+    /// True if no column needs the series: computed from the states at the points of the bands alone.
     pub(super) is_own: bool,
     /// Name, unit and meaning.
     pub quantity: Quantity,
-    /// In what form its values are kept.
+    /// Form of the kept values.
     pub form: Form,
 }
 
-/// The series that has bands where the columns need the states that it is computed from: |omega|.
+/// The series with bands although no column needs it: |omega|.
 const OWN: Series = Series::RateSquare;
 
-/// The quantities of runs of `request` that have bands, those of them that are observed: conservation errors, energy of
-/// each body, energy transfer, angles, |omega|, wheel speeds, what a control loop records, and the orbit with what is
-/// around it.
+/// Observed quantities with bands in runs of `request`: conservation errors, energy of each body, energy transfer,
+/// angles, |omega|, wheel speeds, records of a control loop, orbit and surroundings.
 pub fn band_series(request: &Request) -> Vec<BandSeries> {
     let errors = [Series::EnergyError, Series::LinearMomentumError, Series::AngularMomentumError];
     let energies = [Series::EnergyBody, Series::EnergyWheel];
@@ -99,8 +95,8 @@ pub fn band_series(request: &Request) -> Vec<BandSeries> {
     kinds.flat_map(|(series, is_change)| of_series(request, series, is_change)).collect()
 }
 
-/// The quantities of runs of `request` that events can be about: everything over time that is observed, except errors
-/// relative to the largest value of a run, which depend on the observation points.
+/// Quantities of runs of `request` for events: every observed quantity over time, except errors relative to the largest
+/// value of a run, which depend on the observation points.
 pub fn event_series(request: &Request) -> Vec<BandSeries> {
     let of_values = Series::all().filter(|series| series.wheel().is_none_or(|wheel| wheel == 0));
     let of_changes = CHANGES.iter().map(|(series, ..)| (*series, true));
@@ -111,18 +107,17 @@ pub fn event_series(request: &Request) -> Vec<BandSeries> {
 }
 
 impl BandSeries {
-    /// Whether a control loop has it at its ticks, and holds it in between.
+    /// True if a control loop sets it at its ticks and holds it in between.
     pub fn changes_at_ticks(&self) -> bool {
         LawSeries::place(self.series).is_some() && self.series.wheel().is_none()
     }
 
-    /// Whether it compares the run with the nominal one.
+    /// True if it compares the run with the nominal one.
     pub fn is_from_nominal(&self) -> bool {
         self.series == Series::FromNominal
     }
 
-    /// Its extreme in runs of `request`: the largest value over the points from one time to another, s, or the
-    /// smallest.
+    /// Its largest or smallest value in runs of `request` over the points from one time to another, s.
     pub fn window(&self, request: &Request, is_highest: bool, times: [Option<f64>; 2]) -> Window {
         let shows = |column: &Column| column.value.of(self.series);
         let otherwise = if LawSeries::place(self.series).is_some() { Group::Control } else { Group::Motion };
@@ -131,7 +126,7 @@ impl BandSeries {
     }
 }
 
-/// The bands of `series`, of each wheel where wheels have it, or of its change since the start, if it is observed.
+/// Bands of `series`, of each wheel if it is of wheels, or of its change since the start, if observed.
 fn of_series(request: &Request, series: Series, is_change: bool) -> Vec<BandSeries> {
     let places = if series.wheel().is_some() { request.wheels.len() } else { 1 };
     let observed = request.series();
@@ -150,7 +145,7 @@ fn of_series(request: &Request, series: Series, is_change: bool) -> Vec<BandSeri
     (0..places).filter_map(of_place).collect()
 }
 
-/// The kept numbers at `points` of a quantity that is computed from the states of `table` alone: |omega|, rad/s.
+/// Kept numbers at `points` of a quantity computed from the states of `table`: |omega|, rad/s.
 #[inline(always)]
 pub(super) fn keep_own(table: &StateTable, points: &[usize], out: &mut [f64]) {
     let [x, y, z] = [0, 1, 2].map(|component| table.column(StateField::Rate, component));
@@ -161,7 +156,7 @@ pub(super) fn keep_own(table: &StateTable, points: &[usize], out: &mut [f64]) {
     out.iter_mut().for_each(|out| *out = out.sqrt());
 }
 
-/// The kept numbers at `points` of a stored `column`; relative errors are divided by `scale`.
+/// Kept numbers at `points` of a stored `column`; relative errors are divided by `scale`.
 #[inline(always)]
 pub(super) fn keep(band: &BandSeries, column: &[f64], scale: f64, points: &[usize], out: &mut [f64]) {
     for (out, point) in out.iter_mut().zip(points) {
@@ -178,7 +173,7 @@ pub(super) fn keep(band: &BandSeries, column: &[f64], scale: f64, points: &[usiz
         Stored::HalfTangentSquare => {
             for out in out {
                 let tangent = out.sqrt();
-                // unlike f64::min this keeps what is not a number
+                // unlike f64::min this keeps NaN
                 *out = if tangent > VERTICAL { VERTICAL } else { tangent };
             }
         }
@@ -237,7 +232,7 @@ mod tests {
         assert!(names([Group::StepStatistics].into_iter().collect(), &["w1"]).is_empty());
     }
 
-    /// Law: the deviation of half tangents is that of the angles, to rounding, also where one of them is half a turn.
+    /// Law: the deviation of half tangents is that of the angles, to rounding, also at half a turn.
     #[test]
     fn deviations_of_angles() {
         use core::f64::consts::PI;

@@ -1,43 +1,36 @@
-//! [`Conditioning`]: the estimated error of a run, and how much the motion amplifies small errors of its rotational
-//! state.
+//! [`Conditioning`]: estimated error of a run, and amplification of small errors of its rotational state.
 //!
-//! With H = K omega + wheels' momentum in the body's frame and A = K^-1, a small error eta of H obeys eta' = eta x
-//! omega + H x A eta. Without torque, H . eta and omega . eta are constant (the changes of |H|^2/2 and of the energy T;
-//! Zhukovskii's gyrostat is integrable: V. Volterra, Acta Math. 22, 1899). The error across the curve of H follows from
-//! them at any time; only the shift along the curve is integrated. With w the part of omega across H, and unit vectors
-//! along H, w and v = H x w, eta = X H/|H| + Y w/|w| + Z v/|v|:
+//! With H = K omega + wheels' momentum in the body frame and A = K^-1, a small error eta of H obeys eta' = eta x omega
+//! + H x A eta. Without torque H . eta and omega . eta are constant (changes of |H|^2/2 and of the energy T;
+//! Zhukovskii's gyrostat is integrable: V. Volterra, Acta Math. 22, 1899). They give the error across the curve of H at
+//! any time; only the shift along the curve is integrated. With w, the part of omega across H, and unit vectors along
+//! H, w and v = H x w, eta = X H/|H| + Y w/|w| + Z v/|v|:
 //!
 //! ```text
 //! X constant;   |w_i| Y_i = |w_k| Y_k + (mu_k - mu_i) |H| X,   mu = omega . H/|H|^2;   Z = alpha |H| |w|,
 //! alpha' = X A_wH/|w| + Y (A_ww - A_vv)/|w|      (alpha: the shift in time, s)
 //! ```
 //!
-//! Near an unstable equilibrium |w| stays small for a long time, and the shift grows like 1/|w|^2: that is the
-//! separatrix. The error of the attitude across L follows from eta, since L is constant in F_e. The error about L is
-//! the integral of H . A eta/|H|, in which the part of alpha, a derivative, is integrated by parts.
-//! [`super::error_sums`] has the sums.
-//!
-//! The sums are made of:
-//! - the change of |H|^2 and of T - mu_0 |H|^2/2 since point 0 beyond rounding: the effect of truncation on the
-//!   invariants, of any method. The change of the second is |w| Y. mu_0 is mu where |w| is minimal: near a separatrix
-//!   the second invariant is the distance from it;
+//! Near an unstable equilibrium |w| stays small for long, and the shift grows like 1/|w|^2: the separatrix. The error
+//! of the attitude across L follows from eta, since L is constant in F_e. The error about L is the integral of H . A
+//! eta/|H|, with the part of alpha, a derivative, integrated by parts. [`super::error_sums`] has the sums, over:
+//! - changes of |H|^2 and of T - mu_0 |H|^2/2 since point 0 beyond rounding: truncation of any method. The second
+//!   change is |w| Y. mu_0 is mu at minimal |w|: near a separatrix the second invariant is the distance from it;
 //! - rounding of each component, which the states do not show;
-//! - for a kernel whose other states feed back into omega, and for truncation near a separatrix, the errors that are
-//!   too small to show in the invariants, and those along the curve;
+//! - for kernels whose other states feed back into omega, and for truncation near a separatrix: errors along the curve,
+//!   and errors too small to show in the invariants;
 //! - rounding of the wheels' momentum, which turns omega about it;
-//! - where torque acts, and there are no invariants, the truncation that the method estimates, in proportion to |w|;
-//!   |w| is taken as at least what the torque makes of it within a radian of rotation.
+//! - under torque, without invariants: the method's estimate of truncation, in proportion to |w|, at least the |w| made
+//!   by the torque within a radian of rotation.
 //!
-//! Where H is small - at rest, and where the wheels' momenta cancel - no curve is well conditioned, but errors hardly
-//! grow either: the growth of |eta| is the symmetric part of H x A, which is at most |H| s with s the distance of A
-//! from a multiple of one. So |eta| is at most e^(integral of |H| s) times all that is made, and the attitude's error
-//! at most |A| times the integral of that. This bound is computed beside the sums, with errors made at the start, and
-//! the smaller of both is the estimate: there is no threshold between them. What is rounded is K omega, and the wheels'
-//! momenta, sum |h_i|, in H x omega.
+//! If H is small (at rest, or with cancelling wheel momenta), no curve is well conditioned, but errors hardly grow: the
+//! growth of |eta| is the symmetric part of H x A, at most |H| s with the distance s of A from a multiple of one. So
+//! |eta| is at most e^(integral of |H| s) times the sum of all errors, and the attitude's error at most |A| times the
+//! integral of that. This bound, with errors made at the start, is computed as well, and the smaller of both is the
+//! estimate, without a threshold. Rounded quantities are K omega and, in H x omega, the wheels' momenta, sum |h_i|.
 //!
-//! Magnitudes are added, not signed numbers. Errors are assumed to arise evenly along the run.
-//!
-//! Not here: what the method itself knows of its errors ([`crate::run::Outcome::local_errors`]).
+//! Magnitudes are added, not signed numbers; errors are assumed to arise evenly along the run. The method's own
+//! estimates are [`crate::run::Outcome::local_errors`].
 
 use fearless_simd::Simd;
 
@@ -51,32 +44,30 @@ use crate::math::vector::{constant, constant_matrix, cross, difference, dot, pro
 use crate::math::{Lanes, Real};
 use crate::run::{LocalErrors, StateField, StateTable, rate_scale};
 
-/// Maximum number of points of a run that are examined: enough to find the closest approach to a separatrix about as
-/// often as it occurs, few enough that the cost is negligible compared with the run.
+/// Maximum number of examined points: enough to find the closest approach to a separatrix about as often as it occurs,
+/// at negligible cost.
 const POINTS: usize = 32;
 
-/// The same near a separatrix, where |w| is small for most of the time and grows or falls by orders of magnitude
-/// between the points.
+/// Maximum near a separatrix, where |w| is small for most of the time and varies by orders of magnitude between points.
 const MOST_POINTS: usize = 128;
 
 /// |w| varies by more than this factor near a separatrix.
 const NEAR: f64 = 0.1;
 
-/// A rate across H below this fraction of |omega| is rounding: the motion is an equilibrium.
+/// Rate across H as a fraction of |omega| below which the motion is an equilibrium to rounding.
 const STILL: f64 = 1e-12;
 
 /// Minimum of a rate across H as a fraction of |omega|: a tenth of rounding.
 const LEAST: f64 = 1e-17;
 
-/// The component along each of three axes of an error of magnitude one in a random direction: 1/sqrt(3).
+/// Component along each of three axes of a unit error in a random direction: 1/sqrt(3).
 const PER_AXIS: f64 = 0.577_350_269_189_625_8;
 
-/// Safety factor on the sum of the contributions, from the runs of `tests/accuracy/error_estimate.rs`: with 1 the
-/// estimate is below the true error in up to half of the runs of a family (mostly by a third), with 2 in less than one
-/// of twenty.
+/// Safety factor from the runs of `tests/accuracy/error_estimate.rs`: with 1 the estimate is below the true error in up
+/// to half of the runs of a family (mostly by a third), with 2 in less than one of twenty.
 const SAFETY: f64 = 2.0;
 
-/// An estimate of half a turn means that nothing is known.
+/// Half a turn: nothing is known.
 const LOST: f64 = core::f64::consts::PI;
 
 /// Relative rounding of the energy of a state and of |H|^2.
@@ -85,30 +76,28 @@ const NOISE: f64 = 4.0 * f64::EPSILON;
 /// Relative rounding of a wheel's momentum.
 const HALF_ROUNDING: f64 = 0.5 * f64::EPSILON;
 
-/// Factor on the rounding of a component where principal axes are computed first.
+/// Factor on the rounding of a component if principal axes are computed first.
 const TURNED: f64 = 4.0;
 
-/// What is known of the errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ErrorEstimate {
-    /// The estimated largest error of the rotational state: of omega over its [`rate_scale`], or of the attitude in
-    /// rad.
+    /// Estimated largest error of the rotational state: of omega over its [`rate_scale`], or of the attitude in rad.
     pub(super) error: f64,
-    /// The largest factor by which relative errors of omega, made evenly along the run and in every direction, grow; at
-    /// least one, at most 1e200.
+    /// Largest growth factor of relative errors of omega that arise evenly along the run and in every direction, from
+    /// one to 1e200.
     pub(super) amplification: f64,
 }
 
 impl ErrorEstimate {
-    /// Of a run that was not observed.
+    /// A run that was not observed.
     pub(super) const UNKNOWN: ErrorEstimate = ErrorEstimate { error: f64::NAN, amplification: f64::NAN };
 }
 
-/// The quantities that the sums use, at each examined point.
+/// Operands of the sums at each examined point.
 #[derive(Clone, Debug)]
 pub(super) struct Conditioning {
     times: [f64; MOST_POINTS],
-    /// The rate that errors of omega are relative to, rad/s.
+    /// Reference rate of errors of omega, rad/s.
     scale: f64,
     /// |H|, N m s.
     momentum: [f64; MOST_POINTS],
@@ -132,12 +121,11 @@ pub(super) struct Conditioning {
     energy: [f64; MOST_POINTS],
     /// sum |J_i Omega_i| of the wheels, N m s.
     wheels: [f64; MOST_POINTS],
-    /// Magnitudes along H, w and v of the error of H that relative errors of omega's components cause, N m s.
+    /// Errors of H along H, w and v due to relative errors of omega's components, N m s.
     digits: [[f64; MOST_POINTS]; 3],
 }
 
 impl Conditioning {
-    /// Memory for a run.
     pub(super) fn new() -> Self {
         let zero = [0.0; MOST_POINTS];
         Conditioning {
@@ -158,8 +146,8 @@ impl Conditioning {
         }
     }
 
-    /// The estimate for a run on which `acting` acts; `local` are the errors that the method estimates. `times` are
-    /// those of the table's points; the first `filled` >= 1 have states.
+    /// The estimate for a run under `acting`; `local` are the method's estimates. `times` are those of the table's
+    /// points, of which the first `filled` >= 1 have states.
     #[inline(always)]
     pub(super) fn estimate<S: Simd>(
         &mut self,
@@ -181,13 +169,13 @@ impl Conditioning {
             let error = lesser(found.error * growth.beside, LOST);
             return ErrorEstimate { error, amplification: lesser(found.amplification * growth.beside, MOST) };
         };
-        // a torque that pulls back is not relied upon
+        // a restoring torque is not relied upon
         let amplification = followed.larger(found.amplification);
         let made = local.truncation / self.scale + local.attitude + TURNED * local.rounding;
         ErrorEstimate { error: lesser(followed * made, LOST).larger(found.error), amplification }
     }
 
-    /// The estimate for the debris, whose inertia is `inertia`; the rest as in [`Conditioning::estimate`].
+    /// The estimate for the debris of inertia `inertia`; otherwise as [`Conditioning::estimate`].
     #[inline(always)]
     pub(super) fn estimate_debris<S: Simd>(
         &mut self,
@@ -230,10 +218,10 @@ impl Conditioning {
         }
         let scale = rate_scale(largest, self.times[count - 1]);
         self.scale = scale;
-        // relative to that, as all errors are from here on
+        // relative from here on
         let local = LocalErrors { truncation: local.truncation / scale, feedback: local.feedback / scale, ..*local };
-        // where the torque follows the attitude, a motion in a plane is none: what a step leaves out turns the body
-        // further and further
+        // if the torque follows the attitude, a planar motion is no special case: truncation turns the body further and
+        // further
         let is_changed = acting.is_some_and(|acting| ForceModel::of(acting.scene()).changes_within_arcs());
         let curve = if widest <= STILL * largest && !is_changed {
             self.at_equilibrium(body, [count, stride, last], scale, table, &local)
@@ -252,7 +240,7 @@ impl Conditioning {
         }
     }
 
-    /// Fills entries for at most so many of the points up to `last`: the stride between them, and their number.
+    /// Fills at most so many entries up to point `last`: the stride between points, and their number.
     #[inline(always)]
     fn examine<S: Simd>(
         &mut self,
@@ -272,7 +260,7 @@ impl Conditioning {
         [stride, count]
     }
 
-    /// Fills eight entries from entry `first` on; entry k is the point `stride` k, at most `last`.
+    /// Fills eight entries from `first` on; entry k is the point `stride` k, at most `last`.
     #[inline(always)]
     fn fill<S: Simd>(&mut self, simd: S, body: &Body<'_>, table: &StateTable, [first, stride, last]: [usize; 3]) {
         let mut points = [0; WIDTH];
@@ -329,8 +317,9 @@ impl Conditioning {
         (dot(w, slope) * per_w2).store(&mut self.widening[first..]);
         rate2.sqrt().store(&mut self.rate[first..]);
         wheels.larger(Lanes::broadcast(simd, body.wheels)).store(&mut self.wheels[first..]);
-        // the effect of relative errors of the components on H: in the axes of integration, or of any component where
-        // these axes are computed first
+        // effect of relative errors of the components on H: in the axes of integration, or of any component if these
+        // axes
+        // are computed first
         let [[x, ..], [_, y, _], [.., z]] = body.inertia;
         let moments = constant(zero, [x, y, z]);
         let magnitudes = if body.is_principal {
@@ -354,7 +343,7 @@ impl Conditioning {
         local: &LocalErrors,
     ) -> (f64, f64) {
         let (inertia, duration) = (body.size, self.times[count - 1]);
-        // errors are relative to omega: the momentum that corresponds to an error of one
+        // errors are relative to omega: the momentum of a unit error
         let unit = inertia * largest;
         let is_driven = body.offset.is_none();
         let acting = acting.filter(|_| is_driven);
@@ -416,7 +405,7 @@ impl Conditioning {
                     continue;
                 }
                 if NEAR || local.feedback > 0.0 {
-                    // of errors across H only the part that the balance does not show
+                    // errors across H: only the part not shown by the balance
                     let points = count as f64;
                     let truncation = if NEAR { local.truncation } else { 0.0 };
                     let [fed, cut] = [local.feedback, truncation].map(|error| share * PER_AXIS * error / points);
@@ -434,13 +423,12 @@ impl Conditioning {
         (shown + rounded + other, even.most / count as f64)
     }
 
-    /// The dip of |w| before the point `k`, which follows its predecessor by `step` seconds.
+    /// The dip of |w| before point `k`, `step` seconds after its predecessor.
     fn dip(&self, k: usize, step: f64) -> Option<[f64; 2]> {
         dip([self.across[k - 1], self.across[k]], [self.widening[k - 1], self.widening[k]], step)
     }
 
-    /// Bounds of error and amplification of any motion, from the growth of |eta|; of little use where H turns by many
-    /// radians.
+    /// Bounds of error and amplification of any motion, from the growth of |eta|; weak if H turns by many radians.
     #[inline(always)]
     fn bound(&self, body: &Body<'_>, count: usize, largest: f64, local: &LocalErrors) -> (f64, f64) {
         let (mut exponent, mut fastest, mut stirred) = (0.0, 0.0_f64, 0.0);
@@ -452,7 +440,7 @@ impl Conditioning {
             fastest = fastest.larger(self.rate[k]);
         }
         let growth = if exponent < LARGEST_EXPONENT { libm::exp(exponent) } else { f64::INFINITY };
-        // of omega, and the angle that it adds up to
+        // of omega, and the resulting angle
         let amplification = growth * (body.stiffness * body.size) * 1.0_f64.larger(largest * self.times[count - 1]);
         let shown = if body.offset.is_some() { self.shown(count) / (body.size * largest) } else { 0.0 };
         let turned = if body.is_principal { 1.0 } else { TURNED };
@@ -460,7 +448,7 @@ impl Conditioning {
         (amplification * (shown + rounded + local.truncation + local.feedback), amplification)
     }
 
-    /// The largest error of H, N m s, that |H| and the energy show beyond their rounding where both are constant.
+    /// Largest error of H, N m s, shown by |H| and energy beyond rounding if both are constant.
     fn shown(&self, count: usize) -> f64 {
         let mut most = 0.0_f64;
         for k in 0..count {
@@ -473,7 +461,7 @@ impl Conditioning {
         most
     }
 
-    /// Error and amplification about an equilibrium, where omega is along H and stays there: from the linear equations.
+    /// Error and amplification about an equilibrium with omega along H, from the linear equations.
     fn at_equilibrium(
         &self,
         body: &Body<'_>,
@@ -495,7 +483,7 @@ impl Conditioning {
             row[i] -= mu;
             size = size.larger(dot(*row, *row).sqrt());
         }
-        // eta' = H x (A - mu) eta across H, whose determinant is that of A - mu restricted to this plane
+        // eta' = H x (A - mu) eta across H, with the determinant of A - mu restricted to this plane
         let square = -h * h * dot(axis, product(adjugate(a), axis));
         let drift = h * size * duration;
         let growth = if square > 0.0 {
@@ -514,19 +502,17 @@ impl Conditioning {
     }
 }
 
-/// The smaller of an estimate and a bound; the bound where the estimate is not a number.
+/// The smaller of an estimate and a bound; the bound for NaN.
 #[inline(always)]
 fn lesser(estimate: f64, bound: f64) -> f64 {
     if bound < estimate || estimate.is_nan() { bound } else { estimate }
 }
 
-/// sum |a_i b_i|.
 #[inline(always)]
 fn magnitudes_along<R: Real>(a: [R; 3], b: [R; 3]) -> R {
     (a[0] * b[0]).abs() + ((a[1] * b[1]).abs() + (a[2] * b[2]).abs())
 }
 
-/// The values of a column at eight points.
 #[inline(always)]
 fn gathered<S: Simd>(simd: S, column: &[f64], points: &[usize; WIDTH]) -> Lanes<S> {
     let mut values = [0.0; WIDTH];

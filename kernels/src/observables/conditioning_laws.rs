@@ -1,4 +1,4 @@
-//! Laws of [`super::conditioning`]: its estimates have no unit, and cover the whole motion.
+//! Laws of [`super::conditioning`]: estimates have no unit and cover the whole motion.
 
 use fearless_simd::Simd;
 
@@ -8,16 +8,14 @@ use crate::math::isa::Work;
 use crate::math::vector::{cross, scaled, sum};
 use crate::run::{LocalErrors, StateField, StateFields, StateTable};
 
-/// Principal moments of inertia, kg m^2.
 const MOMENTS: [f64; 3] = [2.0, 3.0, 4.5];
 
-/// Errors of a method; those in rad/s are of motions of about 1 rad/s.
+/// Errors of a method; in rad/s for motions of about 1 rad/s.
 const LOCAL: LocalErrors = LocalErrors { truncation: 1e-14, rounding: 1e-16, feedback: 1e-15, attitude: 1e-15 };
 
-/// A motion: times, s, and rates, rad/s.
+/// Times, s, and rates, rad/s.
 struct Motion(Vec<f64>, Vec<[f64; 3]>);
 
-/// The estimate for a body with these moments of inertia.
 struct Estimate<'a>(&'a Motion, [f64; 3], LocalErrors);
 
 impl Work for Estimate<'_> {
@@ -41,8 +39,7 @@ fn estimate(motion: &Motion, moments: [f64; 3], local: LocalErrors) -> ErrorEsti
     Isa::best().run(Estimate(motion, moments, local))
 }
 
-/// Euler's equations of a free body, by the classical Runge-Kutta method; `drift` is a relative error of the rates that
-/// grows to this value.
+/// Euler's equations by the classical Runge-Kutta method, with a relative error of the rates that grows to `drift`.
 fn free(start: [f64; 3], duration: f64, drift: f64) -> Motion {
     const POINTS: usize = 41;
     const STEPS: usize = 200;
@@ -69,9 +66,8 @@ fn free(start: [f64; 3], duration: f64, drift: f64) -> Motion {
     Motion(times, rates)
 }
 
-/// Law: estimate and amplification have no unit: with another unit of time or of mass they are the same, to the bit
-/// where the units differ by powers of two; tumbling, near a separatrix, and in stable and unstable steady spins; of
-/// states with a drift or without.
+/// Law: estimate and amplification are independent of the units of time and mass, to the bit for powers of two;
+/// tumbling, near a separatrix, in stable and unstable spins, with and without drift.
 #[test]
 fn estimates_have_no_unit() {
     for start in [[0.3, 0.5, 1.0], [1e-5, 1.0, 1e-5], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]] {
@@ -93,19 +89,17 @@ fn estimates_have_no_unit() {
     }
 }
 
-/// Law: the whole motion counts, also of two points. Known: in a steady spin about the axis of the largest moment of
-/// inertia the error of the rate turns the attitude by the angle turned, and no method error is amplified to a visible
-/// one.
+/// Law: the whole motion counts, also of two points. In a steady spin about the largest axis the error of the rate
+/// turns the attitude by the angle turned, and no method error becomes visible.
 #[test]
 fn the_estimate_covers_the_whole_spin() {
     let spin = |duration: f64| Motion(vec![0.0, duration], vec![[0.0, 0.0, 1.0]; 2]);
-    // measured: amplification 2.6 + duration, errors 5.0e-14 and 2.5e-13
     for duration in [10.0, 100.0] {
         let found = estimate(&spin(duration), MOMENTS, LOCAL);
         assert!(found.amplification >= 1.0 + duration && found.amplification < 3.0 + duration, "{found:?}");
         assert!(found.error > LOCAL.rounding * duration && found.error < 1e-12, "{found:?}");
     }
-    // a drift of the states is at least the error that it shows; measured 5.7e-5, and 1.3e-11 without it
+    // a drift is at least the error that it shows; measured 5.7e-5, and 1.3e-11 without it
     let found = estimate(&free([0.3, 0.5, 1.0], 40.0, 1e-6), MOMENTS, LocalErrors::NONE);
     assert!(found.error > 1e-6 && found.error < 5e-4, "{found:?}");
     let found = estimate(&free([0.3, 0.5, 1.0], 40.0, 0.0), MOMENTS, LocalErrors::NONE);

@@ -1,11 +1,11 @@
-//! Correlation of two series, and the slope of a series, each in one fixed order of operations (see [`super::reduce`]).
+//! Correlation of two series and slope of a series, in a fixed order of operations (see [`super::reduce`]).
 
 use fearless_simd::Simd;
 
 use super::weights::{Weights, total, vectors};
 use crate::math::{Lanes, Real};
 
-/// Correlation of `a` with `b` (each with its mean); zero where one of the two does not vary.
+/// Correlation of `a` and `b`, given with their means; zero if one is constant.
 #[inline(always)]
 pub(super) fn correlation<S: Simd>(
     simd: S,
@@ -50,7 +50,7 @@ mod tests {
     use crate::math::lanes::WIDTH;
     use crate::run::Grid;
 
-    /// A few roundings of sums of up to a hundred terms of size one; none is measured.
+    /// Some roundings of sums of up to a hundred terms of size one.
     const ROUNDING: f64 = 1e-14;
 
     struct Correlate<'a>(&'a Weights, &'a [f64], f64);
@@ -63,7 +63,7 @@ mod tests {
         }
     }
 
-    /// Slope and correlations with itself of the series f(0), f(1), ... at `times`.
+    /// Slope and self-correlation of the series f(0), f(1), ... at `times`.
     fn correlated(times: &[f64], f: impl Fn(usize) -> f64) -> (f64, f64) {
         let mut values: Vec<f64> = (0..times.len()).map(f).collect();
         let mean = values.iter().sum::<f64>() / times.len() as f64;

@@ -1,9 +1,9 @@
-//! Kinetic energies, of each body and of all, in F_e and about the spacecraft's centre of mass c.
+//! Kinetic energies of each body and in total, in F_e and about the spacecraft's centre of mass c.
 //!
-//! With d_b = r_b - c in F_s and u = C_es^T v_c, body b moves with v_b = u + omega x d_b, so that (36) splits into the
-//! energy about c, a quadratic form of omega with constant coefficients, and what the motion of c adds: T_b = T_b^c +
-//! m_b (u . (omega x d_b) + u . u / 2). A wheel adds J_i Omega_i (omega . a_i + Omega_i / 2). Over the spacecraft the
-//! mixed terms cancel: T = T^c + m v_c . v_c / 2, which needs no attitude.
+//! With d_b = r_b - c in F_s and u = C_es^T v_c, body b moves with v_b = u + omega x d_b, and (36) splits into the
+//! energy about c, a quadratic form of omega, and the motion of c: T_b = T_b^c + m_b (u . (omega x d_b) + u . u / 2). A
+//! wheel adds J_i Omega_i (omega . a_i + Omega_i / 2). Over the spacecraft the mixed terms cancel: T = T^c + m v_c .
+//! v_c / 2, without the attitude.
 #![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -19,10 +19,10 @@ use crate::run::{StateField, StateTable};
 use crate::scene::MAX_WHEELS;
 use crate::scene::mass::{MassProperties, Wheel};
 
-/// The quadratic form of a symmetric matrix: coefficients of xx, yy, zz, xy, xz, yz.
+/// Symmetric quadratic form: coefficients of xx, yy, zz, xy, xz, yz.
 type Form = [f64; 6];
 
-/// 2 T^c = omega . K omega of a body of mass `mass` at `offset` from c with inertia `inertia`, halved, as a form.
+/// T^c = omega . K omega / 2 of a body of mass `mass` at `offset` from c with inertia `inertia`.
 #[inline(always)]
 fn form(mass: f64, offset: [f64; 3], inertia: [[f64; 3]; 3]) -> Form {
     let [x, y, z] = offset;
@@ -68,7 +68,6 @@ fn constant_form<S: Simd>(simd: S, a: Form) -> [Lanes<S>; 6] {
     [x, y, z, u, v, w]
 }
 
-/// The constants of the energies of a body of the spacecraft, in all lanes.
 #[derive(Clone, Copy)]
 struct BodyConstants<S: Simd> {
     /// Energy about c, the wheels locked, as a form of omega.
@@ -80,7 +79,7 @@ struct BodyConstants<S: Simd> {
 }
 
 impl<S: Simd> BodyConstants<S> {
-    // Closures that compute with lanes are avoided here and below: one that is not inlined loses the instruction set.
+    // No closures on lanes here and below: a closure that is not inlined loses the instruction set.
     #[inline(always)]
     fn of(simd: S, mass: f64, offset: [f64; 3], inertia: [[f64; 3]; 3]) -> Self {
         BodyConstants {
@@ -90,14 +89,13 @@ impl<S: Simd> BodyConstants<S> {
         }
     }
 
-    /// The energy in F_e from the one about c: `square` = u . u, `turned` = u x omega.
+    /// Energy in F_e from the energy about c: `square` = u . u, `turned` = u x omega.
     #[inline(always)]
     fn moving(&self, about: Lanes<S>, square: Lanes<S>, turned: [Lanes<S>; 3]) -> Lanes<S> {
         self.half_mass.mul_add(square, dot(self.arm, turned) + about)
     }
 }
 
-/// The constants of a wheel.
 #[derive(Clone, Copy)]
 struct WheelConstants<S: Simd> {
     body: BodyConstants<S>,
@@ -107,10 +105,9 @@ struct WheelConstants<S: Simd> {
     axial: Lanes<S>,
 }
 
-/// The constants of the energies of a run.
 struct Constants<S: Simd, const W: usize> {
     body: BodyConstants<S>,
-    /// The first as many as there are wheels.
+    /// As many entries as there are wheels.
     wheels: [WheelConstants<S>; W],
     /// m / 2.
     half_total: Lanes<S>,
@@ -138,23 +135,21 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         }
     }
 
-    /// What the rate of a wheel adds to its energy: J_i Omega_i (omega . a_i + Omega_i / 2).
+    /// J_i Omega_i (omega . a_i + Omega_i / 2).
     #[inline(always)]
     fn spin(&self, wheel: &WheelConstants<S>, omega: [Lanes<S>; 3], rate: Lanes<S>) -> Lanes<S> {
         wheel.axial * rate * self.half.mul_add(rate, dot(wheel.axis, omega))
     }
 }
 
-/// Eight values of a column.
 #[inline(always)]
 fn load<S: Simd>(simd: S, column: Column<'_>, at: usize) -> Lanes<S> {
     Lanes::load(simd, &column[at])
 }
 
-/// The kinetic energies of redundant states, where there are any.
+/// Kinetic energies of redundant states, if any.
 struct Redundant<'a, const W: usize> {
     body: Column<'a>,
-    /// The first as many as there are wheels.
     wheels: [Column<'a>; W],
 }
 
@@ -168,7 +163,6 @@ impl<'a, const W: usize> Redundant<'a, W> {
         Some(Redundant { body, wheels: of_wheels(table, (StateField::KineticEnergies, 1), vectors) })
     }
 
-    /// The energy of the spacecraft.
     #[inline(always)]
     fn spacecraft<S: Simd>(&self, simd: S, wheels: usize, at: usize) -> Lanes<S> {
         let body = load(simd, self.body, at);
@@ -183,7 +177,7 @@ impl<'a, const W: usize> Redundant<'a, W> {
     }
 }
 
-/// The energies of a run and their balance. Loops over the wheels of common numbers of them are unrolled.
+/// The energies of a run and their balance, with loops unrolled for common numbers of wheels.
 #[inline(always)]
 pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     match run.mass.wheels.len() {
@@ -196,7 +190,7 @@ pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Series
     }
 }
 
-/// The same with arrays for `W` wheels.
+/// [`energies`] with arrays for `W` wheels.
 #[inline(always)]
 fn of_bodies<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let MeasuredRun { observed, mass, debris, table, .. } = *run;
@@ -212,10 +206,10 @@ fn of_bodies<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut 
     let velocity = if total || inertial { needed(table, StateField::ComVelocity, vectors) } else { [&[][..]; 3] };
     let work: Option<[_; 2]> =
         if observed.has(Series::EnergyError) { columns(table, StateField::Work, vectors) } else { None };
-    // a kernel with redundant states conserves the energy of these states (36); where the wheels have drifted off their
-    // constraints, the energy computed from the rates alone differs
+    // a kernel with redundant states conserves the energy of these states (36), which differs from that of the rates
+    // alone once the wheels have drifted off their constraints
     let redundant = Redundant::<W>::of(table, vectors);
-    // the debris is a body whose centre of mass is c
+    // the debris is a body with its centre of mass at c
     let debris = match debris {
         Some(body) if total || observed.has(Series::EnergyDebris) => {
             let velocity: [_; 3] = needed(table, StateField::DebrisVelocity, vectors);
@@ -343,7 +337,7 @@ mod tests {
     use crate::math::vector::{product, sum};
     use crate::scene::WheelMode;
 
-    /// A few roundings of sums of some ten terms of size ten.
+    /// Some roundings of sums of ten terms of size ten.
     const ROUNDING: f64 = 1e-13;
     const OMEGA: [f64; 3] = [0.3, -0.7, 1.1];
     const OFFSET: [f64; 3] = [0.5, -0.25, 1.5];
@@ -354,7 +348,6 @@ mod tests {
         assert!((a - b).abs() < ROUNDING, "{a} {b}");
     }
 
-    /// The energy of a body with the velocity `u` of c and the rate `omega`.
     struct Energy([f64; 3], [f64; 3]);
     impl Work for Energy {
         type Output = [f64; WIDTH];
@@ -369,8 +362,7 @@ mod tests {
         }
     }
 
-    /// Law: the energy of a rigid body is that of its centre of mass and of its rotation about it, (m v . v + omega . J
-    /// omega)/2 with v = u + omega x d, in all lanes.
+    /// Law: the energy of a rigid body is (m v . v + omega . J omega)/2 with v = u + omega x d, in all lanes.
     #[test]
     fn the_energy_of_a_body_is_that_of_its_motion() {
         let rotation = dot(OMEGA, product(INERTIA, OMEGA));
@@ -383,7 +375,7 @@ mod tests {
         close(quadratic(form(MASS, OFFSET, INERTIA), products(OMEGA)), 0.5 * (MASS * dot(arm, arm) + rotation));
     }
 
-    /// Law: a wheel has its axial moment of inertia about its axis, and its transverse one about any axis across it.
+    /// Law: a wheel has its axial inertia about its axis, and the transverse one across it.
     #[test]
     fn the_inertia_of_a_wheel_is_about_its_axis() {
         let axis = [2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0];

@@ -1,9 +1,8 @@
-//! [`Sums`]: errors of the rotational state, propagated along a motion in the axes H, w and v of
-//! [`super::conditioning`], which has the equations.
+//! [`Sums`]: errors of the rotational state along a motion, in the axes H, w and v of [`super::conditioning`].
 
 use crate::math::Real;
 
-/// The sum of the errors of one kind up to some point.
+/// Sum of the errors of one kind up to a point.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sums {
     /// Along H.
@@ -14,16 +13,16 @@ pub(super) struct Sums {
     tilted: f64,
     /// Shift in time.
     shift: f64,
-    /// Rotation about L, without the effect of the shift.
+    /// Rotation about L, without the shift.
     about: f64,
     /// The largest error so far.
     pub(super) most: f64,
 }
 
-/// The data of a point that the sums use.
+/// Operands of the sums at a point.
 #[derive(Clone, Copy)]
 pub(super) struct Here {
-    /// Time since the previous point, and since the start, s.
+    /// Time since the previous point and since the start, s.
     pub(super) step: f64,
     pub(super) since: f64,
     pub(super) h: f64,
@@ -35,13 +34,13 @@ pub(super) struct Here {
     pub(super) shear: f64,
     /// The largest difference of mu |H| so far.
     pub(super) range: f64,
-    /// The momentum that corresponds to an error of one, and the rate that errors of omega are relative to.
+    /// Momentum of a unit error, and reference rate of errors of omega.
     pub(super) unit: f64,
     pub(super) largest: f64,
 }
 
 impl Sums {
-    /// Advances to a point at which the magnitudes of the error along H and of the change of the balance are known.
+    /// Advances to a point with known error along H and change of the balance.
     #[inline(always)]
     pub(super) fn set(&mut self, at: &Here, along: f64, balance: f64) {
         let per_w = 1.0 / at.w;
@@ -51,7 +50,7 @@ impl Sums {
         self.record(at, along + sideways + self.shift * at.h * at.w);
     }
 
-    /// Records an error of magnitude `total` at a point.
+    /// Records an error of magnitude `total`.
     #[inline(always)]
     fn record(&mut self, at: &Here, total: f64) {
         // across L: bounded by the constancy of L, and by the integral of the error of the rate
@@ -60,7 +59,7 @@ impl Sums {
         self.most = self.most.larger(total.larger(across + turned));
     }
 
-    /// Advances to a point at which errors of magnitude `made` along H, w and v arise.
+    /// Advances to a point with new errors of magnitude `made` along H, w and v.
     #[inline(always)]
     pub(super) fn advance(&mut self, at: &Here, made: [f64; 3]) {
         let per_w = 1.0 / at.w;
@@ -76,13 +75,13 @@ impl Sums {
     }
 }
 
-/// Points that are more e-foldings of |w| apart do not follow the motion, and say nothing of a dip between them: a body
-/// at 1e4 rad/s, seen once a second, would have dips of thousands.
+/// Points more e-foldings of |w| apart do not follow the motion and show no dip between them: a body at 1e4 rad/s,
+/// sampled once a second, would have dips of thousands.
 const FOLLOWED: f64 = 16.0;
 
-/// The dip of |w| between two points `step` seconds apart, if it falls after the first and rises before the second: how
-/// long its bottom lasts, s, and |w| there. `across` is |w| at both, `widening` its relative slope, 1/s. Near an
-/// unstable equilibrium |w| is c cosh(lambda t), and the integral of its inverse square is 2/(lambda c^2).
+/// Dip of |w| between two points `step` seconds apart, if it falls after the first and rises before the second:
+/// duration of its bottom, s, and |w| there. `across` is |w| at both, `widening` its relative slope, 1/s. Near an
+/// unstable equilibrium |w| = c cosh(lambda t), and the integral of its inverse square is 2/(lambda c^2).
 pub(super) fn dip(across: [f64; 2], widening: [f64; 2], step: f64) -> Option<[f64; 2]> {
     let (falls, rises) = (-widening[0], widening[1]);
     if !(falls > 0.0 && rises > 0.0) {
@@ -102,9 +101,8 @@ pub(super) fn dip(across: [f64; 2], widening: [f64; 2], step: f64) -> Option<[f6
 mod tests {
     use super::*;
 
-    /// Truth: |w| = c cosh(lambda t) is c at its least, and the integral of its inverse square over the step is that of
-    /// the bottom. It has no dip if it falls or rises throughout. The ends are taken for pure exponentials, which is
-    /// off by e^(-2 lambda t) at the nearer one, 6e-4.
+    /// Truth: the minimum of |w| = c cosh(lambda t) is c, and the integral of its inverse square is that of the bottom;
+    /// no dip if |w| is monotone. Pure exponentials at the ends are off by e^(-2 lambda t) at the nearer one, 6e-4.
     #[test]
     fn the_dip_of_a_hyperbolic_cosine_is_found() {
         let (c, lambda) = (1e-6, 1.5);
@@ -136,8 +134,8 @@ mod tests {
         }
     }
 
-    /// Law: errors that arise at the first point, on the curve itself, grow as errors that are known at every point do:
-    /// along H, and across it with the balance |w| Y.
+    /// Law: errors made at the first point grow like errors known at every point: along H, and across it with the
+    /// balance |w| Y.
     #[test]
     fn an_error_of_the_first_point_grows_as_a_known_one() {
         let (mut known, mut made) = (Sums::default(), Sums::default());
@@ -153,14 +151,14 @@ mod tests {
             };
             known.set(&here, 1e-6, 2e-6 * 0.75);
             made.advance(&here, if is_first { [1e-6, 2e-6, 0.0] } else { [0.0; 3] });
-            // the same sums in the same order
+            // equal sums in equal order
             assert!((made.most / known.most - 1.0).abs() < 1e-15, "{k}: {:e} {:e}", made.most, known.most);
         }
         assert!(known.most > 1e-5, "the counter-test: the error has grown: {:e}", known.most);
     }
 
-    /// Law: an error along H alone rotates the attitude about L at the rate A_HH and stays constant; one across H is
-    /// sheared along the curve, by shear t relative to itself where |w| is constant.
+    /// Law: an error along H rotates the attitude about L at the rate A_HH and is constant; an error across H is
+    /// sheared along the curve, by shear t relative to itself at constant |w|.
     #[test]
     fn errors_grow_in_proportion_to_time() {
         let (mut along, mut across) = (Sums::default(), Sums::default());
@@ -170,7 +168,7 @@ mod tests {
             across.set(&here, 0.0, 0.5e-6);
         }
         // 1e-6/2 across L, and 0.5 1e-6 10 about it
-        // steps are added one by one; measured: 1.1e-15 and, below, 8.9e-16
+        // sums of steps; measured: 1.1e-15 and, below, 8.9e-16
         assert!((along.most / 5.5e-6 - 1.0).abs() < 1e-14, "{:e}", along.most);
         // Y = 1e-6; Z = 0.25 10 1e-6 2 0.5/0.5 = 5e-6; as an error of omega their sum
         assert!((across.most / 6e-6 - 1.0).abs() < 8e-15, "{:e}", across.most);

@@ -1,5 +1,5 @@
-//! `exchange`: correlations and dominant frequency of the exchange of kinetic energy between body and wheels, about the
-//! spacecraft's centre of mass.
+//! Exchange of kinetic energy between body and wheels about the spacecraft's centre of mass: correlations and dominant
+//! frequency.
 
 use fearless_simd::Simd;
 
@@ -8,11 +8,10 @@ use super::spectrum::Spectrum;
 use super::weights::Weights;
 use crate::scene::MAX_WHEELS;
 
-/// Swing of a body's energy, relative to the total about the centre of mass, up to which the energy counts as constant:
-/// some dozens of roundings of the total, from its sum of squares and from the integration of omega.
+/// Swing of a body's energy over the total about the centre of mass below which it counts as constant: dozens of
+/// roundings of the total, from its sum of squares and the integration of omega.
 pub const EXCHANGE_FLOOR: f64 = 64.0 * f64::EPSILON;
 
-/// The energy of a body about the centre of mass.
 #[derive(Clone, Copy)]
 pub(super) struct BodyEnergy<'a> {
     pub(super) column: &'a [f64],
@@ -21,21 +20,20 @@ pub(super) struct BodyEnergy<'a> {
     pub(super) swing: f64,
 }
 
-/// How the bodies exchange energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Exchange {
-    /// Correlation of the body with each wheel; zero where one of the two is constant.
+    /// Correlation of the body with each wheel; zero if one is constant.
     pub(super) correlations: [f64; MAX_WHEELS],
-    /// Dominant frequency of the body, Hz; zero where it is constant, NaN on a grid that has no spectrum.
+    /// Dominant frequency of the body, Hz; zero if constant, NaN on a grid without a spectrum.
     pub(super) frequency: f64,
 }
 
 impl Exchange {
-    /// Of a run that was not observed.
+    /// A run that was not observed.
     pub(super) const UNKNOWN: Exchange = Exchange { correlations: [f64::NAN; MAX_WHEELS], frequency: f64::NAN };
 }
 
-/// The exchange of `body` with `wheels`; `total` is the largest energy of all together.
+/// Exchange of `body` with `wheels`; `total` is the largest total energy.
 #[inline(always)]
 pub(super) fn exchange<'w, S: Simd>(
     simd: S,
@@ -70,10 +68,8 @@ mod tests {
     use crate::math::lanes::WIDTH;
     use crate::run::Grid;
 
-    /// Points in time.
     const POINTS: usize = 64;
 
-    /// The exchange of a body with one wheel, of the total energy given.
     struct Exchanged<'a>(&'a Weights, &'a mut Spectrum, f64, [BodyEnergy<'a>; 2]);
     impl Work for Exchanged<'_> {
         type Output = (f64, f64);
@@ -85,7 +81,7 @@ mod tests {
         }
     }
 
-    /// Correlation and frequency where the body has the energy f(time) and the wheel `total` - f(time).
+    /// Correlation and frequency for a body with the energy f(time) and a wheel with `total` - f(time).
     fn exchanged(total: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
         let grid = Grid::uniform(4.0, POINTS);
         let columns = [0.0, total].map(|of_wheel| {
@@ -103,8 +99,8 @@ mod tests {
         Isa::best().run(Exchanged(&Weights::of(&grid), &mut spectrum, total, energies))
     }
 
-    /// Law: what one body gains the other loses, at the frequency of the swing; bodies at rest, and such as keep their
-    /// energy, exchange nothing.
+    /// Law: one body gains what the other loses, at the frequency of the swing; bodies at rest or of constant energy
+    /// exchange nothing.
     #[test]
     fn bodies_at_rest_exchange_nothing() {
         let (correlation, frequency) =

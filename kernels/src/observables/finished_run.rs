@@ -1,4 +1,4 @@
-//! [`FinishedRun`]: the values of a run that are read and not reduced from a series.
+//! [`FinishedRun`]: values of a run that are not reduced from a series.
 
 use super::conditioning::ErrorEstimate;
 use super::exchange::Exchange;
@@ -7,40 +7,38 @@ use crate::math::symmetric::principal_axes;
 use crate::run::{Outcome, StateField, StateTable};
 use crate::scene::MassProperties;
 
-/// An error of the state, from the rounding of the input alone, above which a run is ill conditioned: a thousandth of a
-/// radian or of the rate. No question that a campaign asks depends on less.
+/// Error of the state from rounding of the input alone above which a run is ill conditioned, rad or relative to the
+/// rate.
 const MEANINGLESS: f64 = 1e-3;
 
-/// A run as the direct values see it.
 pub(super) struct FinishedRun<'a> {
     pub(super) table: &'a StateTable,
     pub(super) outcome: &'a Outcome,
-    /// The time that the run reached, s.
+    /// Time reached, s.
     pub(super) time_reached: f64,
-    /// Number of points that it reached.
+    /// Number of points reached.
     pub(super) filled: usize,
     /// Times of the points, s.
     pub(super) times: &'a [f64],
-    /// The last point with finite rotational states, where there is one and the final state is observed.
+    /// Last point with finite rotational states, if the final state is observed.
     pub(super) final_point: Option<usize>,
     pub(super) exchange: Exchange,
     pub(super) estimate: ErrorEstimate,
-    /// That of the debris.
+    /// Estimate for the debris.
     pub(super) debris_estimate: ErrorEstimate,
     pub(super) mass: &'a MassProperties,
-    /// The principal moments of inertia of the spacecraft in ascending order, kg m^2, where they are observed.
+    /// Principal moments of inertia of the spacecraft, ascending, kg m^2, if observed.
     pub(super) moments: [f64; 3],
 }
 
-/// The principal moments of inertia of the spacecraft about its centre of mass, with locked wheels, in ascending order,
-/// kg m^2.
+/// Principal moments of inertia about the centre of mass with locked wheels, ascending, kg m^2.
 pub(super) fn principal_moments(mass: &MassProperties) -> [f64; 3] {
     let (mut moments, _) = principal_axes(mass.inertia);
     moments.sort_by(f64::total_cmp);
     moments
 }
 
-/// The last of the first `filled` points of `table` with finite rotational states.
+/// Last of the first `filled` points of `table` with finite rotational states.
 pub(super) fn final_point(table: &StateTable, filled: usize) -> Option<usize> {
     let finite = |point: &usize| {
         table.at::<3>(StateField::Rate, *point).iter().all(|x| x.is_finite())
@@ -50,13 +48,13 @@ pub(super) fn final_point(table: &StateTable, filled: usize) -> Option<usize> {
     (0..filled).rev().find(finite)
 }
 
-/// 1 where the rounding of the input alone makes the result meaningless, else 0.
+/// 1 if rounding of the input alone makes the result meaningless, else 0.
 fn is_ill_conditioned(estimate: &ErrorEstimate) -> f64 {
     f64::from(u8::from(estimate.amplification * f64::EPSILON > MEANINGLESS))
 }
 
 impl FinishedRun<'_> {
-    /// A direct value, of a wheel where wheels have it.
+    /// A direct value, of wheel `wheel` if it is of wheels.
     #[inline]
     pub(super) fn value(&self, value: DirectValue, wheel: usize) -> f64 {
         match value {

@@ -1,6 +1,6 @@
-//! [`Group`]: what a campaign asks for by name (`[observe] groups = [...]`).
+//! [`Group`]: columns that a campaign requests by name (`[observe] groups = [...]`).
 
-/// A group of columns that is observed as a whole.
+/// A group of columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Group {
     /// Error of total kinetic energy minus the work of the actuators.
@@ -9,11 +9,11 @@ pub enum Group {
     MomentumConservation,
     /// Orthonormality of the attitude, and the angle of s3 from its initial direction.
     Attitude,
-    /// Residuals of the constraints, where the kernel has constraints.
+    /// Residuals of the constraints, for kernels with constraints.
     Constraints,
     /// Kinetic energy of each body in F_e.
     Energies,
-    /// Kinetic energy of each body about the spacecraft's centre of mass: independent of the frame.
+    /// Kinetic energy of each body about the spacecraft's centre of mass, independent of the frame.
     EnergiesCom,
     /// Exchange of kinetic energy between body and wheels, about the spacecraft's centre of mass.
     Exchange,
@@ -21,26 +21,23 @@ pub enum Group {
     FinalState,
     /// Steps and evaluations.
     StepStatistics,
-    /// Estimated error of the rotational state, and how much the motion amplifies errors.
+    /// Estimated error of the rotational state, and amplification of errors.
     Numerics,
     /// Angular rate, nutation, attitude relative to the nominal run, wheel speeds and momenta, direction of the debris.
-    /// Only where a campaign names it.
+    /// Only by name.
     Motion,
-    /// Mass, centre of mass and principal moments of inertia of the spacecraft, as dispersed. Only where a campaign
-    /// names it.
+    /// Mass, centre of mass and principal moments of inertia of the spacecraft, as dispersed. Only by name.
     MassProperties,
-    /// Distance from the central body, angle of s3 from nadir, torque of the gravity gradient. Only where a campaign
-    /// names it.
+    /// Distance from the central body, angle of s3 from nadir, torque of the gravity gradient. Only by name.
     Orbit,
-    /// What the control law of the campaign reports at the end of a run. There where the law has columns; a campaign
-    /// cannot name it.
+    /// Columns reported by the campaign's control law, if any; not by name.
     Control,
-    /// When events and failures happened in a run. There where the file has such tables; a campaign cannot name it.
+    /// Times of events and failures, if the file has such tables; not by name.
     Events,
 }
 
 impl Group {
-    /// All groups that a campaign can name, in the order of the columns.
+    /// All groups that a campaign can name, in order of the columns.
     pub const ALL: [Group; 13] = [
         Group::EnergyConservation,
         Group::MomentumConservation,
@@ -57,8 +54,8 @@ impl Group {
         Group::Orbit,
     ];
 
-    /// The groups of a campaign that names none: all but [`Group::Motion`] and [`Group::Orbit`], whose angles cost
-    /// about as much as a run, and [`Group::MassProperties`], which follow from the dispersed values.
+    /// Groups of a campaign without a choice: all but [`Group::Motion`] and [`Group::Orbit`], whose angles cost about
+    /// as much as a run, and [`Group::MassProperties`], which follow from the dispersed values.
     pub const DEFAULT: [Group; 10] = {
         let [a, b, c, d, e, f, g, h, i, j, Group::Motion, Group::MassProperties, Group::Orbit] = Group::ALL else {
             panic!("the groups that a campaign must name are the last ones")
@@ -104,13 +101,13 @@ impl Groups {
     /// Every group.
     pub const ALL: Groups = Groups((1 << Group::ALL.len()) - 1);
 
-    /// This set and one more group.
+    /// This set and `group`.
     #[must_use]
     pub const fn with(self, group: Group) -> Self {
         Groups(self.0 | 1 << group as u16)
     }
 
-    /// Whether the set contains `group`.
+    /// True if the set contains `group`.
     pub const fn contains(self, group: Group) -> bool {
         self.0 & (1 << group as u16) != 0
     }

@@ -5,14 +5,14 @@ use super::reduction::{ChangeStatistic, ErrorStatistic, Reduction, ValueStatisti
 use super::request::Request;
 use super::table::{ColumnId, DirectValue, Series, direct_id, error_id, series_id};
 
-/// The estimated error of the rotational state.
+/// Estimated error of the rotational state.
 pub const STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValue::StateError);
 
-/// The estimated error of the rotation of the debris.
+/// Estimated error of the debris' rotation.
 pub const DEBRIS_STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValue::DebrisStateError);
 
-/// The columns of a summary, in its order: main errors, exchange, effort, numerics; those of wheels stand for those of
-/// each.
+/// The columns of a summary in order: main errors, exchange, effort, numerics. A column of wheels stands for those of
+/// each wheel.
 pub const HEADLINES: &[ColumnId] = &{
     use Group::{Attitude, Constraints, EnergiesCom, EnergyConservation, Exchange, MomentumConservation, Numerics};
     [
@@ -40,7 +40,7 @@ pub const HEADLINES: &[ColumnId] = &{
     ]
 };
 
-/// The places in a row of the columns of a summary.
+/// Positions in a row of the columns of a summary.
 pub fn headlines(request: &Request) -> Vec<usize> {
     let of_wheels = |id: &ColumnId| {
         let wheels = if id.is_of_wheel() { request.wheels.len() } else { 1 };
@@ -54,7 +54,7 @@ mod tests {
     use super::*;
     use crate::observables::table;
 
-    /// Law: every handle of a headline is that of a column; a number of one kind of scene is in no other.
+    /// Law: every handle of a headline is a column's; a value of one kind of scene is in no other.
     #[test]
     fn headlines_are_columns() {
         for id in HEADLINES {

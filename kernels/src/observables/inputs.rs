@@ -1,18 +1,17 @@
-//! What each series and each value of the table is made of: statistics, scales, fields of the state table.
+//! Inputs of each series and value of the table: statistics, scales, fields of the state table.
 
 use super::reduction::{OrderStatistic, Reduction};
 use super::rows::Need;
 use super::table::{DIRECT_VALUES, DirectRow, DirectValue, FRACTION_SCALE, Series, Value};
 
 impl DirectValue {
-    /// What the table says about the value.
     pub(super) fn row(self) -> &'static DirectRow {
         &DIRECT_VALUES[self as usize]
     }
 }
 
 impl Value {
-    /// The value of wheel `wheel`, of a column that wheels have.
+    /// The value of wheel `wheel`, for a column of wheels.
     pub(super) fn of_wheel(self, wheel: usize) -> Self {
         match self {
             Value::Of(series, reduction) => Value::Of(series.of_wheel(wheel), reduction),
@@ -21,7 +20,7 @@ impl Value {
         }
     }
 
-    /// The statistic that the value is relative to.
+    /// The statistic to which the value is relative.
     pub(super) fn scale(self) -> Option<(Series, Reduction)> {
         match self {
             Value::Of(_, Reduction::Fraction) => Some(FRACTION_SCALE),
@@ -30,17 +29,17 @@ impl Value {
         }
     }
 
-    /// Whether the value is a statistic of `series`.
+    /// True if the value is a statistic of `series`.
     pub(super) fn of(self, series: Series) -> bool {
         matches!(self, Value::Of(own, _) | Value::Window(own, _) if own == series)
     }
 
-    /// Every statistic that the value is made of.
+    /// Every statistic from which the value is computed.
     pub(super) fn inputs(self) -> impl Iterator<Item = (Series, Reduction)> {
         let (own, direct, wheel) = match self {
             Value::Of(series, reduction) => (Some((series, reduction)), [].as_slice(), 0),
             Value::Direct(value, wheel) => (None, value.row().inputs, usize::from(wheel)),
-            // the cheapest statistic: the extreme is made of the series itself
+            // the cheapest statistic: the extreme is computed from the series itself
             Value::Window(series, _) => (Some((series, Reduction::Order(OrderStatistic::Initial))), [].as_slice(), 0),
             Value::Law(_) => (None, [].as_slice(), 0),
         };
@@ -48,7 +47,7 @@ impl Value {
         own.into_iter().chain(self.scale()).chain(direct)
     }
 
-    /// Every field that the value is computed from.
+    /// Every field from which the value is computed.
     pub(super) fn needs(self) -> impl Iterator<Item = Need> {
         let direct = match self {
             Value::Of(..) | Value::Window(..) | Value::Law(_) => [].as_slice(),
@@ -58,7 +57,7 @@ impl Value {
         of_series.chain(direct).copied()
     }
 
-    /// Whether the value is known of a run that failed.
+    /// True if the value is known for a failed run.
     pub(super) fn is_known_after_failure(self) -> bool {
         match self {
             Value::Of(..) | Value::Window(..) | Value::Law(_) => false,
@@ -74,8 +73,8 @@ mod tests {
     use crate::observables::reduction::Stored;
     use crate::observables::table::all;
 
-    /// Law: every row of the tables of series and direct values is used by a column; what a control loop records over
-    /// time is used by bands.
+    /// Law: every row of the tables of series and direct values is used by a column, records of a control loop by
+    /// bands.
     #[test]
     fn no_row_is_idle() {
         let used: Vec<Series> = all().flat_map(|column| column.value.inputs()).map(|(series, _)| series).collect();
@@ -88,7 +87,7 @@ mod tests {
         assert_eq!(direct, DIRECT_VALUES.len());
     }
 
-    /// Law: only order statistics are made of a series that stores a function of its quantity.
+    /// Law: a series that stores a function of its quantity has order statistics only.
     #[test]
     fn statistics_are_those_of_the_quantity() {
         for column in all() {
@@ -99,7 +98,7 @@ mod tests {
         }
     }
 
-    /// Law: a column that the work or the angular impulse of a torque on the body enters says so.
+    /// Law: a column affected by work or angular impulse of a torque on the body mentions it.
     #[test]
     fn torques_on_the_body_are_named() {
         let mut named = 0;

@@ -1,8 +1,5 @@
-//! [`LawColumns`]: the columns of a row that a control law reports at the end of a run; [`LawSeries`]: the quantities
-//! that it records over time.
-//!
-//! The observer does not know the values of the columns: whoever flies a run asks its law
-//! ([`crate::dynamics::actuation::ActuationLaw::report`]).
+//! [`LawColumns`]: columns reported by a control law at the end of a run; [`LawSeries`]: its records over time. The
+//! values come from [`crate::dynamics::actuation::ActuationLaw::report`], not from the observer.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -12,18 +9,18 @@ use super::table::{Column, ColumnId, Series, Value};
 use crate::run::Quantity;
 use crate::scene::MAX_WHEELS;
 
-/// A column that a control law reports.
+/// A column of a control law.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LawColumn {
     /// Name, unit and meaning.
     pub quantity: Quantity,
-    /// Whether the value is a number or a count.
+    /// True numbers or counts.
     pub kind: ColumnKind,
-    /// What the counts 0, 1, ... stand for, where they are codes.
+    /// Meanings of the counts 0, 1, ... if they are codes.
     pub codes: &'static [&'static str],
 }
 
-/// The quantities over time that a control loop records at the observation points: a set of series of the table.
+/// A set of series recorded by a control loop at the observation points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LawSeries(u32);
 
@@ -32,20 +29,19 @@ impl LawSeries {
     pub const NONE: LawSeries = LawSeries(0);
     /// Every quantity.
     pub const ALL: LawSeries = LawSeries(u32::MAX);
-    /// How many there are, with one of each wheel that a spacecraft may have: a record has as many columns, in the
-    /// order of the table.
+    /// Number of series, one per possible wheel: columns of a record, in the order of the table.
     pub const COUNT: usize = Series::MotorTorque.index() + MAX_WHEELS - Series::PointingError.index();
 
     /// The set with `series`.
     ///
     /// # Panics
-    /// Where no control loop records it.
+    /// If no control loop records it.
     #[must_use]
     pub fn with(self, series: Series) -> Self {
         LawSeries(self.0 | 1 << Self::place(series).expect("a control loop records the series"))
     }
 
-    /// The column of `series` in a record; `None` where no control loop records it.
+    /// Column of `series` in a record; `None` if no control loop records it.
     pub fn place(series: Series) -> Option<usize> {
         series.index().checked_sub(Series::PointingError.index()).filter(|place| *place < Self::COUNT)
     }
@@ -56,15 +52,14 @@ impl LawSeries {
     }
 }
 
-/// What the control law of a campaign reports: the columns `list` of its rows, in this order, and quantities over time.
-/// NaN is a value that a run does not have.
+/// Reports of a campaign's control law: columns of its rows, and records over time. NaN stands for no value.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LawColumns {
     /// The columns.
     pub list: &'static [LawColumn],
-    /// How many of them, the last ones, say when events and failures happened: they are no matter of the law.
+    /// Number of columns, at the end, for times of events and failures: not the law's.
     pub of_events: usize,
-    /// The quantities over time.
+    /// Quantities over time.
     pub over_time: LawSeries,
 }
 
@@ -77,11 +72,11 @@ impl PartialEq for LawColumns {
 }
 
 impl LawColumns {
-    /// A law that reports nothing, or no law.
+    /// No reports.
     pub const NONE: LawColumns = LawColumns { list: &[], of_events: 0, over_time: LawSeries::NONE };
 
-    /// The columns `list`, known at run time only. Each list is kept once and for good: a program has as many as it
-    /// opens kinds of campaigns.
+    /// The columns `list`, known at run time only. Each list is kept forever: as many as kinds of campaigns opened by a
+    /// program.
     pub fn kept(list: Vec<LawColumn>) -> Self {
         static KEPT: Mutex<Vec<&'static [LawColumn]>> = Mutex::new(Vec::new());
         let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
@@ -94,7 +89,7 @@ impl LawColumns {
         LawColumns { list, ..LawColumns::NONE }
     }
 
-    /// The same, followed by the columns `events` that say when events and failures happened.
+    /// Appends the columns `events`, times of events and failures.
     #[must_use]
     pub fn with_events(self, events: Vec<LawColumn>) -> Self {
         if events.is_empty() {

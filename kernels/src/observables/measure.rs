@@ -1,7 +1,5 @@
-//! States to series: the computation of each source, where one of its series is observed.
-//!
-//! Not here: the computations ([`super::energies`], [`super::momenta`], [`super::attitude`], [`super::motion`],
-//! [`super::orbit`], [`super::surroundings`]), and the reduction of series to numbers ([`super::reduce`]).
+//! Series from states, by source. Computations: [`super::energies`], [`super::momenta`], [`super::attitude`],
+//! [`super::motion`], [`super::orbit`], [`super::surroundings`]; reduction to numbers: [`super::reduce`].
 
 use fearless_simd::Simd;
 
@@ -37,7 +35,7 @@ pub(super) fn measure<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesT
     out.pad(run.observed, run.points);
 }
 
-/// What the control law has recorded; NaN where it records nothing.
+/// Records of the control law, NaN if there are none.
 fn recorded(run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let of_each = run.of_law.len() / LawSeries::COUNT;
     for series in Series::all().filter(|series| run.observed.has(*series)) {
@@ -48,7 +46,7 @@ fn recorded(run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     }
 }
 
-/// The residuals of the constraints, as the kernel has them.
+/// Residuals of the constraints.
 fn residuals(run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let vectors = run.vectors();
     let residuals: [Column<'_>; 3] = needed(run.table, StateField::Residuals, vectors);

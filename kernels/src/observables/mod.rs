@@ -1,25 +1,19 @@
-//! Layer 3: what is observed of a run.
+//! Layer 3: observables of a run.
 //!
-//! - [`group`]: the groups that a campaign asks for by name.
-//! - [`table`]: the one table of observables: series, direct values and the columns of a row; `rows`: what its rows
-//!   consist of; `inputs`: what each value is made of; [`headlines`]: the columns of a summary.
-//! - [`reduction`]: how a series becomes a number; `reduce`, `correlation`: the passes over series that compute it
-//!   (`weights`).
-//! - [`request`]: what a campaign observes; from it the columns, and which fields of the state table they need and why.
-//! - [`observer`]: [`Observer`] reads a state table and writes a row, by a `row_plan` and with direct values of a
-//!   `finished_run`.
+//! - [`group`]: groups of columns by name. [`table`]: the one table of series, direct values and columns; `rows`: types
+//!   of its rows; `inputs`: inputs of each value; [`headlines`]: columns of a summary.
+//! - [`request`]: columns of a campaign, and the fields of the state table that they need. [`observer`]: [`Observer`]
+//!   turns a state table into a row, by a `row_plan` and a `finished_run`.
+//! - [`reduction`]: series to numbers; `reduce`, `correlation`: passes over series (`weights`).
 //! - `measure`: states to series, by `energies`, `momenta`, `attitude`, `motion`, `orbit` and `surroundings`, eight
-//!   points at a time (`points`).
-//! - [`nominal_attitude`]: the attitude of the nominal run, with which those of the others are compared.
-//! - `conditioning`, `error_sums`, `rotor`, `acting`: how much the motion amplifies errors of its state.
-//! - [`law_columns`]: the columns that a control law reports.
-//! - [`band_series`]: the quantities over time that have bands; [`band_reader`]: theirs of a run; [`window`]: their
-//!   extremes in an interval of time.
-//! - `exchange`, `spectrum`: the exchange of energy between the bodies, and its frequency.
+//!   points at a time (`points`). [`nominal_attitude`]: attitude of the nominal run.
+//! - `conditioning`, `error_sums`, `rotor`, `acting`: amplification of errors of the state.
+//! - [`law_columns`]: columns of a control law. [`band_series`], [`band_reader`]: bands over time; [`window`]: extremes
+//!   in an interval. `exchange`, `spectrum`: exchange of energy between the bodies, and its frequency.
 //!
-//! Source of energies and momenta: Berdoz, *Final Report - ADR Spacecraft*, (36), and the balances of the gyrostat
-//! (Zhukovskii; Volterra 1899). Nothing here depends on how a run was integrated, and nothing is assumed to be
-//! conserved: every error is measured from the computed states.
+//! Sources of energies and momenta: Berdoz, *Final Report - ADR Spacecraft*, (36), and the balances of the gyrostat
+//! (Zhukovskii; Volterra 1899). Nothing depends on the integration of a run, and nothing is assumed to be conserved:
+//! every error is measured from the computed states.
 
 pub mod accuracy;
 mod acting;

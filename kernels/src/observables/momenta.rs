@@ -1,11 +1,10 @@
-//! Linear and angular momenta of spacecraft and debris, and how far each departs from its first value.
+//! Linear and angular momenta of spacecraft and debris, and their departures from the first value.
 //!
-//! p = m v_c minus the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, J with wheels locked,
-//! minus the angular impulse of thrusters and torques on the body; of the debris m_d v_d and C_ed J_d omega_d, on which
-//! nothing acts.
+//! p = m v_c minus the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, wheels locked in J, minus
+//! the angular impulse of thrusters and body torques; for the debris m_d v_d and C_ed J_d omega_d.
 //!
-//! What an error is relative to is the sum of the magnitudes of these terms, which may cancel: |J omega| + sum |J_i
-//! Omega_i| + |impulse| and, where the velocity of p is integrated, m (|v_c| + |omega| |c - p|) + |impulse|.
+//! Errors are relative to the sum of the magnitudes of these terms, which may cancel: |J omega| + sum |J_i Omega_i| +
+//! |impulse| and, if the velocity of p is integrated, m (|v_c| + |omega| |c - p|) + |impulse|.
 #![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -22,7 +21,7 @@ use crate::math::{Lanes, Real};
 use crate::run::StateField;
 use crate::scene::MAX_WHEELS;
 
-/// Where |balance - its first value| and |momentum|^2 of a momentum are written.
+/// Outputs of a momentum: |balance - its first value| and |momentum|^2.
 struct Sink<'a, S: Simd> {
     error: &'a mut [[f64; WIDTH]],
     square: &'a mut [[f64; WIDTH]],
@@ -46,7 +45,7 @@ impl<'a, S: Simd> Sink<'a, S> {
     }
 }
 
-/// The balance of `momentum`, and the sum of the magnitudes of all terms: `terms` are those of the momentum.
+/// Balance of `momentum`, and the sum of the magnitudes of all terms, with `terms` of the momentum.
 #[inline(always)]
 fn balanced<S: Simd>(
     simd: S,
@@ -64,7 +63,6 @@ fn balanced<S: Simd>(
     }
 }
 
-/// Linear momentum of the spacecraft.
 #[inline(always)]
 pub(super) fn linear_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (mass, table, vectors) = (run.mass, run.table, run.vectors());
@@ -103,7 +101,7 @@ pub(super) fn angular_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mu
     }
 }
 
-/// The same with arrays for `W` wheels.
+/// [`angular_momentum`] with arrays for `W` wheels.
 #[inline(always)]
 fn with_wheels<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (mass, table, vectors) = (run.mass, run.table, run.vectors());
@@ -142,7 +140,6 @@ fn with_wheels<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mu
     }
 }
 
-/// Linear and angular momentum of the debris.
 #[inline(always)]
 pub(super) fn debris_momenta<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (table, vectors) = (run.table, run.vectors());

@@ -1,9 +1,9 @@
-//! Angular rate, nutation, attitude relative to the nominal run and to the initial one, wheels, and the direction of
-//! the debris.
+//! Angular rate, nutation, attitude relative to the nominal run and to the initial one, wheels, direction of the
+//! debris.
 //!
 //! Angles between vectors are atan2(|a x b|, a . b), exact to rounding everywhere (W. Kahan, *How Futile are Mindless
-//! Assessments of Roundoff*, 2006, section 12). The angle of the rotation between two attitudes is kept as tan^2 of its
-//! half, |v|^2/s^2 of the quaternion conj(q_nominal) q = (s, v).
+//! Assessments of Roundoff*, 2006, section 12). The angle between two attitudes is stored as tan^2 of its half,
+//! |v|^2/s^2 of the quaternion conj(q_nominal) q = (s, v).
 
 use fearless_simd::Simd;
 
@@ -18,7 +18,6 @@ use crate::math::{Lanes, Real};
 use crate::run::StateField;
 use crate::scene::MAX_WHEELS;
 
-/// The series of the motion.
 #[inline(always)]
 pub(super) fn motion<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let observed = run.observed;
@@ -50,8 +49,8 @@ fn rate<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     }
 }
 
-/// The angle of s3, or of another axis, from the angular momentum, squares of the wheels' rates and of their momenta
-/// J_i (Omega_i + a_i . omega).
+/// Angle of s3, or of another axis, from the angular momentum; squares of wheel rates and of momenta J_i (Omega_i + a_i
+/// . omega).
 #[inline(always)]
 fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (mass, table, vectors) = (run.mass, run.table, run.vectors());
@@ -90,7 +89,7 @@ fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     }
 }
 
-/// tan^2 of half the angle from the attitude of the nominal run; NaN where that is not known.
+/// tan^2 of half the angle from the nominal attitude; NaN if unknown.
 #[inline(always)]
 fn from_nominal<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let vectors = run.vectors();
@@ -106,7 +105,7 @@ fn from_nominal<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) 
     }
 }
 
-/// The rotation between the attitude and the first one of the run.
+/// Rotation from the first attitude of the run.
 #[inline(always)]
 fn from_initial<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let attitude: [_; 4] = needed(run.table, StateField::Attitude, run.vectors());
@@ -117,14 +116,14 @@ fn from_initial<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) 
     }
 }
 
-/// tan^2 of half the angle of the rotation from attitude `a` to attitude `b`, quaternions of any length.
+/// tan^2 of half the angle from attitude `a` to attitude `b`, quaternions of any length.
 #[inline(always)]
 fn half_tangent_square<R: Real>(a: [R; 4], b: [R; 4]) -> R {
     let [s, x, y, z] = hamilton(conjugate(a), b);
     dot([x, y, z], [x, y, z]) / (s * s)
 }
 
-/// The angle of s3 from the line to the debris.
+/// Angle of s3 from the line to the debris.
 #[inline(always)]
 fn debris_direction<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (table, vectors) = (run.table, run.vectors());

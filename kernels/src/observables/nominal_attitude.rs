@@ -3,15 +3,15 @@
 use crate::math::lanes::WIDTH;
 use crate::run::{Outcome, StateField, StateTable};
 
-/// The attitude quaternion q_es of the nominal run, eight points at a time; NaN at points that the run did not reach.
+/// Attitude quaternion q_es of the nominal run, eight points at a time; NaN at points not reached.
 #[derive(Clone, Debug)]
 pub struct NominalAttitude([Vec<[f64; WIDTH]>; 4]);
 
 impl NominalAttitude {
-    /// Of the run with the states `table`, which ended as `outcome`.
+    /// The attitude of the run with the states `table` and the outcome `outcome`.
     ///
     /// # Panics
-    /// Where the table does not have the attitude.
+    /// If the table does not have the attitude.
     pub fn of(table: &StateTable, outcome: &Outcome) -> Self {
         NominalAttitude(std::array::from_fn(|component| {
             let mut column = table.column(StateField::Attitude, component).to_vec();
@@ -20,7 +20,6 @@ impl NominalAttitude {
         }))
     }
 
-    /// The first `vectors` vectors of each component.
     #[inline(always)]
     pub(super) fn columns(&self, vectors: usize) -> [&[[f64; WIDTH]]; 4] {
         let [w, x, y, z] = &self.0;

@@ -1,4 +1,4 @@
-//! [`Observer`]: reads the state table of one run and writes its row.
+//! [`Observer`]: writes the row of a run from its state table.
 
 use core::ops::Range;
 
@@ -31,7 +31,7 @@ use crate::math::isa::Work;
 use crate::run::{Grid, Outcome, StateTable, Status, points_to};
 use crate::scene::Scene;
 
-/// Observes runs on one grid; one per worker, reused from run to run without allocating.
+/// Observes runs on one grid; one per worker, without allocation.
 #[derive(Clone, Debug)]
 pub struct Observer {
     request: Request,
@@ -42,7 +42,7 @@ pub struct Observer {
     shown: Vec<Series>,
     times: Vec<f64>,
     weights: Weights,
-    /// Those of the run that was observed last, where its law ended it before the last point.
+    /// Weights of the last run, if its law ended it before the last point.
     ended_weights: Option<Weights>,
     spectrum: Option<Spectrum>,
     series: SeriesTable,
@@ -54,12 +54,12 @@ pub struct Observer {
     nominal: Option<NominalAttitude>,
     windows: Vec<(Window, Range<usize>)>,
     accuracy: Accuracy,
-    /// Number of points of the run that was observed last.
+    /// Number of points of the last run.
     filled: usize,
 }
 
 impl Observer {
-    /// Observes what `request` asks for at the times of `grid`.
+    /// An observer of `request` at the times of `grid`.
     pub fn new(request: Request, grid: &Grid) -> Self {
         let observed = request.observed();
         Observer {
@@ -86,32 +86,28 @@ impl Observer {
         }
     }
 
-    /// The same, with the attitude of the nominal run on the same grid. Without it the angles from that attitude are
-    /// NaN.
+    /// Adds the attitude of the nominal run on the same grid. Angles from it are NaN otherwise.
     #[must_use]
     pub fn with_nominal(self, nominal: Option<NominalAttitude>) -> Self {
         Observer { nominal, ..self }
     }
 
-    /// What is observed.
+    /// The request.
     pub fn request(&self) -> &Request {
         &self.request
     }
 
-    /// Writes the values of [`Request::columns`], in that order, of the run of `scene` by its own schedule whose states
-    /// are in `table`.
+    /// Writes the values of [`Request::columns`] of the run of `scene` by its own schedule with the states `table`.
     ///
-    /// Returns the status of the run: that of `outcome`, or [`Status::Inaccurate`] of a run that reached its end with
-    /// errors beyond any use ([`super::accuracy`]); all of its columns have values.
-    ///
-    /// A run that its law has ended ([`crate::scene::Actuation::ends_run`]) is one of the points up to there.
-    ///
-    /// Of a run that is not [`Status::Done`] only step statistics, mass properties and final state are numbers, the
-    /// last at the last point with finite values; everything else is NaN. Counts are whole numbers.
+    /// Returns the status of `outcome`, or [`Status::Inaccurate`] for a complete run with errors beyond any use
+    /// ([`super::accuracy`]), whose columns all have values. A run ended by its law
+    /// ([`crate::scene::Actuation::ends_run`]) counts up to there. Without [`Status::Done`] only step statistics, mass
+    /// properties and final state (at the last finite point) are numbers, everything else is NaN. Counts are whole
+    /// numbers.
     ///
     /// # Panics
-    /// Where the table lacks a field of [`Request::fields`] or has other points than the grid, the scene has no debris
-    /// although the request says so, or `row` has another length than [`Request::columns`].
+    /// If the table lacks a field of [`Request::fields`] or has other points than the grid, the requested debris is
+    /// missing, or `row` does not have the length of [`Request::columns`].
     pub fn observe(
         &mut self,
         isa: Isa,
@@ -123,10 +119,8 @@ impl Observer {
         self.observe_acting(isa, (Acting::scheduled(scene), &[]), table, outcome, row)
     }
 
-    /// The same of a run under an actuation law, in which `arcs` were flown: the schedule of `scene` did not act. The
-    /// values are those of [`Observer::observe`] of a scene with `arcs` as its schedule, where no environment acts.
-    /// `of_law` is what the law has recorded at the points, series by series ([`super::LawSeries`]); empty where it
-    /// records nothing.
+    /// As [`Observer::observe`], for a run under a law with the arcs `arcs` in place of the schedule of `scene`.
+    /// `of_law` are the records of the law at the points, by series ([`super::LawSeries`]), or empty.
     ///
     /// # Panics
     /// As [`Observer::observe`].
@@ -191,8 +185,8 @@ impl Observer {
         if self.accuracy.holds(row) { Status::Done } else { Status::Inaccurate }
     }
 
-    /// Why the run of `row`, which ended with `status` (what [`Observer::observe`] returned), is not `ok`, in words;
-    /// empty where it is.
+    /// The reason, in words, for which the run of `row` with `status`, as returned by [`Observer::observe`], is not
+    /// `ok`; empty if it is.
     pub fn reason(&self, status: Status, outcome: &Outcome, row: &[f64]) -> String {
         match status {
             Status::Inaccurate => self.accuracy.reason(row),
@@ -200,8 +194,8 @@ impl Observer {
         }
     }
 
-    /// The series of the run that was observed last, in the order of [`Request::series`], each with its values at the
-    /// observation points that the run reached. Relative errors are divided by their scales, as in the row.
+    /// The series of the last run in the order of [`Request::series`], at the points reached. Relative errors are
+    /// divided by their scales, as in the row.
     pub fn series(&self) -> impl Iterator<Item = (Series, impl ExactSizeIterator<Item = f64> + '_)> + '_ {
         self.shown.iter().map(|series| {
             let scale = series.row().scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
@@ -211,20 +205,19 @@ impl Observer {
         })
     }
 
-    /// The number of points that the run reached.
+    /// Number of points reached.
     #[inline(always)]
     pub(super) fn reached(&self) -> usize {
         self.filled
     }
 
-    /// The stored numbers of the series of `band` at the points that the run reached, and what they are divided by.
+    /// Stored numbers of the series of `band` at the points reached, and their divisor.
     #[inline(always)]
     pub(super) fn observed_column(&self, band: &BandSeries) -> (&[f64], f64) {
         let scale = band.scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
         (&self.series.column(band.series)[..self.filled], scale)
     }
 
-    /// Reduces the observed series to statistics.
     #[inline(always)]
     fn reduce<S: Simd>(&mut self, simd: S) {
         let weights = self.ended_weights.as_ref().unwrap_or(&self.weights);
@@ -246,7 +239,7 @@ impl Observer {
         };
         let total = values.get(Slot::of((Series::ComTotal, Reduction::Order(OrderStatistic::Max))));
         let wheels = (0..self.request.wheels.len()).map(|wheel| body(Series::ComWheel.of_wheel(wheel)));
-        // a spectrum is that of the whole grid
+        // a spectrum needs the whole grid
         let spectrum = self.spectrum.as_mut().filter(|_| self.ended_weights.is_none());
         let weights = self.ended_weights.as_ref().unwrap_or(&self.weights);
         self.exchange = exchange(simd, weights, spectrum, total, body(Series::ComBody), wheels);

@@ -1,9 +1,6 @@
-//! Where a spacecraft on an orbit is and how it is turned to the central body: its distance, the angle of s3 from
-//! nadir, the torque of the gravity gradient, the magnetic field and its torque on the residual dipole and the torque
-//! rods.
-//!
-//! Nadir is the direction from the centre of mass to the central body. The torque is that of
-//! [`crate::dynamics::effects::gravity_gradient`] at the states of the table.
+//! Position and pointing on an orbit: distance, angle of s3 from nadir (the direction from the centre of mass to the
+//! central body), torque of the gravity gradient ([`crate::dynamics::effects::gravity_gradient`]), magnetic field and
+//! its torque on residual dipole and torque rods.
 
 use fearless_simd::Simd;
 
@@ -17,7 +14,6 @@ use crate::math::vector::{constant, cross, dot, norm, scaled, transposed_product
 use crate::math::{Lanes, Real};
 use crate::run::StateField;
 
-/// The series of the orbit.
 #[inline(always)]
 pub(super) fn orbit<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (table, vectors) = (run.table, run.vectors());

@@ -1,6 +1,4 @@
-//! Eight points at a time: columns of the state table in, columns of the series out.
-//!
-//! Not here: what is computed from these columns (`energies`, `momenta`, `attitude`).
+//! Columns of the state table and of the series, eight points at a time.
 
 use core::ops::Range;
 
@@ -18,34 +16,33 @@ use crate::run::{StateField, StateTable};
 use crate::scene::mass::{Body, MassProperties};
 use crate::scene::{MAX_WHEELS, Scene};
 
-/// A component of a field as vectors of eight neighbouring points. Columns with one common number of vectors need no
-/// check of bounds inside the loops.
+/// A component of a field as vectors of eight neighbouring points. Columns of one common length need no bounds checks
+/// inside loops.
 pub(super) type Column<'a> = &'a [[f64; WIDTH]];
 
-/// A run as it is measured.
+/// Input of the measurement of a run.
 pub(super) struct MeasuredRun<'a> {
     /// The series to compute.
     pub(super) observed: SeriesSet,
-    /// Their sources.
+    /// The sources of the series.
     pub(super) sources: &'a [SeriesSource],
     /// Mass properties of the spacecraft.
     pub(super) mass: &'a MassProperties,
-    /// The debris, where it is observed.
+    /// The debris, if observed.
     pub(super) debris: Option<&'a Body>,
-    /// The attitude of the nominal run, where it is known.
+    /// Attitude of the nominal run, if known.
     pub(super) nominal: Option<&'a NominalAttitude>,
-    /// The axis of nutation in F_s, where it is not s3.
+    /// Axis of nutation in F_s, if not s3.
     pub(super) nutation_axis: Option<[f64; 3]>,
     /// Gravitational parameter of the central body, m^3/s^2; NaN without an orbit.
     pub(super) mu: f64,
-    /// The magnetic field and what it turns; `None` where nothing is magnetic.
+    /// Magnetic field and dipoles, if any.
     pub(super) magnetism: Option<Magnetism<'a>>,
     /// The scene.
     pub(super) scene: &'a Scene,
     /// The observation times, s.
     pub(super) times: &'a [f64],
-    /// What the control law has recorded, series by series ([`super::law_columns::LawSeries`]) and point by point;
-    /// empty where it records nothing.
+    /// Records of the control law by series ([`super::law_columns::LawSeries`]) and point, or empty.
     pub(super) of_law: &'a [f64],
     /// The states.
     pub(super) table: &'a StateTable,
@@ -53,34 +50,33 @@ pub(super) struct MeasuredRun<'a> {
     pub(super) points: usize,
 }
 
-/// What a magnetic torque is measured by.
 #[derive(Clone, Copy)]
 pub(super) struct Magnetism<'a> {
     /// The field.
     pub(super) field: MagneticField<f64>,
     /// The residual dipole, F_s, A m^2.
     pub(super) dipole: [f64; 3],
-    /// When torque rods have which dipole.
+    /// Source of the torque rods' dipoles.
     pub(super) acting: Acting<'a>,
 }
 
 impl MeasuredRun<'_> {
-    /// Number of vectors of eight points that contain the filled points.
+    /// Number of vectors that contain the filled points.
     #[inline(always)]
     pub(super) fn vectors(&self) -> usize {
         self.points.div_ceil(WIDTH)
     }
 }
 
-/// The values of every series, each with one vector of padding more than a column of the state table (so that the
-/// neighbour of every point can be read).
+/// Values of every series, with one vector of padding more than a column of the state table, so that every point has a
+/// readable neighbour.
 #[derive(Clone, Debug)]
 pub(super) struct SeriesTable {
     columns: [Vec<[f64; WIDTH]>; Series::COUNT],
 }
 
 impl SeriesTable {
-    /// Series of `points` points; all NaN until they are computed.
+    /// Series of `points` points, NaN at first.
     pub(super) fn new(points: usize) -> Self {
         let vectors = points.div_ceil(WIDTH) + 1;
         SeriesTable { columns: std::array::from_fn(|_| vec![[f64::NAN; WIDTH]; vectors]) }
@@ -92,20 +88,20 @@ impl SeriesTable {
         self.columns[series.index()].as_flattened()
     }
 
-    /// The first `vectors` vectors of some series, to write.
+    /// The first `vectors` vectors of some series, for writing.
     #[inline(always)]
     pub(super) fn write<const N: usize>(&mut self, series: [Series; N], vectors: usize) -> [&mut [[f64; WIDTH]]; N] {
         let columns = self.columns.get_disjoint_mut(series.map(Series::index));
         columns.expect("no series is written twice at once").map(|column| &mut column[..vectors])
     }
 
-    /// The columns of blocks of series that have no series in common ([`Series::block`]), to write.
+    /// Columns of disjoint blocks of series ([`Series::block`]), for writing.
     #[inline(always)]
     pub(super) fn blocks<const N: usize>(&mut self, blocks: [Range<usize>; N]) -> [&mut [Vec<[f64; WIDTH]>]; N] {
         self.columns.get_disjoint_mut(blocks).expect("no series is written twice at once")
     }
 
-    /// Repeats point `points - 1` in all that follow it.
+    /// Repeats point `points - 1` in the padding.
     #[inline(always)]
     pub(super) fn pad(&mut self, observed: SeriesSet, points: usize) {
         for (series, column) in Series::all().zip(&mut self.columns) {
@@ -134,8 +130,7 @@ pub(super) fn each<const W: usize>(block: &mut [Vec<[f64; WIDTH]>], vectors: usi
     columns.each_mut().map(|column| &mut column[..vectors])
 }
 
-/// How many wheels a loop over arrays of `W` runs through: `W`, known when the program is compiled, or, of a loop for
-/// any number, as many as there are.
+/// Loop count over wheels: `W`, known at compile time, or the actual number in a loop for any number.
 #[inline(always)]
 pub(super) fn count_of_wheels<const W: usize>(wheels: usize) -> usize {
     if W < MAX_WHEELS { W } else { wheels }
@@ -153,19 +148,17 @@ pub(super) fn four<S: Simd>(simd: S, [w, x, y, z]: [Column<'_>; 4], at: usize) -
     [Lanes::load(simd, &w[at]), x, y, z]
 }
 
-/// A constant vector in all lanes.
 #[inline(always)]
 pub(super) fn constant<S: Simd>(simd: S, a: [f64; 3]) -> [Lanes<S>; 3] {
     [Lanes::broadcast(simd, a[0]), Lanes::broadcast(simd, a[1]), Lanes::broadcast(simd, a[2])]
 }
 
-/// A constant matrix in all lanes, by rows.
 #[inline(always)]
 pub(super) fn constant_matrix<S: Simd>(simd: S, m: [[f64; 3]; 3]) -> [[Lanes<S>; 3]; 3] {
     [constant(simd, m[0]), constant(simd, m[1]), constant(simd, m[2])]
 }
 
-/// Lane 0 in all lanes: the value at point 0, if the vector is the first of its column.
+/// Broadcast of lane 0: the value at point 0 in the first vector of a column.
 #[inline(always)]
 pub(super) fn first<S: Simd>(simd: S, a: Lanes<S>) -> Lanes<S> {
     Lanes::broadcast(simd, a.lane(0))
@@ -176,7 +169,7 @@ pub(super) fn first_vector<S: Simd>(simd: S, a: [Lanes<S>; 3]) -> [Lanes<S>; 3] 
     [first(simd, a[0]), first(simd, a[1]), first(simd, a[2])]
 }
 
-/// The first `vectors` vectors of the columns of a field; `None` where the table does not have it.
+/// The first `vectors` vectors of the columns of a field; `None` if the table does not have it.
 #[inline(always)]
 pub(super) fn columns<const N: usize>(
     table: &StateTable,
@@ -193,7 +186,7 @@ pub(super) fn columns<const N: usize>(
     Some(columns)
 }
 
-/// The columns of a field of each wheel, from component `first` on; empty beyond the wheels that there are.
+/// Columns of a field of each wheel from component `first` on; empty beyond the existing wheels.
 #[inline(always)]
 pub(super) fn of_wheels<const W: usize>(
     table: &StateTable,
@@ -207,7 +200,7 @@ pub(super) fn of_wheels<const W: usize>(
     columns
 }
 
-/// The columns of a field that the table of observables says is needed.
+/// Columns of a field that the table of observables declares as needed.
 #[inline(always)]
 pub(super) fn needed<const N: usize>(table: &StateTable, field: StateField, vectors: usize) -> [Column<'_>; N] {
     columns(table, field, vectors).expect("the state table has the fields that the request needs")
@@ -217,8 +210,7 @@ pub(super) fn needed<const N: usize>(table: &StateTable, field: StateField, vect
 mod tests {
     use super::*;
 
-    /// Law: what follows the last point repeats it, up to the end of the vector after the last; points, and series that
-    /// are not observed, are left as they are.
+    /// Law: the padding repeats the last point; points, and series that are not observed, are unchanged.
     #[test]
     fn the_last_point_is_repeated() {
         for points in [1, 7, 8, 9, 16, 21] {

@@ -1,10 +1,9 @@
-//! Passes over a series: extremes, means, errors, transfers, each in one fixed order of operations.
+//! Passes over a series: extremes, means, errors, transfers, in a fixed order of operations.
 //!
-//! Lane `i` of an accumulator gathers points `i`, `i + 8`, ...; the eight are then joined as a fixed tree, so that the
-//! bits depend on nothing but the values. Means are taken of the departures from the first value: with n points their
-//! rounding error is at most n/8 + 4 roundings of the largest *departure* (not of the value itself), which for any grid
-//! in use is far below one rounding of the value. The same holds for slopes, whose error series starts at zero. Weights
-//! are zero in the padding.
+//! Lane `i` of an accumulator gathers points `i`, `i + 8`, ..., and the eight are joined as a fixed tree: bits depend
+//! on the values alone. Means are of departures from the first value: with n points the rounding error is at most n/8 +
+//! 4 roundings of the largest *departure*, for any practical grid far below one rounding of the value; so for slopes,
+//! whose error series starts at zero. Weights are zero in the padding.
 
 use fearless_simd::Simd;
 
@@ -12,8 +11,8 @@ use super::reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Passes, 
 use super::weights::{Weights, largest, smallest, total, vectors};
 use crate::math::{Lanes, Real};
 
-/// Makes the passes over a series of numbers `stored`, and writes their values to `out` at [`Reduction::index`]: errors
-/// and the fraction over `scale`. `column` has one vector more than the weights, in which the last point is repeated.
+/// Reduces the numbers `stored` of a series and writes the values to `out` at [`Reduction::index`]; errors and fraction
+/// over `scale`. `column` has one vector more than the weights, which repeats the last point.
 #[inline(always)]
 pub(super) fn reduce<S: Simd>(
     simd: S,
@@ -49,7 +48,6 @@ pub(super) fn reduce<S: Simd>(
     }
 }
 
-/// Location and extremes of a series.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Spread {
     initial: f64,
@@ -73,7 +71,7 @@ impl Spread {
     }
 }
 
-/// Extremes and mean; where a value is NaN, all three are.
+/// Extremes and mean; all NaN if a value is.
 #[inline(always)]
 fn spread<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Spread {
     let initial = column[0];
@@ -95,7 +93,6 @@ fn spread<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Spread {
     Spread { initial, last, min: smallest(min), max: largest(max), mean }
 }
 
-/// First value, last value and maximum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Order {
     initial: f64,
@@ -122,7 +119,6 @@ fn order<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Order {
     Order { initial: column[0], last: column[weights.points - 1], max: largest(max) }
 }
 
-/// Magnitude and slope of an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Errors {
     max: f64,
@@ -160,7 +156,6 @@ fn errors<S: Simd>(simd: S, weights: &Weights, values: &[f64]) -> Errors {
     Errors { max, last: values[weights.points - 1], rms, slope: total(slope) }
 }
 
-/// Changes between neighbouring points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Transfer {
     gross: f64,
@@ -185,7 +180,7 @@ fn transfer<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Transfer {
     let (next, column) = (vectors(&column[1..], count), vectors(column, count));
     let inverse_step = &weights.inverse_step[..count];
     for at in 0..count {
-        // the padding repeats the last point, and so adds nothing
+        // the padding repeats the last point, and adds nothing
         let change = (Lanes::load(simd, &next[at]) - Lanes::load(simd, &column[at])).abs();
         gross += change;
         power = (change * Lanes::load(simd, &inverse_step[at])).larger(power);
@@ -201,7 +196,7 @@ mod tests {
     use crate::math::lanes::WIDTH;
     use crate::run::Grid;
 
-    /// A few roundings of sums of up to a hundred terms of size one. Measured: 6.2e-15.
+    /// Some roundings of sums of up to a hundred terms of size one. Measured: 6.2e-15.
     const ROUNDING: f64 = 5e-14;
 
     struct Reduce<'a>(&'a Weights, &'a [f64]);

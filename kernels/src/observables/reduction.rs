@@ -1,11 +1,8 @@
-//! [`Reduction`]: how a series becomes a number.
+//! [`Reduction`]: kinds of numbers from a series.
 //!
-//! The reductions that one pass over a series yields together are one variant of [`Reduction`]. Each pass gives a value
-//! for every statistic of its list by an exhaustive `match`: a reduction that nothing computes does not compile.
-//!
-//! Not here: the passes (`reduce`).
+//! One variant per pass over a series. A pass has a value for every statistic of its list by an exhaustive `match`, so
+//! that an uncomputed statistic does not compile. The passes are in `reduce`.
 
-/// An enum with the list and the number of its variants.
 macro_rules! statistics {
     ($(#[$doc:meta])* $name:ident { $($(#[$of:meta])* $variant:ident,)* }) => {
         $(#[$doc])*
@@ -23,8 +20,7 @@ macro_rules! statistics {
 }
 
 statistics! {
-    /// A statistic that is one of the values: cheap, and the same function of the values may be applied to it
-    /// afterwards.
+    /// A statistic that is one of the values: cheap, and a function of the values may be applied to it afterwards.
     OrderStatistic {
         /// The first value.
         Initial,
@@ -79,7 +75,7 @@ statistics! {
     }
 }
 
-/// How a series becomes a number.
+/// A number from a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reduction {
     /// Initial value, final value and maximum.
@@ -100,10 +96,10 @@ impl Reduction {
     const CHANGE: usize = Self::ERROR + ErrorStatistic::ALL.len();
     const FRACTION: usize = Self::CHANGE + ChangeStatistic::ALL.len();
 
-    /// Number of values that [`reduce`] writes for a series.
+    /// Number of values per series from [`reduce`].
     pub(super) const COUNT: usize = Self::FRACTION + 1;
 
-    /// The index of the value among those that [`reduce`] writes.
+    /// Index of the value in the output of [`reduce`].
     pub(super) const fn index(self) -> usize {
         match self {
             Reduction::Order(statistic) => statistic as usize,
@@ -115,7 +111,7 @@ impl Reduction {
     }
 }
 
-/// A set of order statistics: what is shown of them may need an elementary function each.
+/// A set of order statistics, each of which may need an elementary function.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct OrderStatistics(u8);
 
@@ -124,18 +120,16 @@ impl OrderStatistics {
         OrderStatistics(self.0 | 1 << statistic as u8)
     }
 
-    /// Whether the set contains `statistic`.
     pub(super) const fn has(self, statistic: OrderStatistic) -> bool {
         self.0 & (1 << statistic as u8) != 0
     }
 
-    /// Whether the set contains any statistic.
     pub(super) const fn has_any(self) -> bool {
         self.0 != 0
     }
 }
 
-/// The passes over a series that its reductions need.
+/// Passes over a series required by its reductions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Passes {
     pub(super) order: OrderStatistics,
@@ -145,7 +139,6 @@ pub(super) struct Passes {
 }
 
 impl Passes {
-    /// These passes and the one that `reduction` needs.
     #[must_use]
     pub(super) const fn with(mut self, reduction: Reduction) -> Self {
         match reduction {
@@ -158,17 +151,17 @@ impl Passes {
     }
 }
 
-/// What a series stores of the quantity that is shown: a monotone function that is cheap to compute at every point.
+/// Stored form of a series: a monotone function of the quantity that is cheap at every point.
 ///
-/// Its inverse is applied to the order statistics and to the time series. Means, changes and errors of such a series
-/// would be those of the stored numbers: the table has none.
+/// Its inverse is applied to order statistics and time series. Means, changes and errors would be those of the stored
+/// numbers: the table has none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stored {
     /// The quantity itself.
     Quantity,
     /// Its square.
     Square,
-    /// The square of the tangent of half the angle that is shown.
+    /// Square of the tangent of half the angle.
     HalfTangentSquare,
 }
 

@@ -1,5 +1,4 @@
-//! [`Request`]: what a campaign observes of scenes of one kind: which columns, which series, which state fields and
-//! why.
+//! [`Request`]: observed columns, series and state fields for one kind of scene, with the reasons for the fields.
 
 use core::ops::Range;
 
@@ -15,43 +14,43 @@ use crate::math::symmetric::principal_axes;
 use crate::run::{StateField, StateFields};
 use crate::scene::{Actuated, MAX_WHEELS, Name};
 
-/// What is observed, and of what kind of scene.
+/// Observed groups and kind of scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {
-    /// The groups to observe.
+    /// The requested groups.
     pub groups: Groups,
-    /// Whether there is a debris body.
+    /// True with a debris body.
     pub debris: bool,
-    /// What acts at some time of a run.
+    /// Actuators in use at some time of a run.
     pub actuated: Actuated,
-    /// The effects that act on its runs.
+    /// Effects on the runs.
     pub effects: ForceModel,
-    /// Whether the method integrates constraints (and the DCM itself): the null-space method.
+    /// True if the method integrates constraints and the DCM: the null-space method.
     pub constrained: bool,
-    /// The names of the wheels that turn.
+    /// Names of the turning wheels.
     pub wheels: List<Name, MAX_WHEELS>,
-    /// Whose angle from the angular momentum nutation is.
+    /// Axis of nutation.
     pub nutation_axis: NutationAxis,
-    /// What the control law reports at the end of a run, in the columns before the last.
+    /// Reports of the control law, in the columns before the last.
     pub of_law: LawColumns,
     /// Extremes over intervals of time, in the last columns.
     pub windows: Windows,
 }
 
-/// The axis whose angle from the angular momentum of the spacecraft is called nutation.
+/// The axis whose angle from the spacecraft's angular momentum is called nutation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum NutationAxis {
     /// s3.
     #[default]
     SpinAxis,
-    /// The principal axis of the spacecraft (its wheels locked) that is nearest to s3, of each run its own.
+    /// The principal axis nearest to s3 (wheels locked), in each run its own.
     Principal,
     /// A unit vector in F_s.
     Along([f64; 3]),
 }
 
 impl NutationAxis {
-    /// The axis in F_s of a spacecraft with the inertia `inertia`; `None` where it is s3.
+    /// The axis in F_s of a spacecraft with the inertia `inertia`; `None` for s3.
     pub fn of(self, inertia: [[f64; 3]; 3]) -> Option<[f64; 3]> {
         match self {
             NutationAxis::SpinAxis => None,
@@ -61,7 +60,7 @@ impl NutationAxis {
     }
 }
 
-/// The principal axis of `inertia` that is nearest to s3, in its direction.
+/// The principal axis of `inertia` nearest to s3, in its direction.
 pub fn nearest_principal_axis(inertia: [[f64; 3]; 3]) -> [f64; 3] {
     let (_, columns) = principal_axes(inertia);
     let axis = |k: usize| columns.map(|row| row[k]);
@@ -70,13 +69,13 @@ pub fn nearest_principal_axis(inertia: [[f64; 3]; 3]) -> [f64; 3] {
     if found[2] < 0.0 { found.map(|x| -x) } else { found }
 }
 
-/// The names of wheels.
+/// Names of wheels.
 pub type WheelNames = List<Name, MAX_WHEELS>;
 
-/// A list of the names of wheels.
+/// The list of wheel names.
 ///
 /// # Panics
-/// Where one is no name, or there are more than a spacecraft may have.
+/// If a name is invalid, or there are more than [`MAX_WHEELS`].
 pub fn wheel_names(names: &[&str]) -> WheelNames {
     let mut list = List::empty(Name::NONE);
     names.iter().for_each(|name| list.push(Name::of(name)));
@@ -92,29 +91,26 @@ impl SeriesSet {
         SeriesSet(self.0 | 1 << series.index())
     }
 
-    /// Whether the set contains `series`.
     pub(super) const fn has(self, series: Series) -> bool {
         self.0 & (1 << series.index()) != 0
     }
 
-    /// Whether the set contains any series of `source`.
     pub(super) fn has_any_of(self, source: SeriesSource) -> bool {
         Series::all().any(|series| self.has(series) && series.row().source == source)
     }
 }
 
-/// The passes over one series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SeriesTask {
     pub(super) series: Series,
     pub(super) passes: Passes,
     pub(super) stored: Stored,
-    /// What its errors or its fraction are relative to: a statistic of a task before this one.
+    /// Scale of its errors or fraction: a statistic of an earlier task.
     pub(super) scale: Option<(Series, Reduction)>,
 }
 
 impl Request {
-    /// The columns of a row, in order: those of the groups that apply to such a scene.
+    /// The columns of a row, in order: those of the requested groups that apply to the kind of scene.
     pub fn columns(&self) -> Vec<Column> {
         let shown = |(column, wheel): (&Column, Option<usize>)| match wheel {
             Some(index) => column.of_wheel(index, self.wheels[index]),
@@ -124,25 +120,25 @@ impl Request {
         self.rows().into_iter().map(shown).chain(self.of_law.columns()).chain(windows).collect()
     }
 
-    /// Where a row has what the control law reports.
+    /// Positions of the control law's reports in a row.
     pub fn places_of_law(&self) -> Range<usize> {
         let start = self.rows().len();
         start..start + self.of_law.list.len() - self.of_law.of_events
     }
 
-    /// Where a row has when events and failures happened.
+    /// Positions of the times of events and failures in a row.
     pub fn places_of_events(&self) -> Range<usize> {
         let start = self.places_of_law().end;
         start..start + self.of_law.of_events
     }
 
-    /// The place of a column in a row; `None` where the row does not have it.
+    /// Position of a column in a row, if present.
     pub fn position(&self, id: ColumnId) -> Option<usize> {
         self.ids().position(|other| other == id)
     }
 
-    /// The rows of the table that [`Request::columns`] shows, each with its wheel: without the names, which take most
-    /// of the time.
+    /// Rows of the table behind [`Request::columns`], each with its wheel, without the names, which take most of the
+    /// time.
     fn rows(&self) -> Vec<(&'static Column, Option<usize>)> {
         let is_asked = |column: &&Column| self.groups.contains(column.group) && self.includes(column.scenes);
         let mut rows = Vec::new();
@@ -159,7 +155,6 @@ impl Request {
         rows
     }
 
-    /// The handles of the columns of a row, in order.
     pub(super) fn ids(&self) -> impl Iterator<Item = ColumnId> {
         let rows = self.rows().into_iter().map(|(column, wheel)| match wheel {
             Some(index) => ColumnId { value: column.value.of_wheel(index), ..column.id() },
@@ -168,18 +163,18 @@ impl Request {
         rows.chain(self.of_law.ids()).chain(self.windows.iter().enumerate().map(|(index, window)| window.id(index)))
     }
 
-    /// The columns of a time series, in order: the series behind [`Request::columns`] that have one.
+    /// Columns of a time series, in order: the series behind [`Request::columns`] that have one.
     pub fn series(&self) -> Vec<Series> {
         let observed = self.observed();
         Series::all().filter(|series| observed.has(*series) && series.quantity(&self.wheels).is_some()).collect()
     }
 
-    /// The fields of the state table that the columns need; no other is read.
+    /// Fields of the state table needed by the columns; no other is read.
     pub fn fields(&self) -> StateFields {
         self.needs().into_iter().fold(StateFields::NONE, |fields, (_, field, _)| fields.with(field))
     }
 
-    /// For each needed field, in the order of the table, which groups need it and for what.
+    /// The reasons for each needed field, in the order of the table: groups and purposes.
     pub fn reasons(&self) -> Vec<(StateField, String)> {
         let needs = self.needs();
         let reason = |field: StateField| {
@@ -193,14 +188,13 @@ impl Request {
         StateField::ALL.into_iter().filter_map(reason).collect()
     }
 
-    /// The series that the columns are made of, with those that set their scales, and those that the control law
-    /// records.
+    /// Series behind the columns, their scales, and records of the control law.
     pub(super) fn observed(&self) -> SeriesSet {
         let of_columns = self.inputs().map(|(series, _)| series);
         of_columns.chain(self.of_law.over_time.series()).fold(SeriesSet::default(), SeriesSet::with)
     }
 
-    /// What is computed of each observed series: those that are scales of others first.
+    /// Passes over each observed series; scales of other series first.
     pub(super) fn tasks(&self) -> Vec<SeriesTask> {
         let (observed, values) = (self.observed(), self.ids().map(|id| id.value).collect::<Vec<_>>());
         let passes = |series: Series| {
@@ -220,7 +214,7 @@ impl Request {
         tasks
     }
 
-    /// Every statistic that the columns are made of, some several times.
+    /// Every statistic behind the columns, with repetitions.
     fn inputs(&self) -> impl Iterator<Item = (Series, Reduction)> {
         self.ids().flat_map(|id| id.value.inputs().collect::<Vec<_>>())
     }
@@ -249,7 +243,7 @@ impl Request {
         }
     }
 
-    /// Every (group, field, purpose), each once, in the order of the columns.
+    /// Every (group, field, purpose) once, in the order of the columns.
     fn needs(&self) -> Vec<(Group, StateField, &'static str)> {
         let mut needs = Vec::new();
         for ColumnId { group, value } in self.ids() {
@@ -388,8 +382,8 @@ mod tests {
         assert!(request.columns().iter().all(|column| column.quantity.name() != "work_motors_final_j"), "no wheel");
     }
 
-    /// Law: a linear momentum has an error where a velocity is integrated: of the spacecraft under thrust or with
-    /// constraints, of the debris with constraints. Elsewhere it would be zero in every row.
+    /// Law: a linear momentum has an error if a velocity is integrated: for the spacecraft under thrust or with
+    /// constraints, for the debris with constraints. Otherwise it would be zero in every row.
     #[test]
     fn linear_momentum_has_an_error_where_a_velocity_is_integrated() {
         let none = Actuated::NONE;
@@ -421,8 +415,7 @@ mod tests {
         }
     }
 
-    /// Law: constraints between bodies have residuals where there are several bodies; that of the attitude is always
-    /// there.
+    /// Law: constraints between bodies have residuals if there are several bodies; the attitude always does.
     #[test]
     fn residuals_are_of_bodies_that_are_joined() {
         let names = |debris: bool, wheels: &[&str]| -> Vec<String> {
@@ -439,8 +432,7 @@ mod tests {
         }
     }
 
-    /// Law: work and impulse are of what acts: no column, and no field, of a kind of actuation that a scene does not
-    /// have.
+    /// Law: no column and no field belongs to actuation that the scene does not have.
     #[test]
     fn work_is_that_of_what_acts() {
         let none = Actuated::NONE;

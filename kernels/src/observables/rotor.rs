@@ -1,13 +1,12 @@
-//! [`Body`]: the constants of a run's rotation, as [`super::conditioning`] needs them.
+//! [`Body`]: constants of a run's rotation for [`super::conditioning`].
 
 use super::acting::Acting;
 use crate::math::vector::{cross, difference, dot, product, scaled, sum};
 use crate::run::{StateField, StateTable};
 use crate::scene::mass::MassProperties;
 
-/// The constants of a run.
 pub(super) struct Body<'a> {
-    /// The spacecraft, where it is one.
+    /// The spacecraft; `None` for the debris.
     pub(super) mass: Option<&'a MassProperties>,
     /// The field of its angular velocity.
     pub(super) rates: StateField,
@@ -18,9 +17,9 @@ pub(super) struct Body<'a> {
     /// Upper bounds of |A| and of the distance of A from a multiple of one, 1/(kg m^2).
     pub(super) stiffness: f64,
     pub(super) spread: f64,
-    /// Whether K is diagonal.
+    /// True if K is diagonal.
     pub(super) is_principal: bool,
-    /// The wheels' momentum H - K omega where it is constant: where nothing acts.
+    /// The wheels' momentum H - K omega if constant: without actuation.
     pub(super) offset: Option<[f64; 3]>,
     /// sum |J_i Omega_i| at the first point, N m s.
     pub(super) wheels: f64,
@@ -45,7 +44,7 @@ impl<'a> Body<'a> {
         Body { mass: Some(mass), rates: StateField::Rate, wheels, ..Body::alone(inertia, offset) }
     }
 
-    /// A body without wheels, on which no torque acts: the debris, whose inertia this is.
+    /// The debris: no wheels, no torque.
     pub(super) fn debris(inertia: [[f64; 3]; 3]) -> Self {
         Body::alone(inertia, Some([0.0; 3]))
     }
@@ -62,8 +61,7 @@ impl<'a> Body<'a> {
             row[i] -= mean;
             square += dot(row, row);
         }
-        // the largest eigenvalue of a symmetric matrix without a trace, whose squares have this sum: (2, -1,
-        // -1)/sqrt(6)
+        // the largest eigenvalue of a traceless symmetric matrix with this sum of squares: (2, -1, -1)/sqrt(6)
         let spread = (2.0 / 3.0 * square).sqrt();
         Body {
             mass: None,
@@ -89,11 +87,10 @@ pub(super) fn adjugate(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
 mod tests {
     use super::*;
 
-    /// A few roundings of entries of size one; none is measured.
+    /// Some roundings of entries of size one.
     const ROUNDING: f64 = 1e-15;
 
-    /// Law: the inverse of a body's inertia times the inertia is one; a body is principal where no product of inertia
-    /// is left.
+    /// Law: the inverse times the inertia is one; a body without products of inertia is principal.
     #[test]
     fn the_inverse_inertia_is_the_inverse() {
         let inertia = [[3.0, 0.25, -0.5], [0.25, 2.0, 0.125], [-0.5, 0.125, 1.5]];

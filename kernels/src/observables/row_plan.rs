@@ -1,16 +1,15 @@
-//! [`RowPlan`]: the columns of a request as flat lists of indices, and the statistics that they are filled from.
-//!
-//! The table of observables is resolved once per worker; a row is then filled without a look at the table.
+//! [`RowPlan`]: the columns of a request as flat index lists, resolved once per worker, so that rows are filled without
+//! the table.
 
 use super::reduction::Reduction;
 use super::request::Request;
 use super::table::{DirectValue, Series, Value};
 
-/// The statistics of every series.
+/// Statistics of every series.
 #[derive(Clone, Debug)]
 pub(super) struct Statistics(Box<[[f64; Reduction::COUNT]; Series::COUNT]>);
 
-/// The index of a statistic among those of all series.
+/// Index of a statistic in [`Statistics`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Slot(u16);
 
@@ -21,7 +20,7 @@ impl Slot {
 }
 
 impl Statistics {
-    /// All NaN until they are computed.
+    /// All NaN.
     pub(super) fn unknown() -> Self {
         Statistics(Box::new([[f64::NAN; Reduction::COUNT]; Series::COUNT]))
     }
@@ -31,28 +30,27 @@ impl Statistics {
         self.0.as_flattened()[usize::from(slot.0)]
     }
 
-    /// The value of a scale, or one where it is zero: errors are absolute there.
+    /// A scale, or one if it is zero: errors are absolute there.
     #[inline(always)]
     pub(super) fn scale(&self, slot: Slot) -> f64 {
         let scale = self.get(slot);
         if scale == 0.0 { 1.0 } else { scale }
     }
 
-    /// The statistics of `series`, at [`Reduction::index`].
     #[inline(always)]
     pub(super) fn of(&mut self, series: Series) -> &mut [f64; Reduction::COUNT] {
         &mut self.0[series.index()]
     }
 }
 
-/// Where the values of a row come from.
+/// Sources of the values of a row.
 #[derive(Clone, Debug)]
 pub(super) struct RowPlan {
-    /// The statistic of each column; any for a column that shows a direct value or a window.
+    /// Statistic of each column; arbitrary for a direct value or a window.
     slots: Vec<Slot>,
-    /// The columns that show a direct value.
+    /// Columns of direct values.
     direct_values: Vec<(usize, DirectValue, u8)>,
-    /// For each column whether a run that failed has it too.
+    /// For each column, true if a failed run has it.
     known_after_failure: Vec<bool>,
 }
 
@@ -75,12 +73,11 @@ impl RowPlan {
         plan
     }
 
-    /// Number of columns.
     pub(super) fn columns(&self) -> usize {
         self.slots.len()
     }
 
-    /// Fills `row` from `statistics` and from what `direct` answers.
+    /// Fills `row` from `statistics` and `direct`.
     #[inline(always)]
     pub(super) fn fill(&self, statistics: &Statistics, direct: impl Fn(DirectValue, u8) -> f64, row: &mut [f64]) {
         for (value, slot) in row.iter_mut().zip(&self.slots) {
@@ -91,7 +88,7 @@ impl RowPlan {
         }
     }
 
-    /// Makes NaN of every value that a run that failed does not have.
+    /// Sets the values that a failed run does not have to NaN.
     pub(super) fn clear_unknown(&self, row: &mut [f64]) {
         for (value, known) in row.iter_mut().zip(&self.known_after_failure) {
             *value = if *known { *value } else { f64::NAN };
@@ -107,7 +104,7 @@ mod tests {
     use crate::observables::request::wheel_names;
     use crate::scene::Actuated;
 
-    /// Law: every column of every request shows the statistic of the table or its direct value.
+    /// Law: every column of every request has its statistic or direct value.
     #[test]
     fn a_row_shows_what_the_table_says() {
         let mut statistics = Statistics::unknown();

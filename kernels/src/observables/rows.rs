@@ -1,19 +1,16 @@
-//! What the rows of the table of observables consist of: types without rows, and the macros that rows are written with.
-//!
-//! Not here: the rows ([`super::table`]).
+//! Types and macros of the table of observables; the rows are in [`super::table`].
 
 use crate::run::StateField;
 
 /// The kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColumnKind {
-    /// A real number; NaN where the run failed before it was known.
+    /// A real number; NaN if the run failed before.
     Float,
-    /// A count, an integer of at most 2^53.
+    /// A count, at most 2^53.
     Count,
 }
 
-/// A kind of scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scenes {
     /// Every scene.
@@ -36,8 +33,7 @@ pub(super) enum Scenes {
     ConstrainedBodies,
     /// With a debris body, integrated with constraints.
     ConstrainedDebris,
-    /// With thrusters in the schedule, or integrated with constraints: elsewhere the velocity of c is constant, not
-    /// integrated.
+    /// With thrusters in the schedule, or integrated with constraints: otherwise the velocity of c is constant.
     IntegratedVelocity,
     /// Integrated without constraints.
     Unconstrained,
@@ -57,7 +53,7 @@ pub(super) enum Scenes {
     SolarPressure,
 }
 
-/// A field of the state table that a value is computed from, for which scenes, and why.
+/// A field of the state table behind a value: kind of scene and purpose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Need {
     pub(super) field: StateField,
@@ -65,7 +61,7 @@ pub(super) struct Need {
     pub(super) why: &'static str,
 }
 
-/// Which computation makes a series.
+/// Computation of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
 pub(super) enum SeriesSource {
@@ -87,12 +83,12 @@ pub(super) enum SeriesSource {
     Orbit,
     /// [`super::surroundings`].
     Surroundings,
-    /// What the control law has recorded at the points ([`super::law_columns::LawSeries`]).
+    /// Records of the control law at the points ([`super::law_columns::LawSeries`]).
     Law,
 }
 
 impl SeriesSource {
-    /// Every source, in the order of the computation.
+    /// Every source, in order of computation.
     pub(super) const ALL: [SeriesSource; 10] = [
         SeriesSource::Energies,
         SeriesSource::LinearMomentum,
@@ -111,17 +107,14 @@ pub(super) const fn need(field: StateField, scenes: Scenes, why: &'static str) -
     Need { field, scenes, why }
 }
 
-/// The table of series: `name [how many]: source, what is stored, scale, needs, column of a time series, meaning`. A
-/// series of each wheel has as many places as a spacecraft may have wheels; its name and meaning have `{wheel}` where
-/// that of the wheel belongs.
+/// The table of series: `name [places]: source, stored form, scale, needs, column of a time series, meaning`. A series
+/// of wheels has a place per possible wheel, and `{wheel}` in its name and meaning.
 macro_rules! series {
     ($($name:ident [$count:expr]: $source:ident, $stored:ident, $scale:expr, [$($need:ident),*], $shown:expr,
     $meaning:literal;)*) => {
-        /// The rows of the table of series.
         #[derive(Clone, Copy)]
         enum SeriesKind { $($name,)* }
 
-        /// How many places each row has.
         const PLACES: &[usize] = &[$($count),*];
 
         #[expect(non_upper_case_globals, reason = "names of series, as those of variants")]
@@ -129,7 +122,6 @@ macro_rules! series {
             $(#[doc = $meaning] pub const $name: Series = Series::first(SeriesKind::$name as usize);)*
         }
 
-        /// The rows, by kind of series.
         static SERIES: [SeriesRow; PLACES.len()] = [
             $(SeriesRow {
                 source: SeriesSource::$source,
@@ -145,24 +137,22 @@ macro_rules! series {
     };
 }
 
-/// The table of direct values: `name: needs, inputs, whether a failed run has it, meaning`.
+/// The table of direct values: `name: needs, inputs, known after a failure, meaning`.
 macro_rules! direct_values {
     ($($name:ident: $needs:expr, $inputs:expr, $after_failure:ident, $meaning:literal;)*) => {
-        /// A number that is not made of a single series.
+        /// A number that is not reduced from a single series.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(usize)]
         pub enum DirectValue {
             $(#[doc = $meaning] $name,)*
         }
 
-        /// The rows, by direct value.
         pub(super) static DIRECT_VALUES: &[DirectRow] = &[
             $(DirectRow { needs: $needs, inputs: $inputs, after_failure: $after_failure }),*
         ];
     };
 }
 
-/// One column.
 macro_rules! column {
     ($group:ident, $scenes:ident, $kind:ident, $value:expr, [$($name:expr),*], $unit:expr, [$($meaning:expr),*]) => {
         Column {
@@ -176,7 +166,6 @@ macro_rules! column {
     };
 }
 
-/// One column of a series.
 macro_rules! of {
     ($group:ident, $scenes:ident, $series:ident, $reduction:ident, [$($name:expr),*], $unit:expr,
     [$($meaning:expr),*]) => {
@@ -190,7 +179,6 @@ macro_rules! of {
     };
 }
 
-/// One column that shows a direct value.
 macro_rules! direct {
     ($group:ident, $scenes:ident, $kind:ident, $value:ident, $name:literal, $unit:literal, $meaning:literal) => {
         column!($group, $scenes, $kind, Value::Direct(DirectValue::$value, 0), [$name], $unit, [$meaning])

@@ -1,13 +1,13 @@
-//! [`Spectrum`]: the dominant frequency of an evenly sampled series.
+//! [`Spectrum`]: dominant frequency of an evenly sampled series.
 //!
-//! Periodogram of the series minus its least-squares line, with Hann's window (Harris 1978) and padded with zeros to a
-//! power of two; the largest ordinate at one cycle per horizon or more, refined by the parabola through the logarithms
-//! of it and its neighbours (Gasior & Gonzalez 2004). Cost n log n with an own radix-2 transform of constant geometry
-//! (Pease, J. ACM 15, 1968: every stage reads two halves and writes them interleaved, so that all stages are vectors).
-//! The crates that were examined choose their algorithm by the machine, so that their bits differ.
+//! Periodogram of the series minus its least-squares line, with Hann's window (Harris 1978), zero-padded to a power of
+//! two; the largest ordinate at one cycle per horizon or more, refined by a parabola through the logarithms of it and
+//! its neighbours (Gasior & Gonzalez 2004). Own radix-2 transform of constant geometry (Pease, J. ACM 15, 1968: every
+//! stage reads two halves and writes them interleaved, so that all stages are vectors), since FFT crates choose their
+//! algorithm by the machine, and their bits differ.
 //!
-//! The frequency of a tone is found within 0.05 of 1/duration (a test measures it) between one cycle per duration and
-//! half a cycle per interval; slower changes are reported as about one cycle per duration.
+//! A tone between one cycle per duration and half a cycle per interval is found within 0.05/duration (measured below);
+//! slower changes appear as about one cycle per duration.
 
 use fearless_simd::Simd;
 
@@ -15,28 +15,26 @@ use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 use crate::run::Grid;
 
-/// Minimum number of points.
 const FEWEST: usize = 8;
 
-/// Maximum deviation of a time from an even grid, in steps: only rounding of the times is allowed.
+/// Maximum unevenness of the grid in steps: rounding of the times only.
 const UNEVENNESS: f64 = 1e-6;
 
-/// The transform of one length and its scratch.
+/// The transform of one length, with scratch.
 #[derive(Clone, Debug)]
 pub(super) struct Spectrum {
     points: usize,
-    /// Distance of two points, s.
+    /// Sampling interval, s.
     step: f64,
-    /// Hann's window at every point, zero in the padding.
+    /// Hann's window, zero in the padding.
     window: Vec<f64>,
     /// Times minus their mean, s, with padding.
     centered_times: Vec<f64>,
     /// Number of complex values: half the padded length.
     size: usize,
-    /// The place of coefficient k after the last stage.
+    /// Position of coefficient k after the last stage.
     order: Vec<u32>,
-    /// exp(-2 pi i e / size), stage by stage; e is j with as many of its last bits cleared as there are earlier stages;
-    /// j < size / 2.
+    /// exp(-2 pi i e / size) by stage; e is j with its last bits cleared, one per earlier stage; j < size / 2.
     stages: [Vec<f64>; 2],
     /// exp(-2 pi i k / (2 size)), k < size.
     turns: [Vec<f64>; 2],
@@ -46,7 +44,7 @@ pub(super) struct Spectrum {
 }
 
 impl Spectrum {
-    /// For the series on `grid`; `None` where it is too short or not even.
+    /// A transform for series on `grid`; `None` if it is too short or uneven.
     pub(super) fn of(grid: &Grid) -> Option<Self> {
         let times = grid.times();
         let points = times.len();
@@ -94,8 +92,8 @@ impl Spectrum {
         })
     }
 
-    /// The dominant frequency, Hz, of `column` minus the line `mean + slope * (time - mean time)`; the column is padded
-    /// to a multiple of sixteen.
+    /// Dominant frequency, Hz, of `column` minus the line `mean + slope * (time - mean time)`; the column is padded to
+    /// a multiple of sixteen.
     #[inline(always)]
     pub(super) fn peak<S: Simd>(&mut self, simd: S, column: &[f64], mean: f64, slope: f64) -> f64 {
         self.fill(simd, column, mean, slope);
@@ -127,7 +125,7 @@ impl Spectrum {
         im[filled..].fill(0.0);
     }
 
-    /// The complex transform; coefficient k ends at `order[k]` of the first parts.
+    /// Complex transform; coefficient k ends at `order[k]` of the first parts.
     #[inline(always)]
     fn transform<S: Simd>(&mut self, simd: S) {
         let half = self.size / 2;
@@ -183,7 +181,7 @@ impl Spectrum {
         }
     }
 
-    /// The frequency of the largest ordinate, Hz; NaN where it is at an end of the spectrum, and so no peak.
+    /// Frequency of the largest ordinate, Hz; NaN at an end of the spectrum, where it is no peak.
     #[inline(always)]
     fn highest(&self) -> f64 {
         let bin = 1.0 / (2.0 * self.size as f64 * self.step);
@@ -221,9 +219,8 @@ mod tests {
     use crate::math::Isa;
     use crate::math::isa::Work;
 
-    /// Largest error of a pure tone's frequency in units of 1/horizon: the parabola's own bias under Hann's window,
-    /// measured as 0.03 over the tones of the test (from two cycles per horizon on), with margin for interference of
-    /// the mirror image.
+    /// Largest error of a pure tone's frequency in units of 1/horizon: the parabola's bias under Hann's window,
+    /// measured as 0.03 from two cycles per horizon on, with margin for interference of the mirror image.
     const BIN_ERROR: f64 = 0.05;
 
     struct Peak<'a>(&'a mut Spectrum, &'a [f64], f64, f64);
@@ -235,7 +232,7 @@ mod tests {
         }
     }
 
-    /// A column as the table of series has it: padded, here with numbers that must not matter.
+    /// A column with padding, here of arbitrary numbers.
     fn padded(mut values: Vec<f64>) -> Vec<f64> {
         values.resize(values.len().next_multiple_of(2 * WIDTH), 1e3);
         values
@@ -262,7 +259,7 @@ mod tests {
                     x += spectrum.window[j] * value * libm::cos(angle);
                     y += spectrum.window[j] * value * libm::sin(angle);
                 }
-                // a few roundings of a sum of two hundred terms of size one, squared; measured: 1.4e-12
+                // some roundings of a sum of two hundred terms of size one, squared; measured: 1.4e-12
                 assert!((spectrum.power[k] - (x * x + y * y)).abs() <= 1e-11, "{points} {k}");
             }
         }
@@ -286,7 +283,7 @@ mod tests {
         assert!(worst > 2e-3, "the bound is meant to be near what is measured");
     }
 
-    /// Law: ordinates that only fall, or only rise, have no peak.
+    /// Law: monotone ordinates have no peak.
     #[test]
     fn an_end_of_the_spectrum_is_no_peak() {
         let mut spectrum = Spectrum::of(&Grid::uniform(1.0, 65)).expect("an even grid");

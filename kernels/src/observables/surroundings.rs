@@ -1,5 +1,4 @@
-//! What air and light do to a spacecraft at the states of the table: the density of the air, the hidden share of the
-//! Sun, and their torques.
+//! Air and light on a spacecraft: density, hidden share of the Sun, torques.
 
 use fearless_simd::Simd;
 
@@ -15,7 +14,6 @@ use crate::math::lanes::WIDTH;
 use crate::math::vector::{dot, norm, transposed_product};
 use crate::run::StateField;
 
-/// The series of air and light that are observed.
 #[inline(always)]
 pub(super) fn surroundings<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let has = |series: [Series; 2]| series.into_iter().any(|series| run.observed.has(series));
@@ -30,7 +28,6 @@ pub(super) fn surroundings<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Se
     }
 }
 
-/// Density and drag.
 #[inline(always)]
 fn air<S: Simd>(simd: S, run: &MeasuredRun<'_>, drag: &Drag<Lanes<S>>, out: &mut SeriesTable) {
     let (table, vectors) = (run.table, run.vectors());
@@ -49,7 +46,6 @@ fn air<S: Simd>(simd: S, run: &MeasuredRun<'_>, drag: &Drag<Lanes<S>>, out: &mut
     }
 }
 
-/// The Sun and its pressure.
 #[inline(always)]
 fn sunlight<S: Simd>(
     simd: S,
@@ -63,7 +59,7 @@ fn sunlight<S: Simd>(
     let one = Lanes::broadcast(simd, 1.0);
     let [hidden, torques] = out.write([Series::SunHidden, Series::SolarTorqueSquare], vectors);
     for at in 0..vectors {
-        // the last time again beyond the last point
+        // the last time is repeated beyond the last point
         let times: [f64; WIDTH] = core::array::from_fn(|lane| run.times[(WIDTH * at + lane).min(run.points - 1)]);
         let (sun, lit) = light.at(Lanes::load(simd, &times), three(simd, positions, at));
         let direction = transposed_product(attitude.c_es(simd, at), sun.direction);

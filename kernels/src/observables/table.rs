@@ -1,18 +1,14 @@
-//! The one table of observables: every series, every direct value and every column of a row.
+//! The one table of observables: every series, direct value and column of a row.
 //!
-//! A row of [`Series`] says where a series comes from, what of the state table it needs, and how a time series shows
-//! it. A row of the columns says group, kinds of scene, value, name, unit and meaning. Names, order, documentation and
-//! the Parquet schema follow from here. To add an observable, add its rows, and compute its series in the file of its
-//! `SeriesSource`.
+//! A row of [`Series`] has the source of a series, its needs of the state table, and its column in a time series. A row
+//! of the columns has group, kinds of scene, value, name, unit and meaning. Names, order, documentation and the Parquet
+//! schema follow. A new observable needs its rows here, and its series in the file of its `SeriesSource`. Handles
+//! ([`ColumnId`], [`Series`]) are in this file since rows and handles refer to each other.
 //!
-//! The file is longer than others because the table is: some 200 lines of it are rows. The handles ([`ColumnId`],
-//! [`Series`]) stay with it, since where a handle points follows from the rows, and the rows are made of handles.
-//!
-//! An error column belongs to a signed series e(t) (energy) or to the norm e(t) of an error vector (momenta), measured
-//! from observation point 0. Errors are relative to the largest sum on the grid of the magnitudes of the terms that
-//! they are the balance of: energies of the bodies and work, momenta of body and wheels and impulse. The sum does not
-//! vanish where the terms cancel, at rest or where wheels turn against each other. Where it is exactly zero nothing
-//! moves, and the error is zero.
+//! An error column belongs to a signed series e(t) (energy) or the norm e(t) of an error vector (momenta), measured
+//! from observation point 0. Errors are relative to the largest sum on the grid of the magnitudes of the balance's
+//! terms: energies of the bodies and work, momenta of body and wheels and impulse. The sum does not vanish if the terms
+//! cancel, at rest or with counter-rotating wheels; if it is exactly zero nothing moves, and the error is zero.
 
 use core::ops::Range;
 
@@ -27,20 +23,19 @@ use crate::scene::{MAX_WHEELS, Name};
 pub struct Column {
     /// Name, unit and meaning.
     pub quantity: Quantity,
-    /// The group that it belongs to.
+    /// Its group.
     pub group: Group,
-    /// Whether the value is a number or a count.
+    /// Number or count.
     pub kind: ColumnKind,
-    /// Which scenes have it.
+    /// The kinds of scene that have it.
     pub(super) scenes: Scenes,
-    /// What it shows.
     pub(super) value: Value,
-    /// Which wheel it is of, in the columns of a request.
+    /// Its wheel, in the columns of a request.
     pub(super) wheel: Option<u8>,
 }
 
 impl Column {
-    /// The scenes that have the column, in words; empty where all have it.
+    /// The kinds of scene that have the column, in words; empty for all.
     pub const fn scenes(&self) -> &'static str {
         match self.scenes {
             Scenes::All => "",
@@ -65,12 +60,12 @@ impl Column {
         }
     }
 
-    /// Whether there is one such column for each wheel that turns.
+    /// True if there is one such column per turning wheel.
     pub fn is_of_wheel(&self) -> bool {
         self.quantity.name().contains(WHEEL)
     }
 
-    /// The column of wheel `index`, called `name`.
+    /// The column of wheel `index` with the name `name`.
     pub(super) fn of_wheel(&self, index: usize, name: Name) -> Column {
         let value = self.value.of_wheel(index);
         Column { quantity: named(&self.quantity, name), value, wheel: Some(index as u8), ..self.clone() }
@@ -82,20 +77,20 @@ impl Column {
     }
 }
 
-/// What a column shows.
+/// Content of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Value {
     /// A series, reduced to a number.
     Of(Series, Reduction),
-    /// A number that is not made of a single series, of a wheel where wheels have it.
+    /// A number that is not reduced from a single series, of a wheel if it is of wheels.
     Direct(DirectValue, u8),
-    /// The extreme of a series in an interval of time: the place among those of the request.
+    /// The extreme of a series in an interval of time; index among those of the request.
     Window(Series, u8),
-    /// What a control law reports at the end of a run: the place among its columns. The observer does not know it.
+    /// A report of a control law; index among its columns. Not from the observer.
     Law(u8),
 }
 
-/// The handle of a column: a value of a group. [`super::Request::position`] finds its place in a row.
+/// Handle of a column: a value of a group. [`super::Request::position`] is its position in a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ColumnId {
     pub(super) group: Group,
@@ -103,12 +98,12 @@ pub struct ColumnId {
 }
 
 impl ColumnId {
-    /// Whether there is one such column for each wheel.
+    /// True if there is one such column per wheel.
     pub(super) fn is_of_wheel(self) -> bool {
         all().any(|column| column.id() == self && column.is_of_wheel())
     }
 
-    /// The handle of the same column of wheel `wheel`, where wheels have it; else itself.
+    /// The handle for wheel `wheel` if it is of wheels, else itself.
     #[must_use]
     pub fn of_wheel(self, wheel: usize) -> Self {
         let value = match self.value {
@@ -118,31 +113,30 @@ impl ColumnId {
         ColumnId { value, ..self }
     }
 
-    /// The name of the column, where it is of no wheel.
+    /// The name of a column that is not of wheels.
     ///
     /// # Panics
-    /// Where the table has no such column.
+    /// If the table has no such column.
     pub fn name(self) -> &'static str {
         let column = all().find(|column| column.id() == self);
         column.expect("a handle is that of a column").quantity.name()
     }
 }
 
-/// Where the name of a wheel belongs in the name or meaning of a column.
+/// Placeholder of a wheel's name in the name or meaning of a column.
 const WHEEL: &str = "{wheel}";
 
-/// `quantity` of the wheel `name`.
 fn named(quantity: &Quantity, name: Name) -> Quantity {
     let of_wheel = |text: &str| text.replace(WHEEL, name.as_str());
     Quantity::named(of_wheel(quantity.name()), quantity.unit().to_owned(), of_wheel(quantity.meaning()))
 }
 
-/// A quantity at every observation point; of a wheel where wheels have it.
+/// A quantity at every observation point, of a wheel if it is of wheels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Series(u8);
 
 impl Series {
-    /// Number of series, with one of each wheel that a spacecraft may have.
+    /// Number of series, one per possible wheel.
     pub(super) const COUNT: usize = {
         let (mut count, mut kind) = (0, 0);
         while kind < PLACES.len() {
@@ -152,7 +146,7 @@ impl Series {
         count
     };
 
-    /// Every series, in the order of a time series.
+    /// Every series, in order of a time series.
     pub fn all() -> impl Iterator<Item = Series> {
         (0..Self::COUNT).map(|index| Series(index as u8))
     }
@@ -167,25 +161,24 @@ impl Series {
         Series(first as u8)
     }
 
-    /// The place among all series.
+    /// Index among all series.
     #[inline(always)]
     pub(super) const fn index(self) -> usize {
         self.0 as usize
     }
 
-    /// The indices of the series and of those that follow it, `count` together: of the first wheels, where wheels have
-    /// it.
+    /// Indices of the series and its successors, `count` in all: of the first wheels.
     pub(super) const fn block(self, count: usize) -> Range<usize> {
         self.index()..self.index() + count
     }
 
-    /// The same series of wheel `wheel`, where wheels have it; else itself.
+    /// The series of wheel `wheel` if it is of wheels, else itself.
     pub const fn of_wheel(self, wheel: usize) -> Series {
         let (kind, _) = self.place();
         if PLACES[kind] > 1 { Series(Series::first(kind).0 + wheel as u8) } else { self }
     }
 
-    /// The row, and the place within it.
+    /// Row, and place within it.
     const fn place(self) -> (usize, usize) {
         let (mut kind, mut place) = (0, self.0 as usize);
         while place >= PLACES[kind] {
@@ -195,19 +188,16 @@ impl Series {
         (kind, place)
     }
 
-    /// The wheel that it is of.
     pub(super) fn wheel(self) -> Option<usize> {
         let (kind, place) = self.place();
         (PLACES[kind] > 1).then_some(place)
     }
 
-    /// What the table says about the series.
     pub(super) fn row(self) -> &'static SeriesRow {
         &SERIES[self.place().0]
     }
 
-    /// The column of a time series that shows the series, where the wheels are called `wheels`; `None` for the scale of
-    /// another series.
+    /// Column of a time series with the wheels `wheels`; `None` for the scale of another series.
     pub fn quantity(self, wheels: &[Name]) -> Option<Quantity> {
         let shown = self.row().shown.as_ref()?;
         match self.wheel() {
@@ -217,8 +207,7 @@ impl Series {
     }
 }
 
-/// The change of a body's energy about the centre of mass since the start, for each body: series, name and meaning of
-/// the change.
+/// Change of a body's energy about the centre of mass since the start: series, name and meaning.
 pub(super) const CHANGES: [(Series, &str, &str); 2] = [
     (
         Series::ComBody,
@@ -233,7 +222,7 @@ pub(super) const CHANGES: [(Series, &str, &str); 2] = [
 ];
 
 impl Series {
-    /// What [`Series::quantity`] says, or the same of its change since the start, where it has one.
+    /// [`Series::quantity`], or that of its change since the start, if any.
     pub(super) fn over_time(self, is_change: bool, wheels: &[Name]) -> Option<Quantity> {
         let shown = self.quantity(wheels)?;
         if !is_change {
@@ -245,42 +234,40 @@ impl Series {
     }
 }
 
-/// The handle of a series reduced to a number.
+/// Handle of a reduced series.
 pub const fn series_id(group: Group, series: Series, reduction: Reduction) -> ColumnId {
     ColumnId { group, value: Value::Of(series, reduction) }
 }
 
-/// The handle of a statistic of an error.
+/// Handle of a statistic of an error.
 pub const fn error_id(group: Group, series: Series, statistic: ErrorStatistic) -> ColumnId {
     series_id(group, series, Reduction::Error(statistic))
 }
 
-/// The handle of a direct value.
+/// Handle of a direct value.
 pub const fn direct_id(group: Group, value: DirectValue) -> ColumnId {
     ColumnId { group, value: Value::Direct(value, 0) }
 }
 
-/// What the table says about a series.
 pub(super) struct SeriesRow {
-    /// The computation that makes it.
+    /// Its computation.
     pub(super) source: SeriesSource,
-    /// What its numbers are.
+    /// Form of its numbers.
     pub(super) stored: Stored,
-    /// The series and the statistic that its values are divided by.
+    /// Series and statistic by which its values are divided.
     pub(super) scale: Option<(Series, Reduction)>,
     /// What it is computed from.
     pub(super) needs: &'static [&'static [Need]],
-    /// Its column in a time series, where it has one.
+    /// Its column in a time series, if any.
     pub(super) shown: Option<Quantity>,
 }
 
-/// What the table says about a direct value.
 pub(super) struct DirectRow {
-    /// What it is read from, in addition to its series.
+    /// Needs in addition to those of its series.
     pub(super) needs: &'static [Need],
-    /// The statistics that it is computed from.
+    /// Statistics from which it is computed.
     pub(super) inputs: &'static [(Series, Reduction)],
-    /// Whether it is known of a run that failed.
+    /// True if known after a failure.
     pub(super) after_failure: bool,
 }
 
@@ -288,7 +275,7 @@ const MAX: Reduction = Reduction::Order(OrderStatistic::Max);
 const SWING: Reduction = Reduction::Value(ValueStatistic::PeakToPeak);
 const MEAN: Reduction = Reduction::Value(ValueStatistic::Mean);
 
-/// The denominator of [`Reduction::Fraction`].
+/// Denominator of [`Reduction::Fraction`].
 pub(super) const FRACTION_SCALE: (Series, Reduction) = (Series::ComTotal, MAX);
 
 const CORRELATION: &[(Series, Reduction)] = &[
@@ -302,7 +289,7 @@ const FREQUENCY: &[(Series, Reduction)] = &[FRACTION_SCALE, (Series::ComBody, SW
 
 #[rustfmt::skip]
 mod needs {
-    //! What values are computed from, and why.
+    //! Needs of values, with purposes.
 
     use crate::observables::rows::{Need, Scenes, need};
     use crate::run::StateField;
@@ -389,7 +376,7 @@ mod needs {
         need(StateField::DebrisRate, Scenes::Debris, "how the motion amplifies errors"),
         need(StateField::DebrisAttitude, Scenes::Debris, "errors of the attitude"),
     ];
-    // a method's own errors of the attitude are known only where it is integrated
+    // a method's own errors of the attitude are known only if it is integrated
     pub(super) const NUMERICS: &[Need] = &[
         need(StateField::Rate, Scenes::All, "how the motion amplifies errors"),
         need(StateField::WheelRates, Scenes::All, "how the motion amplifies errors"),
@@ -516,7 +503,7 @@ series! {
         "Torque of motor and bearing on wheel {wheel} along its axis, within limits, as the control loop applies it.";
 }
 
-/// A series that no time series shows: the scale of another one.
+/// No column in a time series: a scale.
 const NOT_SHOWN: Option<(&str, &str)> = None;
 
 #[rustfmt::skip]
@@ -558,7 +545,7 @@ direct_values! {
         m^2.";
 }
 
-/// The columns, family by family, in the order of a row.
+/// The columns by family, in order of a row.
 #[rustfmt::skip]
 static FAMILIES: &[&[Column]] = &[
     errors!(EnergyConservation, All, EnergyError, "energy_error", "the error in total kinetic energy minus the work of \
@@ -754,12 +741,12 @@ static FAMILIES: &[&[Column]] = &[
     ],
 ];
 
-/// The families of columns, in the order of a row: a family of wheels has its columns for each wheel.
+/// Families of columns in order of a row: a family of wheels has its columns for each wheel.
 pub(super) fn families() -> impl Iterator<Item = &'static [Column]> {
     FAMILIES.iter().copied()
 }
 
-/// Every column, in the order of a row; those of wheels once.
+/// Every column in order of a row, those of wheels once.
 pub fn all() -> impl Iterator<Item = &'static Column> {
     FAMILIES.iter().copied().flatten()
 }

@@ -1,16 +1,14 @@
-//! [`growth`]: how much the effects that change within an arc amplify small errors of the rotational state along a run.
+//! [`growth`]: amplification of small errors of the rotational state by the effects that change within an arc.
 //!
 //! A rotation of the body by theta changes their torque by M theta. With K omega' = tau - omega x H, H = K omega +
-//! wheels' momentum, small errors theta (in the body's frame) and delta of omega obey theta' = delta - omega x theta,
-//! K delta' = M theta + H x delta - omega x K delta. Where the points of a run follow its rotation, the covariance of
-//! errors that arise evenly along the run and in every direction is integrated with these equations; its largest root
-//! is the amplification. On an eccentric orbit errors of omega turn the body for a whole orbit before the next
-//! perigee changes omega by as much: the growth of many orbits is the product of those of each, although the torque
-//! is unstable for minutes alone.
+//! wheels' momentum, small errors theta (body frame) and delta of omega obey theta' = delta - omega x theta, K delta' =
+//! M theta + H x delta - omega x K delta. If the points of a run follow its rotation, the covariance of errors that
+//! arise evenly along the run and in every direction is integrated with these equations; its largest root is the
+//! amplification. On an eccentric orbit errors of omega turn the body for a whole orbit before the next perigee changes
+//! omega by as much: growth is a product over orbits, although the torque is unstable for minutes alone.
 //!
-//! Where the body turns too fast for that, the torque changes its sign many times between the points, and hardly
-//! amplifies anything. There the growth is that of the free motion ([`super::conditioning`]) times the exponential of
-//! [`exponent`].
+//! If the body turns too fast for that, the torque changes sign many times between points and hardly amplifies: the
+//! growth is that of the free motion ([`super::conditioning`]) times the exponential of [`exponent`].
 
 use crate::dynamics::effects::within_arcs::Motion;
 use crate::dynamics::effects::{ChangingEffects, ForceModel};
@@ -21,34 +19,33 @@ use crate::math::vector::{cross, difference, dot, hamilton, quaternion_from_dcm,
 use crate::run::{StateField, StateTable, rate_scale};
 use crate::scene::Scene;
 
-/// The exponent of the largest growth, ln 1e200; beyond it the growth counts as infinite.
+/// ln 1e200, beyond which growth counts as infinite.
 pub(super) const LARGEST_EXPONENT: f64 = 460.5;
 
-/// The largest amplification; beyond it the amplification counts as infinite.
+/// Largest amplification, beyond which it counts as infinite.
 pub(super) const MOST: f64 = 1e200;
 
-/// Points of a run that are examined, at most: several in each half of a libration up to some orbits, a fair sample
-/// beyond.
+/// Maximum number of examined points: several in each half of a libration up to some orbits, a fair sample beyond.
 const POINTS: usize = 128;
 
-/// The rotation, rad, over which a torque is differenced: the error is of its size, and rounding 1e-12.
+/// Rotation for finite differences of a torque, rad: the error is of its size, rounding is 1e-12.
 const ROTATION: f64 = 1e-4;
 
-/// The change of an error over a step of the covariance, at most: the classical Runge-Kutta method then errs by less
-/// than a percent.
+/// Maximum change of an error over a step of the covariance: the classical Runge-Kutta method then errs by less than a
+/// percent.
 const STEP: f64 = 0.7;
 
-/// Steps between two points up to which they follow the rotation: the coefficients are linear between them.
+/// Steps between two points up to which they follow the rotation: coefficients are linear in between.
 const FOLLOWED: f64 = 4.0;
 
-/// Steps of a run at most: they cost less than the torques. More are those of a body that turns fast.
+/// Limit of steps of a run, cheaper than the torques; a faster body needs more.
 const MOST_STEPS: f64 = 128.0;
 
-/// What is known of the errors at a point of a run, in the axes of the principal moments.
+/// Data of a point, in principal axes.
 #[derive(Clone, Copy)]
 struct Station {
     time: f64,
-    /// omega, and that relative to the orbit, rad/s.
+    /// omega, and omega relative to the orbit, rad/s.
     rate: [f64; 3],
     beside: [f64; 3],
     /// The wheels' momentum, N m s.
@@ -57,21 +54,19 @@ struct Station {
     slope: [[f64; 3]; 3],
 }
 
-/// How the torque makes errors grow.
 pub(super) struct Growth {
-    /// The amplification of errors that arise evenly along the run, of omega over its scale and of the attitude in
-    /// rad, if the points follow the rotation.
+    /// Amplification of errors that arise evenly along the run (omega over its scale, attitude in rad), if the points
+    /// follow the rotation.
     pub(super) followed: Option<f64>,
-    /// Otherwise the factor on the growth in the free motion.
+    /// Otherwise, factor on the growth in the free motion.
     pub(super) beside: f64,
-    /// The change of omega that the torque makes along the run, in magnitude, over its scale.
+    /// Change of omega by the torque along the run, in magnitude, over its scale.
     pub(super) stirred: f64,
 }
 
-// Inlined with all that it calls, so that fused operations are instructions: torques at a thousand states of a run
-// would cost as much as its steps.
-/// The growth over the first `filled` points of `table`, at `times`, of a run of `scene`; `None` if no effect changes
-/// within an arc.
+// Inlined with all callees, so that fused operations are instructions: torques at a thousand states of a run would
+// otherwise cost as much as its steps.
+/// Growth over the first `filled` points of `table` of a run of `scene`; `None` if no effect changes within an arc.
 #[inline(always)]
 pub(super) fn growth(scene: &Scene, table: &StateTable, times: &[f64], filled: usize) -> Option<Growth> {
     if !ForceModel::of(scene).changes_within_arcs() {
@@ -107,7 +102,7 @@ pub(super) fn growth(scene: &Scene, table: &StateTable, times: &[f64], filled: u
         for (wheel, spin) in scene.mass.wheels.iter().enumerate() {
             held = sum(held, scaled(spin.axial * table.column(StateField::WheelRates, wheel)[point], spin.axis));
         }
-        // one loop over all changes: the effects are inlined once, and they are long
+        // one loop over all changes: the long effects are inlined once
         let mut torques = [[0.0; 3]; 4];
         for (change, torque) in torques.iter_mut().enumerate() {
             *torque = effects.torque(&if change < 3 { turned(&motion, change) } else { motion });
@@ -127,15 +122,13 @@ pub(super) fn growth(scene: &Scene, table: &StateTable, times: &[f64], filled: u
     Some(Growth { followed, beside, stirred: stirred / count as f64 * times[last] / scale })
 }
 
-/// A 3x3 matrix.
 type Matrix = [[f64; 3]; 3];
 
-/// The covariance of rotations, that of rotations (rows) and changes of omega (columns), and that of changes of
-/// omega; or its slope.
+/// Covariances of rotations; of rotations (rows) and changes of omega (columns); of changes of omega. Or their slopes.
 type Covariance = [Matrix; 3];
 
-/// The linear equations at a point: theta' = u delta - omega x theta, delta' = `pulled` theta + `carried` delta, with
-/// delta in units u.
+/// Linear equations at a point: theta' = u delta - omega x theta, delta' = `pulled` theta + `carried` delta, delta in
+/// units u.
 #[derive(Clone, Copy)]
 struct Flow {
     turning: Matrix,
@@ -143,7 +136,7 @@ struct Flow {
     carried: Matrix,
 }
 
-/// The amplification along `stations`, if they follow the rotation and few steps do.
+/// Amplification along `stations`, if few steps follow the rotation.
 #[inline(always)]
 fn covariance_growth(stations: &[Station], moments: [f64; 3], scale: f64) -> Option<f64> {
     let duration = stations[stations.len() - 1].time;
@@ -199,7 +192,6 @@ fn covariance_growth(stations: &[Station], moments: [f64; 3], scale: f64) -> Opt
 }
 
 impl Flow {
-    /// That at `station`.
     #[inline(always)]
     fn at(station: &Station, moments: [f64; 3], unit: f64) -> Self {
         let momentum = core::array::from_fn(|i| moments[i].mul_add(station.rate[i], station.held[i]));
@@ -213,8 +205,8 @@ impl Flow {
         }
     }
 
-    /// The fastest change of an error, 1/s, of rotation and of a torque that pulls; a rotation by a constant rate
-    /// alone is exact in any step.
+    /// Fastest change of an error, 1/s, by rotation and by a destabilising torque; rotation at a constant rate is exact
+    /// in any step.
     #[inline(always)]
     fn pace(&self, unit: f64) -> f64 {
         let most =
@@ -262,7 +254,6 @@ impl Flow {
     }
 }
 
-/// The matrix of a cross product.
 fn skew([x, y, z]: [f64; 3]) -> Matrix {
     [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
 }
@@ -272,16 +263,15 @@ fn moved(a: &Covariance, by: f64, slope: &Covariance) -> Covariance {
     core::array::from_fn(|b| core::array::from_fn(|i| core::array::from_fn(|j| by.mul_add(slope[b][i][j], a[b][i][j]))))
 }
 
-/// The logarithm of the growth that the torque adds to that of the free motion.
+/// Logarithm of the growth by the torque beyond the free motion.
 ///
-/// A body that does not turn relative to what the torque points to leaves an error like exp(lambda t), lambda^2 the
-/// largest eigenvalue of the symmetric part of J^(-1/2) M J^(-1/2) where that is above zero: below zero it librates.
-/// A body that turns with a rate w beside it, or is held by a momentum of J w, sees M change its sign within 1/w, and
-/// what is gained is mostly lost again: the growth is of the second order, lambda^3/w^2. Between both, the exponent
-/// of the growth is taken as the integral of lambda^3/(lambda^2 + w^2). Nor does an orientation count that the body
-/// leaves again within half the period of an oscillation: M and w^2 are averaged over spans of pi/lambda_0, with
-/// lambda_0^2 the largest magnitude of an eigenvalue at any point, before lambda is taken. What a torque points to is
-/// taken to turn with the orbit.
+/// For a body that does not turn relative to the torque's reference direction an error grows as exp(lambda t), with
+/// lambda^2 the largest positive eigenvalue of the symmetric part of J^(-1/2) M J^(-1/2) (negative: libration). For a
+/// body that turns at a relative rate w, or is held by a momentum J w, M changes sign within 1/w and most of the gain
+/// is lost: growth of second order, lambda^3/w^2. In between, the exponent is the integral of lambda^3/(lambda^2 +
+/// w^2). Orientations left within half a period of an oscillation do not count: M and w^2 are averaged over spans of
+/// pi/lambda_0 first, lambda_0^2 being the largest magnitude of an eigenvalue. The reference direction turns with the
+/// orbit.
 fn exponent(stations: &[Station], moments: [f64; 3]) -> f64 {
     let duration = stations[stations.len() - 1].time;
     let size = (moments[0] + moments[1] + moments[2]) / 3.0;
@@ -306,7 +296,7 @@ fn exponent(stations: &[Station], moments: [f64; 3]) -> f64 {
     turning.sum::<f64>() / count as f64 * duration
 }
 
-/// `motion` with the body turned by [`ROTATION`] about its axis `axis`.
+/// `motion` with the body turned by [`ROTATION`] about axis `axis`.
 #[inline(always)]
 fn turned(motion: &Motion<f64>, axis: usize) -> Motion<f64> {
     let mut turn = [1.0, 0.0, 0.0, 0.0];
@@ -314,14 +304,13 @@ fn turned(motion: &Motion<f64>, axis: usize) -> Motion<f64> {
     Motion { attitude: hamilton(motion.attitude, turn), ..*motion }
 }
 
-/// The symmetric part of J^(-1/2) M J^(-1/2), of a body of the principal moments `moments`, with M by `columns`.
+/// Symmetric part of J^(-1/2) M J^(-1/2) for the principal moments `moments`, M by `columns`.
 fn symmetric(moments: [f64; 3], columns: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     core::array::from_fn(|i| {
         core::array::from_fn(|j| 0.5 * (columns[j][i] + columns[i][j]) / (moments[i] * moments[j]).sqrt())
     })
 }
 
-/// The largest eigenvalue of a symmetric matrix.
 #[inline(always)]
 fn largest_eigenvalue(symmetric: [[f64; 3]; 3]) -> f64 {
     let (values, _) = principal_axes(symmetric);
@@ -333,14 +322,12 @@ mod tests {
     use super::*;
     use crate::dynamics::effects::gravity_gradient::GravityGradient;
 
-    /// Law: along the vertical the axis of the smallest moment is stable in pitch and roll, and that of the largest is
-    /// not: there the growth is sqrt(3) of the mean motion times the square root of a difference of moments over a
-    /// moment.
+    /// Law: along the vertical the axis of the smallest moment is stable in pitch and roll; for the largest, growth is
+    /// sqrt(3) of the mean motion times the square root of a difference of moments over a moment.
     #[test]
     fn a_body_on_its_long_axis_is_stable() {
         let moments = [90.0, 100.0, 40.0];
         let inertia = [[90.0, 0.0, 0.0], [0.0, 100.0, 0.0], [0.0, 0.0, 40.0]];
-        // 3 mu/r^3 is one
         let gradient = GravityGradient { strength: 1.0, inertia };
         let slope = |position: [f64; 3]| {
             let place = OrbitState { position, velocity: [0.0; 3], distance: 1.0 };
@@ -355,8 +342,8 @@ mod tests {
     }
 
     /// Truth: a body at rest about whose first axis the torque pulls away, or back, with `square` per radian and unit
-    /// of inertia; the integrals of the squares of cosh and sinh, or cos and sin. An error of one in any direction is
-    /// made evenly along the run.
+    /// of inertia: integrals of the squares of cosh and sinh, or cos and sin, for a unit error in any direction made
+    /// evenly along the run.
     #[test]
     fn the_growth_is_that_of_the_linear_equations() {
         let (moments, duration, scale) = ([2.0, 3.0, 4.0], 6.0_f64, 1.5_f64);

@@ -1,4 +1,4 @@
-//! [`Weights`]: what the passes over a series use of the grid; and how the lanes of an accumulator are joined.
+//! [`Weights`]: constants of a grid for passes over a series; reductions of lanes.
 
 use fearless_simd::Simd;
 
@@ -6,26 +6,25 @@ use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 use crate::run::Grid;
 
-/// What the reductions use of the grid, with zeros in the padding.
+/// Constants of a grid, zero in the padding.
 #[derive(Clone, Debug)]
 pub(super) struct Weights {
     /// Number of points.
     pub(super) points: usize,
     /// One at every point.
     pub(super) one: Vec<[f64; WIDTH]>,
-    /// Least-squares slope of a series: sum of weight times value, 1/s.
+    /// Least-squares slope of a series as a weighted sum of its values, 1/s.
     pub(super) slope: Vec<[f64; WIDTH]>,
-    /// One over the distance to the next point, 1/s.
+    /// 1/distance to the next point, 1/s.
     pub(super) inverse_step: Vec<[f64; WIDTH]>,
 }
 
 impl Weights {
-    /// For series on `grid`.
     pub(super) fn of(grid: &Grid) -> Self {
         Self::at(grid.times())
     }
 
-    /// For series at `times`.
+    /// Weights for series at `times`.
     pub(super) fn at(times: &[f64]) -> Self {
         let points = times.len();
         let mean = times.iter().sum::<f64>() / points as f64;
@@ -47,32 +46,29 @@ impl Weights {
     }
 }
 
-/// The first `count` vectors of a column; columns of one common length need no check of bounds inside the loops.
+/// The first `count` vectors of a column; columns of one common length need no bounds checks inside loops.
 #[inline(always)]
 pub(super) fn vectors(column: &[f64], count: usize) -> &[[f64; WIDTH]] {
     &column.as_chunks().0[..count]
 }
 
-/// The lanes joined as a fixed tree.
+/// Reduces the lanes as a fixed tree.
 #[inline(always)]
 fn joined(lanes: [f64; WIDTH], join: impl Fn(f64, f64) -> f64) -> f64 {
     let [a, b, c, d, e, f, g, h] = lanes;
     join(join(join(a, e), join(c, g)), join(join(b, f), join(d, h)))
 }
 
-/// The sum of the lanes.
 #[inline(always)]
 pub(super) fn total<S: Simd>(lanes: Lanes<S>) -> f64 {
     joined(lanes.to_array(), |a, b| a + b)
 }
 
-/// The maximum of the lanes.
 #[inline(always)]
 pub(super) fn largest<S: Simd>(lanes: Lanes<S>) -> f64 {
     joined(lanes.to_array(), |a, b| a.larger(b))
 }
 
-/// The minimum of the lanes.
 #[inline(always)]
 pub(super) fn smallest<S: Simd>(lanes: Lanes<S>) -> f64 {
     joined(lanes.to_array(), |a, b| a.smaller(b))

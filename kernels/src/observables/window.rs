@@ -1,8 +1,5 @@
-//! [`Window`]: the extreme of a quantity over an interval of time, a column that only a requirement "at all times" asks
-//! for.
-//!
-//! Such a requirement is about each run as a whole, so it needs one number of each run; bands have numbers of all runs
-//! at each time.
+//! [`Window`]: extreme of a quantity over an interval of time, a column for a requirement "at all times". Such a
+//! requirement needs one number per run; bands have numbers of all runs at each time.
 
 use core::ops::Range;
 
@@ -14,13 +11,13 @@ use crate::math::list::List;
 use crate::run::{Quantity, points_before, points_to};
 use crate::scene::Name;
 
-/// Most of them in a campaign.
+/// Maximum per campaign.
 pub const MAX_WINDOWS: usize = 16;
 
-/// Those of a campaign.
+/// Windows of a campaign.
 pub type Windows = List<Window, MAX_WINDOWS>;
 
-/// Fills the memory that is not used.
+/// Fills unused memory.
 const BLANK: Window = Window {
     series: Series::EnergyTotal,
     group: Group::Energies,
@@ -32,21 +29,21 @@ const BLANK: Window = Window {
 /// No window.
 pub const NO_WINDOWS: Windows = List::empty(BLANK);
 
-/// The extreme of a quantity that has bands over the observation points in an interval of time; both ends belong to it.
+/// Extreme of a quantity with bands over the observation points in a closed interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     series: Series,
     group: Group,
-    /// Whether it is of the change of the series since the start.
+    /// True for the change of the series since the start.
     is_change: bool,
-    /// Whether it is the largest value, or the smallest.
+    /// True for the largest value, false for the smallest.
     is_highest: bool,
     from_s: Option<f64>,
     to_s: Option<f64>,
 }
 
 impl Window {
-    /// That of a series, shown by columns of a group, or of its change since the start, from one time to another, s.
+    /// The extreme of a series, or of its change since the start, in columns of `group`, from one time to another, s.
     pub(super) fn new(
         (series, group, is_change): (Series, Group, bool),
         is_highest: bool,
@@ -55,7 +52,7 @@ impl Window {
         Window { series, group, is_change, is_highest, from_s, to_s }
     }
 
-    /// The column in rows of runs with `wheels`, which have it at `index` of their windows.
+    /// The column at `index` of the windows, in runs with the wheels `wheels`.
     pub(super) fn column(&self, wheels: &[Name], index: usize) -> Column {
         let of = self.series.over_time(self.is_change, wheels).expect("bands are of quantities that have a name");
         Column {
@@ -68,7 +65,7 @@ impl Window {
         }
     }
 
-    /// Name, unit and meaning of the column, `of` being the quantity over time.
+    /// Name, unit and meaning of the column for the quantity over time `of`.
     pub fn quantity(&self, of: &Quantity) -> Quantity {
         let (prefix, word) = if self.is_highest { ("highest", "Largest") } else { ("lowest", "Smallest") };
         let text = |time: f64| format!("{time:?}").trim_end_matches(".0").replace('.', "p").replace('-', "m");
@@ -80,12 +77,11 @@ impl Window {
         Quantity::named(name, of.unit().to_owned(), meaning)
     }
 
-    /// The handle of the column.
     pub(super) fn id(&self, index: usize) -> ColumnId {
         ColumnId { group: self.group, value: Value::Window(self.series, index as u8) }
     }
 
-    /// The observation points that it has, of those at `times`.
+    /// Its observation points among `times`.
     pub fn points(&self, times: &[f64]) -> Range<usize> {
         let start = self.from_s.map_or(0, |from| points_before(times, from));
         let end = self.to_s.map_or(times.len(), |to| points_to(times, to));
@@ -96,14 +92,13 @@ impl Window {
         self.series
     }
 
-    /// The extreme over `points`, of the stored numbers `column` of a run, which are divided by `scale`; NaN where one
-    /// is, or where there is none.
+    /// Extreme over `points` of the stored numbers `column`, divided by `scale`; NaN if one is, or if there are none.
     pub(super) fn extreme(&self, column: &[f64], points: Range<usize>, scale: f64) -> f64 {
         let beyond = |a: f64, b: f64| if self.is_highest { a > b } else { a < b };
         let further = |found: f64, value: &f64| if found.is_nan() || beyond(found, *value) { found } else { *value };
         let Some((first, rest)) = column.get(points).and_then(<[f64]>::split_first) else { return f64::NAN };
         let found = rest.iter().fold(*first, further);
-        // what is stored rises with what is shown
+        // stored numbers rise with the quantity
         match self.series.row().stored {
             Stored::Quantity if self.is_change => found - column[0],
             stored => stored.shown(found) / scale,
@@ -119,8 +114,7 @@ mod tests {
         Window { is_highest, from_s, to_s, ..BLANK }
     }
 
-    /// Law: both ends of an interval belong to it; the extreme is of its points only, on the side asked for, and
-    /// unknown where a value is.
+    /// Law: intervals are closed; the extreme is of their points only, on the requested side, and NaN if a value is.
     #[test]
     fn an_extreme_is_of_the_points_of_its_interval() {
         let times = [0.0, 0.5, 1.0, 1.5];
