@@ -1,19 +1,18 @@
-//! Exact inference about a fraction from counts: the binomial distribution, Clopper-Pearson bounds, and the test behind
-//! a requirement.
+//! Exact inference about a fraction from counts of independent runs: binomial distribution, Clopper-Pearson bounds, the
+//! test behind a requirement.
 //!
 //! C. J. Clopper & E. S. Pearson, *The use of confidence or fiducial limits illustrated in the case of the binomial*,
-//! Biometrika 26 (1934) 404. Counts are of independent runs; designs that lay samples out together need other
-//! intervals.
+//! Biometrika 26 (1934) 404.
 
 use crate::math::incomplete_beta::{incomplete_beta, inverse_incomplete_beta};
 use crate::math::normal;
 
-/// P(X <= k) of a binomial variable: `trials` trials with probability `p` in [0, 1] each.
+/// P(X <= k) for `trials` trials with probability `p` in [0, 1].
 pub fn at_most(k: u64, trials: u64, p: f64) -> f64 {
     if k >= trials { 1.0 } else { incomplete_beta(p, 1.0 - p, k as f64 + 1.0, (trials - k) as f64).upper }
 }
 
-/// P(X >= k) of a binomial variable: `trials` trials with probability `p` in [0, 1] each.
+/// P(X >= k) for `trials` trials with probability `p` in [0, 1].
 pub fn at_least(k: u64, trials: u64, p: f64) -> f64 {
     match k {
         0 => 1.0,
@@ -22,9 +21,8 @@ pub fn at_least(k: u64, trials: u64, p: f64) -> f64 {
     }
 }
 
-/// One-sided lower confidence bound of a fraction with `successes` in `trials` (Clopper-Pearson).
-///
-/// With probability `confidence` or more the bound is not above the true fraction.
+/// One-sided lower confidence bound of a fraction (Clopper-Pearson), at most the true fraction with probability
+/// `confidence` or more.
 pub fn lower_bound(successes: u64, trials: u64, confidence: f64) -> f64 {
     if successes == 0 {
         return 0.0;
@@ -32,7 +30,7 @@ pub fn lower_bound(successes: u64, trials: u64, confidence: f64) -> f64 {
     inverse_incomplete_beta(1.0 - confidence, confidence, successes as f64, (trials - successes) as f64 + 1.0)[0]
 }
 
-/// One-sided upper confidence bound of a fraction with `successes` in `trials` (Clopper-Pearson).
+/// One-sided upper confidence bound of a fraction (Clopper-Pearson).
 pub fn upper_bound(successes: u64, trials: u64, confidence: f64) -> f64 {
     if successes >= trials {
         return 1.0;
@@ -46,31 +44,28 @@ pub fn interval(successes: u64, trials: u64, confidence: f64) -> [f64; 2] {
     [lower_bound(successes, trials, one_sided), upper_bound(successes, trials, one_sided)]
 }
 
-/// What counts say of the requirement that at least a given fraction of runs succeeds.
+/// Decision on the requirement that at least a given fraction of runs succeeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decision {
-    /// The one-sided lower bound reaches the target.
+    /// The lower bound reaches the target.
     Pass,
-    /// The one-sided upper bound misses it.
+    /// The upper bound misses it.
     Fail,
-    /// Neither; the number of runs of a campaign that decides with the probability [`POWER`] if the truth is what was
-    /// seen, where there is one.
+    /// Neither; a number of runs that decides with probability [`POWER`] if the true fraction is the observed one, if
+    /// any does.
     Undecided(Option<u64>),
 }
 
-/// The probability with which a campaign of the number of runs that [`Decision::Undecided`] names decides, if the truth
-/// is what was seen.
-///
-/// That number is of one campaign, looked at once. Adding runs until something is decided errs more often: that takes
-/// [`super::looks`].
+/// Probability of a decision by a campaign of the size given in [`Decision::Undecided`], looked at once. Adding runs
+/// until a decision errs more often: see [`super::looks`].
 pub const POWER: f64 = 0.9;
-/// Beyond this many runs, a requirement counts as one that no number of runs decides.
+/// Limit of runs beyond which a requirement counts as undecidable.
 pub const MAX_RUNS: u64 = 10_000_000_000;
 
-/// Decides whether a fraction of at least `target` in (0, 1) succeeds, at `confidence`, from `successes` in `trials`.
+/// Decides whether the fraction of success is at least `target` in (0, 1), at `confidence`.
 ///
-/// The bounds are not computed: the lower bound reaches the target exactly where P(X >= successes) at the target is at
-/// most 1 - confidence, and the same for the upper one. So no rounding of an inverse decides.
+/// Bounds are not computed, so that no rounding of an inverse decides: the lower bound reaches the target exactly if
+/// P(X >= successes) at the target is at most 1 - confidence, and likewise the upper one.
 pub fn decide(successes: u64, trials: u64, target: f64, confidence: f64) -> Decision {
     match decided(successes, trials, target, confidence) {
         Some(true) => Decision::Pass,
@@ -79,7 +74,7 @@ pub fn decide(successes: u64, trials: u64, target: f64, confidence: f64) -> Deci
     }
 }
 
-/// Whether the requirement is met (true), missed (false), or neither can be said.
+/// True if the requirement is met, false if missed, `None` if undecided.
 fn decided(successes: u64, trials: u64, target: f64, confidence: f64) -> Option<bool> {
     let risk = 1.0 - confidence;
     if trials == 0 {
@@ -93,11 +88,10 @@ fn decided(successes: u64, trials: u64, target: f64, confidence: f64) -> Option<
     }
 }
 
-/// A number of runs, at least `trials`, that decides with the probability [`POWER`] if the fraction is that of
-/// `successes` in `trials`; no smaller one next to it does. `None` where none up to [`MAX_RUNS`] does.
+/// A number of runs, at least `trials`, that decides with probability [`POWER`] if the fraction is the observed one,
+/// while the number below does not; `None` beyond [`MAX_RUNS`].
 ///
-/// The probability is exact. It is not monotonic in the number of runs (successes are whole), so a number a few runs
-/// smaller may do too.
+/// The probability is exact, and not monotonic (successes are whole): a number a few runs smaller may do too.
 fn deciding_runs(successes: u64, trials: u64, target: f64, confidence: f64) -> Option<u64> {
     if trials == 0 {
         return None;
@@ -110,7 +104,7 @@ fn deciding_runs(successes: u64, trials: u64, target: f64, confidence: f64) -> O
             lower_rank(runs, target, risk).map_or(0.0, |rank| at_most(rank - 1, runs, fraction))
         }
     };
-    // by the normal distribution: where to begin
+    // first guess by the normal distribution
     let deviation = |fraction: f64| libm::sqrt(fraction * (1.0 - fraction));
     let width = normal::quantile(confidence) * deviation(target) + normal::quantile(POWER) * deviation(fraction);
     let near = width / (fraction - target);
@@ -123,8 +117,8 @@ fn deciding_runs(successes: u64, trials: u64, target: f64, confidence: f64) -> O
     (found < MAX_RUNS).then_some(found)
 }
 
-/// The largest r with P(X <= r - 1) <= `risk`, X the number of successes in `trials` of probability `p`; none where
-/// even r = 1 is too likely.
+/// The largest r with P(X <= r - 1) <= `risk`, X successes in `trials` of probability `p`; `None` if there is no r >=
+/// 1.
 pub fn lower_rank(trials: u64, p: f64, risk: f64) -> Option<u64> {
     let misses = |rank: u64| at_most(rank - 1, trials, p) > risk;
     let found = first([1, trials + 1], [near_rank(trials, p, risk), 1], misses);
@@ -138,14 +132,14 @@ pub fn upper_rank(trials: u64, p: f64, risk: f64) -> Option<u64> {
     (found <= trials).then_some(found)
 }
 
-/// About the `q`-quantile of the number of successes in `trials` of probability `p`.
+/// Approximate `q`-quantile of the number of successes in `trials` of probability `p`.
 fn near_rank(trials: u64, p: f64, q: f64) -> u64 {
     let n = trials as f64;
     (n * p + normal::quantile(q) * libm::sqrt(n * p * (1.0 - p))) as u64
 }
 
-/// The first number from `low` to `high` that `holds`, as `high` is taken to do, and with one all above it. It is
-/// sought outward from `at` in steps from `step` on that double, and then by bisection.
+/// The first number in [low, high] that `holds`, with all above it and `high`: outward from `at` in doubling steps from
+/// `step`, then by bisection.
 fn first([mut low, mut high]: [u64; 2], [mut at, mut step]: [u64; 2], holds: impl Fn(u64) -> bool) -> u64 {
     let mut is_within = [false; 2];
     while low < high {
@@ -169,7 +163,6 @@ fn first([mut low, mut high]: [u64; 2], [mut at, mut step]: [u64; 2], holds: imp
 mod tests {
     use super::*;
 
-    /// The sum of terms, for small numbers of trials.
     fn sum(range: core::ops::RangeInclusive<u64>, trials: u64, p: f64) -> f64 {
         let choose = |k: u64| (1..=k).fold(1.0, |product, i| product * (trials - k + i) as f64 / i as f64);
         range.map(|k| choose(k) * libm::pow(p, k as f64) * libm::pow(1.0 - p, (trials - k) as f64)).sum()
@@ -188,8 +181,7 @@ mod tests {
         }
     }
 
-    /// Law: a bound at a confidence is the fraction at which what was seen, or more (or less), has the rest for a
-    /// probability.
+    /// Law: at a bound, the observed count or more (or less) has the probability 1 - confidence.
     #[test]
     fn bounds_invert_the_tails() {
         for (successes, trials) in [(1, 10), (9, 10), (10, 10), (0, 10), (590, 600), (999_000, 1_000_000)] {
@@ -197,7 +189,7 @@ mod tests {
                 let lower = lower_bound(successes, trials, confidence);
                 let upper = upper_bound(successes, trials, confidence);
                 let risk = 1.0 - confidence;
-                // measured 3.8e-12 and 3.1e-12: of a million trials, rounding of a bound moves the tail by that much
+                // measured 3.8e-12 and 3.1e-12: for a million trials rounding of a bound moves the tail by that much
                 if successes > 0 {
                     assert!((at_least(successes, trials, lower) / risk - 1.0).abs() < 3e-11, "{successes}/{trials}");
                 }
@@ -207,9 +199,8 @@ mod tests {
                 assert!(lower <= successes as f64 / trials as f64 && successes as f64 / trials as f64 <= upper);
             }
         }
-        // none in n: the rule of three, exactly 1 - (1 - confidence)^(1/n)
+        // no success in n: the rule of three, exactly 1 - (1 - confidence)^(1/n)
         let upper = upper_bound(0, 59, 0.95);
-        // measured 1.1e-16
         assert!((upper - (1.0 - libm::pow(0.05, 1.0 / 59.0))).abs() < 1e-15, "{upper}");
     }
 
@@ -224,8 +215,8 @@ mod tests {
         assert_eq!(decide(95, 100, 0.95, 0.95), Decision::Undecided(None), "exactly at the target nothing decides");
     }
 
-    /// Law: of campaigns with the number of runs that is named nine in ten decide if the truth is what was seen,
-    /// exactly; with a tenth fewer fewer do. The sums are over all counts of successes.
+    /// Law: nine in ten campaigns of the stated size decide if the truth is the observed fraction, exactly, summed over
+    /// all counts; with a tenth fewer runs fewer do.
     #[test]
     fn nine_of_ten_campaigns_of_the_runs_named_decide() {
         for (successes, trials, target) in
@@ -241,7 +232,7 @@ mod tests {
                 let decides = (0..=n).filter(|k| decided(*k, n, target, 0.95) == Some(fraction > target));
                 decides.map(|k| term(k, n)).sum()
             };
-            // 1e-9: the sum of up to ten thousand differences of 13 digits
+            // a sum of up to ten thousand differences of 13 digits
             assert!(power(needed) >= POWER - 1e-9 && power(needed * 9 / 10) < POWER, "{needed}: {}", power(needed));
             assert!(power(needed) < 0.93, "{needed}: {}", power(needed));
         }
@@ -258,7 +249,7 @@ mod tests {
             };
             let risk = 1.0 - confidence + 1e-12;
             assert!(of(true) <= risk && of(false) <= risk, "{} {}", of(true), of(false));
-            // and not needlessly seldom: within a factor that the lumps of small counts explain
+            // and not needlessly rare: within a factor explained by the lumps of small counts
             assert!(of(true) > 0.2 * risk, "{}", of(true));
         }
     }

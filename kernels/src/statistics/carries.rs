@@ -1,15 +1,14 @@
-//! [`Carries`]: makes counters of 32 bits count without an end. There may be millions of them.
-//!
-//! A campaign has tens of megabytes of counters that stay below 2^32, and may have one that does not.
+//! [`Carries`]: unlimited counts from counters of 32 bits. A campaign has millions of counters, few of which exceed
+//! 2^32.
 
 use std::collections::BTreeMap;
 
-/// What counters of 32 bits have carried: for each, how often it was full. A counter has a number of its own.
+/// Carries of 32-bit counters, by their keys.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Carries(BTreeMap<u32, u64>);
 
 impl Carries {
-    /// Adds `count` to the counter with the number `key`, whose lower 32 bits are `low`.
+    /// Adds `count` to the counter `key` with the lower 32 bits `low`.
     #[inline(always)]
     pub fn add(&mut self, key: u32, low: &mut u32, count: u64) {
         let sum = u64::from(*low) + (count & u64::from(u32::MAX));
@@ -25,12 +24,12 @@ impl Carries {
         *self.0.entry(key).or_default() += carried;
     }
 
-    /// Whether no counter has carried: those whose lower 32 bits are zero have counted nothing then.
+    /// True without carries: counters with lower bits of zero are then zero.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// What the counter with the number `key` has counted, whose lower 32 bits are `low`.
+    /// Value of the counter `key` with the lower 32 bits `low`.
     pub fn whole(&self, key: u32, low: u32) -> u64 {
         match self.0.get(&key) {
             Some(carried) => carried << 32 | u64::from(low),
@@ -43,7 +42,7 @@ impl Carries {
 mod tests {
     use super::*;
 
-    /// Law: counters add up beyond 32 bits, each for itself, in any order.
+    /// Law: each counter counts beyond 32 bits, in any order.
     #[test]
     fn counters_do_not_end() {
         let counts = [1, u64::from(u32::MAX), 5, 1 << 32, (7 << 32) + 3, u64::from(u32::MAX) - 1, 0];

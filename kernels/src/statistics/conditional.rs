@@ -1,22 +1,21 @@
-//! Whether an input acts on an observable beside others that it is correlated with: the generalised covariance measure
-//! of R. D. Shah & J. Peters, *Ann. Stat.* 48 (2020) 1514.
+//! Effect of an input on an observable given correlated inputs: the generalised covariance measure of R. D. Shah & J.
+//! Peters, *Ann. Stat.* 48 (2020) 1514.
 //!
-//! What straight lines through cells of the other inputs leave of both columns has no correlation where the input does
-//! nothing of its own. The test needs no model of the observable, and errs as stated as long as the lines follow it:
-//! the product of both errors counts, not one of them. Each line takes two degrees of freedom, without which 30 to 60
-//! runs err twice as often.
+//! The residuals of both columns, after lines through cells of the other inputs, are uncorrelated if the input has no
+//! effect of its own. No model of the observable is needed, and the error is as stated as long as the lines follow it:
+//! only the product of both errors counts. Each line takes two degrees of freedom, without which 30 to 60 runs err
+//! twice as often.
 
 use super::rank_tests::two_sided;
 use super::sensitivity::{cells, left_by_lines};
 
-/// Times that the lines of several inputs are taken in turn: each leaves a little of the others.
+/// Passes over several inputs: each leaves a little of the others.
 const ROUNDS: usize = 3;
-/// What lines leave of the sum of squares of a column that follows from the inputs, by rounding.
+/// Residual sum of squares, by rounding, of a column that follows from the inputs.
 const ROUNDING: f64 = 1e-20;
 
-/// The probability that `y` goes with one of `columns` (forms of one input) as much as here where it depends on `given`
-/// alone: inputs, each with its values and their [`super::correlation::ascending_order`]. Columns of ranks make it
-/// independent of all distributions.
+/// P-value of the association of `y` with one of `columns` (forms of one input), if `y` depends on `given` alone:
+/// inputs with values and [`super::correlation::ascending_order`]. Columns of ranks make it distribution-free.
 pub fn conditional_test(y: &[f64], columns: &[&[f64]], given: &[(&[usize], &[f64])]) -> f64 {
     let left = |column: &[f64]| {
         let mean = column.iter().sum::<f64>() / column.len() as f64;
@@ -48,9 +47,9 @@ mod tests {
     use crate::math::normal::quantile;
     use crate::statistics::correlation::{ascending_order, mid_ranks};
 
-    /// H0: given x, an observable of x and noise does not depend on z, which is correlated with x by 0.8: at most 5% of
-    /// 600 studies of each of a list say so (6 standard deviations of the count are 32). The alternatives add a little
-    /// of z, straight and in a V: 300 runs find them in nine of ten, 60 in half.
+    /// H0: given x, an observable of x and noise does not depend on z, correlated with x by 0.8: at most 5% of 600
+    /// studies of each of a list find it (6 standard deviations of the count are 32). Alternatives add a little of z,
+    /// linear or V-shaped: found by nine of ten studies of 300 runs, half of those of 60.
     #[test]
     fn what_an_input_adds_is_found_and_nothing_else() {
         let mut state = 5_u64;

@@ -1,31 +1,29 @@
-//! Tables of two groups of runs and a yes or no: the exact test of R. A. Fisher, and the risk ratio with its interval.
+//! Tables of two groups of runs and a yes or no.
 //!
-//! - Test: R. A. Fisher, *The logic of inductive inference*, J. Roy. Stat. Soc. 98 (1935) 39; two-sided by the
+//! - Exact test: R. A. Fisher, *The logic of inductive inference*, J. Roy. Stat. Soc. 98 (1935) 39; two-sided by the
 //!   probabilities of the tables, as in R's `fisher.test`.
-//! - Interval: P. A. R. Koopman, *Confidence intervals for the ratio of two binomial proportions*, Biometrics 40 (1984)
-//!   513: the ratios that the score test does not reject. It holds for counts of zero too, where that of the logarithm
-//!   (D. Katz et al., *Biometrics* 34 (1978) 469) has none.
+//! - Interval of the risk ratio: P. A. R. Koopman, *Confidence intervals for the ratio of two binomial proportions*,
+//!   Biometrics 40 (1984) 513: the ratios not rejected by the score test. It exists for counts of zero, unlike that of
+//!   the logarithm (D. Katz et al., *Biometrics* 34 (1978) 469).
 
 use super::jackknife::Estimate;
 use crate::math::normal;
 
-/// Runs of a group: in how many an event occurred, of how many.
+/// Occurrences of an event in a group of runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Occurrence {
-    /// Runs in which it occurred.
+    /// Runs with the event.
     pub events: u64,
     /// All runs of the group.
     pub runs: u64,
 }
 
-/// Relative difference of two probabilities that counts as none: their sums of logarithms round (R has the same
-/// number).
+/// Relative difference of probabilities that counts as none, for rounding of sums of logarithms (as in R).
 const SAME: f64 = 1e-7;
 
-/// The probability of a table that is as unlikely as this one, or more, where the event does not depend on the group
-/// (two-sided).
+/// Two-sided probability of a table as unlikely as this one, or more, if the event does not depend on the group.
 ///
-/// The sum is over all tables with the same margins: exact, in a time that grows with the number of events.
+/// Exact sum over all tables with the same margins, in a time that grows with the number of events.
 pub fn fisher(one: Occurrence, other: Occurrence) -> f64 {
     let events = one.events + other.events;
     let (first, last) = (events.saturating_sub(other.runs), events.min(one.runs));
@@ -50,10 +48,10 @@ pub fn fisher(one: Occurrence, other: Occurrence) -> f64 {
     (unlikely / terms.iter().sum::<f64>()).min(1.0)
 }
 
-/// How many times as often the event occurs in the first group as in the other, with Koopman's interval; infinite where
-/// it never occurs in the other. `None` where it occurs in neither, or a group is empty.
+/// Ratio of the event's frequencies, first over second group, with Koopman's interval; infinite if it never occurs in
+/// the second. `None` if it occurs in neither, or a group is empty.
 pub fn risk_ratio(one: Occurrence, other: Occurrence, confidence: f64) -> Option<Estimate> {
-    /// Ratios of counts of 64 bits are within e^±60 of each other.
+    /// Ratios of counts of 64 bits are within e^±60.
     const REACH: f64 = 60.0;
     /// Halvings of that range: to the last digit.
     const HALVINGS: usize = 64;
@@ -65,7 +63,7 @@ pub fn risk_ratio(one: Occurrence, other: Occurrence, confidence: f64) -> Option
     let z = normal::quantile(0.5 + 0.5 * confidence);
     let is_rejected = |logarithm: f64| {
         let ratio = libm::exp(logarithm);
-        // the likeliest share of the first group where the ratio is this one
+        // the likeliest share of the first group at this ratio
         let sum = ratio * (n1 + x0) + x1 + n0;
         let p1 =
             2.0 * ratio * (x1 + x0) / (sum + libm::sqrt((sum * sum - 4.0 * ratio * (n1 + n0) * (x1 + x0)).max(0.0)));
@@ -101,8 +99,8 @@ mod tests {
         (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
     }
 
-    /// Law: the p-value is the sum, over all tables with these margins, of the probabilities that are no greater; here
-    /// of binomial coefficients. A two-sided p-value that doubles one tail differs.
+    /// Law: the p-value is the sum over all tables with these margins of the probabilities that are no greater, by
+    /// binomial coefficients. A two-sided p-value that doubles one tail differs.
     #[test]
     fn fisher_is_the_sum_over_tables() {
         for (a, m, b, n) in [(3, 4, 1, 4), (14, 14, 2, 20), (0, 5, 7, 9), (2, 30, 9, 25), (1, 1, 0, 40), (6, 12, 6, 12)]
@@ -111,19 +109,18 @@ mod tests {
             let tables = (a + b).saturating_sub(n)..=(a + b).min(m);
             let expected: f64 = tables.map(probability).filter(|p| *p <= probability(a) * (1.0 + 1e-7)).sum();
             let found = fisher(of(a, m), of(b, n));
-            // measured 8e-15
             assert!((found / expected - 1.0).abs() < 8e-14, "{a}/{m} {b}/{n}: {found} {expected}");
             assert!((fisher(of(b, n), of(a, m)) / found - 1.0).abs() < 8e-14, "either group first");
         }
-        // published: the lady who tastes tea (Fisher 1935), three of four cups: 34/70
+        // published: the lady tasting tea (Fisher 1935), three of four cups: 34/70
         assert!((fisher(of(3, 4), of(1, 4)) - 34.0 / 70.0).abs() < 1e-14);
-        // far in the tail nothing overflows
+        // no overflow far in the tail
         assert!(fisher(of(30_000, 30_000), of(0, 30_000)) == 0.0);
         assert!(fisher(of(0, 10), of(0, 20)) == 1.0);
     }
 
     /// H0: with the event independent of the group, the p-value is at most alpha in at most alpha of the tables,
-    /// exactly: the sum of the probabilities of all tables with these margins.
+    /// exactly.
     #[test]
     fn fisher_errs_as_seldom_as_stated() {
         for (events, m, n) in [(16, 14, 985), (9, 20, 30), (40, 50, 50)] {
@@ -152,8 +149,8 @@ mod tests {
         }
     }
 
-    /// Law: the groups exchanged give the inverse ratio and the inverse ends; an event that never occurs in a group
-    /// bounds the ratio on one side.
+    /// Law: exchanged groups have the inverse ratio and ends; an event that never occurs in a group bounds the ratio on
+    /// one side.
     #[test]
     fn exchanged_groups_have_the_inverse_ratio() {
         for (one, other) in
@@ -174,9 +171,9 @@ mod tests {
         assert_eq!(risk_ratio(of(0, 0), of(1, 8), 0.95), None);
     }
 
-    /// H0: the interval covers the true ratio as often as stated, over a list of shares and sizes: the exact sum over
-    /// all pairs of counts, none but a few per cent below 95% (a score interval is not exact; Koopman's table has 94 to
-    /// 96%). Half of the width covers 65 to 75%.
+    /// H0: the interval covers the true ratio as stated, by exact sums over all pairs of counts for a list of shares
+    /// and sizes: at most a few per cent below 95% (score intervals are not exact; Koopman's table has 94 to 96%). Half
+    /// of the width covers 65 to 75%.
     #[test]
     fn the_interval_covers_the_ratio() {
         let term = |k: u64, n: u64, p: f64| choose(n, k) * libm::pow(p, k as f64) * libm::pow(1.0 - p, (n - k) as f64);

@@ -1,17 +1,15 @@
-//! Correlation of two columns, plain or of ranks, with a confidence interval.
+//! Correlation of two columns, plain or of ranks, with a confidence interval for independent rows.
 //!
-//! Pearson's coefficient; Spearman's is Pearson's of mid-ranks. The interval is one of R. A. Fisher's atanh r (*Metron*
-//! 1 (1921) 3), its width that of the [`super::jackknife`]: the variance 1/(n - 3) holds for normal numbers alone (of
-//! y = x z, x and z normal, it covers 0.75 for 0.95).
-//!
-//! Intervals are for independent rows.
+//! Pearson's coefficient; Spearman's is Pearson's of mid-ranks. The interval is that of R. A. Fisher's atanh r
+//! (*Metron* 1 (1921) 3) with the width of the [`super::jackknife`]: the variance 1/(n - 3) holds for normal numbers
+//! only (for y = x z, x and z normal, it covers 0.75 instead of 0.95).
 
 use super::jackknife;
 pub use super::jackknife::Estimate;
 
-/// The rows of `values` in ascending order ([`f64::total_cmp`]); equal values in the order of their rows.
+/// Rows of `values` in ascending order ([`f64::total_cmp`]); stable.
 pub fn ascending_order(values: &[f64]) -> Vec<usize> {
-    // the bits as an integer of the same order: sorting moves values with their rows, and looks nothing up
+    // integers in the order of the values: sorting moves values with their rows and looks nothing up
     let key = |value: f64| {
         let bits = value.to_bits().cast_signed();
         bits ^ ((bits >> 63) as u64 >> 1).cast_signed()
@@ -40,14 +38,14 @@ pub fn mid_ranks_in_order(values: &[f64], order: &[usize]) -> Vec<f64> {
     ranks
 }
 
-/// `values` minus their mean, scaled to length one; zeros where all are equal.
+/// `values` minus their mean, scaled to length one; zeros if all are equal.
 pub fn standardised(values: &[f64]) -> Vec<f64> {
     let n = values.len() as f64;
     let scale = values.iter().fold(0.0_f64, |scale, value| scale.max(value.abs()));
     if values.is_empty() || scale == 0.0 {
         return vec![0.0; values.len()];
     }
-    // a power of two, by which dividing is exact
+    // a power of two: exact
     let inverse_scale = libm::ldexp(1.0, (-libm::ilogb(scale)).min(MAX_EXPONENT));
     let mut off: Vec<f64> = values.iter().map(|value| value * inverse_scale).collect();
     let mean = sum(&off) / n;
@@ -62,20 +60,19 @@ pub fn standardised(values: &[f64]) -> Vec<f64> {
     off
 }
 
-/// The exponent of the largest power of two.
 const MAX_EXPONENT: i32 = f64::MAX_EXP - 1;
 
-/// Pearson's coefficient of two columns of equal length; 0 where one does not vary.
+/// Pearson's coefficient of columns of equal length; 0 if one does not vary.
 pub fn pearson(x: &[f64], y: &[f64]) -> f64 {
     product(&standardised(x), &standardised(y)).clamp(-1.0, 1.0)
 }
 
-/// Spearman's coefficient of two columns of equal length; 0 where one does not vary.
+/// Spearman's coefficient of columns of equal length; 0 if one does not vary.
 pub fn spearman(x: &[f64], y: &[f64]) -> f64 {
     pearson(&mid_ranks(x), &mid_ranks(y))
 }
 
-/// The correlation matrix of columns that are [`standardised`], by rows.
+/// Correlation matrix of [`standardised`] columns, by rows.
 pub fn matrix(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut matrix = vec![vec![0.0; columns.len()]; columns.len()];
     for (i, x) in columns.iter().enumerate() {
@@ -87,10 +84,9 @@ pub fn matrix(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     matrix
 }
 
-/// Pearson's coefficient of two [`standardised`] columns, with its interval; `fixed` other columns were held fixed.
+/// Pearson's coefficient of two [`standardised`] columns, with its interval, given `fixed` other columns.
 ///
-/// Columns of ranks give Spearman's coefficient: taking ranks for numbers makes the interval at most a tenth wider or
-/// narrower.
+/// For Spearman's coefficient pass columns of ranks; the interval is then up to a tenth too wide or too narrow.
 pub fn correlation(x: &[f64], y: &[f64], fixed: usize, confidence: f64) -> Estimate {
     let rows = x.len();
     let value = product(x, y).clamp(-1.0, 1.0);
@@ -101,7 +97,7 @@ pub fn correlation(x: &[f64], y: &[f64], fixed: usize, confidence: f64) -> Estim
     if slope <= 0.0 {
         return Estimate { value, lower: value, upper: value };
     }
-    // each column held fixed costs one degree of freedom
+    // each fixed column costs one degree of freedom
     let scale = libm::sqrt((rows - 1) as f64 / (rows - 1 - fixed) as f64) / slope;
     let influences = jackknife::spaced_rows(rows).map(|row| {
         let change = x[row] * (y[row] - value * x[row]) / (1.0 - 1.0 / rows as f64 - x[row] * x[row]);
@@ -110,8 +106,8 @@ pub fn correlation(x: &[f64], y: &[f64], fixed: usize, confidence: f64) -> Estim
     let [lower, upper] = jackknife::ends(libm::atanh(value), rows, influences, confidence).map(libm::tanh);
     Estimate { value, lower, upper }
 }
-/// n - 1 times the change of a standardised coefficient when a row is left out of `rows`: the row has the standardised
-/// values `x` and `y`, and changes the coefficient by `change` as long as the scales of both columns are kept.
+/// n - 1 times the change of a standardised coefficient if a row with the values `x` and `y` is left out; `change` is
+/// the change at fixed scales of both columns.
 pub(super) fn influence(coefficient: f64, change: f64, [x, y]: [f64; 2], rows: usize) -> f64 {
     let n = rows as f64;
     // the sum of squares without the row and its part in the mean
@@ -119,7 +115,6 @@ pub(super) fn influence(coefficient: f64, change: f64, [x, y]: [f64; 2], rows: u
     (n - 1.0) * (coefficient - (coefficient - change) * libm::sqrt(rest(x) / rest(y)))
 }
 
-/// Sum of products.
 pub(super) fn product(x: &[f64], y: &[f64]) -> f64 {
     let (mut sums, chunks) = ([0.0; SUMS], x.chunks_exact(SUMS).zip(y.chunks_exact(SUMS)));
     chunks.for_each(|(x, y)| (0..SUMS).for_each(|at| sums[at] += x[at] * y[at]));
@@ -134,7 +129,7 @@ fn sum(x: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
-/// Sums that are added up side by side: none waits for the one before.
+/// Independent partial sums, so that none waits for the previous one.
 const SUMS: usize = 8;
 
 #[cfg(test)]
@@ -153,12 +148,12 @@ mod tests {
         expected.sort_by(|a, b| mixed[*a].total_cmp(&mixed[*b]));
         assert_eq!(ascending_order(&mixed), expected);
         assert_eq!(mid_ranks(&[7.0, 7.0, 9.0, 1.0]), [1.5, 1.5, 3.0, 0.0]);
-        // far from zero: the mean costs no digits of the deviations beyond those of the numbers themselves
+        // far from zero: the mean costs no digits of the deviations beyond those of the numbers
         let far: Vec<f64> = [2.0, 1.0, 4.0, 3.0, 5.0].iter().map(|value| value + 1e9).collect();
         assert!((pearson(&x, &far) - 0.8).abs() < 5e-8);
     }
 
-    /// Law: the influence of a row is n - 1 times the change of the coefficient where it is left out.
+    /// Law: the influence of a row is n - 1 times the change of the coefficient without it.
     #[test]
     fn influences_are_those_of_leaving_out() {
         let x: Vec<f64> = (0..30).map(|k| libm::sin(f64::from(k * k))).collect();
@@ -170,13 +165,12 @@ mod tests {
             let expected = 29.0 * (r - pearson(&without(&x), &without(&y)));
             let change = sx[row] * (sy[row] - r * sx[row]) / (1.0 - 1.0 / 30.0 - sx[row] * sx[row]);
             let found = influence(r, change, [sx[row], sy[row]], 30);
-            // rounding of sums of 30 numbers, 29 times
             assert!((found - expected).abs() < 2e-14, "{row}: {found} {expected}");
         }
     }
 
-    /// Law: an interval holds its coefficient, turns with the sign of a column, and has no width where one column is a
-    /// multiple of the other; four rows and more are needed, one more for each column held fixed.
+    /// Law: an interval contains its coefficient, turns with the sign of a column, and has no width for proportional
+    /// columns; it needs four rows, and one more per fixed column.
     #[test]
     fn intervals_hold_their_coefficient() {
         let x = standardised(&(0..50).map(|k| libm::sin(f64::from(k * k))).collect::<Vec<_>>());

@@ -1,40 +1,36 @@
-//! Buckets of deviations from a nominal value: their [`code`], their [`ends`], and the order statistics ([`ranks`]) of
-//! what was counted in them.
+//! Buckets of deviations from a nominal value: their [`code`], their [`ends`], and order statistics ([`ranks`]).
 //!
-//! Buckets are the leading bits of the deviation: sign, exponent and the first [`MANTISSA_BITS`] bits of the mantissa,
-//! as in [`super::sketch`], but coarser and in 16 bits, so that hundreds of millions of deviations can be counted while
-//! a campaign runs. A bucket is at most 2^-5 of its value wide; a quantile is answered by the middle of its bucket,
-//! hence within [`RELATIVE_ERROR`] of the deviation.
-//!
+//! Buckets are the leading bits of the deviation: sign, exponent and [`MANTISSA_BITS`] bits of the mantissa, as in
+//! [`super::sketch`] but in 16 bits, so that hundreds of millions of deviations can be counted. A bucket is at most
+//! 2^-5 of its value wide; a quantile is the middle of its bucket, within [`RELATIVE_ERROR`] of the deviation.
 //! Magnitudes below 2^-512 (7e-155) count as zero, those from 2^512 (1.3e154) on are in the last bucket.
 
 use super::sketch::Ranks;
 
-/// Leading mantissa bits that tell buckets apart.
+/// Leading mantissa bits of a bucket.
 pub const MANTISSA_BITS: u32 = 5;
 
 /// Bound of the relative error of a deviation: half a bucket.
 pub const RELATIVE_ERROR: f64 = 1.0 / 64.0;
 
-/// A bucket: twice the number of its magnitude, in ascending order from 1, plus one where the deviation is negative.
+/// A bucket: twice the number of its magnitude, ascending from 1, plus one for negative deviations.
 pub type Code = u16;
 
 /// The bucket of zero.
 pub const ZERO: Code = 0;
 
-/// The code of what is not a number. It is in no bucket.
+/// The code of NaN, which is in no bucket.
 pub const NOT_A_NUMBER: Code = 1;
 
-/// Bits of the upper half of a number that are below its bucket.
+/// Bits of the upper half of a number below its bucket.
 const SHIFT: u32 = 20 - MANTISSA_BITS;
 
-/// The leading bits of the smallest magnitude that is not zero, 2^-512.
+/// Leading bits of the smallest nonzero magnitude, 2^-512.
 const LOWEST: i32 = (1023 - 512) << MANTISSA_BITS;
 
-/// The number of the last magnitude.
 const LAST: i32 = Code::MAX as i32 / 2;
 
-/// The bucket of a deviation. Without branches: a loop over many of them is one over vectors.
+/// The bucket of a deviation, without branches: a loop over many is vectorised.
 #[inline(always)]
 pub fn code(deviation: f64) -> Code {
     let upper = (deviation.to_bits() >> 32) as u32;
@@ -45,7 +41,7 @@ pub fn code(deviation: f64) -> Code {
     (if deviation.is_nan() { u32::from(NOT_A_NUMBER) } else { code }) as Code
 }
 
-/// The ends of a bucket, ascending: no deviation in it is outside.
+/// Ends of a bucket, ascending; no deviation in it is outside.
 pub fn ends(code: Code) -> [f64; 2] {
     let magnitude = i32::from(code >> 1);
     let end = |leading: i32| f64::from_bits((leading as u64) << (32 + SHIFT));
@@ -61,7 +57,7 @@ fn is_negative(code: Code) -> bool {
     code & 1 == 1
 }
 
-/// The order statistics of deviations that were counted by their codes, which are in ascending order.
+/// Order statistics of counted deviations, from codes in ascending order.
 pub fn ranks(buckets: &[(Code, u64)]) -> Ranks {
     let negative = buckets.iter().rev().filter(|(code, _)| is_negative(*code));
     let ascending = negative.chain(buckets.iter().filter(|(code, _)| !is_negative(*code)));
@@ -84,15 +80,14 @@ mod tests {
         ranks(&[(code, 1)]).quantile(0.5).expect("a value")
     }
 
-    /// A number that follows from `k`, spread over 80 octaves and both signs.
+    /// Pseudo-random numbers over 80 octaves and both signs.
     fn spread(k: u64) -> f64 {
         let bits = k.wrapping_mul(0x9E37_79B9_7F4A_7C15);
         let magnitude = libm::exp2((bits >> 40) as f64 / f64::from(1 << 24) * 80.0 - 60.0);
         if bits & 1 == 0 { magnitude } else { -magnitude }
     }
 
-    /// Law: the middle of the bucket of a deviation is within the stated error of it, with its sign, from 2^-512 to
-    /// 2^511.
+    /// Law: the middle of a bucket is within the stated error of its deviations, with their sign, from 2^-512 to 2^511.
     #[test]
     fn a_bucket_is_as_narrow_as_stated() {
         let mut widest = 0.0f64;
@@ -108,7 +103,7 @@ mod tests {
                 }
             }
         }
-        // counter-test: the bound is not idle
+        // counter-test: the bound is tight
         assert!(widest > 0.99 * RELATIVE_ERROR, "{widest}");
     }
 
@@ -125,7 +120,7 @@ mod tests {
         assert!(ranks(&[]).neighbours(0.5).is_none() && middle(Code::MAX).is_finite());
     }
 
-    /// Law: neighbours and their part give the quantile of type 7 within the stated error of the larger neighbour.
+    /// Law: interpolated neighbours are the quantile of type 7 within the stated error of the larger neighbour.
     #[test]
     fn quantiles_are_within_the_bound() {
         let mut values: Vec<f64> = (0..5_000).map(spread).chain([0.0; 100]).collect();

@@ -1,10 +1,9 @@
-//! What numbers say of a requirement: met, missed, or undecided and how many runs would decide.
+//! Decisions on requirements: met, missed, or undecided with the number of runs that would decide.
 //!
-//! Fractions and quantiles are one exact binomial test ([`super::binomial::decide`]): that the `p`-quantile is at most
-//! a limit says that at least the fraction p of runs is. Means are tested by bounds that allow for skewness
-//! ([`super::mean`]), estimates of replicates by theirs ([`super::replicates`]). Each error, to pass what should fail
-//! or to fail what should pass, has at most the probability 1 - confidence. Of several requirements see [`failing_at`]
-//! and [`failing_together`].
+//! Fractions and quantiles are one exact binomial test ([`super::binomial::decide`]): the `p`-quantile is at most a
+//! limit if at least the fraction p of runs is. Means have bounds that allow for skewness ([`super::mean`]), estimates
+//! of replicates their own ([`super::replicates`]). Either error, a wrong pass or a wrong failure, has at most the
+//! probability 1 - confidence. For several requirements see [`failing_at`] and [`failing_together`].
 
 use super::binomial::{Decision, MAX_RUNS, POWER, decide, lower_bound, upper_bound};
 use super::looks::adjusted;
@@ -12,7 +11,7 @@ use super::mean::{bernstein_reach, bounded_mean_bounds, distance_towards, mean_b
 use super::moments::Moments;
 use super::replicates;
 
-/// On which side of a limit a number must be.
+/// Limit of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GateLimit {
     /// At most this.
@@ -22,7 +21,7 @@ pub enum GateLimit {
 }
 
 impl GateLimit {
-    /// Whether `value` is within the limit; NaN is not.
+    /// True if `value` is within the limit; false for NaN.
     pub fn is_met(self, value: f64) -> bool {
         match self {
             GateLimit::AtMost(limit) => value <= limit,
@@ -30,7 +29,7 @@ impl GateLimit {
         }
     }
 
-    /// The fraction of runs that must be within the limit where the `p`-quantile must be.
+    /// Fraction of runs within the limit that is required if the `p`-quantile must be.
     pub fn fraction(self, p: f64) -> f64 {
         match self {
             GateLimit::AtMost(_) => p,
@@ -46,19 +45,19 @@ impl GateLimit {
     }
 }
 
-/// What was decided, and from what.
+/// A decision and its numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gate {
     /// What is decided.
     pub decision: Decision,
     /// The estimate: a fraction, or a mean.
     pub estimate: f64,
-    /// One-sided bounds of what is estimated, each at the confidence.
+    /// One-sided bounds of the estimate, each at the confidence.
     pub bounds: [f64; 2],
 }
 
-/// The gate `at` a confidence, except that it fails only where it does at `fails_at`, which is higher. `is_met` says
-/// whether an estimate is within the limit.
+/// The gate `at` a confidence, except that it fails only at the higher confidence `fails_at`. `is_met` compares an
+/// estimate with the limit.
 pub fn failing_at([confidence, fails_at]: [f64; 2], is_met: impl Fn(f64) -> bool, at: impl Fn(f64) -> Gate) -> Gate {
     let gate = at(confidence);
     if gate.decision == Decision::Pass || is_met(gate.estimate) {
@@ -67,13 +66,12 @@ pub fn failing_at([confidence, fails_at]: [f64; 2], is_met: impl Fn(f64) -> bool
     Gate { decision: at(fails_at).decision, ..gate }
 }
 
-/// The decisions on several requirements, so that with the probability of their confidence, the lowest one where they
-/// differ, none fails that is met: `at` has the decisions where each fails at the confidence 1 - (1 - c)/m only, of the
-/// m that it is called with.
+/// Decisions on several requirements such that, with the probability of their (lowest) confidence, no requirement that
+/// is met fails: `at(m)` has the decisions with failures at the confidence 1 - (1 - c)/m only.
 ///
 /// S. Holm, *A simple sequentially rejective multiple test procedure*, Scand. J. Statist. 6 (1979) 65: m is the number
-/// of requirements that have not failed yet. That all are met needs no correction: it is wrong only where one that is
-/// missed passes (R. L. Berger, *Technometrics* 24 (1982) 295).
+/// of requirements that have not failed yet. A pass of all needs no correction: it is wrong only if one that is missed
+/// passes (R. L. Berger, *Technometrics* 24 (1982) 295).
 pub fn failing_together<T>(count: usize, at: impl Fn(usize) -> Vec<T>, has_failed: impl Fn(&T) -> bool) -> Vec<T> {
     let mut open = count;
     loop {
@@ -86,7 +84,7 @@ pub fn failing_together<T>(count: usize, at: impl Fn(usize) -> Vec<T>, has_faile
     }
 }
 
-/// The gate that at least the fraction `target` of runs succeeds, from `successes` in `trials` independent ones.
+/// Gate on a fraction of success of at least `target`, from independent trials.
 pub fn fraction_gate(successes: u64, trials: u64, target: f64, confidence: f64) -> Gate {
     Gate {
         decision: decide(successes, trials, target, confidence),
@@ -98,14 +96,14 @@ pub fn fraction_gate(successes: u64, trials: u64, target: f64, confidence: f64) 
     }
 }
 
-/// The same where only bounds of the number of successes are known, `successes[0] <= successes[1]`: what both bounds
-/// decide.
+/// [`fraction_gate`] with bounds `successes[0] <= successes[1]` of the number of successes: the decision common to
+/// both.
 pub fn fraction_gate_within(successes: [u64; 2], trials: u64, target: f64, confidence: f64) -> Gate {
     let [least, most] = successes.map(|successes| fraction_gate(successes, trials, target, confidence));
     let decision = match (least.decision, most.decision) {
         (Decision::Pass, _) => Decision::Pass,
         (_, Decision::Fail) => Decision::Fail,
-        // what is between cannot be told apart by more runs
+        // more runs do not separate numbers in between
         (Decision::Undecided(runs), Decision::Undecided(other)) => {
             Decision::Undecided(runs.zip(other).map(|(a, b)| a.max(b)))
         }
@@ -114,13 +112,13 @@ pub fn fraction_gate_within(successes: [u64; 2], trials: u64, target: f64, confi
     Gate { decision, estimate: 0.5 * (least.estimate + most.estimate), bounds: [least.bounds[0], most.bounds[1]] }
 }
 
-/// The gate that at every one of several points, of the same runs, at least the fraction `target` succeeds: for each
-/// point the bounds of the number of successes, and the number of runs.
+/// Gate on a fraction of success of at least `target` at each of several points of the same runs: bounds of successes,
+/// and number of runs, per point.
 ///
-/// It passes where every point does: for any point that misses the target that is an error of at most 1 - confidence,
-/// so no correction is needed (R. L. Berger, *Technometrics* 24 (1982) 295). It fails where a point does at the
-/// confidence 1 - (1 - c)/points (Bonferroni), c being the second of `confidences`. The estimate and the bounds are
-/// those of the point with the smallest estimate, the first of them, whose index is returned too.
+/// It passes if every point does, without correction: a missed point passes with at most 1 - confidence (R. L. Berger,
+/// *Technometrics* 24 (1982) 295). It fails if a point does at the confidence 1 - (1 - c)/points (Bonferroni), c being
+/// the second of `confidences`. Estimate, bounds and returned index are those of the first point with the smallest
+/// estimate.
 pub fn points_gate(points: &[([u64; 2], u64)], target: f64, [confidence, fails_at]: [f64; 2]) -> (Gate, Option<usize>) {
     let confidences = [confidence, adjusted(fails_at, points.len())];
     let gate = |(counts, runs): &([u64; 2], u64)| {
@@ -145,8 +143,7 @@ pub fn points_gate(points: &[([u64; 2], u64)], target: f64, [confidence, fails_a
     (Gate { decision, ..*worst }, Some(index))
 }
 
-/// The gate that the mean of independent runs is within `limit`. Runs without a spread decide nothing: a rare event
-/// would not show.
+/// Gate on the mean of independent runs. Runs without spread decide nothing: a rare event would not show.
 pub fn mean_gate(moments: &Moments, limit: GateLimit, confidence: f64) -> Gate {
     let (count, estimate) = (moments.count(), moments.mean().unwrap_or(f64::NAN));
     let bounds = mean_bounds(moments, confidence);
@@ -160,7 +157,7 @@ pub fn mean_gate(moments: &Moments, limit: GateLimit, confidence: f64) -> Gate {
     Gate { decision: decision(bounds, limit, needed), estimate, bounds }
 }
 
-/// The same of runs whose values are never outside of `range`: whatever their distribution, and also without a spread.
+/// Gate on the mean of runs with values in `range`, for any distribution, also without spread.
 pub fn bounded_mean_gate(moments: &Moments, range: [f64; 2], limit: GateLimit, confidence: f64) -> Gate {
     let estimate = moments.mean().unwrap_or(f64::NAN);
     let deviation = moments.standard_deviation().unwrap_or(f64::NAN);
@@ -174,27 +171,26 @@ pub fn bounded_mean_gate(moments: &Moments, range: [f64; 2], limit: GateLimit, c
     Gate { decision: decision(bounds, limit, needed), estimate, bounds }
 }
 
-/// The gate on a number that does not depend on the run, and so has no error.
+/// Gate on a number that does not depend on the run and has no error.
 pub fn constant_gate(value: f64, limit: GateLimit) -> Gate {
     let decision = if limit.is_met(value) { Decision::Pass } else { Decision::Fail };
     Gate { decision, estimate: value, bounds: [value; 2] }
 }
 
-/// The gate that at least the fraction `target` of runs succeeds, from the fractions of independent replicates of
-/// `runs` runs together.
+/// Gate on a fraction of success of at least `target`, from the fractions of independent replicates of `runs` runs in
+/// all.
 pub fn replicate_fraction_gate(fractions: &[f64], runs: u64, target: f64, confidence: f64) -> Gate {
     let bounds = replicates::fraction_bounds(fractions, runs, confidence);
     replicate_gate(fractions, bounds, runs, GateLimit::AtLeast(target), confidence)
 }
 
-/// The gate that the mean is within `limit`, from the `means` of independent replicates and the moments of all their
-/// runs.
+/// Gate on a mean, from the `means` of independent replicates and the moments of all their runs.
 pub fn replicate_mean_gate(means: &[f64], whole: &Moments, limit: GateLimit, confidence: f64) -> Gate {
     let bounds = replicates::mean_bounds(means, whole, confidence);
     replicate_gate(means, bounds, whole.count(), limit, confidence)
 }
 
-/// More runs are more runs of each replicate, whose variance then falls at least in proportion.
+/// More runs are more runs per replicate, whose variance falls at least in proportion.
 fn replicate_gate(estimates: &[f64], bounds: [f64; 2], runs: u64, limit: GateLimit, confidence: f64) -> Gate {
     let estimate = Moments::of(estimates.iter().copied()).mean().unwrap_or(f64::NAN);
     let distance = (estimate - limit.value()).abs();
@@ -221,8 +217,7 @@ fn decision([lower, upper]: [f64; 2], limit: GateLimit, needed: impl FnOnce() ->
     }
 }
 
-/// The smallest number above `from` that `decides`, which holds from some number on; `None` where that is above
-/// [`MAX_RUNS`].
+/// The smallest number above `from` that `decides`, monotonic; `None` beyond [`MAX_RUNS`].
 fn smallest(from: u64, decides: impl Fn(u64) -> bool) -> Option<u64> {
     let (mut low, mut high) = (from, from);
     while !decides(high) {
@@ -240,8 +235,7 @@ fn smallest(from: u64, decides: impl Fn(u64) -> bool) -> Option<u64> {
 mod tests {
     use super::*;
 
-    /// Published: 59 runs within the limit show that p95 is (Wilks 1941); the 5% quantile from below is the same by
-    /// symmetry.
+    /// Published: 59 runs within the limit show that p95 is (Wilks 1941); so for the 5% quantile from below.
     #[test]
     fn quantile_gates_are_fraction_gates() {
         for (limit, p) in [(GateLimit::AtMost(1.0), 0.95), (GateLimit::AtLeast(1.0), 0.05)] {
@@ -252,7 +246,7 @@ mod tests {
         assert!(GateLimit::AtLeast(1.0).is_met(1.0) && !GateLimit::AtLeast(1.0).is_met(0.999));
     }
 
-    /// Law: bounds of the number of successes decide only what every number between them decides.
+    /// Law: bounds of the number of successes decide only if all numbers between them do.
     #[test]
     fn what_is_between_is_undecided() {
         let of = |least, most| fraction_gate_within([least, most], 1000, 0.9, 0.95).decision;
@@ -261,7 +255,7 @@ mod tests {
         assert!(matches!(of(905, 906), Decision::Undecided(Some(runs)) if runs > 1000));
     }
 
-    /// Law: several points pass where each does, and fail where one does at the corrected confidence.
+    /// Law: several points pass if each does, and fail if one does at the corrected confidence.
     #[test]
     fn every_point_must_pass() {
         let of = |successes: &[u64]| {
@@ -279,16 +273,15 @@ mod tests {
         assert_eq!(of(&[]).decision, Decision::Undecided(None));
     }
 
-    /// Law: a mean decides where both bounds are on one side of the limit, says how many runs would decide, and decides
-    /// nothing at the limit, without a spread, or from too few runs.
+    /// Law: a mean decides if both bounds are on one side of the limit, states how many runs would decide, and decides
+    /// nothing at the limit, without spread, or from too few runs.
     #[test]
     fn known_gates_on_a_mean() {
         let values = [1.0, 2.0, 3.0, 4.0].repeat(5);
         let moments = Moments::of(values.iter().copied());
         let of = |limit| mean_gate(&moments, limit, 0.95);
         let [lower, upper] = of(GateLimit::AtMost(4.1)).bounds;
-        // Student's half width t(0.95, 19) s/sqrt(20) = 1.729 * 0.2565; some more for a skewness that twenty runs may
-        // hide
+        // Student's half width t(0.95, 19) s/sqrt(20) = 1.729 * 0.2565, and some more for hidden skewness
         assert!(upper - 2.5 > 0.4435 && upper - 2.5 < 1.25 * 0.4435 && (upper + lower - 5.0).abs() < 1e-14, "{upper}");
         assert_eq!(
             (of(GateLimit::AtMost(4.1)).decision, of(GateLimit::AtMost(0.9)).decision),
@@ -299,8 +292,7 @@ mod tests {
             (Decision::Pass, Decision::Fail)
         );
         let Decision::Undecided(Some(needed)) = of(GateLimit::AtMost(2.6)).decision else { panic!("undecided") };
-        // so many that repeat these have a bound that is nearer than the limit by the 1.2816 standard errors that the
-        // mean scatters in nine of ten
+        // so many repetitions have a bound nearer than the limit by 1.2816 standard errors, the scatter in nine of ten
         let repeated = Moments::of(values.iter().copied().cycle().take(needed as usize));
         let upper = mean_gate(&repeated, GateLimit::AtMost(2.6), 0.95).bounds[1];
         let distance = upper - 2.5 + 1.2816 * repeated.mean_error().expect("many");
@@ -315,8 +307,8 @@ mod tests {
         assert_eq!(constant_gate(f64::NAN, GateLimit::AtMost(9.0)).decision, Decision::Fail);
     }
 
-    /// Law: with a long tail above, a limit above the mean takes more runs than one as far below; either number
-    /// repeated bounds the mean nearer than the limit by the scatter in nine of ten.
+    /// Law: with a long tail above, a limit above the mean takes more runs than one as far below; either number of
+    /// repetitions bounds the mean nearer than the limit by the scatter in nine of ten.
     #[test]
     fn runs_that_decide_follow_the_tail() {
         let values: Vec<f64> = (0..40).map(|k| libm::exp(0.1 * f64::from(k))).collect();
@@ -338,10 +330,8 @@ mod tests {
         assert!(needed[1] > needed[0] + needed[0] / 20, "{needed:?}");
     }
 
-    /// Law: the same of the means of replicates: with a long tail above, a limit above takes more runs than one as far
-    /// below. So many runs of each replicate, whose errors then fall with the root of their number, have a bound on the
-    /// side of the limit that is nearer than it by the scatter in nine of ten. Known: t(0.95, 15) = 1.7530503556925735
-    /// and t(0.9, 15) = 1.3406056078504556 (roots of `mpmath.betainc`).
+    /// Law: as above for means of replicates, whose errors fall with the root of their size. Known: t(0.95, 15) =
+    /// 1.7530503556925735 and t(0.9, 15) = 1.3406056078504556 (roots of `mpmath.betainc`).
     #[test]
     fn runs_of_replicates_that_decide_follow_the_tail() {
         const RUNS: u64 = 1600;
@@ -364,9 +354,8 @@ mod tests {
         assert!(needed[1][0] > needed[0][0] + needed[0][0] / 5, "{needed:?}");
     }
 
-    /// Law: a requirement that is missed at the confidence of one but not at that of several is undecided; of several,
-    /// one that fails makes it easier for the others (Holm): p = 0.001, 0.014, 0.03 and 0.04 fail at 0.0125, 0.0167,
-    /// 0.025 and not at 0.05/2.
+    /// Law: a requirement missed at the confidence of one but not of several is undecided; each failure helps the
+    /// others (Holm): p = 0.001, 0.014, 0.03 and 0.04 fail at 0.0125, 0.0167, 0.025 and not at 0.05/2.
     #[test]
     fn several_requirements_fail_together() {
         // 883 of 1000 miss 0.9 with P = 0.0433, 870 with P = 0.0013 (scipy.stats.binom.cdf)

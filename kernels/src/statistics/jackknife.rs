@@ -1,17 +1,15 @@
-//! Intervals of estimates that are not means, from what each row contributes: the jackknife (J. W. Tukey, *Ann. Math.
-//! Stat.* 29 (1958) 614; B. Efron & C. Stein, *Ann. Stat.* 9 (1981) 586).
+//! Intervals of estimates other than means, from the influence of each of the independent rows: the jackknife (J. W.
+//! Tukey, *Ann. Math. Stat.* 29 (1958) 614; B. Efron & C. Stein, *Ann. Stat.* 9 (1981) 586).
 //!
-//! n - 1 times the change of an estimate when a row is left out is the row's influence. An estimate varies as the mean
-//! of the influences does, whatever the distribution of the rows, so that its bounds are those of a mean of skewed
-//! numbers ([`super::mean`]). Of many rows, evenly spaced ones have their influence computed, and the width is that of
-//! all. Resampling was rejected: it costs hundreds of estimates, and of heavy tails it covers no better.
-//!
-//! Intervals are for independent rows. The tests (`coverage_of_sensitivities`) measure how often they cover.
+//! The influence of a row is n - 1 times the change of the estimate without it. An estimate varies as the mean of the
+//! influences, for any distribution, so that its bounds are those of a mean of skewed numbers ([`super::mean`]). Of
+//! many rows, evenly spaced ones are used, for the width of all. Resampling was rejected: hundreds of estimates, and no
+//! better coverage for heavy tails. The tests `coverage_of_sensitivities` measure the coverage.
 
 use super::mean::mean_bounds;
 use super::moments::Moments;
 
-/// An estimate and the interval that covers the true value with the stated confidence.
+/// An estimate with its confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// The estimate.
@@ -22,16 +20,16 @@ pub struct Estimate {
     pub upper: f64,
 }
 
-/// Most rows whose influence is computed: the error of a width is then about 1%, a few % of heavy tails.
+/// Limit of rows with influence: the error of a width is about 1%, a few % for heavy tails.
 const MOST_ROWS: usize = 10_000;
 
-/// The rows whose influence is wanted, of `rows`: all, or evenly spaced ones.
+/// The rows whose influence is needed, of `rows`: all, or evenly spaced ones.
 pub fn spaced_rows(rows: usize) -> impl Iterator<Item = usize> {
     (0..rows).step_by(rows.div_ceil(MOST_ROWS).max(1))
 }
 
-/// The ends of the interval of `estimate` from `rows` rows, by the influences of the [`spaced_rows`]; infinite where
-/// these bound nothing, of no width where every row says the same.
+/// Ends of the interval of `estimate` from `rows` rows by the influences of the [`spaced_rows`]; infinite if these
+/// bound nothing, of zero width if all are equal.
 pub fn ends(estimate: f64, rows: usize, influences: impl Iterator<Item = f64>, confidence: f64) -> [f64; 2] {
     let influences: Vec<f64> = influences.collect();
     let moments = Moments::of_block(&influences);
@@ -45,7 +43,7 @@ pub fn ends(estimate: f64, rows: usize, influences: impl Iterator<Item = f64>, c
     if found.iter().any(|end| end.is_nan()) { everything } else { found }
 }
 
-/// sum(numerator)/sum(denominator) with its interval; `None` where the denominator is zero.
+/// sum(numerator)/sum(denominator) with its interval; `None` if the denominator is zero.
 pub fn ratio(numerator: &[f64], denominator: &[f64], confidence: f64) -> Option<Estimate> {
     let (rows, below) = (numerator.len(), denominator.iter().sum::<f64>());
     if below <= 0.0 || !below.is_finite() {
@@ -58,8 +56,7 @@ pub fn ratio(numerator: &[f64], denominator: &[f64], confidence: f64) -> Option<
     Some(Estimate { value, lower, upper })
 }
 
-/// `share`, a part of a variance, with the ends 0 and 1 where the rows bound it by none (and where the estimate itself
-/// is not beyond them).
+/// `share`, a part of a variance, with infinite ends replaced by 0 and 1 (or by the estimate beyond them).
 pub fn of_whole(share: Estimate) -> Estimate {
     let Estimate { value, lower, upper } = share;
     Estimate {
@@ -69,10 +66,8 @@ pub fn of_whole(share: Estimate) -> Estimate {
     }
 }
 
-/// The share 1 - `left` of a variance that is explained, with its interval: `parts` are the shares of the
-/// [`spaced_rows`] in what is left and in the whole.
-///
-/// The interval is one of the logarithm of what is left: it is never above 1.
+/// The explained share 1 - `left` of a variance with its interval, that of the logarithm of what is left, never above
+/// 1: `parts` are the shares of the [`spaced_rows`] in the residual and in the whole.
 pub fn explained_share(left: f64, rows: usize, parts: impl Iterator<Item = [f64; 2]>, confidence: f64) -> Estimate {
     if left <= 0.0 {
         return Estimate { value: 1.0, lower: 1.0, upper: 1.0 };
@@ -86,7 +81,7 @@ pub fn explained_share(left: f64, rows: usize, parts: impl Iterator<Item = [f64;
 mod tests {
     use super::*;
 
-    /// Law: of a mean, the influences are the deviations of the numbers, and the interval is that of the mean.
+    /// Law: the influences of a mean are the deviations, and the interval is that of the mean.
     #[test]
     fn a_ratio_to_one_is_a_mean() {
         let values: Vec<f64> = (0..200).map(|k| libm::exp(libm::sin(f64::from(k)))).collect();
@@ -97,12 +92,12 @@ mod tests {
             "{found:?} {lower} {upper}"
         );
         assert_eq!(ratio(&values, &[0.0; 200], 0.95), None);
-        // twice the numbers in proportion: every row says the same
+        // proportional numbers: all rows agree
         let doubled: Vec<f64> = values.iter().map(|value| 2.0 * value).collect();
         assert_eq!(ratio(&doubled, &values, 0.95), Some(Estimate { value: 2.0, lower: 2.0, upper: 2.0 }));
     }
 
-    /// Law: beyond 10,000 rows the width is that of all rows: it falls with the root of their number, to 5% of itself.
+    /// Law: beyond 10,000 rows the width is that of all rows: it falls with the root of their number, to 5%.
     #[test]
     fn spaced_rows_have_the_width_of_all() {
         let width = |rows: usize| {
@@ -117,7 +112,7 @@ mod tests {
         }
     }
 
-    /// Law: an explained share is at most 1, and exactly 1 where nothing is left.
+    /// Law: an explained share is at most 1, and exactly 1 if nothing is left.
     #[test]
     fn shares_are_at_most_one() {
         let parts = (0..100).map(|k| if k < 50 { [0.02, 0.002] } else { [0.0, 0.018] });

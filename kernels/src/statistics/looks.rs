@@ -1,36 +1,36 @@
-//! Stopping when a quantile is known well enough: looks at growing numbers of runs, and what each decides.
+//! Stopping once a quantile is known well enough: looks at growing numbers of runs.
 //!
-//! A campaign that stops at the first narrow interval would cover less often than a single look: the interval of every
-//! look has the confidence 1 - (1 - c)/L, so that all L of them together cover with c (C. E. Bonferroni 1936). The
-//! numbers of runs double, which keeps L small.
+//! Stopping at the first narrow interval covers less often than a single look. The interval of each of L looks has the
+//! confidence 1 - (1 - c)/L, so that all together cover with c (C. E. Bonferroni 1936). The numbers of runs double,
+//! which keeps L small.
 
 use super::quantile::{interval_ranks, quantile};
 
-/// When a campaign stops.
+/// Condition for stopping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goal {
     /// Which quantile, in (0, 1).
     pub quantile: f64,
-    /// Half the width of its interval that is narrow enough.
+    /// Sufficient half width of its interval.
     pub half_width: f64,
-    /// Confidence of the interval, whichever look stops.
+    /// Confidence of the interval, at whichever look the campaign stops.
     pub confidence: f64,
 }
 
-/// What a look says.
+/// Result of a look.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
-    /// Whether the campaign may stop.
+    /// True if the campaign may stop.
     pub stops: bool,
     /// The sample quantile (type 7).
     pub estimate: Option<f64>,
-    /// Ends of its interval; `None` where there are too few runs for one.
+    /// Its interval; `None` with too few runs.
     pub interval: [Option<f64>; 2],
-    /// The confidence of the interval, after the correction for the number of looks.
+    /// Confidence of the interval, corrected for the number of looks.
     pub confidence: f64,
 }
 
-/// The numbers of runs at which is looked: `first`, twice that, and so on, and `most`.
+/// Numbers of runs of the looks: `first`, doubled up to `most`.
 pub fn looks(first: u64, most: u64) -> Vec<u64> {
     let doubled = std::iter::successors(Some(first.max(1)), |runs| runs.checked_mul(2));
     let mut list: Vec<u64> = doubled.take_while(|runs| *runs < most).collect();
@@ -38,13 +38,13 @@ pub fn looks(first: u64, most: u64) -> Vec<u64> {
     list
 }
 
-/// The confidence of the interval of each of so many looks.
+/// Confidence of the interval of each of `looks` looks.
 pub fn adjusted(confidence: f64, looks: usize) -> f64 {
     1.0 - (1.0 - confidence) / looks.max(1) as f64
 }
 
-/// What the values of the runs so far say, at one of `looks` looks; values that are not numbers are left out. The last
-/// look stops whatever it says: the caller knows which it is.
+/// The result of one of `looks` looks at the values so far; NaN is left out. The caller stops at the last look in any
+/// case.
 pub fn decision(values: &[f64], goal: Goal, looks: usize) -> Look {
     let mut ascending: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
     ascending.sort_unstable_by(f64::total_cmp);
@@ -69,11 +69,10 @@ mod tests {
         assert_eq!(looks(1000, 7000), [1000, 2000, 4000, 7000]);
         assert_eq!(looks(1000, 1000), [1000]);
         assert_eq!(looks(1 << 52, 1 << 53).len(), 2);
-        // measured 0; four units in the last place
         assert!((adjusted(0.95, 5) - 0.99).abs() < 5e-16);
     }
 
-    /// Law: a look stops exactly where both ends are there and near enough; NaN does not count.
+    /// Law: a look stops exactly if both ends exist and are near enough; NaN does not count.
     #[test]
     fn a_look_stops_at_a_narrow_interval() {
         let values: Vec<f64> = (0..1000).map(|k| f64::from((k * 617) % 1000)).chain([f64::NAN; 5]).collect();

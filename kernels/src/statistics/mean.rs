@@ -1,48 +1,44 @@
-//! Bounds of a mean and of a standard deviation, from the moments of independent numbers: one fold over them is enough.
+//! Bounds of a mean and of a standard deviation from the moments of independent numbers, in one fold.
 //!
-//! Student's t takes the numbers for normal: where they are skewed, its bound on the side of the long tail misses
-//! several times as often as stated. Here each bound is the wider one of Student's and of the one that removes the
-//! skewness (P. Hall, *On the removal of skewness by transformation*, J. R. Stat. Soc. B 54 (1992) 221, the exponential
-//! transformation): with r the skewness over sqrt(n), f(T) = (e^(2 r T/3) - 1)/(2 r/3) + r/6 is more nearly t
-//! distributed than T = (mean - mu)/(s/sqrt(n)) is, and -T at the bound is -log(1 - (2 r/3)(t + r/6))/(2 r/3). Where
-//! that logarithm does not exist, the runs are too few for their skewness: there is no bound.
+//! For skewed numbers Student's bound on the side of the long tail misses several times as often as stated. Here each
+//! bound is the wider of Student's and the one without skewness (P. Hall, *On the removal of skewness by
+//! transformation*, J. R. Stat. Soc. B 54 (1992) 221, exponential transformation): with r, the skewness over sqrt(n),
+//! f(T) = (e^(2 r T/3) - 1)/(2 r/3) + r/6 is more nearly t distributed than T = (mean - mu)/(s/sqrt(n)), and -T at the
+//! bound is -log(1 - (2 r/3)(t + r/6))/(2 r/3). If that logarithm does not exist, the runs are too few for their
+//! skewness, and there is no bound.
 //!
-//! No numbers bound a mean that a rarer one decides: these bounds hold where no event that the runs show fewer than
-//! some ten times makes much of the mean. Where the numbers are known to be within bounds, [`bounded_mean_bounds`] need
-//! no such assumption.
-//!
-//! The tests (`coverage_of_means`) measure how often bounds miss. Not here: numbers that are not independent
-//! ([`super::replicates`]).
+//! These bounds hold unless an event seen fewer than some ten times contributes much to the mean.
+//! [`bounded_mean_bounds`] need no such assumption if the numbers are bounded. The tests `coverage_of_means` measure
+//! the coverage. For dependent numbers see [`super::replicates`].
 
 use core::cell::Cell;
 
 use super::moments::Moments;
 use super::student::two_sided_quantile;
 
-/// Factor of the sample skewness, which is smaller than that of a long-tailed population more often than not. Measured:
-/// with 1 the upper bound of lognormal(1) misses 6 to 8% for 5% at 20 to 300 runs, with 3/2 and [`SKEWNESS_ERRORS`] 4.0
-/// to 5.2%.
+/// Factor of the sample skewness, mostly smaller than that of a long-tailed population. Measured: with 1 the upper
+/// bound of lognormal(1) misses 6 to 8% for 5% at 20 to 300 runs, with 3/2 and [`SKEWNESS_ERRORS`] 4.0 to 5.2%.
 const SKEWNESS_FACTOR: f64 = 1.5;
 
-/// Standard errors sqrt(6/n) of the skewness of normal numbers that are added: few runs do not show a skewness.
+/// Added standard errors sqrt(6/n) of the skewness of normal numbers: few runs do not show a skewness.
 const SKEWNESS_ERRORS: f64 = 2.0;
 
-/// The skewness of squared deviations over their standard deviation (in means): 2 for normal numbers, 3.75 for
-/// exponential ones. It takes the sixth moment, which few runs do not show.
+/// Skewness of squared deviations over their standard deviation: 2 for normal numbers, 3.75 for exponential ones. It
+/// would take the sixth moment, which few runs do not show.
 const SKEWNESS_OF_SQUARES: f64 = 4.0;
 
-/// Where one run makes more than this share of the sum of the squares (or of the fourth powers) of all deviations, the
-/// tail is too heavy for the standard error of the mean (or of the standard deviation) to be trusted.
+/// Limit of one run's share of the sum of squares (or fourth powers) of all deviations, beyond which the tail is too
+/// heavy for the standard error of the mean (or of the standard deviation).
 pub const MOST_SHARE: f64 = 1.0 / 3.0;
 
-/// Spread that rounding alone gives, over the mean: four units in the last place.
+/// Spread by rounding alone, over the mean: four units in the last place.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// t with P(T <= t) = `confidence`, 0 below 1/2.
 pub fn one_sided(confidence: f64, degrees: f64) -> f64 {
     thread_local! {
-        /// Confidence, degrees and t of the last call: the columns of a campaign have one count, and the root costs
-        /// more than all else of an interval.
+        /// Arguments and result of the last call: the columns of a campaign share a count, and the root dominates the
+        /// cost of an interval.
         static LAST: Cell<[f64; 3]> = const { Cell::new([0.0; 3]) };
     }
     if confidence <= 0.5 {
@@ -57,35 +53,34 @@ pub fn one_sided(confidence: f64, degrees: f64) -> f64 {
     t
 }
 
-/// One-sided bounds of the mean of the population, each at `confidence`; infinite where the numbers do not bound it:
-/// fewer than three, no spread (a rare event would not show), or too few for their skewness.
+/// One-sided bounds of the mean, each at `confidence`; infinite for fewer than three numbers, no spread (a rare event
+/// would not show), or too few numbers for their skewness.
 pub fn mean_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
     let Some((mean, error)) = moments.mean().zip(spread_error(moments)) else {
         return [f64::NEG_INFINITY, f64::INFINITY];
     };
-    // both sides have one t, whose root costs more than all else
+    // one t for both sides: its root dominates the cost
     let (count, t) = (moments.count(), one_sided(confidence, moments.count() as f64 - 1.0));
     let [below, above] = [-1.0, 1.0].map(|side| reach(count, side * skewness(moments), t));
     [mean - below * error, mean + above * error]
 }
 
-/// One-sided bounds of the mean of independent numbers that are never outside of `[low, high]`, each at `confidence`,
-/// whatever their distribution: the empirical Bernstein bound (A. Maurer & M. Pontil, *Empirical Bernstein bounds and
-/// sample-variance penalization*, COLT 2009, theorem 4).
+/// One-sided bounds of the mean of independent numbers in `[low, high]`, each at `confidence`, for any distribution:
+/// the empirical Bernstein bound (A. Maurer & M. Pontil, *Empirical Bernstein bounds and sample-variance penalization*,
+/// COLT 2009, theorem 4).
 pub fn bounded_mean_bounds(moments: &Moments, [low, high]: [f64; 2], confidence: f64) -> [f64; 2] {
     let Some((mean, deviation)) = moments.mean().zip(moments.standard_deviation()) else { return [low, high] };
     let half = bernstein_reach(moments.count(), high - low, deviation, confidence);
     [(mean - half).max(low), (mean + half).min(high)]
 }
 
-/// Half the width of [`bounded_mean_bounds`] of `count` numbers within a range of the length `range`.
+/// Half width of [`bounded_mean_bounds`] for `count` numbers in a range of length `range`.
 pub fn bernstein_reach(count: u64, range: f64, deviation: f64, confidence: f64) -> f64 {
     let (n, risk) = (count as f64, libm::log(2.0 / (1.0 - confidence)));
     deviation * libm::sqrt(2.0 * risk / n) + 7.0 * range * risk / (3.0 * (n - 1.0))
 }
 
-/// The distance of the bound of the mean on the side of `limit`, were there `count` runs with the same spread and
-/// skewness.
+/// Distance of the bound of the mean on the side of `limit` for `count` runs of the same spread and skewness.
 pub fn distance_towards(limit: f64, moments: &Moments, count: u64, confidence: f64) -> f64 {
     let Some((mean, deviation)) = moments.mean().zip(moments.standard_deviation()) else { return f64::INFINITY };
     let side = if mean < limit { 1.0 } else { -1.0 };
@@ -96,9 +91,9 @@ pub fn distance_towards(limit: f64, moments: &Moments, count: u64, confidence: f
     reach(count, side * skewness(moments), t) * deviation / libm::sqrt(count as f64)
 }
 
-/// One-sided bounds of the standard deviation of the population, each at `confidence`: those of the mean of the squared
-/// deviations, whose spread follows from the fourth moment. The upper one is infinite where there are too few runs
-/// (fewer than some 70 normal ones), or where one of them makes more than [`MOST_SHARE`] of the fourth powers.
+/// One-sided bounds of the standard deviation, each at `confidence`, from those of the mean squared deviation, whose
+/// spread follows from the fourth moment. The upper one is infinite for too few runs (some 70 normal ones), or if one
+/// contributes more than [`MOST_SHARE`] of the fourth powers.
 pub fn deviation_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
     let Some(((deviation, kurtosis), _)) =
         moments.standard_deviation().zip(moments.kurtosis()).zip(spread_error(moments))
@@ -113,28 +108,28 @@ pub fn deviation_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
     [deviation * libm::sqrt((1.0 - t * relative).max(0.0)), deviation * libm::sqrt(1.0 + above * relative)]
 }
 
-/// Standard error of the mean; `None` for fewer than three numbers, or without a spread.
+/// Standard error of the mean; `None` for fewer than three numbers, or without spread.
 fn spread_error(moments: &Moments) -> Option<f64> {
     let (mean, deviation) = moments.mean().zip(moments.standard_deviation())?;
     let is_spread = moments.count() > 2 && deviation > ROUNDING * mean.abs();
     is_spread.then(|| deviation / libm::sqrt(moments.count() as f64))
 }
 
-/// The sample skewness G_1, without the bias of normal numbers; 0 where there is none.
+/// The sample skewness G_1, unbiased for normal numbers; 0 if undefined.
 fn skewness(moments: &Moments) -> f64 {
     let n = moments.count() as f64;
     moments.skewness().map_or(0.0, |skewness| skewness * libm::sqrt(n * (n - 1.0)) / (n - 2.0).max(1.0))
 }
 
-/// How many standard errors the bound of a mean of `count` numbers is away from it, on the side to which they have the
-/// `skewness`; `t` is Student's.
+/// Distance, in standard errors, of the bound of a mean of `count` numbers on the side of their `skewness`; `t` is
+/// Student's.
 fn reach(count: u64, skewness: f64, t: f64) -> f64 {
     let n = count as f64;
     let skewness = SKEWNESS_FACTOR * skewness + SKEWNESS_ERRORS * libm::sqrt(6.0 / n);
     unskewed(t, skewness / libm::sqrt(n))
 }
 
-/// The larger one of `t` and -T at the bound for the skewness `r` over sqrt(n); infinite where there is none.
+/// The larger of `t` and -T at the bound for the skewness `r` over sqrt(n); infinite if undefined.
 fn unskewed(t: f64, r: f64) -> f64 {
     if r.is_nan() || r <= 0.0 {
         return t;
@@ -148,7 +143,7 @@ fn unskewed(t: f64, r: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Law: t is Student's, whatever was asked before.
+    /// Law: t is Student's, independently of earlier calls.
     #[test]
     fn one_sided_quantiles_are_students() {
         for (confidence, degrees) in
@@ -159,7 +154,7 @@ mod tests {
         }
     }
 
-    /// Law: without skewness the bounds are Student's, as far as the error of the skewness lets them.
+    /// Law: without skewness the bounds are Student's, up to the error of the skewness.
     #[test]
     fn symmetric_numbers_have_nearly_students_bounds() {
         let moments = Moments::of((0..10_000).map(|k| f64::from(k % 100)));
@@ -182,8 +177,7 @@ mod tests {
         assert!((unskewed(2.0, 1e-6) - 2.0 - 1.5e-6).abs() < 1e-11);
     }
 
-    /// Law: the unit and the sign of the numbers do not matter: bounds of 2^k x are 2^k times those of x, those of -x
-    /// are turned round.
+    /// Law: bounds of 2^k x are 2^k times those of x, those of -x are mirrored.
     #[test]
     fn bounds_scale_and_turn_with_their_numbers() {
         let values: Vec<f64> = (0..300).map(|k| libm::exp(libm::sin(f64::from(k) * 0.7))).collect();
@@ -195,10 +189,10 @@ mod tests {
         assert_eq!(deviation_bounds(&scaled, 0.95), deviation_bounds(&one, 0.95).map(|end| 1024.0 * end));
     }
 
-    /// Law: a standard deviation has no upper bound where one number makes more than a third of the fourth powers of
-    /// the deviations, and has one where it makes less, whatever its share of their squares. Known: beside 10,000
-    /// numbers 1 and -1, d makes d^4/(10,000 + d^4) of the fourth powers (a third at d^4 = 5,000) and less than a
-    /// hundredth of the squares; its share of the mean is below a thousandth.
+    /// Law: a standard deviation has an upper bound unless one number contributes more than a third of the fourth
+    /// powers, whatever its share of the squares. Known: next to 10,000 numbers 1 and -1, d contributes d^4/(10,000 +
+    /// d^4) of the fourth powers (a third at d^4 = 5,000), less than a hundredth of the squares, and less than a
+    /// thousandth of the mean.
     #[test]
     fn one_number_may_make_a_third_of_the_fourth_powers() {
         let of = |fourth: f64| {
@@ -209,16 +203,15 @@ mod tests {
         };
         for (fourth, is_bounded) in [(2_000.0, true), (4_950.0, true), (5_050.0, false), (9_000.0, false)] {
             let [lower, upper] = of(fourth);
-            // s is 1.0022 to 1.0047
             assert!(lower > 0.95 && lower < 1.004, "{fourth}: {lower}");
             assert_eq!(upper.is_finite(), is_bounded, "{fourth}: {upper}");
             assert!(upper > 1.0 && (upper < 1.05 || !is_bounded), "{fourth}: {upper}");
         }
     }
 
-    /// Known: of 101 numbers, half 0 and half 1 but for one 1/2, whose variance is 1/4, the bounds at 1 - 2/e^2 are
-    /// 1/2 -+ (1/2 sqrt(4/101) + 14/300); bounds are within the range, which few numbers have instead; and without a
-    /// spread the range alone decides.
+    /// Known: 101 numbers, half 0 and half 1 but for one 1/2, of variance 1/4, have the bounds 1/2 -+ (1/2 sqrt(4/101)
+    /// + 14/300) at 1 - 2/e^2; bounds are within the range, which few numbers have instead; without spread the range
+    /// alone decides.
     #[test]
     fn the_bounds_of_bounded_numbers_are_bernsteins() {
         let values = [0.0, 1.0].repeat(50).into_iter().chain([0.5]);
@@ -233,7 +226,7 @@ mod tests {
         assert!((upper - 0.25 - half).abs() < 1e-15 && (0.25 - lower - half).abs() < 1e-15, "{lower} {upper}");
     }
 
-    /// Law: what shows no spread, or too little of a long tail, bounds nothing.
+    /// Law: numbers without spread, or with too little of a long tail, bound nothing.
     #[test]
     fn few_and_equal_numbers_bound_nothing() {
         let everything = [f64::NEG_INFINITY, f64::INFINITY];

@@ -1,12 +1,10 @@
 //! Layer 2: statistics of many runs: pure functions of numbers.
 //!
-//! - [`moments`], [`quantile`], [`sketch`] (on [`carries`]), [`spread`]: what describes one column.
-//! - [`student`], [`mean`], [`jackknife`], [`binomial`], [`replicates`]: intervals; [`share_within`]: of repetition.
-//! - [`gate`]: requirements decided.
-//! - [`looks`]: when to stop.
-//! - [`two_sample`]: two campaigns compared.
-//! - [`correlation`], [`regression`], [`sensitivity`]: which input matters.
-//! - [`contingency`], [`rank_tests`]: whether it does; [`conditional`]: beside others.
+//! - [`moments`], [`quantile`], [`sketch`] (on [`carries`]), [`spread`]: one column. [`deviation`]: buckets.
+//! - [`student`], [`mean`], [`jackknife`], [`binomial`], [`replicates`], [`share_within`]: intervals.
+//! - [`gate`]: decisions on requirements. [`looks`]: stopping. [`two_sample`]: comparison of two campaigns.
+//! - [`correlation`], [`regression`], [`sensitivity`], [`contingency`], [`rank_tests`], [`conditional`]: influence of
+//!   inputs.
 
 pub mod binomial;
 pub mod carries;

@@ -1,17 +1,16 @@
 //! [`Moments`]: count, extremes, mean, standard deviation and skewness of a stream of numbers, mergeable.
 //!
-//! Central moments of a block are those about its mean, in two passes with the correction for the rounding of that mean
-//! (T. F. Chan, G. H. Golub & R. J. LeVeque, *Am. Stat.* 37 (1983) 242). Blocks are merged by the formulas of P.
-//! Pébay, *Formulas for Robust, One-Pass Parallel Computation of Covariances and Arbitrary-Order Statistical Moments*,
-//! SAND2008-6212 (2008), for orders two to four. Merging parts in their order gives the same bits for any number of
-//! threads.
+//! Central moments of a block are about its mean, in two passes with a correction for the rounding of that mean (T. F.
+//! Chan, G. H. Golub & R. J. LeVeque, *Am. Stat.* 37 (1983) 242). Blocks are merged by the formulas of P. Pébay,
+//! *Formulas for Robust, One-Pass Parallel Computation of Covariances and Arbitrary-Order Statistical Moments*,
+//! SAND2008-6212 (2008), for orders two to four; in their order they give the same bits for any number of threads.
 
 use fearless_simd::Simd;
 
 use crate::math::Isa;
 use crate::math::isa::Work;
 
-/// Moments of the numbers that were added.
+/// Moments of the added numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moments {
     count: u64,
@@ -20,7 +19,7 @@ pub struct Moments {
     m2: f64,
     /// Sum of cubed deviations from the mean.
     m3: f64,
-    /// Sum of their fourth powers.
+    /// Sum of the fourth powers of deviations.
     m4: f64,
     min: f64,
     max: f64,
@@ -40,18 +39,17 @@ impl Moments {
         moments
     }
 
-    /// Moments of a block of numbers: as [`Moments::of`] to rounding, several times as fast and with fewer rounding
-    /// errors.
+    /// Moments of a block: as [`Moments::of`] to rounding, several times as fast and with fewer rounding errors.
     pub fn of_block(values: &[f64]) -> Self {
         Isa::best().run(Block(values))
     }
 
-    /// Adds one number. NaN makes every moment NaN: leave out what has no value.
+    /// Adds one number. NaN makes every moment NaN.
     pub fn add(&mut self, value: f64) {
         self.merge(&Moments { count: 1, mean: value, m2: 0.0, m3: 0.0, m4: 0.0, min: value, max: value });
     }
 
-    /// Adds everything that `other` has.
+    /// Adds the numbers of `other`.
     pub fn merge(&mut self, other: &Moments) {
         if other.count == 0 {
             return;
@@ -79,12 +77,12 @@ impl Moments {
         self.max = self.max.max(other.max);
     }
 
-    /// How many numbers were added.
+    /// Number of numbers.
     pub fn count(&self) -> u64 {
         self.count
     }
 
-    /// The mean; `None` where there is no number.
+    /// The mean, if there are numbers.
     pub fn mean(&self) -> Option<f64> {
         (self.count > 0).then_some(self.mean)
     }
@@ -99,25 +97,25 @@ impl Moments {
         (self.count > 0).then_some(self.max)
     }
 
-    /// The sample standard deviation, with n - 1; `None` for fewer than two numbers.
+    /// Sample standard deviation, with n - 1; `None` for fewer than two numbers.
     pub fn standard_deviation(&self) -> Option<f64> {
         (self.count > 1).then(|| libm::sqrt(self.m2 / (self.count - 1) as f64))
     }
 
-    /// The skewness g_1 = m_3/m_2^(3/2) (with n, as SciPy's `skew`); `None` where all numbers are alike.
+    /// Skewness g_1 = m_3/m_2^(3/2) (with n, as SciPy's `skew`); `None` if all numbers are equal.
     pub fn skewness(&self) -> Option<f64> {
         let n = self.count as f64;
         let skewness = libm::sqrt(n) * self.m3 / (self.m2 * libm::sqrt(self.m2));
         (self.count > 1 && self.m2 > 0.0).then_some(skewness)
     }
 
-    /// The kurtosis m_4/m_2^2 (with n; 3 for normal numbers); `None` where all numbers are alike.
+    /// Kurtosis m_4/m_2^2 (with n; 3 for normal numbers); `None` if all numbers are equal.
     pub fn kurtosis(&self) -> Option<f64> {
         (self.count > 1 && self.m2 > 0.0).then(|| self.count as f64 * self.m4 / (self.m2 * self.m2))
     }
 
-    /// The part of the sum of the squares (`power` 2) or of the fourth powers (4) of all deviations from the mean that
-    /// the number farthest from it makes; 0 where all numbers are alike.
+    /// Share of the number farthest from the mean in the sum of squares (`power` 2) or fourth powers (4) of all
+    /// deviations; 0 if all numbers are equal.
     pub fn largest_share(&self, power: u8) -> f64 {
         let farthest = (self.max - self.mean).max(self.mean - self.min);
         let square = farthest * farthest;
@@ -131,7 +129,7 @@ impl Moments {
     }
 
     /// Standard error of the standard deviation of independent numbers, sqrt((m_4 - m_2^2)/n)/(2 s) for large n (H.
-    /// Cramér, *Mathematical Methods of Statistics*, 1946, section 28.4); `None` where all numbers are alike.
+    /// Cramér, *Mathematical Methods of Statistics*, 1946, section 28.4); `None` if all are equal.
     pub fn standard_deviation_error(&self) -> Option<f64> {
         let n = self.count as f64;
         let deviation = self.standard_deviation().filter(|deviation| *deviation > 0.0)?;
@@ -140,7 +138,7 @@ impl Moments {
     }
 }
 
-/// The moments of a block, on the instruction set of this processor: all give the same bits.
+/// Moments of a block, with equal bits on all instruction sets.
 struct Block<'v>(&'v [f64]);
 
 impl Work for Block<'_> {
@@ -174,7 +172,7 @@ impl Work for Block<'_> {
             },
             |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]],
         );
-        // what the rounding of the mean left
+        // the rounding of the mean
         let e = s1 / n;
         Moments {
             count: values.len() as u64,
@@ -188,7 +186,7 @@ impl Work for Block<'_> {
     }
 }
 
-/// Accumulators beside each other, so that the processor need not wait for one sum.
+/// Parallel accumulators, so that no sum waits for the previous one.
 const LANES: usize = 8;
 
 /// Folds `values` in [`LANES`] accumulators, number k in accumulator k mod [`LANES`], and these in one order: the same
@@ -248,7 +246,7 @@ mod tests {
         assert_eq!(Moments::of([7.0, 7.0]).skewness(), None);
     }
 
-    /// Law: a block has the moments of its numbers, whatever its length; equal numbers have no spread.
+    /// Law: a block has the moments of its numbers, for any length; equal numbers have no spread.
     #[test]
     fn a_block_is_its_numbers() {
         for length in [0, 1, 7, 8, 9, 100, 1001] {
@@ -259,7 +257,7 @@ mod tests {
             };
             assert_eq!((block.count, block.min(), block.max()), (one_by_one.count, one_by_one.min(), one_by_one.max()));
             for (a, b) in numbers(&block).into_iter().zip(numbers(&one_by_one)) {
-                // the bound: some rounding errors of sums of up to 1001 numbers; measured 3e-14
+                // rounding of sums of up to 1001 numbers; measured 3e-14
                 let error = (a.unwrap_or(-1.0) - b.unwrap_or(-1.0)).abs();
                 assert!(error <= 2e-13, "{length}: {a:?} {b:?}");
             }
@@ -269,8 +267,7 @@ mod tests {
         assert!(Moments::of_block(&[1.0, f64::NAN]).mean().is_some_and(f64::is_nan));
     }
 
-    /// Law: the unit of the numbers does not matter: 2^k times the numbers have 2^k times the mean and the deviation,
-    /// and the same skewness, to the bit.
+    /// Law: 2^k times the numbers have 2^k times the mean and deviation, and the same skewness, to the bit.
     #[test]
     fn moments_scale_with_their_unit() {
         let values: Vec<f64> = (0..100).map(|k| libm::sin(f64::from(k) * 0.7) * f64::from(k % 17)).collect();
@@ -286,8 +283,8 @@ mod tests {
         }
     }
 
-    /// Known: of n numbers +1 and n numbers -1, m_4 = m_2 = 1: the standard deviation has no error of this order. Of 0
-    /// (n - 1 times) and 1 the error is sqrt((m_4 - m_2^2)/n)/(2 s).
+    /// Known: n numbers +1 and n numbers -1 have m_4 = m_2 = 1 and no error of this order. For 0 (n - 1 times) and 1
+    /// the error is sqrt((m_4 - m_2^2)/n)/(2 s).
     #[test]
     fn known_error_of_a_standard_deviation() {
         let two = Moments::of((0..100).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }));
@@ -307,7 +304,6 @@ mod tests {
         let whole = Moments::of(values.iter().copied());
         let mut merged = Moments::default();
         values.chunks(777).for_each(|part| merged.merge(&Moments::of(part.iter().copied())));
-        // two passes, deviations from the mean of deviations
         let shift = values[0];
         let mean = values.iter().map(|value| value - shift).sum::<f64>() / 1e4;
         let m2: f64 = values.iter().map(|value| (value - shift - mean) * (value - shift - mean)).sum();
@@ -321,8 +317,7 @@ mod tests {
         }
         assert_eq!((whole.count(), whole.min(), whole.max()), (merged.count(), merged.min(), merged.max()));
     }
-    /// Law: merging is adding for the third and the fourth moment too, where the parts differ in size, mean and spread:
-    /// the sums of powers of the deviations from the mean of all.
+    /// Law: merging is adding for the third and fourth moment too, with parts of different size, mean and spread.
     #[test]
     fn merged_parts_have_the_moments_of_the_whole() {
         let values: Vec<f64> = (0..60).map(|k| libm::exp(0.05 * f64::from(k)) + f64::from(k % 7)).collect();
@@ -335,7 +330,6 @@ mod tests {
                 merged.merge(&Moments::of(part.iter().copied()));
             }
             for (found, exact) in [(merged.mean, mean), (merged.m2, m2), (merged.m3, m3), (merged.m4, m4)] {
-                // some rounding errors of sums of 60 numbers
                 assert!((found / exact - 1.0).abs() < 1e-13, "{cuts:?}: {found} {exact}");
             }
         }

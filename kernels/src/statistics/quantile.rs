@@ -1,21 +1,18 @@
-//! Quantiles of a sample, and distribution-free confidence intervals for them from order statistics.
+//! Quantiles of a sample, and distribution-free confidence intervals for them, for independent runs.
 //!
-//! - The sample quantile is type 7 of R. J. Hyndman & Y. Fan, *Sample quantiles in statistical packages*, Am. Stat. 50
+//! - Sample quantiles are type 7 of R. J. Hyndman & Y. Fan, *Sample quantiles in statistical packages*, Am. Stat. 50
 //!   (1996) 361: linear interpolation between order statistics, the default of R, NumPy, polars and DuckDB
 //!   (`quantile_cont`).
-//! - The interval for the p-quantile of a continuous distribution is [x_(r), x_(s)] with ranks from the binomial
-//!   distribution of the number of values below it (S. S. Wilks, *Order statistics*, Bull. Am. Math. Soc. 54 (1948) 6;
-//!   H. A. David & H. N. Nagaraja, *Order Statistics*, 2003, section 7.1). Nothing is assumed of the distribution; for
-//!   a discrete one the interval covers at least as often.
-//!
-//! Valid for independent runs only.
+//! - The interval for the p-quantile is [x_(r), x_(s)], with ranks from the binomial distribution of the number of
+//!   values below it (S. S. Wilks, *Order statistics*, Bull. Am. Math. Soc. 54 (1948) 6; H. A. David & H. N. Nagaraja,
+//!   *Order Statistics*, 2003, section 7.1). For a discrete distribution it covers at least as often.
 
 use super::binomial::{at_least, at_most, lower_rank, upper_rank};
 
-/// The `p`-quantile, 0 <= p <= 1, of values in ascending order (type 7); `None` where there is no value. Only the two
-/// between which it is have to be at their places ([`place_order_statistics`]).
+/// The `p`-quantile, 0 <= p <= 1, of values in ascending order (type 7), if any. Only its two neighbours need to be in
+/// place ([`place_order_statistics`]).
 ///
-/// Between x_(k) and x_(k+1), with (n-1) p = k - 1 + t: x_(k) + t (x_(k+1) - x_(k)), from the nearer end.
+/// With (n-1) p = k - 1 + t: x_(k) + t (x_(k+1) - x_(k)), from the nearer end.
 pub fn quantile(ascending: &[f64], p: f64) -> Option<f64> {
     let last = ascending.len().checked_sub(1)?;
     let place = last as f64 * p;
@@ -29,9 +26,9 @@ pub fn quantile(ascending: &[f64], p: f64) -> Option<f64> {
     Some(if part < 0.5 { low + part * width } else { high - (1.0 - part) * width })
 }
 
-/// Moves values so that those at `places` (from zero, in any order; those beyond the last are left out) are where they
-/// are in ascending order ([`f64::total_cmp`]); no value between two places is smaller than the one or larger than the
-/// other. For a few places a third of a sort.
+/// Moves values so that those at `places` (from zero, any order, out of range ignored) are in their places of an
+/// ascending order ([`f64::total_cmp`]), with smaller values before and larger ones after. For a few places a third of
+/// a sort.
 pub fn place_order_statistics(values: &mut [f64], places: impl IntoIterator<Item = usize>) {
     let mut places: Vec<usize> = places.into_iter().filter(|place| *place < values.len()).collect();
     places.sort_unstable();
@@ -39,7 +36,7 @@ pub fn place_order_statistics(values: &mut [f64], places: impl IntoIterator<Item
     place_ascending(values, 0, &places);
 }
 
-/// The same for ascending `places` of a list whose part from `first` on is `values`.
+/// [`place_order_statistics`] for ascending `places` of a list whose part from `first` on is `values`.
 fn place_ascending(values: &mut [f64], first: usize, places: &[usize]) {
     let (before, from) = places.split_at(places.len() / 2);
     let Some((place, after)) = from.split_first() else { return };
@@ -48,10 +45,10 @@ fn place_ascending(values: &mut [f64], first: usize, places: &[usize]) {
     place_ascending(larger, place + 1, after);
 }
 
-/// `p` in percent, in the digits that `p` has: "99.9" for 0.999.
+/// `p` in percent in the digits of `p`: "99.9" for 0.999.
 pub fn percent(p: f64) -> String {
     let text = format!("{p:.20}");
-    // the fewest digits that read back as p; then the point two places on
+    // the fewest digits that read back as p; then shift the point by two places
     let digits = (1..=20).map(|digits| format!("{p:.digits$}")).find(|text| text.parse() == Ok(p)).unwrap_or(text);
     let (whole, fraction) = digits.split_once('.').unwrap_or((&digits, ""));
     let fraction = format!("{fraction:0<2}");
@@ -62,7 +59,7 @@ pub fn percent(p: f64) -> String {
     if fraction.is_empty() { whole.to_owned() } else { format!("{whole}.{fraction}") }
 }
 
-/// Ranks (from 1) of the order statistics that bound a quantile; `None` where the sample is too small for that end.
+/// Ranks (from 1) of the bounds of a quantile; `None` if the sample is too small for that end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ranks {
     /// Rank r of the lower end.
@@ -73,23 +70,23 @@ pub struct Ranks {
 
 /// Ranks of the two-sided equal-tailed interval for the `p`-quantile, 0 < p < 1, of `count` independent values.
 ///
-/// Each end misses with at most (1 - `confidence`)/2, so both together cover with at least `confidence`: P(x_(r) >
-/// quantile) = P(X <= r - 1) and P(x_(s) < quantile) = P(X >= s), X the number of values below the quantile.
+/// Each end misses with at most (1 - `confidence`)/2: P(x_(r) > quantile) = P(X <= r - 1), P(x_(s) < quantile) = P(X >=
+/// s), X being the number of values below the quantile.
 pub fn interval_ranks(count: u64, p: f64, confidence: f64) -> Ranks {
     let risk = 0.5 * (1.0 - confidence);
     Ranks { lower: lower_rank(count, p, risk), upper: upper_rank(count, p, risk) }
 }
 
-/// Probability with which [x_(r), x_(s)] covers the `p`-quantile of a continuous distribution: P(r <= X <= s - 1); an
-/// end that is missing reaches to infinity.
+/// Probability that [x_(r), x_(s)] covers the `p`-quantile of a continuous distribution, P(r <= X <= s - 1); a missing
+/// end is infinite.
 pub fn coverage(count: u64, p: f64, ranks: Ranks) -> f64 {
     let below = ranks.lower.map_or(0.0, |rank| at_most(rank - 1, count, p));
     let above = ranks.upper.map_or(0.0, |rank| at_least(rank, count, p));
     1.0 - below - above
 }
 
-/// The smallest number of runs whose extreme bounds the `p`-quantile one-sidedly: its maximum from above for p >= 1/2,
-/// its minimum from below otherwise (Wilks 1941). 59 for p = 0.95 at 95%.
+/// Smallest number of runs whose maximum (p >= 1/2) or minimum bounds the `p`-quantile one-sidedly (Wilks 1941): 59 for
+/// p = 0.95 at 95%.
 pub fn runs_for_bound(p: f64, confidence: f64) -> u64 {
     // p^n <= 1 - confidence
     smallest(libm::log(1.0 - confidence) / libm::log(p.max(1.0 - p)), |n| {
@@ -97,7 +94,7 @@ pub fn runs_for_bound(p: f64, confidence: f64) -> u64 {
     })
 }
 
-/// The smallest number of runs that has a two-sided equal-tailed interval for the `p`-quantile: 72 for p = 0.95 at 95%.
+/// Smallest number of runs with a two-sided equal-tailed interval for the `p`-quantile: 72 for p = 0.95 at 95%.
 pub fn runs_for_interval(p: f64, confidence: f64) -> u64 {
     runs_for_bound(p, 0.5 + 0.5 * confidence)
 }
@@ -121,7 +118,7 @@ pub fn runs_for_tolerance_interval(p: f64, confidence: f64) -> u64 {
     high
 }
 
-/// The smallest whole number near `estimate` that is `enough`: the rounding of a logarithm does not decide.
+/// The smallest whole number near `estimate` that is `enough`, so that rounding of a logarithm does not decide.
 fn smallest(estimate: f64, enough: impl Fn(u64) -> bool) -> u64 {
     let mut n = (estimate.floor() as u64).saturating_sub(1).max(1);
     while !enough(n) {
@@ -134,8 +131,7 @@ fn smallest(estimate: f64, enough: impl Fn(u64) -> bool) -> u64 {
 mod tests {
     use super::*;
 
-    /// Law: what is at a place is what a sort puts there, to the bit, whichever places are asked for, in whichever
-    /// order; the values stay the same.
+    /// Law: values at places are those of a sort, to the bit, for any places in any order; the values stay the same.
     #[test]
     fn order_statistics_are_those_of_a_sort() {
         let numbers = [0.0, -0.0, 1.5, f64::INFINITY, -3.0, 1e-310, 2.0];
@@ -208,7 +204,6 @@ mod tests {
         // the median of ten: x_(2) to x_(9), 97.9% (David & Nagaraja, table of section 7.1)
         let ranks = interval_ranks(10, 0.5, 0.95);
         assert_eq!(ranks, Ranks { lower: Some(2), upper: Some(9) });
-        // binomial terms of one half are exact; two units in the last place for their sum
         assert!((coverage(10, 0.5, ranks) - (1.0 - 2.0 * 11.0 / 1024.0)).abs() < 2.0 * f64::EPSILON);
     }
 
@@ -232,9 +227,8 @@ mod tests {
         }
     }
 
-    /// H0: the interval covers with exactly its binomial probability. 20,000 samples of 40 uniform numbers, seed fixed
-    /// by the generator below; two-sided at 4 standard errors, alpha = 6e-5. A shift of one rank changes the coverage
-    /// by 0.08: power 1.
+    /// H0: the interval covers with its binomial probability: 20,000 samples of 40 uniform numbers, fixed seed;
+    /// two-sided at 4 standard errors, alpha = 6e-5. A shift of one rank changes the coverage by 0.08: power 1.
     #[test]
     fn coverage_is_the_binomial_probability() {
         const SAMPLES: u32 = 20_000;

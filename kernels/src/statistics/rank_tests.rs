@@ -1,22 +1,22 @@
-//! Tests by ranks whether an input acts on an observable: they assume nothing of either distribution.
+//! Distribution-free rank tests of the influence of an input on an observable.
 //!
-//! - H. B. Mann & D. R. Whitney, *Ann. Math. Stat.* 18 (1947) 50: whether an event comes with large (or small) values.
-//! - W. H. Kruskal & W. A. Wallis, *J. Am. Stat. Assoc.* 47 (1952) 583: whether groups differ.
-//! - C. Spearman, *Am. J. Psychol.* 15 (1904) 72: whether one column rises or falls with another.
+//! - H. B. Mann & D. R. Whitney, *Ann. Math. Stat.* 18 (1947) 50: an event and the size of a value.
+//! - W. H. Kruskal & W. A. Wallis, *J. Am. Stat. Assoc.* 47 (1952) 583: differences of groups.
+//! - C. Spearman, *Am. J. Psychol.* 15 (1904) 72: monotonic dependence of two columns.
 //!
-//! All are two-sided and for independent rows. Tails are those of the limiting distributions, with the variance of the
-//! ranks as they are, ties included. Of few events the true tails are shorter: the tests then err less often than
-//! stated, and fewer than four events show nothing at 1e-3.
+//! All are two-sided and for independent rows, with the tails of the limiting distributions and the variance of the
+//! actual ranks, ties included. For few events the true tails are shorter: the tests err less often than stated, and
+//! fewer than four events show nothing at 1e-3.
 
 use super::correlation::{mid_ranks, pearson};
 use crate::math::incomplete_gamma::incomplete_gamma;
 
-/// How an event and a column belong together.
+/// Association of an event and a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RankShift {
-    /// The chance that a run with the event has the larger value than one without; half of the ties.
+    /// Probability that a run with the event has the larger value than one without, plus half that of a tie.
     pub chance: f64,
-    /// Probability of a chance at least as far from one half where the event does not depend on the column.
+    /// Probability of a chance at least as far from one half if the event does not depend on the column.
     pub p_value: f64,
 }
 
@@ -25,14 +25,14 @@ pub(super) fn two_sided(z: f64) -> f64 {
     libm::erfc(z.abs() * core::f64::consts::FRAC_1_SQRT_2)
 }
 
-/// Mean of `ranks` and the sum of the squares of their deviations.
+/// Mean of `ranks` and sum of squared deviations.
 fn moments(ranks: &[f64]) -> [f64; 2] {
     let mean = ranks.iter().sum::<f64>() / ranks.len() as f64;
     [mean, ranks.iter().map(|rank| (rank - mean) * (rank - mean)).sum()]
 }
 
-/// Mann and Whitney's test: `ranks` are [`mid_ranks`] of the column, and the event occurs in the rows that are
-/// `marked`. `None` where it occurs in all or none, or the column does not vary.
+/// Mann and Whitney's test for the [`mid_ranks`] of a column and an event in the `marked` rows. `None` if it occurs in
+/// all or none, or the column does not vary.
 pub fn mann_whitney(ranks: &[f64], marked: &[bool]) -> Option<RankShift> {
     let (n, m) = (ranks.len() as f64, marked.iter().filter(|is_marked| **is_marked).count() as f64);
     let [mean, squares] = moments(ranks);
@@ -40,7 +40,7 @@ pub fn mann_whitney(ranks: &[f64], marked: &[bool]) -> Option<RankShift> {
         return None;
     }
     let sum: f64 = ranks.iter().zip(marked).filter(|(_, is_marked)| **is_marked).map(|(rank, _)| rank).sum();
-    // of m ranks that are drawn without replacement
+    // of m ranks drawn without replacement
     let variance = squares / n * m * (n - m) / (n - 1.0);
     Some(RankShift {
         chance: (sum - 0.5 * m * (m - 1.0)) / (m * (n - m)),
@@ -48,9 +48,8 @@ pub fn mann_whitney(ranks: &[f64], marked: &[bool]) -> Option<RankShift> {
     })
 }
 
-/// Kruskal and Wallis' test: the probability that groups differ as much as these where they do not differ. `ranks` are
-/// [`mid_ranks`] of the observable, `group` the group of each row, from 0 to `groups` - 1, none of them empty. `None`
-/// for fewer than two groups, or equal ranks.
+/// Kruskal and Wallis' test: p-value of the difference of groups. `ranks` are [`mid_ranks`] of the observable, `group`
+/// the group of each row, from 0 to `groups` - 1, none empty. `None` for fewer than two groups, or equal ranks.
 pub fn kruskal_wallis(ranks: &[f64], group: &[usize], groups: usize) -> Option<f64> {
     let [mean, squares] = moments(ranks);
     if groups < 2 || squares == 0.0 {
@@ -66,16 +65,15 @@ pub fn kruskal_wallis(ranks: &[f64], group: &[usize], groups: usize) -> Option<f
     Some(incomplete_gamma(0.5 * (groups - 1) as f64, 0.5 * h).upper)
 }
 
-/// Spearman's coefficient of two columns with these [`mid_ranks`], and the probability of one at least as far from zero
-/// where they are independent.
+/// Spearman's coefficient of two columns with these [`mid_ranks`], and its two-sided p-value under independence.
 pub fn spearman_test(x_ranks: &[f64], y_ranks: &[f64]) -> [f64; 2] {
     let r = pearson(x_ranks, y_ranks);
     [r, two_sided(r * libm::sqrt(x_ranks.len() as f64 - 1.0))]
 }
 
-/// Whether the observable `y` both rises and falls with the input `x`: among the halves and quarters of the input's
-/// range, by rows in ascending `order` of `x`, there is one where it rises and one where it falls, each shown by the
-/// rank correlation within it. `alpha`: the probability that this is said of a monotonic influence is at most this.
+/// True if the observable `y` both rises and falls with the input `x`: each is shown by the rank correlation within one
+/// of the halves and quarters of the rows in ascending `order` of `x`. `alpha` bounds the probability of a false result
+/// for a monotonic influence.
 pub fn turns(order: &[usize], x: &[f64], y: &[f64], alpha: f64) -> bool {
     const PARTS: [usize; 2] = [2, 4];
     let level = alpha / PARTS.iter().sum::<usize>() as f64;
@@ -102,7 +100,6 @@ mod tests {
     use super::*;
     use crate::statistics::correlation::ascending_order;
 
-    /// SplitMix64: uniform in [0, 1).
     struct Uniform(u64);
 
     impl Uniform {
@@ -115,8 +112,8 @@ mod tests {
         }
     }
 
-    /// Law: the chance is counted over all pairs, ties as halves; the variance of the sum of ranks is that over all
-    /// ways to choose the marked rows.
+    /// Law: the chance is counted over all pairs, ties as halves; the variance of the rank sum is that over all choices
+    /// of marked rows.
     #[test]
     fn mann_whitney_is_a_count_of_pairs() {
         let values = [3.0, 1.0, 4.0, 1.0, 5.0, 9.0, 2.0, 6.0, 5.0, 3.0];
@@ -150,9 +147,9 @@ mod tests {
         assert_eq!(mann_whitney(&[1.0; 10], &marked), None);
     }
 
-    /// Law: of two groups Kruskal and Wallis' test is Mann and Whitney's. Published: three groups of weights of bottles
-    /// (Kruskal & Wallis 1952, section 1.3; production of machines): H = 5.656, chi-square of two degrees exp(-H/2) =
-    /// 0.0591.
+    /// Law: for two groups Kruskal and Wallis' test is Mann and Whitney's. Published: three groups of weights of
+    /// bottles (Kruskal & Wallis 1952, section 1.3; production of machines): H = 5.656, chi-square of two degrees
+    /// exp(-H/2) = 0.0591.
     #[test]
     fn kruskal_wallis_is_known() {
         let bottles = [340.0, 345.0, 330.0, 342.0, 338.0, 339.0, 333.0, 344.0, 347.0, 343.0, 349.0, 355.0];
@@ -169,8 +166,8 @@ mod tests {
         assert_eq!(kruskal_wallis(&ranks, &[0; 12], 1), None);
     }
 
-    /// H0: of columns that are independent each test says so falsely in at most 5% of 2,000 studies, also of heavy ties
-    /// and few events; 1.4% is three standard deviations of the count.
+    /// H0: each test finds independent columns dependent in at most 5% of 2,000 studies, also with heavy ties and few
+    /// events; 1.4% is three standard deviations of the count.
     #[test]
     fn independent_columns_are_seldom_called_dependent() {
         let mut random = Uniform(11);
@@ -190,7 +187,7 @@ mod tests {
             for (wrong, p_value) in wrong.iter_mut().zip(p_values) {
                 *wrong += u32::from(p_value <= 0.05);
             }
-            // a monotonic influence: none is called a turn
+            // a monotonic influence never turns
             let curve: Vec<f64> = x.iter().zip(&y).map(|(x, y)| libm::exp(3.0 * x) + y).collect();
             wrong[4] += u32::from(turns(&ascending_order(&x), &x, &curve, 0.05));
         }
@@ -198,8 +195,7 @@ mod tests {
         assert!(wrong[..4].iter().all(|count| *count > 50), "no test is needlessly careful: {wrong:?}");
     }
 
-    /// Law: a V turns wherever its point is within the middle three quarters of the range; a line, a step and noise do
-    /// not.
+    /// Law: a V turns if its point is within the middle three quarters of the range; a line, a step and noise do not.
     #[test]
     fn a_v_turns() {
         let mut random = Uniform(5);

@@ -1,25 +1,24 @@
-//! Linear regression of a standardised column on standardised inputs, and partial correlations: how much of an
-//! observable a sum of linear terms explains, and which term.
+//! Linear regression of a standardised column on standardised inputs, and partial correlations.
 //!
 //! With the correlation matrix R of the inputs and their correlations r with the observable, the standardised
 //! regression coefficients are R^-1 r, and R^2 = r^T R^-1 r (N. R. Draper & H. Smith, *Applied Regression Analysis*,
-//! 1998, section 5.5). The same inverse gives the partial correlations (M. G. Kendall & A. Stuart, *The Advanced Theory
-//! of Statistics* 2, section 27.5). Applied to ranks it is the rank regression of R. L. Iman & W. J. Conover,
+//! 1998, section 5.5); partial correlations follow from the same inverse (M. G. Kendall & A. Stuart, *The Advanced
+//! Theory of Statistics* 2, section 27.5). With ranks it is the rank regression of R. L. Iman & W. J. Conover,
 //! *Technometrics* 21 (1979) 499.
 //!
-//! Intervals are those of the [`super::jackknife`], by what the regression would be without a row (R. D. Cook & S.
-//! Weisberg, *Residuals and Influence in Regression*, 1982, (2.2.1)): of coefficients the scale of input and observable
-//! is estimated too, so that a sum without any rest has an interval. Inputs and rest may have any distribution.
+//! Intervals are those of the [`super::jackknife`], by regressions without a row (R. D. Cook & S. Weisberg, *Residuals
+//! and Influence in Regression*, 1982, (2.2.1)), for any distribution. Coefficients include the estimated scales of
+//! input and observable, so that an exact sum has an interval.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::correlation::{Estimate, correlation, influence, product};
 use super::jackknife;
 
-/// Which of the `inputs`, all [`standardised`](super::correlation::standardised), are no linear combination of those
-/// before them.
+/// True for those of the [`standardised`](super::correlation::standardised) `inputs` that are no linear combination of
+/// earlier ones.
 pub fn independent_inputs(inputs: &[Vec<f64>]) -> Vec<bool> {
-    // Gram and Schmidt, twice for the rounding of the first time
+    // Gram and Schmidt, twice because of rounding
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let mut independent = Vec::with_capacity(inputs.len());
     for input in inputs {
@@ -29,7 +28,7 @@ pub fn independent_inputs(inputs: &[Vec<f64>]) -> Vec<bool> {
             rest.iter_mut().zip(unit).for_each(|(rest, unit)| *rest -= part * unit);
         }
         let square = product(&rest, &rest);
-        // with a margin, so that the regression on those that are kept has its pivots
+        // with a margin, so that the regression on the kept inputs has its pivots
         let is_new = square > 10.0 * SMALLEST_PIVOT;
         if is_new {
             let length = libm::sqrt(square);
@@ -41,23 +40,23 @@ pub fn independent_inputs(inputs: &[Vec<f64>]) -> Vec<bool> {
     independent
 }
 
-/// A pivot below this: the input is a linear combination of those before it. Correlations have about 1e-15.
+/// Pivot below which an input is a linear combination of earlier ones. Correlations have about 1e-15.
 const SMALLEST_PIVOT: f64 = 1e-10;
 
-/// Inputs that are ready for the regression of any number of columns.
+/// Inputs prepared for the regression of any number of columns.
 #[derive(Clone, Debug)]
 pub struct Regressors {
     inputs: Vec<Vec<f64>>,
     inverse: DMatrix<f64>,
-    /// Of each input the part that the others do not have, over its sum of squares: sum_k C_jk x_k.
+    /// The part of each input that the others do not have, over its sum of squares: sum_k C_jk x_k.
     alone: Vec<Vec<f64>>,
-    /// How far each row is from the mean, 0 to 1: the part of its own value in what the regression gives for it.
+    /// Weight of each row's own value in its regression value, 0 to 1.
     leverages: Vec<f64>,
 }
 
 impl Regressors {
-    /// `inputs`, all [`standardised`](super::correlation::standardised); `None` where they are linearly dependent (a
-    /// constant input included).
+    /// Prepares [`standardised`](super::correlation::standardised) `inputs`; `None` if they are linearly dependent (or
+    /// constant).
     pub fn new(inputs: Vec<Vec<f64>>) -> Option<Self> {
         let inverse = inverse(&super::correlation::matrix(&inputs))?;
         let rows = inputs.first()?.len();
@@ -77,12 +76,12 @@ impl Regressors {
         Some(Regressors { inputs, inverse, alone, leverages })
     }
 
-    /// How many inputs there are.
+    /// Number of inputs.
     pub fn count(&self) -> usize {
         self.inputs.len()
     }
 
-    /// The regression of `y`, [`standardised`](super::correlation::standardised); `None` where there are not more rows
+    /// The regression of `y`, [`standardised`](super::correlation::standardised); `None` unless there are more rows
     /// than inputs and one.
     pub fn regression<'a>(&'a self, y: &'a [f64]) -> Option<Regression<'a>> {
         if y.len() < self.count() + 2 {
@@ -119,7 +118,7 @@ impl Regression<'_> {
         Estimate { value, lower, upper }
     }
 
-    /// Correlation of `input` with the observable, the other inputs held fixed: that of what the others leave of both.
+    /// Correlation of `input` with the observable given the other inputs: that of the residuals of both.
     pub fn partial(&self, input: usize, confidence: f64) -> Estimate {
         let alone = &self.of.alone[input];
         let factor = self.beta[input] / self.of.inverse[(input, input)];
@@ -131,7 +130,7 @@ impl Regression<'_> {
         correlation(&unit(alone), &unit(&rest), self.of.count() - 1, confidence)
     }
 
-    /// Share of the variance that the linear terms explain: R^2, corrected for the number of inputs (M. Ezekiel 1930).
+    /// Share of the variance explained by the linear terms: R^2, corrected for the number of inputs (M. Ezekiel 1930).
     pub fn r_squared(&self, confidence: f64) -> Estimate {
         let (rows, square) = (self.y.len(), product(&self.rest, &self.rest));
         let freedom = (rows - self.of.count() - 1) as f64;
@@ -146,7 +145,7 @@ impl Regression<'_> {
     }
 }
 
-/// The inverse of a correlation matrix; `None` where it is singular.
+/// Inverse of a correlation matrix; `None` if singular.
 fn inverse(correlation: &[Vec<f64>]) -> Option<DMatrix<f64>> {
     let n = correlation.len();
     let factor = Cholesky::new(DMatrix::from_fn(n, n, |i, j| correlation[i][j]))?;
@@ -180,7 +179,6 @@ mod tests {
         let (of, sy) = (of(&columns).expect("independent inputs"), standardised(&y));
         let found = of.regression(&sy).expect("more rows than inputs");
         let explained = found.r_squared(0.95);
-        // measured 0
         assert!((explained.value - 1.0).abs() < 5e-15 && explained.upper - explained.lower < 1e-13, "{explained:?}");
         let coefficients = [0, 1, 2].map(|input| found.coefficient(input, 0.95));
         let spread = |x: &[f64]| {
@@ -191,14 +189,13 @@ mod tests {
         assert!((coefficients[0].value - 3.0 * spread(&a) / spread(&y)).abs() < 7e-15);
         assert!((coefficients[1].value + 2.0 * spread(&b) / spread(&y)).abs() < 2e-15);
         assert!(coefficients[2].value.abs() < 2e-16);
-        // nothing is left of y, but how the inputs are spread is not known exactly: the coefficients have a width, that
-        // of no input has none
+        // no residual, but the spread of the inputs is estimated: coefficients have a width, except that of no
+        // influence
         assert!(coefficients[0].upper - coefficients[0].lower > 1e-3, "{coefficients:?}");
         assert!(coefficients[2].upper - coefficients[2].lower < 1e-13, "{coefficients:?}");
     }
 
-    /// Law: the influence of a row is n - 1 times the change of the coefficient where it is left out: the interval is
-    /// that of these changes.
+    /// Law: intervals are those of the influences, n - 1 times the change of the coefficient without a row.
     #[test]
     fn intervals_are_those_of_leaving_out() {
         let [a, b, _] = inputs().map(|column| column[..40].to_vec());
@@ -214,14 +211,13 @@ mod tests {
         let found = coefficient(&|_| true);
         let influences = (0..40).map(|left: usize| 39.0 * (found.value - coefficient(&|row| row != left).value));
         let [lower, upper] = jackknife::ends(found.value, 40, influences, 0.95);
-        // rounding of sums of 40 numbers, 39 times
         assert!(
             (found.lower - lower).abs() < 1e-12 && (found.upper - upper).abs() < 1e-12,
             "{found:?} {lower} {upper}"
         );
     }
 
-    /// Law: the partial correlation is the correlation of what is left of both columns after regression on the others.
+    /// Law: the partial correlation is that of the residuals of both columns after regression on the others.
     #[test]
     fn partial_correlations_are_those_of_residuals() {
         let [a, b, c] = inputs();
@@ -235,12 +231,10 @@ mod tests {
         };
         let expected = pearson(&residual(&sx), &residual(&sy));
         let found = of.regression(&sy).expect("enough rows").partial(0, 0.95);
-        // measured 2.2e-16
         assert!((found.value - expected).abs() < 2e-15, "{} {expected}", found.value);
     }
 
-    /// Law: an input that is a combination of those before it, or constant, is not independent; the rest have a
-    /// regression.
+    /// Law: an input that combines earlier ones, or is constant, is not independent; the rest have a regression.
     #[test]
     fn dependent_inputs_are_found() {
         let [a, b, c] = inputs();

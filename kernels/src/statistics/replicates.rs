@@ -1,32 +1,29 @@
-//! Intervals from replicates: R independent scrambles of one design, each with an estimate of its own.
+//! Intervals from replicates: R independent scrambles of one design, each with its own estimate. Samples of a Latin
+//! hypercube or a scrambled sequence are dependent, replicates are not (A. B. Owen, *Scrambled net variance for
+//! integrals of smooth functions*, Ann. Stat. 25 (1997) 1541; M. Stein, *Technometrics* 29 (1987) 143).
 //!
-//! Samples of a Latin hypercube or of a scrambled sequence are not independent of each other, replicates are (A. B.
-//! Owen, *Scrambled net variance for integrals of smooth functions*, Ann. Stat. 25 (1997) 1541; M. Stein,
-//! *Technometrics* 29 (1987) 143).
-//!
-//! - A mean has the bounds of the mean of R numbers ([`super::mean`]); where R means do not bound it, those of
-//!   independent runs, whose variance that of such designs does not exceed.
+//! - A mean has the bounds of the mean of R numbers ([`super::mean`]), or else those of independent runs, whose
+//!   variance such designs do not exceed.
 //! - A fraction has Student's bounds of R numbers, with a floor of their variance ([`COUNT_VARIANCE`]).
-//! - A quantile follows from fractions: its interval has every x for which the interval of P(X <= x) has p in it.
+//! - A quantile's interval is every x for which the interval of P(X <= x) contains p.
 
 use super::mean::{self, one_sided};
 use super::moments::Moments;
 
-/// The least variance of the number of runs of a replicate that are within a limit. Counts that vary less are mostly
-/// equal, and so show less variance than they have: without it the interval of p05 of 16 scrambles covers 0.83 for
-/// 0.95.
+/// Least variance of a replicate's number of runs within a limit. Counts that vary less are mostly equal and show too
+/// little variance: without it the interval of p05 of 16 scrambles covers 0.83 instead of 0.95.
 pub const COUNT_VARIANCE: f64 = 0.5;
 
 /// One-sided bounds of a mean, each at `confidence`, from the `means` of replicates and the moments of all their runs;
-/// infinite where neither bounds it.
+/// infinite if neither bounds it.
 pub fn mean_bounds(means: &[f64], whole: &Moments, confidence: f64) -> [f64; 2] {
     let of_means = mean::mean_bounds(&Moments::of(means.iter().copied()), confidence);
     let independent = mean::mean_bounds(whole, confidence);
     [0, 1].map(|end| if of_means[end].is_finite() { of_means[end] } else { independent[end] })
 }
 
-/// One-sided bounds of a fraction, each at `confidence`, from the fractions of replicates of `runs` runs together; 0
-/// and 1 for fewer than two.
+/// One-sided bounds of a fraction, each at `confidence`, from the fractions of replicates of `runs` runs in all; 0 and
+/// 1 for fewer than two.
 pub fn fraction_bounds(fractions: &[f64], runs: u64, confidence: f64) -> [f64; 2] {
     let moments = Moments::of(fractions.iter().copied());
     let Some((mean, deviation)) = moments.mean().zip(moments.standard_deviation()) else { return [0.0, 1.0] };
@@ -37,24 +34,23 @@ pub fn fraction_bounds(fractions: &[f64], runs: u64, confidence: f64) -> [f64; 2
     [(mean - half).max(0.0), (mean + half).min(1.0)]
 }
 
-/// A step of the distribution functions of the replicates: so many more of the numbers of one replicate are at most
-/// `value`.
+/// A step in the distribution function of a replicate: `count` more of its numbers are at most `value`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// The numbers, or the upper end of the bucket that they are in.
+    /// The numbers, or the upper end of their bucket.
     pub value: f64,
-    /// The lower end of that bucket; the numbers themselves where they are known.
+    /// The lower end of their bucket, or the numbers.
     pub lower: f64,
     /// The replicate, from zero.
     pub replicate: usize,
-    /// How many numbers.
+    /// Number of numbers.
     pub count: u64,
 }
 
-/// The interval of the `p`-quantile, 0 < p < 1, from the numbers of replicates of the `sizes` given, as steps in
-/// ascending order of `value`; an end is `None` where it lies beyond the numbers.
+/// Interval of the `p`-quantile, 0 < p < 1, from steps in ascending order of `value` and the `sizes` of the replicates;
+/// `None` for an end beyond the numbers.
 ///
-/// No end is outside of what [`Step::lower`] and [`Step::value`] allow: ends are rounded outward.
+/// Ends are rounded outward within [`Step::lower`] and [`Step::value`].
 pub fn quantile_interval(steps: &[Step], sizes: &[u64], p: f64, confidence: f64) -> [Option<f64>; 2] {
     let replicates = sizes.len() as f64;
     if sizes.len() < 2 || sizes.contains(&0) {
@@ -66,10 +62,9 @@ pub fn quantile_interval(steps: &[Step], sizes: &[u64], p: f64, confidence: f64)
     let floor = COUNT_VARIANCE * (replicates - 1.0) / (each * each);
     let mut fractions = vec![0.0_f64; sizes.len()];
     let mut counts = vec![0_u64; sizes.len()];
-    // sums over replicates of the deviations from p, and of their squares: the mean is inside where sum^2 <= factor *
-    // spread
+    // sums over replicates of deviations from p and of their squares: the mean is inside if sum^2 <= factor * spread
     let (mut first, mut last) = (None, None);
-    // whether the fraction zero, below all numbers, is inside
+    // the fraction zero, below all numbers, is inside
     let is_unbounded = p * p <= factor * floor;
     let mut at = 0;
     while at < steps.len() {
@@ -91,7 +86,7 @@ pub fn quantile_interval(steps: &[Step], sizes: &[u64], p: f64, confidence: f64)
             last = Some((start, at));
         }
     }
-    // up to the next number the distribution functions are as they are at this one
+    // the distribution functions are constant up to the next number
     let upper = match last {
         None => steps.first().map(|step| step.value),
         Some((_, next)) => steps.get(next).map(|step| step.value),
@@ -104,7 +99,7 @@ mod tests {
     use super::*;
 
     /// Known: fractions 0.1 ... 0.4 of many runs have s = sqrt(5/3)/10 and t(0.95, 3) = 2.3533634348018264; of 40 runs,
-    /// 10 in each replicate, equal fractions have the floor of the variance. No fraction is below 0 or above 1.
+    /// 10 per replicate, equal fractions have the floor of the variance. Fractions are between 0 and 1.
     #[test]
     fn known_bounds_of_fractions() {
         let half = |deviation: f64| 2.353_363_434_801_826_4 * deviation / 2.0;
@@ -117,7 +112,7 @@ mod tests {
         assert_eq!(fraction_bounds(&[0.5], 10, 0.95), [0.0, 1.0]);
     }
 
-    /// Law: means bound as numbers of their own; where they do not, as independent runs.
+    /// Law: means bound as numbers of their own, or else as independent runs.
     #[test]
     fn means_fall_back_on_independent_runs() {
         let whole = Moments::of((0..400).map(|k| f64::from(k % 20)));
@@ -129,7 +124,7 @@ mod tests {
         assert_eq!(mean_bounds(&[9.5; 16], &whole, 0.95), mean::mean_bounds(&whole, 0.95));
     }
 
-    /// Law: the interval is the set of x for which Student's interval of the fractions at most x has p in it.
+    /// Law: the interval is the set of x for which Student's interval of the fractions at most x contains p.
     #[test]
     fn a_quantile_interval_inverts_that_of_fractions() {
         let replicates: Vec<Vec<f64>> = (0..8)

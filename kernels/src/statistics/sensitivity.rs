@@ -1,26 +1,25 @@
-//! Variance-based sensitivity: which share of an observable's variance an input explains, alone and with its
+//! Variance-based sensitivity: share of an observable's variance explained by an input, alone and with its
 //! interactions.
 //!
 //! - From a Saltelli design: first-order index by A. Saltelli et al., *Comput. Phys. Commun.* 181 (2010) 259, equation
 //!   (b) of table 2, of centred values; total index by M. J. W. Jansen, *ibid.* 117 (1999) 35.
-//! - From plain samples: what straight lines through cells of neighbouring inputs do not explain is the rest of the
-//!   variance (the correlation ratio of K. Pearson, *Drapers' Co. Res. Mem.* 2 (1905), with lines in place of means;
-//!   cells as E. Plischke, E. Borgonovo & C. L. Smith, *Eur. J. Oper. Res.* 226 (2013) 536). Ranks (F. Gamboa et al.,
-//!   *Bernoulli* 28 (2022) 2345) were rejected: of x^3 + y, 100 runs, their bias is 0.13, its interval covers 0.15.
+//! - From plain samples: 1 minus the residual variance after lines through cells of neighbouring inputs (the
+//!   correlation ratio of K. Pearson, *Drapers' Co. Res. Mem.* 2 (1905), with lines in place of means; cells as E.
+//!   Plischke, E. Borgonovo & C. L. Smith, *Eur. J. Oper. Res.* 226 (2013) 536). Ranks (F. Gamboa et al., *Bernoulli*
+//!   28 (2022) 2345) were rejected: for x^3 + y and 100 runs their bias is 0.13, and the interval covers 0.15.
 //!
 //! Intervals are those of the [`jackknife`](super::jackknife), for independent blocks or rows; for sequences see
-//! [`Samples`]. Those from plain samples also allow for what the rows do not show: `UNSEEN` more rows like the
-//! largest, a curve that is steeper than the lines (`ALMOST_ALL`, `Rest::noise`), and tails (`MOST_KURTOSIS`). An
-//! interval from 0 to 1 means that the share is unknown. Of correlated inputs the shares overlap.
+//! [`Samples`]. For plain samples they also allow for hidden features: `UNSEEN` more rows like the largest, curves
+//! steeper than the lines (`ALMOST_ALL`, `Rest::noise`), and tails (`MOST_KURTOSIS`). An interval from 0 to 1 means an
+//! unknown share. Shares of correlated inputs overlap.
 
 use super::correlation::{Estimate, ascending_order};
 use super::jackknife::{ends, of_whole, ratio, spaced_rows};
 use super::mean::one_sided;
 use super::moments::Moments;
 
-/// Share of the variance of `y` that a line in `x` explains, or a parabola where its bend is no noise: a measure that
-/// orders inputs, and no estimate of a first-order index. Both columns have the mean zero; of one that does not vary
-/// the share is zero.
+/// Share of the variance of `y` explained by a line in `x`, or by a parabola if its bend is significant: orders inputs,
+/// but estimates no first-order index. Both columns have zero mean; zero if one does not vary.
 pub fn share_of_parabola(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len() as f64;
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
@@ -32,28 +31,28 @@ pub fn share_of_parabola(x: &[f64], y: &[f64]) -> f64 {
     let slope = x.iter().map(|x| x * x * x).sum::<f64>() / square;
     let bent: Vec<f64> = x.iter().map(|x| x * x - square / n - slope * x).collect();
     let line = share(x);
-    // of two values the parabola is the line
+    // for two values the parabola is the line
     let has_bend = product(&bent, &bent) * n > 1e-9 * square * square;
     let parabola = line + if has_bend { share(&bent) } else { 0.0 };
     let is_bent = (parabola - line) * (n - 3.0) > CERTAIN_BEND * (1.0 - parabola);
     if is_bent { parabola } else { line }
 }
 
-/// F of a bend (about the square of a normal number) above which it is no noise.
+/// F (about the square of a normal number) above which a bend is significant.
 const CERTAIN_BEND: f64 = 12.0;
 
 /// Values of one block of a Saltelli design for one input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
-    /// Of point A.
+    /// At point A.
     pub a: f64,
-    /// Of point B.
+    /// At point B.
     pub b: f64,
-    /// Of point A with the input's coordinate from B.
+    /// At point A with the input's coordinate from B.
     pub mixed: f64,
 }
 
-/// First-order and total index of an input from the blocks of a Saltelli design; `None` where the observable does not
+/// First-order and total index of an input from the blocks of a Saltelli design; `None` if the observable does not
 /// vary.
 pub fn saltelli_indices(blocks: &[Block], confidence: f64) -> Option<[Estimate; 2]> {
     let n = blocks.len() as f64;
@@ -67,22 +66,20 @@ pub fn saltelli_indices(blocks: &[Block], confidence: f64) -> Option<[Estimate; 
     Some([of_whole(ratio(&first, &variance, confidence)?), of_whole(ratio(&total, &variance, confidence)?)])
 }
 
-/// How samples fill the space of the inputs.
+/// Distribution of samples in the space of the inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Samples {
-    /// Independently of each other, or evenly in each input alone (a Latin hypercube).
+    /// Independent, or even in each input alone (a Latin hypercube).
     Independent,
-    /// Evenly in several inputs together, as the sequences of Sobol and Halton do. Within a cell the other inputs are
-    /// even too, so that less noise than that of independent rows, and perhaps none, is in its line. The index then
-    /// lies between the one that is corrected for that noise and the one that is not: the estimate is their middle, the
-    /// interval is from the lower end of the first to the upper one of the second.
+    /// Even in several inputs together (sequences of Sobol and Halton). Within a cell the other inputs are even too, so
+    /// that its line has less noise than for independent rows, or none. The index lies between the ones with and
+    /// without correction for that noise: the estimate is their middle, the interval from the lower end of the first to
+    /// the upper end of the second.
     Even,
 }
 
-/// First-order index of an input `x` for an observable `y`; `None` where one does not vary, or for fewer than
-/// [`MIN_ROWS`] rows.
-///
-/// Rows are put into cells of ascending `x`, equal values into one cell.
+/// First-order index of an input `x` for an observable `y` from cells of ascending `x`, equal values in one cell;
+/// `None` if one does not vary, or for fewer than [`MIN_ROWS`] rows.
 pub fn first_order_index(x: &[f64], y: &[f64], samples: Samples, confidence: f64) -> Option<Estimate> {
     first_order_index_in_order(&ascending_order(x), x, y, samples, confidence)
 }
@@ -105,7 +102,7 @@ pub fn first_order_index_in_order(
     if total <= 0.0 || !total.is_finite() {
         return None;
     }
-    // squares of what the lines leave, and the noise of each cell, with and without the freedom that a line takes
+    // squared residuals, and the noise of each cell, with and without the freedom taken by a line
     let (mut left, mut noise, mut freedom) = (Vec::with_capacity(rows), Vec::new(), Vec::with_capacity(rows));
     let mut rests = Vec::with_capacity(rows);
     for cell in cells(order, x) {
@@ -119,7 +116,7 @@ pub fn first_order_index_in_order(
     let corrected: Vec<f64> = left.iter().zip(freedom).map(|(left, correction)| left * correction).collect();
     let [least, most] = [&corrected, if samples == Samples::Even { &left } else { &corrected }];
     let scale = (n - 1.0) / n;
-    // the share that is left, and the factor of the end of its interval: of the lower one if `is_low`
+    // the residual share, and the factor of an end of its interval: the lower one if `is_low`
     let of = |left: &[f64], is_low: bool| {
         let sum = left.iter().sum::<f64>();
         let influences = spaced_rows(rows).map(|row| n * (left[row] / sum - whole[row] / total));
@@ -143,7 +140,7 @@ pub fn first_order_index_in_order(
     let upper = if is_almost_all || has_tails(x, [1.0, more]) || has_tails(y, [1.0, more]) {
         1.0
     } else {
-        // cells that differ in their noise say how well it is known
+        // cells of different noise show how well it is known
         let (count, cells) = (noise.len() as f64, Moments::of_block(&noise));
         let t = one_sided(1.0 - RISKS[1] * (1.0 - confidence), count - 1.0);
         let sum =
@@ -153,32 +150,29 @@ pub fn first_order_index_in_order(
     Some(Estimate { value, lower: lower.max(0.0).min(value), upper: upper.min(1.0).max(value) })
 }
 
-/// The parts of the risk of an interval, 1 - confidence, of a lower end above the share and of an upper one below it.
-/// The estimates that are said are the larger ones, those of drivers: the lower end misses more often among them.
-/// Measured over a list of structures (`drivers_of_structures`): at most 5% together.
+/// Parts of the risk 1 - confidence for a lower end above the share and an upper end below it. Reported estimates are
+/// mostly those of drivers, the larger ones, whose lower ends miss more often. Measured over a list of structures
+/// (`drivers_of_structures`): at most 5% in all.
 const RISKS: [f64; 2] = [0.1, 0.6];
-/// Rows as far from the mean as the farthest, that the interval allows for beside it: of 4.7 expected rows one and no
-/// more is seen in 5% of all cases. The lower end takes them for rows that the input does not explain, the upper one
-/// for rows that it does.
+/// Allowance for more rows as far from the mean as the farthest: of 4.7 expected rows at most one is seen in 5% of all
+/// cases. The lower end takes them as unexplained by the input, the upper one as explained.
 const UNSEEN: f64 = 3.0;
-/// Below this share lines leave no more than curves and jumps do: nothing may be left of the variance.
+/// Residual share below which curves and jumps may explain all of it: the residual may be zero.
 const ALMOST_ALL: f64 = 0.06;
-/// Above this kurtosis (3 for normal numbers, 6 for an exponential tail on both sides), rows that are not seen may
-/// decide: tails of the input or the observable may raise the share to 1. Tails of the part that the input does not
-/// explain may lower the share to 0, unless the observable has two values; more rows than [`MIN_ROWS`] show more of
-/// these tails, and the limit for them rises with the fourth root of the number of rows.
+/// Kurtosis (3 for normal numbers, 6 for two exponential tails) above which hidden rows may decide. Tails of input or
+/// observable may raise the share to 1; tails of the unexplained part may lower it to 0, unless the observable has two
+/// values. More rows than [`MIN_ROWS`] show more of these tails: that limit rises with the fourth root of their number.
 const MOST_KURTOSIS: f64 = 4.5;
 
-/// Above this skewness of the input or the observable, the same: rows of a long tail on one side that happen to have
-/// none far out are still skewed. More rows show more of a tail: the limit rises too.
+/// Skewness with the same effect: a one-sided tail without far rows is still skewed. This limit rises too.
 const MOST_SKEWNESS: f64 = 0.6;
 
-/// Whether rows that are not seen may decide the variance of a column, by its kurtosis or its skewness: above so many
-/// times the limits.
+/// True if hidden rows may decide the variance of a column, by its kurtosis or skewness beyond these multiples of the
+/// limits.
 pub fn has_tails(column: &[f64], [kurtosis, skewness]: [f64; 2]) -> bool {
     let moments = Moments::of_block(column);
     let [smallest, largest] = [moments.min(), moments.max()];
-    // two values have no more values far out
+    // two values have no tails
     let is_skewed = || {
         let is_two = column.iter().all(|value| Some(*value) == smallest || Some(*value) == largest);
         !is_two && moments.skewness().is_none_or(|found| found.abs() > skewness * MOST_SKEWNESS)
@@ -186,13 +180,12 @@ pub fn has_tails(column: &[f64], [kurtosis, skewness]: [f64; 2]) -> bool {
     moments.kurtosis().is_none_or(|found| found > kurtosis * MOST_KURTOSIS) || is_skewed()
 }
 
-/// Fewer rows do not show a line in a few cells.
+/// Minimum number of rows: fewer show no line in a few cells.
 pub const MIN_ROWS: usize = 64;
-/// The cells at both ends have so many rows, where the input has its tails and the observable is steep.
+/// Rows of the cells at both ends, where the input has its tails and the observable is steep.
 const FEWEST: usize = 5;
-/// The end of the cell that begins at `start`: cells grow by half from both ends to the root of the number of rows.
-/// Smaller ones have more noise, larger ones more error of the line: at 1,000 rows, cells of 20 to 45 have the same
-/// error.
+/// End of the cell that begins at `start`: cells grow by half from both ends to the root of the number of rows. Smaller
+/// ones have more noise, larger ones more error of the line: at 1,000 rows cells of 20 to 45 are equally good.
 fn cell_end(order: &[usize], x: &[f64], start: usize) -> usize {
     let (rows, rest) = (order.len(), order.len() - start);
     let largest = libm::sqrt(rows as f64) as usize;
@@ -214,7 +207,7 @@ pub(super) fn cells<'a>(order: &'a [usize], x: &'a [f64]) -> impl Iterator<Item 
     })
 }
 
-/// What straight lines through the cells of `x` leave of `y`, row by row; `order` is the [`ascending_order`] of `x`.
+/// Residuals of `y` after lines through the cells of `x`, by row; `order` is the [`ascending_order`] of `x`.
 pub(super) fn left_by_lines(order: &[usize], x: &[f64], y: &[f64]) -> Vec<f64> {
     let mut left = vec![0.0; y.len()];
     for cell in cells(order, x) {
@@ -223,12 +216,12 @@ pub(super) fn left_by_lines(order: &[usize], x: &[f64], y: &[f64]) -> Vec<f64> {
     left
 }
 
-/// What a straight line through the rows of a cell leaves.
+/// Residuals of a cell after its line.
 struct Rest {
     values: Vec<f64>,
-    /// Rows over their number without the one or two that the line takes.
+    /// Number of rows over the degrees of freedom left by the line.
     correction: f64,
-    /// Whether the input varies in the cell.
+    /// True if the input varies in the cell.
     varies: bool,
 }
 
@@ -249,8 +242,8 @@ impl Rest {
         Rest { values, correction: n / (n - if varies { 2.0 } else { 1.0 }), varies }
     }
 
-    /// The sum of squares that is noise, at least: half the squares of the differences of neighbours, which the curve
-    /// of the observable leaves small, or all squares times `factor`, if that is less.
+    /// Sum of squares that is noise, at least: half the squared differences of neighbours, which a smooth curve leaves
+    /// small, or all squares times `factor`, if less.
     fn noise(&self, factor: f64) -> f64 {
         let all = factor * self.values.iter().map(|value| value * value).sum::<f64>();
         if !self.varies {
@@ -267,7 +260,6 @@ mod tests {
 
     use super::*;
 
-    /// SplitMix64 (G. L. Steele, D. Lea & C. H. Flood 2014), as numbers in [0, 1).
     struct Uniform(u64);
 
     impl Uniform {
@@ -300,9 +292,8 @@ mod tests {
         [(); 3].map(|()| PI * (2.0 * random.next() - 1.0))
     }
 
-    /// H0: the exact indices of Ishigami's function lie in 99% intervals as often as stated. 200 studies of 1,000
-    /// blocks, 6 indices each, fixed seed; at least 95% of each covered (alpha 1e-6 for 99%). An interval of half the
-    /// width covers 80%: power 1.
+    /// H0: 99% intervals cover the exact indices of Ishigami's function. 200 studies of 1,000 blocks, 6 indices each,
+    /// fixed seed; at least 95% of each covered (alpha 1e-6 for 99%). Intervals of half the width cover 80%: power 1.
     #[test]
     fn indices_of_ishigami_from_blocks() {
         let mut random = Uniform(1);
@@ -327,8 +318,7 @@ mod tests {
         assert!(covered.as_flattened().iter().all(|count| *count >= 190), "{covered:?}");
     }
 
-    /// Law: indices do not depend on where the observable is counted from: a constant that is added to it changes
-    /// nothing.
+    /// Law: a constant added to the observable changes no index.
     #[test]
     fn a_constant_changes_no_index() {
         let mut random = Uniform(3);
@@ -347,7 +337,7 @@ mod tests {
         }
     }
 
-    /// The same from plain samples, to four standard errors of about 0.01.
+    /// Plain samples, to four standard errors of about 0.01.
     #[test]
     fn first_order_indices_of_ishigami_from_samples() {
         let mut random = Uniform(2);
@@ -361,8 +351,8 @@ mod tests {
         }
     }
 
-    /// Law: of an input with few values the index is that of the means of its levels, and where nothing else acts it is
-    /// 1; rows are in no cell with others of another value, so that their order does not matter.
+    /// Law: an input of few values has the index of the means of its levels, 1 if nothing else acts; a cell has equal
+    /// values only, so that the order of rows does not matter.
     #[test]
     fn levels_are_cells() {
         let mut random = Uniform(4);
@@ -400,7 +390,7 @@ mod tests {
         assert_eq!(index(&[1.0; 100], &rising), None, "an input that does not vary");
         assert_eq!(index(&rising, &[2.0; 100]), None, "an observable that does not vary");
         assert_eq!(index(&rising[..63], &rising[..63]), None);
-        // of a line nothing is left, of a curve what the lines leave: neither bounds the index below 1
+        // a line leaves nothing, a curve something: neither bounds the index below 1
         let curve: Vec<f64> = rising.iter().map(|x| libm::sin(0.05 * x)).collect();
         for y in [&rising, &curve] {
             let found = index(&rising, y).expect("it varies");

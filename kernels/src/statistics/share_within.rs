@@ -1,29 +1,29 @@
-//! The share of a variance that repetition alone makes, of values that were had twice under the same conditions.
+//! Share of a variance due to repetition alone, from pairs of values under equal conditions.
 //!
-//! One-way random effects with pairs as groups (R. A. Fisher, *Statistical Methods for Research Workers*, 1925, on the
-//! intraclass correlation): the variance within pairs is the mean of (a - b)^2/2, the whole is that about the mean of
-//! all; the interval is that of [`super::jackknife`].
+//! One-way random effects with pairs as groups (R. A. Fisher, *Statistical Methods for Research Workers*, 1925,
+//! intraclass correlation): the variance within pairs is the mean of (a - b)^2/2, the whole is about the mean of all,
+//! the interval that of [`super::jackknife`].
 //!
-//! The jackknife does not know what a few runs did not show. Values of a yes or no have an interval of their own: of
-//! the pairs with an event, the share r in which both runs have it, and the share m of such pairs among all, each have
-//! Clopper and Pearson's interval, and the share within is (1 - r)/(1 + r)/(1 - p), p = m (1 + r)/2. The distances of
-//! its ends are those of r and of m, by Pythagoras (G. Y. Zou & A. Donner, *Stat. Med.* 27 (2008) 1693).
+//! The jackknife ignores unseen events, so that yes-or-no values have their own interval: among pairs with an event,
+//! the share r with two events, and the share m of such pairs among all, have Clopper and Pearson's intervals; the
+//! share within is (1 - r)/(1 + r)/(1 - p), p = m (1 + r)/2. Distances of its ends combine those of r and m as root sum
+//! of squares (G. Y. Zou & A. Donner, *Stat. Med.* 27 (2008) 1693).
 
 use super::binomial;
 use super::jackknife::{Estimate, explained_share};
 
-/// With fewer runs that have another value than the most frequent one, no share is estimated.
+/// Minimum number of runs with another value than the most frequent one.
 pub const FEWEST_OTHERS: usize = 10;
 
-/// How many values of `pairs` are not the most frequent one.
+/// Number of values of `pairs` other than the most frequent one.
 pub fn others(pairs: &[[f64; 2]]) -> usize {
     let mut values: Vec<f64> = pairs.iter().flatten().copied().collect();
     values.sort_unstable_by(f64::total_cmp);
     values.len() - values.chunk_by(|a, b| a == b).map(<[f64]>::len).max().unwrap_or(0)
 }
 
-/// The share of the variance within `pairs`, with its interval; `None` where all values are one, or some differ and
-/// fewer than [`FEWEST_OTHERS`] do.
+/// Share of the variance within `pairs`, with its interval; `None` if all values are equal, or between one and
+/// [`FEWEST_OTHERS`] differ.
 pub fn share_within(pairs: &[[f64; 2]], confidence: f64) -> Option<Estimate> {
     let count = pairs.len();
     let mean = pairs.iter().flatten().sum::<f64>() / (2 * count) as f64;
@@ -49,18 +49,17 @@ pub fn share_within(pairs: &[[f64; 2]], confidence: f64) -> Option<Estimate> {
     }
     let shares = pairs.iter().map(parts).map(|[x, y]| [x / within, y / whole]);
     let between = explained_share(within / whole, count, shares, confidence);
-    // noise makes no more than all
     let [value, lower, upper] = [between.value, between.upper, between.lower].map(|share| (1.0 - share).min(1.0));
     Some(Estimate { value, lower, upper })
 }
 
-/// The same of pairs with two values, of which the `event` is the rarer one.
+/// [`share_within`] for pairs of two values, `event` being the rarer one.
 fn of_yes_or_no(pairs: &[[f64; 2]], event: f64, confidence: f64) -> Estimate {
     let in_pair = |count: usize| {
         pairs.iter().filter(|pair| pair.iter().filter(|value| **value == event).count() == count).count() as u64
     };
     let (one, both, all) = (in_pair(1), in_pair(2), pairs.len() as u64);
-    // more than one where chance makes pairs less alike than independent runs are
+    // more than one if pairs are less alike by chance than independent runs
     let share = |r: f64, m: f64| (1.0 - r) / (1.0 + r) / (1.0 - 0.5 * m * (1.0 + r));
     let (r, m) = (both as f64 / (one + both) as f64, (one + both) as f64 / all as f64);
     let [r_lower, r_upper] = binomial::interval(both, one + both, confidence);
@@ -77,7 +76,7 @@ mod tests {
     use super::*;
     use crate::math::normal;
 
-    /// Numbers 0 < u < 1 that repeat no pattern.
+    /// Numbers 0 < u < 1 without a pattern.
     fn uniforms(seed: u64) -> impl Iterator<Item = f64> {
         let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678_9abc_def1;
         std::iter::from_fn(move || {
@@ -88,9 +87,8 @@ mod tests {
         })
     }
 
-    /// Law: of normal and of skewed values with a known share the estimate is right on average, to 6% of itself
-    /// (measured: 5.4%, of skewed values), and 95% intervals cover it in at least 92% (measured: 93.8%) of 1,000
-    /// repetitions with 200 pairs.
+    /// Law: for normal and skewed values of known share the mean estimate is right to 6% (measured: 5.4%, skewed), and
+    /// 95% intervals cover it in at least 92% (measured: 93.8%) of 1,000 repetitions with 200 pairs.
     #[test]
     fn known_shares_are_covered() {
         let normal_value = |u: f64| normal::quantile(u);
@@ -119,9 +117,8 @@ mod tests {
         }
     }
 
-    /// P(both) and P(one) of the event that the sum of a scene and of noise is beyond a limit, of normal numbers,
-    /// `share` of whose variance is noise; by Simpson's rule over the scene. The share of the variance of the event
-    /// that is noise is then 1 - (P(both) - p^2)/(p (1 - p)).
+    /// Share of noise in the variance of the event that a sum of scene and noise, both normal, exceeds a limit, `share`
+    /// being the noise in the sum: 1 - (P(both) - p^2)/(p (1 - p)), by Simpson's rule over the scene.
     fn truth(limit: f64, share: f64) -> f64 {
         const STEPS: u32 = 4000;
         let upper_tail = |x: f64| 0.5 * libm::erfc(x * core::f64::consts::FRAC_1_SQRT_2);
@@ -139,10 +136,9 @@ mod tests {
         1.0 - (both - p * p) / (p * (1.0 - p))
     }
 
-    /// H0: of a yes or no, 95% intervals cover the share that quadrature gives in at least 0.95 of the campaigns that
-    /// have one; n = 300 for each probability of the event, share of noise and number of scenes, seeds 1 to 300, alpha
-    /// = 1e-3 for each of 24. Power: the jackknife's intervals, in their place, cover in 0.53 to 0.64 where events are
-    /// rare; the counter-test has such a case.
+    /// H0: 95% intervals of yes-or-no values cover the share by quadrature in at least 0.95 of the campaigns that have
+    /// one; n = 300 for each probability, share and number of scenes, seeds 1 to 300, alpha = 1e-3 for each of 24.
+    /// Power: the jackknife's intervals cover 0.53 to 0.64 for rare events; the counter-test has such a case.
     #[test]
     fn shares_of_a_yes_or_no_are_covered() {
         let counts = |limit: f64, share: f64, scenes: usize| {
@@ -183,8 +179,7 @@ mod tests {
         assert!(of_jackknife < said * 8 / 10, "the counter-test: {of_jackknife} of {said}");
     }
 
-    /// Law: with fewer than ten runs that have another value there is no share, but that noise changes nothing; with
-    /// ten there is one.
+    /// Law: fewer than ten runs with another value have no share, unless noise changes nothing; ten have one.
     #[test]
     fn few_events_have_no_share() {
         let pairs = |one: usize, both: usize| -> Vec<[f64; 2]> {
@@ -197,7 +192,7 @@ mod tests {
         assert_eq!(others(&[[1.0, 2.0], [1.0, 3.0]]), 2);
     }
 
-    /// Law: where repetition changes nothing the share is zero; without two pairs or any difference there is none.
+    /// Law: if repetition changes nothing the share is zero; without two pairs or any difference there is none.
     #[test]
     fn no_noise_is_no_share() {
         let found = share_within(&[[1.0, 1.0], [2.0, 2.0], [4.0, 4.0]], 0.95).expect("values differ");

@@ -1,15 +1,14 @@
-//! [`Sketch`]: a histogram fine enough to read order statistics from, and small enough for any number of samples.
+//! [`Sketch`]: a histogram fine enough for order statistics, and small enough for any number of samples.
 //!
-//! Buckets are the leading bits of the number itself: sign, exponent, and the first [`MANTISSA_BITS`] bits of the
-//! mantissa (the idea of HdrHistogram, G. Tene 2012, and of DDSketch, Masson, Rim & Lee 2019, with the logarithm taken
-//! from the bits). A bucket is at most 2^-10 = 0.098% of its value wide; a quantile is answered by the middle of its
-//! bucket, hence within 0.05%. Contents are counts, so merging is addition: the result does not depend on order,
-//! threads or parts.
+//! Buckets are the leading bits of the number: sign, exponent and [`MANTISSA_BITS`] bits of the mantissa (the idea of
+//! HdrHistogram, G. Tene 2012, and DDSketch, Masson, Rim & Lee 2019, with the logarithm from the bits). A bucket is at
+//! most 2^-10 of its value wide; a quantile is the middle of its bucket, within 0.05%. Contents are counts, so that
+//! merging is addition, independent of order, threads and parts.
 //!
-//! A relative error of a large number would hide a small spread about it. A sketch about a reference
-//! ([`Sketch::about`]) therefore counts the numbers that are nearer to the reference than to zero by their deviation
-//! from it, and the others by themselves: a quantile is then within 0.05% of its magnitude *and* of its deviation,
-//! whichever is smaller. Magnitudes below 2^-1022 count as zero.
+//! A relative error of a large number would hide a small spread about it: a sketch about a reference
+//! ([`Sketch::about`]) counts numbers nearer to the reference than to zero by their deviation from it. A quantile is
+//! then within 0.05% of its magnitude *and* of its deviation, whichever is smaller. Magnitudes below 2^-1022 count as
+//! zero.
 
 use fearless_simd::Simd;
 
@@ -18,17 +17,16 @@ use super::moments::Moments;
 use crate::math::Isa;
 use crate::math::isa::Work;
 
-/// Leading mantissa bits that tell buckets apart.
+/// Leading mantissa bits of a bucket.
 pub const MANTISSA_BITS: u32 = 10;
 
 /// Bound of the relative error of a quantile of normal numbers: half a bucket.
 pub const RELATIVE_ERROR: f64 = 1.0 / 2048.0;
 
 const PAGE: usize = 1 << MANTISSA_BITS;
-/// Number of pages that can occur of one scale: of signs and exponents.
+/// Number of possible pages of one scale: signs and exponents.
 const SCALE: u16 = 1 << 12;
-/// Where a page is not counted in yet; there are no more than two scales of them: of numbers themselves, and of
-/// deviations.
+/// A page not yet counted in; there are at most two scales, of numbers and of deviations.
 const NO_PAGE: u16 = u16::MAX;
 /// Buckets in a cache line.
 const CACHE_LINE: usize = 16;
@@ -37,11 +35,11 @@ const SHIFT: u32 = 52 - MANTISSA_BITS;
 /// Counts of numbers by their leading bits, with exact extremes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sketch {
-    /// What deviations are from; zero where numbers are counted by themselves.
+    /// Reference of the deviations; zero without.
     reference: f64,
-    /// One page of buckets per sign and exponent that occurred, in ascending order of its number.
+    /// One page of buckets per sign and exponent that occurred, ascending.
     pages: Vec<(u16, Box<[u32; PAGE]>)>,
-    /// What buckets of the pages have carried, by the leading bits of their numbers.
+    /// Carries of the buckets, by the leading bits of their numbers.
     carries: Carries,
     count: u64,
     min: f64,
@@ -54,17 +52,15 @@ impl Default for Sketch {
     }
 }
 
-/// The number whose bits were mapped so that unsigned order is numeric order: the sign bit of a positive number is set,
-/// all bits of a negative one are inverted.
+/// Inverse of the map to keys in numeric order: sign bit set for positive numbers, all bits inverted for negative ones.
 fn unordered(key: u64) -> f64 {
     f64::from_bits(if key >> 63 == 1 { key & !(1 << 63) } else { !key })
 }
 
-/// Where numbers are in a sketch.
+/// Positions of numbers in a sketch.
 #[derive(Clone, Copy)]
 struct Places {
     reference: f64,
-    /// The sign of the reference, or zero.
     sign: f64,
     /// Half of its magnitude.
     half: f64,
@@ -77,9 +73,8 @@ impl Places {
         Places { reference, sign, half: 0.5 * reference.abs() }
     }
 
-    /// The leading bits of the place of `value`. Places ascend with numbers: below a positive reference those that are
-    /// counted by themselves, then deviations; about a negative one the other way. Without branches: a loop over many
-    /// of them is one over vectors.
+    /// Leading bits of the position of `value`. Positions ascend with numbers: about a positive reference, numbers come
+    /// before deviations; about a negative one after. Without branches, so that loops are vectorised.
     #[inline(always)]
     fn of(self, value: f64) -> u32 {
         let is_near = self.sign * value > self.half;
@@ -93,17 +88,17 @@ impl Places {
     }
 }
 
-/// The leading bit of places in the upper of both scales.
+/// Leading bit of positions in the upper of both scales.
 const UPPER: u32 = (SCALE as u32) << MANTISSA_BITS;
 
 impl Sketch {
-    /// Of no number yet, about `reference`: a number near those that will be counted; zero where there is none.
+    /// An empty sketch about `reference`, a number near those to be counted, or zero.
     pub fn about(reference: f64) -> Self {
         let (min, max) = (f64::INFINITY, f64::NEG_INFINITY);
         Sketch { reference, pages: Vec::new(), carries: Carries::default(), count: 0, min, max }
     }
 
-    /// Counts one number; NaN is not counted.
+    /// Counts one number, unless it is NaN.
     pub fn add(&mut self, value: f64) {
         if value.is_nan() {
             return;
@@ -117,15 +112,15 @@ impl Sketch {
         self.max = self.max.max(value);
     }
 
-    /// Counts the numbers of a list; NaN is not counted.
+    /// Counts the numbers of a list, except NaN.
     pub fn add_all(&mut self, values: &[f64]) {
         self.add_block(values, &Moments::of_block(values));
     }
 
-    /// As [`Sketch::add_all`], for numbers whose moments are known.
+    /// [`Sketch::add_all`] for known moments.
     pub fn add_block(&mut self, values: &[f64], moments: &Moments) {
         let (min, max) = (moments.min().unwrap_or(f64::INFINITY), moments.max().unwrap_or(f64::NEG_INFINITY));
-        // there may be no number, or none but NaN
+        // false without numbers
         if min <= max {
             // one zero, as in `add`
             let ends = [min + 0.0, max + 0.0];
@@ -133,10 +128,10 @@ impl Sketch {
         }
     }
 
-    /// Counts all that `other` has counted. A sketch without numbers takes its reference.
+    /// Adds the counts of `other`. An empty sketch takes its reference.
     ///
     /// # Panics
-    /// Where both have numbers and are about different references.
+    /// If both have numbers and different references.
     pub fn merge(&mut self, other: &Sketch) {
         if other.count == 0 {
             return;
@@ -154,33 +149,32 @@ impl Sketch {
         self.max = self.max.max(other.max);
     }
 
-    /// How many numbers were counted.
+    /// Number of counted numbers.
     pub fn count(&self) -> u64 {
         self.count
     }
 
-    /// The largest number, exactly; `None` where nothing was counted.
+    /// The largest number, exact, if any.
     pub fn max(&self) -> Option<f64> {
         (self.count > 0).then_some(self.max)
     }
 
-    /// The smallest number, exactly; `None` where nothing was counted.
+    /// The smallest number, exact, if any.
     pub fn min(&self) -> Option<f64> {
         (self.count > 0).then_some(self.min)
     }
 
-    /// The `p`-quantile of type 7, 0 <= p <= 1 ([`Ranks::quantile`]); `None` where nothing was counted. Several
-    /// questions to one sketch are faster to its [`Sketch::ranks`].
+    /// The `p`-quantile of type 7, 0 <= p <= 1, if any ([`Ranks::quantile`]). For several use [`Sketch::ranks`].
     pub fn quantile(&self, p: f64) -> Option<f64> {
         self.ranks().quantile(p)
     }
 
-    /// Calls `visit` with every bucket that is not empty, ascending: number of the page, number in the page, count.
+    /// Calls `visit` with every nonempty bucket, ascending: page, bucket in the page, count.
     #[inline(always)]
     fn for_each_bucket(&self, mut visit: impl FnMut(u16, usize, u64)) {
         for (number, page) in &self.pages {
             for (line, counts) in page.chunks(CACHE_LINE).enumerate() {
-                // most are, so that none in them is looked at alone
+                // most chunks are empty, and skipped as a whole
                 let are_empty = counts.iter().fold(0, |any, count| any | count) == 0;
                 if are_empty && self.carries.is_empty() {
                     continue;
@@ -195,7 +189,7 @@ impl Sketch {
         }
     }
 
-    /// The ends of a bucket: no number in it is outside.
+    /// Ends of a bucket; no number in it is outside.
     fn ends(&self, number: u16, bucket: usize) -> [f64; 2] {
         let [low, high] = ends(number % SCALE, bucket);
         // the bucket of an infinity reaches into the NaNs
@@ -205,11 +199,11 @@ impl Sketch {
             return [low, high];
         }
         let [near, far] = [self.reference + low, self.reference + high];
-        // deviations and sums are rounded; that of the reference itself is not
+        // deviations and sums are rounded, except that of the reference
         if low == high { [near, far] } else { [near.next_down(), far.next_up()] }
     }
 
-    /// Writes the index of each page that there is to `at`, which begins with the page of number `first`.
+    /// Writes the index of each existing page to `at`, which begins with page `first`.
     fn note_pages(&self, first: u32, at: &mut [u16]) {
         for (index, (number, _)) in self.pages.iter().enumerate() {
             let place = u32::from(*number).checked_sub(first).and_then(|place| at.get_mut(place as usize));
@@ -217,7 +211,7 @@ impl Sketch {
         }
     }
 
-    /// The index of a page, which is added where it is not there.
+    /// Index of a page, added if missing.
     fn page_index(&mut self, number: u16) -> usize {
         match self.pages.binary_search_by_key(&number, |(number, _)| *number) {
             Ok(at) => at,
@@ -228,12 +222,12 @@ impl Sketch {
         }
     }
 
-    /// Where numbers were counted, in ascending order: for many questions to one sketch.
+    /// Order statistics, for several queries.
     pub fn ranks(&self) -> Ranks {
         let mut buckets = Vec::new();
         self.for_each_bucket(|number, bucket, count| {
             let [low, high] = self.ends(number, bucket);
-            // extremes are known exactly
+            // extremes are exact
             let ends = if low < high { [low.max(self.min), high.min(self.max)] } else { [low, high] };
             buckets.push((ends, count));
         });
@@ -241,15 +235,14 @@ impl Sketch {
     }
 }
 
-/// Counts the numbers of a list that are not NaN.
+/// Counts the numbers of a list other than NaN.
 struct Counting<'a> {
     sketch: &'a mut Sketch,
     values: &'a [f64],
-    /// The smallest and the largest.
     ends: [f64; 2],
 }
 
-/// Numbers whose places are found together.
+/// Numbers located together.
 const TOGETHER: usize = 64;
 
 impl Work for Counting<'_> {
@@ -258,12 +251,12 @@ impl Work for Counting<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, _: S) {
         let Counting { sketch, values, ends } = self;
-        // other work has driven the pages out of the caches; read in order, they are fetched ahead
+        // other work has driven the pages out of the caches; read in order, they are prefetched
         let pages =
             sketch.pages.iter().map(|(_, page)| page.iter().step_by(CACHE_LINE).fold(0, |any, count| any | count));
         std::hint::black_box(pages.fold(0, |any, count| any | count));
         let places = Places::about(sketch.reference);
-        // places ascend with numbers: no other page occurs
+        // positions ascend with numbers: no other page occurs
         let [first, last] = ends.map(|end| places.of(end) >> MANTISSA_BITS);
         let mut at = vec![NO_PAGE; (last - first) as usize + 1];
         sketch.note_pages(first, &mut at);
@@ -274,7 +267,7 @@ impl Work for Counting<'_> {
                 let page = ((key >> MANTISSA_BITS) - first) as usize;
                 if at[page] == NO_PAGE {
                     sketch.page_index((key >> MANTISSA_BITS) as u16);
-                    // those after a new page have moved
+                    // pages after a new one have moved
                     sketch.note_pages(first, &mut at);
                 }
                 let bucket = &mut sketch.pages[usize::from(at[page])].1[*key as usize % PAGE];
@@ -286,27 +279,27 @@ impl Work for Counting<'_> {
     }
 }
 
-/// A bucket with numbers in it.
+/// A nonempty bucket.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bucket {
     /// No number in it is smaller.
     pub low: f64,
     /// No number in it is larger.
     pub high: f64,
-    /// How many numbers are in it and in those below.
+    /// Numbers in it and in those below.
     pub up_to: u64,
 }
 
-/// The order statistics of a [`Sketch`], each between two bounds.
+/// Order statistics of a [`Sketch`], each between two bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ranks {
-    /// The buckets with numbers, ascending.
+    /// Nonempty buckets, ascending.
     pub buckets: Vec<Bucket>,
     count: u64,
 }
 
 impl Ranks {
-    /// Those of buckets that are not empty: ends and counts, ascending.
+    /// From nonempty buckets: ends and counts, ascending.
     pub fn of(buckets: impl IntoIterator<Item = ([f64; 2], u64)>) -> Self {
         let mut count = 0;
         let bucket = |([low, high], numbers): ([f64; 2], u64)| {
@@ -317,8 +310,7 @@ impl Ranks {
         Ranks { buckets, count }
     }
 
-    /// The same where all numbers are whole: a bucket is then as wide as the whole numbers in it, and those below 2048
-    /// are exact.
+    /// For whole numbers: a bucket is then as wide as the whole numbers in it, and those below 2048 are exact.
     #[must_use]
     pub fn of_whole_numbers(mut self) -> Self {
         for bucket in &mut self.buckets {
@@ -327,14 +319,14 @@ impl Ranks {
         self
     }
 
-    /// Bounds of the number of rank `rank`, from 1; `None` where there is none.
+    /// Bounds of the number of rank `rank`, from 1, if any.
     pub fn bounds(&self, rank: u64) -> Option<[f64; 2]> {
         let bucket = self.buckets.get(self.buckets.partition_point(|bucket| bucket.up_to < rank))?;
         Some([bucket.low, bucket.high])
     }
 
-    /// The middles of the buckets of the two order statistics between which the `p`-quantile of type 7, 0 <= p <= 1,
-    /// is, and its part of the way from the first to the second; `None` where nothing was counted.
+    /// Middles of the buckets of the two order statistics around the `p`-quantile of type 7, 0 <= p <= 1, and its
+    /// fraction of the way between them, if any.
     pub fn neighbours(&self, p: f64) -> Option<([f64; 2], f64)> {
         let last = self.count.checked_sub(1)?;
         let place = last as f64 * p;
@@ -343,15 +335,14 @@ impl Ranks {
         Some(([near(below + 1)?, near(below + 2)?], place - below as f64))
     }
 
-    /// The `p`-quantile of type 7 ([`super::quantile::quantile`]), 0 <= p <= 1: between two order statistics, each
-    /// within [`RELATIVE_ERROR`] of its magnitude and of its deviation from the reference, and so within that fraction
-    /// of those of the greater.
+    /// The `p`-quantile of type 7 ([`super::quantile::quantile`]), 0 <= p <= 1, within [`RELATIVE_ERROR`] of the
+    /// greater neighbour's magnitude and deviation from the reference.
     pub fn quantile(&self, p: f64) -> Option<f64> {
         let (neighbours, part) = self.neighbours(p)?;
         super::quantile::quantile(&neighbours, part)
     }
 
-    /// At least and at most how many numbers are no greater than `limit`: they differ by the bucket that `limit` is in.
+    /// Bounds of the count of numbers at most `limit`, which differ by the bucket of `limit`.
     pub fn at_most(&self, limit: f64) -> [u64; 2] {
         let whole = self.buckets.partition_point(|bucket| bucket.high <= limit);
         let touched = self.buckets.partition_point(|bucket| bucket.low <= limit);
@@ -359,13 +350,12 @@ impl Ranks {
     }
 }
 
-/// The leading bits of the numbers of a bucket.
 fn key(number: u16, bucket: usize) -> u32 {
     u32::from(number) << MANTISSA_BITS | bucket as u32
 }
 
-/// The ends of a bucket of one scale, as far as numbers of these leading bits reach; the bucket of an infinity reaches
-/// into the NaNs, that of zero has nothing else.
+/// Ends of a bucket of one scale by its leading bits; that of an infinity reaches into the NaNs, that of zero contains
+/// zero only.
 fn ends(number: u16, bucket: usize) -> [f64; 2] {
     let low = (u64::from(number) << MANTISSA_BITS | bucket as u64) << SHIFT;
     if unordered(low) == 0.0 {
@@ -376,7 +366,7 @@ fn ends(number: u16, bucket: usize) -> [f64; 2] {
 
 /// The middle of a bucket.
 pub fn middle([low, high]: [f64; 2]) -> f64 {
-    // half of each end: the difference of the ends may overflow, and zero's bucket must answer zero
+    // half of each end: the difference may overflow, and zero's bucket must answer zero
     let middle = 0.5 * low + 0.5 * high;
     if !middle.is_nan() {
         middle
@@ -404,14 +394,14 @@ mod tests {
         sketch
     }
 
-    /// A number that follows from `k`, spread over many decades and both signs.
+    /// Pseudo-random numbers over many decades and both signs.
     fn spread(k: u64) -> f64 {
         let bits = k.wrapping_mul(0x9E37_79B9_7F4A_7C15);
         let magnitude = libm::exp2((bits >> 40) as f64 / f64::from(1 << 24) * 80.0 - 60.0);
         if bits & 1 == 0 { magnitude } else { -magnitude }
     }
 
-    /// Law: a quantile is that of type 7, as NumPy has it, of few numbers too; the extremes are exact.
+    /// Law: quantiles are of type 7 as in NumPy, also of few numbers; the extremes are exact.
     #[test]
     fn quantiles_are_of_type_7() {
         let few = [1.188, 1.653, 1.953, 3.006, 4.341, 6.846, 7.088, 17.85];
@@ -425,7 +415,7 @@ mod tests {
         assert_eq!(sketch.min(), Some(exact(&values, 1e-9)));
     }
 
-    /// Counter-test: the bound is not idle. A quantile of the wrong rank breaks it.
+    /// Counter-test: a quantile of the wrong rank breaks the bound.
     #[test]
     fn a_wrong_rank_breaks_the_bound() {
         let values: Vec<f64> = (0..20_000).map(spread).collect();
@@ -433,8 +423,8 @@ mod tests {
         assert!((got - want).abs() > RELATIVE_ERROR * want.abs());
     }
 
-    /// Law: bounds of a rank enclose the order statistic, counts at a limit enclose the true count, and a quantile of
-    /// type 7 is within the relative error of the order statistics between which it lies.
+    /// Law: bounds of a rank enclose the order statistic, counts at a limit enclose the true count, quantiles are
+    /// within the relative error of their neighbours.
     #[test]
     fn ranks_are_bounded() {
         let mut values: Vec<f64> = (0..20_000).map(spread).collect();
@@ -467,9 +457,8 @@ mod tests {
         assert_eq!((infinite.bounds(1), infinite.bounds(3)), (Some([f64::NEG_INFINITY; 2]), Some([f64::INFINITY; 2])));
     }
 
-    /// Law: about a reference, quantiles are within the relative error of the deviation from it as well as of the
-    /// magnitude, whatever the offset of the numbers and its sign; bounds enclose order statistics. Counter-test:
-    /// without a reference they are off by standard deviations.
+    /// Law: about a reference, quantiles are within the relative error of deviation and magnitude, for any offset;
+    /// bounds enclose order statistics. Counter-test: without a reference they are off by standard deviations.
     #[test]
     fn an_offset_hides_no_spread() {
         let scores: Vec<f64> = (1..20_000).map(|k| crate::math::normal::quantile(f64::from(k) / 20_000.0)).collect();
@@ -516,7 +505,7 @@ mod tests {
         assert!(worst_of(1e5, 0.0) > 2.0, "without a reference");
     }
 
-    /// Law: a median of zeros is zero, also beside subnormal numbers, and beside numbers of both signs.
+    /// Law: a median of zeros is zero, also next to subnormal numbers and numbers of both signs.
     #[test]
     fn zeros_are_zero() {
         for reference in [0.0, 0.3, -7.0] {
@@ -528,7 +517,7 @@ mod tests {
         }
     }
 
-    /// Law: counts of buckets do not end at 2^32, each for itself, however they come to be.
+    /// Law: counts of buckets exceed 2^32, by any way of counting.
     #[test]
     fn counts_do_not_end() {
         let mut large = sketch(&[-3.0, 1.0, 2.0, 2.0]);
@@ -575,8 +564,7 @@ mod tests {
     }
 
     proptest! {
-        /// Law: however the numbers are cut into parts and in whichever order the parts are merged, the sketch is the
-        /// same.
+        /// Law: the sketch does not depend on the parts or their order.
         #[test]
         fn merging_does_not_know_order(
             values in prop::collection::vec(prop::num::f64::ANY, 1..200),

@@ -1,21 +1,21 @@
-//! [`Spread`]: order statistics of any number of values: exact of few, by a sketch of many.
+//! [`Spread`]: order statistics of any number of values: exact for few, by a sketch for many.
 
 use super::quantile::quantile;
 use super::sketch::Sketch;
 
-/// Most values whose quantiles are exact.
+/// Maximum number of values with exact quantiles.
 pub const EXACT: usize = 10_000;
 
-/// Values whose quantiles can be asked for; the answers do not depend on their order.
+/// Values with quantiles, independent of their order.
 #[derive(Clone, Debug, Default)]
 pub struct Spread {
-    /// The first values: all of them, where they are at most [`EXACT`]; one more tells that there are more.
+    /// The first values: all, if at most [`EXACT`]; one more marks that there are more.
     values: Vec<f64>,
     sketch: Sketch,
 }
 
 impl Spread {
-    /// Counts one number; NaN is not counted.
+    /// Counts one number, unless it is NaN.
     pub fn add(&mut self, value: f64) {
         if !value.is_nan() && self.values.len() <= EXACT {
             self.values.push(value);
@@ -23,18 +23,18 @@ impl Spread {
         self.sketch.add(value);
     }
 
-    /// How many numbers were counted.
+    /// Number of counted numbers.
     pub fn count(&self) -> u64 {
         self.sketch.count()
     }
 
-    /// The largest number; `None` where nothing was counted.
+    /// The largest number, if any.
     pub fn max(&self) -> Option<f64> {
         self.sketch.max()
     }
 
-    /// The `p`-quantile of type 7, 0 <= p <= 1: of at most [`EXACT`] values as it is, of more within 0.05% of its
-    /// magnitude ([`super::sketch::RELATIVE_ERROR`]). `None` where nothing was counted.
+    /// The `p`-quantile of type 7, 0 <= p <= 1, if any: exact for at most [`EXACT`] values, otherwise within 0.05% of
+    /// its magnitude ([`super::sketch::RELATIVE_ERROR`]).
     pub fn quantile(&self, p: f64) -> Option<f64> {
         if self.values.len() > EXACT {
             return self.sketch.quantile(p);
@@ -50,8 +50,7 @@ mod tests {
     use super::*;
     use crate::statistics::sketch::RELATIVE_ERROR;
 
-    /// Law: quantiles of few values are those of type 7, whatever their order; those of many are within the error of a
-    /// sketch.
+    /// Law: quantiles of few values are of type 7 in any order; those of many are within the error of a sketch.
     #[test]
     fn quantiles_of_few_values_are_exact() {
         let mut few = Spread::default();

@@ -1,15 +1,14 @@
-//! Tests whether two campaigns differ: in their means, in their distributions, sample by sample.
+//! Tests of differences between two campaigns, two-sided and for independent runs or pairs.
 //!
-//! - Means: B. L. Welch, *Biometrika* 34 (1947) 28, which does not assume equal variances. - Distributions: Kolmogorov
-//!   and Smirnov's largest difference of the empirical distribution functions, with the tail of the limiting
-//!   distribution as corrected by M. A. Stephens, *J. Roy. Stat. Soc. B* 32 (1970) 115. - Distributions of pairs: Q.
-//!   McNemar's exact test (*Psychometrika* 12 (1947) 153) at several limits. - Pairs: Student's t of the differences,
-//!   and F. Wilcoxon's signed ranks (*Biometrics* 1 (1945) 80) in the normal approximation, corrected for ties, without
-//!   zeros; for their spread, the same with ranks that are signed by the sums of the pairs, as in E. J. G. Pitman,
-//!   *Biometrika* 31 (1939) 9.
+//! - Means: B. L. Welch, *Biometrika* 34 (1947) 28, for unequal variances.
+//! - Distributions: Kolmogorov and Smirnov's largest difference of the empirical distribution functions, with the
+//!   limiting tail corrected by M. A. Stephens, *J. Roy. Stat. Soc. B* 32 (1970) 115.
+//! - Distributions of pairs: Q. McNemar's exact test (*Psychometrika* 12 (1947) 153) at several limits.
+//! - Pairs: Student's t of the differences; F. Wilcoxon's signed ranks (*Biometrics* 1 (1945) 80) in the normal
+//!   approximation, corrected for ties, without zeros; for their spread, ranks signed by the sums of the pairs, as in
+//!   E. J. G. Pitman, *Biometrika* 31 (1939) 9.
 //!
-//! All are two-sided and for independent runs, or pairs. Of many tests: S. Holm, *Scand. J. Stat.* 6 (1979) 65, which
-//! assumes nothing of how they depend on each other.
+//! For several tests: S. Holm, *Scand. J. Stat.* 6 (1979) 65, for any dependence.
 
 use super::binomial::at_most;
 use super::correlation::{Estimate, mid_ranks};
@@ -21,12 +20,11 @@ use super::student::{two_sided_quantile, two_sided_tail};
 pub struct Difference {
     /// The difference, second minus first, with its interval.
     pub shift: Estimate,
-    /// Probability of a difference at least as large where there is none.
+    /// Probability of a difference at least as large without a true one.
     pub p_value: f64,
 }
 
-/// Welch's test of the means of two campaigns; `None` where one has fewer than two runs. Where neither varies, the
-/// difference is certain.
+/// Welch's test of two means; `None` for fewer than two runs. The difference is certain if neither varies.
 pub fn welch(first: &Moments, second: &Moments, confidence: f64) -> Option<Difference> {
     let shift = second.mean()? - first.mean()?;
     let (a, b) = (first.mean_error()?, second.mean_error()?);
@@ -67,7 +65,7 @@ pub fn kolmogorov_smirnov(first: &[f64], second: &[f64]) -> Option<(f64, f64)> {
     let (n, m) = (first.len() as f64, second.len() as f64);
     let (mut i, mut j, mut largest) = (0, 0, 0.0_f64);
     while i < first.len() && j < second.len() {
-        // all numbers that are equal to the smaller of the next two, on both sides
+        // all numbers equal to the smaller of the next two, on both sides
         let next = if first[i] <= second[j] { first[i] } else { second[j] };
         while i < first.len() && first[i] <= next {
             i += 1;
@@ -95,7 +93,7 @@ fn kolmogorov_tail(x: f64) -> f64 {
     (2.0 * sum).clamp(0.0, 1.0)
 }
 
-/// Wilcoxon's signed-rank test of paired differences: its p-value; `None` where all are zero.
+/// P-value of Wilcoxon's signed-rank test of paired differences; `None` if all are zero.
 pub fn signed_ranks(differences: &[f64]) -> Option<f64> {
     let differences: Vec<f64> = differences.iter().copied().filter(|d| *d != 0.0 && !d.is_nan()).collect();
     if differences.is_empty() {
@@ -105,13 +103,11 @@ pub fn signed_ranks(differences: &[f64]) -> Option<f64> {
     Some(signed_sum(differences.iter().zip(&ranks).map(|(difference, rank)| difference.signum() * (rank + 1.0))))
 }
 
-/// The p-value of the test whether the numbers of one place spread more than those of the other in `pairs`; `None`
-/// where none differs.
+/// P-value of the test of equal spread in both places of `pairs`, without NaN; `None` if none differs.
 ///
-/// Of two numbers that may change places, the sign of their difference is a fair coin, whatever its magnitude and the
-/// sum of both. Where the second numbers spread more, differences are positive in pairs with a large sum and negative
-/// in those with a small one. Each difference counts with the rank of its magnitude and with the rank of its pair's sum
-/// about the middle one. No value is NaN.
+/// If the numbers of a pair are exchangeable, the sign of their difference is a fair coin given its magnitude and their
+/// sum. If the second numbers spread more, differences are positive in pairs with a large sum and negative in those
+/// with a small one. Each difference counts with the rank of its magnitude times the centred rank of its pair's sum.
 pub fn spread_of_pairs(pairs: &[[f64; 2]]) -> Option<f64> {
     let differing: Vec<[f64; 2]> = pairs.iter().copied().filter(|[first, second]| first != second).collect();
     if differing.is_empty() {
@@ -129,24 +125,21 @@ pub fn spread_of_pairs(pairs: &[[f64; 2]]) -> Option<f64> {
     })))
 }
 
-/// The two-sided p-value of a sum of `terms`, each with a sign that is a fair coin: normal, with the sum of their
-/// squares.
+/// Two-sided p-value of a sum of `terms` with fair random signs: normal, with the sum of their squares.
 fn signed_sum(terms: impl Iterator<Item = f64>) -> f64 {
     let [sum, squares] = terms.fold([0.0; 2], |[sum, squares], term| [sum + term, squares + term * term]);
     if squares == 0.0 { 1.0 } else { libm::erfc(sum.abs() / libm::sqrt(2.0 * squares)) }
 }
 
-/// At so many limits [`marginals`] compares: the sixteenths of all values.
+/// Number of limits of [`marginals`]: the sixteenths of all values.
 const LIMITS: usize = 15;
 
-/// The p-value of the test whether both numbers of `pairs` have the same distribution; `None` without pairs. No value
-/// is NaN.
+/// P-value of the test of equal distributions in both places of `pairs`, without NaN; `None` without pairs.
 ///
-/// Where they have, as many pairs go up through any limit as go down through it, but for chance: of the pairs that go
-/// through it at all, the number that goes up is binomial with one half, whatever else the numbers of a pair have to do
-/// with each other. So it needs no symmetric differences, which signed ranks do: a phase that moves on by a little and
-/// is wrapped to one period keeps its distribution. The smallest p-value of all limits counts, times their number
-/// (Bonferroni).
+/// With equal distributions as many pairs go up through any limit as down, but for chance: of the pairs that cross it,
+/// the number that goes up is binomial with one half, for any dependence within pairs. Unlike signed ranks it needs no
+/// symmetric differences: a phase that advances a little and is wrapped to one period keeps its distribution. The
+/// smallest p-value over the limits counts, times their number (Bonferroni).
 pub fn marginals(pairs: &[[f64; 2]]) -> Option<f64> {
     let mut all: Vec<f64> = pairs.iter().flatten().copied().collect();
     all.sort_unstable_by(f64::total_cmp);
@@ -164,14 +157,14 @@ pub fn marginals(pairs: &[[f64; 2]]) -> Option<f64> {
     Some((limits.len() as f64 * smallest).min(1.0))
 }
 
-/// McNemar's exact test: the p-value of so many pairs of which the first number alone has a property, and so many of
-/// which the second alone has it.
+/// McNemar's exact test: p-value of the numbers of pairs of which the first alone, and the second alone, has a
+/// property.
 pub fn mcnemar(alone: [u64; 2]) -> f64 {
     (2.0 * at_most(alone[0].min(alone[1]), alone[0] + alone[1], 0.5)).min(1.0)
 }
 
-/// P-values adjusted for their number (Holm 1979): among the hypotheses that hold, whichever these are, the probability
-/// that any has an adjusted value of alpha or less is at most alpha.
+/// P-values adjusted for their number (Holm 1979): the probability of any adjusted value of alpha or less among true
+/// hypotheses is at most alpha.
 pub fn holm(p_values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p_values.len()).collect();
     order.sort_by(|a, b| p_values[*a].total_cmp(&p_values[*b]));
@@ -187,8 +180,7 @@ pub fn holm(p_values: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Published: the example of R's `p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm")`, 0.03 0.06 0.06 0.02, worked by
-    /// hand; values are never above 1.
+    /// Published: R's `p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm")`, 0.03 0.06 0.06 0.02; values are at most 1.
     #[test]
     fn adjusted_values_are_those_of_holm() {
         let found = holm(&[0.01, 0.04, 0.03, 0.005]);
@@ -229,7 +221,7 @@ mod tests {
         assert!(near(found.p_value, PAIRED), "{found:?}");
         assert!(near(signed_ranks(&differences).expect("differences"), WILCOXON));
         let (statistic, p) = kolmogorov_smirnov(&ascending(&x), &ascending(&y)).expect("both");
-        // the p-value of scipy is exact; Stephens states an error of some percent of it for samples as small as these
+        // the p-value of scipy is exact; Stephens states an error of some percent for such small samples
         assert!((statistic - KOLMOGOROV[0]).abs() < 1e-15 && (p / KOLMOGOROV[1] - 1.0).abs() < 0.15, "{statistic} {p}");
     }
 
@@ -248,9 +240,9 @@ mod tests {
         assert_eq!((kolmogorov_tail(0.0), kolmogorov_tail(9.0)), (1.0, 2.0 * libm::exp(-162.0)));
     }
 
-    /// Known: of a hundred pairs (k, k + 10) ten go up through each limit and none goes down, so that p is 15 times
-    /// 2/2^10 = 15/512; pairs (k, k + 10 modulo 100) go down as often as up, and all signed ranks but theirs are the
-    /// same. Equal numbers do not differ; without pairs there is no test.
+    /// Known: of a hundred pairs (k, k + 10) ten go up through each limit and none down: p is 15 times 2/2^10 = 15/512;
+    /// pairs (k, k + 10 modulo 100) go down as often as up, with nearly equal signed ranks. Equal numbers do not
+    /// differ; without pairs there is no test.
     #[test]
     fn pairs_go_through_limits_up_and_down() {
         let pairs = |wrap: f64| -> Vec<[f64; 2]> {
@@ -262,20 +254,19 @@ mod tests {
         let differences: Vec<f64> = pairs(100.0).iter().map(|[a, b]| b - a).collect();
         assert!(signed_ranks(&differences).is_some_and(|p| p < 1e-6), "the counter-test");
         assert_eq!((marginals(&[[3.0, 3.0]; 9]), marginals(&[])), (Some(1.0), None));
-        // ten of ten that leave the only value of the others
         let jumps: Vec<[f64; 2]> = (0..40).map(|k| [0.0, f64::from(u8::from(k < 10))]).collect();
         assert!(marginals(&jumps).is_some_and(|p| (0.001..0.02).contains(&p)), "{:?}", marginals(&jumps));
     }
 
-    /// Known: of n pairs whose second numbers are twice the first, and of which ranks have no ties, all terms are
-    /// positive: z is their sum over the root of the sum of their squares. Law: the order of the places does not
-    /// matter, a step of all pairs is no spread, equal pairs have no test.
+    /// Known: for n pairs whose second numbers are twice the first, without ties, all terms are positive: z is their
+    /// sum over the root of the sum of squares. Law: the order of the places does not matter, a common step is no
+    /// spread, equal pairs have no test.
     #[test]
     fn spreads_of_pairs_are_seen() {
         let pairs: Vec<[f64; 2]> = (-20..=20).map(|k| f64::from(k) + 0.1).map(|x| [x, 2.0 * x]).collect();
         let turned: Vec<[f64; 2]> = pairs.iter().map(|[a, b]| [*b, *a]).collect();
         let sizes = mid_ranks(&pairs.iter().map(|[a, _]| a.abs()).collect::<Vec<f64>>());
-        // the pair next to zero is beyond the middle one by none
+        // the pair next to zero is in the middle
         let terms: Vec<f64> =
             sizes.iter().zip(-20..=20).map(|(size, k)| (size + 1.0) * f64::from(i32::abs(k))).collect();
         let z = terms.iter().sum::<f64>() / libm::sqrt(terms.iter().map(|term| term * term).sum());
@@ -286,11 +277,10 @@ mod tests {
         let step: Vec<[f64; 2]> = (-20..=20).map(f64::from).map(|x| [x, x + 1024.0]).collect();
         assert!(spread_of_pairs(&step).is_some_and(|p| p > 0.5), "{:?}", spread_of_pairs(&step));
         assert_eq!((spread_of_pairs(&[[1.0, 1.0]; 9]), mcnemar([0, 0])), (None, 1.0));
-        // 2/2^5; measured, relative: 6e-16
         assert!((mcnemar([0, 5]) / 0.0625 - 1.0).abs() < 1e-14);
     }
 
-    /// Law: what is the same has no difference; what does not vary differs certainly or not at all.
+    /// Law: equal samples do not differ; samples without variation differ certainly or not at all.
     #[test]
     fn equal_samples_do_not_differ() {
         let [x, _] = samples();
