@@ -1,6 +1,5 @@
-//! [`Adaptive`]: embedded pairs with steps that follow the tolerance.
-//!
-//! The order of operations within a step is that of ode45 (Shampine & Reichelt 1997).
+//! [`Adaptive`]: embedded pairs with steps that follow the tolerance, in the order of operations of ode45 (Shampine &
+//! Reichelt 1997).
 
 use super::embedded::Embedded;
 use super::error_model::ErrorModel;
@@ -10,7 +9,7 @@ use super::stepper::{Attempt, LaneMethod, Proposal, Stepper, StepperLane};
 use super::system::{System, Tolerance};
 use crate::math::real::{Mask, Real};
 
-/// The error of a step that is not finite: large enough for the strongest reduction of the step.
+/// Error of a step that is not finite: causes the strongest reduction of the step.
 const UNSOUND: f64 = 1e30;
 
 /// An embedded pair with adaptive steps.
@@ -40,26 +39,26 @@ impl<M: Embedded> LaneMethod for Adaptive<M> {
     }
 }
 
-/// The steps of an adaptive method in lanes.
+/// Steps of an adaptive method in lanes.
 pub struct AdaptiveStepper<M: Embedded, R: Real, const N: usize> {
     tolerance: Tolerance,
     stages: M::Stages<R, N>,
-    /// Length of the next step and of the longest step, s.
+    /// Next and longest step, s.
     length: R,
     longest: R,
-    /// Length of the attempted step and the shortest length at its time, s.
+    /// Attempted step and shortest step at its time, s.
     attempted: R,
     floor: R,
-    /// At the start of an arc; after a rejection of the same step.
+    /// True at the start of an arc; true after a rejection of the same step.
     starting: R::Mask,
     retry: R::Mask,
-    /// Where the step ends at a switch, and the length of the step that it replaces, s.
+    /// True if the step ends at a switch; the step that it replaces, s.
     cut: R::Mask,
     resumed: R,
 }
 
 impl<M: Embedded, R: Real, const N: usize> AdaptiveStepper<M, R, N> {
-    /// The derivative and the first step of the lanes at the start of an arc.
+    /// Computes the derivative and the first step of lanes at the start of an arc.
     #[inline(always)]
     fn start<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) {
         let (state, starting) = (&lanes.now.state, self.starting);
@@ -96,7 +95,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         self.longest.set_lane(lane, 0.0);
     }
 
-    /// Within its bounds, and to the end of the arc if that is near.
+    /// Within the bounds, and to the end of the arc if that is near.
     #[inline(always)]
     fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) -> Proposal<R> {
         if self.starting.any() {
@@ -169,7 +168,6 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
             self.length = R::select(self.cut & accepted, self.length.larger(self.resumed), self.length);
             self.cut = self.cut & rejected;
         }
-        // a rejected step of the shortest length
         rejected & !self.floor.lt(self.attempted)
     }
 

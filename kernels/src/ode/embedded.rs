@@ -6,11 +6,11 @@ use super::step_control::Controller;
 use super::system::{System, Tolerance};
 use crate::math::real::Real;
 
-/// An attempted step, apart from the state at its end.
+/// An attempted step, without the state at its end.
 pub struct PairAttempt<R> {
-    /// The norm of its error in units of the tolerance.
+    /// Norm of its error in units of the tolerance.
     pub ratio: R,
-    /// Zero if everything in it is finite, else not a number.
+    /// Zero if everything is finite, else NaN.
     pub poison: R,
 }
 
@@ -22,14 +22,14 @@ pub trait Embedded: Copy {
     const EVALUATIONS: f64;
     /// Evaluations at the start of an arc.
     const START_EVALUATIONS: f64;
-    /// Further evaluations in a step with an observation point inside it.
+    /// Further evaluations in a step with observation points inside.
     const DENSE_EVALUATIONS: f64;
     /// Further evaluations for each such point.
     const POINT_EVALUATIONS: f64;
-    /// How its errors follow from its estimates.
+    /// Relation of errors to estimates.
     const ERRORS: StepErrors;
 
-    /// Stages and what dense output needs.
+    /// Stages, and data of dense output.
     type Stages<R: Real, const N: usize>;
 
     /// Memory for the stages.
@@ -38,13 +38,13 @@ pub trait Embedded: Copy {
     /// The derivative at the start of the step.
     fn first<R: Real, const N: usize>(stages: &mut Self::Stages<R, N>) -> &mut [R; N];
 
-    /// The same, to be read.
+    /// The derivative at the start of the step, read-only.
     fn at_start<R: Real, const N: usize>(stages: &Self::Stages<R, N>) -> &[R; N];
 
     /// The derivative at the end of the step.
     fn last<R: Real, const N: usize>(stages: &Self::Stages<R, N>) -> &[R; N];
 
-    /// The length of the first step of an arc, s, from the derivative `slope` at its start.
+    /// First step of an arc, s, from the derivative `slope` at its start.
     fn first_step<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
         time: R,
@@ -54,7 +54,7 @@ pub trait Embedded: Copy {
         tolerance: Tolerance,
     ) -> R;
 
-    /// Attempts a step from `start` and puts the state at its end into `end`.
+    /// Attempts a step from `start` and writes its end to `end`.
     fn attempt<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
         step: Step<R>,
@@ -64,8 +64,7 @@ pub trait Embedded: Copy {
         end: &mut Carried<R, N>,
     ) -> PairAttempt<R>;
 
-    /// Prepares [`Embedded::inside`] for the step that was attempted last; nothing, unless dense output has evaluations
-    /// of its own.
+    /// Prepares [`Embedded::inside`] for the last attempted step, if dense output needs evaluations of its own.
     #[inline(always)]
     fn prepare_inside<R: Real, Q: System<R, N>, const N: usize>(
         _system: &Q,
@@ -76,7 +75,7 @@ pub trait Embedded: Copy {
     ) {
     }
 
-    /// The state at the fraction `s` of the step that was attempted last.
+    /// The state at the fraction `s` of the last attempted step.
     fn inside<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
         step: Step<R>,

@@ -1,36 +1,35 @@
-//! What a method knows about its own errors: data from which the errors of a run can be estimated.
+//! Error models of methods, from which the errors of a run are estimated.
 
-/// How the errors of a method's steps follow from what is known after a run.
+/// Relation of the errors of a method's steps to the data of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ErrorModel {
-    /// The method estimates the error of each step; their sum is [`super::EndedRun::error_sum`].
+    /// Estimated per step; their sum is [`super::EndedRun::error_sum`].
     Estimated(StepErrors),
-    /// The method does not estimate errors: they follow from the Taylor series of the solution.
+    /// Not estimated: errors follow from the Taylor series of the solution.
     Remainder(Remainder),
 }
 
-/// Error model of a method that estimates the error of each step.
+/// Error model of a method with estimates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepErrors {
     /// Ratio of error to estimate at a tolerance of one.
     pub factor: f64,
-    /// One over the order of the estimate plus one: the step is continued with a formula of one order more than the
-    /// estimate (local extrapolation), so that its error is smaller by the step, which is the tolerance to this power.
+    /// 1/(order of the estimate + 1): the step continues with a formula of one order more than the estimate (local
+    /// extrapolation), and its error is smaller by a step length, the tolerance to this power.
     pub extrapolation: f64,
     /// Error of dense output in units of the tolerance; later steps do not start from it.
     pub dense: f64,
 }
 
 impl StepErrors {
-    /// The error of a step in units of its estimate, at the relative tolerance `tolerance`.
+    /// Error of a step over its estimate at the relative tolerance `tolerance`.
     pub fn gain(&self, tolerance: f64) -> f64 {
         self.factor * libm::pow(tolerance, self.extrapolation)
     }
 }
 
 impl ErrorModel {
-    /// How many times the estimate of a step counts where the right-hand side is not smooth: local extrapolation gains
-    /// nothing there.
+    /// Weight of a step's estimate if the right-hand side is not smooth, where local extrapolation gains nothing.
     pub(super) fn rough_weight(&self, tolerance: f64) -> f64 {
         match self {
             ErrorModel::Estimated(errors) => (1.0 / errors.gain(tolerance)).max(1.0),
@@ -39,12 +38,12 @@ impl ErrorModel {
     }
 }
 
-/// Error model of a method with a given step: the first term of the solution's Taylor series that its steps do not
+/// Error model of a method of fixed steps: the first term of the solution's Taylor series that its steps do not
 /// reproduce.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Remainder {
     /// Order of the method.
     pub order: usize,
-    /// The error of a step divided by the term of order + 1 of the solution's series at its start.
+    /// Error of a step over the term of order + 1 of the solution's series at its start.
     pub factor: f64,
 }

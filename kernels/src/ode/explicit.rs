@@ -1,7 +1,5 @@
-//! Stages of explicit Runge-Kutta methods from their tableaus, and the compensated step that all methods share.
-//!
-//! A step is y' = y + h sum_i b_i k_i; the rounding error of the sum is carried to the next step (Kahan 1965). The
-//! methods are in [`super::embedded`] and [`super::fixed`].
+//! Stages of explicit Runge-Kutta methods from their tableaus, and the compensated step y' = y + h sum_i b_i k_i shared
+//! by all methods, whose rounding error is carried to the next step (Kahan 1965).
 
 #![allow(clippy::needless_range_loop, reason = "iterators over lanes are not inlined always, see `each`")]
 
@@ -13,8 +11,7 @@ use super::tableau::Tableau;
 use crate::math::real::Real;
 use crate::math::sums::two_sum;
 
-/// Row `I` of a tableau as a constant of its own, so that the sum over it is unrolled and its zeros vanish at compile
-/// time.
+/// Row `I` of a tableau as a constant, so that its sum is unrolled and zeros vanish at compile time.
 struct Row<T, const S: usize, const I: usize>(PhantomData<T>);
 
 impl<T: Tableau<S>, const S: usize, const I: usize> Row<T, S, I> {
@@ -23,9 +20,8 @@ impl<T: Tableau<S>, const S: usize, const I: usize> Row<T, S, I> {
 
 /// A vector by its components.
 ///
-/// In place of `core::array::from_fn` and `map` in hot code: these are not always inlined, and are then compiled
-/// without the instructions of the chosen set (measured: thirty times slower). For the same reason every closure here
-/// is `inline(always)`.
+/// Replaces `core::array::from_fn` and `map` in hot code: these are not always inlined, and are then compiled without
+/// the chosen instruction set (measured: thirty times slower). Closures here are `inline(always)` for the same reason.
 #[inline(always)]
 pub(super) fn each<R: Copy, const N: usize>(like: R, component: impl Fn(usize) -> R) -> [R; N] {
     let mut vector = [like; N];
@@ -35,7 +31,6 @@ pub(super) fn each<R: Copy, const N: usize>(like: R, component: impl Fn(usize) -
     vector
 }
 
-/// `length * slope`.
 #[inline(always)]
 pub(super) fn scaled<R: Real, const N: usize>(length: R, slope: &[R; N]) -> [R; N] {
     each(
@@ -63,8 +58,8 @@ pub(super) fn weighted<R: Real, const N: usize, const S: usize>(k: &[[R; N]; S],
     )
 }
 
-/// sum_j a_ij k_j for stage `stage`. One arm per stage: so the derivative is called in one place, in a loop, and is
-/// inlined once and not once per stage, which matters for kernels of 62 components.
+/// sum_j a_ij k_j for stage `stage`. One arm per stage, so that the derivative is called in a loop and inlined once,
+/// not per stage, which matters for kernels of 62 components.
 #[inline(always)]
 fn stage_slope<T, R, const N: usize, const S: usize>(stage: usize, k: &[[R; N]; S]) -> [R; N]
 where
@@ -82,7 +77,7 @@ where
     arms!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
 }
 
-/// A state with its rounding error.
+/// A state with its rounding error: the exact value is `state` + `carry`.
 #[derive(Clone, Copy)]
 pub struct Carried<R, const N: usize> {
     /// The state.
@@ -92,7 +87,7 @@ pub struct Carried<R, const N: usize> {
 }
 
 impl<R: Real, const N: usize> Carried<R, N> {
-    /// Puts the state advanced by `length * slope` into `end`.
+    /// Writes the state advanced by `length * slope` to `end`.
     #[inline(always)]
     pub(super) fn advance_into(&self, length: R, slope: &[R; N], end: &mut Self) {
         for n in 0..N {
@@ -101,7 +96,7 @@ impl<R: Real, const N: usize> Carried<R, N> {
         }
     }
 
-    /// The state alone advanced by `length * slope`, for a stage.
+    /// The state advanced by `length * slope`, without the carry, for a stage.
     #[inline(always)]
     pub(super) fn shifted(&self, length: R, slope: &[R; N]) -> [R; N] {
         each(
@@ -111,7 +106,6 @@ impl<R: Real, const N: usize> Carried<R, N> {
         )
     }
 
-    /// `yes` in the lanes where `mask` is true, else `no`.
     #[inline(always)]
     pub(super) fn select(mask: R::Mask, yes: &Self, no: &Self) -> Self {
         Carried { state: chosen(mask, &yes.state, &no.state), carry: chosen(mask, &yes.carry, &no.carry) }
@@ -128,7 +122,7 @@ pub(super) fn chosen<R: Real, const N: usize>(mask: R::Mask, yes: &[R; N], no: &
     )
 }
 
-/// Zero where all components are finite, else not a number.
+/// Zero if all components are finite, else NaN.
 #[inline(always)]
 pub(super) fn poison<R: Real, const N: usize>(values: &[R; N], sum: R) -> R {
     let mut sum = sum;
@@ -138,10 +132,8 @@ pub(super) fn poison<R: Real, const N: usize>(values: &[R; N], sum: R) -> R {
     sum
 }
 
-/// Fills the stages `from..to` of `k` and puts the state at the end of the step, the argument of stage `closing`, into
-/// `end`.
-///
-/// Stage zero must be there. With a `closing` of `S` the end is left to the caller.
+/// Fills the stages `from..to` of `k` (stage zero is given) and writes the end of the step, the argument of stage
+/// `closing`, to `end`; a `closing` of `S` leaves the end to the caller.
 #[inline(always)]
 pub(super) fn fill_stages<T, R, Q, const N: usize, const S: usize>(
     system: &Q,

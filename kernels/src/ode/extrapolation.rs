@@ -1,18 +1,15 @@
 //! [`Extrapolation`]: steps of high order in any arithmetic, for reference solutions.
 //!
-//! Gragg's midpoint rule with 2, 4, 6, ... parts of a step, without a smoothing step, extrapolated to parts of no
-//! length by Neville's scheme in the square of their length (E. Hairer, S. Norsett & G. Wanner, *Solving Ordinary
-//! Differential Equations I*, 1993, section II.9, (9.10) and (9.13)). Its numbers are ratios of integers, which have
-//! all digits of the arithmetic; those of Runge-Kutta methods of order 8 are published with 16 to 20. After j columns
-//! the order is 2j.
-//!
-//! Not here: lanes that share a step.
+//! Gragg's midpoint rule with 2, 4, 6, ... parts, without smoothing, extrapolated to parts of zero length by Neville's
+//! scheme in the square of their length (E. Hairer, S. Norsett & G. Wanner, *Solving Ordinary Differential Equations
+//! I*, 1993, section II.9, (9.10) and (9.13)); order 2j after j columns. Its coefficients are ratios of integers, exact
+//! in any arithmetic; those of Runge-Kutta methods of order 8 are published with 16 to 20 digits.
 
 use super::explicit::{Step, each};
 use super::system::{System, Tolerance};
 use crate::math::real::{Mask, Real};
 
-/// Columns at most: order 28, 210 evaluations.
+/// Limit of columns: order 28, 210 evaluations.
 pub const COLUMNS: usize = 14;
 
 /// Memory for a step.
@@ -22,13 +19,13 @@ pub struct Extrapolation<R, const N: usize> {
 }
 
 impl<R: Real, const N: usize> Extrapolation<R, N> {
-    /// `zero` determines the arithmetic.
+    /// Memory in the arithmetic of `zero`.
     pub fn new(zero: R) -> Self {
         Extrapolation { row: [[zero; N]; COLUMNS] }
     }
 
-    /// Takes a step from `start`, where the derivative is `slope`: the state at its end, and how many columns it took
-    /// until the last two differed by no more than the tolerance; `None` where they never agree so well.
+    /// Takes a step from `start` with the derivative `slope`: the state at its end, and the number of columns until the
+    /// last two agreed to the tolerance; `None` if they never do.
     #[inline(always)]
     pub fn step<Q: System<R, N>>(
         &mut self,
@@ -99,8 +96,7 @@ mod tests {
         }
     }
 
-    /// Truth: the sine and the cosine of 1 to 32 digits. A step converges to the tolerance, and no step converges to
-    /// less than the rounding.
+    /// Truth: sine and cosine of 1 to 32 digits. A step converges to the tolerance, and to no less than rounding.
     #[test]
     fn an_oscillator_has_the_digits_of_its_tolerance() {
         let exact = DoubleDouble::exact;

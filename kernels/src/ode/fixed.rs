@@ -1,8 +1,7 @@
-//! [`Fixed`]: one-step methods with a given step.
+//! [`Fixed`]: one-step methods with fixed steps.
 //!
-//! An arc of length l is divided into ceil(l / step) equal steps; the last ends exactly at its end. An observation
-//! point inside a step is reached by a shorter step from the same start: as accurate as the method, and with the same
-//! invariants, which an interpolating polynomial does not have.
+//! An arc of length l is divided into ceil(l / step) equal steps. A point inside a step is reached by a shorter step
+//! from the same start: as accurate as the method, and with its invariants, unlike an interpolating polynomial.
 
 use super::error_model::{ErrorModel, Remainder};
 use super::explicit::{Carried, Step};
@@ -11,16 +10,16 @@ use super::stepper::{Attempt, LaneMethod, Proposal, Stepper, StepperLane};
 use super::system::{System, Tolerance};
 use crate::math::real::Real;
 
-/// Steps per arc if the campaign gives no step.
+/// Steps per arc by default.
 const DEFAULT_STEPS: f64 = 1000.0;
 
-/// A quotient of arc and step that exceeds an integer by less than this fraction counts as that integer: such excesses
-/// are rounding errors of decimal fractions (0.3 / 0.1 differs from 3 by one unit in the last place).
+/// Excess over an integer of the quotient of arc and step that counts as rounding of decimal fractions (0.3 / 0.1
+/// differs from 3 by one unit in the last place).
 const WHOLE: f64 = 4.0 * f64::EPSILON;
 
-/// A step of a fixed-step method, apart from the state at its end.
+/// A step, without the state at its end.
 pub struct Advance<R> {
-    /// Zero if it is sound, else not a number.
+    /// Zero if it is sound, else NaN.
     pub poison: R,
     /// Evaluations of the right-hand side.
     pub evaluations: R,
@@ -28,19 +27,18 @@ pub struct Advance<R> {
 
 /// A one-step method for steps of given length.
 ///
-/// The state at the end of a step is put into `end` and not returned, because every move of a state of many components
-/// is a copy.
+/// The end of a step is written to `end`, not returned, since moves of large states are copies.
 pub trait FixedStep: Copy {
     /// The error of its steps.
     const REMAINDER: Remainder;
 
-    /// What a step leaves for the next, and for points inside it.
+    /// Data for the next step and for points inside.
     type Memory<R: Real, const N: usize>;
 
     /// The memory before the first step.
     fn memory<R: Real, const N: usize>(zero: R) -> Self::Memory<R, N>;
 
-    /// Takes a step; in the lanes `first` it is the first of an arc.
+    /// Takes a step, the first of an arc in the lanes `first`.
     fn step<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
         step: Step<R>,
@@ -51,7 +49,7 @@ pub trait FixedStep: Copy {
         end: &mut Carried<R, N>,
     ) -> Advance<R>;
 
-    /// Takes the fraction `s` of the last step; `part` is that part of the step.
+    /// Takes the fraction `s` of the last step; `part` is that part.
     fn inside<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
         part: Step<R>,
@@ -87,16 +85,16 @@ impl<M: FixedStep> LaneMethod for Fixed<M> {
     }
 }
 
-/// The steps of a fixed-step method in lanes.
+/// Steps of a fixed-step method in lanes.
 pub struct FixedStepper<M: FixedStep, R: Real, const N: usize> {
     tolerance: Tolerance,
-    /// The step that the campaign asks for, s.
+    /// Step given by the campaign, s.
     asked: Option<f64>,
     memory: M::Memory<R, N>,
     /// Start of the arc and length of its steps, s.
     start: R,
     length: R,
-    /// Steps of the arc, and steps taken in it.
+    /// Steps of the arc, and steps taken.
     count: R,
     taken: R,
 }

@@ -1,9 +1,9 @@
-//! [`integrate`]: the driver of all methods. Runs in lanes, each with its own time, step, arc and error.
+//! [`integrate`]: driver of all methods. Runs in lanes, each with its own time, step, arc and error.
 //!
-//! A cycle of the driver: every lane *proposes* a step, *attempts* it, *records* the observation points inside it, and
-//! lanes whose run has ended *retire* it and load the next. How steps are proposed, attempted and accepted is the
-//! matter of a [`Stepper`]. All decisions are correctly rounded arithmetic on the lane's own numbers, so that lane i
-//! equals the scalar run bit for bit (`tests/determinism/lanes_runge_kutta.rs`). No allocation.
+//! A cycle: every lane *proposes* a step, *attempts* it and *records* the observation points inside; completed runs
+//! *retire*, and their lanes load the next. Steps are proposed, attempted and accepted by a [`Stepper`]. All decisions
+//! are correctly rounded arithmetic on the lane's own numbers, so that lane i equals the scalar run bit for bit
+//! (`tests/determinism/lanes_runge_kutta.rs`). No allocation.
 
 use super::explicit::Carried;
 use super::lane_slot::LaneSlots;
@@ -15,13 +15,11 @@ use super::switches::Switches;
 use super::system::System;
 use crate::math::real::{Mask, Real};
 
-/// Integrates all runs to the end of their last arcs.
+/// Integrates all runs to the end of their last arcs, in the arithmetic of `zero`.
 ///
-/// `zero` determines the kind of number: a scalar or lanes. At every observation time the recorder gets the integrated
-/// components: at time zero the initial state itself, at the end of a step the step's own state, elsewhere dense
-/// output. Steps end at switches. A run whose state becomes non-finite, whose step becomes too short or that takes more
-/// than `control.max_steps` steps ends there; one that cannot do with them ends as soon as that is clear. Call inside
-/// [`crate::math::Isa::run`].
+/// The recorder gets the components at every observation time: the initial state, the state at the end of a step, or
+/// dense output. A run ends early if its state becomes non-finite, its step too short, or its steps exceed
+/// `control.max_steps` (or clearly will). Steps end at switches. Call inside [`crate::math::Isa::run`].
 #[inline(always)]
 pub fn integrate<M, R, Q, O, const N: usize>(method: M, zero: R, runs: &mut Q, recorder: &mut O, control: &Control)
 where
@@ -59,7 +57,6 @@ where
         }
         lanes.error_sum += counted;
 
-        // observation points up to the end of the step
         let limit = R::select(attempt.accepted, step.end, zero.splat(f64::NEG_INFINITY));
         if (!limit.lt(lanes.next)).any() {
             record(&*runs, &mut stepper, &mut lanes, step, limit, &end.state, recorder);
@@ -106,7 +103,7 @@ where
     }
 }
 
-/// Records the observation points up to `limit` in all lanes together, one point of each at a time.
+/// Records the observation points up to `limit` in all lanes, one of each at a time.
 #[inline(always)]
 fn record<R, Q, P, O, const N: usize>(
     system: &Q,

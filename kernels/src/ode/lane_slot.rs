@@ -1,51 +1,45 @@
-//! [`LaneSlots`]: which run is in which lane, and which run is next. No arithmetic of a method.
+//! [`LaneSlots`]: assignment of runs to lanes, without any arithmetic.
 
 use super::runs::{EndedRun, Recorder, Runs, Termination};
 use crate::math::lanes::WIDEST;
 use crate::math::real::Real;
 
-/// The lanes and the queue of runs.
 pub(super) struct LaneSlots {
     /// The run in each lane.
     lanes: [LaneSlot; WIDEST],
-    /// The next run of the queue.
+    /// Next run of the queue.
     next_run: usize,
-    /// Number of lanes that have a run.
+    /// Number of lanes with a run.
     occupied: usize,
 }
 
-/// The run in a lane, if there is one.
 type LaneSlot = Option<usize>;
 
-/// A run that has just been put into a lane.
+/// A run just loaded into a lane.
 pub(super) struct LoadedRun<const N: usize> {
-    /// Its state at time zero.
+    /// State at time zero.
     pub state: [f64; N],
-    /// The end of its first arc, s.
+    /// End of its first arc, s.
     pub end: f64,
 }
 
 impl LaneSlots {
-    /// Empty lanes; the queue starts with the first run.
     pub(super) fn new() -> Self {
         LaneSlots { lanes: [None; WIDEST], next_run: 0, occupied: 0 }
     }
 
-    /// Whether any lane has a run.
     #[inline(always)]
     pub(super) fn any_occupied(&self) -> bool {
         self.occupied > 0
     }
 
-    /// The run in lane `lane`.
     #[inline(always)]
     pub(super) fn run(&self, lane: usize) -> LaneSlot {
         self.lanes[lane]
     }
 
-    /// Loads the next run of the queue into lane `lane` and records its initial state; `None` if the queue is empty.
-    ///
-    /// A run without arcs ends at once.
+    /// Loads the next run of the queue into lane `lane` and records its initial state; `None` if the queue is empty. A
+    /// run without arcs ends at once.
     #[inline(always)]
     pub(super) fn load_lane<R, Q, O, const N: usize>(
         &mut self,
@@ -84,7 +78,6 @@ impl LaneSlots {
         None
     }
 
-    /// Empties lane `lane`, whose run has ended.
     #[inline(always)]
     pub(super) fn clear(&mut self, lane: usize) {
         self.lanes[lane] = None;

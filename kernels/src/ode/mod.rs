@@ -1,14 +1,11 @@
-//! Layer 1: integrators of ordinary differential equations. They know no physics and import [`crate::math`] only.
+//! Layer 1: integrators of ordinary differential equations, without physics; imports [`crate::math`] only.
 //!
-//! - [`System`]: the right-hand side and the norm of its errors. [`Runs`]: where runs come from; [`Recorder`]: where
-//!   states go.
-//! - [`integrate`]: the driver of all methods: runs in lanes, arc by arc.
-//! - [`integrators`]: the list of integrators. [`Adaptive`]: step control by the tolerance, for [`embedded`] pairs.
-//!   [`Fixed`]: equal steps.
-//! - [`extrapolation`]: steps of high order for reference solutions.
-//! - [`switches`]: steps that end where the right-hand side changes its branch.
-//! - [`tableau`]: the coefficients. `explicit`: stages of explicit methods and the compensated step.
-//! - [`ErrorModel`]: what a method knows about its errors.
+//! - [`System`]: right-hand side and norm of errors. [`Runs`]: source of runs. [`Recorder`]: sink of states.
+//! - [`integrate`]: driver of all methods. [`integrators`]: their list. [`Adaptive`]: step control by the tolerance,
+//!   for [`embedded`] pairs. [`Fixed`]: equal steps. [`ErrorModel`]: errors of a method.
+//! - [`extrapolation`]: steps of high order for reference solutions. [`switches`]: steps that end at changes of
+//!   branches.
+//! - [`tableau`]: coefficients. `explicit`: stages of explicit methods and the compensated step.
 
 pub mod adaptive;
 pub mod embedded;

@@ -1,26 +1,25 @@
-//! Where runs come from ([`Runs`]) and where their states go ([`Recorder`]): what the caller of an integrator provides.
+//! [`Runs`] and [`Recorder`]: source of runs and sink of their states, provided by the caller of an integrator.
 
 use crate::math::real::Real;
 use crate::ode::system::System;
 
-/// Runs to be integrated. A lane whose run has ended is loaded with the next one.
+/// Runs to integrate; a completed run's lane loads the next.
 ///
-/// A run consists of arcs; within each arc the right-hand side is smooth but for its switches ([`super::switches`]).
-/// Integration restarts at every boundary, exactly there.
+/// A run consists of arcs, with a smooth right-hand side but for switches ([`super::switches`]). Integration restarts
+/// exactly at every boundary.
 pub trait Runs<R: Real, const N: usize>: System<R, N> {
     /// Number of runs.
     fn count(&self) -> usize;
 
-    /// Puts run `run` into lane `lane` and returns its state at time zero.
+    /// Loads run `run` into lane `lane` and returns its state at time zero.
     fn load(&mut self, lane: usize, run: usize) -> [f64; N];
 
-    /// Prepares lane `lane` for the arc that starts at `time`, s, from `state`, and returns the end of the arc, s,
-    /// which is later than `time`; `None` if `time` is the end of the run. Called at time zero and at the end of every
-    /// arc.
+    /// Prepares lane `lane` for the arc from `state` at `time`, s, and returns the end of the arc, s, later than
+    /// `time`; `None` at the end of the run. Called at time zero and at the end of every arc.
     fn next_arc(&mut self, lane: usize, time: f64, state: &[f64; N]) -> Option<f64>;
 
-    /// Takes the branches that are right at `time`, s, and `state` in the lanes `lanes`, until it is called again; only
-    /// where [`System::has_switches`].
+    /// Sets the branches for `time`, s, and `state` in the lanes `lanes` until the next call; only with
+    /// [`System::has_switches`].
     #[inline(always)]
     fn choose_branches(&mut self, _lanes: R::Mask, _time: R, _state: &[R; N]) {}
 }
@@ -30,36 +29,36 @@ pub trait Recorder<Q, const N: usize> {
     /// Run `run` starts in lane `lane`.
     fn begin(&mut self, lane: usize, run: usize);
 
-    /// The next observation time of lane `lane`, s; infinite after the last.
+    /// Next observation time of lane `lane`, s; infinite after the last.
     fn next_time(&self, lane: usize) -> f64;
 
     /// Stores the state of lane `lane` at its next observation time.
     fn record(&mut self, lane: usize, state: &[f64; N]);
 
-    /// Run `run` in lane `lane` has ended; `runs` still has it loaded. Runs end in an order that depends on the number
-    /// of lanes; what is reported of each does not.
+    /// Run `run` in lane `lane` has ended and is still loaded in `runs`. The order of runs depends on the number of
+    /// lanes, their results do not.
     fn finish(&mut self, runs: &Q, lane: usize, run: usize, completion: &EndedRun);
 }
 
-/// Why a run ended.
+/// Reason for the end of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Termination {
     /// At the end of its last arc.
     Completed,
     /// After the maximum number of steps.
     StepLimit,
-    /// The step that the tolerance requires is below the resolution of the time.
+    /// The required step is below the resolution of the time.
     StepFloor,
-    /// A state became infinite or not a number, or the stages of an implicit method did not converge.
+    /// A state became infinite or NaN, or an implicit method did not converge.
     NonFinite,
 }
 
-/// How a run ended.
+/// Result of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EndedRun {
-    /// Why.
+    /// Reason for its end.
     pub termination: Termination,
-    /// The time that was reached, s.
+    /// Time reached, s.
     pub time: f64,
     /// Accepted steps.
     pub accepted: u64,
@@ -67,6 +66,6 @@ pub struct EndedRun {
     pub rejected: u64,
     /// Evaluations of the right-hand side.
     pub evaluations: u64,
-    /// Error estimates of the accepted steps in units of the tolerance, added; zero for methods without an estimate.
+    /// Sum of the error estimates of accepted steps in units of the tolerance; zero without estimates.
     pub error_sum: f64,
 }

@@ -14,7 +14,7 @@ pub struct Step<R> {
 }
 
 impl<R: Real> Step<R> {
-    /// The time at the fraction `node` of the step.
+    /// Time at the fraction `node` of the step.
     #[inline(always)]
     pub(super) fn at(&self, node: f64) -> R {
         if node == 1.0 { self.end } else { self.length.mul_add(self.length.splat(node), self.time) }

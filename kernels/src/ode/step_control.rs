@@ -1,75 +1,68 @@
-//! Step control: what a campaign asks for, the constants of the controllers, and the arithmetic that they share.
-//!
-//! The source of the constants is given with each method.
+//! Step control: settings of a campaign, constants of the controllers, shared arithmetic. Sources are with each method.
 
 use super::system::Tolerance;
 use crate::math::power::power;
 use crate::math::real::Real;
 
-/// What a campaign asks for.
+/// Settings of a campaign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
     /// Tolerance of the adaptive methods.
     pub tolerance: Tolerance,
-    /// Step of the methods with a fixed step, s; without it they take a thousandth of each arc. Adaptive methods ignore
-    /// it.
+    /// Step of fixed-step methods, s; by default a thousandth of each arc. Ignored by adaptive methods.
     pub step: Option<f64>,
-    /// A run ends after this number of attempted steps, accepted and rejected; earlier where it is out of reach
-    /// ([`is_out_of_reach`]).
+    /// Limit of attempted steps of a run; it ends earlier if its end is out of reach ([`is_out_of_reach`]).
     pub max_steps: u64,
 }
 
-/// Steps in an arc after which its pace is judged: some 50 ms. A run that is limited to no more steps is not judged.
+/// Steps of an arc before its pace is judged: some 50 ms. Runs limited to fewer steps are not judged.
 pub const PACE_STEPS: u64 = 20_000;
 
-/// Factor between the steps that an arc needs and those that its pace lets expect, with a margin of two. Actuation is
-/// constant in an arc: steps follow a periodic motion, or a rate that grows. They become longer on the average where a
-/// torque brings a body to rest at the end of the arc, by two.
+/// Margin of two, times two for uneven steps: actuation is constant in an arc, and steps follow a periodic motion or a
+/// growing rate; they become longer on average, by two, if a torque brings a body to rest at the end of the arc.
 const UNEVEN: f64 = 4.0;
 
-/// Whether an arc of `length` cannot be finished in `most` steps, where its first [`PACE_STEPS`] steps lead to `time`
-/// after its start.
+/// True if an arc of `length` cannot end within `most` steps, its first [`PACE_STEPS`] steps having reached `time`.
 pub fn is_out_of_reach(most: u64, time: f64, length: f64) -> bool {
     time * (most as f64 / PACE_STEPS as f64) * UNEVEN < length
 }
 
-/// The constants of a step-size controller; the error is in units of the tolerance.
+/// Constants of a step-size controller; errors are in units of the tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Controller {
-    /// The step is proportional to the error to minus this power: one over the order of the error estimate plus one.
+    /// The step is proportional to the error to minus this power: 1/(order of the estimate + 1).
     pub exponent: f64,
-    /// Fraction of the step at which the error is expected to equal the tolerance.
+    /// Factor on the step at which the error is expected to equal the tolerance.
     pub safety: f64,
-    /// Maximum factor from one step to the next.
+    /// Maximum factor between steps.
     pub growth: f64,
-    /// Minimum factor at a rejection, and from one step to the next.
+    /// Minimum factor at a rejection and between steps.
     pub shrink: f64,
-    /// Factor of the second and further rejections of a step; `None`: the same as for the first.
+    /// Factor of repeated rejections of a step; `None`: as for the first.
     pub shrink_again: Option<f64>,
-    /// Whether the step after one that was accepted after a rejection has the same length; otherwise it is not longer.
+    /// True to keep the length after a step accepted after a rejection; otherwise it does not grow.
     pub hold_after_rejection: bool,
-    /// A step that would reach the end of the arc if it were longer by this factor is changed to end there.
+    /// A step that would reach the end of the arc if longer by this factor is changed to end there.
     pub landing: f64,
     /// Longest step as a fraction of the arc.
     pub longest: f64,
 }
 
-/// 16 eps: the shortest step as a fraction of the power of two below the time (`hmin = 16*eps(t)` of ode45).
+/// Shortest step as a fraction of the power of two below the time, 16 eps (`hmin = 16*eps(t)` of ode45).
 const FLOOR: f64 = 16.0 * f64::EPSILON;
 
-/// The time, s, that replaces smaller ones: the shortest step stays a normal number at t = 0.
+/// Replaces smaller times, s, so that the shortest step is a normal number at t = 0.
 const EARLIEST: f64 = 1e-280;
 
-/// The shortest step at time `time`, s.
+/// Shortest step at time `time`, s.
 #[inline(always)]
 pub(super) fn shortest_step<R: Real>(time: R) -> R {
     time.abs().larger(time.splat(EARLIEST)).exponent().power_of_two() * time.splat(FLOOR)
 }
 
 impl Controller {
-    /// The factor for the next step (where `accepted`) or the next attempt (where not) after an error of `ratio`.
-    ///
-    /// `retry`: the attempt followed a rejection of the same step.
+    /// Factor for the next step (or attempt, if not `accepted`) after an error of `ratio`; `retry`: the attempt
+    /// followed a rejection of the same step.
     #[inline(always)]
     pub(super) fn factor<R: Real>(&self, ratio: R, accepted: R::Mask, retry: R::Mask) -> R {
         let one = ratio.splat(1.0);
@@ -88,8 +81,7 @@ impl Controller {
 mod tests {
     use super::*;
 
-    /// Law: an arc is given up where it needs more than four times the steps that are left at its pace, whatever its
-    /// numbers.
+    /// Law: an arc is given up if it needs more than four times the remaining steps at its pace.
     #[test]
     fn an_arc_is_given_up_where_it_is_out_of_reach() {
         let most = 100 * PACE_STEPS;

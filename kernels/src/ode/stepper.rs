@@ -1,5 +1,4 @@
-//! [`Stepper`]: how a method chooses and takes steps in lanes; [`StepperLane`]: the state of every lane, as far as it
-//! is common to all methods.
+//! [`Stepper`]: choice and execution of steps in lanes; [`StepperLane`]: state of the lanes common to all methods.
 
 use super::error_model::ErrorModel;
 use super::explicit::{Carried, each};
@@ -10,21 +9,21 @@ use super::step_control::{Control, PACE_STEPS, is_out_of_reach};
 use super::system::System;
 use crate::math::real::Real;
 
-/// A method together with its step control.
+/// A method with its step control.
 pub trait LaneMethod: Copy {
-    /// What it knows about its errors.
+    /// Its error model.
     const ERRORS: ErrorModel;
-    /// Whether its steps have a given length instead of following the tolerance.
+    /// True for steps of given length instead of following the tolerance.
     const HAS_FIXED_STEP: bool;
 
     /// Its steps in lanes.
     type Stepper<R: Real, const N: usize>: Stepper<R, N>;
 
-    /// A stepper for all lanes; `zero` determines the kind of number.
+    /// A stepper for all lanes in the arithmetic of `zero`.
     fn stepper<R: Real, const N: usize>(self, zero: R, control: &Control) -> Self::Stepper<R, N>;
 }
 
-/// The state of every lane, as far as it is common to all methods.
+/// State of the lanes common to all methods.
 pub struct StepperLane<R, const N: usize> {
     /// State at the current time.
     pub now: Carried<R, N>,
@@ -32,11 +31,11 @@ pub struct StepperLane<R, const N: usize> {
     pub time: R,
     /// End of the current arc, s.
     pub arc_end: R,
-    /// Its start, s.
+    /// Start of the current arc, s.
     pub(super) arc_start: R,
-    /// Attempted steps of the run before it.
+    /// Attempted steps of the run before the arc.
     pub(super) before: R,
-    /// Attempted steps of the run at which it is judged ([`StepperLane::gives_up`]).
+    /// Attempted steps of the run at the next check of [`StepperLane::gives_up`].
     pub(super) judged: R,
     /// Next observation time, s.
     pub next: R,
@@ -50,26 +49,26 @@ pub struct StepperLane<R, const N: usize> {
     pub error_sum: R,
 }
 
-/// A step to be attempted.
+/// A step to attempt.
 #[derive(Clone, Copy)]
 pub struct Proposal<R: Real> {
     /// The step.
     pub step: Step<R>,
-    /// Whether it ends at the end of the arc.
+    /// True if it ends at the end of the arc.
     pub lands: R::Mask,
 }
 
-/// The result of an attempted step, apart from the state at its end.
+/// Result of an attempted step, without the state at its end.
 pub struct Attempt<R: Real> {
-    /// Whether it was accepted.
+    /// True if accepted.
     pub accepted: R::Mask,
-    /// Whether everything in it is finite.
+    /// True if everything is finite.
     pub sound: R::Mask,
-    /// Its error in units of the tolerance, zero if the method has no estimate.
+    /// Error in units of the tolerance, zero without an estimate.
     pub error: R,
 }
 
-/// How a method chooses and takes steps: the memory of all lanes.
+/// Choice and execution of a method's steps in all lanes.
 pub trait Stepper<R: Real, const N: usize> {
     /// A run starts in lane `lane`.
     fn start_run(&mut self, lane: usize);
@@ -80,11 +79,10 @@ pub trait Stepper<R: Real, const N: usize> {
     /// Lane `lane` has no run: it takes steps of zero length that never reach the end of an arc.
     fn idle(&mut self, lane: usize);
 
-    /// The step that every lane takes next.
+    /// The next step of every lane.
     fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) -> Proposal<R>;
 
-    /// Attempts the step and puts the state at its end into `end`, which is not returned because every move of a state
-    /// of many components is a copy.
+    /// Attempts the step and writes its end to `end`, since moves of large states are copies.
     fn attempt<Q: System<R, N>>(
         &mut self,
         system: &Q,
@@ -93,7 +91,7 @@ pub trait Stepper<R: Real, const N: usize> {
         end: &mut Carried<R, N>,
     ) -> Attempt<R>;
 
-    /// Prepares [`Stepper::inside`] for the lanes `inside` of the step that was attempted.
+    /// Prepares [`Stepper::inside`] for the lanes `inside` of the attempted step.
     fn prepare_inside<Q: System<R, N>>(
         &mut self,
         system: &Q,
@@ -103,7 +101,7 @@ pub trait Stepper<R: Real, const N: usize> {
         lanes: &mut StepperLane<R, N>,
     );
 
-    /// The state at the end of `part`, the first part of the attempted step `step`; of use in the lanes `inside`.
+    /// The state at the end of `part`, the first part of the attempted `step`, for the lanes `inside`.
     fn inside<Q: System<R, N>>(
         &mut self,
         system: &Q,
@@ -113,17 +111,17 @@ pub trait Stepper<R: Real, const N: usize> {
         lanes: &mut StepperLane<R, N>,
     ) -> [R; N];
 
-    /// Chooses the length of the next step; true in the lanes that cannot continue.
+    /// Chooses the length of the next step; true in lanes that cannot continue.
     fn advance(&mut self, proposal: &Proposal<R>, attempt: &Attempt<R>) -> R::Mask;
 
-    /// The derivatives at both ends of the step that was attempted last.
+    /// Derivatives at both ends of the last attempted step.
     fn slopes(&self) -> [&[R; N]; 2];
 
-    /// After [`Stepper::advance`]: the next step of the lanes `lanes` has the length `length`, s, and those after it
-    /// the length of the step that this one is to replace.
+    /// After [`Stepper::advance`]: sets the length of the next step of the lanes `lanes`, s; later ones have the length
+    /// of the step that it replaces.
     fn cut(&mut self, lanes: R::Mask, length: R);
 
-    /// Evaluates the derivative at the current time again in the lanes `lanes`, where its branches have changed.
+    /// Updates the derivative at the current time in the lanes `renewed`, whose branches have changed.
     fn renew<Q: System<R, N>>(&mut self, system: &Q, renewed: R::Mask, lanes: &mut StepperLane<R, N>);
 }
 
@@ -146,13 +144,12 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         }
     }
 
-    /// The state in lane `lane`.
     #[inline(always)]
     pub(super) fn state(&self, lane: usize) -> [f64; N] {
         of_lane(&self.now.state, lane)
     }
 
-    /// Starts `loaded`, observed next at `next`, in lane `lane`; without a run the lane becomes idle.
+    /// Starts `loaded`, next observed at `next`, in lane `lane`; idles the lane without a run.
     #[inline(always)]
     pub(super) fn start<P: Stepper<R, N>>(
         &mut self,
@@ -166,7 +163,7 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         self.evaluations.set_lane(lane, 0.0);
         self.error_sum.set_lane(lane, 0.0);
         let Some(run) = loaded else {
-            // an idle lane never reaches the maximum number of steps, an observation point or the end of an arc
+            // an idle lane never reaches a limit of steps, an observation point or the end of an arc
             self.rejected.set_lane(lane, f64::NEG_INFINITY);
             self.arc_end.set_lane(lane, f64::INFINITY);
             self.next.set_lane(lane, f64::INFINITY);
@@ -183,7 +180,6 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         self.start_arc(lane, 0.0, run.end, (stepper, control));
     }
 
-    /// Starts the arc from `start` to `end`, s, in lane `lane`.
     #[inline(always)]
     pub(super) fn start_arc<P: Stepper<R, N>>(
         &mut self,
@@ -200,14 +196,12 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         stepper.start_arc(lane, start, end);
     }
 
-    /// Attempted steps of the run in lane `lane`.
     #[inline(always)]
     pub(super) fn attempts(&self, lane: usize) -> f64 {
         self.accepted.lane(lane) + self.rejected.lane(lane)
     }
 
-    /// Whether the run in lane `lane` has taken all steps that it may take, or cannot get to the end of its arc with
-    /// them.
+    /// True if the run in lane `lane` has used up its steps, or cannot reach the end of its arc with them.
     #[cold]
     pub(super) fn gives_up(&mut self, lane: usize, max_steps: u64) -> bool {
         let (attempts, before) = (self.attempts(lane), self.before.lane(lane));
@@ -222,7 +216,7 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         is_out_of_reach(max_steps - before as u64, self.time.lane(lane) - start, self.arc_end.lane(lane) - start)
     }
 
-    /// How the run in lane `lane` ended.
+    /// The result of the run in lane `lane`.
     #[inline(always)]
     pub(super) fn completion(&self, lane: usize, termination: Termination) -> EndedRun {
         EndedRun {
@@ -236,7 +230,6 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
     }
 }
 
-/// The numbers in lane `lane`.
 #[inline(always)]
 pub(super) fn of_lane<R: Real, const N: usize>(state: &[R; N], lane: usize) -> [f64; N] {
     each::<f64, N>(

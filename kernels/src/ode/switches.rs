@@ -1,18 +1,16 @@
-//! Steps that end where the right-hand side changes its branch.
+//! Steps that end at changes of branches of the right-hand side.
 //!
-//! A right-hand side with branches has switch functions, smooth functions of time and state whose signs say which
-//! branch is right. Within a step the branches are frozen: what is integrated is the smooth continuation of each, so
-//! that a method keeps its order and its error estimate means something (E. Hairer, S. Norsett & G. Wanner, *Solving
-//! Ordinary Differential Equations I*, 1993, section II.6; L. Shampine & S. Thompson, *Event location for ordinary
-//! differential equations*, Comput. Math. Appl. 39, 2000). A step at whose end a branch is wrong is not taken: the
-//! switch is located on its dense output, and a step that ends there takes its place. Then the branches are chosen
-//! again, by the signs a little later, so that it does not matter on which side of the switch the step has ended. A
-//! pair of switches within a step, after which all signs are as they were, is found by the derivatives at both ends
-//! ([`dip`]): the step ends first where the function is smallest.
+//! The signs of switch functions, smooth in time and state, select the branches. Branches are frozen within a step,
+//! which integrates their smooth continuation, so that a method keeps its order and its error estimate (E. Hairer, S.
+//! Norsett & G. Wanner, *Solving Ordinary Differential Equations I*, 1993, section II.6; L. Shampine & S. Thompson,
+//! *Event location for ordinary differential equations*, Comput. Math. Appl. 39, 2000). A step with a wrong branch at
+//! its end is rejected: the switch is located on its dense output, and a step to there replaces it. Branches are then
+//! chosen by the signs a little later, so that the side on which the step ended does not matter. A pair of switches
+//! within a step, after which all signs are restored, is found by the derivatives at both ends ([`dip`]): the step ends
+//! first at the minimum of the function.
 //!
-//! Nothing here can hang: a switch function that is zero but for rounding does not count, a step is replaced eight
-//! times at most and then taken as it is, with the switch at its end, and every step that is taken counts against
-//! `max_steps`.
+//! Nothing can hang: a switch function of zero within rounding does not count, a step is replaced at most eight times
+//! and then accepted with the switch at its end, and every accepted step counts against `max_steps`.
 
 use super::explicit::{Step, each};
 use super::runs::Runs;
@@ -21,61 +19,58 @@ use super::stepper::{Attempt, Stepper, StepperLane};
 use super::system::System;
 use crate::math::real::{Mask, Real};
 
-/// A switch function below minus this has changed its sign; functions are of the order of one, and their rounding is
-/// some 1e-15.
+/// A switch function below minus this has changed sign; functions are of order one, with rounding of some 1e-15.
 const NOISE: f64 = 1e-12;
 
-/// The switch function at the end of a step to a switch may be below zero by this times the square root of the
-/// tolerance. What is missed is of the second order, 1e-4/2 of the tolerance; dense output is as accurate as the
-/// tolerance.
+/// Tolerated undershoot at the end of a step to a switch, times the square root of the tolerance: an error of second
+/// order, 1e-4/2 of the tolerance; dense output is as accurate as the tolerance.
 const LANDED: f64 = 1e-2;
 
-/// Branches are chosen by the signs after this fraction of a step: more than the error of its location, and of no
-/// effect in the second order.
+/// Branches are chosen by the signs after this fraction of a step: beyond the error of its location, and without effect
+/// at second order.
 const AHEAD: f64 = 1e-4;
 
-/// A switch is looked for after this fraction of the step. Before it are those that have just been passed.
+/// A switch is searched for after this fraction of the step; earlier ones have just been passed.
 const LEAST: f64 = 1e-3;
 
-/// Replacements of a step at most. Measured in campaigns of tumbling boxes: 3.
+/// Limit of replacements of a step; measured for tumbling boxes: 3.
 const MOST_CUTS: f64 = 8.0;
 
-/// Evaluations of the dense output for a switch at most.
+/// Limit of evaluations of dense output for a switch.
 const MOST_EVALUATIONS: usize = 40;
 
-/// A switch is located where its function is below this, or its time is known to this fraction of the step.
+/// A switch is located if its function is below the first, or its time is known to the second as a fraction of the
+/// step.
 const LOCATED: [f64; 2] = [1e-14, 1e-15];
 
-/// A function with a minimum within a step is looked at closer if the cubic through its ends leaves less than this
-/// share of the depth of the minimum. For a cosine the cubic is wrong by a tenth of it where the step is 2 rad long.
+/// A minimum within a step is examined if the cubic through its ends leaves less than this share of its depth. For a
+/// cosine the cubic errs by a tenth of it over a step of 2 rad.
 const DOUBT: f64 = 0.1;
 
-/// The part of a step between both times from which [`dip`] knows a derivative.
+/// Part of the step between the two times from which [`dip`] derives a slope.
 const BESIDE: f64 = 1e-3;
 
-/// What is known of the switches, one run per lane.
+/// Pending switches, one run per lane.
 pub(super) struct Switches<R: Real> {
-    /// Where branches are to be chosen, and after which time, s.
+    /// Lanes that must choose branches, and the delay, s.
     pending: R::Mask,
     ahead: R,
-    /// Where the next step is to replace one, how often it was replaced, the length of the first, and of the next, s.
+    /// Lanes whose next step replaces one, number of replacements, length of the first, and of the next, s.
     cut: R::Mask,
     cuts: R,
     whole: R,
     next: R,
-    /// Where the step in hand replaces one.
+    /// Lanes whose present step replaces one.
     landing: R::Mask,
 }
 
 impl<R: Real> Switches<R> {
-    /// At the start of all runs.
     #[inline(always)]
     pub(super) fn new(zero: R) -> Self {
         let never = zero.never();
         Switches { pending: !never, ahead: zero, cut: never, cuts: zero, whole: zero, next: zero, landing: never }
     }
 
-    /// An arc starts in lane `lane`.
     #[inline(always)]
     pub(super) fn start_arc(&mut self, lane: usize) {
         self.pending.set(lane, true);
@@ -84,7 +79,7 @@ impl<R: Real> Switches<R> {
         self.cuts.set_lane(lane, 0.0);
     }
 
-    /// Chooses the branches of the lanes in which an arc starts or a step has ended at a switch.
+    /// Chooses branches in lanes with a new arc or a step that ended at a switch.
     #[inline(always)]
     pub(super) fn choose<Q, P, const N: usize>(&mut self, runs: &mut Q, stepper: &mut P, lanes: &mut StepperLane<R, N>)
     where
@@ -110,7 +105,7 @@ impl<R: Real> Switches<R> {
         self.pending = zero.never();
     }
 
-    /// Looks for switches in the step `step`, which ends in `end`; where there are any it is not accepted.
+    /// Finds switches in `step`, which ends in `end`, and rejects it in lanes with a switch.
     #[inline(always)]
     pub(super) fn find<Q, P, const N: usize>(
         &mut self,
@@ -144,8 +139,7 @@ impl<R: Real> Switches<R> {
         self.cuts = R::select(attempt.accepted, zero, self.cuts + zero.indicator(cut));
     }
 
-    /// Has the next step end at the switch in the lanes where there is one, and says which they are; after
-    /// [`Stepper::advance`].
+    /// Shortens the next step to the switch and returns the lanes with one; after [`Stepper::advance`].
     #[inline(always)]
     pub(super) fn cut<P: Stepper<R, N>, const N: usize>(&mut self, stepper: &mut P, attempt: &Attempt<R>) -> R::Mask {
         let ended = self.landing & attempt.accepted;
@@ -159,9 +153,9 @@ impl<R: Real> Switches<R> {
     }
 }
 
-/// The fraction of `step` at which its dense output reaches a switch in the lanes `over`, at whose end the margin is
-/// `last`: by false position, where the end that stays has its margin halved (M. Dowell & P. Jarratt, *A modified
-/// regula falsi method*, BIT 11, 1971).
+/// Fraction of `step` at which its dense output reaches a switch in the lanes `over`, the margin at its end being
+/// `last`: false position with the margin of the retained end halved (M. Dowell & P. Jarratt, *A modified regula falsi
+/// method*, BIT 11, 1971).
 #[inline(always)]
 fn locate<R, Q, P, const N: usize>(
     system: &Q,
@@ -194,7 +188,7 @@ where
         found = R::select(open, s, found);
         let is_above = open & low.zero().lt(margin);
         if k == 0 {
-            // a switch before that: there the step ends
+            // an earlier switch: the step ends there
             (open, above) = (is_above, margin);
             continue;
         }
@@ -213,8 +207,8 @@ where
     found
 }
 
-/// The times at which [`dip`] needs a switch function, and the states at the inner two, from the states and derivatives
-/// at both ends of `step`.
+/// Times at which [`dip`] needs a switch function, and states at the inner two, from states and derivatives at both
+/// ends of `step`.
 #[inline(always)]
 pub fn beside<R: Real, const N: usize>(step: Step<R>, ends: [[&[R; N]; 2]; 2]) -> ([R; 4], [[R; N]; 2]) {
     let short = step.length * step.length.splat(BESIDE);
@@ -229,8 +223,8 @@ pub fn beside<R: Real, const N: usize>(step: Step<R>, ends: [[&[R; N]; 2]; 2]) -
     (times, [state(ends[0], short), state(ends[1], -short)])
 }
 
-/// The fraction of a step at which a switch function may be below zero that is above at both ends, by the cubic through
-/// both; infinite where it is not. The function is known at the times of [`beside`].
+/// Fraction of a step at which a switch function that is positive at both ends may be negative, by the cubic through
+/// both; infinite if none. The function is given at the times of [`beside`].
 #[inline(always)]
 pub fn dip<R: Real>([start, after, before, end]: [R; 4]) -> R {
     let number = |value: f64| start.splat(value);
@@ -264,7 +258,7 @@ mod tests {
     use crate::ode::stepper::LaneMethod;
     use crate::ode::system::Tolerance;
 
-    /// y' = f(t, y) with one switch function g, the branch being g > 0.
+    /// y' = f(t, y) with one switch function g and the branch g > 0.
     struct Case {
         slope: fn(f64, &[f64; 2], bool) -> [f64; 2],
         switch: fn(f64, &[f64; 2]) -> f64,
@@ -310,7 +304,6 @@ mod tests {
         }
     }
 
-    /// The state at the end.
     struct Last([f64; 2], f64, Option<EndedRun>);
 
     impl Recorder<Case, 2> for Last {
@@ -335,19 +328,17 @@ mod tests {
         (last.0, ended)
     }
 
-    /// Solves a case at a tolerance: the last state, and how it ended.
     type Solve = dyn Fn(f64, &mut Case) -> ([f64; 2], EndedRun);
-    /// A switch function of a case.
     type Switch = fn(f64, &[f64; 2]) -> f64;
 
-    /// A spring on each side of zero, of the frequencies 1 and 2: half a turn of each alternates.
+    /// Springs of frequencies 1 and 2 on the two sides of zero: half turns alternate.
     fn springs(end: f64) -> Case {
         let slope = |_: f64, [y, v]: &[f64; 2], above: bool| [*v, if above { -y } else { -4.0 * y }];
         Case { slope, switch: |_, [y, _]| *y, start: [0.0, 1.0], end, branch: true, chosen: 0 }
     }
 
-    /// Truth: in closed form. Law: across switches the error falls with the tolerance as it does without, to rounding,
-    /// and is within it; each switch costs less than two steps that are not taken.
+    /// Truth: closed form. Law: across switches the error falls with the tolerance as without, to rounding, and is
+    /// within it; each switch costs less than two rejected steps.
     #[test]
     fn a_method_keeps_its_order_across_switches() {
         const PI: f64 = core::f64::consts::PI;
@@ -372,8 +363,8 @@ mod tests {
         }
     }
 
-    /// Truth: the integral of max(0, cos t - c) over ten turns. Law: pulses much shorter than a step, before and after
-    /// which the branch is the same, are all found.
+    /// Truth: the integral of max(0, cos t - c) over ten turns. Law: pulses much shorter than a step, without a net
+    /// change of branch, are all found.
     #[test]
     fn short_pulses_within_a_step_are_found() {
         for depth in [0.3, 1e-2, 1e-4, 1e-6] {
@@ -383,7 +374,7 @@ mod tests {
                 ($($depth:literal)*) => {
                     match depth {
                         $(depth if depth == $depth => Case {
-                            // an oscillator beside it gives the steps a length
+                            // an oscillator in parallel sets the length of the steps
                             slope: |t, _, on| [if on { libm::cos(t) - (1.0 - $depth) } else { 0.0 }, libm::cos(t)],
                             switch: |t, _| libm::cos(t) - (1.0 - $depth),
                             start: [0.0, 0.0],
@@ -403,8 +394,8 @@ mod tests {
         }
     }
 
-    /// Law: nothing hangs: a switch function that is zero but for rounding, one that only touches zero, one with a kink
-    /// that no branch has, and one that is wrong whatever is chosen, cost no more than some steps.
+    /// Law: nothing hangs: a switch function of zero within rounding, one that touches zero, one with an unmodelled
+    /// kink, and one that is always wrong cost no more than some steps.
     #[test]
     fn nothing_hangs() {
         let noisy = |t: f64, _: &[f64; 2]| 1e-15 * libm::sin(1e5 * t);

@@ -13,7 +13,7 @@ use crate::ode::tableau::Dop853Tableau;
 #[derive(Clone, Copy, Debug)]
 pub struct Dop853;
 
-/// Stages of [`Dop853`] and the coefficients of its interpolant.
+/// Stages of [`Dop853`] and coefficients of its interpolant.
 pub struct Dop853Stages<R, const N: usize> {
     k: [[R; N]; 16],
     interpolant: [[R; N]; 7],
@@ -30,8 +30,7 @@ impl Embedded for Dop853 {
         landing: 1.01,
         longest: 1.0,
     };
-    // The twelfth is the derivative at the end, evaluated for rejected steps too: lanes do not wait for each other's
-    // acceptance.
+    // The twelfth is the derivative at the end, evaluated for rejected steps too: lanes do not wait for each other.
     const EVALUATIONS: f64 = 12.0;
     const START_EVALUATIONS: f64 = 2.0;
     const DENSE_EVALUATIONS: f64 = 3.0;
@@ -91,8 +90,7 @@ impl Embedded for Dop853 {
         refined.smaller(longest.splat(100.0) * guess).smaller(longest)
     }
 
-    /// The error estimate combines the embedded solutions of order 5 and 3: e5^2 / sqrt(e5^2 + 0.01 e3^2) (section
-    /// II.10).
+    /// The error combines the embedded solutions of order 5 and 3: e5^2 / sqrt(e5^2 + 0.01 e3^2) (section II.10).
     #[inline(always)]
     fn attempt<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
@@ -168,10 +166,10 @@ mod tests {
     use crate::ode::tableau::Tableau;
     use crate::ode::tableau::trees::largest_defect;
 
-    /// Round-off of the conditions, with interpolation weights up to 500. Measured: 3e-15.
+    /// Round-off of the conditions, with interpolation weights up to 500; measured 3e-15.
     const ROUND_OFF: f64 = 2e-14;
 
-    /// The weight of each stage at the fraction `s`, by interpolating stages that are unit vectors.
+    /// Weight of each stage at the fraction `s`, from stages that are unit vectors.
     fn dop853_weights(s: f64) -> [f64; 16] {
         let mut stages = Dop853::stages::<f64, 16>(0.0);
         for i in 0..16 {
@@ -196,7 +194,7 @@ mod tests {
             let defect = largest_defect(&Dop853Tableau::A, &weights, s, 7);
             assert!(defect < ROUND_OFF, "{s}: {defect:e}");
             if s < 1.0 {
-                // the next order is not met; measured: 7.5e-6 or more
+                // the next order is not met; measured 7.5e-6 or more
                 assert!(largest_defect(&Dop853Tableau::A, &weights, s, 8) > 1e-6);
             }
         }

@@ -1,4 +1,4 @@
-//! Dormand-Prince 5(4) as in ode45, and a variant that reaches points inside a step by a shorter step.
+//! Dormand-Prince 5(4) as in ode45, and a variant with shorter steps to points inside a step.
 
 use crate::math::real::Real;
 use crate::math::power::power;
@@ -9,7 +9,7 @@ use crate::ode::step_control::Controller;
 use crate::ode::system::{System, Tolerance};
 use crate::ode::tableau::{DormandPrinceTableau, Tableau};
 
-/// The first step is chosen for this relative tolerance if the given one is smaller (ode45's limit, 100 eps).
+/// Lower limit of the relative tolerance for the choice of the first step (ode45: 100 eps).
 const FINEST: f64 = 100.0 * f64::EPSILON;
 
 /// Dormand-Prince 5(4) as in ode45.
@@ -18,12 +18,12 @@ pub struct DormandPrince;
 
 /// Dormand-Prince 5(4) that reaches a point inside a step by a shorter step from the same start.
 ///
-/// The steps are those of [`DormandPrince`], and so of ode45, whose interpolant (ntrp45) is of order 4, with an error
-/// of the size of the tolerance; a shorter step has order 5 at the point. It costs five evaluations per point.
+/// Its steps are those of [`DormandPrince`], and so of ode45, whose interpolant (ntrp45) of order 4 has an error of the
+/// size of the tolerance; a shorter step has order 5 at five evaluations per point.
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrinceRestepped;
 
-/// How a state inside a step of the pair is found: in this alone its two variants differ.
+/// States inside a step, the only difference between the two variants.
 trait PointsInside: Copy {
     /// Evaluations of the right-hand side for each point.
     const EVALUATIONS: f64;
@@ -32,7 +32,7 @@ trait PointsInside: Copy {
     /// [`StepErrors::dense`].
     const DENSE_ERROR: f64;
 
-    /// The state at the fraction `s` of `step`, whose stages are known.
+    /// The state at the fraction `s` of `step`.
     fn inside<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
         step: Step<R>,
@@ -78,7 +78,7 @@ impl<P: PointsInside> Embedded for P {
         &stages[6]
     }
 
-    /// ode45: the longest step, or 1/rh with rh = |f0 / max(|y|, atol/rtol)| / (0.8 rtol^(1/5)) if that is shorter.
+    /// ode45: the longest step, or 1/rh with rh = |f0 / max(|y|, atol/rtol)| / (0.8 rtol^(1/5)) if shorter.
     #[inline(always)]
     fn first_step<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
@@ -191,7 +191,7 @@ mod tests {
     use super::*;
     use crate::ode::tableau::trees::largest_defect;
 
-    /// Round-off of the conditions on the weights. Measured: 9e-16.
+    /// Round-off of the conditions on the weights; measured 9e-16.
     const ROUND_OFF: f64 = 8e-15;
 
     #[test]
@@ -203,7 +203,7 @@ mod tests {
             let weights = <DormandPrince as Embedded>::inside(&Still, step, s, &start, &unit);
             assert!(largest_defect(&DormandPrinceTableau::A, &weights, s, 4) < ROUND_OFF);
             if s < 1.0 {
-                // the next order is not met; measured: 5.2e-4 or more
+                // the next order is not met; measured 5.2e-4 or more
                 assert!(largest_defect(&DormandPrinceTableau::A, &weights, s, 5) > 5e-5);
             }
         }

@@ -1,10 +1,8 @@
-//! Gauss-Legendre collocation of order 6 with a fixed step: symmetric, and exact in every quadratic invariant up to
-//! rounding.
+//! Gauss-Legendre collocation of order 6 with a fixed step: symmetric, exact in quadratic invariants up to rounding.
 //!
-//! The stages are found by fixed-point iteration to round-off (Hairer, McLachlan & Razakarivony 2008, *Achieving
-//! Brouwer's law with implicit Runge-Kutta methods*): until the change is zero or stops decreasing. Not by Newton's
-//! method: the rotations here are not stiff, and a few sweeps cost less than a Jacobian. Each lane stops by its own
-//! criterion.
+//! The stages follow from fixed-point iteration to round-off, until the change is zero or stops decreasing (Hairer,
+//! McLachlan & Razakarivony 2008, *Achieving Brouwer's law with implicit Runge-Kutta methods*); not by Newton's method,
+//! since rotations are not stiff, and a few sweeps cost less than a Jacobian. Each lane stops by its own criterion.
 
 #![allow(
     clippy::needless_range_loop,
@@ -18,22 +16,20 @@ use super::super::system::{System, Tolerance};
 use super::super::tableau::{GaussLegendreTableau, Tableau};
 use crate::math::real::{Mask, Real};
 
-/// Sweeps after which a step counts as too long for the iteration; a contraction by one half reaches round-off in 52.
+/// Sweeps after which a step is too long for the iteration; a contraction by one half reaches round-off in 52.
 const MOST_SWEEPS: usize = 60;
 
-/// A change of the stages below this fraction of the state is near round-off: only there may the iteration end because
-/// the change stopped decreasing. Far above 2^-52, since the stages are sums of several roundings, and far below any
-/// tolerance.
+/// Relative change of the stages below which the iteration may end because the change stops decreasing: far above
+/// 2^-52, since stages are sums of several roundings, and far below any tolerance.
 const NEAR_ROUND_OFF: f64 = 1e-12;
 
-/// The method; see the module.
+/// Gauss-Legendre collocation.
 #[derive(Clone, Copy, Debug)]
 pub struct GaussLegendre;
 
-/// Derivatives at the three stages.
 type Stages<R, const N: usize> = [[R; N]; 3];
 
-/// Lagrange's polynomial of node `i` among the nodes `i`, `j`, `l`, at `x`.
+/// Lagrange polynomial of node `i` among `i`, `j`, `l`, at `x`.
 #[inline(always)]
 fn lagrange<R: Real>(x: R, i: usize, j: usize, l: usize) -> R {
     let c = GaussLegendreTableau::C;
@@ -41,7 +37,7 @@ fn lagrange<R: Real>(x: R, i: usize, j: usize, l: usize) -> R {
     x.splat(scale) * ((x - x.splat(c[j])) * (x - x.splat(c[l])))
 }
 
-/// The polynomial through the derivatives `k` of a step, at the fraction `x` of it.
+/// Interpolation of the derivatives `k` at the fraction `x` of a step.
 #[inline(always)]
 fn derivative_at<R: Real, const N: usize>(k: &Stages<R, N>, x: R) -> [R; N] {
     let w = [lagrange(x, 0, 1, 2), lagrange(x, 1, 0, 2), lagrange(x, 2, 0, 1)];
@@ -52,7 +48,7 @@ fn derivative_at<R: Real, const N: usize>(k: &Stages<R, N>, x: R) -> [R; N] {
     )
 }
 
-/// Iterates the stages from the guess `k`, and takes the step.
+/// Iterates the stages from the guess `k` and takes the step.
 #[inline(always)]
 fn solved<R: Real, Q: System<R, N>, const N: usize>(
     system: &Q,
@@ -107,7 +103,7 @@ impl FixedStep for GaussLegendre {
         [[zero; N]; 3]
     }
 
-    /// The initial guess is the polynomial of the previous step, or, at the start of an arc, the derivative there.
+    /// Initial guess: the polynomial of the previous step, or the derivative at the start of an arc.
     #[inline(always)]
     fn step<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,

@@ -1,30 +1,26 @@
-//! The list of integrators of ordinary differential equations: one row each, from which everything that enumerates them
-//! follows.
+//! The list of integrators. A row has an integrator's file, name, method with step control and meaning; names in
+//! messages, `spindrift precision` and the engine of each gyrostat follow.
 //!
-//! A row declares the integrator's own file and states its name in campaign files. To add one, write its file and its
-//! row: the names in messages, `spindrift precision` and the engine of each gyrostat follow.
+//! - [`DormandPrince`] follows ode45: Shampine & Reichelt 1997, *The MATLAB ODE Suite*, and ode45.m.
+//! - [`Dop853`] follows DOP853: Hairer, Norsett & Wanner 1993, sections II.4 to II.6, and dop853.f.
 //!
-//! - [`DormandPrince`] behaves as ode45 does: Shampine & Reichelt 1997, *The MATLAB ODE Suite*, and ode45.m.
-//! - [`Dop853`] behaves as DOP853 does: Hairer, Norsett & Wanner 1993, sections II.4 to II.6, and dop853.f.
-//!
-//! The norm of an error is the kernel's ([`super::System::error_ratio`]). Step control is in [`super::adaptive`] and
-//! [`super::fixed`]; coefficients of the published methods are in [`super::tableau`].
+//! The kernel defines the norm of errors ([`super::System::error_ratio`]); step control is in [`super::adaptive`] and
+//! [`super::fixed`], coefficients in [`super::tableau`].
 
 use super::adaptive::Adaptive;
 use super::fixed::Fixed;
 use super::stepper::LaneMethod;
 
-/// Does something with the method of an integrator, whichever it is.
+/// An operation on the method of any integrator.
 pub trait Visitor {
-    /// What comes out.
+    /// Its result.
     type Output;
 
-    /// Does it with `method`.
+    /// Applies it to `method`.
     fn visit<M: LaneMethod + Send + 'static>(self, method: M) -> Self::Output;
 }
 
-/// `Type, file, "name", its method with step control, "what it is";` for each integrator, in the order in which they
-/// are listed to a user.
+/// `Type, file, "name", method with step control, "meaning";` for each integrator, in the order of lists for a user.
 macro_rules! integrators {
     ($($Type:ident, $file:ident, $name:literal, $method:expr, $meaning:literal;)+) => {
         $(mod $file; pub use $file::$Type;)+
@@ -34,7 +30,7 @@ macro_rules! integrators {
         pub enum Integrator { $(#[doc = concat!($meaning, ".")] $Type,)+ }
 
         impl Integrator {
-            /// All integrators, in the order in which they are listed to a user.
+            /// All integrators, in the order of lists for a user.
             pub const ALL: &'static [Integrator] = &[$(Integrator::$Type),+];
 
             /// The name in campaign files and tables.
@@ -65,7 +61,7 @@ pub use dormand_prince::DormandPrinceRestepped;
 mod still;
 
 impl Integrator {
-    /// Whether it takes steps of a fixed length (`integrator.step_s`) instead of following the tolerance.
+    /// True if it takes fixed steps (`integrator.step_s`) instead of following the tolerance.
     pub fn has_fixed_step(self) -> bool {
         struct HasFixedStep;
         impl Visitor for HasFixedStep {

@@ -14,7 +14,7 @@ pub struct RungeKutta4;
 impl FixedStep for RungeKutta4 {
     const REMAINDER: Remainder = Remainder { order: 4, factor: 1.0 };
 
-    /// The derivatives at the stages; the first is that at the start.
+    /// Derivatives at the stages; the first is that at the start.
     type Memory<R: Real, const N: usize> = [[R; N]; 4];
 
     #[inline(always)]
@@ -53,7 +53,7 @@ impl FixedStep for RungeKutta4 {
     }
 }
 
-/// Fills the stages after the first of `k` and takes the step; zero if it is sound, else not a number.
+/// Fills the stages of `k` after the first and takes the step; zero if it is sound, else NaN.
 #[inline(always)]
 fn finish<R: Real, Q: System<R, N>, const N: usize>(
     system: &Q,

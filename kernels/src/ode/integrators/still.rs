@@ -1,8 +1,8 @@
-//! For tests of dense output: a system whose right-hand side is zero.
+//! A system with a right-hand side of zero, for tests of dense output.
 
 use crate::ode::system::{System, Tolerance};
 
-/// A right-hand side that is not used: the stages are set by hand.
+/// Unused right-hand side: stages are set by hand.
 pub struct Still;
 impl<const N: usize> System<f64, N> for Still {
     fn derivative(&self, _time: f64, _state: &[f64; N]) -> [f64; N] {

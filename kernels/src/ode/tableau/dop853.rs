@@ -1,15 +1,10 @@
-//! Dormand-Prince 8(5,3): twelve stages, order 8, with embedded solutions of order 5 and 3 and dense output of order 7.
-//!
-//! Hairer, Norsett & Wanner 1993, *Solving Ordinary Differential Equations I*, 2nd ed., sections II.5, II.6 and II.10,
-//! in the digits of their code DOP853 (dop853.f, 2009 release). Every digit is checked by the order conditions in
-//! [`super`].
+//! Dormand-Prince 8(5,3): twelve stages, order 8, embedded solutions of order 5 and 3, dense output of order 7: Hairer,
+//! Norsett & Wanner 1993, *Solving Ordinary Differential Equations I*, 2nd ed., sections II.5, II.6 and II.10, in the
+//! digits of dop853.f (2009 release), checked by the order conditions in [`super`].
 
 use super::butcher::Tableau;
 
-/// The tableau; see the module.
-///
-/// Stage 12 is the derivative at the end of the step (the first stage of the next), 13 to 15 are only taken for dense
-/// output.
+/// The tableau. Stage 12 is the derivative at the end of the step, 13 to 15 serve dense output only.
 #[derive(Clone, Copy, Debug)]
 pub struct Dop853Tableau;
 

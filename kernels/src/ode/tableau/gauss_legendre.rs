@@ -1,14 +1,12 @@
-//! Gauss-Legendre collocation with three stages, order 6: Butcher 1964, *Implicit Runge-Kutta processes*;
-//! Kuntzmann 1961.
-//!
-//! Symmetric, symplectic, and with exact conservation of every quadratic invariant (Cooper 1987).
+//! Gauss-Legendre collocation with three stages, order 6: Butcher 1964, *Implicit Runge-Kutta processes*; Kuntzmann
+//! 1961. Symmetric, symplectic, conserves every quadratic invariant (Cooper 1987).
 
 use super::butcher::Tableau;
 
 /// sqrt(15), correctly rounded.
 const ROOT_15: f64 = 3.872983346207417;
 
-/// The tableau; see the module.
+/// The tableau.
 #[derive(Clone, Copy, Debug)]
 pub struct GaussLegendreTableau;
 

@@ -3,7 +3,7 @@
 
 use super::butcher::Tableau;
 
-/// The tableau; see the module.
+/// The tableau.
 #[derive(Clone, Copy, Debug)]
 pub struct RungeKutta4Tableau;
 

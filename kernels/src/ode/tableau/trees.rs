@@ -5,7 +5,6 @@
 struct Tree(Vec<Tree>);
 
 impl Tree {
-    /// Number of nodes.
     fn order(&self) -> usize {
         1 + self.0.iter().map(Tree::order).sum::<usize>()
     }
@@ -15,7 +14,7 @@ impl Tree {
         self.order() as f64 * self.0.iter().map(Tree::density).product::<f64>()
     }
 
-    /// The products over the branches, stage by stage: the elementary weight is their sum with the weights b.
+    /// Products over the branches by stage; their sum with the weights b is the elementary weight.
     fn stages<const S: usize>(&self, a: &[[f64; S]; S]) -> [f64; S] {
         let mut product = [1.0; S];
         for branch in &self.0 {
@@ -32,7 +31,7 @@ impl Tree {
 fn trees(order: usize) -> Vec<Vec<Tree>> {
     let mut all: Vec<Vec<Tree>> = vec![Vec::new()];
     for nodes in 1..=order {
-        // Multisets of branches of nodes - 1 nodes in all: branches in the order of (size, index), never decreasing.
+        // multisets of branches with nodes - 1 nodes in all, in nondecreasing order of (size, index)
         let mut of_order = Vec::new();
         let mut open = vec![(Vec::new(), nodes - 1, (1, 0))];
         while let Some((branches, left, (size, index))) = open.pop() {
