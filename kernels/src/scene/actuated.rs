@@ -1,9 +1,9 @@
-//! [`Actuated`]: what does work on a spacecraft, or changes its momentum, at any time of a run.
+//! [`Actuated`]: actuation that does work on a spacecraft, or changes its momentum, at any time of a run.
 
 use super::input::SceneInput;
 use super::schema::{Device, FailureInput, WheelInput, WheelMode};
 
-/// What acts on a spacecraft at some time of a run.
+/// Kinds of actuation at any time of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Actuated {
     /// Thrusters: the schedule commands a thrust, or one may be stuck on.
@@ -20,7 +20,7 @@ impl Actuated {
     /// Everything acts, as under a control law.
     pub const ALL: Actuated = Actuated { thrusters: true, motors: true, body_torque: true };
 
-    /// What acts on the scenes of `input`.
+    /// Actuation of the scenes of `input`.
     pub fn of(input: &SceneInput) -> Self {
         let is_held = |wheel: &WheelInput| wheel.mode == WheelMode::SpeedHeld;
         let commands = |numbers: &[f64]| numbers.iter().any(|number| *number != 0.0);
@@ -33,7 +33,7 @@ impl Actuated {
         }
     }
 
-    /// What acts of both.
+    /// The union of both.
     #[must_use]
     pub const fn and(self, other: Actuated) -> Self {
         Actuated {
@@ -43,12 +43,12 @@ impl Actuated {
         }
     }
 
-    /// Whether anything acts.
+    /// True if anything acts.
     pub const fn any(self) -> bool {
         self.thrusters || self.motors || self.body_torque
     }
 
-    /// Whether a torque from outside of the spacecraft acts.
+    /// True if an external torque acts.
     pub const fn external(self) -> bool {
         self.thrusters || self.body_torque
     }
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
     use crate::scene::ActuationInput;
 
-    /// Law: each kind of actuation is known by what the scene commands, and an arc without commands is none.
+    /// Law: each kind follows from the commands of the scene; an arc without commands has none.
     #[test]
     fn what_acts_is_what_is_commanded() {
         let report = SceneInput::report;

@@ -1,15 +1,14 @@
-//! Directions in F_s as written, and their alignment errors.
+//! Directions in F_s and their alignment errors.
 
 use crate::math::Real;
 use crate::math::vector::{constant, cross, dot, norm, scaled, sum};
 
-/// The unit vector along `direction` (need not have length one), turned by the alignment error `tilt` (rad), in the
-/// number type of `one`.
+/// The unit vector along `direction` (of any length), turned by the alignment error `tilt` (rad), in the type of `one`.
 ///
-/// `tilt` are the components, along [`across`], of the rotation vector theta that turns the nominal direction a_0 into
-/// the true one: a = cos|theta| a_0 + sin|theta|/|theta| theta x a_0 (O. Rodrigues, *Des lois geometriques qui
-/// regissent les deplacements d'un systeme solide*, 1840). The angle is good to `f64`, the length to all digits of the
-/// type; without a tilt an axis of F_s is exact.
+/// `tilt` are components along [`across`] of the rotation vector theta from the nominal direction a_0 to the true one:
+/// a = cos|theta| a_0 + sin|theta|/|theta| theta x a_0 (O. Rodrigues, *Des lois geometriques qui regissent les
+/// deplacements d'un systeme solide*, 1840). The angle is good to `f64`, the length to all digits of the type; without
+/// a tilt an axis of F_s is exact.
 pub fn aligned<R: Real>(direction: [f64; 3], tilt: [f64; 2], one: R) -> [R; 3] {
     if tilt == [0.0; 2] {
         let written = constant(one, direction);
@@ -23,9 +22,8 @@ pub fn aligned<R: Real>(direction: [f64; 3], tilt: [f64; 2], one: R) -> [R; 3] {
     turned(nominal(direction), theta, one)
 }
 
-/// The two unit vectors of F_s along which an alignment error of `direction` is written: across an axis of F_s the two
-/// others, in their order; across an oblique direction a the axis of F_s that is farthest from it, made orthogonal to
-/// it, and a x that.
+/// Two unit vectors of F_s for an alignment error of `direction`: for an axis of F_s the two others, in order; for an
+/// oblique direction a the axis of F_s farthest from it, orthogonalised, and a x that.
 pub fn across(direction: [f64; 3]) -> [[f64; 3]; 2] {
     if let Some((axis, _)) = along_axis(direction) {
         let others = [[1, 2], [0, 2], [0, 1]][axis];
@@ -39,7 +37,7 @@ pub fn across(direction: [f64; 3]) -> [[f64; 3]; 2] {
     [first, cross(a, first)]
 }
 
-/// The unit vector `axis` turned by the rotation vector `theta`, which is across it, rad.
+/// The unit vector `axis` turned by the rotation vector `theta`, normal to it, rad.
 fn turned<R: Real>(axis: [f64; 3], theta: [f64; 3], one: R) -> [R; 3] {
     let angle = dot(theta, theta).sqrt();
     let (sine, cosine) = libm::sincos(angle);
@@ -47,7 +45,7 @@ fn turned<R: Real>(axis: [f64; 3], theta: [f64; 3], one: R) -> [R; 3] {
     scaled(one / norm(turned), turned)
 }
 
-/// The index of the axis of F_s that `direction` is along, and its sign; `None` of an oblique one.
+/// Index and sign of the axis of F_s along `direction`; `None` for an oblique one.
 fn along_axis(direction: [f64; 3]) -> Option<(usize, f64)> {
     let mut along = (0..3).filter(|i| direction[*i] != 0.0);
     match (along.next(), along.next()) {
@@ -56,14 +54,12 @@ fn along_axis(direction: [f64; 3]) -> Option<(usize, f64)> {
     }
 }
 
-/// `sign` times the axis `axis` of F_s.
 fn unit(axis: usize, sign: f64) -> [f64; 3] {
     let mut unit = [0.0; 3];
     unit[axis] = sign;
     unit
 }
 
-/// The unit vector along `direction`.
 fn nominal(direction: [f64; 3]) -> [f64; 3] {
     match along_axis(direction) {
         Some((axis, sign)) => unit(axis, sign),
@@ -88,11 +84,10 @@ mod tests {
             (s3, [0.0, 0.3], [0.3f64.sin(), 0.0, 0.3f64.cos()]),
         ] {
             let axis = aligned(axis, tilt, 1.0);
-            // an ulp of each entry: the expected ones are rounded too; measured: 2.3e-16
+            // an ulp of each entry, with rounded expectations; measured: 2.3e-16
             assert!(norm(difference(axis, expected)) < 4e-16, "{axis:?} {expected:?}");
         }
         let axis = aligned(s3, [0.3, -0.4], 1.0);
-        // an ulp or two; measured: none, and 1.1e-16 below
         assert!((axis[2] - 0.5f64.cos()).abs() < 4e-16, "the angle is the length of the vector");
         assert!((axis[1] / axis[0] - 0.75).abs() < 4e-16, "{axis:?}");
     }
@@ -105,12 +100,11 @@ mod tests {
         for (x, y, expected) in
             [(a, first, 0.0), (a, second, 0.0), (first, second, 0.0), (first, first, 1.0), (a, a, 1.0)]
         {
-            // some roundings of products of size one; measured: 2.2e-16
+            // roundings of products of size one; measured: 2.2e-16
             assert!((dot(x, y) - expected).abs() < 4e-16);
         }
         assert!(norm(difference(cross(a, first), second)) < 4e-16, "right-handed");
         let turned = aligned(direction, [0.02, 0.05], 1.0);
-        // the same; measured: 1.1e-16
         assert!((dot(a, turned) - 0.02f64.hypot(0.05).cos()).abs() < 4e-16);
     }
 }

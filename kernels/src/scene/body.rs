@@ -1,7 +1,6 @@
-//! Rigid bodies from their input: the parts of the spacecraft's body, the body as a whole, the debris.
-//!
-//! Source: Berdoz, *Final Report - ADR Spacecraft*, (60)-(67) for the solids ([`super::solids`]). Bodies are put
-//! together by sums over pairs, as in [`super::mass`].
+//! Rigid bodies from their input: parts of the spacecraft's body, the body as a whole, the debris. Solids: Berdoz,
+//! *Final Report - ADR Spacecraft*, (60)-(67), in [`super::solids`]; bodies are joined by sums over pairs, as in
+//! [`super::mass`].
 
 use super::input::SceneInput;
 use super::schema::{DebrisInput, MAX_WHEELS, PartInput, PartShape, WheelMode};
@@ -17,7 +16,7 @@ use crate::math::vector::{constant, constant_quaternion, dcm_from_quaternion, di
 pub const MAX_PARTS: usize = 32;
 
 impl<R: Real> Body<R> {
-    /// The first moment of mass c = m r about the frame's origin, kg m.
+    /// First moment of mass c = m r about the frame's origin, kg m.
     pub fn first_moment(&self) -> [R; 3] {
         scaled(self.mass, self.center)
     }
@@ -30,7 +29,7 @@ impl<R: Real> Body<R> {
     /// A part of the body, in F_s (60)-(67).
     pub fn part(part: &PartInput, one: R) -> Self {
         let k = |value: Option<f64>| one.splat(value.unwrap_or(f64::NAN));
-        // where the mass is given, any density gives the right shape
+        // with a given mass any density gives the right shape
         let density = if part.mass_kg.is_some() { one } else { k(part.density_kg_m3) };
         let mut body = match part.shape {
             PartShape::HollowCylinder => {
@@ -63,23 +62,22 @@ impl<R: Real> Body<R> {
         }
     }
 
-    /// A unit mass at the origin.
     fn point(one: R) -> Self {
         Body { mass: one, center: [one.zero(); 3], inertia: [[one.zero(); 3]; 3] }
     }
 
-    /// The same shape with another mass.
+    /// The same shape with the mass `mass`.
     fn of_mass(self, mass: R) -> Self {
         let ratio = mass / self.mass;
         Body { mass, inertia: self.inertia.map(|row| scaled(ratio, row)), ..self }
     }
 
-    /// Rigid bodies put together, at least one: sums over pairs, without a difference with the common centre.
+    /// At least one rigid body, joined by sums over pairs, without differences from the common centre.
     fn together(bodies: &[Self]) -> Self {
         let Some((first, others)) = bodies.split_first() else { unreachable!("there is at least one body") };
         let mass =
             others.iter().map(|body| body.mass).reduce(|a, b| a + b).map_or(first.mass, |mass| first.mass + mass);
-        // from the first centre, so that equal masses on both sides of it move nothing, to the last bit
+        // from the first centre, so that equal masses on both sides move nothing, to the last bit
         let shift = |body: &Self| scaled(body.mass / mass, difference(body.center, first.center));
         let center = others.iter().map(shift).reduce(sum).map_or(first.center, |shift| sum(first.center, shift));
         let mut inertia = first.inertia;
@@ -95,18 +93,17 @@ impl<R: Real> Body<R> {
         Body { mass, center, inertia }
     }
 
-    /// The body of `input`: its parts together, what is given in their place, and its errors.
+    /// The body of `input`: its parts, the overrides, its errors.
     ///
-    /// Where only the mass is given, the inertia of the parts scales with it (same shape, another density); a centre of
-    /// mass that is given moves the centre and leaves the inertia about it as it was. Errors come last. Where the mass
-    /// properties include the wheels, these are taken out. The wheels that are locked are put in.
+    /// A mass alone scales the inertia of the parts; a centre of mass moves the centre and leaves the inertia about it
+    /// unchanged; errors come last. Wheels are removed if the mass properties include them; locked wheels are added.
     pub fn of_input(input: &SceneInput, one: R) -> Self {
         let (body, k) = (&input.body, |value: f64| one.splat(value));
         let mut whole = match &input.parts[..] {
             [] => Body::point(one),
             [part] => Body::part(part, one),
             parts => {
-                // in place: every sample puts its parts together, without allocating
+                // in place: every sample joins its parts without allocation
                 let mut bodies = List::<Self, MAX_PARTS>::empty(Body::point(one));
                 parts.iter().for_each(|part| bodies.push(Body::part(part, one)));
                 Body::together(&bodies)
@@ -141,7 +138,7 @@ impl<R: Real> Body<R> {
         Body::together(&bodies)
     }
 
-    /// What is left without `part`.
+    /// The body without `part`.
     fn without(self, part: &Self) -> Self {
         let one = self.mass.splat(1.0);
         let mass = self.mass - part.mass;
@@ -173,11 +170,9 @@ mod tests {
     use super::*;
     use crate::math::vector::norm;
 
-    /// Four or five roundings of positive terms; none is measured.
     const ULPS: f64 = 1e-15;
 
-    /// Law: parts together have the inertia that the theorem of parallel axes gives, whatever their attitude; halves of
-    /// a box are the box.
+    /// Law: joined parts have the inertia by parallel axes, at any attitude; halves of a box are the box.
     #[test]
     fn halves_of_a_box_are_the_box() {
         let part = |size: [f64; 3], position_m: [f64; 3], attitude: [f64; 4]| PartInput {
@@ -201,8 +196,7 @@ mod tests {
             assert!((halves.mass / whole.mass - 1.0).abs() <= ULPS);
             assert!(norm(difference(halves.center, whole.center)) < 1e-15);
             for i in 0..3 {
-                // the sums over pairs and the turned tensor: some roundings of entries up to the largest; measured:
-                // 8.5e-17, and 3.4e-16 below
+                // roundings of entries up to the largest; measured: 8.5e-17, and 3.4e-16 below
                 assert!(norm(difference(halves.inertia[i], whole.inertia[i])) < 1e-15 * whole.inertia[2][2]);
             }
         }

@@ -1,7 +1,6 @@
-//! What makes a scene physical beyond the limits of single keys, which [`super::schema`] states.
-//!
-//! `written` checks what was written, `derived` what follows from it (masses and inertias that overflow, vanish or are
-//! not positive definite). Both only collect problems, so that one check of an input finds them all.
+//! Conditions on a scene beyond the limits of single keys ([`super::schema`]). `written` checks the input, `derived`
+//! its consequences (masses and inertias that overflow, vanish or are not positive definite). Both collect problems, so
+//! that one check finds them all.
 
 use super::error::Problems;
 use super::input::SceneInput;
@@ -15,11 +14,10 @@ use super::table::Table;
 use crate::math::symmetric::{is_positive_definite, principal_axes};
 use crate::math::vector::{difference, norm};
 
-/// Largest mass (kg) and moment of inertia (kg m^2) of a body: the product of two of them, as sums over pairs and
-/// determinants have it, is finite.
+/// Largest mass (kg) and moment of inertia (kg m^2): products of two, in sums over pairs and determinants, are finite.
 const LARGEST: f64 = 1e150;
 
-/// Collects what the magnetic field of `input` needs and does not have.
+/// Checks the needs of the magnetic field.
 fn magnetic_field(input: &SceneInput, problems: &mut Problems) {
     let Some(model) = input.environment.magnetic_field else {
         if let Some(dipole) = input.environment.magnetic_dipole_a_m2 {
@@ -53,7 +51,7 @@ fn magnetic_field(input: &SceneInput, problems: &mut Problems) {
     }
 }
 
-/// Collects what is wrong with the numbers as written.
+/// Checks the numbers of the input.
 pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     let has_debris = input.debris.is_some();
     input.body.check_all(problems);
@@ -118,7 +116,7 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     }
 }
 
-/// Collects what the initial state has relative to the local orbital frame, without an orbit.
+/// Refuses states relative to the local orbital frame without an orbit.
 fn states_of_an_orbit(initial: &InitialInput, problems: &mut Problems) {
     let mut refuse = |key: &str, numbers: &[f64]| {
         let remedy = "add an [orbit] table, or delete this line";
@@ -132,8 +130,7 @@ fn states_of_an_orbit(initial: &InitialInput, problems: &mut Problems) {
     }
 }
 
-/// Collects what the initial state has twice: in F_e and relative to the local orbital frame, or, of debris, relative
-/// to the spacecraft.
+/// Refuses states given twice: in F_e and relative to the local orbital frame, or, for debris, to the spacecraft.
 fn states_written_twice(initial: &InitialInput, has_debris: bool, problems: &mut Problems) {
     let default = InitialInput::DEFAULT;
     let mut refuse = |key: &str, numbers: &[f64], other: &str| {
@@ -160,7 +157,7 @@ fn states_written_twice(initial: &InitialInput, has_debris: bool, problems: &mut
     }
 }
 
-/// Collects what keeps the walls of a hollow cylinder from enclosing a volume.
+/// Checks that the walls of a hollow cylinder enclose a volume.
 fn walls(part: &PartInput, problems: &mut Problems) {
     let (Some(wall), Some(radius), Some(length)) = (part.wall_thickness_m, part.outer_radius_m, part.length_m) else {
         return;
@@ -177,7 +174,7 @@ fn walls(part: &PartInput, problems: &mut Problems) {
     }
 }
 
-/// A body about an axis of symmetry: the axial moment is at most twice the transverse one.
+/// Checks that the axial moment of a wheel is at most twice the transverse one, as for any body of revolution.
 fn wheel_inertia(wheel: &WheelInput, problems: &mut Problems) {
     let (Some(axial), Some(transverse)) = (wheel.axial_inertia_kg_m2, wheel.transverse_inertia_kg_m2) else { return };
     if transverse > 0.0 && axial > 2.0 * transverse * (1.0 + INERTIA_SLACK) {
@@ -190,7 +187,6 @@ fn wheel_inertia(wheel: &WheelInput, problems: &mut Problems) {
     }
 }
 
-/// Collects what is wrong with the schedule.
 fn arcs(input: &SceneInput, problems: &mut Problems) {
     let mut previous_end = 0.0;
     for (i, arc) in input.actuation.iter().enumerate() {
@@ -219,7 +215,7 @@ fn arcs(input: &SceneInput, problems: &mut Problems) {
     }
 }
 
-/// Collects thrusts below zero of arc `index`, and motor torques on wheels that take none.
+/// Refuses negative thrusts in arc `index`, and motor torques on wheels that take none.
 fn commands(input: &SceneInput, index: usize, problems: &mut Problems) {
     let arc = &input.actuation[index];
     for (thruster, thrust) in input.thrusters.iter().zip(arc.thrust_n) {
@@ -254,8 +250,8 @@ fn commands(input: &SceneInput, index: usize, problems: &mut Problems) {
     }
 }
 
-/// Collects where delays make arcs end before they start, or overlap. Only the first is reported: most delays are
-/// common to all. The key is that of the arc where its own delays, or the next one's, do it.
+/// Checks for arcs that end before they start, or overlap, because of delays. Only the first is reported, since most
+/// delays are common. The key is that of the arc if its own delays, or the next arc's, are the cause.
 fn switches(input: &SceneInput, problems: &mut Problems) {
     let delays = &input.actuators;
     let commanded = |index: usize| {
@@ -289,7 +285,7 @@ fn switches(input: &SceneInput, problems: &mut Problems) {
     }
 }
 
-/// Collects what is wrong with what follows from an input whose numbers all passed.
+/// Checks the consequences of an input whose numbers are valid.
 pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut Problems) {
     let is_normal = |value: f64| (f64::MIN_POSITIVE..=LARGEST).contains(&value);
     let mut body = |key: &dyn Fn() -> String, mass: f64, moments: [f64; 3]| {
@@ -330,7 +326,7 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
     }
 }
 
-/// What is left of mass properties that include the wheels is a body.
+/// Checks that mass properties which include the wheels leave a body.
 fn without_wheels(input: &SceneInput, own: f64, inertia: [[f64; 3]; 3], problems: &mut Problems) -> bool {
     if !(own.is_finite() && own > 0.0) {
         let allowed = "such that the body without its wheels has a mass above zero (the value shown, kg)";
@@ -362,8 +358,8 @@ fn without_wheels(input: &SceneInput, own: f64, inertia: [[f64; 3]; 3], problems
     true
 }
 
-/// The centre of mass as written, with its distance from the farthest wheel, m, where that is beyond the size of any
-/// body of that mass and inertia: three times the largest radius of gyration.
+/// Centre of mass and its distance from the farthest wheel, m, if beyond any body of that mass and inertia: three times
+/// the largest radius of gyration.
 fn distant_centre(input: &SceneInput) -> Option<([f64; 3], f64)> {
     let (centre, mass, tensor) = (input.body.center_of_mass_m?, input.body.mass_kg?, input.body.inertia_kg_m2?);
     let (moments, _) = principal_axes(tensor);
@@ -373,7 +369,7 @@ fn distant_centre(input: &SceneInput) -> Option<([f64; 3], f64)> {
     (arm > 3.0 * gyration).then_some((centre, arm))
 }
 
-/// J* resists every change of omega, or the motion is not determined.
+/// Checks that J* is positive definite, or the motion is undetermined.
 fn free_inertia(overridden: bool, mass: &MassProperties, problems: &mut Problems) {
     let finite = mass.inertia.iter().flatten().all(|entry| entry.is_finite()) && mass.total.is_finite();
     if !finite || !is_positive_definite(mass.inertia_free) {

@@ -1,9 +1,8 @@
-//! [`Epoch`]: the instant in UTC at which a run starts, where its environment depends on the date.
+//! [`Epoch`]: the instant in UTC at which a run starts, for environments that depend on the date.
 
 use core::fmt;
 
-/// An instant in UTC. Days have 86,400 s: a leap second has no name here, and the seconds of a run are counted as if
-/// there were none.
+/// An instant in UTC. Days have 86,400 s, without leap seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Epoch {
     /// Days from 2000-01-01 to the date.
@@ -15,18 +14,17 @@ pub struct Epoch {
 }
 
 impl Epoch {
-    /// What an epoch is in a file.
+    /// Description of an epoch in a file.
     pub const ALLOWED: &'static str =
         "a date and time in UTC like \"2026-11-24T00:00:00Z\", of the years 1900 to 2100, the seconds below 60";
 
-    /// The years that are accepted, both included: those of polynomials in time that were fitted to observations.
+    /// Accepted years, inclusive, of polynomials in time fitted to observations.
     const YEARS: [i32; 2] = [1900, 2100];
 
     /// Julian date of 2000-01-01T00:00:00.
     const JULIAN_DATE: f64 = 2_451_544.5;
 
-    /// The instant that `text` writes as `2026-11-24T00:00:00Z`, the seconds with any number of decimals; `None` where
-    /// it is none.
+    /// Parses `2026-11-24T00:00:00Z`, with any number of decimals.
     pub fn parse(text: &str) -> Option<Self> {
         let (date, time) = text.strip_suffix('Z')?.split_once('T')?;
         let digits = |text: &str, count: usize| -> Option<i32> {
@@ -44,14 +42,14 @@ impl Epoch {
         digits(decimals, decimals.len().max(1))?;
         let second: f64 = second.parse().ok()?;
         let day = day_of(year, month, day)?;
-        // a day that its month does not have is another date
+        // a day beyond its month is another date
         let is_date = date_of(day) == (year, month, date[8..].parse().ok()?);
         let is_time = hour < 24 && minute < 60 && second < 60.0;
         let is_known = (Self::YEARS[0]..=Self::YEARS[1]).contains(&year);
         (is_date && is_time && is_known).then(|| Epoch { day, minute: (60 * hour + minute) as u16, second })
     }
 
-    /// Julian date in UTC: that of the midnight before, and the part of a day since then.
+    /// Julian date in UTC: that of the midnight before, and the fraction of the day.
     pub fn julian_date(self) -> [f64; 2] {
         [Self::JULIAN_DATE + f64::from(self.day), (60.0 * f64::from(self.minute) + self.second) / 86_400.0]
     }
@@ -62,7 +60,7 @@ impl Epoch {
         (midnight - 2_451_545.0) + part
     }
 
-    /// The date as a year with its decimals: the year, and the part of it that has passed.
+    /// The date as a year with its elapsed fraction.
     pub fn decimal_year(self) -> f64 {
         let (year, ..) = date_of(self.day);
         let start = |year| day_of(year, 1, 1).unwrap_or_default();
@@ -81,7 +79,7 @@ impl fmt::Display for Epoch {
     }
 }
 
-/// Days from 2000-01-01 to a date of the Gregorian calendar; `None` for a month or day that no year has.
+/// Days from 2000-01-01 to a date of the Gregorian calendar; `None` for an impossible month or day.
 fn day_of(year: i32, month: i32, day: i32) -> Option<i32> {
     if !(1..=12).contains(&month) || !(1..=31).contains(&day) {
         return None;
@@ -93,8 +91,8 @@ fn day_of(year: i32, month: i32, day: i32) -> Option<i32> {
     Some(days + (153 * month + 2) / 5 + day - 1 - 730_425)
 }
 
-/// Year, month and day of a number of days since 2000-01-01 (E. G. Richards, Explanatory Supplement to the Astronomical
-/// Almanac, 2013, 15.11).
+/// Year, month and day from days since 2000-01-01 (E. G. Richards, Explanatory Supplement to the Astronomical Almanac,
+/// 2013, 15.11).
 pub fn date_of(day: i32) -> (i32, i32, i32) {
     let julian = day + 2_451_545;
     let f = julian + 1401 + (4 * julian + 274_277) / 146_097 * 3 / 4 - 38;
@@ -108,7 +106,7 @@ pub fn date_of(day: i32) -> (i32, i32, i32) {
 mod tests {
     use super::*;
 
-    /// Law: Julian dates are those of SOFA's `cal2jd`; what is written is read again.
+    /// Law: Julian dates are those of SOFA's `cal2jd`; printed dates parse.
     #[test]
     fn dates_are_those_of_the_calendar() {
         for (text, midnight, part, year) in [
@@ -134,7 +132,7 @@ mod tests {
         assert_eq!(j2000.days_since_j2000(), 0.0);
     }
 
-    /// Law: each day of 1900 to 2100 follows the one before, and has its own date.
+    /// Law: each day of 1900 to 2100 has its own date, after the one before.
     #[test]
     fn every_day_has_its_date() {
         let first = day_of(1900, 1, 1).expect("a date");

@@ -1,29 +1,27 @@
-//! [`SceneError`]: one reason why a scene is not physical, with the key to fix.
+//! [`SceneError`]: a problem of a scene, with the key to fix.
 
 use std::borrow::Cow;
 
-/// One problem of a scene: which key, which value, what is allowed, what to do.
-///
-/// The reader of campaign files adds file and line; the texts here never contain them.
+/// One problem of a scene: key, value, allowed values, remedy. File and line are added by the reader of campaign files.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{key} = {value}: must be {allowed}; {remedy}")]
 pub struct SceneError {
     /// The dotted path as in a campaign file, e.g. `body.parts.b1.length_m` or `actuation[1].start_s`.
     pub key: Cow<'static, str>,
-    /// The value or values that were refused.
+    /// The refused value or values.
     pub value: String,
-    /// What is allowed, with the numbers that bound it.
+    /// Allowed values, with bounds.
     pub allowed: String,
     /// What to change.
     pub remedy: &'static str,
 }
 
-/// The problems of one input, gathered; without one, nothing is allocated.
+/// The problems of one input; without one, nothing is allocated.
 #[derive(Default)]
 pub(super) struct Problems(pub(super) Vec<SceneError>);
 
 impl Problems {
-    /// Notes a problem. Out of line: a scene without one then runs through its checks without a jump.
+    /// Adds a problem. Out of line, so that a valid scene passes its checks without a jump.
     #[cold]
     #[inline(never)]
     pub(super) fn add(

@@ -1,11 +1,10 @@
-//! Failures of wheels and thrusters in a schedule: from their time on, the devices apply something else than what is
-//! commanded.
+//! Failures of wheels and thrusters in a schedule: from their time on, devices deviate from commands.
 
 use super::schedule::{Actuation, Arc};
 use super::schema::failure::{Device, FailureInput};
 
-/// Lets `failures` act on `schedule`: arcs end at the time of a failure, and a thruster that is stuck on pushes between
-/// the arcs, too. Under a control loop, `has_loop`, its models of the motors know the failures of wheels.
+/// Applies `failures` to `schedule`: arcs end at a failure, and a thruster that is stuck on also acts between arcs.
+/// Under a control loop, `has_loop`, its models of the motors handle failures of wheels.
 pub(super) fn apply(failures: &[FailureInput], has_loop: bool, schedule: &mut Vec<Arc>) {
     for failure in failures {
         match failure.device {
@@ -29,7 +28,7 @@ pub(super) fn apply(failures: &[FailureInput], has_loop: bool, schedule: &mut Ve
     }
 }
 
-/// Ends the arc that acts at `time`, and begins the same there.
+/// Splits the arc at `time`.
 fn split(schedule: &mut Vec<Arc>, time: f64) {
     if let Some(index) = schedule.iter().position(|arc| arc.start < time && time < arc.end()) {
         let rest = Arc { start: time, ..schedule[index] };
@@ -38,7 +37,7 @@ fn split(schedule: &mut Vec<Arc>, time: f64) {
     }
 }
 
-/// Fills the gaps of `schedule` from `time` on, and what follows its last arc, with arcs in which nothing acts.
+/// Fills the gaps of `schedule` from `time` on, and the time after its last arc, with idle arcs.
 fn fill(schedule: &mut Vec<Arc>, time: f64) {
     let mut end = time;
     let mut index = schedule.partition_point(|arc| arc.end() <= time);
@@ -69,8 +68,8 @@ mod tests {
         vec![arc(1.0, 2.0, 3.0), arc(4.0, 6.0, -4.0)]
     }
 
-    /// Law: at every time, what is applied is what was scheduled, and from the failure on that of the failed device
-    /// alone is another; arcs stay in order and end at the failure.
+    /// Law: at every time the applied values are the scheduled ones, except those of the device after its failure; arcs
+    /// stay in order and end at the failure.
     #[test]
     fn what_a_failed_device_applies() {
         let wheel = FailureInput { device: Device::Wheel(0), torque_scale: Some(0.5), ..FailureInput::DEFAULT };

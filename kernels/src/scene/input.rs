@@ -1,8 +1,5 @@
-//! [`SceneInput`]: a scene as written, number by number, before anything is derived or checked.
-//!
-//! This is the content of a campaign file, and what a dispersion changes: plain SI numbers, no serde. The structures
-//! and their defaults come from [`super::schema`]. [`super::Scene::resolve`] turns a scene into a [`super::Scene`] or
-//! says why it is not physical.
+//! [`SceneInput`]: a scene as written, number by number, before derivation and checks: the content of a campaign file,
+//! changed by dispersions. Plain SI numbers, no serde; structures and defaults come from [`super::schema`].
 
 use super::name::Name;
 use super::schema::{
@@ -11,10 +8,8 @@ use super::schema::{
 };
 use crate::math::list::List;
 
-/// A scene as written: bodies, initial state, actuation.
-///
-/// The default is a box of 1 m and 100 kg/m^3 alone, at rest at the inertial origin, without wheels, thrusters, debris
-/// and actuation.
+/// A scene as written: bodies, initial state, actuation. By default a box of 1 m and 100 kg/m^3 at rest at the inertial
+/// origin, without devices, debris and actuation.
 ///
 /// ```
 /// # extern crate spindrift_kernels as spindrift;
@@ -44,19 +39,19 @@ pub struct SceneInput {
     pub debris: Option<DebrisInput>,
     /// The state at time zero.
     pub initial: InitialInput,
-    /// Arcs of constant thrust and torque, in order and not overlapping.
+    /// Arcs of constant thrust and torque, in order, not overlapping.
     pub actuation: Vec<ActuationInput>,
-    /// How late the actuators are.
+    /// Delays of the actuators.
     pub actuators: ActuatorsInput,
-    /// The orbit of the spacecraft, if it is in one.
+    /// The orbit of the spacecraft, if any.
     pub orbit: Option<OrbitInput>,
-    /// The plates that air and light push; where there are none, those of the parts.
+    /// Plates for air and light; by default those of the parts.
     pub plates: Vec<PlateInput>,
     /// Effects of the environment.
     pub environment: EnvironmentInput,
-    /// The parameters of the control law, if there is one.
+    /// Parameters of the control law, if any.
     pub control: ControlInput,
-    /// The devices that fail during a run.
+    /// Failures of devices during a run.
     pub failures: Vec<FailureInput>,
 }
 
@@ -74,7 +69,7 @@ impl Default for SceneInput {
 }
 
 impl SceneInput {
-    /// Nothing: no body, no wheels, no thrusters; at rest.
+    /// An empty scene at rest.
     pub const fn blank() -> Self {
         SceneInput {
             body: BodyInput::DEFAULT,
@@ -95,7 +90,7 @@ impl SceneInput {
     }
 
     /// The spacecraft of the paper (F. Berdoz, *Final Report - ADR Spacecraft*, Table II) at rest: a hollow cylinder,
-    /// the wheels w1 about s2 and w2 about s3, the thrusters p1, p2, p3; without debris.
+    /// wheels w1 about s2 and w2 about s3, thrusters p1, p2, p3; without debris.
     pub fn report() -> Self {
         let fuselage = PartInput {
             name: Name::of("fuselage"),
@@ -122,35 +117,35 @@ impl SceneInput {
         }
     }
 
-    /// The same scene with another wheel.
+    /// Adds a wheel.
     #[must_use]
     pub fn with_wheel(mut self, wheel: WheelInput) -> Self {
         self.wheels.push(wheel);
         self
     }
 
-    /// The same scene with another thruster.
+    /// Adds a thruster.
     #[must_use]
     pub fn with_thruster(mut self, thruster: ThrusterInput) -> Self {
         self.thrusters.push(thruster);
         self
     }
 
-    /// The same scene with debris.
+    /// Adds debris.
     #[must_use]
     pub fn with_debris(mut self, debris: DebrisInput) -> Self {
         self.debris = Some(debris);
         self
     }
 
-    /// The same scene with another arc at the end of its schedule.
+    /// Appends an arc to the schedule.
     #[must_use]
     pub fn with_actuation(mut self, arc: ActuationInput) -> Self {
         self.actuation.push(arc);
         self
     }
 
-    /// The names of the wheels that turn, in their order.
+    /// Names of the turning wheels, in order.
     pub fn turning_wheels(&self) -> List<Name, MAX_WHEELS> {
         let mut names = List::empty(Name::NONE);
         let turning = self.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);

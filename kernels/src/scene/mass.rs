@@ -1,10 +1,7 @@
-//! Mass properties of the spacecraft as a whole: its body ([`super::body`]) and the wheels that turn
-//! ([`super::wheel`]).
+//! Mass properties of the spacecraft: its body ([`super::body`]) and turning wheels ([`super::wheel`]).
 //!
-//! Sums over bodies use the distances between pairs, sum over i < j of m_i m_j / m times (r^2 1 - r r^T): no difference
-//! with the common centre, no cancellation.
-//!
-//! Generic over the number type, so that a reference solution in more digits starts from a J of as many digits.
+//! Sums over bodies use distances between pairs, sum over i < j of m_i m_j / m (r^2 1 - r r^T), without cancellation.
+//! Generic over the number type, for reference solutions in more digits.
 
 use super::input::SceneInput;
 use super::schema::{MAX_WHEELS, WheelMode};
@@ -18,9 +15,9 @@ use crate::math::vector::{difference, scaled, sum};
 /// Mass properties of all bodies and of the spacecraft, its body and wheels, as a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties<R = f64> {
-    /// The body: everything but the wheels that turn.
+    /// The body without turning wheels.
     pub body: Body<R>,
-    /// The wheels that turn, in their order; a locked wheel is a part of the body.
+    /// Turning wheels, in order; a locked wheel is part of the body.
     pub wheels: List<Wheel<R>, MAX_WHEELS>,
     /// The debris D, if present.
     pub debris: Option<Body<R>>,
@@ -30,13 +27,12 @@ pub struct MassProperties<R = f64> {
     pub center: [R; 3],
     /// Inertia J of the spacecraft about c with wheels locked, F_s, kg m^2, by rows.
     pub inertia: [[R; 3]; 3],
-    /// J* = J - sum J_i a_i a_i^T, kg m^2, by rows: what resists a change of omega when the wheels turn freely.
+    /// J* = J - sum J_i a_i a_i^T, kg m^2, by rows: resists a change of omega with freely turning wheels.
     pub inertia_free: [[R; 3]; 3],
 }
 
 impl<R: Real> MassProperties<R> {
-    /// The mass properties of `input`, in the number type of `one`; meaningful where [`super::Scene::resolve`] accepts
-    /// the input.
+    /// Mass properties of `input` in the type of `one`; meaningful if [`super::Scene::resolve`] accepts the input.
     pub fn of(input: &SceneInput, one: R) -> Self {
         let body = Body::of_input(input, one);
         let mut wheels = List::empty(Wheel::blank(one));
@@ -47,7 +43,7 @@ impl<R: Real> MassProperties<R> {
 
         let wheel_mass = wheels.iter().map(|wheel| wheel.mass).reduce(|a, b| a + b);
         let total = wheel_mass.map_or(body.mass, |mass| body.mass + mass);
-        // from the body's centre, so that equal wheels on both sides of it move nothing, to the last bit
+        // from the body's centre, so that equal wheels on both sides move nothing, to the last bit
         let shift = |wheel: &Wheel<R>| scaled(wheel.mass / total, difference(wheel.center, body.center));
         let center = wheels.iter().map(shift).reduce(sum).map_or(body.center, |shift| sum(body.center, shift));
 
@@ -70,8 +66,7 @@ impl<R: Real> MassProperties<R> {
         MassProperties { body, wheels, debris, total, center, inertia, inertia_free }
     }
 
-    /// The same spacecraft with the inertia `inertia` about c, wheels locked, F_s, kg m^2; the axial inertias of the
-    /// wheels stay.
+    /// Replaces the inertia about c, wheels locked, F_s, kg m^2; keeps the axial inertias of the wheels.
     #[must_use]
     pub fn with_inertia(self, inertia: [[R; 3]; 3]) -> Self {
         let less = |sum: [[R; 3]; 3], part: [[R; 3]; 3]| std::array::from_fn(|i| difference(sum[i], part[i]));
@@ -79,7 +74,8 @@ impl<R: Real> MassProperties<R> {
         MassProperties { inertia, inertia_free, ..self }
     }
 
-    /// What resists a change of omega, kg m^2, by rows: J*, and the axial inertias of the wheels whose speed is held.
+    /// The inertia that resists a change of omega, kg m^2, by rows: J* plus the axial inertias of wheels of constant
+    /// speed.
     pub fn inertia_rotating(&self) -> [[R; 3]; 3] {
         let held = self.wheels.iter().filter(|wheel| wheel.mode == WheelMode::SpeedHeld);
         held.fold(self.inertia_free, |sum, wheel| matrix_sum(sum, wheel.axial_inertia()))
@@ -91,7 +87,7 @@ mod tests {
     use super::*;
     use crate::scene::samples;
 
-    /// The check values have 16 digits. Measured: 6.7e-16.
+    /// Check values have 16 digits; measured: 6.7e-16.
     const CHECK_TOLERANCE: f64 = 1e-15;
 
     fn assert_close(name: &str, value: f64, expected: f64) {
@@ -168,7 +164,7 @@ mod tests {
         assert_eq!(mass.center, mass.body.center);
     }
 
-    /// Law: a locked wheel is a part of the body; the whole is that with the wheel at rest.
+    /// Law: a locked wheel is part of the body; the whole is that with the wheel at rest.
     #[test]
     fn a_locked_wheel_belongs_to_the_body() {
         let free = MassProperties::of(&samples::table_two(), 1.0);
@@ -184,7 +180,7 @@ mod tests {
         assert_eq!(locked.inertia_free[1][1], locked.inertia[1][1], "nothing turns about s2");
     }
 
-    /// Law: mass properties that include the wheels give the same spacecraft as those without.
+    /// Law: mass properties with included wheels give the same spacecraft as those without.
     #[test]
     fn wheels_are_taken_out_of_what_includes_them() {
         let parts = MassProperties::of(&samples::table_two(), 1.0);
@@ -200,7 +196,6 @@ mod tests {
         for i in 0..3 {
             assert_close("inertia", whole.inertia[i][i], parts.inertia[i][i]);
             assert_close("J*", whole.inertia_free[i][i], parts.inertia_free[i][i]);
-            // some roundings of a centre of 1.5 m; none is measured
             assert!((whole.center[i] - parts.center[i]).abs() < 1e-15);
         }
     }

@@ -1,23 +1,15 @@
-//! Layer 1: what is simulated. Bodies to mass properties, actuators, initial state; validated, immutable, SI, no serde.
+//! Layer 1: the simulated scene: bodies to mass properties, actuators, initial state; validated, immutable, SI, no
+//! serde.
 //!
-//! - [`schema`]: one row for each numeric key: unit, meaning, default, limit, where it is.
-//! - [`input`]: the scene as written. [`table`]: where in it the tables of the schema are.
-//! - [`second_moment`]: inertia by second moments of mass, and errors of a distribution of mass.
-//! - [`solids`]: mass, centre and inertia of homogeneous solids (Berdoz's (60)-(67), in closed form).
-//! - [`body`]: the body of the spacecraft and the debris from their input. [`wheel`]: wheels that turn. `tensor`:
-//!   inertias by rows.
-//! - [`mass`]: mass properties of the whole. [`orbit`]: the orbit at time zero. [`epoch`]: its date.
-//! - [`parameter`]: the numeric keys that can be dispersed.
-//! - [`check`], [`error`]: what makes a scene physical beyond single keys, and the message where it is not.
-//!   `surroundings`: for air and light.
-//! - [`actuated`]: what acts on a spacecraft at any time of a run.
-//! - [`resolve`]: from an input to a [`Scene`].
-//! - [`plate`]: the plates that air and light push.
-//! - [`thruster`]: force and torque of thrusters. [`alignment`]: axes and directions, and their errors. [`name`]:
-//!   names.
-//! - [`unit_quaternion`]: the attitude that is used where one is written.
-//! - `failures`: what failures of actuators make of a schedule.
-//! - [`schedule`]: what the actuators make of the commands, and the arcs of constant actuation.
+//! - [`schema`]: one row per numeric key. [`input`]: the scene as written. [`table`]: positions of the schema's tables
+//!   in it. [`parameter`]: dispersable keys. [`resolve`]: from input to [`Scene`]. [`check`], [`error`],
+//!   `surroundings`: conditions beyond single keys. [`name`]: names.
+//! - [`solids`]: homogeneous solids (Berdoz's (60)-(67)). [`second_moment`]: second moments of mass, errors of a
+//!   distribution. [`body`], [`wheel`], `tensor`: bodies and wheels. [`mass`]: the whole.
+//! - [`orbit`], [`epoch`]: orbit and date. [`plate`]: plates for air and light. [`alignment`], [`unit_quaternion`]:
+//!   directions and attitudes.
+//! - [`schedule`]: arcs of constant actuation. [`thruster`]: forces and torques. [`actuated`]: kinds of actuation in a
+//!   run. `failures`: failures in a schedule.
 
 pub mod actuated;
 pub mod alignment;
@@ -67,7 +59,7 @@ pub use schema::{
 
 pub use thruster::Thruster;
 
-/// A physically valid scene: everything that a kernel starts from.
+/// A physically valid scene, the input of kernels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// Mass properties of all bodies and of the spacecraft as a whole.
@@ -78,63 +70,63 @@ pub struct Scene {
     pub thrusters: Vec<Thruster>,
     /// The torque rods.
     pub torque_rods: Vec<TorqueRod>,
-    /// Arcs of constant actuation as they are applied, in order, not overlapping, each with start < end.
+    /// Arcs of constant actuation as applied, in order, not overlapping, start < end.
     pub schedule: Vec<Arc>,
-    /// The orbit of the centre of mass; `None` where gravity is neglected.
+    /// Orbit of the centre of mass; `None` without gravity.
     pub orbit: Option<Orbit>,
-    /// The plates that air and light push, where one of them acts.
+    /// Plates, if air or light acts.
     pub plates: Vec<Plate>,
-    /// Where spacecraft and debris are relative to the orbit at time zero, where they may leave it.
+    /// Positions of spacecraft and debris relative to the orbit at time zero, if they may leave it.
     pub offsets: Option<Offsets>,
     /// Effects of the environment, as written.
     pub environment: EnvironmentInput,
-    /// Whether the schedule commands thrust at all, whatever the thrusters make of it.
+    /// True if the schedule commands thrust, whatever the thrusters apply.
     pub commands_thrust: bool,
-    /// The same of motor torque.
+    /// True if the schedule commands motor torque.
     pub commands_torque: bool,
-    /// What actuators make of the commands of a control law; those of the schedule have it.
+    /// Actuator models for commands of a control law; the schedule already includes them.
     pub actuators: ActuatorModels,
-    /// The devices that fail during a run; the schedule has what becomes of its arcs already.
+    /// Failures during a run; the schedule already includes them.
     pub failures: Vec<FailureInput>,
 }
 
-/// A torque rod: what a control law commands, and what it makes of it.
+/// A torque rod: limit and response.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TorqueRod {
     /// Axis in F_s, a unit vector, with its alignment error.
     pub axis: [f64; 3],
-    /// Largest dipole that is commanded, A m^2.
+    /// Largest commanded dipole, A m^2.
     pub limit: f64,
     /// Factor of the commanded dipole.
     pub scale: f64,
 }
 
-/// What the actuators make of the commands of a control law.
+/// Response of the actuators to commands of a control law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActuatorModels {
-    /// Those of the thrusters, in their order; ideal beyond.
+    /// Thrusters in order; ideal beyond.
     pub thrusters: [ThrusterModel; MAX_THRUSTERS],
-    /// Those of the wheels that turn, in their order; ideal beyond.
+    /// Turning wheels in order; ideal beyond.
     pub wheels: [WheelModel; MAX_WHEELS],
 }
 
-/// What a thruster makes of a command.
+/// Response of a thruster.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThrusterModel {
     /// Factor of the commanded thrust.
     pub thrust_scale: f64,
-    /// Largest thrust that is commanded, N; infinite without a limit.
+    /// Largest commanded thrust, N; infinite without a limit.
     pub max_thrust: f64,
     /// Shortest firing, s.
     pub min_on_time: f64,
 }
 
-/// What a motor and its bearing make of a command.
+/// Response of a motor and its bearing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelModel {
     /// Factor of the commanded torque.
     pub torque_scale: f64,
-    /// Torque added to the scaled torque whenever the commanded torque is not zero, N m.
+    /// Torque added to the scaled torque unless the command is zero, N m.
     pub torque_bias: f64,
     /// Largest torque, N m; infinite without a limit.
     pub torque_limit: f64,
@@ -168,7 +160,7 @@ impl ActuatorModels {
     pub const IDEAL: ActuatorModels =
         ActuatorModels { thrusters: [ThrusterModel::IDEAL; MAX_THRUSTERS], wheels: [WheelModel::IDEAL; MAX_WHEELS] };
 
-    /// Those of `input`.
+    /// Models of `input`.
     fn of(input: &SceneInput) -> Self {
         let mut models = Self::IDEAL;
         for (model, thruster) in models.thrusters.iter_mut().zip(&input.thrusters) {
@@ -224,8 +216,7 @@ impl Scene {
         thruster::force_s(&self.thrusters, thrust)
     }
 
-    /// Torque of the thrusts `thrust` (N, in the order of the thrusters) about the spacecraft's centre of mass c, in
-    /// F_s, N m (72).
+    /// Torque of the thrusts `thrust` (N, in order of the thrusters) about the centre of mass c, F_s, N m (72).
     pub fn thruster_torque_s(&self, thrust: [f64; MAX_THRUSTERS]) -> [f64; 3] {
         thruster::torque_s(&self.thrusters, thrust, self.mass.center)
     }

@@ -1,12 +1,12 @@
-//! [`Name`]: the name of a wheel, a thruster, a part or an arc, as campaign files write it.
+//! [`Name`]: name of a wheel, thruster, part or arc.
 
 use std::fmt::{self, Debug, Display, Formatter};
 
 /// Largest number of letters of a name.
 pub const MAX_LETTERS: usize = 23;
 
-/// A name: a lower-case letter, then lower-case letters, digits and underscores. In place, so that scenes are copied
-/// without allocating.
+/// A lower-case letter, then lower-case letters, digits and underscores; in place, so that scenes are copied without
+/// allocation.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Name {
     bytes: [u8; MAX_LETTERS],
@@ -14,14 +14,14 @@ pub struct Name {
 }
 
 impl Name {
-    /// No name: of a table that is there once.
+    /// No name, for tables without instances.
     pub const NONE: Name = Name { bytes: [0; MAX_LETTERS], len: 0 };
 
-    /// What a name must be, to follow "must be".
+    /// Description after "must be".
     pub const ALLOWED: &'static str =
         "a name of at most 23 lower-case letters, digits and underscores that starts with a letter";
 
-    /// The name `text`, where it is one.
+    /// The name `text`, if valid.
     pub const fn new(text: &str) -> Option<Name> {
         let text = text.as_bytes();
         if text.is_empty() || text.len() > MAX_LETTERS || !text[0].is_ascii_lowercase() {
@@ -39,10 +39,10 @@ impl Name {
         Some(Name { bytes, len: text.len() as u8 })
     }
 
-    /// The name `text` of a table that is written in the source.
+    /// The name `text`, known at compile time.
     ///
     /// # Panics
-    /// Where it is no name.
+    /// If it is invalid.
     pub const fn of(text: &str) -> Name {
         match Name::new(text) {
             Some(name) => name,
@@ -50,7 +50,7 @@ impl Name {
         }
     }
 
-    /// The digits of `number`, the name of one of a list without names; no other name starts with a digit.
+    /// The digits of `number`, for lists without names; other names do not start with a digit.
     pub fn number(number: usize) -> Name {
         let mut name = Name::NONE;
         for digit in number.to_string().bytes().take(MAX_LETTERS) {

@@ -1,7 +1,5 @@
-//! [`Orbit`]: the orbit of a scene at time zero, from position and velocity or from Keplerian elements.
-//!
-//! Formulas: D. Vallado, *Fundamentals of Astrodynamics and Applications*, 4th ed., 2013, sections 2.4 to 2.6. Not
-//! here: the motion along the orbit (`dynamics::orbit`).
+//! [`Orbit`]: the orbit at time zero, from position and velocity or Keplerian elements (D. Vallado, *Fundamentals of
+//! Astrodynamics and Applications*, 4th ed., 2013, sections 2.4 to 2.6). Motion along it: `dynamics::orbit`.
 
 use super::epoch::Epoch;
 use super::error::Problems;
@@ -10,7 +8,7 @@ use super::schema::limit::shown;
 use super::schema::{InitialInput, OrbitInput};
 use crate::math::vector::{cross, difference, dot, norm, quaternion_from_dcm, scaled, sum};
 
-/// The largest J2 that is accepted.
+/// Largest accepted J2.
 const LARGEST_J2: f64 = 0.1;
 
 /// An orbit.
@@ -24,13 +22,13 @@ pub struct Orbit {
     pub velocity: [f64; 3],
     /// Radius of the central body, m.
     pub body_radius: f64,
-    /// Second zonal harmonic of the central body, with that radius; `None` of a point mass.
+    /// Second zonal harmonic for that radius; `None` for a point mass.
     pub j2: Option<f64>,
-    /// The date at time zero; `None` where nothing depends on it.
+    /// Date at time zero, if anything depends on it.
     pub epoch: Option<Epoch>,
 }
 
-/// Position and velocity relative to the point on an orbit, at the same time, in F_e.
+/// Position and velocity relative to the point on an orbit at the same time, F_e.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Offset {
     /// m.
@@ -39,18 +37,17 @@ pub struct Offset {
     pub velocity: [f64; 3],
 }
 
-/// Where spacecraft and debris of a scene are relative to its orbit at time zero.
+/// Offsets of spacecraft and debris from the orbit at time zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Offsets {
-    /// That of the spacecraft's centre of mass c.
+    /// Of the spacecraft's centre of mass c.
     pub spacecraft: Offset,
-    /// That of the debris's centre; zero without debris.
+    /// Of the debris' centre; zero without debris.
     pub debris: Offset,
 }
 
 impl Offsets {
-    /// Those of `input`, where its bodies may leave the orbit: where it has thrusters or debris, or air and light move
-    /// it.
+    /// Offsets of `input` if its bodies may leave the orbit: with thrusters, debris, or forces of air and light.
     pub fn of(input: &SceneInput) -> Option<Self> {
         let InitialInput { position_m, velocity_m_s, debris_position_m, debris_velocity_m_s, .. } = input.initial;
         let moves = !input.thrusters.is_empty() || input.debris.is_some() || input.environment.moves();
@@ -63,19 +60,18 @@ impl Offsets {
     }
 }
 
-/// The local orbital frame F_o of a body: o3 points at the central body, o2 against the normal of the orbit, and o1
-/// completes them, ahead on a circular orbit (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978,
-/// section 2.2: roll, pitch and yaw axes).
+/// Local orbital frame F_o: o3 towards the central body, o2 against the orbit normal, o1 completes (ahead on a circular
+/// orbit): roll, pitch and yaw axes of J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 2.2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalFrame {
-    /// Its attitude, F_o -> F_e, scalar first.
+    /// Attitude, F_o -> F_e, scalar first.
     pub q_eo: [f64; 4],
-    /// Its angular velocity r x v/(r . r) in F_e, rad/s.
+    /// Angular velocity r x v/(r . r) in F_e, rad/s.
     pub omega_oe_e: [f64; 3],
 }
 
 impl LocalFrame {
-    /// That of a body at `r_e` from the central body with the velocity `v_e`, in F_e, m and m/s.
+    /// The frame of a body at `r_e` with velocity `v_e`, F_e, m and m/s.
     pub fn at(r_e: [f64; 3], v_e: [f64; 3]) -> Self {
         let normal = cross(r_e, v_e);
         let o3 = scaled(-1.0 / norm(r_e), r_e);
@@ -89,7 +85,7 @@ impl LocalFrame {
 /// Shape and size of an orbit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrbitShape {
-    /// Semi-major axis, m; negative of a hyperbola.
+    /// Semi-major axis, m; negative for a hyperbola.
     pub semi_major_axis: f64,
     /// Eccentricity.
     pub eccentricity: f64,
@@ -98,7 +94,7 @@ pub struct OrbitShape {
 }
 
 impl Orbit {
-    /// The orbit that `input` describes; what is missing counts as zero.
+    /// The orbit of `input`; missing values count as zero.
     pub fn of(input: &OrbitInput) -> Self {
         let (mu, body_radius, j2, epoch) = (input.mu_m3_s2, input.body_radius_m, input.j2, input.epoch);
         let Some(semi_major_axis) = input.semi_major_axis_m else {
@@ -111,7 +107,7 @@ impl Orbit {
         let (sin_node, cos_node) = angle(input.ascending_node_rad);
         let (sin_w, cos_w) = angle(input.argument_of_periapsis_rad);
         let (sin_f, cos_f) = angle(input.true_anomaly_rad);
-        // towards the node, and across it in the plane of the orbit
+        // towards the node, and across it in the orbital plane
         let node = [cos_node, sin_node, 0.0];
         let across = [-sin_node * cos_i, cos_node * cos_i, sin_i];
         let periapsis = sum(scaled(cos_w, node), scaled(sin_w, across));
@@ -136,20 +132,19 @@ impl Orbit {
         Orbit { position, velocity, ..*self }
     }
 
-    /// What the central body's flattening adds to its gravity: (3/2) J2 R^2, m^2; `None` of a point mass.
+    /// Oblateness term of gravity, (3/2) J2 R^2, m^2; `None` for a point mass.
     pub fn oblateness(&self) -> Option<f64> {
         self.j2.map(|j2| 1.5 * j2 * self.body_radius * self.body_radius)
     }
 
-    /// Lower bound of the distance from the centre, m: the periapsis, from which the flattening takes some kilometres
-    /// within a revolution; at most 2 k/p, twice the largest term of the first order (D. Brouwer, Astronomical Journal
-    /// 64, 1959).
+    /// Lower bound of the distance from the centre, m: the periapsis minus at most 2 k/p, twice the largest first-order
+    /// term of oblateness (D. Brouwer, Astronomical Journal 64, 1959), some kilometres.
     pub fn lowest(&self) -> f64 {
         let periapsis = self.shape().periapsis;
         self.oblateness().map_or(periapsis, |k| periapsis - 2.0 * k / periapsis)
     }
 
-    /// Its shape; about a flattened body that at time zero.
+    /// Shape, at time zero about a flattened body.
     pub fn shape(&self) -> OrbitShape {
         let distance = norm(self.position);
         let speed2 = dot(self.velocity, self.velocity);
@@ -163,7 +158,7 @@ impl Orbit {
     }
 }
 
-/// Collects what is wrong with the orbit of `scene`, which is `input`, beyond the limits of single keys.
+/// Checks the orbit `input` of `scene` beyond single keys.
 pub(super) fn check(scene: &SceneInput, input: &OrbitInput, problems: &mut Problems) {
     let before = problems.0.len();
     of_keys(input, problems);
@@ -197,7 +192,7 @@ pub(super) fn check(scene: &SceneInput, input: &OrbitInput, problems: &mut Probl
                 input.body_radius_m, shape.eccentricity, shape.periapsis
             );
             let remedy = "on an [orbit] positions and velocities of [initial] are relative to it: write them so";
-            // the one that is written
+            // the written one
             let (name, written) =
                 if offset.position == [0.0; 3] { (names[1], offset.velocity) } else { (names[0], offset.position) };
             problems.add(format!("initial.{name}"), shown(&written), allowed, remedy);
@@ -205,7 +200,6 @@ pub(super) fn check(scene: &SceneInput, input: &OrbitInput, problems: &mut Probl
     }
 }
 
-/// Collects what is wrong with the keys of `[orbit]` themselves.
 fn of_keys(input: &OrbitInput, problems: &mut Problems) {
     let key = |name: &str| format!("orbit.{name}");
     if let Some(j2) = input.j2 {

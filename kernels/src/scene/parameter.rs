@@ -1,8 +1,6 @@
-//! [`Parameter`]: a numeric key of scene or initial state that can be dispersed: a row of [`super::schema`] and an
-//! instance of its table.
-//!
-//! Not here: whether a change of it changes a run, which is found by running; the commands of `[[actuation]]`, which
-//! the keys of `[actuators]` distort for all arcs alike, and the errors of an arc for that arc.
+//! [`Parameter`]: a dispersable numeric key of scene or initial state: a row of [`super::schema`] and an instance of
+//! its table. Commands of `[[actuation]]` are not dispersed themselves: the keys of `[actuators]` and the errors of an
+//! arc distort them.
 
 use super::input::SceneInput;
 use super::name::Name;
@@ -16,18 +14,17 @@ use super::unit_quaternion::{is_unit, unit_quaternion};
 pub struct Parameter {
     /// Its row in the schema.
     key: Key,
-    /// Which instance of the row's table.
+    /// Instance of the row's table.
     instance: u32,
-    /// The name of that instance.
+    /// Name of that instance.
     owner: Name,
 }
 
-/// Indices of the components of a symmetric tensor, and of their mirror images, among its nine numbers by rows.
+/// Indices of the components of a symmetric tensor, and of their mirror images, among nine numbers by rows.
 const SYMMETRIC: [(usize, usize); 6] = [(0, 0), (1, 3), (2, 6), (4, 4), (5, 7), (8, 8)];
 
 impl Parameter {
-    /// All parameters that a scene with the tables of `scene` may have: table by table, instance by instance, in the
-    /// order of the schema.
+    /// All parameters that scenes with the tables of `scene` may have, in order of the schema.
     pub fn all(scene: &SceneInput) -> impl Iterator<Item = Parameter> {
         let of = |table: Table, (instance, owner): (usize, Name)| {
             table.keys_in(scene, instance).map(move |key| Parameter { key, instance: instance as u32, owner })
@@ -39,8 +36,8 @@ impl Parameter {
         })
     }
 
-    /// The parameter of `scene` called `name`, and the component if the name ends in one (`.y`, or `.1` where the
-    /// components have numbers).
+    /// The parameter `name` of `scene`, and the component if the name ends in one (`.y`, or `.1` for numbered
+    /// components).
     pub fn find(scene: &SceneInput, name: &str) -> Option<(Parameter, Option<usize>)> {
         let whole = |name: &str| Self::all(scene).find(|parameter| parameter.name() == name);
         if let Some(parameter) = whole(name) {
@@ -52,7 +49,7 @@ impl Parameter {
         (parameter.width() > 1).then_some((parameter, Some(component)))
     }
 
-    /// What is known of its key, without the instance of its table.
+    /// Facts of its key.
     pub fn facts(self) -> &'static Facts {
         self.key.facts()
     }
@@ -66,7 +63,7 @@ impl Parameter {
         self.key.name(self.owner)
     }
 
-    /// The unit, as people write it; `1` for a pure number.
+    /// Unit as in text; `1` for a pure number.
     pub fn unit(self) -> &'static str {
         self.facts().unit
     }
@@ -81,13 +78,12 @@ impl Parameter {
         self.components().len()
     }
 
-    /// How the components belong together.
+    /// Relation of the components.
     pub fn shape(self) -> Shape {
         self.facts().shape
     }
 
-    /// The dotted name of a component: the parameter's name, `.`, the component's name; for a scalar the parameter's
-    /// name.
+    /// Dotted name of a component; the parameter's name for a scalar.
     pub fn component_name(self, component: usize) -> String {
         match self.components()[component] {
             "" => self.name(),
@@ -95,7 +91,7 @@ impl Parameter {
         }
     }
 
-    /// The name of a component's column in tables: underscores for dots, the unit last.
+    /// Column name of a component: underscores for dots, unit last.
     pub fn column_name(self, component: usize) -> String {
         let unit = match self.unit() {
             "1" => String::new(),
@@ -109,20 +105,19 @@ impl Parameter {
         }
     }
 
-    /// Whether `scene` has the key.
+    /// True if `scene` has the key.
     pub fn exists(self, scene: &SceneInput) -> bool {
         self.key.read(scene, self.instance()).is_some()
     }
 
-    /// Makes `scene` have the key, if its table is there: an optional value, a way to describe a body. Its numbers are
-    /// then not numbers yet.
+    /// Adds the key to `scene`, if its table exists (an optional value, a way to describe a body), with NaN as numbers.
     pub fn open(self, scene: &mut SceneInput) {
         if !self.exists(scene) {
             self.key.open(scene, self.instance());
         }
     }
 
-    /// The value of a component, in SI; `None` where the scene has no such key.
+    /// A component, SI, if the scene has the key.
     #[inline]
     pub fn value(self, scene: &SceneInput, component: usize) -> Option<f64> {
         let numbers = self.key.read(scene, self.instance())?;
@@ -132,8 +127,7 @@ impl Parameter {
         })
     }
 
-    /// Changes a component, and with it its mirror image in a symmetric tensor; nothing where the scene has no such
-    /// key.
+    /// Sets a component and its mirror image in a symmetric tensor; nothing if the scene does not have the key.
     #[inline]
     pub fn set(self, scene: &mut SceneInput, component: usize, value: f64) {
         let Some(numbers) = self.key.write(scene, self.instance()) else { return };
@@ -147,12 +141,12 @@ impl Parameter {
         }
     }
 
-    /// Whether it is the attitude of a body at time zero.
+    /// True for the attitude of a body at time zero.
     fn is_attitude(self) -> bool {
         self.key.table == Table::Initial && self.shape() == Shape::Quaternion
     }
 
-    /// Makes a value that was written what [`super::Scene::resolve`] uses: an attitude as [`unit_quaternion`] has it.
+    /// Converts a written value to that used by [`super::Scene::resolve`]: an attitude by [`unit_quaternion`].
     #[inline]
     pub fn normalise_written(self, scene: &mut SceneInput) {
         if self.is_attitude()
@@ -162,17 +156,17 @@ impl Parameter {
         }
     }
 
-    /// Whether the numbers are those of a unit quaternion, to rounding; `false` of parameters that are none.
+    /// True if the numbers are a unit quaternion, to rounding; false for other parameters.
     #[inline]
     pub fn is_unit(self, scene: &SceneInput) -> bool {
         let is_quaternion = self.shape() == Shape::Quaternion;
         is_quaternion && self.key.read(scene, self.instance()).is_some_and(is_unit)
     }
 
-    /// Makes the value valid as a whole after its components were changed: a quaternion is divided by its norm (one of
-    /// norm zero or not finite is left as it is: the scene refuses it). An attitude twice: the second division removes
-    /// what rounding left of the first, and [`unit_quaternion`] then takes the numbers as they are, so that what is
-    /// recorded is what is used. Principal axes are taken as they are recorded.
+    /// Makes the value valid after its components were changed: a quaternion is divided by its norm (unless zero or not
+    /// finite, which the scene refuses). Attitudes are divided twice, which removes the rounding of the first division,
+    /// so that [`unit_quaternion`] keeps the numbers and recorded values are the used ones. Principal axes are used as
+    /// recorded.
     #[inline]
     pub fn normalise(self, scene: &mut SceneInput) {
         if self.shape() != Shape::Quaternion {
@@ -190,11 +184,10 @@ impl Parameter {
 }
 
 impl SceneInput {
-    /// The same scene with other numbers for a parameter, whole or one component, by its name in campaign files.
+    /// Sets a parameter, whole or one component, by its name in campaign files.
     ///
     /// # Panics
-    /// Where there is no such parameter, the scene has no such key, or the number of values is not that of its
-    /// components.
+    /// If there is no such parameter or key, or the number of values is wrong.
     pub fn with(mut self, name: &str, values: &[f64]) -> Self {
         let (parameter, component) =
             Parameter::find(&self, name).unwrap_or_else(|| panic!("{name} is a parameter of the schema"));
@@ -219,7 +212,7 @@ mod tests {
 
     const IDENTITY: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
-    /// Scenes of the same tables: every key exists in at least one of them.
+    /// Scenes of equal tables: every key exists in at least one.
     fn variants() -> Vec<SceneInput> {
         let second = PrincipalMoments::Second([1.0, 2.0, 3.0]);
         let debris = [
@@ -251,7 +244,7 @@ mod tests {
         list
     }
 
-    /// A scene in which most keys exist: a part and a wheel with every size and mass.
+    /// A scene with most keys: a part and a wheel with every size and mass.
     fn full() -> SceneInput {
         let principal = PrincipalInertia { moments: PrincipalMoments::Inertia([2.0, 3.0, 4.0]), axes: IDENTITY };
         let mut scene = SceneInput::report().with_debris(DebrisInput::Cube { side_m: 0.2, density_kg_m3: 2700.0 });
@@ -314,7 +307,6 @@ mod tests {
                 if parameter.width() > 1 {
                     let found = Some((parameter, Some(component)));
                     assert_eq!(Parameter::find(&full(), &parameter.component_name(component)), found);
-                    // one way to name a component
                     assert_eq!(Parameter::find(&full(), &format!("{}[{component}]", parameter.name())), None);
                 }
             }
@@ -360,8 +352,8 @@ mod tests {
         assert_eq!(scene.initial.attitude, [0.6, 0.0, 0.0, 0.8]);
     }
 
-    /// Law: what was normalised once stays as it is, bit for bit, however often it is written and read again. Dividing
-    /// again, as before, changes a third of all quaternions.
+    /// Law: normalised numbers keep their bits however often they are written and read. Dividing again would change a
+    /// third of all quaternions.
     #[test]
     fn a_normalised_quaternion_keeps_its_bits() {
         let (attitude, _) = Parameter::find(&full(), "initial.attitude").expect("in the table");
@@ -382,7 +374,7 @@ mod tests {
         assert!(changed_by_division > 2000, "{changed_by_division}");
     }
 
-    /// Law: what a scene does not have, and only that, does not exist.
+    /// Law: keys that a scene does not have, and only those, do not exist.
     #[test]
     fn what_is_left_out_does_not_exist() {
         let mut scene = full();

@@ -1,8 +1,8 @@
-//! [`Plate`]: the plates of a spacecraft's surface, as written or from the parts of its body.
+//! [`Plate`]: plates of a spacecraft's surface, as written or from the parts of its body.
 //!
-//! From parts: a box has its six sides; a cylinder its two ends and, in place of its side, a prism of [`PRISM_SIDES`]
-//! plates of the same area, whose projection is that of the cylinder within 2.3% at any angle and the same on average.
-//! A part neither shades another nor hides a side of it: where that matters, write `[[plates]]`.
+//! A box has its six sides; a cylinder its two ends and, for its side, a prism of [`PRISM_SIDES`] plates of equal area,
+//! with the cylinder's projection within 2.3% at any angle and exactly on average. Parts neither shade nor hide each
+//! other; otherwise write `[[plates]]`.
 
 use super::alignment::aligned;
 use super::input::SceneInput;
@@ -10,7 +10,7 @@ use super::schema::{MAX_PLATES, PartInput, PartShape, PlateInput};
 use super::unit_quaternion::unit_quaternion;
 use crate::math::vector::{constant_quaternion, dcm_from_quaternion, product, sum};
 
-/// Plates around the axis of a cylinder.
+/// Plates around a cylinder.
 pub const PRISM_SIDES: usize = 12;
 
 /// One side of a flat plate.
@@ -24,18 +24,17 @@ pub struct Plate {
     pub center: [f64; 3],
     /// Drag coefficient.
     pub drag_coefficient: f64,
-    /// Share of the light that is reflected as by a mirror.
+    /// Share of specular reflection.
     pub specular: f64,
-    /// Share of the light that is reflected in all directions.
+    /// Share of diffuse reflection.
     pub diffuse: f64,
 }
 
-/// Number of plates that the parts of `input` have.
+/// Number of plates of the parts of `input`.
 pub(super) fn of_parts(input: &SceneInput) -> usize {
     input.parts.iter().map(|part| count(part.shape)).sum()
 }
 
-/// Number of plates of a part.
 fn count(shape: PartShape) -> usize {
     match shape {
         PartShape::Box => 6,
@@ -44,8 +43,7 @@ fn count(shape: PartShape) -> usize {
     }
 }
 
-/// Puts the plates of `input` in place of `plates`; none where nothing acts on them. At most [`MAX_PLATES`] once
-/// `input` is checked.
+/// Replaces `plates` with those of `input`; none if nothing acts on them. At most [`MAX_PLATES`] for a checked `input`.
 pub(super) fn resolve_into(input: &SceneInput, plates: &mut Vec<Plate>) {
     plates.clear();
     let environment = &input.environment;
@@ -60,7 +58,6 @@ pub(super) fn resolve_into(input: &SceneInput, plates: &mut Vec<Plate>) {
     plates.iter_mut().for_each(|plate| plate.area *= environment.area_scale);
 }
 
-/// A plate as written.
 fn written(plate: &PlateInput) -> Plate {
     Plate {
         area: plate.area_m2,
@@ -72,7 +69,7 @@ fn written(plate: &PlateInput) -> Plate {
     }
 }
 
-/// Adds the plates of a part, with the coefficients that a plate has where none are written.
+/// Adds the plates of a part, with default coefficients.
 fn push_part(part: &PartInput, plates: &mut Vec<Plate>) {
     let c = dcm_from_quaternion(constant_quaternion(1.0, unit_quaternion(part.attitude)));
     let mut push = |area: f64, normal: [f64; 3], center: [f64; 3]| {
@@ -117,8 +114,8 @@ mod tests {
         Scene::resolve(&input).expect("a legal scene").plates
     }
 
-    /// Law: the plates close a surface: their areas times their normals add up to zero, those times their centres to
-    /// three volumes (Gauss).
+    /// Law: the plates close a surface: the sum of areas times normals is zero, that of centres is three volumes
+    /// (Gauss).
     #[test]
     fn the_plates_of_a_part_close() {
         let attitude = [0.5, 0.5, -0.5, 0.5];
@@ -146,7 +143,7 @@ mod tests {
         }
     }
 
-    /// Law: the prism projects the area of the cylinder, 2 r l, within 2.3% across the axis, and exactly on average.
+    /// Law: the prism projects the area of the cylinder, 2 r l, within 2.3% across the axis, exactly on average.
     #[test]
     fn the_prism_is_as_wide_as_the_cylinder() {
         let plates = plates(PartInput {

@@ -1,4 +1,4 @@
-//! Every refusal of a scene by its key, and the nearest scene that is accepted.
+//! Every refusal of a scene by its key, and the nearest accepted scene.
 
 use super::input::SceneInput;
 use super::schema::{
@@ -43,7 +43,6 @@ fn wheel(input: &mut SceneInput, i: usize) -> &mut WheelInput {
     &mut input.wheels[i]
 }
 
-/// A wheel by mass and inertias, the transverse one 1 kg m^2.
 fn by_mass(axial: f64) -> WheelInput {
     WheelInput {
         mass_kg: Some(50.0),
@@ -53,7 +52,7 @@ fn by_mass(axial: f64) -> WheelInput {
     }
 }
 
-/// Gives the body's mass with its wheels, which have 106.03 kg.
+/// Sets the mass of the body with its wheels, which have 106.03 kg.
 fn includes_wheels(input: &mut SceneInput, mass_kg: f64) {
     input.parts.clear();
     input.body.includes_wheels = true;
@@ -62,7 +61,7 @@ fn includes_wheels(input: &mut SceneInput, mass_kg: f64) {
     input.body.inertia_kg_m2 = Some([[300.0, 0.0, 0.0], [0.0, 300.0, 0.0], [0.0, 0.0, 200.0]]);
 }
 
-/// Key, what the message must say, the change that is refused, and its nearest neighbour that is accepted.
+/// Key, text of the message, refused change, nearest accepted change.
 const REFUSALS: &[(&str, &str, Change, Change)] = &[
     (
         "body.parts.fuselage.wall_thickness_m",

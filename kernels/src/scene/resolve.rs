@@ -1,4 +1,4 @@
-//! From what a person wrote to a [`Scene`]: check everything, derive, normalise; Berdoz's Sigma (59) in quaternions.
+//! From input to [`Scene`]: check, derive, normalise; Berdoz's Sigma (59) in quaternions.
 
 use super::alignment::aligned;
 use super::error::Problems;
@@ -18,7 +18,7 @@ impl Scene {
     /// The scene that `input` describes.
     ///
     /// # Errors
-    /// Everything about `input` that is not physical, all at once.
+    /// All problems of `input`.
     pub fn resolve(input: &SceneInput) -> Result<Self, Vec<SceneError>> {
         let mass = MassProperties::of(accepted(input)?, 1.0);
         checked(input, &mass)?;
@@ -41,11 +41,11 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The same into an existing scene, whose memory is reused: where `input` is physical and its schedule is no longer
-    /// than one this scene has held, nothing is allocated.
+    /// Resolves into an existing scene and reuses its memory: no allocation unless the schedule is longer than ever
+    /// before.
     ///
     /// # Errors
-    /// Everything about `input` that is not physical; the scene then stays as it was.
+    /// All problems of `input`; the scene is then unchanged.
     pub fn resolve_into(&mut self, input: &SceneInput) -> Result<(), Vec<SceneError>> {
         let mass = MassProperties::of(accepted(input)?, 1.0);
         checked(input, &mass)?;
@@ -77,7 +77,7 @@ impl Scene {
                 let of_debris = orbit.displaced(&offsets.debris);
                 (self.initial.r_gdo_e, self.initial.v_gdo_e) = (of_debris.position, of_debris.velocity);
             }
-            // p from the centre of mass, which is on the orbit or beside it
+            // p from the centre of mass, on the orbit or near it
             let c_es = dcm_from_quaternion(self.initial.q_es);
             let spin = cross(self.initial.omega_se_s, mass.center);
             self.initial.r_po_e = difference(of_craft.position, product(c_es, mass.center));
@@ -94,28 +94,24 @@ impl Scene {
     }
 }
 
-/// The input, where nothing that is written is unphysical.
+/// The input, if valid.
 fn accepted(input: &SceneInput) -> Result<&SceneInput, Vec<SceneError>> {
     let mut problems = Problems::default();
     check::written(input, &mut problems);
     if problems.0.is_empty() { Ok(input) } else { Err(problems.0) }
 }
 
-/// That nothing which follows from an accepted input is unphysical. By reference: mass properties are some 600 bytes,
-/// and each copy of them shows in the time of a draw.
+/// Checks the consequences of a valid input. By reference: copies of mass properties, some 600 bytes, show in the time
+/// of a draw.
 fn checked(input: &SceneInput, mass: &MassProperties) -> Result<(), Vec<SceneError>> {
     let mut problems = Problems::default();
     check::derived(input, mass, &mut problems);
     if problems.0.is_empty() { Ok(()) } else { Err(problems.0) }
 }
 
-/// The state at time zero (59): debris q_ed = q_es (x) q_sd, omega^de = omega^ds + C_ds omega^se, where they are not
-/// written themselves.
-///
-/// What is written relative to the local orbital frame of the spacecraft on `orbit`: q_es = q_eo (x) q_os, omega^se =
-/// omega^so + C_es^T omega^oe.
-///
-/// What belongs to debris that the scene does not have is zero (attitude: identity).
+/// The state at time zero (59): q_ed = q_es (x) q_sd, omega^de = omega^ds + C_ds omega^se for debris, unless given;
+/// relative to the local orbital frame on `orbit`: q_es = q_eo (x) q_os, omega^se = omega^so + C_es^T omega^oe. Zero
+/// (identity) for missing debris.
 fn initial_state(input: &SceneInput, orbit: Option<&Orbit>) -> InitialState {
     let InitialInput {
         position_m,
@@ -188,7 +184,6 @@ mod tests {
     use crate::scene::{ActuationInput, samples};
     use proptest::prelude::*;
 
-    /// A change of Berdoz's scene.
     type Change = fn(&mut SceneInput);
 
     fn changed(change: Change) -> SceneInput {
@@ -237,9 +232,9 @@ mod tests {
         assert_eq!(scene, Scene::resolve(&input).expect("a legal scene"));
     }
 
-    /// Law: in the local orbital frame no rotation looks down with s3 and ahead with s1, and no rate turns once an
-    /// orbit against the orbit's normal; offsets of the spacecraft count. Independent truth: line of sight, direction
-    /// of motion, central difference of the line of sight.
+    /// Law: without rotation in the local orbital frame s3 points down and s1 ahead, and without rate the body turns
+    /// once per orbit; offsets count. Independent truth: line of sight, direction of motion, central difference of the
+    /// line of sight.
     #[test]
     fn the_local_orbital_frame_is_that_of_the_motion() {
         for offset in [[0.0; 3], [4.0e5, -2.0e5, 1.0e5]] {
@@ -277,7 +272,7 @@ mod tests {
             let omega_e = product(c_es, scene.initial.omega_se_s);
             near(cross(omega_e, unit(r)), slope, 1e-12);
             near(cross(omega_e, unit(cross(r, v))), [0.0; 3], 1e-18);
-            // turned by q_os, the body has its own axes there, and its rate is added in F_s
+            // turned by q_os, with the rate added in F_s
             let q_os = unit_quaternion([0.5, 0.5, -0.5, 0.5]);
             input.initial.attitude_orbital = Some(q_os);
             input.initial.angular_velocity_orbital_rad_s = Some([0.1, -0.2, 0.3]);
@@ -304,8 +299,7 @@ mod tests {
         assert_eq!((state.q_ed, state.omega_de_d), ([1.0, 0.0, 0.0, 0.0], [0.0; 3]));
     }
 
-    /// Law: the motion of the debris in F_e is that which is written there, whatever that of the spacecraft is; written
-    /// twice it is refused.
+    /// Law: motion of the debris in F_e is as written, for any motion of the spacecraft; refused if given twice.
     #[test]
     fn debris_can_be_given_in_the_inertial_frame() {
         let mut input = samples::table_two();
@@ -317,7 +311,7 @@ mod tests {
         input.initial.debris_relative_angular_velocity_rad_s = [0.0; 3];
         let state = Scene::resolve(&input).expect("a legal scene").initial;
         assert_eq!((state.q_ed, state.omega_de_d), ([0.0, 0.0, 1.0, 0.0], [0.01, 0.02, -0.03]));
-        // the attitude alone: the rate is relative to the spacecraft's, seen in F_d
+        // the attitude alone: the rate is relative to the spacecraft's, in F_d
         input.initial.debris_angular_velocity_rad_s = None;
         let state = Scene::resolve(&input).expect("a legal scene").initial;
         let c_ed = dcm_from_quaternion(state.q_ed);
@@ -326,7 +320,7 @@ mod tests {
     }
 
     proptest! {
-        /// Whatever is accepted is a physical inertia, whatever was written.
+        /// Law: every accepted inertia is physical.
         #[test]
         fn what_is_accepted_is_physical(
             sizes in prop::array::uniform3(-4.0f64..3.0),

@@ -1,4 +1,4 @@
-//! Scenes for the tests of this crate: Berdoz's Tables I and II.
+//! Scenes for unit tests: Berdoz's Tables I and II.
 
 use super::input::SceneInput;
 use super::schema::{DebrisInput, InitialInput};

@@ -1,51 +1,48 @@
-//! The arcs of a run: intervals of constant actuation; and what the actuators make of the commands.
+//! Arcs of constant actuation, and the response of the actuators to commands.
 
 use super::alignment::aligned;
 use super::input::SceneInput;
 use super::schema::{MAX_THRUSTERS, MAX_WHEELS, WheelMode};
 use super::thruster::Thruster;
 
-/// What acts on the spacecraft until a time: the values as they are applied, constant, SI.
+/// Applied values, constant until a time, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Actuation {
-    /// The time since the start of the run until which the values are constant, s; infinite where nothing is to change.
+    /// End of the values since the start of the run, s; infinite if none.
     pub until: f64,
-    /// Thrusts along the directions of the thrusters, in the order of [`super::Scene::thrusters`], N; zero beyond.
+    /// Thrusts along the directions of the thrusters, in order of [`super::Scene::thrusters`], N; zero beyond.
     pub thrust: [f64; MAX_THRUSTERS],
-    /// Motor torques on the wheels about their axes, in the order of the wheels, N m; the body feels the opposite. Zero
-    /// beyond.
+    /// Motor torques on the wheels about their axes, in order, N m; the body feels the opposite. Zero beyond.
     pub motor_torque: [f64; MAX_WHEELS],
-    /// External torque on the spacecraft beside that of the thrusters, in F_s, N m.
+    /// External torque on the spacecraft other than that of the thrusters, F_s, N m.
     pub body_torque: [f64; 3],
-    /// Magnetic dipole of the torque rods, in F_s, A m^2; it acts in a scene that has torque rods or a residual dipole.
+    /// Magnetic dipole of the torque rods, F_s, A m^2; acts in a scene with torque rods or a residual dipole.
     pub dipole: [f64; 3],
-    /// Whether the run is over where these values begin to act: nothing after is observed.
+    /// True if the run ends where these values begin.
     pub ends_run: bool,
 }
 
-/// An interval of constant actuation: from `start` to the actuation's `until`.
+/// An interval of constant actuation, from `start` to the actuation's `until`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
     /// Start, s.
     pub start: f64,
-    /// What acts, and until when.
+    /// Actuation and end.
     pub applied: Actuation,
 }
 
-/// Whether the next command starts as command `index` ends: there is one switch.
+/// True if the next command starts at the end of command `index`: there is one switch.
 fn meets_next(input: &SceneInput, index: usize) -> bool {
     input.actuation.get(index + 1).is_some_and(|next| next.start_s == input.actuation[index].end_s)
 }
 
-/// The arc that command `index` of `input` becomes: scales, bias, delays (motors of a control loop: `motor_torques`).
-/// With ideal actuators, the command itself.
-///
-/// [`super::check`] checks that the result is a schedule (every arc starts before it ends, no negative thrust).
+/// The arc of command `index` of `input`, with scales, bias and delays (motors of a control loop: `motor_torques`).
+/// [`super::check`] checks that the result is a schedule.
 pub fn applied(input: &SceneInput, index: usize) -> Arc {
     let (actuators, command) = (&input.actuators, &input.actuation[index]);
     let start = |index: usize| {
         let command = &input.actuation[index];
-        // a command that would start before the run starts with it
+        // a command before the start of the run starts with it
         (command.start_s + actuators.switch_on_delay_s + command.errors.switch_on_delay_s).max(0.0)
     };
     Arc {
@@ -65,14 +62,12 @@ pub fn applied(input: &SceneInput, index: usize) -> Arc {
     }
 }
 
-/// The numbers, and zero beyond.
 fn first<const N: usize>(numbers: &[f64]) -> [f64; N] {
     let mut all = [0.0; N];
     all[..numbers.len()].copy_from_slice(numbers);
     all
 }
 
-/// The thrusts of command `index`, N.
 fn thrusts(input: &SceneInput, index: usize) -> [f64; MAX_THRUSTERS] {
     let (mut thrust, command) = ([0.0; MAX_THRUSTERS], &input.actuation[index]);
     for (i, thruster) in input.thrusters.iter().enumerate() {
@@ -81,8 +76,8 @@ fn thrusts(input: &SceneInput, index: usize) -> [f64; MAX_THRUSTERS] {
     thrust
 }
 
-/// The motor torques of command `index` on the wheels that turn, in their order, N m: under a control loop those that
-/// are commanded, of which the loop's model of the motor makes a torque together with its own.
+/// Motor torques of command `index` on the turning wheels, in order, N m; under a control loop the commands, which the
+/// loop's motor model applies with its own.
 fn motor_torques(input: &SceneInput, index: usize) -> [f64; MAX_WHEELS] {
     let (mut torques, command) = ([0.0; MAX_WHEELS], &input.actuation[index]);
     let turning = input.wheels.iter().enumerate().filter(|(_, wheel)| wheel.mode != WheelMode::Locked);
@@ -102,8 +97,8 @@ pub fn thrusters(input: &SceneInput) -> impl Iterator<Item = Thruster> {
     })
 }
 
-/// What the commands of `schedule` (in order, not overlapping) apply at `time`, and until when: between them and after
-/// the last nothing acts. At the boundary of two arcs the later one applies.
+/// Actuation of `schedule` (in order, not overlapping) at `time`, none between its arcs and after the last. At a
+/// boundary the later arc applies.
 #[inline]
 pub fn actuation_at(schedule: &[Arc], time: f64) -> Actuation {
     match schedule.get(schedule.partition_point(|arc| arc.end() <= time)) {
@@ -114,7 +109,7 @@ pub fn actuation_at(schedule: &[Arc], time: f64) -> Actuation {
 }
 
 impl Actuation {
-    /// Nothing acts until `until`.
+    /// No actuation until `until`.
     pub const fn none(until: f64) -> Self {
         Actuation {
             until,
@@ -126,30 +121,30 @@ impl Actuation {
         }
     }
 
-    /// The end of a run: nothing acts, and nothing after is observed.
+    /// End of a run.
     pub const fn end_of_run() -> Self {
         Actuation { ends_run: true, ..Actuation::none(f64::INFINITY) }
     }
 
-    /// The same with `thrust` (N) for the first thrusters, and none of the others.
+    /// Sets the thrusts of the first thrusters to `thrust` (N), the others to zero.
     ///
     /// # Panics
-    /// Where there are more than [`MAX_THRUSTERS`].
+    /// If there are more than [`MAX_THRUSTERS`].
     #[must_use]
     pub fn with_thrust(self, thrust: &[f64]) -> Self {
         Actuation { thrust: first(thrust), ..self }
     }
 
-    /// The same with `torque` (N m) on the first wheels, and none on the others.
+    /// Sets the motor torques of the first wheels to `torque` (N m), the others to zero.
     ///
     /// # Panics
-    /// Where there are more than [`MAX_WHEELS`].
+    /// If there are more than [`MAX_WHEELS`].
     #[must_use]
     pub fn with_motor_torque(self, torque: &[f64]) -> Self {
         Actuation { motor_torque: first(torque), ..self }
     }
 
-    /// Whether any thrust, motor, body torque or torque rod acts.
+    /// True if any thrust, motor, body torque or torque rod acts.
     #[inline]
     pub fn acts(&self) -> bool {
         self.thrust != [0.0; MAX_THRUSTERS]
@@ -218,17 +213,17 @@ mod tests {
         let (sine, cosine) = libm::sincos(0.1);
         let thrust = |thrust: &[f64]| crate::scene::Actuation::none(1.0).with_thrust(thrust).thrust;
         let force = scene.thruster_force_s(thrust(&[0.0, 10.0]));
-        // an ulp of 10 N is 1.8e-15, and of the torques below 3.6e-15 N m; none is measured
+        // an ulp of 10 N is 1.8e-15, and of the torques below 3.6e-15 N m
         assert!((force[1] - 10.0 * sine).abs() < 4e-15 && (force[2] + 10.0 * cosine).abs() < 4e-15, "{force:?}");
         let torque = scene.thruster_torque_s(thrust(&[0.0, 10.0]));
         assert!((torque[0] - (0.5 * 10.0 * cosine - 1.5 * 10.0 * sine)).abs() < 1e-14, "{torque:?}");
-        // the general form is the plain one where nothing is tilted
+        // the general form is the plain one without tilt
         let aligned = Scene::resolve(&samples::table_two()).expect("a legal scene");
         let mut nearly = aligned.clone();
         nearly.thrusters[0].direction[0] = 1e-300;
         let thrust = thrust(&[10.0, 20.0, 35.0]);
         for (a, b) in aligned.thruster_torque_s(thrust).into_iter().zip(nearly.thruster_torque_s(thrust)) {
-            // what 1e-300 of the direction does: less than the smallest rounding
+            // 1e-300 of the direction is below the smallest rounding
             assert!((a - b).abs() < 1e-15);
         }
     }

@@ -1,11 +1,8 @@
 //! Inertia by second moments of mass: S, the integral of r r^T dm about the centre of mass, and J = tr(S) 1 - S.
 //!
-//! A symmetric J is the inertia of some body exactly where S is positive semidefinite, which is what "positive moments,
-//! none above the sum of the other two" says. A change of S that keeps it positive semidefinite never gives an
-//! impossible body (C. Rucker & P. M. Wensing, *Smooth Parameterization of Rigid-Body Inertia*, IEEE Robotics and
-//! Automation Letters 7(2), 2022).
-//!
-//! Not here: bodies put together ([`super::mass`]), refusals ([`super::check`]).
+//! A symmetric J is the inertia of some body exactly if S is positive semidefinite (positive moments, none above the
+//! sum of the other two). Changes of S that keep it positive semidefinite never give an impossible body (C. Rucker & P.
+//! M. Wensing, *Smooth Parameterization of Rigid-Body Inertia*, IEEE Robotics and Automation Letters 7(2), 2022).
 
 use super::schema::{MassErrors, PrincipalInertia, PrincipalMoments};
 use super::solids::Body;
@@ -19,15 +16,15 @@ pub fn second_moment<R: Real>(j: [[R; 3]; 3]) -> [[R; 3]; 3] {
     [[own(0), -j[0][1], -j[0][2]], [-j[0][1], own(1), -j[1][2]], [-j[0][2], -j[1][2], own(2)]]
 }
 
-/// J = tr(S) 1 - S of second moments `s`, kg m^2, by rows: sums of positive numbers on the diagonal.
+/// J = tr(S) 1 - S, kg m^2, by rows: sums of positive numbers on the diagonal.
 pub fn inertia<R: Real>(s: [[R; 3]; 3]) -> [[R; 3]; 3] {
     let own = |i: usize| s[(i + 1) % 3][(i + 1) % 3] + s[(i + 2) % 3][(i + 2) % 3];
     [[own(0), -s[0][1], -s[0][2]], [-s[0][1], own(1), -s[1][2]], [-s[0][2], -s[1][2], own(2)]]
 }
 
 impl PrincipalInertia {
-    /// The tensor in the body's frame, kg m^2, by rows, in the number type of `one`: C diag(moments) C^T with C from
-    /// the normalised quaternion; without a rotation exactly diagonal.
+    /// The tensor in the body frame, kg m^2, by rows, in the type of `one`: C diag(moments) C^T with C from the
+    /// normalised quaternion; exactly diagonal without a rotation.
     pub fn tensor<R: Real>(&self, one: R) -> [[R; 3]; 3] {
         let zero = one.zero();
         let moments = match self.moments {
@@ -53,7 +50,7 @@ impl PrincipalInertia {
 }
 
 impl MassErrors {
-    /// `body` with these errors; without any, the same bits.
+    /// `body` with these errors; the same bits without.
     pub fn applied<R: Real>(&self, body: Body<R>) -> Body<R> {
         if *self == Self::NONE {
             return body;
@@ -106,7 +103,7 @@ mod tests {
         let principal = PrincipalInertia { moments: PrincipalMoments::Inertia([2.0, 3.0, 4.0]), axes };
         let tensor = principal.tensor(1.0);
         for (i, expected) in [3.0, 2.0, 4.0].into_iter().enumerate() {
-            // some roundings of entries up to four; measured: 4.4e-16
+            // roundings of entries up to four; measured: 4.4e-16
             assert!((tensor[i][i] - expected).abs() < 2e-15, "{tensor:?}");
         }
         let second =
@@ -114,8 +111,7 @@ mod tests {
         assert_eq!(second.tensor(1.0), [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]]);
     }
 
-    /// Law: a factor of the inertia changes the inertia by that factor, and neither mass nor centre; one leaves every
-    /// bit.
+    /// Law: an inertia scale changes neither mass nor centre; a scale of one changes no bit.
     #[test]
     fn a_factor_of_the_inertia_changes_nothing_else() {
         let nominal = solid_box([1.0, 2.0, 3.0], 10.0);
@@ -126,8 +122,8 @@ mod tests {
         assert_eq!((heavier.mass, heavier.inertia), (1.25 * nominal.mass, scaled.inertia));
     }
 
-    /// Law: a box whose matter is stretched is the stretched box; one that is sheared has the moments of the sheared
-    /// box, by its integrals (x, y, z independent and uniform: <x^2> = a^2/12).
+    /// Law: a stretched box is the box of the stretched sides; a sheared one has the moments by integrals (x, y, z
+    /// independent and uniform: <x^2> = a^2/12).
     #[test]
     fn stretched_and_sheared_matter_is_that_of_the_integrals() {
         let nominal = solid_box([1.0, 2.0, 3.0], 10.0);
@@ -150,15 +146,15 @@ mod tests {
         let (xx, yy) = (120.0 * 1.0 / 12.0, 120.0 * 4.0 / 12.0);
         assert_eq!(sheared.mass, 120.0);
         assert_eq!(sheared.center, [0.1, 0.2, 0.3]);
-        // an ulp of 10 is 1.8e-15; none is measured
+        // an ulp of 10 is 1.8e-15
         assert!((sheared.inertia[0][1] + 0.5 * xx).abs() < 4e-15, "J_xy = -integral of x y");
         let expected = xx + (yy + 0.25 * xx);
-        // an ulp of 52 is 7e-15; none is measured
+        // an ulp of 52 is 7e-15
         assert!((sheared.inertia[2][2] - expected).abs() < 2e-14);
     }
 
     proptest! {
-        /// Whatever the errors, the body is possible: what the form is for.
+        /// Law: the body is possible for any errors.
         #[test]
         fn errors_never_make_an_impossible_body(
             moments in prop::array::uniform3(1e-3f64..10.0),
@@ -175,8 +171,7 @@ mod tests {
             let trace: f64 = moments.iter().sum();
             prop_assert!(is_positive_definite(tensor));
             for moment in moments {
-                // the axes of the rotations, and the sums of three: some ulps of the trace; measured: less than the
-                // moments themselves
+                // rotations, and sums of three: some ulps of the trace; measured: less than the moments
                 prop_assert!(moment <= trace - moment + 16.0 * f64::EPSILON * trace, "{:?}", moments);
             }
         }

@@ -1,4 +1,4 @@
-//! What air and light need beyond the limits of single keys: an orbit, a date, plates.
+//! Needs of air and light beyond single keys: orbit, date, plates.
 
 use super::error::Problems;
 use super::input::SceneInput;
@@ -8,14 +8,13 @@ use super::schema::limit::shown;
 use super::schema::{EnvironmentInput, MAX_PLATES, PlateInput};
 use super::table::Table;
 
-/// Height above which the air is so thin that molecules hit a spacecraft and not one another, m: below it the drag is
-/// that of a flow around the body.
+/// Height of free molecular flow, m; below it the drag is that of a flow around the body.
 const FREE_MOLECULAR: f64 = 100e3;
 
-/// The thinnest layer of a table of the air, m: steps end at its ends, and an orbit moves by kilometres in a second.
+/// Thinnest layer of an air table, m: steps end at its ends, and an orbit moves by kilometres per second.
 const LEAST_LAYER: f64 = 1.0;
 
-/// Collects what is wrong where air or light acts on plates.
+/// Checks air and light on plates.
 pub(super) fn check(input: &SceneInput, problems: &mut Problems) {
     let environment = &input.environment;
     let acting = [("environment.drag", environment.drag), ("environment.solar_pressure", environment.solar_pressure)];
@@ -57,7 +56,7 @@ pub(super) fn check(input: &SceneInput, problems: &mut Problems) {
     }
 }
 
-/// Collects what is wrong with the keys of air and light by themselves.
+/// Checks the keys of air and light.
 pub(super) fn check_keys(environment: &EnvironmentInput, problems: &mut Problems) {
     if environment.coupled && !environment.acts_on_plates() {
         let allowed =
@@ -92,7 +91,7 @@ pub(super) fn check_keys(environment: &EnvironmentInput, problems: &mut Problems
     check_air_table(environment, problems);
 }
 
-/// Collects what is wrong with the table of the air's density.
+/// Checks the table of the air's density.
 fn check_air_table(environment: &EnvironmentInput, problems: &mut Problems) {
     const KEYS: [&str; 2] = ["environment.air_heights_m", "environment.air_densities_kg_m3"];
     let lists = [environment.air_heights_m, environment.air_densities_kg_m3];
@@ -138,7 +137,7 @@ fn check_air_table(environment: &EnvironmentInput, problems: &mut Problems) {
     }
 }
 
-/// Collects what is wrong with the shares of light of a plate.
+/// Checks the shares of light of a plate.
 pub(super) fn check_plate(plate: &PlateInput, problems: &mut Problems) {
     if plate.specular + plate.diffuse > 1.0 {
         let allowed = format!("at most 1 with specular, which is {:?}: the rest is absorbed", plate.specular);

@@ -1,6 +1,5 @@
-//! [`Table`] and [`Key`]: where in a scene the tables of the schema are, and their keys, whatever the table.
-//!
-//! To add a table, write its rows ([`super::schema`]), its field ([`SceneInput`]) and its line in `tables!`.
+//! [`Table`] and [`Key`]: positions of the schema's tables in a scene, and their keys. A new table needs rows
+//! ([`super::schema`]), a field ([`SceneInput`]) and a line in `tables!`.
 
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
@@ -19,9 +18,9 @@ use super::schema::{
 pub struct Key {
     /// The table.
     pub table: Table,
-    /// The row, counted through the parts of the table.
+    /// Row, counted through the parts of the table.
     row: u8,
-    /// What is known of it; here too, because every sample asks several times for each of its numbers.
+    /// Its facts, cached, since every sample needs them several times per number.
     facts: &'static Facts,
 }
 
@@ -57,7 +56,7 @@ impl Ord for Key {
     }
 }
 
-/// The row of index `index`, counted through `parts`.
+/// Row `index`, counted through `parts`.
 const fn row_of<T>(parts: &'static [&'static [Row<T>]], index: usize) -> &'static Row<T> {
     let (mut part, mut index) = (0, index);
     while index >= parts[part].len() {
@@ -67,7 +66,6 @@ const fn row_of<T>(parts: &'static [&'static [Row<T>]], index: usize) -> &'stati
     &parts[part][index]
 }
 
-/// Number of rows in `parts`.
 const fn count_of<T>(parts: &[&[Row<T>]]) -> usize {
     let (mut part, mut count) = (0, 0);
     while part < parts.len() {
@@ -77,8 +75,8 @@ const fn count_of<T>(parts: &[&[Row<T>]]) -> usize {
     count
 }
 
-/// For each table, in the order of the dispersable parameters: variant, header, whether its keys can be dispersed, its
-/// rows in parts, and the table itself in `scene`, shared and to be changed.
+/// For each table, in order of the dispersable parameters: variant, header, dispersable or not, rows in parts, and the
+/// table in `scene`, shared and mutable.
 macro_rules! tables {
     (|$scene:ident, $instance:ident| $($Table:ident, $header:literal, $dispersable:literal, $parts:expr,
         $get:expr, $get_mut:expr;)+) => {
@@ -86,19 +84,19 @@ macro_rules! tables {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Table {
             $(#[doc = concat!("The table with the rows `", stringify!($parts), "`.")] $Table,)+
-            /// The parameters of the scene's control law, which the law declares.
+            /// Parameters declared by the scene's control law.
             Control,
-            /// The parameters of its sensors, which they declare.
+            /// Parameters declared by its sensors.
             Sensors,
-            /// The parameters of the phases of its guidance, which they declare.
+            /// Parameters declared by the phases of its guidance.
             Guidance,
         }
 
         impl Table {
-            /// All tables with the same keys in every scene, in the order of the dispersable parameters.
+            /// Tables with the same keys in every scene, in order of the dispersable parameters.
             pub const ALL: &'static [Table] = &[$(Table::$Table),+];
 
-            /// The name of the table in a campaign file.
+            /// Name of the table in a campaign file.
             pub const fn header(self) -> &'static str {
                 match self {
                     $(Table::$Table => $header,)+
@@ -108,7 +106,7 @@ macro_rules! tables {
                 }
             }
 
-            /// Whether its keys can be dispersed.
+            /// True if its keys can be dispersed.
             pub const fn is_dispersable(self) -> bool {
                 match self {
                     $(Table::$Table => $dispersable,)+
@@ -116,7 +114,7 @@ macro_rules! tables {
                 }
             }
 
-            /// Number of its keys that every scene has.
+            /// Number of its keys common to all scenes.
             pub const fn count(self) -> usize {
                 match self {
                     $(Table::$Table => const { count_of($parts) },)+
@@ -126,7 +124,6 @@ macro_rules! tables {
         }
 
         impl Table {
-            /// What is known of the key of index `row`.
             fn facts_at(self, row: usize) -> &'static Facts {
                 match self {
                     $(Table::$Table => &row_of($parts, row).facts,)+
@@ -136,7 +133,7 @@ macro_rules! tables {
         }
 
         impl Key {
-            /// The numbers of the key in the table, whatever else the scene has.
+            /// The numbers of the key in the table, regardless of other needs.
             #[inline]
             fn in_table(self, $scene: &SceneInput, $instance: usize) -> Option<&[f64]> {
                 match self.table {
@@ -153,7 +150,7 @@ macro_rules! tables {
                 }
             }
 
-            /// Makes the scene have the key, if its table is there: an optional value, a way to describe a body.
+            /// Adds the key to the scene, if its table exists: an optional value, a way to describe a body.
             pub fn open(self, $scene: &mut SceneInput, $instance: usize) {
                 match self.table {
                     $(Table::$Table => if let Some(table) = $get_mut { (row_of($parts,
@@ -190,10 +187,9 @@ tables! {
 }
 
 impl Table {
-    /// The tables whose keys a control law and its parts declare.
+    /// Tables whose keys are declared by a control law and its parts.
     pub const DECLARED: [Table; 3] = [Table::Control, Table::Sensors, Table::Guidance];
 
-    /// Instance `instance` of a table whose keys are declared.
     #[inline]
     fn declared(self, scene: &SceneInput, instance: usize) -> Option<&DeclaredTable> {
         match self {
@@ -204,7 +200,6 @@ impl Table {
         }
     }
 
-    /// The same, to be changed.
     #[inline]
     fn declared_mut(self, scene: &mut SceneInput, instance: usize) -> Option<&mut DeclaredTable> {
         match self {
@@ -215,13 +210,13 @@ impl Table {
         }
     }
 
-    /// The dotted name of `key` in the table, in that of `owner` where it is one of a list.
+    /// Dotted name of `key`, in the instance `owner` for a list.
     pub fn name(self, owner: Name, key: &str) -> String {
         let header = self.header();
         if owner == Name::NONE { format!("{header}.{key}") } else { format!("{header}.{owner}.{key}") }
     }
 
-    /// The names of the instances of the table in `scene`; one that is no name for a table that is there once.
+    /// Names of the instances of the table in `scene`; [`Name::NONE`] for a table without a list.
     pub fn owners(self, scene: &SceneInput) -> Vec<Name> {
         match self {
             Table::Part | Table::PartErrors => scene.parts.iter().map(|part| part.name).collect(),
@@ -241,12 +236,12 @@ impl Table {
         }
     }
 
-    /// The keys of the table, in the order in which they are written.
+    /// Keys of the table, in order of writing.
     pub fn keys(self) -> impl Iterator<Item = Key> {
         (0..self.count()).map(move |row| Key { table: self, row: row as u8, facts: self.facts_at(row) })
     }
 
-    /// The keys of instance `instance` of the table in `scene`: those of [`Table::keys`], or what is declared there.
+    /// Keys of instance `instance` of the table in `scene`: those of [`Table::keys`], or the declared ones.
     pub fn keys_in(self, scene: &SceneInput, instance: usize) -> impl Iterator<Item = Key> + use<> {
         let declared = self.declared(scene, instance).map_or(&[][..], |table| table.declared.0);
         let of_law = move |(row, parameter): (usize, &'static LawParameter)| Key {
@@ -257,7 +252,7 @@ impl Table {
         self.keys().chain(declared.iter().enumerate().map(of_law))
     }
 
-    /// The key called `name`, written as in a campaign file.
+    /// The key `name`, as in a campaign file.
     pub fn key(self, name: &str) -> Option<Key> {
         self.keys().find(|key| key.facts().key == name)
     }
@@ -270,24 +265,24 @@ impl Key {
         self.facts
     }
 
-    /// The dotted name, in the table of `owner` where it is one of a list.
+    /// Dotted name, in the instance `owner` for a list.
     pub fn name(self, owner: Name) -> String {
         self.table.name(owner, self.facts().key)
     }
 
-    /// The numbers of the key in `scene`; `None` where the scene has no such key. A symmetric tensor has nine.
+    /// The numbers of the key in `scene`, if any; nine for a symmetric tensor.
     #[inline]
     pub fn read(self, scene: &SceneInput, instance: usize) -> Option<&[f64]> {
         if self.facts().needs.are_met(scene.debris.is_some()) { self.in_table(scene, instance) } else { None }
     }
 
-    /// The same, to be changed.
+    /// [`Key::read`], mutable.
     #[inline]
     pub fn write(self, scene: &mut SceneInput, instance: usize) -> Option<&mut [f64]> {
         if self.facts().needs.are_met(scene.debris.is_some()) { self.in_table_mut(scene, instance) } else { None }
     }
 
-    /// An example of the value, where the key must be written.
+    /// Example of a value, for required keys.
     pub fn required(self) -> Option<&'static str> {
         match self.facts().presence {
             Presence::Required(example) => Some(example),
@@ -295,8 +290,7 @@ impl Key {
         }
     }
 
-    /// The numbers where the key is not written, as in a campaign file; `None` where it must be written, or where
-    /// another key takes its place.
+    /// Default numbers as in a campaign file; `None` for a required key, or one replaced by another.
     pub fn default_text(self) -> Option<String> {
         match self.facts().presence {
             Presence::Required(_) => None,
@@ -305,7 +299,7 @@ impl Key {
     }
 }
 
-/// A scene in which every table is there, all at their defaults.
+/// A scene with every table at its defaults.
 fn with_every_table() -> SceneInput {
     let part = PartInput { name: Name::of("part"), ..PartInput::DEFAULT };
     let plate = PlateInput { name: Name::of("plate"), ..PlateInput::DEFAULT };

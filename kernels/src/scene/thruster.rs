@@ -1,4 +1,4 @@
-//! [`Thruster`]: where a thruster pushes and in which direction; force and torque of several (Berdoz's (72)).
+//! [`Thruster`]: position and direction of a thruster; force and torque of several (Berdoz's (72)).
 
 use super::schema::MAX_THRUSTERS;
 use crate::math::vector::{cross, difference, scaled, sum};
@@ -15,11 +15,9 @@ pub struct Thruster {
 /// The directions of Berdoz's thrusters P1, P2, P3 in F_s (72).
 pub const REPORT_DIRECTIONS: [[f64; 3]; 3] = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, -1.0]];
 
-/// The distance rho_p of P2 and P3 from s3, m, where `thrusters` are Berdoz's, without alignment errors: P1 along s3 at
-/// p, P2 and P3 along -s3 at (0, -rho_p, l) and (0, +rho_p, l).
-///
-/// Force and torque of this arrangement are written out as in (72), so that equal thrusts P2 and P3 add up to exactly
-/// zero torque.
+/// Distance rho_p of P2 and P3 from s3, m, if `thrusters` are Berdoz's without alignment errors: P1 along s3 at p, P2
+/// and P3 along -s3 at (0, -rho_p, l) and (0, +rho_p, l). Force and torque are then written out as in (72), so that
+/// equal thrusts P2 and P3 give exactly zero torque.
 pub fn report_offset(thrusters: &[Thruster]) -> Option<f64> {
     let [p1, p2, p3] = thrusters else { return None };
     let ([_, offset, station], [_, opposite, other]) = (p3.position, p2.position);
@@ -31,7 +29,7 @@ pub fn report_offset(thrusters: &[Thruster]) -> Option<f64> {
     is_report.then_some(offset)
 }
 
-/// The force of `thrusters` at the thrusts `thrust` (N, in their order) in F_s, N.
+/// Force of `thrusters` at the thrusts `thrust` (N, in order), F_s, N.
 pub fn force_s(thrusters: &[Thruster], thrust: [f64; MAX_THRUSTERS]) -> [f64; 3] {
     if thrusters.is_empty() {
         return [0.0; 3];
@@ -42,8 +40,7 @@ pub fn force_s(thrusters: &[Thruster], thrust: [f64; MAX_THRUSTERS]) -> [f64; 3]
     total(thrusters.iter().zip(thrust).map(|(thruster, thrust)| scaled(thrust, thruster.direction)))
 }
 
-/// The torque of `thrusters` at the thrusts `thrust` (N, in their order) about the point `center` (from p in F_s, m),
-/// in F_s, N m.
+/// Torque of `thrusters` at the thrusts `thrust` (N, in order) about the point `center` (from p in F_s, m), F_s, N m.
 pub fn torque_s(thrusters: &[Thruster], thrust: [f64; MAX_THRUSTERS], center: [f64; 3]) -> [f64; 3] {
     if thrusters.is_empty() {
         return [0.0; 3];
@@ -59,7 +56,7 @@ pub fn torque_s(thrusters: &[Thruster], thrust: [f64; MAX_THRUSTERS], center: [f
     total(thrusters.iter().zip(thrust).map(torque))
 }
 
-/// The sum of vectors, the last two first.
+/// Sum of vectors, the last two first.
 fn total(vectors: impl DoubleEndedIterator<Item = [f64; 3]>) -> [f64; 3] {
     vectors.rev().reduce(|after, vector| sum(vector, after)).unwrap_or([0.0; 3])
 }

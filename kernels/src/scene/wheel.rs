@@ -1,6 +1,5 @@
-//! A wheel that turns in the body: its mass properties, and what of its inertia resists which rotation.
-//!
-//! Source: Berdoz, *Final Report - ADR Spacecraft*, (60)-(67) for a solid cylinder ([`super::solids`]).
+//! A turning wheel: mass properties, and its axial and transverse inertia; solid cylinders by Berdoz, *Final Report -
+//! ADR Spacecraft*, (60)-(67) ([`super::solids`]).
 
 use super::alignment::aligned;
 use super::schema::{WheelInput, WheelMode};
@@ -9,7 +8,7 @@ use super::tensor::{matrix_sum, point_inertia};
 use crate::math::Real;
 use crate::math::vector::{constant, scaled};
 
-/// A balanced axisymmetric wheel, fixed with its centre and axis in the body, that turns.
+/// A balanced axisymmetric turning wheel, with centre and axis fixed in the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wheel<R = f64> {
     /// Mass, kg.
@@ -20,14 +19,13 @@ pub struct Wheel<R = f64> {
     pub axis: [R; 3],
     /// Moment of inertia about the spin axis, kg m^2.
     pub axial: R,
-    /// Moment of inertia about any axis through the centre perpendicular to the spin axis, kg m^2.
+    /// Moment of inertia about any transverse axis through the centre, kg m^2.
     pub transverse: R,
-    /// Whether it turns freely or its motor holds its speed.
+    /// Free or of constant speed.
     pub mode: WheelMode,
 }
 
 impl<R: Real> Wheel<R> {
-    /// No wheel.
     pub(super) fn blank(one: R) -> Self {
         let zero = one.zero();
         Wheel { mass: zero, center: [zero; 3], axis: [zero; 3], axial: zero, transverse: zero, mode: WheelMode::Free }
@@ -53,7 +51,7 @@ impl<R: Real> Wheel<R> {
         Body { mass: self.mass, center: self.center, inertia: self.inertia() }
     }
 
-    /// The inertia about the wheel's centre, kg m^2, by rows; the same in F_s and in the wheel's own frame.
+    /// Inertia about the wheel's centre, kg m^2, by rows, in F_s and in the wheel's frame.
     pub fn inertia(&self) -> [[R; 3]; 3] {
         matrix_sum(self.axial_inertia(), self.transverse_inertia())
     }
@@ -63,7 +61,7 @@ impl<R: Real> Wheel<R> {
         std::array::from_fn(|i| scaled(self.axial * self.axis[i], self.axis))
     }
 
-    /// What is left of the wheel's inertia without its axial part.
+    /// Inertia without its axial part.
     pub(super) fn transverse_inertia(&self) -> [[R; 3]; 3] {
         point_inertia(self.transverse, self.axis)
     }
